@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <tl/expected.hpp>
+
+#include "zwidth/model/device.hpp"
+
+namespace zwidth {
+
+/// Where and why an input was refused. str() is one line: "FILE:LINE:COLUMN: key: what is wrong; what is allowed".
+struct InputError {
+  std::string source;      ///< file name, "standard input", or "--set"
+  std::size_t line = 0;    ///< from 1; 0 where there is no line
+  std::size_t column = 0;  ///< from 1; 0 where there is none
+  std::string key;         ///< dotted key, as in --set; may be empty
+  std::string what;        ///< what is wrong
+  std::string allowed;     ///< what is allowed, or the remedy; may be empty
+  [[nodiscard]] std::string str() const;
+};
+
+/// Reads a device from TOML text.
+///
+/// `overrides` are "KEY=VALUE" as given to --set, applied in order after the text: loop.delay=0.25e-3,
+/// body.motor.damping=0.2, link.0.stiffness=..., link.stiffness=... where there is one link. VALUE is a TOML value; a
+/// bare word is taken as a string (loop.sensed=handle). A key that the file left out may be set.
+///
+/// Never throws on any bytes. `source` names the text in errors.
+[[nodiscard]] tl::expected<Device, InputError> parse_device(std::string_view text, std::string_view source,
+                                                            std::span<const std::string> overrides = {});
+
+/// Reads a device file ("-": standard input). Refuses what is not a regular file or pipe, is unreadable, is larger than
+/// device_file_size_limit, or is not UTF-8 text.
+[[nodiscard]] tl::expected<Device, InputError> read_device_file(const std::string& path,
+                                                                std::span<const std::string> overrides = {});
+
+inline constexpr std::size_t device_file_size_limit = std::size_t{1} << 20;
+
+}  // namespace zwidth

@@ -1,0 +1,120 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace zwidth {
+
+/// Whether quantities are kg, N s/m, N/m or kg m², N m s/rad, N m/rad.
+enum class Motion { linear, rotary };
+
+/// A rigid body of one degree of freedom: mass x'' + damping x' + stiffness x = sum of forces.
+struct Body {
+  std::string name;
+  double mass = 0.0;       ///< kg or kg m²; > 0
+  double damping = 0.0;    ///< to ground, N s/m or N m s/rad; >= 0
+  double stiffness = 0.0;  ///< to ground, N/m or N m/rad; >= 0
+  double coulomb = 0.0;    ///< Coulomb friction force, N or N m; >= 0; simulation only
+};
+
+/// A compliant connection of two bodies: force = stiffness (x_1 - x_2) + damping (x_1' - x_2').
+struct Link {
+  std::size_t first = 0;   ///< index of a body
+  std::size_t second = 0;  ///< index of another body
+  double stiffness = 0.0;  ///< N/m or N m/rad; >= 0, and stiffness + damping > 0
+  double damping = 0.0;    ///< N s/m or N m s/rad; >= 0
+};
+
+/// A continuous transfer function from actuator force to sensed position, descending powers of s.
+///
+/// Requires finite coefficients, a non-zero leading denominator coefficient, a non-zero numerator, and
+/// degree(numerator) < degree(denominator).
+struct TransferFunction {
+  std::vector<double> numerator;
+  std::vector<double> denominator;
+};
+
+/// How the loop is closed around the device. Body members are indices into DeviceParameters::bodies.
+struct Loop {
+  std::size_t actuated = 0;      ///< the body that the actuator pushes
+  std::size_t sensed = 0;        ///< the body whose position is sampled
+  std::size_t held = 0;          ///< the body that the user holds
+  double sampling_period = 0.0;  ///< T, s; > 0
+  double delay = 0.0;            ///< t_d, s, in addition to the zero-order hold; >= 0
+};
+
+struct Actuator {
+  double time_constant = 0.0;         ///< s, first-order lag 1/(tau s + 1); >= 0
+  std::optional<double> force_limit;  ///< N or N m; > 0; simulation only
+};
+
+struct Sensor {
+  double resolution = 0.0;  ///< m or rad, encoder step; >= 0; simulation only
+};
+
+/// The virtual wall C(z) = K + B v(z), where v is the backward difference (1 - z^-1)/T, optionally followed by
+/// the low-pass (1 - a)/(1 - a z^-1), a = exp(-2 pi f_c T).
+struct Wall {
+  std::optional<double> stiffness;  ///< K, N/m or N m/rad; >= 0; absent: no wall to judge
+  double damping = 0.0;             ///< B, N s/m or N m s/rad; >= 0
+  double velocity_filter_hz = 0.0;  ///< f_c; 0: no filter
+};
+
+/// A user at the held body: a mass, damper and spring to ground, all >= 0.
+struct Operator {
+  double mass = 0.0;
+  double damping = 0.0;
+  double stiffness = 0.0;
+};
+
+/// Everything a device file says. Plain data; Device checks it.
+struct DeviceParameters {
+  std::string name;
+  Motion motion = Motion::linear;
+  std::vector<Body> bodies;
+  std::vector<Link> links;
+  std::optional<TransferFunction> transfer_function;  ///< instead of bodies and links
+  Loop loop;
+  Actuator actuator;
+  Sensor sensor;
+  Wall wall;
+  Operator user;
+};
+
+/// The first thing that makes DeviceParameters impossible.
+struct DeviceProblem {
+  std::string key;      ///< key of the device file, as in `--set`: "body.motor.mass", "link.0.stiffness", "loop.delay"
+  std::string what;     ///< "is -0.3"
+  std::string allowed;  ///< "a finite number > 0"
+};
+
+/// Finds the first impossible value, or nothing when the parameters make a device.
+///
+/// Checks: all numbers finite and in the ranges given with each member; body names unique and not empty; link ends
+/// distinct and existing; every body connected to every other through links; either bodies or a transfer function;
+/// no operator, link or second body with a transfer function.
+[[nodiscard]] std::optional<DeviceProblem> find_problem(const DeviceParameters& parameters);
+
+/// A haptic device and its sampled loop; valid once constructed.
+class Device {
+ public:
+  /// Throws Error (invalid_argument) with the key and the value when find_problem() finds one.
+  explicit Device(DeviceParameters parameters);
+
+  [[nodiscard]] const DeviceParameters& parameters() const noexcept { return parameters_; }
+  [[nodiscard]] const std::string& name() const noexcept { return parameters_.name; }
+  [[nodiscard]] const std::vector<Body>& bodies() const noexcept { return parameters_.bodies; }
+  [[nodiscard]] const std::vector<Link>& links() const noexcept { return parameters_.links; }
+  [[nodiscard]] const Loop& loop() const noexcept { return parameters_.loop; }
+  [[nodiscard]] bool has_bodies() const noexcept { return !parameters_.bodies.empty(); }
+
+  /// Index of the body of that name; throws Error (no_such_body).
+  [[nodiscard]] std::size_t body_index(const std::string& name) const;
+
+ private:
+  DeviceParameters parameters_;
+};
+
+}  // namespace zwidth

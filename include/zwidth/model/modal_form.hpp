@@ -1,0 +1,71 @@
+#pragma once
+
+#include <complex>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "zwidth/model/device.hpp"
+
+namespace zwidth {
+
+/// One real term of a partial-fraction expansion, degree(numerator) < degree(denominator) <= max_degree.
+///
+///     (n[0] + n[1] s + ...) / (d[0] + d[1] s + ... + s^degree)
+///
+/// Degree 1: a lone real pole; 2: a mode (or the rigid body, d[0] = 0 when nothing ties it to ground); more: poles so
+/// close together that separate terms would cancel.
+struct ModalTerm {
+  static constexpr std::size_t max_degree = 8;
+  std::size_t degree = 0;
+  double numerator[max_degree] = {};
+  double denominator[max_degree] = {};  ///< monic; the leading 1 is not stored
+  /// 0: rigid body; i > 0: vibration mode i, by rising frequency; -1: actuator lag
+  int mode = 0;
+};
+
+/// A vibration mode: the pole pair s² + 2 zeta w s + w².
+struct Mode {
+  double frequency = 0.0;      ///< w, undamped natural frequency, rad/s
+  double damping_ratio = 0.0;  ///< zeta; above 1 for two real poles
+};
+
+/// The response from a force to a position as a sum of modal terms, one for the rigid body and one per mode.
+///
+///     G(s) = sum_k N_k(s) / D_k(s)
+///
+/// Unlike one transfer function of high degree it keeps full relative accuracy at every frequency, with stiff links,
+/// light or critical damping and widely spread masses. Poles are found by Ehrlich-Aberth iteration on
+/// det(M s² + D s + K) in double-double arithmetic; poles closer than cluster_tolerance share a term.
+struct ModalForm {
+  std::vector<ModalTerm> terms;  ///< rigid body first, then modes by rising frequency, lag last
+  std::vector<Mode> modes;       ///< vibration modes only, by rising frequency
+  std::optional<Mode> suspended_rigid_body;  ///< the rigid-body motion where springs tie it to ground
+};
+
+/// From which body's force to which body's position.
+struct Path {
+  std::size_t force_at = 0;
+  std::size_t position_of = 0;
+};
+
+enum class ActuatorLag { included, left_out };
+
+/// Modal form of the device from actuated to sensed body (operator and actuator lag included).
+///
+/// Throws Error (did_not_converge) when the poles cannot be found to the documented accuracy.
+/// Source: theory, section 1 ("Which mechanism limits"); eqs. 5-9 of Díaz & Gil are the two-body case.
+[[nodiscard]] ModalForm modal_form(const Device& device);
+
+/// The same for any pair of bodies, for instance held -> held for the paper's G_d.
+/// Throws Error (needs_bodies) for a transfer-function device.
+[[nodiscard]] ModalForm modal_form(const Device& device, Path path, ActuatorLag lag);
+
+/// G(jw) of the sum of terms; w in rad/s, w > 0.
+[[nodiscard]] std::complex<double> response(const ModalForm& form, double frequency);
+
+/// G(jw) of one term.
+[[nodiscard]] std::complex<double> response(const ModalTerm& term, double frequency);
+
+}  // namespace zwidth

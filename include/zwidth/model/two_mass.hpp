@@ -1,0 +1,47 @@
+#pragma once
+
+#include <complex>
+#include <optional>
+
+#include "zwidth/model/device.hpp"
+
+namespace zwidth {
+
+/// The paper's parameters of a device of two bodies and one link: motor (subscript m) and body (subscript d).
+struct TwoMass {
+  double motor_mass = 0.0;       ///< m_m
+  double body_mass = 0.0;        ///< m_d
+  double motor_damping = 0.0;    ///< b_m
+  double body_damping = 0.0;     ///< b_d
+  double cable_stiffness = 0.0;  ///< k_c
+  double cable_damping = 0.0;    ///< b_c
+};
+
+/// The three responses of eq. 3.
+struct TwoMassResponse {
+  std::complex<double> G_d;  ///< body force -> body position
+  std::complex<double> G_c;  ///< either force -> the other position
+  std::complex<double> G_m;  ///< motor force -> motor position
+};
+
+/// Closed forms, eqs. 5-9 of Díaz & Gil, at any complex s that is not a pole.
+[[nodiscard]] TwoMassResponse two_mass_response(const TwoMass& device, std::complex<double> s);
+
+/// Rigid body times vibration mode, eqs. 10-16 of Díaz & Gil. An approximation: the s² coefficient of the
+/// denominator is off by [(b_m m_d - b_d m_m)/m]²; exact iff b_m/m_m = b_d/m_d.
+[[nodiscard]] TwoMassResponse two_mass_factorised_response(const TwoMass& device, std::complex<double> s);
+
+/// Natural frequency and coefficients of the factorised form, eqs. 11-16.
+struct TwoMassFactors {
+  double omega_1, omega_2, omega_n;  ///< rad/s
+  double z_1, z_2, z_n;              ///< 1/s
+  /// Error of the denominator's s² coefficient relative to the exact one (theory, section 3.4).
+  double relative_error;
+};
+[[nodiscard]] TwoMassFactors two_mass_factors(const TwoMass& device);
+
+/// The two-mass view of a device: two bodies, one link, no ground springs (the operator's mass and damping are
+/// added to the held body). Nothing where the device is of another shape.
+[[nodiscard]] std::optional<TwoMass> as_two_mass(const Device& device);
+
+}  // namespace zwidth

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <complex>
+#include <cstddef>
+#include <vector>
+
+#include "zwidth/model/modal_form.hpp"
+
+namespace zwidth {
+
+/// When the force of the hold reaches the device.
+struct Sampling {
+  double period = 0.0;  ///< T, s; > 0, finite
+  double delay = 0.0;   ///< t_d, s; >= 0, finite
+};
+
+/// One term of a sampled plant, polynomials in delta = z - 1 (accurate when all poles crowd at z = 1).
+///
+///     (n[0] + n[1] delta + ...) / (d[0] + d[1] delta + ... + delta^degree)
+struct SampledTerm {
+  std::size_t degree = 0;
+  double numerator[ModalTerm::max_degree + 1] = {};  ///< degree + 1 coefficients
+  double denominator[ModalTerm::max_degree] = {};    ///< monic; the leading 1 is not stored
+  int mode = 0;                                      ///< as in ModalTerm
+  bool pole_on_circle = false;  ///< an undamped mode: |z| = 1 exactly
+};
+
+/// The plant that the sampled wall sees: Z[H(s) G(s) e^{-t_d s}] = z^-delay_samples sum_k N_k(z - 1) / D_k(z - 1).
+struct SampledPlant {
+  double period = 0.0;            ///< T, s
+  std::size_t delay_samples = 0;  ///< whole samples outside the sum
+  std::vector<SampledTerm> terms;
+};
+
+/// Samples exactly behind a zero-order hold with any real delay (modified z-transform; no Padé, no rounding to samples).
+///
+///     t_d = (l + f) T, 0 <= f < 1:  x[k+1] = F x[k] + G1 u[k-l] + G2 u[k-l-1]
+///
+/// per modal term, in closed form built on expm1, so that phase and magnitude keep full relative accuracy from
+/// 1e-3 rad/s to Nyquist for T from 10 us to 10 ms, modes far above Nyquist included.
+/// Throws Error (invalid_argument) for a period or delay outside its domain.
+/// Source: eqs. 22, 28 of Díaz & Gil; theory, section 1 ("Delay").
+[[nodiscard]] SampledPlant sample(const ModalForm& form, Sampling sampling);
+
+/// modal_form() and sample() of a device with its own period and delay.
+[[nodiscard]] SampledPlant sampled_plant(const Device& device);
+
+/// The sampled response at e^{jwT}; 0 < w <= pi/T, rad/s.
+[[nodiscard]] std::complex<double> response(const SampledPlant& plant, double frequency);
+
+}  // namespace zwidth

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <complex>
+#include <vector>
+
+#include "zwidth/model/device.hpp"
+#include "zwidth/sampling/discrete_state_space.hpp"
+
+namespace zwidth {
+
+/// Poles z of the sampled loop 1 + C(z) P(z) = 0, as eigenvalues of its state matrix.
+///
+/// Given as z - 1 to keep the digits of poles close to z = 1. The route that checks critical_stiffness(): matrix
+/// exponential and eigenvalues, no modal form and no frequency response. Cost grows with the cube of the order
+/// (device states + whole samples of delay + wall states).
+/// wall.stiffness absent counts as 0.
+[[nodiscard]] std::vector<std::complex<double>> closed_loop_poles_minus_one(const DiscreteStateSpace& plant, const Wall& wall);
+
+/// Largest |z| - 1 of those poles: negative iff the loop is stable.
+[[nodiscard]] double stability_excess(const DiscreteStateSpace& plant, const Wall& wall);
+
+}  // namespace zwidth

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "zwidth/sampling/sampled_plant.hpp"
+
+namespace zwidth {
+
+/// What a crossover belongs to: the modal term of largest magnitude at its frequency.
+struct Mechanism {
+  enum class Kind { rigid_body, vibration_mode };
+  Kind kind = Kind::rigid_body;
+  int mode = 0;  ///< number of the vibration mode, from 1; 0 for the rigid body
+};
+
+/// A wall stiffness at which a closed-loop pole lies on the unit circle: a phase crossover of the loop.
+struct Crossover {
+  double frequency = 0.0;  ///< rad/s, in (0, pi/T]; exactly pi/T at Nyquist
+  double stiffness = 0.0;  ///< K > 0
+  Mechanism limited_by;
+  /// Poles that leave the unit circle as K rises through this crossover: +2 or -2 (+1, -1 at Nyquist),
+  /// 0 where they touch it without crossing.
+  int poles_leaving = 0;
+};
+
+/// An open interval of K in which the loop is stable.
+struct StableInterval {
+  double lower = 0.0;
+  std::optional<double> upper;  ///< absent: unbounded
+};
+
+enum class StiffnessStatus {
+  finite,       ///< stable for 0 < K < stiffness
+  none_stable,  ///< unstable for arbitrarily small K > 0; stable intervals may exist further up
+  unbounded,    ///< stable for every K > 0
+};
+
+/// The stiffest stable virtual wall, with everything that decides it.
+struct CriticalStiffness {
+  StiffnessStatus status = StiffnessStatus::finite;
+  double stiffness = 0.0;  ///< K_CR; 0 when none_stable, infinity when unbounded
+  std::optional<Crossover> limit;  ///< the crossover at K_CR; absent unless finite
+  std::vector<Crossover> crossovers;             ///< all, by rising frequency
+  std::vector<StableInterval> stable_intervals;  ///< all, by rising K
+};
+
+/// The virtual damper that stays closed while K varies: B v(z) as in Wall.
+struct VirtualDamper {
+  double damping = 0.0;             ///< B >= 0
+  double velocity_filter_hz = 0.0;  ///< f_c >= 0; 0: none
+};
+
+/// Finds every K > 0 at which 1 + (K + B v(z)) P(z) = 0 has a root on the unit circle, and from them K_CR.
+///
+/// Complete: the phase condition is isolated by interval subdivision of 0..Nyquist with bounds on its second derivative
+/// (see docs/completeness.md); no grid is involved. Each root is polished to rounding. The number of unstable poles
+/// between crossovers follows from the direction of every crossing.
+/// Throws Error (invalid_argument) for negative or non-finite B or f_c, (did_not_converge) when subdivision hits its cap.
+/// Source: eqs. 21-23, 27-28 of Díaz & Gil; theory, section 1.
+[[nodiscard]] CriticalStiffness critical_stiffness(const SampledPlant& plant, VirtualDamper damper = {});
+
+}  // namespace zwidth
