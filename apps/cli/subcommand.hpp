@@ -1,0 +1,26 @@
+#pragma once
+
+#include <CLI/App.hpp>
+#include <stdexcept>
+#include <string>
+
+namespace zwidth::cli {
+
+/// Wrong usage or bad input: main prints every line of the message and exits with status 2.
+struct BadInput : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// The work itself failed (cannot write, does not converge): main prints the message and exits with status 1.
+struct WorkFailed : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+// Each adds one command to the program, in a file of its name. A command's footer is "Examples:" and one line
+// "  zwidth ..." per example; the tests run every one of them beside a copy of devices/.
+void add_analyze(CLI::App& app);
+void add_bode(CLI::App& app);
+void add_export(CLI::App& app);
+void add_reproduce(CLI::App& app);
+
+}  // namespace zwidth::cli

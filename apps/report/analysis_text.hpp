@@ -1,0 +1,15 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "report/analysed_device.hpp"
+
+namespace zwidth::report {
+
+/// The answer as a person reads it: at most 100 columns, units with every number.
+///
+/// One device in full; several as a comparison table followed by a short answer for each.
+[[nodiscard]] std::string analysis_text(std::span<const AnalysedDevice> devices);
+
+}  // namespace zwidth::report
