@@ -87,14 +87,21 @@ struct DeviceParameters {
 struct DeviceProblem {
   std::string key;      ///< key of the device file, as in `--set`: "body.motor.mass", "link.0.stiffness", "loop.delay"
   std::string what;     ///< "is -0.3"
-  std::string allowed;  ///< "a finite number > 0"
+  std::string allowed;  ///< "must be a number > 0"
 };
+
+inline constexpr std::size_t max_bodies = 100;
+inline constexpr std::size_t max_links = 1000;
+inline constexpr std::size_t max_degree = 100;      ///< of a transfer function
+inline constexpr std::size_t max_name_size = 200;   ///< bytes
+inline constexpr double max_delay_samples = 10000;  ///< whole device: delay / sampling_period
 
 /// Finds the first impossible value, or nothing when the parameters make a device.
 ///
-/// Checks: all numbers finite and in the ranges given with each member; body names unique and not empty; link ends
-/// distinct and existing; every body connected to every other through links; either bodies or a transfer function;
-/// no operator, link or second body with a transfer function.
+/// Checks: all numbers finite and in the ranges given with each member, and 0 or within 1e-30..1e30 in magnitude
+/// (coefficients of a transfer function: 1e-100..1e100), so that no product of a few of them overflows; body names
+/// unique and not empty; link ends distinct and existing; every body connected to every other through links; either
+/// bodies or a transfer function; no operator, link or second body with a transfer function.
 [[nodiscard]] std::optional<DeviceProblem> find_problem(const DeviceParameters& parameters);
 
 /// A haptic device and its sampled loop; valid once constructed.
