@@ -1,0 +1,68 @@
+#include "report/text_table.hpp"
+
+#include <algorithm>
+
+namespace zwidth::report {
+namespace {
+
+bool starts_character(char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U; }
+
+/// Characters (code points) of UTF-8 text.
+std::size_t length(std::string_view text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), starts_character));
+}
+
+}  // namespace
+
+std::string layout(const TextTable& table) {
+  std::vector<std::size_t> widths(table.alignment.size(), 0);
+  for (const auto& row : table.rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], length(row[i]));
+  }
+  std::string text;
+  for (const auto& row : table.rows) {
+    std::string line;
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      const std::string padding(widths[i] - length(row[i]), ' ');
+      line += table.alignment[i] == TextTable::Align::left ? "  " + row[i] + padding : "  " + padding + row[i];
+    }
+    line.erase(line.find_last_not_of(' ') + 1);
+    text += line + "\n";
+  }
+  return text;
+}
+
+std::string wrap(std::string_view text, std::size_t width, std::size_t indent) {
+  std::string wrapped;
+  std::string line;
+  const auto end_line = [&] { wrapped += std::string(indent, ' ') + line + "\n"; };
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find(' '), text.size());
+    const std::string_view word = text.substr(0, end);
+    if (!line.empty() && indent + length(line) + 1 + length(word) > width) {
+      end_line();
+      line.clear();
+    }
+    line += (line.empty() ? "" : " ") + std::string(word);
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  if (!line.empty()) end_line();
+  return wrapped;
+}
+
+std::string one_line(std::string_view text, std::size_t width) {
+  const bool shortened = length(text) > width;
+  std::string line;
+  std::size_t characters = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (starts_character(text[i]) && characters++ == width - (shortened ? 1 : 0)) break;
+    const auto byte = static_cast<unsigned char>(text[i]);
+    // U+0080 to U+009F, encoded C2 80 to C2 9F, are control characters too.
+    const bool second_of_control = byte < 0xA0 && !line.empty() && static_cast<unsigned char>(line.back()) == 0xC2;
+    if (second_of_control) line.pop_back();
+    line += byte < 0x20 || byte == 0x7F || second_of_control ? '?' : text[i];
+  }
+  return shortened ? line + "…" : line;
+}
+
+}  // namespace zwidth::report

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace zwidth::report {
+
+/// Columns of text, each as wide as its widest cell.
+struct TextTable {
+  enum class Align { left, right };
+  std::vector<Align> alignment;                ///< one per column
+  std::vector<std::vector<std::string>> rows;  ///< the first holds the headings; each as long as `alignment`
+};
+
+/// Lays the table out with two spaces before each column; no trailing spaces.
+[[nodiscard]] std::string layout(const TextTable& table);
+
+/// Breaks text at spaces into lines of at most `width` characters, each after `indent` spaces.
+[[nodiscard]] std::string wrap(std::string_view text, std::size_t width, std::size_t indent);
+
+/// Text from a file made safe for one line of a terminal: control characters become '?', and what is longer than
+/// `width` characters ends in '…'.
+[[nodiscard]] std::string one_line(std::string_view text, std::size_t width);
+
+}  // namespace zwidth::report
