@@ -1,0 +1,277 @@
+#include "report/explanation.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "report/quantity.hpp"
+
+namespace zwidth::report {
+namespace {
+
+/// Above this ratio Q is far from the rigid critical stiffness; below, the two are similar (6 dB).
+constexpr double q_similar_ratio = 2.0;
+
+const DeviceParameters& parameters_of(const AnalysedDevice& analysed) { return analysed.device.parameters(); }
+
+Units device_units(const AnalysedDevice& analysed) { return units_of(parameters_of(analysed).motion); }
+
+std::string stiffness_text(const AnalysedDevice& analysed, double stiffness) {
+  return quantity(stiffness, device_units(analysed).stiffness);
+}
+
+std::string interval_text(const AnalysedDevice& analysed, const StableInterval& interval) {
+  const std::string lower = stiffness_text(analysed, interval.lower);
+  if (!interval.upper) return "above " + lower;
+  return fmt::format("from {} to {}", lower, stiffness_text(analysed, *interval.upper));
+}
+
+/// The intervals that do not begin at K = 0.
+std::vector<std::string> higher_intervals(const AnalysedDevice& analysed) {
+  std::vector<std::string> texts;
+  for (const StableInterval& interval : analysed.analysis.critical.stable_intervals) {
+    if (interval.lower > 0.0) texts.push_back(interval_text(analysed, interval));
+  }
+  return texts;
+}
+
+std::string virtual_damper_text(const AnalysedDevice& analysed) {
+  const Wall& wall = parameters_of(analysed).wall;
+  if (wall.damping <= 0.0) return {};
+  std::string text = fmt::format("the virtual damper of {} {}", number(wall.damping), device_units(analysed).damping);
+  if (wall.velocity_filter_hz > 0.0) {
+    text += fmt::format(" behind a velocity low-pass of {}", quantity(wall.velocity_filter_hz, "Hz"));
+  }
+  return text;
+}
+
+/// Neither damper nor spring ties any body to ground.
+bool is_undamped_against_ground(const DeviceParameters& device) {
+  const auto loose = [](const Body& body) { return body.damping == 0.0 && body.stiffness == 0.0; };
+  return !device.bodies.empty() && device.user.damping == 0.0 && device.wall.damping == 0.0 &&
+         std::all_of(device.bodies.begin(), device.bodies.end(), loose);
+}
+
+std::string percent(double fraction) { return number(std::round(1000.0 * fraction) / 10.0) + " %"; }
+
+std::string what_stays_open(const std::vector<std::string>& higher) {
+  if (higher.empty()) return {};
+  return fmt::format(
+      " The loop is stable again for stiffnesses {}: a wall switched on passes through softer contact, "
+      "so do not rely on it.",
+      fmt::join(higher, ", and "));
+}
+
+}  // namespace
+
+std::string mechanism_name(const Analysis& analysis, const Mechanism& mechanism) {
+  if (mechanism.kind == Mechanism::Kind::rigid_body) {
+    if (!analysis.suspended_rigid_body) return "the rigid body";
+    return fmt::format("the rigid body on its springs ({})",
+                       quantity(hertz(analysis.suspended_rigid_body->frequency), "Hz"));
+  }
+  const auto index = static_cast<std::size_t>(mechanism.mode) - 1;
+  if (index >= analysis.modes.size()) return fmt::format("vibration mode {}", mechanism.mode);
+  const Mode& mode = analysis.modes[index];
+  return fmt::format("vibration mode {} ({}, damping ratio {})", mechanism.mode, quantity(hertz(mode.frequency), "Hz"),
+                     number(mode.damping_ratio));
+}
+
+std::optional<std::string> what_limits(const AnalysedDevice& analysed) {
+  const auto& limit = analysed.analysis.critical.limit;
+  if (!limit) return std::nullopt;
+  const DeviceParameters& device = parameters_of(analysed);
+  std::vector<std::string> causes = {
+      fmt::format("the delay of sampling and hold (T/2 = {})", quantity(device.loop.sampling_period / 2.0, "s"))};
+  if (device.loop.delay > 0.0) causes.push_back(fmt::format("the added delay of {}", quantity(device.loop.delay, "s")));
+  if (device.actuator.time_constant > 0.0) {
+    causes.push_back(fmt::format("the actuator's lag of {}", quantity(device.actuator.time_constant, "s")));
+  }
+  const std::string name = mechanism_name(analysed.analysis, limit->limited_by);
+  return causes.size() == 1 ? fmt::format("{} and {}", name, causes.front())
+                            : fmt::format("{}, {}", name, fmt::join(causes, ", "));
+}
+
+std::string critical_stiffness_text(const CriticalStiffness& critical, Motion motion) {
+  switch (critical.status) {
+    case StiffnessStatus::finite: {
+      const auto unit = units_of(motion).stiffness;
+      return fmt::format("{} ({:.2f} dB re 1 {})", quantity(critical.stiffness, unit), decibels(critical.stiffness),
+                         unit);
+    }
+    case StiffnessStatus::none_stable:
+      return "none: no wall is stable, however soft";
+    case StiffnessStatus::unbounded:
+      break;
+  }
+  return "unbounded: every wall is stable";
+}
+
+std::string meaning(const AnalysedDevice& analysed) {
+  const CriticalStiffness& critical = analysed.analysis.critical;
+  const std::string damper = virtual_damper_text(analysed);
+  const std::string with_damper = damper.empty() ? "" : " with " + damper + " closed";
+  const auto higher = higher_intervals(analysed);
+  switch (critical.status) {
+    case StiffnessStatus::finite: {
+      const std::string limit = stiffness_text(analysed, critical.stiffness);
+      const double nyquist = std::numbers::pi / parameters_of(analysed).loop.sampling_period;
+      const bool at_nyquist = critical.limit && critical.limit->frequency >= nyquist;
+      return fmt::format(
+                 "Every wall softer than {} is stable{}. A stiffer one makes the device oscillate by itself, at "
+                 "about {}{} when just above.",
+                 limit, with_damper, critical.limit ? quantity(hertz(critical.limit->frequency), "Hz") : "?",
+                 at_nyquist ? " (the Nyquist frequency: the force alternates at every sample)" : "") +
+             what_stays_open(higher);
+    }
+    case StiffnessStatus::none_stable: {
+      std::string text = fmt::format("The loop is unstable{} for an arbitrarily small wall stiffness.", with_damper);
+      if (is_undamped_against_ground(parameters_of(analysed))) {
+        text +=
+            " Nothing damps the device against ground, so the delay of sampling alone drives it: give the bodies "
+            "their damping, or the wall a virtual damper.";
+      }
+      return text + what_stays_open(higher);
+    }
+    case StiffnessStatus::unbounded:
+      break;
+  }
+  return fmt::format(
+      "No wall stiffness makes the loop unstable{}: it has no phase crossover up to the Nyquist "
+      "frequency. No real device does this; check the file for something left out.",
+      with_damper);
+}
+
+std::optional<std::string> rigid_model_note(const AnalysedDevice& analysed) {
+  const auto& rigid = analysed.analysis.rigid;
+  if (!rigid || analysed.device.bodies().size() < 2) return std::nullopt;
+  const Units units = device_units(analysed);
+  const std::string ground =
+      rigid->stiffness > 0.0 ? fmt::format(", {} to ground", quantity(rigid->stiffness, units.stiffness)) : "";
+  const std::string model = fmt::format("With rigid links ({} {}, {} {}{}) the critical stiffness would be ",
+                                        number(rigid->mass), units.mass, number(rigid->damping), units.damping, ground);
+  const CriticalStiffness& exact = analysed.analysis.critical;
+  const double rigid_value = rigid->critical.stiffness;
+  if (rigid->critical.status != StiffnessStatus::finite || exact.status != StiffnessStatus::finite) {
+    const bool unsafe = rigid_value > exact.stiffness;
+    const std::string value = rigid->critical.status == StiffnessStatus::finite ? stiffness_text(analysed, rigid_value)
+                              : rigid_value == 0.0                              ? "zero"
+                                                                                : "unbounded";
+    return fmt::format("{}{}{}.", model, value, unsafe ? ": UNSAFE, the links make it lower" : "");
+  }
+  const double excess = rigid_value / exact.stiffness - 1.0;
+  const std::string off = fmt::format("{}{} ({:+.2f} dB), ", model, stiffness_text(analysed, rigid_value),
+                                      decibels(rigid_value / exact.stiffness));
+  if (std::abs(excess) < 5e-4) return off + "the same within 0.05 %.";
+  if (excess < 0.0) return off + percent(-excess) + " too low: the safe side, but stiffness is given away.";
+  return off + percent(excess) + " too high: UNSAFE, a wall designed with the rigid model can oscillate.";
+}
+
+std::optional<std::string> q_criterion_note(const AnalysedDevice& analysed) {
+  const auto& criterion = analysed.analysis.q_criterion;
+  if (!criterion || !(criterion->stiffness > 0.0)) return std::nullopt;
+  const auto unit = device_units(analysed).stiffness;
+  std::string text = fmt::format(
+      "Q criterion (an approximation; the crossovers decide): Q = {} ({:.2f} dB re 1 {}), "
+      "about the least stiffness at which the resonance can go unstable, over all delays. ",
+      quantity(criterion->stiffness, unit), decibels(criterion->stiffness), unit);
+  if (!criterion->mode_matters) {
+    return text + "It says nothing about this loop: it is meant for position sensed at the actuated body.";
+  }
+  const auto& rigid = analysed.analysis.rigid;
+  if (!rigid || rigid->critical.status != StiffnessStatus::finite) {
+    return text + (*criterion->mode_matters ? "The mode matters." : "The mode hardly matters.");
+  }
+  const std::string rigid_value = stiffness_text(analysed, rigid->critical.stiffness);
+  if (*criterion->mode_matters) {
+    return text +
+           fmt::format("It is not above the rigid critical stiffness of {}: the vibration mode matters.", rigid_value);
+  }
+  if (criterion->stiffness < q_similar_ratio * rigid->critical.stiffness) {
+    return text + fmt::format(
+                      "It is above the rigid critical stiffness of {}, but similar: the rigid body limits, the "
+                      "mode shifts the limit.",
+                      rigid_value);
+  }
+  return text +
+         fmt::format("It is far above the rigid critical stiffness of {}: the mode hardly matters.", rigid_value);
+}
+
+std::string wall_verdict(const Analysis& analysis) {
+  if (!analysis.wall) return "-";
+  return analysis.wall->stable ? "stable" : "UNSTABLE";
+}
+
+std::optional<std::string> wall_note(const AnalysedDevice& analysed) {
+  const auto& wall = analysed.analysis.wall;
+  if (!wall) return std::nullopt;
+  const Units units = device_units(analysed);
+  const std::string text = fmt::format("The wall of {} and {} {} is {}", quantity(wall->stiffness, units.stiffness),
+                                       number(wall->damping), units.damping, wall_verdict(analysed.analysis));
+  if (!wall->stable) {
+    return fmt::format("{}: the largest closed-loop pole has |z| = {:.6g}, so an oscillation grows by {} per sample.",
+                       text, wall->spectral_radius, percent(std::max(0.0, wall->spectral_radius - 1.0)));
+  }
+  std::vector<std::string> margins;
+  if (wall->gain_margin) {
+    margins.push_back(fmt::format("gain margin {:.2f} dB (stiffness and damping together may grow {} times)",
+                                  decibels(*wall->gain_margin), number(*wall->gain_margin)));
+  } else {
+    margins.emplace_back("no upper gain margin (no larger gain destabilises it)");
+  }
+  if (wall->lower_gain_margin) {
+    margins.push_back(fmt::format("lower gain margin {:.2f} dB (it turns unstable when scaled down to {} times)",
+                                  decibels(*wall->lower_gain_margin), number(*wall->lower_gain_margin)));
+  }
+  if (wall->phase_margin) {
+    margins.push_back(fmt::format("phase margin {} rad ({}°)", number(*wall->phase_margin),
+                                  number(*wall->phase_margin * 180.0 / std::numbers::pi)));
+  }
+  if (wall->delay_margin) {
+    margins.push_back(
+        fmt::format("delay margin {} (that much more delay destabilises it)", quantity(*wall->delay_margin, "s")));
+  }
+  return fmt::format("{}: {}. What oscillates longest decays by {} % per sample.", text, fmt::join(margins, ", "),
+                     number(100.0 * (1.0 - wall->spectral_radius)));
+}
+
+std::vector<std::string> caveats(const AnalysedDevice& analysed) {
+  const DeviceParameters& device = parameters_of(analysed);
+  const Units units = device_units(analysed);
+  std::vector<std::string> texts;
+  const Operator& user = device.user;
+  const std::string held = device.bodies.empty() ? "" : device.bodies[device.loop.held].name;
+  if (user.mass > 0.0 || user.damping > 0.0 || user.stiffness > 0.0) {
+    texts.push_back(fmt::format("One user is included, at {}: {} {}, {} {}, {}. Another grasp gives another answer.",
+                                held, number(user.mass), units.mass, number(user.damping), units.damping,
+                                quantity(user.stiffness, units.stiffness)));
+  } else if (device.bodies.size() == 1) {
+    texts.emplace_back(
+        "Nobody holds the device here. A user's mass and damping usually steady a rigid device; a springy "
+        "grasp need not.");
+  } else {
+    texts.emplace_back(
+        "Nobody holds the device here. A flexible device that is stable alone can be made unstable by a "
+        "user's grasp: try one with [operator].");
+  }
+  std::vector<std::string> left_out;
+  const bool coulomb =
+      std::any_of(device.bodies.begin(), device.bodies.end(), [](const Body& body) { return body.coulomb > 0.0; });
+  if (coulomb) left_out.emplace_back("the Coulomb friction in the file");
+  if (device.sensor.resolution > 0.0) {
+    left_out.push_back(fmt::format("the encoder step of {}", quantity(device.sensor.resolution, units.length)));
+  }
+  if (device.actuator.force_limit) {
+    left_out.push_back(fmt::format("the force limit of {}", quantity(*device.actuator.force_limit, units.force)));
+  }
+  texts.push_back(left_out.empty() ? "The analysis is linear: friction, encoder steps and force limits are left out."
+                                   : fmt::format("The analysis is linear: {} {} left out.",
+                                                 fmt::join(left_out, " and "), left_out.size() == 1 ? "is" : "are"));
+  return texts;
+}
+
+}  // namespace zwidth::report

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "report/analysed_device.hpp"
+
+namespace zwidth::report {
+
+// The sentences of an answer, for an engineer who knows mechanics. Plain text, one paragraph each, shared by the text
+// and the HTML report. Texts from the device file appear as they are: escape them for the medium.
+
+/// "the rigid body", "vibration mode 1 (37.1 Hz, damping ratio 0.03)".
+[[nodiscard]] std::string mechanism_name(const Analysis& analysis, const Mechanism& mechanism);
+
+/// What limits the wall, with its cause: the mechanism and the delay that turns it unstable.
+/// Nothing unless the critical stiffness is finite.
+[[nodiscard]] std::optional<std::string> what_limits(const AnalysedDevice& analysed);
+
+/// "8.849 kN/m (78.94 dB re 1 N/m)", "none: no wall is stable", "unbounded".
+[[nodiscard]] std::string critical_stiffness_text(const CriticalStiffness& critical, Motion motion);
+
+/// What the critical stiffness means for a wall, and every stable interval where there is more than one.
+[[nodiscard]] std::string meaning(const AnalysedDevice& analysed);
+
+/// How far off a rigid model is, and on which side. Nothing where there is no rigid model or the device is one.
+[[nodiscard]] std::optional<std::string> rigid_model_note(const AnalysedDevice& analysed);
+
+/// Q and its plain meaning, its approximation stated. Nothing unless the device has two bodies.
+[[nodiscard]] std::optional<std::string> q_criterion_note(const AnalysedDevice& analysed);
+
+/// The verdict on [wall] with its margins. Nothing without a wall.
+[[nodiscard]] std::optional<std::string> wall_note(const AnalysedDevice& analysed);
+
+/// "stable", "UNSTABLE" or "-" where there is no wall.
+[[nodiscard]] std::string wall_verdict(const Analysis& analysis);
+
+/// What the numbers leave out: user, friction, encoder steps, force limit.
+[[nodiscard]] std::vector<std::string> caveats(const AnalysedDevice& analysed);
+
+}  // namespace zwidth::report
