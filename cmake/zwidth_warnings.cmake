@@ -1,7 +1,5 @@
-# Warnings of our own code; never exported to users of the library.
-add_library(zwidth_warnings_flags INTERFACE)
-target_compile_options(zwidth_warnings_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion
-  -Wnon-virtual-dtor -Wold-style-cast -Woverloaded-virtual -Wdouble-promotion)
-# BUILD_INTERFACE keeps the flags out of the installed export.
+# Warnings of our own code. Link it as $<BUILD_INTERFACE:zwidth_warnings> where the target is exported: the flags are
+# never forced on users of the library.
 add_library(zwidth_warnings INTERFACE)
-target_link_libraries(zwidth_warnings INTERFACE $<BUILD_INTERFACE:zwidth_warnings_flags>)
+target_compile_options(zwidth_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion
+  -Wnon-virtual-dtor -Wold-style-cast -Woverloaded-virtual -Wdouble-promotion)

@@ -1,0 +1,35 @@
+# Installs the build, takes the C++ and CMake examples from README.md, builds them against the installed copy and
+# runs the program from the project's root.
+file(REMOVE_RECURSE ${work_dir}/prefix ${work_dir}/consumer)
+
+function(run)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(NOT result EQUAL 0)
+    message(FATAL_ERROR "${ARGN}\n${output}")
+  endif()
+endfunction()
+
+# The text of the only fenced block of README.md in that language.
+function(readme_block language variable)
+  file(READ ${source_dir}/README.md readme)
+  if(NOT readme MATCHES "\n```${language}\n([^`]*)\n```")
+    message(FATAL_ERROR "README.md has no ${language} example")
+  endif()
+  set(${variable} "${CMAKE_MATCH_1}" PARENT_SCOPE)
+endfunction()
+
+run(${CMAKE_COMMAND} --install ${build_dir} --prefix ${work_dir}/prefix)
+readme_block(cpp example)
+readme_block(cmake project)
+file(WRITE ${work_dir}/consumer/main.cpp "${example}\n")
+file(WRITE ${work_dir}/consumer/CMakeLists.txt "${project}\n")
+run(${CMAKE_COMMAND} -S ${work_dir}/consumer -B ${work_dir}/consumer/build -G ${generator}
+  -D CMAKE_PREFIX_PATH=${work_dir}/prefix -D CMAKE_CXX_COMPILER=${compiler} -D CMAKE_CXX_FLAGS=${flags}
+  -D CMAKE_BUILD_TYPE=${type})
+run(${CMAKE_COMMAND} --build ${work_dir}/consumer/build)
+
+execute_process(COMMAND ${work_dir}/consumer/build/wall WORKING_DIRECTORY ${source_dir}
+  RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE error)
+if(NOT result EQUAL 0 OR NOT output MATCHES "8848\\.7")
+  message(FATAL_ERROR "README's example answered (${result}):\n${output}${error}")
+endif()
