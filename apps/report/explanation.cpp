@@ -213,8 +213,8 @@ std::optional<std::string> wall_note(const AnalysedDevice& analysed) {
   const std::string text = fmt::format("The wall of {} and {} {} is {}", quantity(wall->stiffness, units.stiffness),
                                        number(wall->damping), units.damping, wall_verdict(analysed.analysis));
   if (!wall->stable) {
-    return fmt::format("{}: the largest closed-loop pole has |z| = {:.6g}, so an oscillation grows by {} per sample.",
-                       text, wall->spectral_radius, percent(std::max(0.0, wall->spectral_radius - 1.0)));
+    return fmt::format("{}: an oscillation grows by {} % per sample.", text,
+                       number(100.0 * (wall->spectral_radius - 1.0)));
   }
   std::vector<std::string> margins;
   if (wall->gain_margin) {
