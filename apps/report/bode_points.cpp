@@ -56,8 +56,8 @@ DrawnResponse drawn_response(SampledPlant plant) {
   return {[plant = std::move(plant)](double frequency) { return response(plant, frequency); }, delay};
 }
 
-FrequencyRange default_range(const Device& device, std::span<const double> events) {
-  const double nyquist = pi / device.loop().sampling_period;
+FrequencyRange default_range(double period, std::span<const double> events) {
+  const double nyquist = pi / period;
   double lowest = nyquist;
   for (const double event : events) lowest = std::min(lowest, event);
   // Whole decades read best on a logarithmic axis.
@@ -82,7 +82,8 @@ std::vector<double> bode_frequencies(std::span<const DrawnResponse> responses, F
   std::vector<std::pair<double, double>> waiting;
   for (std::size_t i = 1; i < frequencies.size(); ++i) waiting.emplace_back(frequencies[i - 1], frequencies[i]);
   while (!waiting.empty() && frequencies.size() < most_frequencies) {
-    const auto [low, high] = waiting.back();
+    const double low = waiting.back().first;
+    const double high = waiting.back().second;
     waiting.pop_back();
     if (high / low - 1.0 < least_ratio) continue;
     const double middle = std::sqrt(low * high);
@@ -93,6 +94,12 @@ std::vector<double> bode_frequencies(std::span<const DrawnResponse> responses, F
     waiting.emplace_back(low, middle);
     waiting.emplace_back(middle, high);
   }
+  // At the pole of an undamped mode there is no value, at an undamped zero no decibel.
+  std::erase_if(frequencies, [&](double frequency) {
+    return std::any_of(responses.begin(), responses.end(), [&](const DrawnResponse& response) {
+      return !std::isfinite(decibels(response.value(frequency)));
+    });
+  });
   std::sort(frequencies.begin(), frequencies.end());
   return frequencies;
 }

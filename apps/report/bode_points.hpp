@@ -6,7 +6,6 @@
 #include <span>
 #include <vector>
 
-#include "zwidth/model/device.hpp"
 #include "zwidth/model/modal_form.hpp"
 #include "zwidth/sampling/sampled_plant.hpp"
 
@@ -30,9 +29,9 @@ struct FrequencyRange {
   double to = 0.0;    ///< rad/s, > from
 };
 
-/// The range that a figure shows unless told otherwise: a decade below the lowest event (crossover, mode) at most
-/// pi/(1000 T), up to Nyquist.
-[[nodiscard]] FrequencyRange default_range(const Device& device, std::span<const double> events);
+/// The range that a figure shows unless told otherwise: from a power of ten below every event (crossover, mode) and
+/// below pi/(1000 T), up to Nyquist.
+[[nodiscard]] FrequencyRange default_range(double period, std::span<const double> events);
 
 /// Frequencies at which a polyline through the responses is true to the eye: `points` per equal ratio, then halved
 /// wherever magnitude or phase bends, so that the peaks of resonances and antiresonances are met.

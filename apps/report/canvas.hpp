@@ -1,0 +1,74 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace zwidth::report {
+
+enum class FigureFormat { svg, png, pdf };
+
+/// The format that a file name asks for by its extension (any case), if it is one of figures.
+[[nodiscard]] std::optional<FigureFormat> figure_format(std::string_view path);
+
+enum class Anchor { left, centre, right };
+
+struct TextStyle {
+  Anchor anchor = Anchor::left;
+  double size = 13.0;  ///< px
+  std::string_view colour = "#1a1a1a";
+};
+
+struct LineStyle {
+  std::string_view colour = "#1a1a1a";
+  double width = 1.0;           ///< px
+  std::string_view dash = "1";  ///< a gnuplot dashtype; "1" is solid
+};
+
+/// A rectangle of the canvas, in px from its top left corner.
+struct Box {
+  double left = 0.0;
+  double right = 0.0;
+  double top = 0.0;
+  double bottom = 0.0;
+};
+
+/// A figure under construction: a gnuplot script laid out in px from the top left corner, so that what stands where is
+/// decided here and nothing overlaps by gnuplot's own choice. Text is drawn as it is: no markup, no escapes.
+class Canvas {
+ public:
+  Canvas(std::string title, double width, double height);
+
+  /// Drawn with the next plot, at px positions.
+  void text(double x, double y, std::string_view content, const TextStyle& style = {});
+  void line(double x1, double y1, double x2, double y2, const LineStyle& style);
+  void rectangle(const Box& box, std::string_view colour);
+
+  /// Appends gnuplot commands that prepare the next plot.
+  void commands(std::string_view text);
+
+  /// Draws one plot in `frame`: `what` follows gnuplot's `plot`. What text(), line() and commands() set up is spent.
+  void plot(const Box& frame, std::string_view what);
+
+  /// The picture's bytes, by gnuplot. Throws OutputFailed.
+  [[nodiscard]] std::string draw(FigureFormat format) const;
+
+  /// Width of text in px, on the safe side.
+  [[nodiscard]] static double text_width(std::string_view content, double size);
+
+  /// The text, or as much of its start as `room` px hold, with "…".
+  [[nodiscard]] static std::string fitted(std::string_view content, double size, double room);
+
+ private:
+  [[nodiscard]] std::string position(double x, double y) const;
+
+  std::string title_;
+  double width_;
+  double height_;
+  std::string script_;
+};
+
+/// "lc rgb ... lw ... dt ..." of a line style.
+[[nodiscard]] std::string gnuplot_line(const LineStyle& style);
+
+}  // namespace zwidth::report
