@@ -27,6 +27,8 @@ struct InputError {
 /// body.motor.damping=0.2, link.0.stiffness=..., link.stiffness=... where there is one link. VALUE is a TOML value; a
 /// bare word is taken as a string (loop.sensed=handle). A key that the file left out may be set.
 ///
+/// A device without a name takes that of the file; motion is linear unless given.
+///
 /// Never throws on any bytes. `source` names the text in errors.
 [[nodiscard]] tl::expected<Device, InputError> parse_device(std::string_view text, std::string_view source,
                                                             std::span<const std::string> overrides = {});
@@ -35,6 +37,12 @@ struct InputError {
 /// device_file_size_limit, or is not UTF-8 text.
 [[nodiscard]] tl::expected<Device, InputError> read_device_file(const std::string& path,
                                                                 std::span<const std::string> overrides = {});
+
+/// The device as TOML text that parse_device() reads back to exactly the same values.
+///
+/// Numbers have as many digits as that takes (at most 17). Throws Error (invalid_argument) where find_problem() finds
+/// one.
+[[nodiscard]] std::string write_device(const DeviceParameters& parameters);
 
 inline constexpr std::size_t device_file_size_limit = std::size_t{1} << 20;
 

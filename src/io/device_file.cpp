@@ -1,0 +1,214 @@
+#include "zwidth/io/device_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+#include <vector>
+
+#include "io/device_overrides.hpp"
+#include "io/device_reading.hpp"
+#include "io/key_suggestion.hpp"
+#include "io/prose.hpp"
+#include "io/toml_text.hpp"
+
+namespace zwidth {
+namespace {
+
+/// `mass`, or its alias `inertia` where the motion is rotary.
+std::string_view mass_key(TableReader& reader, Motion motion) {
+  if (!reader.has("inertia")) return "mass";
+  if (motion == Motion::linear) {
+    reader.refuse("inertia", "is for rotary motion", "must be \"mass\", or set motion = \"rotary\"");
+  } else if (reader.has("mass")) {
+    reader.refuse("inertia", "is given beside mass, which means the same", "must be one of the two");
+  }
+  return "inertia";
+}
+
+std::string bodies_remedy(const std::string& name, const std::vector<std::string>& names) {
+  const std::string meant = nearest_word(name, names);
+  return meant.empty() ? fmt::format("the bodies are {}", listed(names)) : fmt::format("did you mean \"{}\"?", meant);
+}
+
+/// Reads the tables of one document, in the order in which later ones need earlier ones.
+class DeviceReader {
+ public:
+  DeviceReader(DeviceReading& reading, const toml::table& document)
+      : reading_(reading), root_(reading, DeviceTable::root, document, "") {}
+
+  [[nodiscard]] DeviceParameters read(std::string_view source) && {
+    device_.name = root_.text("name").value_or(std::filesystem::path(source).stem().string());
+    read_motion();
+    read_bodies();
+    read_links();
+    read_transfer_function();
+    read_loop();
+    read_surroundings();
+    return std::move(device_);
+  }
+
+ private:
+  void read_motion() {
+    const auto motion = root_.text("motion");
+    if (motion == "rotary") device_.motion = Motion::rotary;
+    if (motion && motion != "linear" && motion != "rotary") {
+      root_.refuse("motion", fmt::format("is {}", in_quotes(*motion)), "must be \"linear\" or \"rotary\"");
+    }
+  }
+
+  void read_bodies() {
+    for (const toml::table* table : root_.tables(DeviceTable::body)) {
+      TableReader reader(reading_, DeviceTable::body, *table, fmt::format("body.{}", device_.bodies.size()));
+      if (!reader.has("name")) reader.refuse("name", "is missing", "must be given, text in quotes");
+      Body body;
+      body.name = reader.text("name").value_or("");
+      if (!body.name.empty()) reader.rename(fmt::format("body.{}", body.name));
+      body.mass = reader.required_number(mass_key(reader, device_.motion));
+      body.damping = reader.number("damping").value_or(0.0);
+      body.stiffness = reader.number("stiffness").value_or(0.0);
+      body.coulomb = reader.number("coulomb").value_or(0.0);
+      names_.push_back(body.name);
+      device_.bodies.push_back(std::move(body));
+    }
+  }
+
+  void read_links() {
+    for (const toml::table* table : root_.tables(DeviceTable::link)) {
+      TableReader reader(reading_, DeviceTable::link, *table, fmt::format("link.{}", device_.links.size()));
+      const auto between = reader.required_texts("between");
+      if (between.size() != 2) {
+        reader.refuse("between", fmt::format("names {} bodies", between.size()), "must name two bodies");
+      }
+      Link link;
+      if (between.size() == 2) {
+        link.first = body_index(reader, "between", between[0]);
+        link.second = body_index(reader, "between", between[1]);
+      }
+      link.stiffness = reader.number("stiffness").value_or(0.0);
+      link.damping = reader.number("damping").value_or(0.0);
+      if (!reader.has("stiffness") && !reader.has("damping")) {
+        reader.refuse("stiffness", "is missing", "must be given (or damping, or both), a number");
+      }
+      device_.links.push_back(link);
+    }
+  }
+
+  void read_transfer_function() {
+    const toml::table* table = root_.table(DeviceTable::transfer_function);
+    if (!table) return;
+    TableReader reader(reading_, DeviceTable::transfer_function, *table, "transfer_function");
+    device_.transfer_function = {reader.required_numbers("numerator"), reader.required_numbers("denominator")};
+    for (const std::string_view key : {"body", "link"}) {
+      if (root_.has(key)) {
+        root_.refuse(key, "stands beside [transfer_function]",
+                     "must be either bodies and links or a transfer function");
+      }
+    }
+    if (root_.has("operator")) {
+      root_.refuse("operator", "stands beside [transfer_function]", "an operator needs bodies: leave it out");
+    }
+  }
+
+  void read_loop() {
+    const toml::table* table = root_.table(DeviceTable::loop);
+    if (!table) {
+      if (!device_.bodies.empty() || device_.transfer_function) {
+        root_.refuse("loop", "is missing", "must be given, [loop] with sampling_period in seconds");
+      }
+      return;
+    }
+    TableReader reader(reading_, DeviceTable::loop, *table, "loop");
+    device_.loop.actuated = loop_body(reader, "actuated", 0);
+    device_.loop.sensed = loop_body(reader, "sensed", 0);
+    device_.loop.held = loop_body(reader, "held", device_.bodies.empty() ? 0 : device_.bodies.size() - 1);
+    device_.loop.sampling_period = reader.required_number("sampling_period");
+    device_.loop.delay = reader.number("delay").value_or(0.0);
+  }
+
+  void read_surroundings() {
+    if (const toml::table* table = root_.table(DeviceTable::actuator)) {
+      TableReader reader(reading_, DeviceTable::actuator, *table, "actuator");
+      device_.actuator.time_constant = reader.number("time_constant").value_or(0.0);
+      device_.actuator.force_limit = reader.number("force_limit");
+    }
+    if (const toml::table* table = root_.table(DeviceTable::sensor)) {
+      TableReader reader(reading_, DeviceTable::sensor, *table, "sensor");
+      device_.sensor.resolution = reader.number("resolution").value_or(0.0);
+    }
+    if (const toml::table* table = root_.table(DeviceTable::wall)) {
+      TableReader reader(reading_, DeviceTable::wall, *table, "wall");
+      device_.wall.stiffness = reader.number("stiffness");
+      device_.wall.damping = reader.number("damping").value_or(0.0);
+      device_.wall.velocity_filter_hz = reader.number("velocity_filter_hz").value_or(0.0);
+    }
+    if (const toml::table* table = root_.table(DeviceTable::user)) {
+      TableReader reader(reading_, DeviceTable::user, *table, "operator");
+      device_.user.mass = reader.number(mass_key(reader, device_.motion)).value_or(0.0);
+      device_.user.damping = reader.number("damping").value_or(0.0);
+      device_.user.stiffness = reader.number("stiffness").value_or(0.0);
+    }
+  }
+
+  std::size_t loop_body(TableReader& reader, std::string_view key, std::size_t otherwise) {
+    const auto name = reader.text(key);
+    if (!name) return otherwise;
+    if (device_.transfer_function) {
+      reader.refuse(key, "names a body beside [transfer_function]", "a transfer function has no bodies: leave it out");
+      return otherwise;
+    }
+    return body_index(reader, key, *name);
+  }
+
+  /// Index of the named body; 0 and a refusal where there is none.
+  std::size_t body_index(TableReader& reader, std::string_view key, const std::string& name) {
+    const auto found = std::ranges::find(names_, name);
+    if (found != names_.end()) return static_cast<std::size_t>(found - names_.begin());
+    // Without any body the device is refused for that.
+    if (!names_.empty())
+      reader.refuse(key, fmt::format("there is no body {}", in_quotes(name)), bodies_remedy(name, names_));
+    return 0;
+  }
+
+  DeviceReading& reading_;
+  TableReader root_;
+  DeviceParameters device_;
+  std::vector<std::string> names_;
+};
+
+}  // namespace
+
+std::string InputError::str() const {
+  std::string line_of_text = source;
+  if (line > 0) line_of_text += fmt::format(":{}:{}", line, column);
+  line_of_text += ": ";
+  if (!key.empty()) line_of_text += key + ": ";
+  line_of_text += what;
+  if (!allowed.empty()) line_of_text += "; " + allowed;
+  // Names come from the file: nothing in them may break the line or reach the terminal as a control sequence.
+  std::string result;
+  for (const char c : line_of_text) {
+    const auto byte = static_cast<unsigned char>(c);
+    result += byte < 0x20 || byte == 0x7f ? fmt::format("\\x{:02X}", byte) : std::string(1, c);
+  }
+  return result;
+}
+
+tl::expected<Device, InputError> parse_device(std::string_view text, std::string_view source,
+                                              std::span<const std::string> overrides) {
+  auto document = parse_toml(text, source);
+  if (!document) return tl::unexpected(std::move(document.error()));
+  for (const std::string& assignment : overrides) {
+    if (auto error = apply_override(*document, assignment)) return tl::unexpected(std::move(*error));
+  }
+  DeviceReading reading(source);
+  DeviceParameters parameters = DeviceReader(reading, *document).read(source);
+  if (!reading.error()) {
+    if (const auto problem = find_problem(parameters)) reading.refuse(*problem);
+  }
+  if (reading.error()) return tl::unexpected(*reading.error());
+  return Device(std::move(parameters));
+}
+
+}  // namespace zwidth

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace zwidth {
+
+/// The tables of a device file.
+enum class DeviceTable { root, body, link, loop, actuator, sensor, wall, user, transfer_function };
+
+/// Every key that may stand in the table.
+[[nodiscard]] std::span<const std::string> keys_of(DeviceTable table);
+
+/// Name of the table's key in the root: "body", "operator"; empty for the root.
+[[nodiscard]] std::string_view name_of(DeviceTable table);
+
+/// How the table is written in a file: "[[body]]", "[loop]".
+[[nodiscard]] std::string header_of(DeviceTable table);
+
+[[nodiscard]] bool is_key_of(DeviceTable table, std::string_view key);
+
+/// What to do about a key that does not stand in the table: the key that was meant, the table where it belongs, or the
+/// list of keys.
+[[nodiscard]] std::string remedy_for_unknown_key(DeviceTable table, std::string_view key);
+
+}  // namespace zwidth

@@ -1,0 +1,177 @@
+#include "io/device_overrides.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <utility>
+#include <vector>
+
+#include "io/device_keys.hpp"
+#include "io/device_reading.hpp"
+#include "io/key_suggestion.hpp"
+#include "io/prose.hpp"
+#include "io/toml_text.hpp"
+
+namespace zwidth {
+namespace {
+
+InputError refusal(std::string_view key, std::string what, std::string allowed) {
+  return {.source = std::string(override_source),
+          .line = 0,
+          .column = 0,
+          .key = std::string(key),
+          .what = std::move(what),
+          .allowed = std::move(allowed)};
+}
+
+/// Where an override goes: a table of the document (null: the document is malformed there) and a key in it.
+struct Target {
+  toml::table* table = nullptr;
+  std::string key;
+};
+
+std::optional<std::size_t> as_index(std::string_view text) {
+  std::size_t index = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), index);
+  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return index;
+}
+
+std::string_view trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+std::vector<std::string> names_in(const toml::array& tables) {
+  std::vector<std::string> names;
+  for (const toml::node& element : tables) {
+    const toml::table* table = element.as_table();
+    const toml::node* name = table ? table->get("name") : nullptr;
+    names.push_back(name && name->is_string() ? name->as_string()->get() : std::string{});
+  }
+  return names;
+}
+
+/// Which of the [[tables]] `selector` means: a body's name, an index, or nothing where there is one table.
+tl::expected<std::size_t, InputError> selected(const toml::array& tables, DeviceTable kind, std::string_view selector,
+                                               std::string_view whole_key) {
+  const auto names = names_in(tables);
+  if (kind == DeviceTable::body && !selector.empty()) {
+    const auto named = std::ranges::find(names, selector);
+    if (named != names.end()) return static_cast<std::size_t>(named - names.begin());
+  }
+  if (const auto index = as_index(selector); index && *index < tables.size()) return *index;
+  if (selector.empty() && tables.size() == 1) return 0;
+
+  const std::string kind_name(name_of(kind));
+  if (selector.empty()) {
+    return tl::unexpected(refusal(whole_key, fmt::format("could be any of {} {}s", tables.size(), kind_name),
+                                  fmt::format("write {}.0.{}", kind_name, whole_key.substr(kind_name.size() + 1))));
+  }
+  const std::string meant = kind == DeviceTable::body ? nearest_word(selector, names) : std::string{};
+  std::string allowed = fmt::format("{}s are counted from 0 to {}", kind_name, tables.size() - 1);
+  if (!meant.empty()) {
+    allowed = fmt::format("did you mean \"{}\"?", meant);
+  } else if (kind == DeviceTable::body) {
+    allowed = fmt::format("the bodies are {}", listed(names));
+  }
+  return tl::unexpected(refusal(whole_key, fmt::format("there is no {} {}", kind_name, in_quotes(selector)), allowed));
+}
+
+/// Resolves body.NAME.key, body.0.key, link.0.key, link.key.
+tl::expected<Target, InputError> target_in_tables(toml::table& document, DeviceTable kind, std::string_view path,
+                                                  std::string_view whole_key) {
+  const auto dot = path.rfind('.');  // body names may contain dots, keys do not
+  const std::string_view selector = dot == std::string_view::npos ? std::string_view{} : path.substr(0, dot);
+  const std::string_view key = dot == std::string_view::npos ? path : path.substr(dot + 1);
+  if (!is_key_of(kind, key)) {
+    return tl::unexpected(
+        refusal(whole_key, fmt::format("unknown key {}", in_quotes(key)), remedy_for_unknown_key(kind, key)));
+  }
+  toml::node* node = document.get(name_of(kind));
+  if (!node) {
+    return tl::unexpected(refusal(whole_key, fmt::format("the device has no {}", header_of(kind)),
+                                  "an override changes what the file has; it adds no body or link"));
+  }
+  toml::array* tables = node->as_array();
+  if (!tables || tables->empty()) return Target{};
+  const auto index = selected(*tables, kind, selector, whole_key);
+  if (!index) return tl::unexpected(index.error());
+  return Target{tables->get_as<toml::table>(*index), std::string(key)};
+}
+
+/// Resolves loop.delay and the like, making the table where the file left it out.
+tl::expected<Target, InputError> target_in_table(toml::table& document, DeviceTable kind, std::string_view key,
+                                                 std::string_view whole_key) {
+  if (!is_key_of(kind, key)) {
+    return tl::unexpected(
+        refusal(whole_key, fmt::format("unknown key {}", in_quotes(key)), remedy_for_unknown_key(kind, key)));
+  }
+  const std::string_view name = name_of(kind);
+  toml::node* node = document.get(name);
+  if (!node) node = &document.insert_or_assign(toml::key(name, override_region()), toml::table{}).first->second;
+  return Target{node->as_table(), std::string(key)};
+}
+
+tl::expected<Target, InputError> find_target(toml::table& document, std::string_view whole_key) {
+  const auto dot = whole_key.find('.');
+  const std::string_view first = whole_key.substr(0, dot);
+  if (!is_key_of(DeviceTable::root, first)) {
+    return tl::unexpected(refusal(whole_key, fmt::format("unknown key {}", in_quotes(first)),
+                                  remedy_for_unknown_key(DeviceTable::root, first)));
+  }
+  if (dot == std::string_view::npos) return Target{&document, std::string(first)};
+  const std::string_view rest = whole_key.substr(dot + 1);
+  for (const DeviceTable kind : {DeviceTable::body, DeviceTable::link}) {
+    if (first == name_of(kind)) return target_in_tables(document, kind, rest, whole_key);
+  }
+  for (const DeviceTable kind : {DeviceTable::loop, DeviceTable::actuator, DeviceTable::sensor, DeviceTable::wall,
+                                 DeviceTable::user, DeviceTable::transfer_function}) {
+    if (first == name_of(kind)) return target_in_table(document, kind, rest, whole_key);
+  }
+  return tl::unexpected(refusal(whole_key, fmt::format("{} is one value, not a table", in_quotes(first)),
+                                fmt::format("write {}=VALUE", first)));
+}
+
+/// A TOML document with the one key "value", or why the text is no TOML value.
+tl::expected<toml::table, InputError> parse_value(std::string_view key, std::string_view text) {
+  auto document = parse_toml(fmt::format("value = {}", text), override_source);
+  // A bare word is text: it starts like a word, which no number, array or quoted text does.
+  const auto first = text.empty() ? '\0' : text.front();
+  const bool is_word =
+      (first >= 'a' && first <= 'z') || (first >= 'A' && first <= 'Z') || first == '_' || (first & 0x80);
+  if (!document && is_word && text.find_first_of("\"\\") == std::string_view::npos) {
+    document = parse_toml(fmt::format("value = \"{}\"", text), override_source);
+  }
+  if (!document || document->size() != 1) {
+    return tl::unexpected(refusal(key, fmt::format("cannot read the value {}", in_quotes(text)),
+                                  "must be a TOML value such as 0.25e-3, \"handle\" or [1, 2]"));
+  }
+  return std::move(*document);
+}
+
+}  // namespace
+
+std::optional<InputError> apply_override(toml::table& document, const std::string& assignment) {
+  const std::string_view whole = assignment;
+  const auto equals = whole.find('=');
+  const std::string_view key = trimmed(whole.substr(0, equals));
+  if (equals == std::string_view::npos || key.empty()) {
+    return refusal("", fmt::format("{} is not KEY=VALUE", in_quotes(whole)), "write for instance loop.delay=0.25e-3");
+  }
+  auto value = parse_value(key, trimmed(whole.substr(equals + 1)));
+  if (!value) return value.error();
+  const auto target = find_target(document, key);
+  if (!target) return target.error();
+  if (!target->table) return std::nullopt;
+  // mass and inertia are one quantity: the override replaces whichever the file gave.
+  if (target->key == "mass") target->table->erase("inertia");
+  if (target->key == "inertia") target->table->erase("mass");
+  value->get("value")->visit(
+      [&](auto& node) { target->table->insert_or_assign(toml::key(target->key, override_region()), std::move(node)); });
+  return std::nullopt;
+}
+
+}  // namespace zwidth

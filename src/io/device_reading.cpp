@@ -1,0 +1,173 @@
+#include "io/device_reading.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "io/prose.hpp"
+
+namespace zwidth {
+namespace {
+
+std::string description(const toml::node& node) {
+  if (const auto* text = node.as_string()) return fmt::format("is the text {}", in_quotes(text->get()));
+  if (const auto* number = node.as_integer()) return fmt::format("is the number {}", number->get());
+  if (const auto* number = node.as_floating_point()) return fmt::format("is the number {}", number->get());
+  if (const auto* truth = node.as_boolean()) return truth->get() ? "is true" : "is false";
+  if (node.is_array()) return "is an array";
+  if (node.is_table()) return "is a table";
+  return "is a date or time";
+}
+
+std::optional<double> as_number(const toml::node& node) {
+  if (const auto* number = node.as_floating_point()) return number->get();
+  if (const auto* number = node.as_integer()) return static_cast<double>(number->get());
+  return std::nullopt;
+}
+
+/// The key of the table that holds `key`: body names may contain dots, which only adds a look-up or two.
+std::string parent(const std::string& key) {
+  const auto dot = key.rfind('.');
+  return dot == std::string::npos ? std::string{} : key.substr(0, dot);
+}
+
+}  // namespace
+
+void DeviceReading::refuse(const toml::source_region& place, std::string key, std::string what, std::string allowed) {
+  if (error_) return;
+  const bool overridden = place.path && *place.path == override_source;
+  error_ = {.source = overridden ? std::string(override_source) : source_,
+            .line = overridden ? 0 : std::max<std::size_t>(1, place.begin.line),
+            .column = overridden ? 0 : std::max<std::size_t>(1, place.begin.column),
+            .key = std::move(key),
+            .what = std::move(what),
+            .allowed = std::move(allowed)};
+}
+
+void DeviceReading::refuse(const DeviceProblem& problem) {
+  std::string key = problem.key;
+  auto found = places_.find(key);
+  while (found == places_.end() && !key.empty()) {
+    key = parent(key);
+    found = places_.find(key);
+  }
+  refuse(found == places_.end() ? toml::source_region{} : found->second, problem.key, problem.what, problem.allowed);
+}
+
+TableReader::TableReader(DeviceReading& reading, DeviceTable kind, const toml::table& table, std::string key)
+    : reading_(reading), table_(table) {
+  rename(std::move(key));
+  for (const auto& [name, node] : table) {
+    if (is_key_of(kind, name.str())) continue;
+    reading_.refuse(name.source(), key_, fmt::format("unknown key {}", in_quotes(name.str())),
+                    remedy_for_unknown_key(kind, name.str()));
+  }
+}
+
+void TableReader::rename(std::string key) {
+  key_ = std::move(key);
+  reading_.note_place(key_, table_.source());
+}
+
+std::string TableReader::full_key(std::string_view key) const {
+  return key_.empty() ? std::string(key) : fmt::format("{}.{}", key_, key);
+}
+
+const toml::node* TableReader::find(std::string_view key) {
+  const toml::node* node = table_.get(key);
+  if (node) reading_.note_place(full_key(key), node->source());
+  return node;
+}
+
+void TableReader::refuse(std::string_view key, std::string what, std::string allowed) {
+  const toml::node* node = table_.get(key);
+  reading_.refuse(node ? node->source() : table_.source(), full_key(key), std::move(what), std::move(allowed));
+}
+
+void TableReader::refuse_type(const toml::node& node, std::string_view key, std::string_view allowed) {
+  reading_.refuse(node.source(), full_key(key), description(node), std::string(allowed));
+}
+
+std::optional<double> TableReader::number(std::string_view key) {
+  const toml::node* node = find(key);
+  if (!node) return std::nullopt;
+  const auto value = as_number(*node);
+  if (!value) refuse_type(*node, key, "must be a number");
+  return value;
+}
+
+double TableReader::required_number(std::string_view key) {
+  if (!has(key)) refuse(key, "is missing", "must be given, a number");
+  return number(key).value_or(0.0);
+}
+
+std::optional<std::string> TableReader::text(std::string_view key) {
+  const toml::node* node = find(key);
+  if (!node) return std::nullopt;
+  if (const auto* text = node->as_string()) return text->get();
+  refuse_type(*node, key, "must be text in quotes");
+  return std::nullopt;
+}
+
+const toml::array* TableReader::required_array(std::string_view key, std::string_view allowed) {
+  const toml::node* node = find(key);
+  if (!node) {
+    refuse(key, "is missing", fmt::format("must be given, {}", allowed));
+    return nullptr;
+  }
+  if (!node->is_array()) refuse_type(*node, key, fmt::format("must be {}", allowed));
+  return node->as_array();
+}
+
+std::vector<double> TableReader::required_numbers(std::string_view key) {
+  std::vector<double> numbers;
+  const toml::array* array = required_array(key, "an array of numbers");
+  if (!array) return numbers;
+  for (const toml::node& element : *array) {
+    const auto value = as_number(element);
+    if (!value) refuse_type(element, key, "every element must be a number");
+    numbers.push_back(value.value_or(0.0));
+  }
+  return numbers;
+}
+
+std::vector<std::string> TableReader::required_texts(std::string_view key) {
+  std::vector<std::string> texts;
+  const toml::array* array = required_array(key, "an array of two body names");
+  if (!array) return texts;
+  for (const toml::node& element : *array) {
+    const auto* text = element.as_string();
+    if (!text) refuse_type(element, key, "every element must be text in quotes");
+    texts.push_back(text ? text->get() : std::string{});
+  }
+  return texts;
+}
+
+const toml::table* TableReader::table(DeviceTable kind) {
+  const toml::node* node = find(name_of(kind));
+  if (!node) return nullptr;
+  if (!node->is_table()) refuse_type(*node, name_of(kind), fmt::format("must be a table, {}", header_of(kind)));
+  return node->as_table();
+}
+
+std::vector<const toml::table*> TableReader::tables(DeviceTable kind) {
+  std::vector<const toml::table*> result;
+  const toml::node* node = find(name_of(kind));
+  if (!node) return result;
+  const std::string allowed = fmt::format("must be tables, {}", header_of(kind));
+  if (!node->is_array()) {
+    refuse_type(*node, name_of(kind), allowed);
+    return result;
+  }
+  for (const toml::node& element : *node->as_array()) {
+    if (element.is_table()) {
+      result.push_back(element.as_table());
+    } else {
+      refuse_type(element, name_of(kind), allowed);
+    }
+  }
+  return result;
+}
+
+}  // namespace zwidth

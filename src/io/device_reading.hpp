@@ -1,0 +1,74 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/device_keys.hpp"
+#include "io/toml.hpp"
+#include "zwidth/io/device_file.hpp"
+
+namespace zwidth {
+
+/// Source of everything that comes from an override, as shown in errors and as path of its TOML nodes.
+inline constexpr std::string_view override_source = "--set";
+
+/// One reading of a device file: the first thing wrong with it, and where each of its keys stands.
+///
+/// Reading goes on after a refusal (its result is thrown away), so that readers need no error path of their own.
+class DeviceReading {
+ public:
+  explicit DeviceReading(std::string_view source) : source_(source) {}
+
+  /// Keeps the first refusal only.
+  void refuse(const toml::source_region& place, std::string key, std::string what, std::string allowed);
+  void note_place(const std::string& key, const toml::source_region& place) { places_.emplace(key, place); }
+
+  /// Refuses what find_problem() found, at the place of its key or of the table that lacks it.
+  void refuse(const DeviceProblem& problem);
+
+  [[nodiscard]] const std::optional<InputError>& error() const noexcept { return error_; }
+
+ private:
+  std::string source_;
+  std::map<std::string, toml::source_region> places_;
+  std::optional<InputError> error_;
+};
+
+/// Typed access to the keys of one table; what is not as it must be is refused in the reading.
+class TableReader {
+ public:
+  /// Refuses every key that does not belong in the table. `key` is the table's own key, as in --set.
+  TableReader(DeviceReading& reading, DeviceTable kind, const toml::table& table, std::string key);
+
+  /// From now on keys are reported below `key`.
+  void rename(std::string key);
+
+  [[nodiscard]] bool has(std::string_view key) const { return table_.contains(key); }
+  [[nodiscard]] std::optional<double> number(std::string_view key);
+  [[nodiscard]] double required_number(std::string_view key);
+  [[nodiscard]] std::optional<std::string> text(std::string_view key);
+  /// All elements, each required to be what the name says; empty (and refused) when the key is missing.
+  [[nodiscard]] std::vector<double> required_numbers(std::string_view key);
+  [[nodiscard]] std::vector<std::string> required_texts(std::string_view key);
+  /// The table of that kind below this one, or null.
+  [[nodiscard]] const toml::table* table(DeviceTable kind);
+  /// The [[tables]] of that kind below this one, in order.
+  [[nodiscard]] std::vector<const toml::table*> tables(DeviceTable kind);
+
+  void refuse(std::string_view key, std::string what, std::string allowed);
+
+ private:
+  [[nodiscard]] const toml::node* find(std::string_view key);
+  [[nodiscard]] const toml::array* required_array(std::string_view key, std::string_view allowed);
+  [[nodiscard]] std::string full_key(std::string_view key) const;
+  void refuse_type(const toml::node& node, std::string_view key, std::string_view allowed);
+
+  DeviceReading& reading_;
+  const toml::table& table_;
+  std::string key_;
+};
+
+}  // namespace zwidth

@@ -1,0 +1,66 @@
+#include "io/toml_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "io/device_reading.hpp"
+
+namespace zwidth {
+namespace {
+
+// Each dot of a key may open a table in a table, and their destructors recurse; a line of a device file has few.
+constexpr std::ptrdiff_t most_dots_in_line = 200;
+
+struct Line {
+  std::size_t number = 1;
+  std::size_t column = 1;
+};
+
+std::optional<InputError> problem_of_text(std::string_view text, std::string_view source) {
+  const auto refusal = [&](Line line, std::string what, std::string allowed) {
+    return InputError{std::string(source), line.number, line.column, "", std::move(what), std::move(allowed)};
+  };
+  std::size_t number = 1;
+  for (std::size_t begin = 0; begin <= text.size(); ++number) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    const std::string_view line = text.substr(begin, end - begin);
+    if (const auto nul = line.find('\0'); nul != std::string_view::npos) {
+      return refusal({number, nul + 1}, "is not a text file: it has a zero byte", "must be a device file in TOML");
+    }
+    if (std::ranges::count(line, '.') > most_dots_in_line) {
+      return refusal({number, 1}, fmt::format("the line has more than {} dots", most_dots_in_line),
+                     "break it into several lines");
+    }
+    begin = end + 1;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+tl::expected<toml::table, InputError> parse_toml(std::string_view text, std::string_view source) {
+  if (auto problem = problem_of_text(text, source)) return tl::unexpected(std::move(*problem));
+  toml::parse_result parsed = toml::parse(text, source);
+  if (parsed.failed()) {
+    const toml::parse_error& error = parsed.error();
+    return tl::unexpected(InputError{.source = std::string(source),
+                                     .line = std::max<std::size_t>(1, error.source().begin.line),
+                                     .column = std::max<std::size_t>(1, error.source().begin.column),
+                                     .key = "",
+                                     .what = std::string(error.description()),
+                                     .allowed = "must be TOML"});
+  }
+  return std::move(parsed).table();
+}
+
+toml::source_region override_region() {
+  static const auto path = std::make_shared<const std::string>(override_source);
+  return {.begin = {}, .end = {}, .path = path};
+}
+
+}  // namespace zwidth
