@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
 #include <numbers>
+#include <optional>
 
 #include "report/explanation.hpp"
 #include "report/quantity.hpp"
@@ -12,23 +14,22 @@ namespace zwidth::report {
 namespace {
 
 constexpr std::size_t width = 100;
-constexpr std::size_t name_width = 30;
+constexpr std::size_t column_name_width = 26;
 using Align = TextTable::Align;
 
-std::string paragraph(std::string_view text) { return wrap(text, width, 0) + "\n"; }
+std::string paragraph(const std::optional<std::string>& text) { return text ? wrap(*text, width, 0) + "\n" : ""; }
 
-std::string paragraph(const std::optional<std::string>& text) { return text ? paragraph(*text) : ""; }
-
-std::string labelled(std::string_view label, std::string_view text) {
-  static constexpr std::size_t label_width = 22;
-  std::string lines = wrap(text, width, label_width);
-  return lines.replace(0, label.size(), label);
+/// Wrapped text that starts on the line of its label, all of it `indent` in.
+std::string labelled(std::string_view label, std::string_view text, std::size_t indent = 22) {
+  return wrap(text, width, indent).replace(0, label.size(), label);
 }
 
+/// What the closed-loop poles do at the unit circle as K rises through a crossover.
 std::string effect_of(int poles_leaving) {
-  if (poles_leaving > 0) return fmt::format("{} pole{} out", poles_leaving, poles_leaving == 1 ? "" : "s");
-  if (poles_leaving < 0) return fmt::format("{} pole{} in", -poles_leaving, poles_leaving == -1 ? "" : "s");
-  return "touches";
+  if (poles_leaving == 0) return "touches";
+  const char* verb = poles_leaving > 0 ? "leave" : "return";
+  const int count = std::abs(poles_leaving);
+  return count == 1 ? fmt::format("1 pole {}s", verb) : fmt::format("{} poles {}", count, verb);
 }
 
 std::string short_name(const Mechanism& mechanism) {
@@ -40,10 +41,11 @@ std::string crossover_table(const AnalysedDevice& analysed) {
   const double period = analysed.device.loop().sampling_period;
   const double nyquist = std::numbers::pi / period;
   const std::string title =
-      fmt::format("Phase crossovers, all up to the Nyquist frequency of {}", quantity(0.5 / period, "Hz"));
+      fmt::format("Phase crossovers (a closed-loop pole is on the unit circle), all up to the Nyquist frequency of {}",
+                  quantity(0.5 / period, "Hz"));
   if (critical.crossovers.empty()) return title + ": none\n\n";
   TextTable table{{Align::right, Align::right, Align::right, Align::right, Align::left, Align::left, Align::left},
-                  {{"frequency", "rad/s", "stiffness", "dB", "belongs to", "K rising", ""}}};
+                  {{"frequency", "rad/s", "stiffness", "dB", "belongs to", "as K rises", ""}}};
   for (const Crossover& crossover : critical.crossovers) {
     const bool is_limit = critical.limit && critical.limit->frequency == crossover.frequency;
     const char* remark = is_limit ? "<- limits" : crossover.frequency >= nyquist ? "Nyquist" : "";
@@ -75,7 +77,7 @@ std::string mode_table(const AnalysedDevice& analysed) {
 
 std::string name_of(const AnalysedDevice& analysed, std::size_t longest) {
   const std::string& name = analysed.device.name();
-  return name.empty() ? "(unnamed device)" : one_line(name, longest);
+  return name.empty() ? "(unnamed device)" : shortened(name, longest);
 }
 
 std::string answer_lines(const AnalysedDevice& analysed) {
@@ -91,12 +93,21 @@ std::string answer_lines(const AnalysedDevice& analysed) {
   return text + "\n";
 }
 
+std::string bullets(const std::vector<std::string>& texts) {
+  std::string lines;
+  for (const std::string& text : texts) lines += labelled("  - ", text, 4);
+  return lines;
+}
+
+std::string wall_section(const AnalysedDevice& analysed) {
+  const auto verdict = wall_note(analysed);
+  return verdict ? wrap(*verdict, width, 0) + bullets(wall_margin_notes(analysed.analysis)) + "\n" : "";
+}
+
 std::string full_answer(const AnalysedDevice& analysed) {
-  std::string text = answer_lines(analysed) + paragraph(meaning(analysed)) + paragraph(wall_note(analysed)) +
-                     crossover_table(analysed) + mode_table(analysed) + paragraph(rigid_model_note(analysed)) +
-                     paragraph(q_criterion_note(analysed)) + "What these numbers leave out\n";
-  for (const std::string& caveat : caveats(analysed)) text += wrap("- " + caveat, width, 2);
-  return text;
+  return answer_lines(analysed) + paragraph(meaning(analysed)) + wall_section(analysed) + crossover_table(analysed) +
+         mode_table(analysed) + paragraph(rigid_model_note(analysed)) + paragraph(q_criterion_note(analysed)) +
+         "What these numbers leave out\n" + bullets(caveats(analysed));
 }
 
 std::string rigid_cell(const AnalysedDevice& analysed) {
@@ -112,11 +123,12 @@ std::string rigid_cell(const AnalysedDevice& analysed) {
 }
 
 std::string comparison_table(std::span<const AnalysedDevice> devices) {
-  TextTable table{{Align::left, Align::right, Align::right, Align::right, Align::left, Align::right, Align::left},
-                  {{"device", "K_CR", "dB", "frequency", "limited by", "rigid model", "wall"}}};
+  TextTable table{
+      {Align::right, Align::left, Align::right, Align::right, Align::right, Align::left, Align::right, Align::left},
+      {{"", "device", "K_CR", "dB", "frequency", "limited by", "rigid model", "wall"}}};
   for (const AnalysedDevice& each : devices) {
     const CriticalStiffness& critical = each.analysis.critical;
-    std::vector<std::string> row = {name_of(each, name_width)};
+    std::vector<std::string> row = {std::to_string(table.rows.size()), name_of(each, column_name_width)};
     if (critical.limit) {
       row.insert(row.end(), {quantity(critical.stiffness, units_of(each.device.parameters().motion).stiffness),
                              fmt::format("{:.2f}", decibels(critical.stiffness)),
@@ -133,7 +145,7 @@ std::string comparison_table(std::span<const AnalysedDevice> devices) {
 }
 
 std::string short_answer(const AnalysedDevice& analysed) {
-  return answer_lines(analysed) + paragraph(meaning(analysed)) + paragraph(wall_note(analysed)) +
+  return answer_lines(analysed) + paragraph(meaning(analysed)) + wall_section(analysed) +
          paragraph(rigid_model_note(analysed));
 }
 
@@ -142,7 +154,7 @@ std::string short_answer(const AnalysedDevice& analysed) {
 std::string analysis_text(std::span<const AnalysedDevice> devices) {
   if (devices.size() == 1) return full_answer(devices.front());
   std::string text = comparison_table(devices);
-  for (const AnalysedDevice& each : devices) text += short_answer(each);
+  for (std::size_t i = 0; i < devices.size(); ++i) text += fmt::format("{}. {}", i + 1, short_answer(devices[i]));
   text += "Each device alone (zwidth analyze FILE) gives its crossovers, modes and what the numbers leave out.\n";
   return text;
 }

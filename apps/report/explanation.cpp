@@ -44,7 +44,7 @@ std::string virtual_damper_text(const AnalysedDevice& analysed) {
   if (wall.damping <= 0.0) return {};
   std::string text = fmt::format("the virtual damper of {} {}", number(wall.damping), device_units(analysed).damping);
   if (wall.velocity_filter_hz > 0.0) {
-    text += fmt::format(" behind a velocity low-pass of {}", quantity(wall.velocity_filter_hz, "Hz"));
+    text += fmt::format(" (velocity low-pass at {})", quantity(wall.velocity_filter_hz, "Hz"));
   }
   return text;
 }
@@ -58,12 +58,10 @@ bool is_undamped_against_ground(const DeviceParameters& device) {
 
 std::string percent(double fraction) { return number(std::round(1000.0 * fraction) / 10.0) + " %"; }
 
-std::string what_stays_open(const std::vector<std::string>& higher) {
+std::string other_intervals(const AnalysedDevice& analysed) {
+  const auto higher = higher_intervals(analysed);
   if (higher.empty()) return {};
-  return fmt::format(
-      " The loop is stable again for stiffnesses {}: a wall switched on passes through softer contact, "
-      "so do not rely on it.",
-      fmt::join(higher, ", and "));
+  return fmt::format(" Stiffnesses {} are stable too, with an unstable range below.", fmt::join(higher, ", and "));
 }
 
 }  // namespace
@@ -86,14 +84,15 @@ std::optional<std::string> what_limits(const AnalysedDevice& analysed) {
   if (!limit) return std::nullopt;
   const DeviceParameters& device = parameters_of(analysed);
   std::vector<std::string> causes = {
-      fmt::format("the delay of sampling and hold (T/2 = {})", quantity(device.loop.sampling_period / 2.0, "s"))};
+      fmt::format("the sampling delay of T/2 = {}", quantity(device.loop.sampling_period / 2.0, "s"))};
   if (device.loop.delay > 0.0) causes.push_back(fmt::format("the added delay of {}", quantity(device.loop.delay, "s")));
   if (device.actuator.time_constant > 0.0) {
     causes.push_back(fmt::format("the actuator's lag of {}", quantity(device.actuator.time_constant, "s")));
   }
-  const std::string name = mechanism_name(analysed.analysis, limit->limited_by);
-  return causes.size() == 1 ? fmt::format("{} and {}", name, causes.front())
-                            : fmt::format("{}, {}", name, fmt::join(causes, ", "));
+  const std::string last = causes.back();
+  causes.pop_back();
+  causes.insert(causes.begin(), mechanism_name(analysed.analysis, limit->limited_by));
+  return fmt::format("{} and {}", fmt::join(causes, ", "), last);
 }
 
 std::string critical_stiffness_text(const CriticalStiffness& critical, Motion motion) {
@@ -114,36 +113,30 @@ std::string critical_stiffness_text(const CriticalStiffness& critical, Motion mo
 std::string meaning(const AnalysedDevice& analysed) {
   const CriticalStiffness& critical = analysed.analysis.critical;
   const std::string damper = virtual_damper_text(analysed);
-  const std::string with_damper = damper.empty() ? "" : " with " + damper + " closed";
-  const auto higher = higher_intervals(analysed);
-  switch (critical.status) {
-    case StiffnessStatus::finite: {
-      const std::string limit = stiffness_text(analysed, critical.stiffness);
-      const double nyquist = std::numbers::pi / parameters_of(analysed).loop.sampling_period;
-      const bool at_nyquist = critical.limit && critical.limit->frequency >= nyquist;
-      return fmt::format(
-                 "Every wall softer than {} is stable{}. A stiffer one makes the device oscillate by itself, at "
-                 "about {}{} when just above.",
-                 limit, with_damper, critical.limit ? quantity(hertz(critical.limit->frequency), "Hz") : "?",
-                 at_nyquist ? " (the Nyquist frequency: the force alternates at every sample)" : "") +
-             what_stays_open(higher);
-    }
-    case StiffnessStatus::none_stable: {
-      std::string text = fmt::format("The loop is unstable{} for an arbitrarily small wall stiffness.", with_damper);
-      if (is_undamped_against_ground(parameters_of(analysed))) {
-        text +=
-            " Nothing damps the device against ground, so the delay of sampling alone drives it: give the bodies "
-            "their damping, or the wall a virtual damper.";
-      }
-      return text + what_stays_open(higher);
-    }
-    case StiffnessStatus::unbounded:
-      break;
+  const std::string condition = damper.empty() ? "" : fmt::format("With {} closed, ", damper);
+  if (critical.status == StiffnessStatus::unbounded) {
+    return condition + (condition.empty() ? "No" : "no") +
+           " wall stiffness makes the loop unstable; it has no phase crossover up to the Nyquist frequency. No real "
+           "device does this: check the file for something left out.";
   }
-  return fmt::format(
-      "No wall stiffness makes the loop unstable{}: it has no phase crossover up to the Nyquist "
-      "frequency. No real device does this; check the file for something left out.",
-      with_damper);
+  if (critical.status == StiffnessStatus::none_stable || !critical.limit) {
+    std::string text =
+        condition + (condition.empty() ? "The" : "the") + " loop is unstable for an arbitrarily small wall stiffness.";
+    if (is_undamped_against_ground(parameters_of(analysed))) {
+      text +=
+          " Nothing damps the device against ground, so the delay of sampling alone drives it: give the bodies "
+          "their damping, or the wall a virtual damper.";
+    }
+    return text + other_intervals(analysed);
+  }
+  const double nyquist = std::numbers::pi / parameters_of(analysed).loop.sampling_period;
+  return fmt::format("{}{} wall softer than {} is stable. Just above, the device oscillates by itself at about {}{}.",
+                     condition, condition.empty() ? "Every" : "every", stiffness_text(analysed, critical.stiffness),
+                     quantity(hertz(critical.limit->frequency), "Hz"),
+                     critical.limit->frequency < nyquist
+                         ? ""
+                         : ", the Nyquist frequency: the force alternates at every sample") +
+         other_intervals(analysed);
 }
 
 std::optional<std::string> rigid_model_note(const AnalysedDevice& analysed) {
@@ -210,21 +203,30 @@ std::optional<std::string> wall_note(const AnalysedDevice& analysed) {
   const auto& wall = analysed.analysis.wall;
   if (!wall) return std::nullopt;
   const Units units = device_units(analysed);
-  const std::string text = fmt::format("The wall of {} and {} {} is {}", quantity(wall->stiffness, units.stiffness),
-                                       number(wall->damping), units.damping, wall_verdict(analysed.analysis));
-  if (!wall->stable) {
-    return fmt::format("{}: an oscillation grows by {} % per sample.", text,
-                       number(100.0 * (wall->spectral_radius - 1.0)));
-  }
+  const CriticalStiffness& critical = analysed.analysis.critical;
+  const std::string share =
+      critical.status == StiffnessStatus::finite
+          ? fmt::format(" ({} of the critical stiffness)", percent(wall->stiffness / critical.stiffness))
+          : "";
+  const std::string text = fmt::format("The wall of {} and {} {}{} is {}", quantity(wall->stiffness, units.stiffness),
+                                       number(wall->damping), units.damping, share, wall_verdict(analysed.analysis));
+  const double growth = 100.0 * (wall->spectral_radius - 1.0);
+  if (!wall->stable) return fmt::format("{}: an oscillation grows by {} % per sample.", text, number(growth));
+  return fmt::format("{}: what oscillates longest decays by {} % per sample.", text, number(-growth));
+}
+
+std::vector<std::string> wall_margin_notes(const Analysis& analysis) {
+  const auto& wall = analysis.wall;
+  if (!wall || !wall->stable) return {};
   std::vector<std::string> margins;
   if (wall->gain_margin) {
-    margins.push_back(fmt::format("gain margin {:.2f} dB (stiffness and damping together may grow {} times)",
+    margins.push_back(fmt::format("gain margin {:.2f} dB: unstable when stiffness and damping grow {} times",
                                   decibels(*wall->gain_margin), number(*wall->gain_margin)));
   } else {
-    margins.emplace_back("no upper gain margin (no larger gain destabilises it)");
+    margins.emplace_back("gain margin without limit: no larger gain destabilises it");
   }
   if (wall->lower_gain_margin) {
-    margins.push_back(fmt::format("lower gain margin {:.2f} dB (it turns unstable when scaled down to {} times)",
+    margins.push_back(fmt::format("lower gain margin {:.2f} dB: unstable when both are scaled down to {} times",
                                   decibels(*wall->lower_gain_margin), number(*wall->lower_gain_margin)));
   }
   if (wall->phase_margin) {
@@ -233,10 +235,9 @@ std::optional<std::string> wall_note(const AnalysedDevice& analysed) {
   }
   if (wall->delay_margin) {
     margins.push_back(
-        fmt::format("delay margin {} (that much more delay destabilises it)", quantity(*wall->delay_margin, "s")));
+        fmt::format("delay margin {}: that much more delay destabilises it", quantity(*wall->delay_margin, "s")));
   }
-  return fmt::format("{}: {}. What oscillates longest decays by {} % per sample.", text, fmt::join(margins, ", "),
-                     number(100.0 * (1.0 - wall->spectral_radius)));
+  return margins;
 }
 
 std::vector<std::string> caveats(const AnalysedDevice& analysed) {
@@ -249,6 +250,8 @@ std::vector<std::string> caveats(const AnalysedDevice& analysed) {
     texts.push_back(fmt::format("One user is included, at {}: {} {}, {} {}, {}. Another grasp gives another answer.",
                                 held, number(user.mass), units.mass, number(user.damping), units.damping,
                                 quantity(user.stiffness, units.stiffness)));
+  } else if (device.bodies.empty()) {
+    texts.emplace_back("The transfer function is taken as it is: a user who is not in it is left out.");
   } else if (device.bodies.size() == 1) {
     texts.emplace_back(
         "Nobody holds the device here. A user's mass and damping usually steady a rigid device; a springy "

@@ -30,8 +30,11 @@ namespace zwidth::report {
 /// Q and its plain meaning, its approximation stated. Nothing unless the device has two bodies.
 [[nodiscard]] std::optional<std::string> q_criterion_note(const AnalysedDevice& analysed);
 
-/// The verdict on [wall] with its margins. Nothing without a wall.
+/// The verdict on [wall], and how fast an oscillation decays or grows. Nothing without a wall.
 [[nodiscard]] std::optional<std::string> wall_note(const AnalysedDevice& analysed);
+
+/// The margins of a stable wall, one phrase each; empty without a wall or when it is unstable.
+[[nodiscard]] std::vector<std::string> wall_margin_notes(const Analysis& analysis);
 
 /// "stable", "UNSTABLE" or "-" where there is no wall.
 [[nodiscard]] std::string wall_verdict(const Analysis& analysis);

@@ -50,19 +50,13 @@ std::string wrap(std::string_view text, std::size_t width, std::size_t indent) {
   return wrapped;
 }
 
-std::string one_line(std::string_view text, std::size_t width) {
-  const bool shortened = length(text) > width;
-  std::string line;
-  std::size_t characters = 0;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (starts_character(text[i]) && characters++ == width - (shortened ? 1 : 0)) break;
-    const auto byte = static_cast<unsigned char>(text[i]);
-    // U+0080 to U+009F, encoded C2 80 to C2 9F, are control characters too.
-    const bool second_of_control = byte < 0xA0 && !line.empty() && static_cast<unsigned char>(line.back()) == 0xC2;
-    if (second_of_control) line.pop_back();
-    line += byte < 0x20 || byte == 0x7F || second_of_control ? '?' : text[i];
+std::string shortened(std::string_view text, std::size_t width) {
+  if (length(text) <= width) return std::string(text);
+  std::size_t end = 0;
+  for (std::size_t characters = 0; end < text.size(); ++end) {
+    if (starts_character(text[end]) && characters++ == width - 1) break;
   }
-  return shortened ? line + "…" : line;
+  return std::string(text.substr(0, end)) + "…";
 }
 
 }  // namespace zwidth::report

@@ -20,8 +20,7 @@ struct TextTable {
 /// Breaks text at spaces into lines of at most `width` characters, each after `indent` spaces.
 [[nodiscard]] std::string wrap(std::string_view text, std::size_t width, std::size_t indent);
 
-/// Text from a file made safe for one line of a terminal: control characters become '?', and what is longer than
-/// `width` characters ends in '…'.
-[[nodiscard]] std::string one_line(std::string_view text, std::size_t width);
+/// At most `width` characters of UTF-8 text; what is cut off leaves an ellipsis. width > 0.
+[[nodiscard]] std::string shortened(std::string_view text, std::size_t width);
 
 }  // namespace zwidth::report
