@@ -35,10 +35,10 @@ std::string bodies_remedy(const std::string& name, const std::vector<std::string
 /// Reads the tables of one document, in the order in which later ones need earlier ones.
 class DeviceReader {
  public:
-  DeviceReader(DeviceReading& reading, const toml::table& document)
-      : reading_(reading), root_(reading, DeviceTable::root, document, "") {}
+  DeviceReader(DeviceReading& reading, const toml::table& document) : reading_(reading), root_(reading, document, "") {}
 
   [[nodiscard]] DeviceParameters read(std::string_view source) && {
+    root_.refuse_keys_not_of(DeviceTable::root);
     device_.name = root_.text("name").value_or(std::filesystem::path(source).stem().string());
     read_motion();
     read_bodies();
@@ -60,12 +60,13 @@ class DeviceReader {
 
   void read_bodies() {
     for (const toml::table* table : root_.tables(DeviceTable::body)) {
-      TableReader reader(reading_, DeviceTable::body, *table, fmt::format("body.{}", device_.bodies.size()));
-      if (!reader.has("name")) reader.refuse("name", "is missing", "must be given, text in quotes");
+      TableReader reader(reading_, *table, fmt::format("body.{}", device_.bodies.size()));
       Body body;
       body.name = reader.text("name").value_or("");
       if (!body.name.empty()) reader.rename(fmt::format("body.{}", body.name));
-      body.mass = reader.required_number(mass_key(reader, device_.motion));
+      reader.refuse_keys_not_of(DeviceTable::body);
+      if (!reader.has("name")) reader.refuse("name", "is missing", "must be given as text in quotes");
+      body.mass = reader.required_positive_number(mass_key(reader, device_.motion));
       body.damping = reader.number("damping").value_or(0.0);
       body.stiffness = reader.number("stiffness").value_or(0.0);
       body.coulomb = reader.number("coulomb").value_or(0.0);
@@ -76,10 +77,11 @@ class DeviceReader {
 
   void read_links() {
     for (const toml::table* table : root_.tables(DeviceTable::link)) {
-      TableReader reader(reading_, DeviceTable::link, *table, fmt::format("link.{}", device_.links.size()));
+      TableReader reader(reading_, *table, fmt::format("link.{}", device_.links.size()));
+      reader.refuse_keys_not_of(DeviceTable::link);
       const auto between = reader.required_texts("between");
       if (between.size() != 2) {
-        reader.refuse("between", fmt::format("names {} bodies", between.size()), "must name two bodies");
+        reader.refuse("between", fmt::format("has length {}", between.size()), "must name two bodies");
       }
       Link link;
       if (between.size() == 2) {
@@ -89,7 +91,7 @@ class DeviceReader {
       link.stiffness = reader.number("stiffness").value_or(0.0);
       link.damping = reader.number("damping").value_or(0.0);
       if (!reader.has("stiffness") && !reader.has("damping")) {
-        reader.refuse("stiffness", "is missing", "must be given (or damping, or both), a number");
+        reader.refuse("stiffness", "is missing", "must be given, or damping, or both");
       }
       device_.links.push_back(link);
     }
@@ -98,7 +100,7 @@ class DeviceReader {
   void read_transfer_function() {
     const toml::table* table = root_.table(DeviceTable::transfer_function);
     if (!table) return;
-    TableReader reader(reading_, DeviceTable::transfer_function, *table, "transfer_function");
+    TableReader reader = table_reader(DeviceTable::transfer_function, *table);
     device_.transfer_function = {reader.required_numbers("numerator"), reader.required_numbers("denominator")};
     for (const std::string_view key : {"body", "link"}) {
       if (root_.has(key)) {
@@ -115,40 +117,46 @@ class DeviceReader {
     const toml::table* table = root_.table(DeviceTable::loop);
     if (!table) {
       if (!device_.bodies.empty() || device_.transfer_function) {
-        root_.refuse("loop", "is missing", "must be given, [loop] with sampling_period in seconds");
+        root_.refuse("loop", "is missing", "must be given as [loop] with sampling_period in seconds");
       }
       return;
     }
-    TableReader reader(reading_, DeviceTable::loop, *table, "loop");
+    TableReader reader = table_reader(DeviceTable::loop, *table);
     device_.loop.actuated = loop_body(reader, "actuated", 0);
     device_.loop.sensed = loop_body(reader, "sensed", 0);
     device_.loop.held = loop_body(reader, "held", device_.bodies.empty() ? 0 : device_.bodies.size() - 1);
-    device_.loop.sampling_period = reader.required_number("sampling_period");
+    device_.loop.sampling_period = reader.required_positive_number("sampling_period");
     device_.loop.delay = reader.number("delay").value_or(0.0);
   }
 
   void read_surroundings() {
     if (const toml::table* table = root_.table(DeviceTable::actuator)) {
-      TableReader reader(reading_, DeviceTable::actuator, *table, "actuator");
+      TableReader reader = table_reader(DeviceTable::actuator, *table);
       device_.actuator.time_constant = reader.number("time_constant").value_or(0.0);
       device_.actuator.force_limit = reader.number("force_limit");
     }
     if (const toml::table* table = root_.table(DeviceTable::sensor)) {
-      TableReader reader(reading_, DeviceTable::sensor, *table, "sensor");
+      TableReader reader = table_reader(DeviceTable::sensor, *table);
       device_.sensor.resolution = reader.number("resolution").value_or(0.0);
     }
     if (const toml::table* table = root_.table(DeviceTable::wall)) {
-      TableReader reader(reading_, DeviceTable::wall, *table, "wall");
+      TableReader reader = table_reader(DeviceTable::wall, *table);
       device_.wall.stiffness = reader.number("stiffness");
       device_.wall.damping = reader.number("damping").value_or(0.0);
       device_.wall.velocity_filter_hz = reader.number("velocity_filter_hz").value_or(0.0);
     }
     if (const toml::table* table = root_.table(DeviceTable::user)) {
-      TableReader reader(reading_, DeviceTable::user, *table, "operator");
+      TableReader reader = table_reader(DeviceTable::user, *table);
       device_.user.mass = reader.number(mass_key(reader, device_.motion)).value_or(0.0);
       device_.user.damping = reader.number("damping").value_or(0.0);
       device_.user.stiffness = reader.number("stiffness").value_or(0.0);
     }
+  }
+
+  TableReader table_reader(DeviceTable kind, const toml::table& table) {
+    TableReader reader(reading_, table, std::string(name_of(kind)));
+    reader.refuse_keys_not_of(kind);
+    return reader;
   }
 
   std::size_t loop_body(TableReader& reader, std::string_view key, std::size_t otherwise) {

@@ -56,28 +56,28 @@ std::vector<std::string> names_in(const toml::array& tables) {
 
 /// Which of the [[tables]] `selector` means: a body's name, an index, or nothing where there is one table.
 tl::expected<std::size_t, InputError> selected(const toml::array& tables, DeviceTable kind, std::string_view selector,
-                                               std::string_view whole_key) {
+                                               std::string_view key, std::string_view whole_key) {
   const auto names = names_in(tables);
-  if (kind == DeviceTable::body && !selector.empty()) {
-    const auto named = std::ranges::find(names, selector);
-    if (named != names.end()) return static_cast<std::size_t>(named - names.begin());
+  const auto named = std::ranges::find(names, selector);
+  if (kind == DeviceTable::body && !selector.empty() && named != names.end()) {
+    return static_cast<std::size_t>(named - names.begin());
   }
   if (const auto index = as_index(selector); index && *index < tables.size()) return *index;
   if (selector.empty() && tables.size() == 1) return 0;
 
-  const std::string kind_name(name_of(kind));
+  const std::string_view table = name_of(kind);
   if (selector.empty()) {
-    return tl::unexpected(refusal(whole_key, fmt::format("could be any of {} {}s", tables.size(), kind_name),
-                                  fmt::format("write {}.0.{}", kind_name, whole_key.substr(kind_name.size() + 1))));
+    return tl::unexpected(refusal(whole_key, fmt::format("could be in any of {} {}", tables.size(), header_of(kind)),
+                                  fmt::format("write for instance {}.0.{}", table, key)));
   }
   const std::string meant = kind == DeviceTable::body ? nearest_word(selector, names) : std::string{};
-  std::string allowed = fmt::format("{}s are counted from 0 to {}", kind_name, tables.size() - 1);
+  std::string allowed = fmt::format("must be {0}.0 to {0}.{1}", table, tables.size() - 1);
   if (!meant.empty()) {
     allowed = fmt::format("did you mean \"{}\"?", meant);
   } else if (kind == DeviceTable::body) {
     allowed = fmt::format("the bodies are {}", listed(names));
   }
-  return tl::unexpected(refusal(whole_key, fmt::format("there is no {} {}", kind_name, in_quotes(selector)), allowed));
+  return tl::unexpected(refusal(whole_key, fmt::format("there is no {} {}", table, in_quotes(selector)), allowed));
 }
 
 /// Resolves body.NAME.key, body.0.key, link.0.key, link.key.
@@ -97,7 +97,7 @@ tl::expected<Target, InputError> target_in_tables(toml::table& document, DeviceT
   }
   toml::array* tables = node->as_array();
   if (!tables || tables->empty()) return Target{};
-  const auto index = selected(*tables, kind, selector, whole_key);
+  const auto index = selected(*tables, kind, selector, key, whole_key);
   if (!index) return tl::unexpected(index.error());
   return Target{tables->get_as<toml::table>(*index), std::string(key)};
 }

@@ -55,12 +55,16 @@ void DeviceReading::refuse(const DeviceProblem& problem) {
   refuse(found == places_.end() ? toml::source_region{} : found->second, problem.key, problem.what, problem.allowed);
 }
 
-TableReader::TableReader(DeviceReading& reading, DeviceTable kind, const toml::table& table, std::string key)
+TableReader::TableReader(DeviceReading& reading, const toml::table& table, std::string key)
     : reading_(reading), table_(table) {
   rename(std::move(key));
-  for (const auto& [name, node] : table) {
+}
+
+void TableReader::refuse_keys_not_of(DeviceTable kind) {
+  for (const auto& [name, node] : table_) {
     if (is_key_of(kind, name.str())) continue;
-    reading_.refuse(name.source(), key_, fmt::format("unknown key {}", in_quotes(name.str())),
+    const std::string shown = shortened(name.str());
+    reading_.refuse(name.source(), full_key(shown), fmt::format("unknown key \"{}\"", shown),
                     remedy_for_unknown_key(kind, name.str()));
   }
 }
@@ -97,8 +101,8 @@ std::optional<double> TableReader::number(std::string_view key) {
   return value;
 }
 
-double TableReader::required_number(std::string_view key) {
-  if (!has(key)) refuse(key, "is missing", "must be given, a number");
+double TableReader::required_positive_number(std::string_view key) {
+  if (!has(key)) refuse(key, "is missing", "must be given as a number > 0");
   return number(key).value_or(0.0);
 }
 
@@ -113,7 +117,7 @@ std::optional<std::string> TableReader::text(std::string_view key) {
 const toml::array* TableReader::required_array(std::string_view key, std::string_view allowed) {
   const toml::node* node = find(key);
   if (!node) {
-    refuse(key, "is missing", fmt::format("must be given, {}", allowed));
+    refuse(key, "is missing", fmt::format("must be given as {}", allowed));
     return nullptr;
   }
   if (!node->is_array()) refuse_type(*node, key, fmt::format("must be {}", allowed));

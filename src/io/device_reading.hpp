@@ -40,15 +40,19 @@ class DeviceReading {
 /// Typed access to the keys of one table; what is not as it must be is refused in the reading.
 class TableReader {
  public:
-  /// Refuses every key that does not belong in the table. `key` is the table's own key, as in --set.
-  TableReader(DeviceReading& reading, DeviceTable kind, const toml::table& table, std::string key);
+  /// `key` is the table's own key, as in --set.
+  TableReader(DeviceReading& reading, const toml::table& table, std::string key);
+
+  /// Refuses every key that does not belong in a table of this kind.
+  void refuse_keys_not_of(DeviceTable kind);
 
   /// From now on keys are reported below `key`.
   void rename(std::string key);
 
   [[nodiscard]] bool has(std::string_view key) const { return table_.contains(key); }
   [[nodiscard]] std::optional<double> number(std::string_view key);
-  [[nodiscard]] double required_number(std::string_view key);
+  /// Refused when missing; that it is positive is for find_problem() to check.
+  [[nodiscard]] double required_positive_number(std::string_view key);
   [[nodiscard]] std::optional<std::string> text(std::string_view key);
   /// All elements, each required to be what the name says; empty (and refused) when the key is missing.
   [[nodiscard]] std::vector<double> required_numbers(std::string_view key);

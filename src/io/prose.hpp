@@ -6,6 +6,9 @@
 
 namespace zwidth {
 
+/// `text` cut to what fits in a message.
+[[nodiscard]] std::string shortened(std::string_view text);
+
 /// `text` in double quotes and shortened to what fits in a message.
 [[nodiscard]] std::string in_quotes(std::string_view text);
 

@@ -12,6 +12,8 @@
 namespace zwidth {
 namespace {
 
+const std::string standard_input = "standard input";
+
 struct CloseFile {
   void operator()(std::FILE* file) const noexcept { std::fclose(file); }
 };
@@ -39,7 +41,8 @@ tl::expected<std::string, InputError> read_all(std::FILE* file, const std::strin
 }
 
 tl::expected<std::string, InputError> read_text(const std::string& path) {
-  if (path == "-") return read_all(stdin, "standard input");
+  if (path == "-") return read_all(stdin, standard_input);
+  if (path.empty()) return refusal("\"\"", "is no file name", "must be a device file, or \"-\" for standard input");
   namespace fs = std::filesystem;
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
@@ -58,7 +61,7 @@ tl::expected<std::string, InputError> read_text(const std::string& path) {
 tl::expected<Device, InputError> read_device_file(const std::string& path, std::span<const std::string> overrides) {
   const auto text = read_text(path);
   if (!text) return tl::unexpected(text.error());
-  return parse_device(*text, path == "-" ? "standard input" : path, overrides);
+  return parse_device(*text, path == "-" ? standard_input : path, overrides);
 }
 
 }  // namespace zwidth

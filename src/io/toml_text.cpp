@@ -21,6 +21,11 @@ struct Line {
   std::size_t column = 1;
 };
 
+/// toml++ names the macro that sets a limit, which tells the user nothing.
+std::string_view without_macro(std::string_view description) {
+  return description.substr(0, description.find(" (TOML_"));
+}
+
 std::optional<InputError> problem_of_text(std::string_view text, std::string_view source) {
   const auto refusal = [&](Line line, std::string what, std::string allowed) {
     return InputError{std::string(source), line.number, line.column, "", std::move(what), std::move(allowed)};
@@ -30,7 +35,7 @@ std::optional<InputError> problem_of_text(std::string_view text, std::string_vie
     const std::size_t end = std::min(text.find('\n', begin), text.size());
     const std::string_view line = text.substr(begin, end - begin);
     if (const auto nul = line.find('\0'); nul != std::string_view::npos) {
-      return refusal({number, nul + 1}, "is not a text file: it has a zero byte", "must be a device file in TOML");
+      return refusal({number, nul + 1}, "is not text: it has a zero byte", "must be the TOML text of a device");
     }
     if (std::ranges::count(line, '.') > most_dots_in_line) {
       return refusal({number, 1}, fmt::format("the line has more than {} dots", most_dots_in_line),
@@ -52,8 +57,8 @@ tl::expected<toml::table, InputError> parse_toml(std::string_view text, std::str
                                      .line = std::max<std::size_t>(1, error.source().begin.line),
                                      .column = std::max<std::size_t>(1, error.source().begin.column),
                                      .key = "",
-                                     .what = std::string(error.description()),
-                                     .allowed = "must be TOML"});
+                                     .what = fmt::format("is not TOML: {}", without_macro(error.description())),
+                                     .allowed = "must be the TOML text of a device"});
   }
   return std::move(parsed).table();
 }

@@ -19,6 +19,12 @@ constexpr double largest_value = 1e30;
 constexpr double smallest_coefficient = 1e-100;
 constexpr double largest_coefficient = 1e100;
 
+bool is_of_sane_size(double value) { return value >= smallest_value && value <= largest_value; }
+
+std::string sane_sizes(std::string_view alternative) {
+  return fmt::format("must be {}from {} to {}", alternative, smallest_value, largest_value);
+}
+
 std::string body_key(const DeviceParameters& parameters, std::size_t body) {
   return "body." + parameters.bodies[body].name;
 }
@@ -34,15 +40,15 @@ class Checks {
   }
 
   void positive(std::string_view table, std::string_view member, double value) {
-    if (value >= smallest_value && value <= largest_value) return;
+    if (is_of_sane_size(value)) return;
     refuse(fmt::format("{}.{}", table, member), fmt::format("is {}", value),
-           fmt::format("must be a number > 0, from {} to {}", smallest_value, largest_value));
+           value > 0.0 && std::isfinite(value) ? sane_sizes("") : "must be a finite number > 0");
   }
 
   void not_negative(std::string_view table, std::string_view member, double value) {
-    if (value == 0.0 || (value >= smallest_value && value <= largest_value)) return;
+    if (value == 0.0 || is_of_sane_size(value)) return;
     refuse(fmt::format("{}.{}", table, member), fmt::format("is {}", value),
-           fmt::format("must be a number >= 0, that is 0 or from {} to {}", smallest_value, largest_value));
+           value > 0.0 && std::isfinite(value) ? sane_sizes("0 or ") : "must be a finite number >= 0");
   }
 
   void name(std::string key, const std::string& value) {
