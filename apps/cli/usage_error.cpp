@@ -5,6 +5,8 @@
 
 #include <vector>
 
+#include "io/key_suggestion.hpp"
+
 namespace zwidth::cli {
 namespace {
 
@@ -14,13 +16,30 @@ std::vector<std::string> command_names(const CLI::App& app) {
   return names;
 }
 
+std::vector<std::string> option_names(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& candidates) {
+  const std::string nearest = nearest_word(word, candidates);
+  return nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest);
+}
+
 std::string unknown_argument(const CLI::App& app, const CLI::App& command, const std::string& argument) {
   const bool is_option = argument.size() > 1 && argument.front() == '-';
-  if (&command == &app && !is_option) {
-    return fmt::format("unknown command '{}'; commands are {}", argument, fmt::join(command_names(app), ", "));
+  const std::string help = &command == &app ? "zwidth --help" : "zwidth " + command.get_name() + " --help";
+  if (is_option) {
+    const std::string name = argument.substr(0, argument.find('='));
+    return fmt::format("unknown option {}{}; see {}", name, did_you_mean(name, option_names(command)), help);
   }
-  return fmt::format("{} '{}'; see {} --help", is_option ? "unknown option" : "unexpected argument", argument,
-                     &command == &app ? "zwidth" : "zwidth " + command.get_name());
+  if (&command != &app) return fmt::format("unexpected argument {}; see {}", argument, help);
+  const auto commands = command_names(app);
+  return fmt::format("unknown command {}{}; commands are {}", argument, did_you_mean(argument, commands),
+                     fmt::join(commands, ", "));
 }
 
 }  // namespace

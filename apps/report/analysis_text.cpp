@@ -41,7 +41,7 @@ std::string crossover_table(const AnalysedDevice& analysed) {
   const double period = analysed.device.loop().sampling_period;
   const double nyquist = std::numbers::pi / period;
   const std::string title =
-      fmt::format("Phase crossovers (a closed-loop pole is on the unit circle), all up to the Nyquist frequency of {}",
+      fmt::format("Phase crossovers (a closed-loop pole on the unit circle), all up to Nyquist at {}",
                   quantity(0.5 / period, "Hz"));
   if (critical.crossovers.empty()) return title + ": none\n\n";
   TextTable table{{Align::right, Align::right, Align::right, Align::right, Align::left, Align::left, Align::left},

@@ -1,0 +1,146 @@
+#include "report/analysis_text.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <sstream>
+#include <vector>
+
+#include "report/example_analyses.hpp"
+
+namespace zwidth::report {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+std::string text_of(const AnalysedDevice& analysed) { return analysis_text({&analysed, 1}); }
+
+/// Without its line breaks, so that a sentence is found wherever it was wrapped.
+std::string unwrapped(std::string text) {
+  std::string joined;
+  std::istringstream words(text);
+  for (std::string word; words >> word;) joined += word + " ";
+  return joined;
+}
+
+TEST(AnalysisText, BeginsWithTheAnswer) {
+  EXPECT_THAT(text_of(lhifam()),
+              StartsWith("LHIfAM, translational axis\n"
+                         "  critical stiffness  8.849 kN/m (78.94 dB re 1 N/m)\n"
+                         "  oscillates at       6.143 Hz (38.6 rad/s)\n"
+                         "  limited by          the rigid body and the sampling delay of T/2 = 500 µs\n"));
+}
+
+TEST(AnalysisText, NamesEveryDelayThatLimits) {
+  AnalysedDevice analysed = lhifam();
+  DeviceParameters parameters = analysed.device.parameters();
+  parameters.loop.delay = 0.25e-3;
+  parameters.actuator.time_constant = 2e-3;
+  analysed.device = Device(parameters);
+  analysed.analysis.critical.limit->limited_by = {Mechanism::Kind::vibration_mode, 1};
+  EXPECT_THAT(
+      unwrapped(text_of(analysed)),
+      HasSubstr("limited by vibration mode 1 (84.31 Hz, damping ratio 0.0507), the sampling delay of T/2 = 500 µs, "
+                "the added delay of 250 µs and the actuator's lag of 2 ms "));
+}
+
+TEST(AnalysisText, ListsEveryCrossoverAndMarksTheLimit) {
+  const std::string text = text_of(lhifam());
+  EXPECT_THAT(text, HasSubstr("   6.143 Hz   38.6  8.849 kN/m   78.94  rigid body  2 poles leave   <- limits\n"));
+  EXPECT_THAT(text, HasSubstr("   15.82 Hz   99.4  140.4 kN/m  102.95  rigid body  2 poles return\n"));
+  EXPECT_THAT(text, HasSubstr("   98.37 Hz  618.1   33.9 kN/m   90.60  mode 1      2 poles leave\n"));
+  EXPECT_THAT(text, HasSubstr("     500 Hz   3142  135.2 MN/m  162.62  rigid body  1 pole leaves   Nyquist\n"));
+}
+
+TEST(AnalysisText, SaysOnWhichSideTheRigidModelIs) {
+  AnalysedDevice analysed = lhifam();
+  EXPECT_THAT(unwrapped(text_of(analysed)), HasSubstr("7.001 kN/m (-2.03 dB), 20.9 % too low: the safe side"));
+  analysed.analysis.rigid->critical.stiffness = 2 * 8848.70869499712;
+  EXPECT_THAT(unwrapped(text_of(analysed)), HasSubstr("(+6.02 dB), 100 % too high: UNSAFE"));
+  analysed.analysis.rigid->critical.stiffness = 8848.70869499712;
+  EXPECT_THAT(unwrapped(text_of(analysed)), HasSubstr("the same within 0.05 %"));
+  analysed.analysis.critical = undamped_paddle().analysis.critical;
+  EXPECT_THAT(unwrapped(text_of(analysed)), HasSubstr("8.849 kN/m: UNSAFE, the links make it lower"));
+}
+
+TEST(AnalysisText, ExplainsTheQCriterionInTheRightDirection) {
+  AnalysedDevice analysed = lhifam();
+  EXPECT_THAT(unwrapped(text_of(analysed)), HasSubstr("above the rigid critical stiffness of 7.001 kN/m, but similar"));
+  analysed.analysis.q_criterion = QCriterion{3000.0, true};
+  EXPECT_THAT(unwrapped(text_of(analysed)),
+              HasSubstr("not above the rigid critical stiffness of 7.001 kN/m: the vibration mode matters"));
+  analysed.analysis.q_criterion = QCriterion{3e5, false};
+  EXPECT_THAT(unwrapped(text_of(analysed)), HasSubstr("the mode hardly matters"));
+  analysed.analysis.q_criterion = QCriterion{3e5, std::nullopt};
+  EXPECT_THAT(unwrapped(text_of(analysed)), HasSubstr("It says nothing about this loop"));
+}
+
+TEST(AnalysisText, JudgesTheWall) {
+  const std::string stable = unwrapped(text_of(lhifam_with_wall()));
+  EXPECT_THAT(stable, HasSubstr("With the virtual damper of 5 N s/m (velocity low-pass at 100 Hz) closed"));
+  EXPECT_THAT(stable, HasSubstr("The wall of 5 kN/m and 5 N s/m (56.5 % of the critical stiffness) is stable"));
+  EXPECT_THAT(stable, HasSubstr("gain margin 6.02 dB"));
+  EXPECT_THAT(stable, HasSubstr("phase margin 0.1 rad (5.73°)"));
+  EXPECT_THAT(stable, HasSubstr("delay margin 1.5 ms"));
+  const std::string unstable = unwrapped(text_of(undamped_paddle()));
+  EXPECT_THAT(unstable, HasSubstr("is UNSTABLE: an oscillation grows by 0.03 % per sample"));
+  EXPECT_THAT(unstable, Not(HasSubstr("margin")));
+}
+
+TEST(AnalysisText, ExplainsNoneStableWithItsHigherInterval) {
+  const std::string text = unwrapped(text_of(undamped_paddle()));
+  EXPECT_THAT(text, HasSubstr("critical stiffness none: no wall is stable, however soft"));
+  EXPECT_THAT(text, HasSubstr("unstable for an arbitrarily small wall stiffness"));
+  EXPECT_THAT(text, HasSubstr("Stiffnesses from 2 N m/rad to 5 N m/rad are stable too"));
+}
+
+TEST(AnalysisText, ExplainsUnbounded) {
+  const std::string text = unwrapped(text_of(unlimited_transfer_function()));
+  EXPECT_THAT(text, HasSubstr("critical stiffness unbounded: every wall is stable"));
+  EXPECT_THAT(text, HasSubstr("up to Nyquist at 500 mHz: none"));
+}
+
+TEST(AnalysisText, StatesWhatIsLeftOut) {
+  AnalysedDevice analysed = lhifam();
+  EXPECT_THAT(unwrapped(text_of(analysed)), HasSubstr("can be made unstable by a user's grasp"));
+  EXPECT_THAT(unwrapped(text_of(analysed)), HasSubstr("linear: the encoder step of 3.14 µm is left out"));
+  DeviceParameters parameters = analysed.device.parameters();
+  parameters.user = {0.5, 6.0, 135.0};
+  parameters.actuator.force_limit = 20.0;
+  analysed.device = Device(parameters);
+  EXPECT_THAT(unwrapped(text_of(analysed)), HasSubstr("One user is included, at handle: 0.5 kg, 6 N s/m, 135 N/m."));
+  EXPECT_THAT(unwrapped(text_of(analysed)),
+              HasSubstr("the encoder step of 3.14 µm and the force limit of 20 N are left out"));
+}
+
+TEST(AnalysisText, SeveralDevicesLeadWithATable) {
+  const std::vector<AnalysedDevice> devices = {lhifam(), undamped_paddle(), unlimited_transfer_function()};
+  const std::string text = analysis_text(devices);
+  EXPECT_THAT(
+      text,
+      StartsWith("     device                            K_CR     dB  frequency  limited by  rigid model  wall\n"
+                 "  1  LHIfAM, translational axis  8.849 kN/m  78.94   6.143 Hz  rigid body     -2.03 dB  -\n"
+                 "  2  paddle                            none      -          -  -                  none  UNSTABLE\n"));
+  EXPECT_THAT(text, HasSubstr("\n2. paddle\n"));
+}
+
+TEST(AnalysisText, FitsOneHundredColumns) {
+  AnalysedDevice named = lhifam_with_wall();
+  DeviceParameters parameters = named.device.parameters();
+  parameters.name = std::string(200, 'n');
+  named.device = Device(parameters);
+  const std::vector<AnalysedDevice> devices = {named, lhifam(), undamped_paddle(), unlimited_transfer_function()};
+  std::string all = analysis_text(devices);
+  for (const AnalysedDevice& each : devices) all += text_of(each);
+  std::istringstream lines(all);
+  for (std::string line; std::getline(lines, line);) {
+    const auto characters = std::count_if(line.begin(), line.end(), [](char c) { return (c & 0xC0) != 0x80; });
+    EXPECT_LE(characters, 100) << line;
+  }
+}
+
+}  // namespace
+}  // namespace zwidth::report
