@@ -35,6 +35,13 @@ bool bends(const DrawnResponse& response, double low, double middle, double high
          std::abs(first - second) > bend_degrees;
 }
 
+/// B v(e^{jwT}): the backward difference behind its low-pass, as in Wall.
+std::complex<double> velocity_response(const VirtualDamper& damper, double period, double frequency) {
+  const std::complex<double> shift = std::polar(1.0, -frequency * period);  // z^-1
+  const double pole = damper.velocity_filter_hz > 0.0 ? std::exp(-2.0 * pi * damper.velocity_filter_hz * period) : 0.0;
+  return damper.damping * (1.0 - shift) / period * (1.0 - pole) / (1.0 - pole * shift);
+}
+
 void add_mode(std::vector<double>& frequencies, const Mode& mode, double period) {
   // Multiples of the half-width zeta w around the peak.
   for (const double width : {-8.0, -4.0, -2.0, -1.0, -0.5, 0.0, 0.5, 1.0, 2.0, 4.0, 8.0}) {
@@ -50,10 +57,17 @@ DrawnResponse drawn_response(ModalForm form, double delay) {
   return {[form = std::move(form)](double frequency) { return response(form, frequency); }, delay};
 }
 
-DrawnResponse drawn_response(SampledPlant plant) {
+DrawnResponse drawn_response(SampledPlant plant, VirtualDamper damper) {
   const double delay = static_cast<double>(plant.delay_samples) * plant.period;
   plant.delay_samples = 0;
-  return {[plant = std::move(plant)](double frequency) { return response(plant, frequency); }, delay};
+  return {[plant = std::move(plant), damper, delay](double frequency) {
+            const std::complex<double> undelayed = response(plant, frequency);
+            if (damper.damping == 0.0) return undelayed;
+            const std::complex<double> loop =
+                velocity_response(damper, plant.period, frequency) * undelayed * std::polar(1.0, -frequency * delay);
+            return undelayed / (1.0 + loop);
+          },
+          delay};
 }
 
 FrequencyRange default_range(double period, std::span<const double> events) {

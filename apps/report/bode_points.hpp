@@ -8,6 +8,7 @@
 
 #include "zwidth/model/modal_form.hpp"
 #include "zwidth/sampling/sampled_plant.hpp"
+#include "zwidth/stability/critical_stiffness.hpp"
 
 namespace zwidth::report {
 
@@ -21,8 +22,10 @@ struct DrawnResponse {
 /// The continuous response, with a delay if any.
 [[nodiscard]] DrawnResponse drawn_response(ModalForm form, double delay = 0.0);
 
-/// The sampled response; valid up to pi/T.
-[[nodiscard]] DrawnResponse drawn_response(SampledPlant plant);
+/// The sampled response P with the virtual damper closed around it, P / (1 + B v P); valid up to pi/T.
+///
+/// Its negative-real values are those at which -1/K lies on it: the crossovers of critical_stiffness().
+[[nodiscard]] DrawnResponse drawn_response(SampledPlant plant, VirtualDamper damper = {});
 
 struct FrequencyRange {
   double from = 0.0;  ///< rad/s, > 0
