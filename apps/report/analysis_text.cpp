@@ -83,7 +83,7 @@ std::string name_of(const AnalysedDevice& analysed, std::size_t longest) {
 std::string answer_lines(const AnalysedDevice& analysed) {
   const CriticalStiffness& critical = analysed.analysis.critical;
   std::string text =
-      name_of(analysed, width) + "\n" +
+      name_of(analysed, width - 8) + "\n" +
       labelled("  critical stiffness", critical_stiffness_text(critical, analysed.device.parameters().motion));
   if (critical.limit) {
     text += labelled("  oscillates at", fmt::format("{} ({} rad/s)", quantity(hertz(critical.limit->frequency), "Hz"),
@@ -140,8 +140,8 @@ std::string comparison_table(std::span<const AnalysedDevice> devices) {
     table.rows.push_back(std::move(row));
   }
   return layout(table) +
-         "  K_CR: stiffest stable wall; rigid model: how far off the device with rigid links is, above 0 dB "
-         "UNSAFE.\n\n";
+         "  K_CR: stiffest stable wall. Rigid model: how far off the same device with rigid links is;\n"
+         "  above 0 dB it is UNSAFE.\n\n";
 }
 
 std::string short_answer(const AnalysedDevice& analysed) {
