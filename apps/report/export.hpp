@@ -1,0 +1,36 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "report/analysed_device.hpp"
+#include "zwidth/model/modal_form.hpp"
+#include "zwidth/model/state_space.hpp"
+#include "zwidth/sampling/discrete_state_space.hpp"
+#include "zwidth/sampling/sampled_plant.hpp"
+
+namespace zwidth::report {
+
+/// Everything about a device that another program needs to go on from.
+struct ExportedModel {
+  AnalysedDevice analysed;
+  ContinuousStateSpace continuous;
+  DiscreteStateSpace discrete;
+  ModalForm modal;
+  SampledPlant sampled;
+};
+
+[[nodiscard]] ExportedModel exported_model(AnalysedDevice analysed);
+
+/// The model as a JSON document, schema "zwidth.model/1". Matrices are arrays of rows; polynomials ascend.
+/// "with_delay_states" is null where the delay exceeds most_delay_states samples: the matrix would be mostly zeros.
+[[nodiscard]] nlohmann::ordered_json export_json(const ExportedModel& model);
+inline constexpr std::size_t most_delay_states = 200;
+
+/// A script for GNU Octave with its control package, that runs as it is: `sysc`, `sysd` and sampled_response(model, w).
+[[nodiscard]] std::string export_octave(const ExportedModel& model);
+
+/// A script for Python 3 with SciPy, that runs and imports as it is: `sysc`, `sysd` and sampled_response(w).
+[[nodiscard]] std::string export_python(const ExportedModel& model);
+
+}  // namespace zwidth::report
