@@ -21,7 +21,10 @@ std::string text_value(std::string_view text) {
 }
 
 /// The shortest digits that read back to the same double, at most 17.
-std::string number_value(double value) { return fmt::format("{:#}", value); }
+std::string number_value(double value) {
+  const std::string digits = fmt::format("{}", value);
+  return digits.find_first_of(".e") == std::string::npos ? digits + ".0" : digits;
+}
 
 std::string array_value(const std::vector<double>& values) {
   // One value a line: the reader takes any number of coefficients so, and long rows are hard to compare.
