@@ -104,10 +104,7 @@ void run_bode(const BodeArguments& arguments) {
     throw BadInput(fmt::format("--output: {}: unknown extension; .svg, .png, .pdf or .csv", arguments.output));
   }
   std::vector<AnalysedDevice> devices;
-  for (Device& device : read_devices(arguments.devices)) {
-    Analysis analysis = analyze(device);
-    devices.push_back({std::move(device), std::move(analysis)});
-  }
+  for (Device& device : read_devices(arguments.devices)) devices.push_back(report::analysed_device(std::move(device)));
   check(arguments, devices);
   if (!arguments.output.empty()) write_output(arguments, devices);
   if (arguments.json) {

@@ -25,9 +25,8 @@ std::string exported(const report::ExportedModel& model, const std::string& form
 
 void run_export(const ExportArguments& arguments) {
   std::vector<Device> devices = read_devices(arguments.devices);
-  Analysis analysis = analyze(devices.front());
   const std::string text =
-      exported(report::exported_model({std::move(devices.front()), std::move(analysis)}), arguments.format);
+      exported(report::exported_model(report::analysed_device(std::move(devices.front()))), arguments.format);
   if (arguments.output.empty()) {
     write_standard_output(text);
   } else {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <utility>
+
 #include "zwidth/model/device.hpp"
 #include "zwidth/stability/analysis.hpp"
 
@@ -10,5 +12,11 @@ struct AnalysedDevice {
   Device device;
   Analysis analysis;
 };
+
+/// Analyses the device; throws as analyze() does.
+[[nodiscard]] inline AnalysedDevice analysed_device(Device device) {
+  Analysis analysis = analyze(device);
+  return {std::move(device), std::move(analysis)};
+}
 
 }  // namespace zwidth::report
