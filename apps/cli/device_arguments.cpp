@@ -1,8 +1,12 @@
 #include "cli/device_arguments.hpp"
 
 #include <algorithm>
+#include <filesystem>
+#include <system_error>
+#include <utility>
 
 #include "cli/subcommand.hpp"
+#include "zwidth/error.hpp"
 #include "zwidth/io/device_file.hpp"
 
 namespace zwidth::cli {
@@ -12,9 +16,7 @@ void add_device_arguments(CLI::App& command, DeviceArguments& arguments, FileCou
       ->type_name("")
       ->required()
       ->expected(1, count == FileCount::one ? 1 : CLI::detail::expected_max_vector_size);
-  command
-      .add_option("--set", arguments.overrides,
-                  "Override a key of the device file, for instance --set loop.delay=0.25e-3; repeatable")
+  command.add_option("--set", arguments.overrides, "Override a key of the device file; may be repeated")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
 }
@@ -34,6 +36,28 @@ std::vector<Device> read_devices(const DeviceArguments& arguments) {
   }
   if (!problems.empty()) throw BadInput(problems);
   return devices;
+}
+
+void check_output_is_no_input(const DeviceArguments& arguments, const std::string& option, const std::string& output) {
+  for (const std::string& file : arguments.files) {
+    std::error_code one_is_missing;
+    if (std::filesystem::equivalent(file, output, one_is_missing)) {
+      throw BadInput(option + ": " + output + ": would overwrite the device file; name another file");
+    }
+  }
+}
+
+std::vector<report::AnalysedDevice> analyze_devices(const DeviceArguments& arguments) {
+  std::vector<report::AnalysedDevice> analysed;
+  for (Device& device : read_devices(arguments)) {
+    try {
+      Analysis analysis = analyze(device);
+      analysed.push_back({std::move(device), std::move(analysis)});
+    } catch (const Error& error) {
+      throw WorkFailed(arguments.files[analysed.size()] + ": " + error.what());
+    }
+  }
+  return analysed;
 }
 
 }  // namespace zwidth::cli

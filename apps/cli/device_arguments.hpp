@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "report/analysed_device.hpp"
 #include "zwidth/model/device.hpp"
 
 namespace zwidth::cli {
@@ -22,5 +23,11 @@ void add_device_arguments(CLI::App& command, DeviceArguments& arguments, FileCou
 /// Reads all the devices, in order. Throws BadInput with one line per file that was refused, so that one run shows
 /// every mistake and nothing is computed before all input is known to be good.
 [[nodiscard]] std::vector<Device> read_devices(const DeviceArguments& arguments);
+
+/// Throws BadInput when the file to write, given with `option`, is one of the device files.
+void check_output_is_no_input(const DeviceArguments& arguments, const std::string& option, const std::string& output);
+
+/// read_devices(), then analyses each. Throws WorkFailed with the file's name where an analysis fails.
+[[nodiscard]] std::vector<report::AnalysedDevice> analyze_devices(const DeviceArguments& arguments);
 
 }  // namespace zwidth::cli

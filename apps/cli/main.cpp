@@ -37,12 +37,19 @@ int run(int argument_count, char** arguments) {
       "'zwidth COMMAND --help' explains a command.\n"
       "Exit status: 0 done, 1 the work failed, 2 wrong usage or bad input.");
   add_analyze(app);
+  for (CLI::App* command : app.get_subcommands({})) command->group("Commands");
+  app.get_formatter()->label("SUBCOMMAND", "COMMAND");
+  app.get_formatter()->label("REQUIRED", "");
+  if (argument_count < 2) {
+    write_standard_error(app.help());
+    return bad_input;
+  }
   try {
     app.parse(argument_count, arguments);
     return done;
   } catch (const CLI::CallForHelp&) {
     const auto parsed = app.get_subcommands();
-    write_standard_output(parsed.empty() ? app.help() : parsed.front()->help());
+    write_standard_output(parsed.empty() ? app.help() : parsed.front()->help("zwidth"));
     return done;
   } catch (const CLI::CallForVersion& version) {
     write_standard_output(std::string(version.what()) + "\n");

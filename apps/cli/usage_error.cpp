@@ -48,12 +48,12 @@ std::string usage_error(const CLI::App& app, const CLI::ParseError& error) {
   const auto parsed = app.get_subcommands();
   const CLI::App& command = parsed.empty() ? app : *parsed.front();
   for (const CLI::App* level : {&app, &command}) {
-    const auto left_over = level->remaining();
-    if (!left_over.empty()) return unknown_argument(app, *level, left_over.front());
+    for (const std::string& argument : level->remaining()) {
+      if (argument != "--") return unknown_argument(app, *level, argument);
+    }
   }
   if (parsed.empty()) {
-    return fmt::format("no command given\nusage: zwidth COMMAND [FILE...] [options]\ncommands: {}\nsee zwidth --help",
-                       fmt::join(command_names(app), ", "));
+    return fmt::format("no command given; commands are {}", fmt::join(command_names(app), ", "));
   }
   return fmt::format("{}: {}; see zwidth {} --help", command.get_name(), error.what(), command.get_name());
 }

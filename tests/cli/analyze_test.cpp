@@ -1,0 +1,170 @@
+// zwidth analyze on real input. Numbers: theory notes, section 2 (100-digit arithmetic), to 1e-9 relative.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "cli/workspace.hpp"
+
+namespace zwidth::cli {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::StartsWith;
+
+class Analyze : public Workspace {
+ protected:
+  /// The documents that `command_line` prints, one per line.
+  [[nodiscard]] std::vector<json> documents(const std::string& command_line) const {
+    const Outcome outcome = run(command_line);
+    EXPECT_EQ(outcome.status, 0) << outcome.errors;
+    EXPECT_THAT(outcome.errors, IsEmpty());
+    std::vector<json> parsed;
+    std::istringstream lines(outcome.output);
+    for (std::string line; std::getline(lines, line);) parsed.push_back(json::parse(line));
+    return parsed;
+  }
+};
+
+void expect_relative(const json& value, double expected) {
+  ASSERT_TRUE(value.is_number());
+  EXPECT_NEAR(value.get<double>() / expected, 1.0, 1e-9);
+}
+
+TEST_F(Analyze, LhifamHasItsPublishedAnswer) {
+  const auto all = documents("zwidth analyze devices/lhifam.toml --json");
+  ASSERT_EQ(all.size(), 1U);
+  const json& document = all.front();
+  EXPECT_EQ(document["status"], "finite");
+  expect_relative(document["critical_stiffness"], 8848.70869499712);
+  expect_relative(document["critical_frequency_rad_s"], 38.5965268731856);
+  EXPECT_NEAR(document["critical_stiffness_db"].get<double>(), 78.93759796, 1e-7);
+  EXPECT_EQ(document["limited_by"], (json{{"kind", "rigid_body"}}));
+  const std::vector<double> stiffnesses = {8848.70869499712, 140372.949098511, 33895.4748192464, 135171032.89};
+  ASSERT_EQ(document["crossovers"].size(), stiffnesses.size());
+  for (std::size_t i = 0; i < stiffnesses.size(); ++i) {
+    // The last is printed with 11 digits.
+    EXPECT_NEAR(document["crossovers"][i]["stiffness"].get<double>() / stiffnesses[i], 1.0, 1e-9) << i;
+  }
+  expect_relative(document["rigid_approximation"]["critical_stiffness"], 7000.75625452837);
+  EXPECT_NEAR(document["q_criterion"]["db"].get<double>(), 78.5565, 5e-4);
+  EXPECT_EQ(document["q_criterion"]["mode_matters"], false);
+  EXPECT_TRUE(document["wall"].is_null());
+}
+
+TEST_F(Analyze, OverridesReachTheLoop) {
+  const std::vector<std::pair<std::string, double>> cases = {
+      {"--set loop.sensed=handle", 6938.97435107544},
+      {"--set loop.delay=0.25e-3", 5342.97877445573},
+      {"--set loop.delay=0.25e-3 --set loop.sensed=handle", 4641.4956115197},
+      {"--set link.stiffness=27.55e3 --set link.0.damping=10.5 --set loop.sensed=\"'handle'\"", 6790.5752652799},
+  };
+  for (const auto& [overrides, expected] : cases) {
+    const auto all = documents("zwidth analyze " + overrides + " devices/lhifam.toml --json");
+    ASSERT_EQ(all.size(), 1U) << overrides;
+    expect_relative(all.front()["critical_stiffness"], expected);
+  }
+}
+
+TEST_F(Analyze, JudgesTheWallOnBothSidesOfTheLimit) {
+  const auto stable = documents("zwidth analyze devices/lhifam.toml --json --set wall.stiffness=8848");
+  EXPECT_EQ(stable.front()["wall"]["stable"], true);
+  EXPECT_LT(stable.front()["wall"]["spectral_radius"].get<double>(), 1.0);
+  EXPECT_NEAR(stable.front()["wall"]["gain_margin_db"].get<double>(), 20 * std::log10(8848.70869499712 / 8848), 1e-6);
+  const auto unstable = documents("zwidth analyze devices/lhifam.toml --json --set wall.stiffness=8850");
+  EXPECT_EQ(unstable.front()["wall"]["stable"], false);
+  EXPECT_GT(unstable.front()["wall"]["spectral_radius"].get<double>(), 1.0);
+  EXPECT_TRUE(unstable.front()["wall"]["delay_margin_s"].is_null());
+}
+
+TEST_F(Analyze, TextLeadsWithTheAnswer) {
+  const Outcome outcome = run("zwidth analyze devices/lhifam.toml");
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_THAT(outcome.output, HasSubstr("\n  critical stiffness  8.849 kN/m (78.94 dB re 1 N/m)\n"
+                                        "  oscillates at       6.143 Hz (38.6 rad/s)\n"));
+}
+
+TEST_F(Analyze, ReadsStandardInput) {
+  const auto all = documents("zwidth analyze - --json < devices/lhifam.toml");
+  ASSERT_EQ(all.size(), 1U);
+  expect_relative(all.front()["critical_stiffness"], 8848.70869499712);
+  EXPECT_EQ(documents("cat devices/lhifam.toml | zwidth analyze --json devices/lhifam.toml -").size(), 2U);
+}
+
+TEST_F(Analyze, SeveralDevicesAreOneLineEachInOrder) {
+  const auto all = documents("zwidth analyze --json devices/lhifam.toml devices/lhifam_rigid.toml");
+  ASSERT_EQ(all.size(), 2U);
+  expect_relative(all[0]["critical_stiffness"], 8848.70869499712);
+  expect_relative(all[1]["critical_stiffness"], 7000.75625452837);
+  EXPECT_TRUE(all[1]["q_criterion"].is_null());
+}
+
+TEST_F(Analyze, SeveralDevicesAsTextLeadWithATable) {
+  const Outcome outcome = run("zwidth analyze devices/*.toml");
+  EXPECT_EQ(outcome.status, 0) << outcome.errors;
+  EXPECT_THAT(outcome.output, StartsWith("     device "));
+}
+
+TEST_F(Analyze, ATransferFunctionHasNoBodies) {
+  write("lag.toml", "[transfer_function]\nnumerator = [1]\ndenominator = [1, 1]\n[loop]\nsampling_period = 1.0\n");
+  const json document = documents("zwidth analyze lag.toml --json").front();
+  EXPECT_EQ(document["device"], "lag");
+  EXPECT_NEAR(document["critical_stiffness"].get<double>(), 2.16395, 5e-6);  // theory notes, section 6
+  EXPECT_TRUE(document["rigid_approximation"].is_null());
+  EXPECT_TRUE(document["q_criterion"].is_null());
+  EXPECT_EQ(run("zwidth analyze lag.toml").status, 0);
+}
+
+TEST_F(Analyze, RotaryDevicesHaveRotaryUnits) {
+  write("paddle.toml",
+        "motion = \"rotary\"\n[[body]]\nname = \"arm\"\ninertia = 5e-4\ndamping = 1e-3\n[loop]\nsampling_period = "
+        "1e-3\n");
+  const json document = documents("zwidth analyze paddle.toml --json").front();
+  EXPECT_EQ(document["units"], (json{{"stiffness", "N m/rad"}, {"damping", "N m s/rad"}}));
+  EXPECT_THAT(run("zwidth analyze paddle.toml").output, HasSubstr(" N m/rad ("));
+}
+
+TEST_F(Analyze, AnUndampedDeviceHasNoStableWall) {
+  write("free.toml", "[[body]]\nname = \"mass\"\nmass = 1.0\n[loop]\nsampling_period = 1e-3\n");
+  const json document = documents("zwidth analyze free.toml --json").front();
+  EXPECT_EQ(document["status"], "none_stable");
+  EXPECT_EQ(document["critical_stiffness"], 0.0);
+  EXPECT_TRUE(document["limited_by"].is_null());
+  EXPECT_THAT(run("zwidth analyze free.toml").output, HasSubstr("none: no wall is stable, however soft"));
+}
+
+TEST_F(Analyze, TheReportIsOneFileAndTheAnswerIsStillPrinted) {
+  const Outcome outcome = run("zwidth analyze devices/lhifam.toml --report report.html");
+  EXPECT_EQ(outcome.status, 0) << outcome.errors;
+  EXPECT_THAT(outcome.output, HasSubstr("8.849 kN/m"));
+  EXPECT_THAT(run("cat report.html").output, HasSubstr("8.849"));
+  EXPECT_EQ(documents("zwidth analyze devices/lhifam.toml --json --report again.html").size(), 1U);
+}
+
+TEST_F(Analyze, AReportThatCannotBeWrittenFailsAndLeavesNothing) {
+  for (const std::string target : {"missing/report.html", "devices", "/dev/full", "''"}) {
+    const Outcome outcome = run("zwidth analyze devices/lhifam.toml --report " + target);
+    EXPECT_EQ(outcome.status, 1) << target;
+    EXPECT_THAT(outcome.errors, StartsWith("zwidth: ")) << target;
+    EXPECT_EQ(std::count(outcome.errors.begin(), outcome.errors.end(), '\n'), 1) << outcome.errors;
+  }
+  EXPECT_EQ(run("ls").output, "devices\n");
+}
+
+TEST_F(Analyze, AReportNeverOverwritesADeviceFile) {
+  const Outcome outcome = run("zwidth analyze devices/lhifam.toml --report ./devices/../devices/lhifam.toml");
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.errors, HasSubstr("would overwrite the device file"));
+  EXPECT_EQ(documents("zwidth analyze devices/lhifam.toml --json").size(), 1U);
+}
+
+}  // namespace
+}  // namespace zwidth::cli

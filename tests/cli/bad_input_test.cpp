@@ -1,0 +1,140 @@
+// Whatever is in place of a device file: one clear line on standard error, status 2, in no time.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "cli/workspace.hpp"
+
+namespace zwidth::cli {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::StartsWith;
+
+class BadInput : public Workspace {
+ protected:
+  /// Expects status 2, nothing on standard output, and one line that names `place`; returns the line.
+  std::string expect_refused(const std::string& command_line, const std::string& place) const {
+    const auto start = std::chrono::steady_clock::now();
+    const Outcome outcome = run(command_line);
+    const auto taken = std::chrono::steady_clock::now() - start;
+    EXPECT_EQ(outcome.status, 2) << command_line << "\n" << outcome.errors;
+    EXPECT_THAT(outcome.output, IsEmpty()) << command_line;
+    EXPECT_THAT(outcome.errors, StartsWith("zwidth: " + place)) << command_line;
+    EXPECT_EQ(std::count(outcome.errors.begin(), outcome.errors.end(), '\n'), 1) << outcome.errors;
+    EXPECT_LT(taken, std::chrono::seconds(10)) << command_line;
+    return outcome.errors;
+  }
+};
+
+const std::string valid = "[[body]]\nname = \"a\"\nmass = 1.0\ndamping = 1.0\n[loop]\nsampling_period = 1e-3\n";
+
+TEST_F(BadInput, FilesThatAreNoDevices) {
+  write("empty.toml", "");
+  write("blank.toml", " \n\t\n");
+  write("binary.toml", std::string("\x7f"
+                                   "ELF\0\1\2\xff\xfe",
+                                   9));
+  write("nul.toml", valid + std::string("\0", 1));
+  write("latin1.toml", "name = \"caf\xe9\"\n" + valid);
+  write("nested.toml", "a = " + std::string(100000, '[') + "\n");
+  write("nested_tables.toml", "a = " + std::string(50000, '{') + "\n");
+  write("dotted.toml", [] {
+    std::string key = "a";
+    for (int i = 0; i < 20000; ++i) key += ".a";
+    return "[" + key + "]\n";
+  }());
+  write("unclosed.toml", "[[body]\nname = ");
+  for (const std::string name :
+       {"empty", "blank", "binary", "nul", "latin1", "nested", "nested_tables", "dotted", "unclosed"}) {
+    expect_refused("zwidth analyze " + name + ".toml", name + ".toml:");
+    expect_refused("zwidth analyze --json - < " + name + ".toml", "standard input:");
+  }
+}
+
+TEST_F(BadInput, ThingsThatAreNoFiles) {
+  EXPECT_THAT(expect_refused("zwidth analyze missing.toml", "missing.toml: "), HasSubstr("No such file"));
+  expect_refused("zwidth analyze devices", "devices: ");
+  expect_refused("zwidth analyze - < devices", "standard input: ");
+  expect_refused("zwidth analyze /dev/zero", "/dev/zero: ");
+  expect_refused("zwidth analyze - < /dev/zero", "standard input: ");
+  expect_refused("zwidth analyze /dev/null", "/dev/null:");
+  expect_refused("zwidth analyze /proc/self/mem", "/proc/self/mem: ");
+  expect_refused("truncate -s 100M huge.toml && zwidth analyze huge.toml", "huge.toml: ");
+  expect_refused("cat huge.toml | zwidth analyze -", "standard input: ");
+  expect_refused("ln -s loop.toml loop.toml && zwidth analyze loop.toml", "loop.toml: ");
+  expect_refused("zwidth analyze $(printf 'x%.0s' {1..5000})", "xxx");
+}
+
+TEST_F(BadInput, AnUnreadableFile) {
+  write("secret.toml", valid);
+  std::string as_anyone = "chmod 000 secret.toml && ";
+  // The superuser reads everything: become nobody, with a copy of the program that nobody can reach.
+  if (::geteuid() == 0) {
+    as_anyone += "cp $(command -v zwidth) . && setpriv --reuid 65534 --regid 65534 --clear-groups ./";
+  }
+  EXPECT_THAT(expect_refused(as_anyone + "zwidth analyze secret.toml", "secret.toml: "), HasSubstr("ermission denied"));
+}
+
+TEST_F(BadInput, ValuesThatCannotBe) {
+  const std::string head = "[[body]]\nname = \"a\"\n";
+  const std::string loop = "[loop]\nsampling_period = 1e-3\n";
+  const std::vector<std::string> texts = {
+      head + "mass = -0.3\n" + loop,
+      head + "mass = 0\n" + loop,
+      head + "mass = nan\n" + loop,
+      head + "mass = inf\n" + loop,
+      head + "mass = 1e308\n" + loop,
+      head + "mass = 1e999\n" + loop,
+      head + "mass = \"1\"\n" + loop,
+      head + "mass = [1]\n" + loop,
+      head + "mass = 1979-05-27\n" + loop,
+      head + "mas = 1.0\n" + loop,
+      head + loop,
+      head + "mass = 1.0\ndamping = -1.0\n" + loop,
+      head + "mass = 1.0\n" + head + "mass = 1.0\n" + loop,
+      head + "mass = 1.0\n[[body]]\nname = \"b\"\nmass = 1.0\n" + loop,
+      head + "mass = 1.0\n[[link]]\nbetween = [\"a\", \"a\"]\nstiffness = 1.0\n" + loop,
+      head + "mass = 1.0\n[[link]]\nbetween = [\"a\", \"c\"]\nstiffness = 1.0\n" + loop,
+      head + "mass = 1.0\n[loop]\nsampling_period = 0\n",
+      head + "mass = 1.0\n[loop]\nsampling_period = 1e-3\ndelay = -1\n",
+      head + "mass = 1.0\n[loop]\nsampling_period = 1e-3\nsensed = \"b\"\n",
+      head + "mass = 1.0\n" + loop + "[wall]\nstiffness = -1\n",
+      head + "mass = 1.0\n" + loop + "[surprise]\nx = 1\n",
+      valid + "[transfer_function]\nnumerator = [1]\ndenominator = [1, 1]\n",
+  };
+  for (const std::string& text : texts) {
+    write("device.toml", text);
+    const std::string line = expect_refused("zwidth analyze device.toml", "device.toml:");
+    EXPECT_THAT(line, ::testing::MatchesRegex("zwidth: device\\.toml:[0-9]+:[0-9]+: [^\n]+; [^\n]+\n")) << text;
+  }
+}
+
+TEST_F(BadInput, OverridesThatCannotBe) {
+  for (const std::string override :
+       {"loop.delya=1", "loop.delay", "=1", "loop.delay=", "loop.delay=x y", "loop.delay=-1", "body.motro.mass=1",
+        "body.motor.mass=nan", "link.7.stiffness=1", "loop.sensed=nobody", "wall.stiffness=[1]", "name=\\xff",
+        "loop.delay=1 wall.stiffness=2"}) {
+    expect_refused("zwidth analyze devices/lhifam.toml --set $'" + override + "'", "--set");
+  }
+}
+
+TEST_F(BadInput, EveryBadFileIsNamedAndNothingIsComputed) {
+  write("one.toml", "");
+  const Outcome outcome = run("zwidth analyze --json one.toml devices/lhifam.toml two.toml");
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.output, IsEmpty());
+  EXPECT_THAT(outcome.errors, StartsWith("zwidth: one.toml"));
+  EXPECT_THAT(outcome.errors, HasSubstr("\nzwidth: two.toml: "));
+  EXPECT_EQ(std::count(outcome.errors.begin(), outcome.errors.end(), '\n'), 2);
+}
+
+}  // namespace
+}  // namespace zwidth::cli

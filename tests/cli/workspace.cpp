@@ -1,0 +1,50 @@
+#include "cli/workspace.hpp"
+
+#include <fmt/format.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+namespace zwidth::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string contents_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+}  // namespace
+
+Workspace::Workspace() {
+  std::string pattern = (fs::temp_directory_path() / "zwidth_cli_XXXXXX").string();
+  if (::mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("cannot create " + pattern);
+  directory_ = pattern;
+  fs::permissions(directory_, fs::perms::others_read | fs::perms::others_exec, fs::perm_options::add);
+  fs::copy(fs::path(ZWIDTH_SOURCE_DIR) / "devices", directory_ / "devices", fs::copy_options::recursive);
+}
+
+Workspace::~Workspace() {
+  std::error_code ignored;
+  fs::remove_all(directory_, ignored);
+}
+
+Outcome Workspace::run(const std::string& command_line) const {
+  // The command line stands in a file of its own, so that it needs no quoting here.
+  write(".command", fmt::format("export PATH='{}':$PATH\n{}\n", ZWIDTH_PROGRAM_DIR, command_line));
+  const std::string wrapped =
+      fmt::format("cd '{0}' && bash .command > .output 2> .errors < /dev/null", directory_.string());
+  const int raw = std::system(wrapped.c_str());
+  const int status = WIFEXITED(raw) ? WEXITSTATUS(raw) : 128 + WTERMSIG(raw);
+  return {status, contents_of(directory_ / ".output"), contents_of(directory_ / ".errors")};
+}
+
+void Workspace::write(const std::string& name, std::string_view contents) const {
+  std::ofstream(directory_ / name, std::ios::binary) << contents;
+}
+
+}  // namespace zwidth::cli
