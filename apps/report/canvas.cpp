@@ -72,6 +72,10 @@ void Canvas::line(double x1, double y1, double x2, double y2, const LineStyle& s
       fmt::format("set arrow from {} to {} nohead back {}", position(x1, y1), position(x2, y2), gnuplot_line(style)));
 }
 
+void Canvas::point(double x, double y, std::string_view colour) {
+  commands(fmt::format("set label '' at {} front point pt 6 ps 0.7 lw 1.3 lc rgb '{}'", position(x, y), colour));
+}
+
 void Canvas::rectangle(const Box& box, std::string_view colour) {
   commands(fmt::format("set object rectangle from {} to {} back fillcolor rgb '{}' fillstyle solid noborder",
                        position(box.left, box.bottom), position(box.right, box.top), colour));

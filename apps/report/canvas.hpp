@@ -42,6 +42,7 @@ class Canvas {
   /// Drawn with the next plot, at px positions.
   void text(double x, double y, std::string_view content, const TextStyle& style = {});
   void line(double x1, double y1, double x2, double y2, const LineStyle& style);
+  void point(double x, double y, std::string_view colour);
   void rectangle(const Box& box, std::string_view colour);
 
   /// Appends gnuplot commands that prepare the next plot.

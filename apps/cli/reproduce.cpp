@@ -1,0 +1,41 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "cli/standard_output.hpp"
+#include "cli/subcommand.hpp"
+#include "report/output_file.hpp"
+#include "report/reproduction.hpp"
+
+namespace zwidth::cli {
+namespace {
+
+void run_reproduce(const std::string& directory) {
+  // Everything is computed before anything is written.
+  const std::vector<report::PaperFigure> figures = report::paper_figures();
+  const std::string page = report::reproduction_page(figures);
+  report::make_directory(directory);
+  const std::filesystem::path folder(directory);
+  for (const report::PaperFigure& figure : figures) report::write_whole(folder / figure.file, figure.svg);
+  const std::string index = folder / "index.html";
+  report::write_whole(index, page);
+  write_standard_output(fmt::format("{} figures and the numbers beside the printed ones: {}\n", figures.size(), index));
+}
+
+}  // namespace
+
+void add_reproduce(CLI::App& app) {
+  auto directory = std::make_shared<std::string>();
+  CLI::App* command =
+      app.add_subcommand("reproduce", "The figures and numbers of the LHIfAM paper, ours beside printed");
+  command->add_option("OUTDIR", *directory, "Folder for figure_*.svg and index.html; made where missing")
+      ->type_name("")
+      ->required();
+  command->footer(
+      "Examples:\n"
+      "  zwidth reproduce paper");
+  command->callback([directory] { run_reproduce(*directory); });
+}
+
+}  // namespace zwidth::cli
