@@ -37,6 +37,9 @@ int run(int argument_count, char** arguments) {
       "'zwidth COMMAND --help' explains a command.\n"
       "Exit status: 0 done, 1 the work failed, 2 wrong usage or bad input.");
   add_analyze(app);
+  add_bode(app);
+  add_export(app);
+  add_reproduce(app);
   for (CLI::App* command : app.get_subcommands({})) command->group("Commands");
   app.get_formatter()->label("SUBCOMMAND", "COMMAND");
   app.get_formatter()->label("REQUIRED", "");
