@@ -78,9 +78,8 @@ TextTable comparison_table(std::span<const AnalysedDevice> devices, std::size_t 
       {{"", "device", "K_CR", "dB", "frequency", "limited by", "rigid model", "wall"}}};
   for (const AnalysedDevice& each : devices) {
     const CriticalStiffness& critical = each.analysis.critical;
-    std::vector<std::string> row = {std::to_string(table.rows.size()), each.device.name().empty()
-                                                                           ? "(unnamed device)"
-                                                                           : shortened(each.device.name(), name_width)};
+    std::vector<std::string> row = {std::to_string(table.rows.size()),
+                                    shortened(display_name(each.device), name_width)};
     if (critical.limit) {
       row.insert(row.end(), {quantity(critical.stiffness, units_of(each.device.parameters().motion).stiffness),
                              fmt::format("{:.2f}", decibels(critical.stiffness)),

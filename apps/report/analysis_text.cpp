@@ -38,7 +38,7 @@ std::string modes(const AnalysedDevice& analysed) {
 std::string answer_lines(const AnalysedDevice& analysed) {
   const CriticalStiffness& critical = analysed.analysis.critical;
   std::string text =
-      shortened(analysed.device.name(), width - 8) + "\n" +
+      shortened(display_name(analysed.device), width - 8) + "\n" +
       labelled("  critical stiffness", critical_stiffness_text(critical, analysed.device.parameters().motion));
   if (critical.limit) {
     text += labelled("  oscillates at", fmt::format("{} ({} rad/s)", quantity(hertz(critical.limit->frequency), "Hz"),

@@ -66,6 +66,8 @@ std::string other_intervals(const AnalysedDevice& analysed) {
 
 }  // namespace
 
+std::string display_name(const Device& device) { return device.name().empty() ? "(unnamed device)" : device.name(); }
+
 std::string mechanism_name(const Analysis& analysis, const Mechanism& mechanism) {
   if (mechanism.kind == Mechanism::Kind::rigid_body) {
     if (!analysis.suspended_rigid_body) return "the rigid body";

@@ -11,6 +11,9 @@ namespace zwidth::report {
 // The sentences of an answer, for an engineer who knows mechanics. Plain text, one paragraph each, shared by the text
 // and the HTML report. Texts from the device file appear as they are: escape them for the medium.
 
+/// The device's name, or "(unnamed device)" where it is empty.
+[[nodiscard]] std::string display_name(const Device& device);
+
 /// "the rigid body", "vibration mode 1 (37.1 Hz, damping ratio 0.03)".
 [[nodiscard]] std::string mechanism_name(const Analysis& analysis, const Mechanism& mechanism);
 

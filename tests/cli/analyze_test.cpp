@@ -129,7 +129,7 @@ TEST_F(Analyze, RotaryDevicesHaveRotaryUnits) {
         "1e-3\n");
   const json document = documents("zwidth analyze paddle.toml --json").front();
   EXPECT_EQ(document["units"], (json{{"stiffness", "N m/rad"}, {"damping", "N m s/rad"}}));
-  EXPECT_THAT(run("zwidth analyze paddle.toml").output, HasSubstr(" N m/rad ("));
+  EXPECT_THAT(run("zwidth analyze paddle.toml").output, HasSubstr(" dB re 1 N m/rad)"));
 }
 
 TEST_F(Analyze, AnUndampedDeviceHasNoStableWall) {
