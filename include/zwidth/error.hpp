@@ -7,10 +7,10 @@ namespace zwidth {
 
 /// What a caller did wrong, or what could not be computed.
 enum class ErrorCode {
-  invalid_argument,     ///< a value outside its documented domain (NaN, negative mass, wrong index)
-  no_such_body,         ///< a body is named that the device does not have
-  needs_bodies,         ///< asked of a transfer-function device what only a device of bodies has
-  did_not_converge,     ///< an iteration hit its documented cap
+  invalid_argument,  ///< a value outside its documented domain (NaN, negative mass, wrong index)
+  no_such_body,      ///< a body is named that the device does not have
+  needs_bodies,      ///< asked of a transfer-function device what only a device of bodies has
+  did_not_converge,  ///< an iteration hit its documented cap
 };
 
 /// The one exception of the library: a bug of the caller, or a computation that failed.

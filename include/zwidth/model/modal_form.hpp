@@ -3,7 +3,6 @@
 #include <complex>
 #include <cstddef>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "zwidth/model/device.hpp"
@@ -23,6 +22,11 @@ struct ModalTerm {
   double denominator[max_degree] = {};  ///< monic; the leading 1 is not stored
   /// 0: rigid body; i > 0: vibration mode i, by rising frequency; -1: actuator lag
   int mode = 0;
+  /// The part of the lag term's numerator that stems from this mode: lag_numerator / (s + 1/tau)
+  double lag_numerator = 0.0;
+  int integrators = 0;     ///< poles at s = 0
+  int unstable_poles = 0;  ///< poles with positive real part (of a transfer function)
+  int undamped_pairs = 0;  ///< pole pairs on the imaginary axis, s != 0
 };
 
 /// A vibration mode: the pole pair s² + 2 zeta w s + w².
@@ -39,8 +43,8 @@ struct Mode {
 /// light or critical damping and widely spread masses. Poles are found by Ehrlich-Aberth iteration on
 /// det(M s² + D s + K) in double-double arithmetic; poles closer than cluster_tolerance share a term.
 struct ModalForm {
-  std::vector<ModalTerm> terms;  ///< rigid body first, then modes by rising frequency, lag last
-  std::vector<Mode> modes;       ///< vibration modes only, by rising frequency
+  std::vector<ModalTerm> terms;              ///< rigid body first, then modes by rising frequency, lag last
+  std::vector<Mode> modes;                   ///< vibration modes only, by rising frequency
   std::optional<Mode> suspended_rigid_body;  ///< the rigid-body motion where springs tie it to ground
 };
 

@@ -22,7 +22,10 @@ struct SampledTerm {
   double numerator[ModalTerm::max_degree + 1] = {};  ///< degree + 1 coefficients
   double denominator[ModalTerm::max_degree] = {};    ///< monic; the leading 1 is not stored
   int mode = 0;                                      ///< as in ModalTerm
-  bool pole_on_circle = false;  ///< an undamped mode: |z| = 1 exactly
+  double lag_share = 0.0;                            ///< the part of the lag's term (mode -1) that stems from this one
+  int integrators = 0;                               ///< poles at z = 1
+  int unstable_poles = 0;                            ///< poles with |z| > 1 (of a transfer function)
+  int undamped_pairs = 0;                            ///< pole pairs with |z| = 1, z != 1
 };
 
 /// The plant that the sampled wall sees: Z[H(s) G(s) e^{-t_d s}] = z^-delay_samples sum_k N_k(z - 1) / D_k(z - 1).
@@ -32,7 +35,8 @@ struct SampledPlant {
   std::vector<SampledTerm> terms;
 };
 
-/// Samples exactly behind a zero-order hold with any real delay (modified z-transform; no Padé, no rounding to samples).
+/// Samples exactly behind a zero-order hold with any real delay (modified z-transform; no Padé, no rounding to
+/// samples).
 ///
 ///     t_d = (l + f) T, 0 <= f < 1:  x[k+1] = F x[k] + G1 u[k-l] + G2 u[k-l-1]
 ///
@@ -44,6 +48,9 @@ struct SampledPlant {
 
 /// modal_form() and sample() of a device with its own period and delay.
 [[nodiscard]] SampledPlant sampled_plant(const Device& device);
+
+/// One term at z = e^{j angle}, without the whole samples of delay; 0 < angle <= pi.
+[[nodiscard]] std::complex<double> response(const SampledTerm& term, double angle);
 
 /// The sampled response at e^{jwT}; 0 < w <= pi/T, rad/s.
 [[nodiscard]] std::complex<double> response(const SampledPlant& plant, double frequency);

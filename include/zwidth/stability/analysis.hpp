@@ -22,18 +22,18 @@ struct RigidApproximation {
 /// The mode matters when Q is similar to or *smaller* than the rigid critical stiffness (the paper prints "larger": see
 /// theory, section 3.3). Q is about the least stiffness of the resonance branch over all delays. An approximation.
 struct QCriterion {
-  double stiffness = 0.0;           ///< Q
+  double stiffness = 0.0;            ///< Q
   std::optional<bool> mode_matters;  ///< Q <= rigid critical stiffness; absent unless the actuated body is sensed
 };
 
 /// The whole answer for one device.
 struct Analysis {
   CriticalStiffness critical;
-  std::vector<Mode> modes;                         ///< vibration modes, by rising frequency
-  std::optional<Mode> suspended_rigid_body;        ///< where springs tie the device to ground
-  std::optional<RigidApproximation> rigid;         ///< absent for a transfer function
-  std::optional<QCriterion> q_criterion;           ///< absent unless two bodies
-  std::optional<WallMargins> wall;                 ///< absent without wall.stiffness
+  std::vector<Mode> modes;                   ///< vibration modes, by rising frequency
+  std::optional<Mode> suspended_rigid_body;  ///< where springs tie the device to ground
+  std::optional<RigidApproximation> rigid;   ///< absent for a transfer function
+  std::optional<QCriterion> q_criterion;     ///< absent unless two bodies
+  std::optional<WallMargins> wall;           ///< absent without wall.stiffness
 };
 
 /// Analyses a device: critical stiffness (with the wall's damper closed), modes, rigid approximation, Q, margins.

@@ -14,7 +14,8 @@ namespace zwidth {
 /// exponential and eigenvalues, no modal form and no frequency response. Cost grows with the cube of the order
 /// (device states + whole samples of delay + wall states).
 /// wall.stiffness absent counts as 0.
-[[nodiscard]] std::vector<std::complex<double>> closed_loop_poles_minus_one(const DiscreteStateSpace& plant, const Wall& wall);
+[[nodiscard]] std::vector<std::complex<double>> closed_loop_poles_minus_one(const DiscreteStateSpace& plant,
+                                                                            const Wall& wall);
 
 /// Largest |z| - 1 of those poles: negative iff the loop is stable.
 [[nodiscard]] double stability_excess(const DiscreteStateSpace& plant, const Wall& wall);

@@ -39,8 +39,8 @@ enum class StiffnessStatus {
 /// The stiffest stable virtual wall, with everything that decides it.
 struct CriticalStiffness {
   StiffnessStatus status = StiffnessStatus::finite;
-  double stiffness = 0.0;  ///< K_CR; 0 when none_stable, infinity when unbounded
-  std::optional<Crossover> limit;  ///< the crossover at K_CR; absent unless finite
+  double stiffness = 0.0;                        ///< K_CR; 0 when none_stable, infinity when unbounded
+  std::optional<Crossover> limit;                ///< the crossover at K_CR; absent unless finite
   std::vector<Crossover> crossovers;             ///< all, by rising frequency
   std::vector<StableInterval> stable_intervals;  ///< all, by rising K
 };
@@ -56,8 +56,8 @@ struct VirtualDamper {
 /// Complete: the phase condition is isolated by interval subdivision of 0..Nyquist with bounds on its second derivative
 /// (see docs/completeness.md); no grid is involved. Each root is polished to rounding. The number of unstable poles
 /// between crossovers follows from the direction of every crossing.
-/// Throws Error (invalid_argument) for negative or non-finite B or f_c, (did_not_converge) when subdivision hits its cap.
-/// Source: eqs. 21-23, 27-28 of Díaz & Gil; theory, section 1.
+/// Throws Error (invalid_argument) for negative or non-finite B or f_c, (did_not_converge) when subdivision hits its
+/// cap. Source: eqs. 21-23, 27-28 of Díaz & Gil; theory, section 1.
 [[nodiscard]] CriticalStiffness critical_stiffness(const SampledPlant& plant, VirtualDamper damper = {});
 
 }  // namespace zwidth

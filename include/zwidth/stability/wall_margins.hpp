@@ -19,11 +19,11 @@ struct WallMargins {
   double stiffness = 0.0;
   double damping = 0.0;
   bool stable = false;
-  std::optional<double> gain_margin;      ///< least factor > 1 on the whole wall that destabilises; absent: none does
+  std::optional<double> gain_margin;        ///< least factor > 1 on the whole wall that destabilises; absent: none does
   std::optional<double> lower_gain_margin;  ///< largest factor in (0, 1) that destabilises; absent: none does
-  std::optional<double> phase_margin;     ///< rad; smallest of all gain crossovers; absent without one or if unstable
-  std::optional<double> delay_margin;     ///< s; min over all gain crossovers of phase/frequency; absent likewise
-  double spectral_radius = 0.0;           ///< largest closed-loop |z|
+  std::optional<double> phase_margin;       ///< rad; smallest of all gain crossovers; absent without one or if unstable
+  std::optional<double> delay_margin;       ///< s; min over all gain crossovers of phase/frequency; absent likewise
+  double spectral_radius = 0.0;             ///< largest closed-loop |z|
   std::vector<GainCrossover> gain_crossovers;  ///< all, by rising frequency
 };
 

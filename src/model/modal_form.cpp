@@ -1,0 +1,299 @@
+#include "zwidth/model/modal_form.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "model/device_matrices.hpp"
+#include "model/partial_fractions.hpp"
+#include "model/pencil.hpp"
+#include "model/pole_search.hpp"
+#include "zwidth/error.hpp"
+
+namespace zwidth {
+namespace {
+
+using ComplexD = Complex<double>;
+using ComplexX = Complex<Extended>;
+using partial_fractions::expand;
+
+// Sweeps in double bring the roots near; sweeps in double-double finish. A simple root converges cubically, so a last
+// step of `last_step` leaves an error below last_step² times the root's condition; multiple roots converge linearly
+// and are refined by contour integrals (partial_fractions).
+constexpr int max_sweeps_in_double = 12;
+constexpr int max_sweeps_in_extended = 300;
+constexpr double last_step = 1e-11;
+constexpr double unresolved_step = 1e-3;
+
+// All non-zero roots of both pencils (the same function in two precisions) from starting values.
+template <typename Pencil, typename PencilX>
+std::vector<ComplexX> find_poles(const Pencil& pencil, const PencilX& extended, std::vector<ComplexD> start) {
+  // Distinct starting values: coincident ones would move together for ever.
+  for (std::size_t i = 0; i < start.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (magnitude(start[i] - start[j]) <= 1e-6 * magnitude(start[i])) {
+        start[i] *= ComplexD(1.0 + 1e-3 * static_cast<double>(i + 1), 2e-3 * static_cast<double>(i + 1));
+      }
+    }
+  }
+  std::vector<ComplexD> rough = start;
+  improve_roots(pencil, rough, 1e-9, max_sweeps_in_double);
+  std::vector<ComplexX> roots;
+  roots.reserve(rough.size());
+  for (std::size_t i = 0; i < rough.size(); ++i) {
+    const double size = magnitude(rough[i]);
+    roots.emplace_back(std::isfinite(size) && size > 0.0 ? rough[i] : start[i]);
+  }
+  const double step = improve_roots(extended, roots, last_step, max_sweeps_in_extended);
+  if (!(step <= unresolved_step)) {
+    throw Error(ErrorCode::did_not_converge, "the poles of the device could not be found: its values are too extreme");
+  }
+  return roots;
+}
+
+// Roots of s² + c1 s + c0 in double, without cancellation.
+std::pair<ComplexD, ComplexD> quadratic_roots(double c1, double c0) {
+  const double half = c1 / 2.0;
+  const double discriminant = half * half - c0;
+  if (discriminant < 0.0) {
+    const double imaginary = std::sqrt(-discriminant);
+    return {ComplexD(-half, imaginary), ComplexD(-half, -imaginary)};
+  }
+  const double large = -(half + std::copysign(std::sqrt(discriminant), half));
+  return {ComplexD(large), ComplexD(large != 0.0 ? c0 / large : 0.0)};
+}
+
+struct UndampedModes {
+  std::vector<double> stiffness;  // w², ascending
+  std::vector<double> damping;    // phi' D phi
+  bool lowest_mode_is_rigid = false;
+};
+
+// Real modes of M, K (mass-normalised) with the diagonal of the modal damping: starting values, not results.
+UndampedModes undamped_modes(const Device& device, const DeviceMatrices<double>& matrices) {
+  const auto n = static_cast<Eigen::Index>(matrices.mass.size());
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const Eigen::Map<const RowMajor> stiffness(matrices.stiffness.data(), n, n);
+  const Eigen::Map<const RowMajor> damping(matrices.damping.data(), n, n);
+  const Eigen::VectorXd scale = Eigen::Map<const Eigen::VectorXd>(matrices.mass.data(), n).cwiseSqrt().cwiseInverse();
+  const Eigen::MatrixXd normalised = scale.asDiagonal() * stiffness * scale.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(normalised);
+  const Eigen::MatrixXd shapes = scale.asDiagonal() * solver.eigenvectors();
+  UndampedModes modes;
+  for (Eigen::Index k = 0; k < n; ++k) {
+    modes.stiffness.push_back(std::max(solver.eigenvalues()(k), 0.0));
+    modes.damping.push_back(std::max(shapes.col(k).dot(damping * shapes.col(k)), 0.0));
+  }
+  double in_links = 0.0;
+  for (const Link& link : device.links()) {
+    const double stretch =
+        shapes(static_cast<Eigen::Index>(link.first), 0) - shapes(static_cast<Eigen::Index>(link.second), 0);
+    in_links += link.stiffness * stretch * stretch;
+  }
+  double to_ground =
+      device.parameters().user.stiffness * std::pow(shapes(static_cast<Eigen::Index>(device.loop().held), 0), 2);
+  for (std::size_t i = 0; i < device.bodies().size(); ++i) {
+    to_ground += device.bodies()[i].stiffness * std::pow(shapes(static_cast<Eigen::Index>(i), 0), 2);
+  }
+  modes.lowest_mode_is_rigid = to_ground >= in_links;
+  return modes;
+}
+
+// How many poles at s = 0 the structure implies: 1 without springs to ground, 2 without dampers to ground either.
+std::size_t poles_at_zero(const Device& device) {
+  const Operator& user = device.parameters().user;
+  bool spring = user.stiffness > 0.0;
+  bool damper = user.damping > 0.0;
+  for (const Body& body : device.bodies()) {
+    spring = spring || body.stiffness > 0.0;
+    damper = damper || body.damping > 0.0;
+  }
+  return spring ? 0 : damper ? 1 : 2;
+}
+
+template <typename Real>
+BodyPencil<Real> body_pencil(const Device& device, Path path, double lag) {
+  DeviceMatrices<Real> matrices = device_matrices<Real>(device);
+  BodyPencil<Real> pencil;
+  pencil.bodies = matrices.mass.size();
+  pencil.force_at = path.force_at;
+  pencil.position_of = path.position_of;
+  pencil.mass = std::move(matrices.mass);
+  pencil.damping = std::move(matrices.damping);
+  pencil.stiffness = std::move(matrices.stiffness);
+  pencil.lag = lag;
+  pencil.zero_roots = poles_at_zero(device);
+  return pencil;
+}
+
+// One or two bodies as polynomials (eqs. 5-9 of Díaz & Gil): fewer operations than the matrix.
+template <typename Real>
+PolynomialPencil<Real> small_device_pencil(const Device& device, Path path, double lag) {
+  const DeviceMatrices<Real> d = device_matrices<Real>(device);
+  PolynomialPencil<Real> pencil;
+  pencil.lag = lag;
+  pencil.zero_roots = poles_at_zero(device);
+  if (d.mass.size() == 1) {
+    pencil.numerator = {Real(1.0)};
+    pencil.denominator = {d.stiffness[0], d.damping[0], d.mass[0]};
+  } else {
+    // det [[p_11, p_12], [p_12, p_22]], p_ij = m_ij s² + b_ij s + k_ij
+    const Real &b1 = d.damping[0], &b2 = d.damping[3], &b12 = d.damping[1];
+    const Real &k1 = d.stiffness[0], &k2 = d.stiffness[3], &k12 = d.stiffness[1];
+    const Real &m1 = d.mass[0], &m2 = d.mass[1];
+    pencil.denominator = {k1 * k2 - k12 * k12, b1 * k2 + b2 * k1 - Real(2.0) * b12 * k12,
+                          m1 * k2 + m2 * k1 + b1 * b2 - b12 * b12, m1 * b2 + m2 * b1, m1 * m2};
+    if (path.force_at != path.position_of) {
+      pencil.numerator = {Real(0.0) - k12, Real(0.0) - b12};
+    } else if (path.force_at == 0) {
+      pencil.numerator = {k2, b2, m2};
+    } else {
+      pencil.numerator = {k1, b1, m1};
+    }
+  }
+  pencil.denominator.erase(pencil.denominator.begin(),
+                           pencil.denominator.begin() + static_cast<std::ptrdiff_t>(pencil.zero_roots));
+  return pencil;
+}
+
+ModalForm expand_bodies(const Device& device, Path path, double lag) {
+  const DeviceMatrices<double> matrices = device_matrices<double>(device);
+  const std::size_t zeros = poles_at_zero(device);
+  double mass = 0.0;
+  double damping = device.parameters().user.damping;
+  for (double m : matrices.mass) mass += m;
+  for (const Body& body : device.bodies()) damping += body.damping;
+
+  PoleLabels labels;
+  labels.has_bodies = true;
+  labels.rigid_pole = damping / mass;
+  std::vector<ComplexD> start;
+  if (matrices.mass.size() == 1) {
+    labels.lowest_mode_is_rigid = true;
+    if (zeros == 1) start.emplace_back(-labels.rigid_pole);
+    if (zeros == 0) {
+      const auto [first, second] = quadratic_roots(matrices.damping[0] / mass, matrices.stiffness[0] / mass);
+      start = {first, second};
+    }
+  } else {
+    const UndampedModes modes = undamped_modes(device, matrices);
+    labels.lowest_mode_is_rigid = zeros == 0 && modes.lowest_mode_is_rigid;
+    if (zeros == 1) start.emplace_back(-labels.rigid_pole);
+    for (std::size_t k = zeros > 0 ? 1 : 0; k < modes.stiffness.size(); ++k) {
+      const auto [first, second] = quadratic_roots(modes.damping[k], modes.stiffness[k]);
+      start.push_back(first);
+      start.push_back(second);
+    }
+  }
+  // A start of zero (a mode lost in rounding) would divide by zero.
+  for (ComplexD& s : start) {
+    if (!(magnitude(s) > 0.0)) s = ComplexD(-1e-3, 1e-3);
+  }
+  if (matrices.mass.size() <= 2) {
+    const auto extended = small_device_pencil<Extended>(device, path, lag);
+    return expand(extended, find_poles(small_device_pencil<double>(device, path, lag), extended, std::move(start)),
+                  labels);
+  }
+  const auto extended = body_pencil<Extended>(device, path, lag);
+  return expand(extended, find_poles(body_pencil<double>(device, path, lag), extended, std::move(start)), labels);
+}
+
+// Starting values on circles whose radii come from the upper convex hull of log |coefficients| (D. Bini 1996).
+std::vector<ComplexD> newton_polygon_start(const std::vector<double>& p) {
+  const std::size_t degree = p.size() - 1;
+  std::vector<std::size_t> hull;
+  for (std::size_t i = 0; i <= degree; ++i) {
+    if (p[i] == 0.0) continue;
+    const auto height = [&](std::size_t k) { return std::log(std::abs(p[k])); };
+    const auto above = [&](std::size_t a, std::size_t b, std::size_t c) {  // is b on or under the line a-c?
+      return (height(b) - height(a)) * static_cast<double>(c - a) <=
+             (height(c) - height(a)) * static_cast<double>(b - a);
+    };
+    while (hull.size() >= 2 && above(hull[hull.size() - 2], hull.back(), i)) hull.pop_back();
+    hull.push_back(i);
+  }
+  std::vector<ComplexD> start;
+  for (std::size_t h = 0; h + 1 < hull.size(); ++h) {
+    const std::size_t count = hull[h + 1] - hull[h];
+    const double radius =
+        std::exp((std::log(std::abs(p[hull[h]])) - std::log(std::abs(p[hull[h + 1]]))) / static_cast<double>(count));
+    for (std::size_t i = 0; i < count; ++i) {
+      const double angle =
+          2.0 * M_PI * static_cast<double>(i) / static_cast<double>(count) + 0.7 + static_cast<double>(h);
+      start.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
+    }
+  }
+  return start;
+}
+
+ModalForm expand_transfer_function(const TransferFunction& transfer_function, double lag) {
+  std::vector<double> numerator(transfer_function.numerator.rbegin(), transfer_function.numerator.rend());
+  std::vector<double> denominator(transfer_function.denominator.rbegin(), transfer_function.denominator.rend());
+  while (numerator.size() > 1 && numerator.back() == 0.0) numerator.pop_back();
+  // s cancels where both polynomials have it.
+  while (numerator.size() > 1 && numerator.front() == 0.0 && denominator.front() == 0.0) {
+    numerator.erase(numerator.begin());
+    denominator.erase(denominator.begin());
+  }
+  std::size_t zeros = 0;
+  while (denominator.front() == 0.0) {
+    denominator.erase(denominator.begin());
+    ++zeros;
+  }
+  PolynomialPencil<Extended> extended;
+  PolynomialPencil<double> pencil;
+  pencil.zero_roots = extended.zero_roots = zeros;
+  pencil.lag = lag;
+  extended.lag = lag;
+  // Exact scaling by a power of two keeps products of extreme coefficients in range.
+  int exponent = 0;
+  std::frexp(denominator.back(), &exponent);
+  for (double& c : numerator) c = std::ldexp(c, -exponent);
+  for (double& c : denominator) c = std::ldexp(c, -exponent);
+  pencil.numerator = numerator;
+  pencil.denominator = denominator;
+  extended.numerator.assign(numerator.begin(), numerator.end());
+  extended.denominator.assign(denominator.begin(), denominator.end());
+  PoleLabels labels;
+  return expand(extended, find_poles(pencil, extended, newton_polygon_start(denominator)), labels);
+}
+
+}  // namespace
+
+ModalForm modal_form(const Device& device) {
+  const double lag = device.parameters().actuator.time_constant;
+  if (!device.has_bodies()) return expand_transfer_function(*device.parameters().transfer_function, lag);
+  return expand_bodies(device, {device.loop().actuated, device.loop().sensed}, lag);
+}
+
+ModalForm modal_form(const Device& device, Path path, ActuatorLag lag) {
+  if (!device.has_bodies()) {
+    throw Error(ErrorCode::needs_bodies, "a transfer-function device has no bodies to choose a path between");
+  }
+  if (std::max(path.force_at, path.position_of) >= device.bodies().size()) {
+    throw Error(ErrorCode::no_such_body, "the path names body " +
+                                             std::to_string(std::max(path.force_at, path.position_of)) + " of " +
+                                             std::to_string(device.bodies().size()));
+  }
+  return expand_bodies(device, path, lag == ActuatorLag::included ? device.parameters().actuator.time_constant : 0.0);
+}
+
+std::complex<double> response(const ModalTerm& term, double frequency) {
+  const std::complex<double> s(0.0, frequency);
+  std::complex<double> numerator = 0.0;
+  std::complex<double> denominator = 1.0;
+  for (std::size_t i = term.degree; i-- > 0;) {
+    numerator = numerator * s + term.numerator[i];
+    denominator = denominator * s + term.denominator[i];
+  }
+  return numerator / denominator;
+}
+
+std::complex<double> response(const ModalForm& form, double frequency) {
+  std::complex<double> sum = 0.0;
+  for (const ModalTerm& term : form.terms) sum += response(term, frequency);
+  return sum;
+}
+
+}  // namespace zwidth

@@ -1,0 +1,161 @@
+#include "model/partial_fractions.hpp"
+
+namespace zwidth::partial_fractions {
+namespace {
+
+PolynomialX times_root(const PolynomialX& p, const ComplexX& root) {
+  PolynomialX result(p.size() + 1);
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    result[i + 1] += p[i];
+    result[i] -= p[i] * root;
+  }
+  return result;
+}
+
+// Numerator size in units that compare between terms: acceleration per force near the term's own frequency.
+double weight(const ModalTerm& term, double frequency) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < term.degree; ++i) {
+    sum += std::abs(term.numerator[i]) *
+           std::pow(frequency, static_cast<double>(i) + 2.0 - static_cast<double>(term.degree));
+  }
+  return sum;
+}
+
+}  // namespace
+
+PolynomialX expand_product(const std::vector<ComplexX>& roots) {
+  PolynomialX p{ComplexX(Extended(1.0))};
+  for (const ComplexX& root : roots) p = times_root(p, root);
+  return p;
+}
+
+PolynomialX multiply(const PolynomialX& a, const PolynomialX& b) {
+  PolynomialX result(a.size() + b.size() - 1);
+  for (std::size_t i = 0; i < a.size(); ++i)
+    for (std::size_t j = 0; j < b.size(); ++j) result[i + j] += a[i] * b[j];
+  return result;
+}
+
+PolynomialX shifted(const PolynomialX& p, const ComplexX& center) {
+  PolynomialX result{p.back()};
+  for (std::size_t i = p.size() - 1; i-- > 0;) {
+    result = times_root(result, center);
+    result[0] += p[i];
+  }
+  return result;
+}
+
+ComplexX product(const std::vector<ComplexX>& roots, const ComplexX& s) {
+  ComplexX p = s - roots[0];
+  for (std::size_t i = 1; i < roots.size(); ++i) p *= s - roots[i];
+  return p;
+}
+
+PolynomialX from_power_sums(const std::vector<ComplexX>& sums) {
+  const std::size_t k = sums.size();
+  std::vector<ComplexX> elementary(k + 1);
+  elementary[0] = ComplexX(Extended(1.0));
+  for (std::size_t j = 1; j <= k; ++j) {
+    ComplexX sum;
+    for (std::size_t i = 1; i <= j; ++i) {
+      const ComplexX term = elementary[j - i] * sums[i - 1];
+      sum = i % 2 == 1 ? sum + term : sum - term;
+    }
+    elementary[j] = sum * (Extended(1.0) / Extended(static_cast<double>(j)));
+  }
+  PolynomialX p(k + 1);
+  for (std::size_t j = 0; j <= k; ++j) p[k - j] = j % 2 == 0 ? elementary[j] : ComplexX() - elementary[j];
+  return p;
+}
+
+std::vector<ComplexX> contour_directions() {
+  std::vector<ComplexX> directions;
+  for (std::size_t i = 0; i < contour_points; ++i) {
+    const double angle = 2.0 * std::numbers::pi * (static_cast<double>(i) + 0.5) / static_cast<double>(contour_points);
+    ComplexX z{Extended(std::cos(angle)), Extended(std::sin(angle))};
+    // One Newton step on z^n = -1 takes the direction from double to double-double.
+    ComplexX power = z;
+    for (std::size_t j = 1; j < contour_points; ++j) power *= z;
+    const ComplexX residual{power.re + Extended(1.0), power.im};
+    z -= residual * z / (power * Extended(static_cast<double>(contour_points)));
+    directions.push_back(z);
+  }
+  return directions;
+}
+
+double isolation(const PoleGroup& group, const std::vector<ComplexX>& all_poles) {
+  double nearest = std::numeric_limits<double>::infinity();
+  double size = 0.0;
+  for (const ComplexX& own : group.poles) size = std::max(size, magnitude(own));
+  for (const ComplexX& other : all_poles) {
+    double distance = std::numeric_limits<double>::infinity();
+    for (const ComplexX& own : group.poles) distance = std::min(distance, magnitude(own - other));
+    if (distance > 0.0) nearest = std::min(nearest, distance);
+  }
+  if (std::isfinite(nearest)) return nearest;
+  return size > 0.0 ? size : 1.0;
+}
+
+ModalTerm real_term(const PoleGroup& group, PolynomialX numerator, PolynomialX denominator) {
+  if (!group.closed) {  // N/p + N*/p*
+    PolynomialX conjugate = denominator;
+    for (ComplexX& c : conjugate) c = conj(c);
+    numerator = multiply(numerator, conjugate);
+    for (ComplexX& c : numerator) c = {c.re * Extended(2.0), Extended(0.0)};
+    denominator = multiply(denominator, conjugate);
+  }
+  ModalTerm term;
+  term.degree = denominator.size() - 1;
+  term.mode = group.mode;
+  if (term.degree > ModalTerm::max_degree) {
+    throw Error(ErrorCode::did_not_converge,
+                "more than " + std::to_string(ModalTerm::max_degree) + " poles of the device coincide");
+  }
+  // Poles of a cluster are known to fewer digits.
+  const double on_axis = group.cluster ? 1e-7 : 0.0;
+  for (const ComplexX& pole : group.poles) {
+    const double re = leading(pole.re);
+    const double size = magnitude(pole);
+    if (size == 0.0) {
+      ++term.integrators;
+    } else if (std::abs(re) <= on_axis * size && !group.closed) {
+      ++term.undamped_pairs;
+    } else if (re > 0.0) {
+      term.unstable_poles += group.closed ? 1 : 2;
+    }
+  }
+  for (std::size_t i = 0; i < term.degree; ++i) {
+    term.numerator[i] = i < numerator.size() ? leading(numerator[i].re) : 0.0;
+    term.denominator[i] = leading(denominator[i].re);
+    if (!std::isfinite(term.numerator[i]) || !std::isfinite(term.denominator[i])) {
+      throw Error(ErrorCode::did_not_converge,
+                  "the modes of the device could not be found: its values are too extreme");
+    }
+  }
+  return term;
+}
+
+void finish(ModalForm& form, double lag) {
+  std::vector<double> weights;
+  for (const ModalTerm& term : form.terms) {
+    const double frequency = term.mode > 0
+                                 ? form.modes[static_cast<std::size_t>(term.mode) - 1].frequency
+                                 : std::pow(std::abs(term.denominator[0]), 1.0 / static_cast<double>(term.degree));
+    weights.push_back(weight(term, frequency > 0.0 ? frequency : 1.0));
+  }
+  const double largest = *std::max_element(weights.begin(), weights.end());
+  for (std::size_t i = 0; i < form.terms.size(); ++i) {
+    ModalTerm& term = form.terms[i];
+    if (term.mode > 0 && weights[i] <= unseen_below * largest) std::fill_n(term.numerator, term.degree, 0.0);
+    if (lag > 0.0 && term.mode >= 0 && term.degree == 2) {
+      // The mode without the lag is N (lag s + 1) mod D; its residue at s = -1/lag is its part of the lag's term.
+      const double n0 = term.numerator[0] - lag * term.numerator[1] * term.denominator[0];
+      const double n1 = term.numerator[1] + lag * (term.numerator[0] - term.numerator[1] * term.denominator[1]);
+      const double s = -1.0 / lag;
+      term.lag_numerator = (n0 + n1 * s) / (term.denominator[0] + s * (term.denominator[1] + s)) / lag;
+    }
+  }
+}
+
+}  // namespace zwidth::partial_fractions

@@ -1,0 +1,155 @@
+#pragma once
+
+// Partial fractions of G(s) from its poles, in double-double. Private to modal_form().
+//
+// Around a group I of poles G = f / p_I with p_I = prod (s - pole) and f analytic; the group's term is
+// (f mod p_I) / p_I. f is evaluated as G p_I beside the poles: averaged over s +- h its error is of order h²/d², d the
+// distance of the next other pole, far below double precision.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "model/extended_precision.hpp"
+#include "model/pole_groups.hpp"
+#include "zwidth/error.hpp"
+#include "zwidth/model/modal_form.hpp"
+
+namespace zwidth::partial_fractions {
+
+using ComplexX = Complex<Extended>;
+using PolynomialX = std::vector<ComplexX>;  // ascending powers
+
+// h, relative to the distance of the next other pole, for the value of f and for its slope.
+inline constexpr double value_offset = 1e-10;
+inline constexpr double slope_offset = 1e-7;
+// Two poles closer than this, relative to the next other pole, take the slope of f instead of its difference.
+inline constexpr double slope_below = 1e-8;
+// Points on the circle of a contour integral; the error falls like (ratio of radii)^points.
+inline constexpr std::size_t contour_points = 96;
+// A mode whose numerator is smaller than this, relative to the largest, is rounding: the path does not see the mode.
+inline constexpr double unseen_below = 1e-20;
+
+PolynomialX expand_product(const std::vector<ComplexX>& roots);
+PolynomialX multiply(const PolynomialX& a, const PolynomialX& b);
+PolynomialX shifted(const PolynomialX& p, const ComplexX& center);  // from powers of (s - center) to powers of s
+ComplexX product(const std::vector<ComplexX>& roots, const ComplexX& s);
+// Monic polynomial from the power sums sigma_1..sigma_k of its roots (Newton's identities).
+PolynomialX from_power_sums(const std::vector<ComplexX>& sums);
+// exp(2 pi i (k + 1/2) / contour_points) in double-double.
+std::vector<ComplexX> contour_directions();
+// Distance from the group to the nearest other pole; the size of its own poles where there is none.
+double isolation(const PoleGroup& group, const std::vector<ComplexX>& all_poles);
+// The real term of numerator / denominator, plus its conjugate unless the group is closed.
+ModalTerm real_term(const PoleGroup& group, PolynomialX numerator, PolynomialX denominator);
+// Clears numerators of modes that the path does not see; says how much of the lag's term stems from each mode.
+void finish(ModalForm& form, double lag);
+
+template <typename Pencil>
+ComplexX analytic_part(const Pencil& pencil, const PoleGroup& group, const ComplexX& s) {
+  return pencil.gain(s) * product(group.poles, s);
+}
+
+template <typename Pencil>
+ComplexX analytic_value(const Pencil& pencil, const PoleGroup& group, const ComplexX& s, double nearest) {
+  const ComplexX h{Extended(value_offset * nearest)};
+  return (analytic_part(pencil, group, s + h) + analytic_part(pencil, group, s - h)) * Extended(0.5);
+}
+
+// Two poles: N = f(first) + f[first, second] (s - first).
+template <typename Pencil>
+PolynomialX pair_numerator(const Pencil& pencil, const PoleGroup& group, double nearest) {
+  const ComplexX& first = group.poles[0];
+  const ComplexX& second = group.poles[1];
+  if (magnitude(first - second) > slope_below * nearest) {
+    const ComplexX value = analytic_value(pencil, group, first, nearest);
+    const ComplexX slope = (value - analytic_value(pencil, group, second, nearest)) / (first - second);
+    return {value - slope * first, slope};
+  }
+  const ComplexX middle = (first + second) * Extended(0.5);
+  const ComplexX value = analytic_value(pencil, group, middle, nearest);
+  const ComplexX h{Extended(slope_offset * nearest)};
+  const ComplexX slope =
+      (analytic_part(pencil, group, middle + h) - analytic_part(pencil, group, middle - h)) / (h * Extended(2.0));
+  return {value - slope * middle, slope};
+}
+
+// A cluster: p_I from sigma_j = 1/(2 pi i) contour integral of s^j p'/p ds, N = polynomial part of
+// p_I(s) sum_j mu_j s^-(j+1) with mu_j = 1/(2 pi i) contour integral of s^j G ds, in coordinates of the cluster's
+// centre.
+template <typename Pencil>
+ModalTerm cluster_term(const Pencil& pencil, const PoleGroup& group, double nearest) {
+  const std::size_t k = group.poles.size();
+  ComplexX center;
+  for (const ComplexX& pole : group.poles) center += pole;
+  center = center * (Extended(1.0) / Extended(static_cast<double>(k)));
+  if (group.closed) center.im = Extended(0.0);
+  double spread = 1e-6 * nearest;
+  for (const ComplexX& pole : group.poles) spread = std::max(spread, magnitude(pole - center));
+  const Extended radius = Extended(std::sqrt(spread * nearest));
+
+  std::vector<ComplexX> points = contour_directions();
+  std::vector<ComplexX> log_derivative(contour_points);
+  std::vector<ComplexX> gain(contour_points);
+  const ComplexX one{Extended(1.0)};
+  for (std::size_t i = 0; i < contour_points; ++i) {
+    points[i] = points[i] * radius;
+    const ComplexX s = center + points[i];
+    gain[i] = pencil.gain(s);
+    log_derivative[i] = one / pencil.newton_step(s);
+    for (std::size_t zero = 0; zero < pencil.zero_roots; ++zero) log_derivative[i] += one / s;
+    if (leading(pencil.lag) > 0.0) log_derivative[i] += ComplexX(pencil.lag) / (one + s * pencil.lag);
+  }
+  const auto moment = [&points](const std::vector<ComplexX>& values, std::size_t order) {
+    ComplexX sum;
+    for (std::size_t i = 0; i < contour_points; ++i) {
+      ComplexX term = values[i] * points[i];  // ds = i s dphi
+      for (std::size_t j = 0; j < order; ++j) term *= points[i];
+      sum += term;
+    }
+    return sum * (Extended(1.0) / Extended(static_cast<double>(contour_points)));
+  };
+  if (std::abs(leading(moment(log_derivative, 0).re) - static_cast<double>(k)) > 1e-6) {
+    throw Error(ErrorCode::did_not_converge, "poles that nearly coincide could not be told from their neighbours");
+  }
+  std::vector<ComplexX> sums;
+  for (std::size_t j = 1; j <= k; ++j) sums.push_back(moment(log_derivative, j));
+  const PolynomialX denominator = from_power_sums(sums);
+  PolynomialX numerator(k);
+  for (std::size_t j = 0; j < k; ++j) {
+    const ComplexX mu = moment(gain, j);
+    for (std::size_t power = 0; power + j + 1 <= k; ++power) numerator[power] += denominator[power + j + 1] * mu;
+  }
+  return real_term(group, shifted(numerator, center), shifted(denominator, center));
+}
+
+template <typename Pencil>
+ModalTerm term_of(const Pencil& pencil, const PoleGroup& group, const std::vector<ComplexX>& all_poles) {
+  const double nearest = isolation(group, all_poles);
+  if (group.cluster) return cluster_term(pencil, group, nearest);
+  PolynomialX denominator = expand_product(group.poles);
+  PolynomialX numerator = group.poles.size() == 1 ? PolynomialX{analytic_value(pencil, group, group.poles[0], nearest)}
+                                                  : pair_numerator(pencil, group, nearest);
+  return real_term(group, std::move(numerator), std::move(denominator));
+}
+
+// Sum of terms from all non-zero poles (closed under conjugation to rounding); poles at zero and of the lag are added.
+template <typename Pencil>
+ModalForm expand(const Pencil& pencil, std::vector<ComplexX> poles, const PoleLabels& labels) {
+  ModalForm form;
+  std::vector<PoleGroup> groups = group_poles(poles, pencil.zero_roots, labels, form);
+  const double lag = leading(pencil.lag);
+  if (lag > 0.0) {
+    poles.emplace_back(Extended(-1.0) / pencil.lag);
+    add_lag_pole(groups, poles.back());
+  }
+  for (const PoleGroup& group : groups) form.terms.push_back(term_of(pencil, group, poles));
+  finish(form, lag);
+  return form;
+}
+
+}  // namespace zwidth::partial_fractions

@@ -1,0 +1,142 @@
+#pragma once
+
+// A plant G(s) = N(s) / (p(s) (lag s + 1)) by evaluation at complex s, in double or double-double. Roots of p at
+// exactly s = 0, known from the structure, are divided out of p: `zero_roots` counts them. The pole of the lag is known
+// and not among the roots sought.
+
+#include <cstddef>
+#include <vector>
+
+#include "model/extended_precision.hpp"
+
+namespace zwidth {
+
+// Polynomials, ascending powers. p carries no root at zero any more.
+template <typename Real>
+struct PolynomialPencil {
+  std::vector<Real> numerator;
+  std::vector<Real> denominator;
+  Real lag{0.0};
+  std::size_t zero_roots = 0;
+
+  // p / p' at s.
+  [[nodiscard]] Complex<Real> newton_step(const Complex<Real>& s) const {
+    Complex<Real> p(denominator.back());
+    Complex<Real> derivative;
+    for (std::size_t i = denominator.size() - 1; i-- > 0;) {
+      derivative = derivative * s + p;
+      p = p * s;
+      p.re += denominator[i];
+    }
+    return p / derivative;
+  }
+
+  [[nodiscard]] Complex<Real> gain(const Complex<Real>& s) const {
+    Complex<Real> p = horner(denominator, s);
+    for (std::size_t i = 0; i < zero_roots; ++i) p *= s;
+    Complex<Real> lag_denominator = s * lag;
+    lag_denominator.re += Real(1.0);
+    return horner(numerator, s) / (p * lag_denominator);
+  }
+
+ private:
+  static Complex<Real> horner(const std::vector<Real>& coefficients, const Complex<Real>& s) {
+    Complex<Real> value(coefficients.back());
+    for (std::size_t i = coefficients.size() - 1; i-- > 0;) {
+      value = value * s;
+      value.re += coefficients[i];
+    }
+    return value;
+  }
+};
+
+// p(s) = det Q(s) s^-zero_roots, Q(s) = M s² + D s + K; G(s) = e_position' Q(s)^-1 e_force / (lag s + 1).
+template <typename Real>
+class BodyPencil {
+ public:
+  std::size_t bodies = 0;
+  std::size_t force_at = 0;
+  std::size_t position_of = 0;
+  std::vector<Real> mass;       // diagonal
+  std::vector<Real> damping;    // bodies x bodies, row by row
+  std::vector<Real> stiffness;  // bodies x bodies
+  Real lag{0.0};
+  std::size_t zero_roots = 0;
+
+  // p / p' = 1 / (trace(Q^-1 Q') - zero_roots / s).
+  [[nodiscard]] Complex<Real> newton_step(const Complex<Real>& s) const {
+    factorise(s);
+    Complex<Real> trace;
+    for (std::size_t j = 0; j < bodies; ++j) {
+      for (std::size_t i = 0; i < bodies; ++i) {
+        column_[i] = Complex<Real>(damping[i * bodies + j]);
+        if (i == j) column_[i] += s * (mass[i] * Real(2.0));
+      }
+      solve(column_);
+      trace += column_[j];
+    }
+    const Complex<Real> one(Real(1.0));
+    if (zero_roots > 0) trace -= Complex<Real>(Real(static_cast<double>(zero_roots))) / s;
+    return one / trace;
+  }
+
+  [[nodiscard]] Complex<Real> gain(const Complex<Real>& s) const {
+    factorise(s);
+    for (Complex<Real>& entry : column_) entry = Complex<Real>();
+    column_[force_at] = Complex<Real>(Real(1.0));
+    solve(column_);
+    Complex<Real> lag_denominator = s * lag;
+    lag_denominator.re += Real(1.0);
+    return column_[position_of] / lag_denominator;
+  }
+
+ private:
+  // LU of Q(s) with partial pivoting.
+  void factorise(const Complex<Real>& s) const {
+    const std::size_t n = bodies;
+    matrix_.resize(n * n);
+    column_.resize(n);
+    pivots_.resize(n);
+    const Complex<Real> s2 = s * s;
+    for (std::size_t i = 0; i < n * n; ++i) {
+      matrix_[i] = s * damping[i];
+      matrix_[i].re += stiffness[i];
+    }
+    for (std::size_t i = 0; i < n; ++i) matrix_[i * n + i] += s2 * mass[i];
+    for (std::size_t k = 0; k < n; ++k) {
+      std::size_t pivot = k;
+      for (std::size_t i = k + 1; i < n; ++i)
+        if (magnitude(matrix_[i * n + k]) > magnitude(matrix_[pivot * n + k])) pivot = i;
+      pivots_[k] = pivot;
+      if (pivot != k)
+        for (std::size_t j = 0; j < n; ++j) std::swap(matrix_[k * n + j], matrix_[pivot * n + j]);
+      const Complex<Real> reciprocal = Complex<Real>(Real(1.0)) / matrix_[k * n + k];
+      for (std::size_t i = k + 1; i < n; ++i) {
+        if (magnitude(matrix_[i * n + k]) == 0.0) continue;
+        const Complex<Real> factor = matrix_[i * n + k] * reciprocal;
+        matrix_[i * n + k] = factor;
+        for (std::size_t j = k + 1; j < n; ++j) matrix_[i * n + j] -= factor * matrix_[k * n + j];
+      }
+    }
+  }
+
+  void solve(std::vector<Complex<Real>>& x) const {
+    const std::size_t n = bodies;
+    for (std::size_t k = 0; k < n; ++k) {
+      if (pivots_[k] != k) std::swap(x[k], x[pivots_[k]]);
+    }
+    for (std::size_t k = 0; k < n; ++k)
+      for (std::size_t i = k + 1; i < n; ++i) x[i] -= matrix_[i * n + k] * x[k];
+    for (std::size_t k = n; k-- > 0;) {
+      for (std::size_t j = k + 1; j < n; ++j) x[k] -= matrix_[k * n + j] * x[j];
+      x[k] = x[k] / matrix_[k * n + k];
+    }
+  }
+
+  // Scratch, so that an evaluation allocates nothing.
+  mutable std::vector<Complex<Real>> matrix_;
+  mutable std::vector<Complex<Real>> column_;
+  mutable std::vector<std::size_t> pivots_;
+};
+
+}  // namespace zwidth

@@ -1,0 +1,39 @@
+#pragma once
+
+// Which poles share a term of the modal form, and what the term is called. Private to modal_form().
+
+#include <cstddef>
+#include <vector>
+
+#include "model/extended_precision.hpp"
+#include "zwidth/model/modal_form.hpp"
+
+namespace zwidth {
+
+// What the grouping must know of the device beyond its poles.
+struct PoleLabels {
+  bool has_bodies = false;            // overdamped pairs are modes; of a transfer function they are not
+  bool lowest_mode_is_rigid = false;  // springs to ground, not the links, carry the lowest mode
+  double rigid_pole = 0.0;            // b/m of the whole device, to tell -b/m from the poles of overdamped modes
+};
+
+struct PoleGroup {
+  std::vector<Complex<Extended>> poles;  // a complex group holds its half with positive imaginary part
+  bool closed = true;                    // closed under conjugation; false: the conjugate half is implied
+  bool cluster = false;                  // poles too close to treat one by one
+  int mode = 0;                          // as ModalTerm::mode
+};
+
+// Poles closer than this, relative to their magnitude, share a term.
+inline constexpr double cluster_tolerance = 1e-4;
+
+// Groups all poles: the rigid body's {0, -b/m} first, then modes by rising frequency; fills form.modes and
+// form.suspended_rigid_body. `poles` are the non-zero ones, closed under conjugation to rounding; they come back with
+// exact symmetry. Throws Error (did_not_converge) when they are not closed.
+std::vector<PoleGroup> group_poles(std::vector<Complex<Extended>>& poles, std::size_t zero_roots,
+                                   const PoleLabels& labels, ModalForm& form);
+
+// Adds the pole of the actuator's lag as the last group, or to a real pole that it nearly coincides with.
+void add_lag_pole(std::vector<PoleGroup>& groups, const Complex<Extended>& pole);
+
+}  // namespace zwidth

@@ -1,0 +1,66 @@
+#include "zwidth/model/state_space.hpp"
+
+#include "model/device_matrices.hpp"
+
+namespace zwidth {
+namespace {
+
+// Appends the lag as a state: tau F' = F_commanded - F.
+ContinuousStateSpace with_lag(const ContinuousStateSpace& system, double time_constant) {
+  const Eigen::Index n = system.A.rows();
+  ContinuousStateSpace lagged{Eigen::MatrixXd::Zero(n + 1, n + 1), Eigen::VectorXd::Zero(n + 1),
+                              Eigen::RowVectorXd::Zero(n + 1)};
+  lagged.A.topLeftCorner(n, n) = system.A;
+  lagged.A.topRightCorner(n, 1) = system.B;
+  lagged.A(n, n) = -1.0 / time_constant;
+  lagged.B(n) = 1.0 / time_constant;
+  lagged.C.head(n) = system.C;
+  return lagged;
+}
+
+ContinuousStateSpace of_bodies(const Device& device) {
+  const DeviceMatrices<double> matrices = device_matrices<double>(device);
+  const auto n = static_cast<Eigen::Index>(matrices.mass.size());
+  ContinuousStateSpace system{Eigen::MatrixXd::Zero(2 * n, 2 * n), Eigen::VectorXd::Zero(2 * n),
+                              Eigen::RowVectorXd::Zero(2 * n)};
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double mass = matrices.mass[static_cast<std::size_t>(i)];
+    system.A(i, n + i) = 1.0;
+    for (Eigen::Index j = 0; j < n; ++j) {
+      const auto entry = static_cast<std::size_t>(i * n + j);
+      system.A(n + i, j) = -matrices.stiffness[entry] / mass;
+      system.A(n + i, n + j) = -matrices.damping[entry] / mass;
+    }
+  }
+  const std::size_t actuated = device.loop().actuated;
+  system.B(n + static_cast<Eigen::Index>(actuated)) = 1.0 / matrices.mass[actuated];
+  system.C(static_cast<Eigen::Index>(device.loop().sensed)) = 1.0;
+  return system;
+}
+
+ContinuousStateSpace of_transfer_function(const TransferFunction& transfer_function) {
+  const std::vector<double>& denominator = transfer_function.denominator;
+  const std::vector<double>& numerator = transfer_function.numerator;
+  const auto n = static_cast<Eigen::Index>(denominator.size()) - 1;
+  ContinuousStateSpace system{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n), Eigen::RowVectorXd::Zero(n)};
+  for (Eigen::Index i = 0; i + 1 < n; ++i) system.A(i, i + 1) = 1.0;
+  for (Eigen::Index i = 0; i < n; ++i) {  // ascending powers
+    system.A(n - 1, i) = -denominator[static_cast<std::size_t>(n - i)] / denominator[0];
+  }
+  system.B(n - 1) = 1.0;
+  for (std::size_t i = 0; i < numerator.size() && i < static_cast<std::size_t>(n); ++i) {
+    system.C(static_cast<Eigen::Index>(i)) = numerator[numerator.size() - 1 - i] / denominator[0];
+  }
+  return system;
+}
+
+}  // namespace
+
+ContinuousStateSpace state_space(const Device& device) {
+  ContinuousStateSpace system =
+      device.has_bodies() ? of_bodies(device) : of_transfer_function(*device.parameters().transfer_function);
+  const double lag = device.parameters().actuator.time_constant;
+  return lag > 0.0 ? with_lag(system, lag) : system;
+}
+
+}  // namespace zwidth

@@ -1,0 +1,115 @@
+#include "zwidth/sampling/sampled_plant.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sampling/cluster_sampling.hpp"
+#include "sampling/hold_integrals.hpp"
+#include "sampling/sampling_instants.hpp"
+#include "sampling/unit_circle.hpp"
+
+namespace zwidth {
+namespace {
+
+// n(s) = r, d(s) = s + d0: x[k+1] = q x + g1 u[k-l] + g2 u[k-l-1].
+void sample_first_order(const ModalTerm& term, const SamplingInstants& split, SampledTerm& sampled) {
+  const double pole = term.denominator[0];
+  const double g1 = decay_integral(pole, split.with_new);
+  sampled.denominator[0] = -std::expm1(-pole * (split.with_new + split.with_old));
+  if (split.with_old == 0.0) {
+    sampled.numerator[0] = term.numerator[0] * g1;
+    return;
+  }
+  const double g2 = std::exp(-pole * split.with_new) * decay_integral(pole, split.with_old);
+  sampled.numerator[1] = term.numerator[0] * g1;  // (z g1 + g2) = g1 delta + g1 + g2
+  sampled.numerator[0] = term.numerator[0] * (g1 + g2);
+}
+
+// n(s) = r1 s + r0, d(s) = s² + c1 s + c0, in companion form: with g, h of the whole period
+//   Phi = e^{AT} - I = [[-c0 g, h], [-c0 h, -(c1 h + c0 g)]]
+//   det(delta I - Phi) = delta² + (2 c0 g + c1 h) delta + c0 (g (c1 h + c0 g) + h²)
+// and for an input vector (p, v)
+//   C adj(delta I - Phi) (p, v) = delta (r0 p + r1 v) + r0 (h v + (c1 h + c0 g) p) + r1 c0 (g v - h p).
+void sample_second_order(const ModalTerm& term, const SamplingInstants& split, double period, SampledTerm& sampled) {
+  const double c0 = term.denominator[0];
+  const double c1 = term.denominator[1];
+  const double r0 = term.numerator[0];
+  const double r1 = term.numerator[1];
+  const auto [h, g] = hold_integrals(c1, c0, period);
+  const double q = c1 * h + c0 * g;  // 1 - h'
+  sampled.denominator[1] = 2.0 * c0 * g + c1 * h;
+  sampled.denominator[0] = c0 * (g * q + h * h);
+  const double constant = r0 * (h * h + q * g);  // the r1 part vanishes for (p, v) = (g, h)
+  if (split.with_old == 0.0) {
+    sampled.numerator[1] = r0 * g + r1 * h;
+    sampled.numerator[0] = constant;
+    return;
+  }
+  const auto [h_new, g_new] = hold_integrals(c1, c0, split.with_new);
+  const auto [h_old, g_old] = hold_integrals(c1, c0, split.with_old);
+  // Gamma1 = (g_new, h_new), Gamma2 = e^{A (1-f) T} (g_old, h_old).
+  const double p2 = (1.0 - c0 * g_new) * g_old + h_new * h_old;
+  const double v2 = -c0 * h_new * g_old + (1.0 - c1 * h_new - c0 * g_new) * h_old;
+  const double slope1 = r0 * g_new + r1 * h_new;
+  const double slope2 = r0 * p2 + r1 * v2;
+  const double constant1 = r0 * (h * h_new + q * g_new) + r1 * c0 * (g * h_new - h * g_new);
+  // (1 + delta)(slope1 delta + constant1) + slope2 delta + constant2
+  sampled.numerator[2] = slope1;
+  sampled.numerator[1] = slope1 + constant1 + slope2;
+  sampled.numerator[0] = constant;
+}
+
+}  // namespace
+
+SampledPlant sample(const ModalForm& form, Sampling sampling) {
+  const SamplingInstants instants = sampling_instants(sampling);
+  SampledPlant plant;
+  plant.period = sampling.period;
+  plant.delay_samples = instants.whole_samples + (instants.with_old > 0.0 ? 1U : 0U);
+  plant.terms.reserve(form.terms.size());
+  double lag_numerator = 0.0;
+  for (const ModalTerm& term : form.terms)
+    if (term.mode < 0) lag_numerator = term.numerator[0];
+  for (const ModalTerm& term : form.terms) {
+    const bool seen = std::any_of(term.numerator, term.numerator + term.degree, [](double n) { return n != 0.0; });
+    if (!seen) continue;
+    SampledTerm sampled;
+    sampled.degree = term.degree;
+    sampled.mode = term.mode;
+    sampled.integrators = term.integrators;
+    sampled.unstable_poles = term.unstable_poles;
+    sampled.undamped_pairs = term.undamped_pairs;
+    if (lag_numerator != 0.0) sampled.lag_share = term.lag_numerator / lag_numerator;
+    if (term.degree == 1) {
+      sample_first_order(term, instants, sampled);
+    } else if (term.degree == 2) {
+      sample_second_order(term, instants, sampling.period, sampled);
+    } else {
+      sample_cluster(term, instants, sampled);
+    }
+    plant.terms.push_back(sampled);
+  }
+  return plant;
+}
+
+SampledPlant sampled_plant(const Device& device) {
+  return sample(modal_form(device), {device.loop().sampling_period, device.loop().delay});
+}
+
+std::complex<double> response(const SampledTerm& term, double angle) {
+  const CirclePoint<double> point = circle_point(angle);
+  const OnCircle<double> numerator = polynomial(term.numerator, term.degree, term.numerator[term.degree], point);
+  const OnCircle<double> denominator = polynomial(term.denominator, term.degree, 1.0, point);
+  const OnCircle<double> product = multiply(numerator, conj(denominator), point);
+  const double scale = 1.0 / squared_magnitude(denominator, point);
+  return {product.even * scale, product.odd * std::sin(angle) * scale};
+}
+
+std::complex<double> response(const SampledPlant& plant, double frequency) {
+  const double angle = frequency * plant.period;
+  std::complex<double> sum = 0.0;
+  for (const SampledTerm& term : plant.terms) sum += response(term, angle);
+  return sum * std::polar(1.0, -static_cast<double>(plant.delay_samples) * angle);
+}
+
+}  // namespace zwidth

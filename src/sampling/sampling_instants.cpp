@@ -1,0 +1,33 @@
+#include "sampling/sampling_instants.hpp"
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "zwidth/error.hpp"
+
+namespace zwidth {
+
+SamplingInstants sampling_instants(const Sampling& sampling) {
+  const auto [period, delay] = sampling;
+  if (!(period > 0.0) || !std::isfinite(period)) {
+    throw Error(ErrorCode::invalid_argument,
+                "sampling period is " + std::to_string(period) + " s; must be finite and > 0");
+  }
+  if (!(delay >= 0.0) || !std::isfinite(delay)) {
+    throw Error(ErrorCode::invalid_argument, "delay is " + std::to_string(delay) + " s; must be finite and >= 0");
+  }
+  // A fraction within rounding of a whole number of samples is that number.
+  const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * delay;
+  double whole = std::floor(delay / period);
+  double rest = std::fma(-whole, period, delay);
+  if (period - rest <= rounding) {
+    whole += 1.0;
+    rest = 0.0;
+  } else if (rest <= rounding) {
+    rest = 0.0;
+  }
+  return {static_cast<std::size_t>(whole), period - rest, rest};
+}
+
+}  // namespace zwidth

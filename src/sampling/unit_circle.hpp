@@ -1,0 +1,66 @@
+#pragma once
+
+// Real-coefficient functions of z on the unit circle z = e^{j angle}, split as even + j sin(angle) odd with both parts
+// real and smooth. The split removes the trivial zeros of the imaginary part at z = 1 and z = -1 and keeps, as sums of
+// small terms, the digits that 1 - cos(angle) would lose at fast sampling. Real is double or BoundedJet.
+
+#include <cmath>
+#include <cstddef>
+
+namespace zwidth {
+
+template <typename Real>
+struct CirclePoint {
+  Real chord_squared;  // x = |z - 1|² = 4 sin²(angle/2)
+  Real sine_squared;   // sin²(angle)
+};
+
+template <typename Real>
+struct OnCircle {
+  Real even;
+  Real odd;
+};
+
+inline double square(double a) { return a * a; }
+
+inline CirclePoint<double> circle_point(double angle) {
+  const double half = std::sin(angle / 2.0);
+  const double sine = std::sin(angle);
+  return {4.0 * half * half, sine * sine};
+}
+
+template <typename Real>
+OnCircle<Real> conj(const OnCircle<Real>& a) {
+  return {a.even, -a.odd};
+}
+
+template <typename Real>
+OnCircle<Real> multiply(const OnCircle<Real>& a, const OnCircle<Real>& b, const CirclePoint<Real>& point) {
+  return {a.even * b.even - point.sine_squared * (a.odd * b.odd), a.even * b.odd + a.odd * b.even};
+}
+
+template <typename Real>
+Real squared_magnitude(const OnCircle<Real>& a, const CirclePoint<Real>& point) {
+  return square(a.even) + point.sine_squared * square(a.odd);
+}
+
+// c[0] + c[1] delta + ... (+ delta^count when leading is 1), delta = z - 1 = -x/2 + j sin(angle).
+// delta² = -x + x²/2 - j sin(angle) x.
+template <typename Real>
+OnCircle<Real> polynomial(const double* c, std::size_t count, double leading, const CirclePoint<Real>& point) {
+  const Real& x = point.chord_squared;
+  if (count == 1) return {c[0] - (0.5 * leading) * x, Real(leading)};
+  if (count == 2) {
+    return {c[0] - (0.5 * c[1] + leading) * x + (0.5 * leading) * square(x), c[1] - leading * x};
+  }
+  OnCircle<Real> value{Real(leading), Real(0.0)};
+  for (std::size_t i = count; i-- > 0;) {
+    // times delta, plus c[i]
+    const Real even = -0.5 * (x * value.even) - point.sine_squared * value.odd;
+    value.odd = value.even - 0.5 * (x * value.odd);
+    value.even = even + c[i];
+  }
+  return value;
+}
+
+}  // namespace zwidth

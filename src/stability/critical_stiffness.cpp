@@ -1,0 +1,84 @@
+#include "zwidth/stability/critical_stiffness.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+
+#include "stability/gain_crossings.hpp"
+#include "zwidth/error.hpp"
+
+namespace zwidth {
+namespace {
+
+// The modal term of largest magnitude at that angle, the lag's term shared out to the modes it stems from.
+Mechanism mechanism_at(const SampledPlant& plant, double angle) {
+  std::complex<double> lag = 0.0;
+  int modes = 0;
+  for (const SampledTerm& term : plant.terms) {
+    if (term.mode < 0) lag = response(term, angle);
+    modes = std::max(modes, term.mode);
+  }
+  Mechanism mechanism;
+  double largest = -1.0;
+  for (int mode = 0; mode <= modes; ++mode) {
+    std::complex<double> sum = 0.0;
+    for (const SampledTerm& term : plant.terms) {
+      if (term.mode == mode) sum += response(term, angle) + term.lag_share * lag;
+    }
+    if (std::abs(sum) > largest) {
+      largest = std::abs(sum);
+      mechanism = {mode == 0 ? Mechanism::Kind::rigid_body : Mechanism::Kind::vibration_mode, mode};
+    }
+  }
+  return mechanism;
+}
+
+}  // namespace
+
+CriticalStiffness critical_stiffness(const SampledPlant& plant, VirtualDamper damper) {
+  for (const double value : {damper.damping, damper.velocity_filter_hz}) {
+    if (!(value >= 0.0) || !std::isfinite(value)) {
+      throw Error(ErrorCode::invalid_argument,
+                  "the virtual damper has " + std::to_string(value) + "; must be finite and >= 0");
+    }
+  }
+  const GainCrossings crossings = stiffness_crossings(plant, damper);
+
+  CriticalStiffness result;
+  result.crossovers.reserve(crossings.crossings.size());
+  for (const GainCrossing& crossing : crossings.crossings) {
+    result.crossovers.push_back(
+        {crossing.angle >= std::numbers::pi ? std::numbers::pi / plant.period : crossing.angle / plant.period,
+         crossing.gain, mechanism_at(plant, crossing.angle), crossing.poles_leaving});
+  }
+  // Stable intervals of K: wherever no pole is outside.
+  std::vector<const Crossover*> by_stiffness;
+  for (const Crossover& crossover : result.crossovers) by_stiffness.push_back(&crossover);
+  std::sort(by_stiffness.begin(), by_stiffness.end(),
+            [](const Crossover* a, const Crossover* b) { return a->stiffness < b->stiffness; });
+  int unstable = crossings.initially_unstable;
+  double lower = 0.0;
+  for (const Crossover* crossover : by_stiffness) {
+    if (unstable == 0 && crossover->stiffness > lower) result.stable_intervals.push_back({lower, crossover->stiffness});
+    unstable += crossover->poles_leaving;
+    lower = crossover->stiffness;
+  }
+  if (unstable == 0) result.stable_intervals.push_back({lower, std::nullopt});
+
+  if (result.stable_intervals.empty() || result.stable_intervals.front().lower > 0.0) {
+    result.status = StiffnessStatus::none_stable;
+    result.stiffness = 0.0;
+  } else if (!result.stable_intervals.front().upper) {
+    result.status = StiffnessStatus::unbounded;
+    result.stiffness = std::numeric_limits<double>::infinity();
+  } else {
+    result.status = StiffnessStatus::finite;
+    result.stiffness = *result.stable_intervals.front().upper;
+    result.limit = *by_stiffness.front();
+  }
+  return result;
+}
+
+}  // namespace zwidth

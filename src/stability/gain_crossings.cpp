@@ -1,0 +1,70 @@
+#include "stability/gain_crossings.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "stability/root_isolation.hpp"
+
+namespace zwidth {
+namespace {
+
+// A root of the phase condition this close, relative, to an undamped pole is that pole, at kappa = 0.
+constexpr double same_angle = 1e-9;
+
+// Angle of an undamped pair of a term of degree 2: |delta|² = d[0].
+bool is_undamped_pole(const SampledPlant& plant, double angle) {
+  for (const SampledTerm& term : plant.terms) {
+    if (term.undamped_pairs == 0 || term.degree != 2) continue;
+    const double pole = 2.0 * std::asin(std::min(1.0, 0.5 * std::sqrt(std::max(term.denominator[0], 0.0))));
+    if (std::abs(angle - pole) <= same_angle * angle) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+GainCrossings gain_crossings(const SampledPlant& plant, const GainLocus& locus) {
+  GainCrossings result;
+  const std::vector<PhaseRoot> roots = phase_roots(locus);
+  result.initially_unstable = locus.initially_unstable(locus.phase(roots.empty() ? 1.0 : 0.5 * roots.front().angle));
+  result.crossings.reserve(roots.size() + 1);
+  for (const PhaseRoot& root : roots) {
+    // f falling through zero: a pole leaves (Im of -den/num rises with the angle).
+    const int poles_leaving = -2 * root.direction;
+    if (is_undamped_pole(plant, root.angle)) {
+      if (poles_leaving > 0) result.initially_unstable += poles_leaving;
+      continue;
+    }
+    const double gain = locus.gain(root.angle);
+    if (gain > 0.0 && std::isfinite(gain)) result.crossings.push_back({root.angle, gain, poles_leaving});
+  }
+  // z = -1 is real: always a crossing where the gain is positive.
+  const double gain = locus.gain(std::numbers::pi);
+  if (gain > 0.0 && std::isfinite(gain)) {
+    result.crossings.push_back({std::numbers::pi, gain, locus.phase(std::numbers::pi) > 0.0 ? 1 : -1});
+  }
+  return result;
+}
+
+int unstable_poles(const GainCrossings& crossings, double gain) {
+  int unstable = crossings.initially_unstable;
+  for (const GainCrossing& crossing : crossings.crossings) {
+    if (crossing.gain < gain) unstable += crossing.poles_leaving;
+  }
+  return unstable;
+}
+
+GainCrossings stiffness_crossings(const SampledPlant& plant, const VirtualDamper& damper) {
+  GainCrossings result = gain_crossings(plant, GainLocus(plant, GainLocus::Gain::stiffness, 0.0, damper));
+  if (damper.damping > 0.0) {
+    // The poles at K = 0 are those of the damper alone: the locus of B. The one that the damper leaves at z = 1 is
+    // counted by the locus of K.
+    const GainCrossings by_damping = gain_crossings(plant, GainLocus(plant, GainLocus::Gain::damping, 0.0, damper));
+    int open_loop = 0;
+    for (const SampledTerm& term : plant.terms) open_loop += term.unstable_poles;
+    result.initially_unstable += unstable_poles(by_damping, damper.damping) - open_loop;
+  }
+  return result;
+}
+
+}  // namespace zwidth

@@ -1,0 +1,67 @@
+#pragma once
+
+// The locus of closed-loop poles as one real gain kappa > 0 grows: den(z) + kappa num(z) = 0. On |z| = 1 the gain is
+// kappa = -den/num, which must be real: the phase condition
+//
+//     f(angle) = Im[den conj(num)] / sin(angle) = 0
+//
+// up to positive factors. With the plant P = z^-L S/D (S = sum of N_k prod_{j != k} D_j, D = prod D_k), c = 1 - a of
+// the velocity filter, v = (c/T) delta / (delta + c):
+//
+//     stiffness      kappa = K, damper B closed:  f = |delta + c|² Im[z^L D conj S] + B (c²/T) |S|²
+//     damping        kappa = B, no spring:        f = Im[z^L D (delta + c) conj(delta) conj S]
+//     wall           kappa scales K + B v:        f = Im[z^L D (delta + c) conj(K (delta + c) + B (c/T) delta) conj S]
+//
+// Nothing is divided, so f has no poles; Im[.] / sin(angle) is the `odd` part of OnCircle.
+
+#include <cstddef>
+
+#include "sampling/unit_circle.hpp"
+#include "stability/bounded_jet.hpp"
+#include "zwidth/stability/critical_stiffness.hpp"
+
+namespace zwidth {
+
+class GainLocus {
+ public:
+  enum class Gain { stiffness, damping, wall };
+
+  // `stiffness` matters for Gain::wall alone. The plant must outlive the locus.
+  GainLocus(const SampledPlant& plant, Gain gain, double stiffness, VirtualDamper damper);
+
+  // f and its first-order Taylor model on [begin, end], 0 <= begin < end <= pi.
+  [[nodiscard]] double phase(double angle) const;
+  [[nodiscard]] BoundedJet phase(double begin, double end) const;
+
+  // kappa = -den/num where it is real; infinite or NaN where num vanishes.
+  [[nodiscard]] double gain(double angle) const;
+
+  // Poles outside the unit circle for arbitrarily small kappa > 0 (those of kappa = 0 plus the ones that leave z = 1);
+  // undamped pairs apart. `phase_near_zero` is f between angle 0 and its first root.
+  [[nodiscard]] int initially_unstable(double phase_near_zero) const;
+
+  [[nodiscard]] std::size_t delay_samples() const { return plant_.delay_samples; }
+
+ private:
+  template <typename Real>
+  struct Fraction {
+    OnCircle<Real> numerator;    // S
+    OnCircle<Real> denominator;  // D, even powers of |delta| from integrators left out where `reduced`
+  };
+  template <typename Real>
+  Fraction<Real> fraction(const CirclePoint<Real>& point) const;
+  template <typename Real>
+  OnCircle<Real> extra_factor(const CirclePoint<Real>& point) const;
+  template <typename Real>
+  Real assemble(const CirclePoint<Real>& point, const OnCircle<Real>& delay) const;
+
+  const SampledPlant& plant_;
+  Gain gain_;
+  double stiffness_;
+  double damping_;
+  double c_;                  // 1 - a; 1 without a velocity filter
+  int integrators_ = 0;       // poles at z = 1 of the plant
+  int integrators_kept_ = 0;  // those of den/num
+};
+
+}  // namespace zwidth
