@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -40,6 +42,18 @@ TEST(AnalysisJson, KeysStandInTheirDocumentedOrder) {
                                              "wall"};
   for (const auto& analysed : {lhifam(), lhifam_with_wall(), undamped_paddle(), unlimited_transfer_function()}) {
     EXPECT_EQ(keys_of(analysis_json(analysed)), expected) << analysed.device.name();
+  }
+}
+
+TEST(AnalysisJson, EveryKeyIsDocumented) {
+  std::ifstream file(ZWIDTH_SOURCE_DIR "/docs/analysis_json.md");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const Json document = analysis_json(lhifam_with_wall());
+  for (const Json* object : {&document, &document["wall"], &document["crossovers"][0], &document["modes"][0],
+                             &document["rigid_approximation"], &document["q_criterion"], &document["virtual_damper"]}) {
+    for (const std::string& key : keys_of(*object)) {
+      EXPECT_NE(text.find("`" + key + "`"), std::string::npos) << key;
+    }
   }
 }
 
