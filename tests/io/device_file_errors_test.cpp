@@ -1,0 +1,202 @@
+// What is wrong with a device file, word for word: the messages are part of the interface.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "io/device_texts.hpp"
+#include "zwidth/io/device_file.hpp"
+
+namespace zwidth {
+namespace {
+
+struct BadText {
+  std::string name;
+  std::string text;
+  std::string message;  // after "f.toml:"
+};
+
+std::string body(const std::string& rest) { return "[[body]]\nname = \"a\"\nmass = 1\n" + rest + "\n"; }
+std::string loop(const std::string& rest = "") { return "[loop]\nsampling_period = 1e-3\n" + rest + "\n"; }
+std::string transfer_function(const std::string& numerator, const std::string& denominator) {
+  return fmt::format("[transfer_function]\nnumerator = {}\ndenominator = {}\n{}", numerator, denominator, loop());
+}
+
+const std::string no_device =
+    "1:1: body: is missing: the device has no [[body]] and no [transfer_function]; must be one or more bodies, or a "
+    "transfer function";
+
+class RefusedText : public testing::TestWithParam<BadText> {};
+
+TEST_P(RefusedText, IsNamedWithItsPlace) {
+  const auto device = parse_device(GetParam().text, "f.toml");
+  ASSERT_FALSE(device.has_value());
+  EXPECT_EQ(device.error().str(), "f.toml:" + GetParam().message);
+}
+
+const BadText texts[] = {
+    {"empty", "", no_device},
+    {"white_space", " \n\t\n", no_device},
+    {"byte_order_mark_only", "\xEF\xBB\xBF", no_device},
+    {"only_loop", loop(), no_device},
+    {"zero_byte", std::string("a\nb\0c", 5), "2:2: is not text: it has a zero byte; must be the TOML text of a device"},
+    {"not_utf8", "\xFF\xFE", "1:1: is not TOML: Encountered invalid utf-8 sequence; must be the TOML text of a device"},
+    {"not_toml", "name = \"x\"\n= 1",
+     "2:1: is not TOML: Error while parsing root table: expected keys, tables, whitespace or comments, saw '='; must "
+     "be "
+     "the TOML text of a device"},
+    {"header_without_key", "[=]",
+     "1:2: is not TOML: Error while parsing key: expected bare key starting character or string delimiter, saw '='; "
+     "must "
+     "be the TOML text of a device"},
+    {"deep_nesting", "x = [[[[[[[[[[1]]]]]]]]]]",
+     "1:13: is not TOML: Error while parsing value: exceeded maximum nested value depth of 8; must be the TOML text of "
+     "a "
+     "device"},
+    {"huge_integer", body("damping = 99999999999999999999"),
+     "4:31: is not TOML: Error while parsing decimal integer: '99999999999999999999' is not representable in 64 bits; "
+     "must be the TOML text of a device"},
+    {"table_twice", body("") + loop() + loop(),
+     "8:1: is not TOML: Error while parsing table header: cannot redefine existing table 'loop'; must be the TOML text "
+     "of a device"},
+    {"misspelt_key", "[[body]]\nname = \"a\"\nmas = 1\n",
+     "3:1: body.a.mas: unknown key \"mas\"; did you mean \"mass\"?"},
+    {"misspelt_name", "[[body]]\nnam = \"a\"\nmass = 1\n",
+     "2:1: body.0.nam: unknown key \"nam\"; did you mean \"name\"?"},
+    {"misspelt_table", body("") + "[lop]\n", "5:2: lop: unknown key \"lop\"; did you mean \"loop\"?"},
+    {"swapped_letters", body("") + loop("dealy = 0"),
+     "7:1: loop.dealy: unknown key \"dealy\"; did you mean \"delay\"?"},
+    {"key_of_another_table", body("delay = 1"), "4:1: body.a.delay: unknown key \"delay\"; it belongs in [loop]"},
+    {"key_of_several_tables", body("") + loop("stiffness = 1"),
+     "7:1: loop.stiffness: unknown key \"stiffness\"; it belongs in [[body]] or [[link]] or [wall] or [operator]"},
+    {"unheard_of_key", body("") + loop() + "[wall]\ncolour = 3\n",
+     "9:1: wall.colour: unknown key \"colour\"; the keys of [wall] are stiffness, damping, velocity_filter_hz"},
+    {"key_with_newline", "\"a\\nb\" = 1\n",
+     "1:1: a\\x0Ab: unknown key \"a\\x0Ab\"; the keys of the top level are name, motion, body, link, loop, actuator, "
+     "sensor, wall, operator, transfer_function"},
+    {"long_key", std::string(70, 'k') + " = 1\n",
+     fmt::format("1:1: {0}...: unknown key \"{0}...\"; the keys of the top level are name, motion, body, link, loop, "
+                 "actuator, sensor, wall, operator, transfer_function",
+                 std::string(60, 'k'))},
+    {"text_for_number", body("damping = \"x\""), "4:11: body.a.damping: is the text \"x\"; must be a number"},
+    {"date_for_number", body("damping = 1979-05-27"), "4:11: body.a.damping: is a date or time; must be a number"},
+    {"truth_for_number", body("damping = true"), "4:11: body.a.damping: is true; must be a number"},
+    {"array_for_number", body("damping = [1]"), "4:11: body.a.damping: is an array; must be a number"},
+    {"number_for_text", "name = 3\n", "1:8: name: is the number 3; must be text in quotes"},
+    {"number_for_table", "loop = 1.5\n", "1:8: loop: is the number 1.5; must be a table, [loop]"},
+    {"table_for_tables", "[body]\nname = \"a\"\n", "1:1: body: is a table; must be tables, [[body]]"},
+    {"number_for_tables", "body = [1]\n", "1:9: body: is the number 1; must be tables, [[body]]"},
+    {"wrong_motion", "motion = \"Linear\"\n" + body("") + loop(),
+     "1:10: motion: is \"Linear\"; must be \"linear\" or \"rotary\""},
+    {"missing_mass", "[[body]]\nname = \"a\"\n" + loop(),
+     "1:1: body.a.mass: is missing; must be given as a number > 0"},
+    {"missing_name", "\n[[body]]\nmass = 1\n" + loop(),
+     "2:1: body.0.name: is missing; must be given as text in quotes"},
+    {"missing_loop", body(""), "1:1: loop: is missing; must be given as [loop] with sampling_period in seconds"},
+    {"missing_sampling_period", body("") + "[loop]\ndelay = 0\n",
+     "5:1: loop.sampling_period: is missing; must be given as a number > 0"},
+    {"missing_between", body("") + "[[link]]\nstiffness = 1\n" + loop(),
+     "5:1: link.0.between: is missing; must be given as an array of two body names"},
+    {"missing_link_stiffness", two_body_text + "[[link]]\nbetween = [\"motor\", \"handle\"]\n",
+     "12:1: link.1.stiffness: is missing; must be given, or damping, or both"},
+    {"missing_denominator", "[transfer_function]\nnumerator = [1]\n" + loop(),
+     "1:1: transfer_function.denominator: is missing; must be given as an array of numbers"},
+    {"inertia_of_linear", "[[body]]\nname = \"a\"\ninertia = 1\n" + loop(),
+     "3:11: body.a.inertia: is for rotary motion; must be \"mass\", or set motion = \"rotary\""},
+    {"mass_and_inertia", "motion = \"rotary\"\n" + body("inertia = 1") + loop(),
+     "5:11: body.a.inertia: is given beside mass, which means the same; must be one of the two"},
+    {"negative_mass", "[[body]]\nname = \"motor\"\nmass = -0.3\n" + loop(),
+     "3:8: body.motor.mass: is -0.3; must be a finite number > 0"},
+    {"zero_mass", "[[body]]\nname = \"motor\"\nmass = 0\n" + loop(),
+     "3:8: body.motor.mass: is 0; must be a finite number > 0"},
+    {"nan_mass", "[[body]]\nname = \"motor\"\nmass = nan\n" + loop(),
+     "3:8: body.motor.mass: is nan; must be a finite number > 0"},
+    {"huge_mass", "[[body]]\nname = \"motor\"\nmass = 1e308\n" + loop(),
+     "3:8: body.motor.mass: is 1e+308; must be from 1e-30 to 1e+30"},
+    {"tiny_damping", body("damping = 1e-300") + loop(),
+     "4:11: body.a.damping: is 1e-300; must be 0 or from 1e-30 to 1e+30"},
+    {"infinite_damping", body("damping = inf") + loop(), "4:11: body.a.damping: is inf; must be a finite number >= 0"},
+    {"negative_delay", body("") + loop("delay = -1e-3"), "7:9: loop.delay: is -0.001; must be a finite number >= 0"},
+    {"endless_delay", body("") + loop("delay = 11"),
+     "7:9: loop.delay: is 11 s, 11000 sampling periods; must be at most 10000 sampling periods"},
+    {"zero_sampling_period", body("") + "[loop]\nsampling_period = 0.0\n",
+     "6:19: loop.sampling_period: is 0; must be a finite number > 0"},
+    {"zero_force_limit", body("") + loop() + "[actuator]\nforce_limit = 0\n",
+     "9:15: actuator.force_limit: is 0; must be a finite number > 0"},
+    {"same_name_twice", body("") + body("") + loop(),
+     "6:8: body.1.name: \"a\" names two bodies; must be different for every body"},
+    {"empty_name", "[[body]]\nname = \"\"\nmass = 1\n" + loop(), "2:8: body.0.name: is empty; must be a name"},
+    {"newline_in_name", "[[body]]\nname = \"a\\nb\"\nmass = 1\n" + loop(),
+     "2:8: body.0.name: has a control character; must be one line of plain text"},
+    {"tied_to_nothing", body("") + "[[body]]\nname = \"b\"\nmass = 1\n" + loop(),
+     "5:1: body.b: is tied to nothing; must be connected to every other body through [[link]]s"},
+    {"tied_to_itself", body("") + "[[link]]\nbetween = [\"a\", \"a\"]\nstiffness = 1\n" + loop(),
+     "6:11: link.0.between: ties \"a\" to itself; must be two different bodies"},
+    {"link_to_misspelt_body", two_body_text + "[[link]]\nbetween = [\"motor\", \"hadnle\"]\nstiffness = 1\n",
+     "13:11: link.1.between: there is no body \"hadnle\"; did you mean \"handle\"?"},
+    {"link_to_unknown_body", two_body_text + "[[link]]\nbetween = [\"motor\", \"wrist\"]\nstiffness = 1\n",
+     "13:11: link.1.between: there is no body \"wrist\"; the bodies are motor, handle"},
+    {"link_of_three", two_body_text + "[[link]]\nbetween = [\"motor\", \"handle\", \"motor\"]\nstiffness = 1\n",
+     "13:11: link.1.between: has length 3; must name two bodies"},
+    {"link_of_numbers", two_body_text + "[[link]]\nbetween = [\"motor\", 2]\nstiffness = 1\n",
+     "13:21: link.1.between: is the number 2; every element must be text in quotes"},
+    {"link_of_text", two_body_text + "[[link]]\nbetween = \"motor\"\nstiffness = 1\n",
+     "13:11: link.1.between: is the text \"motor\"; must be an array of two body names"},
+    {"slack_link", two_body_text + "[[link]]\nbetween = [\"motor\", \"handle\"]\nstiffness = 0\n",
+     "14:13: link.1.stiffness: and damping are both 0; one of the two must be > 0, or there is no link"},
+    {"unknown_sensed_body", body("") + loop("sensed = \"b\""),
+     "7:10: loop.sensed: there is no body \"b\"; the bodies are a"},
+    {"both_descriptions", body("") + transfer_function("[1]", "[1, 2]"),
+     "1:1: body: stands beside [transfer_function]; must be either bodies and links or a transfer function"},
+    {"operator_of_transfer_function", transfer_function("[1]", "[1, 2]") + "[operator]\n",
+     "7:1: operator: stands beside [transfer_function]; an operator needs bodies: leave it out"},
+    {"held_of_transfer_function", transfer_function("[1]", "[1, 2]") + "held = \"a\"\n",
+     "7:8: loop.held: names a body beside [transfer_function]; a transfer function has no bodies: leave it out"},
+    {"not_strictly_proper", transfer_function("[1, 1]", "[1, 2]"),
+     "2:13: transfer_function.numerator: has degree 1 under a denominator of degree 1; must be of lower degree than "
+     "the "
+     "denominator"},
+    {"zero_numerator", transfer_function("[0, 0]", "[1, 2]"),
+     "2:13: transfer_function.numerator: is 0; must have a coefficient that is not 0"},
+    {"padded_numerator", transfer_function("[0, 0, 1]", "[1, 2]"),
+     "2:13: transfer_function.numerator: is longer than the denominator; leave out its leading zeros"},
+    {"zero_leading_denominator", transfer_function("[1]", "[0, 1, 2]"),
+     "3:15: transfer_function.denominator: begins with 0; the leading coefficient must not be 0"},
+    {"empty_numerator", transfer_function("[]", "[1, 2]"),
+     "2:13: transfer_function.numerator: is empty; must be one or more coefficients"},
+    {"nan_coefficient", transfer_function("[nan]", "[1, 2]"),
+     "2:13: transfer_function.numerator: has the coefficient nan; every coefficient must be 0 or from 1e-100 to 1e+100 "
+     "in magnitude"},
+    {"text_coefficient", transfer_function("[1, \"x\"]", "[1, 2, 3]"),
+     "2:17: transfer_function.numerator: is the text \"x\"; every element must be a number"},
+};
+
+INSTANTIATE_TEST_SUITE_P(DeviceFile, RefusedText, testing::ValuesIn(texts),
+                         [](const auto& test) { return test.param.name; });
+
+TEST(DeviceFile, DeepKeysAreRefusedBeforeTheyNest) {
+  std::string key = "a";
+  for (int i = 0; i < 200'000; ++i) key += ".a";
+  const auto device = parse_device(key + " = 1", "f.toml");
+  ASSERT_FALSE(device.has_value());
+  EXPECT_EQ(device.error().str(), "f.toml:1:1: the line has more than 200 dots; break it into several lines");
+}
+
+TEST(DeviceFile, TheDeepestKeysThatAreReadDoNoHarm) {
+  std::string value = "1";
+  std::string key = "a";
+  for (int i = 0; i < 190; ++i) key += ".a";
+  for (int i = 0; i < 3; ++i) value = fmt::format("[\n{{{} = {}}}\n]", key, value);
+  EXPECT_FALSE(parse_device(key + " = " + value, "f.toml").has_value());
+}
+
+TEST(DeviceFile, ALongFileOfBodiesIsRefusedNotComputed) {
+  std::string text;
+  for (int i = 0; i < 2000; ++i) text += fmt::format("[[body]]\nname = \"b{}\"\nmass = 1\n", i);
+  const auto device = parse_device(text + loop(), "f.toml");
+  ASSERT_FALSE(device.has_value());
+  EXPECT_EQ(device.error().str(), "f.toml:1:1: body: stands 2000 times; must be at most 100 bodies");
+}
+
+}  // namespace
+}  // namespace zwidth
