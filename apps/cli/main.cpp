@@ -39,8 +39,6 @@ int run(int argument_count, char** arguments) {
   add_analyze(app);
   add_bode(app);
   add_export(app);
-  add_bode(app);
-  add_export(app);
   add_reproduce(app);
   for (CLI::App* command : app.get_subcommands({})) command->group("Commands");
   app.get_formatter()->label("SUBCOMMAND", "COMMAND");
