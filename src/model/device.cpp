@@ -139,7 +139,7 @@ void check_connected(const DeviceParameters& parameters, Checks& checks) {
       "must be connected to every other body through [[link]]s");
 }
 
-void check_coefficients(std::string key, const std::vector<double>& coefficients, Checks& checks) {
+void check_coefficients(const std::string& key, const std::vector<double>& coefficients, Checks& checks) {
   if (coefficients.empty()) checks.refuse(key, "is empty", "must be one or more coefficients");
   if (coefficients.size() > max_degree + 1) {
     checks.refuse(key, fmt::format("has {} coefficients", coefficients.size()),
