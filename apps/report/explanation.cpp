@@ -16,6 +16,9 @@ namespace {
 /// Above this ratio Q is far from the rigid critical stiffness; below, the two are similar (6 dB).
 constexpr double q_similar_ratio = 2.0;
 
+/// Growth in percent per sample that cannot be told from none.
+constexpr double growth_of_rounding = 1e-9;
+
 const DeviceParameters& parameters_of(const AnalysedDevice& analysed) { return analysed.device.parameters(); }
 
 Units device_units(const AnalysedDevice& analysed) { return units_of(parameters_of(analysed).motion); }
@@ -213,6 +216,9 @@ std::optional<std::string> wall_note(const AnalysedDevice& analysed) {
   const std::string text = fmt::format("The wall of {} and {} {}{} is {}", quantity(wall->stiffness, units.stiffness),
                                        number(wall->damping), units.damping, share, wall_verdict(analysed.analysis));
   const double growth = 100.0 * (wall->spectral_radius - 1.0);
+  if (!wall->stable && growth < growth_of_rounding) {
+    return text + ", just: what is set in motion neither grows nor comes to rest.";
+  }
   if (!wall->stable) return fmt::format("{}: an oscillation grows by {} % per sample.", text, number(growth));
   return fmt::format("{}: what oscillates longest decays by {} % per sample.", text, number(-growth));
 }

@@ -40,7 +40,15 @@ inline AnalysedDevice lhifam_with_wall() {
   DeviceParameters parameters = analysed.device.parameters();
   parameters.wall = {5000.0, 5.0, 100.0};
   analysed.device = Device(parameters);
-  analysed.analysis.wall = WallMargins{5000.0, 5.0, true, 2.0, 0.5, 0.1, 1.5e-3, 0.999, {}};
+  WallMargins& wall = analysed.analysis.wall.emplace();
+  wall.stiffness = 5000.0;
+  wall.damping = 5.0;
+  wall.stable = true;
+  wall.gain_margin = 2.0;
+  wall.lower_gain_margin = 0.5;
+  wall.phase_margin = 0.1;
+  wall.delay_margin = 1.5e-3;
+  wall.spectral_radius = 0.999;
   return analysed;
 }
 
@@ -58,7 +66,9 @@ inline AnalysedDevice undamped_paddle() {
   analysis.critical.stable_intervals = {{2.0, 5.0}};
   analysis.suspended_rigid_body = Mode{22.4, 0.0};
   analysis.rigid = RigidApproximation{1e-3, 0.0, 0.5, analysis.critical};
-  analysis.wall = WallMargins{0.25, 0.0, false, {}, {}, {}, {}, 1.0003, {}};
+  analysis.wall.emplace();
+  analysis.wall->stiffness = 0.25;
+  analysis.wall->spectral_radius = 1.0003;
   return {Device(parameters), analysis};
 }
 
