@@ -7,8 +7,10 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <sstream>
 
 #include "report/quantity.hpp"
+#include "report/text_table.hpp"
 
 namespace zwidth::report {
 namespace {
@@ -165,6 +167,17 @@ void draw_list(Canvas& canvas, const BodeFigure& figure, const Layout& layout) {
   for (const std::string& note : figure.notes) add_line(note, "#444444");
 }
 
+/// Notes broken into lines that fit.
+std::vector<std::string> wrapped(const std::vector<std::string>& notes) {
+  constexpr std::size_t width = 105;
+  std::vector<std::string> lines;
+  for (const std::string& note : notes) {
+    std::istringstream text(wrap(note, width, 0));
+    for (std::string line; std::getline(text, line);) lines.push_back(line);
+  }
+  return lines;
+}
+
 /// Lines of the marks: from the tag down to the curve, and through the phase for the critical one.
 void draw_mark_lines(Canvas& canvas, const BodeFigure& figure, const Layout& layout, Interval magnitude) {
   const std::vector<double> tags = tag_positions(figure, layout);
@@ -218,7 +231,9 @@ void draw_nyquist(Canvas& canvas, const BodeFigure& figure, const Layout& layout
 
 }  // namespace
 
-std::string draw(const BodeFigure& figure, FigureFormat format) {
+std::string draw(const BodeFigure& given, FigureFormat format) {
+  BodeFigure figure = given;
+  figure.notes = wrapped(given.notes);
   const Layout layout(figure);
   Canvas canvas(figure.title, canvas_width, layout.height);
   for (std::size_t i = 0; i < figure.curves.size(); ++i) {

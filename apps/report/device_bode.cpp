@@ -9,7 +9,6 @@
 #include <numbers>
 
 #include "report/analysis_json.hpp"
-#include "report/explanation.hpp"
 #include "report/quantity.hpp"
 
 namespace zwidth::report {
@@ -48,9 +47,11 @@ void add_marks(BodeFigure& figure, const AnalysedDevice& analysed, std::size_t c
   for (const Crossover& crossover : critical.crossovers) {
     if (crossover.frequency < figure.range.from || crossover.frequency > figure.range.to) continue;
     const bool limits = critical.limit && critical.limit->frequency == crossover.frequency;
-    std::string remark = ", " + mechanism_name(analysed.analysis, crossover.limited_by);
+    const std::string belongs_to = crossover.limited_by.kind == Mechanism::Kind::rigid_body
+                                       ? "rigid body"
+                                       : fmt::format("vibration mode {}", crossover.limited_by.mode);
     figure.marks.push_back({curve, crossover, limits ? BodeMark::Rank::critical : BodeMark::Rank::other,
-                            fmt::format("{}{}{}", remark, limits ? ": critical" : "", suffix)});
+                            fmt::format(", {}{}{}", belongs_to, limits ? ": critical" : "", suffix)});
   }
 }
 

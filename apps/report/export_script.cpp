@@ -96,7 +96,9 @@ model.Gamma1 = {Gamma1};
 model.Gamma2 = {Gamma2};
 
 % The same as a sum of modal terms in d = z - 1, ascending: rows of numerator, denominator, numerator, ...
+% The delay is split so that z^-m stands outside the sum, m samples.
 model.terms = {terms};
+model.terms_delay_samples = {m};
 
 % Phase crossovers: frequency in rad/s, stiffness of the wall K (with the virtual damper of {damping:.17g} closed)
 crossovers = {crossovers};
@@ -129,7 +131,7 @@ function response = sampled_response(model, w)
   for k = 1:2:rows(model.terms)
     response += polyval(fliplr(model.terms(k, :)), d) ./ polyval(fliplr(model.terms(k + 1, :)), d);
   end
-  response .*= exp(-1i * w * model.T * model.delay_samples);
+  response .*= exp(-1i * w * model.T * model.terms_delay_samples);
 end
 
 printf('%s\n', device);
@@ -171,7 +173,9 @@ Gamma1 = {Gamma1}
 Gamma2 = {Gamma2}
 
 # The same as a sum of modal terms in d = z - 1, ascending: rows of numerator, denominator, numerator, ...
+# The delay is split so that z^-m stands outside the sum, m samples.
 terms = {terms}
+terms_delay_samples = {m}
 
 # Phase crossovers: frequency in rad/s, stiffness of the wall K (with the virtual damper of {damping:.17g} closed)
 crossovers = {crossovers}.reshape(-1, 2)
@@ -211,7 +215,7 @@ def sampled_response(w):
     d = np.expm1(1j * w * T)
     polynomial = np.polynomial.polynomial.polyval
     total = sum(polynomial(d, terms[k]) / polynomial(d, terms[k + 1]) for k in range(0, len(terms), 2))
-    return total * np.exp(-1j * w * T * delay_samples)
+    return total * np.exp(-1j * w * T * terms_delay_samples)
 
 
 if __name__ == "__main__":
@@ -231,14 +235,15 @@ std::string filled_in(std::string_view data, const ExportedModel& model, const N
   const Device& device = model.analysed.device;
   const DiscreteStateSpace& discrete = model.discrete;
   const auto matrix = [&](const Eigen::MatrixXd& values) { return literal(values, notation); };
-  return fmt::format(
-      fmt::runtime(data), fmt::arg("comment", one_line(device.name())), fmt::arg("version", ZWIDTH_VERSION),
-      fmt::arg("device", name), fmt::arg("A", matrix(model.continuous.A)), fmt::arg("B", matrix(model.continuous.B)),
-      fmt::arg("C", matrix(model.continuous.C)), fmt::arg("T", discrete.period), fmt::arg("delay", device.loop().delay),
-      fmt::arg("l", discrete.delay_samples), fmt::arg("Phi", matrix(discrete.Phi)),
-      fmt::arg("Gamma1", matrix(discrete.Gamma1)), fmt::arg("Gamma2", matrix(discrete.Gamma2)),
-      fmt::arg("terms", matrix(term_rows(model.sampled))), fmt::arg("damping", device.parameters().wall.damping),
-      fmt::arg("crossovers", matrix(crossover_rows(model.analysed.analysis.critical))));
+  return fmt::format(fmt::runtime(data), fmt::arg("comment", one_line(device.name())),
+                     fmt::arg("version", ZWIDTH_VERSION), fmt::arg("device", name),
+                     fmt::arg("A", matrix(model.continuous.A)), fmt::arg("B", matrix(model.continuous.B)),
+                     fmt::arg("C", matrix(model.continuous.C)), fmt::arg("T", discrete.period),
+                     fmt::arg("delay", device.loop().delay), fmt::arg("l", discrete.delay_samples),
+                     fmt::arg("Phi", matrix(discrete.Phi)), fmt::arg("Gamma1", matrix(discrete.Gamma1)),
+                     fmt::arg("Gamma2", matrix(discrete.Gamma2)), fmt::arg("terms", matrix(term_rows(model.sampled))),
+                     fmt::arg("m", model.sampled.delay_samples), fmt::arg("damping", device.parameters().wall.damping),
+                     fmt::arg("crossovers", matrix(crossover_rows(model.analysed.analysis.critical))));
 }
 
 }  // namespace

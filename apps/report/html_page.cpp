@@ -10,7 +10,7 @@ namespace {
 constexpr std::string_view style = R"(
 :root { color-scheme: light; }
 body { font: 16px/1.5 system-ui, -apple-system, "Segoe UI", Roboto, Helvetica, Arial, sans-serif; color: #1a1a1a;
-  background: #fff; max-width: 940px; margin: 0 auto; padding: 1.5rem 1rem 3rem; overflow-wrap: break-word; }
+  background: #fff; max-width: 1000px; margin: 0 auto; padding: 1.5rem 1rem 3rem; overflow-wrap: break-word; }
 h1 { font-size: 1.7rem; line-height: 1.25; margin: 0 0 1rem; }
 h2 { font-size: 1.25rem; margin: 2rem 0 .5rem; }
 h3 { font-size: 1.05rem; margin: 1.5rem 0 .5rem; }
@@ -25,6 +25,7 @@ th, td { padding: .3rem .7rem; border-bottom: 1px solid #ddd; text-align: left; 
 th { border-bottom: 2px solid #888; font-weight: 600; }
 .n { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
 th.n { white-space: normal; }
+td:last-child:not(.n) { min-width: 17rem; }
 figure { margin: 1.2rem 0; }
 figure svg { width: 100%; height: auto; display: block; }
 figcaption { font-size: .9rem; color: #444; margin-top: .3rem; }

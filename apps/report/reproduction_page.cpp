@@ -35,7 +35,7 @@ std::string reproduction_page(const std::vector<PaperFigure>& figures) {
   body += element("h2", "Figures");
   for (std::size_t i = 0; i < figures.size(); ++i) {
     const PaperFigure& figure = figures[i];
-    body += element("h3", figure.title) + html_figure(figure.svg, fmt::format("figure{}", i), figure.caption);
+    body += html_figure(figure.svg, fmt::format("figure{}", i), figure.caption);
   }
   body += element("h2", "Not reproduced yet");
   body += element("p",
