@@ -25,10 +25,10 @@ bool is_undamped_pole(const SampledPlant& plant, double angle) {
 
 GainCrossings gain_crossings(const SampledPlant& plant, const GainLocus& locus) {
   GainCrossings result;
-  const std::vector<PhaseRoot> roots = phase_roots(locus);
-  result.initially_unstable = locus.initially_unstable(locus.phase(roots.empty() ? 1.0 : 0.5 * roots.front().angle));
+  const std::vector<CircleRoot> roots = roots_on_circle(locus, 1 + 2 * plant.delay_samples);
+  result.initially_unstable = locus.initially_unstable(locus.value(roots.empty() ? 1.0 : 0.5 * roots.front().angle));
   result.crossings.reserve(roots.size() + 1);
-  for (const PhaseRoot& root : roots) {
+  for (const CircleRoot& root : roots) {
     // f falling through zero: a pole leaves (Im of -den/num rises with the angle).
     const int poles_leaving = -2 * root.direction;
     if (is_undamped_pole(plant, root.angle)) {
@@ -41,7 +41,7 @@ GainCrossings gain_crossings(const SampledPlant& plant, const GainLocus& locus) 
   // z = -1 is real: always a crossing where the gain is positive.
   const double gain = locus.gain(std::numbers::pi);
   if (gain > 0.0 && std::isfinite(gain)) {
-    result.crossings.push_back({std::numbers::pi, gain, locus.phase(std::numbers::pi) > 0.0 ? 1 : -1});
+    result.crossings.push_back({std::numbers::pi, gain, locus.value(std::numbers::pi) > 0.0 ? 1 : -1});
   }
   return result;
 }

@@ -1,23 +1,13 @@
 #include "stability/gain_locus.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "stability/plant_fraction.hpp"
+
 namespace zwidth {
 namespace {
-
-double value_of(double a) { return a; }
-double value_of(const BoundedJet& a) { return a.value; }
-
-template <typename Real>
-OnCircle<Real> scaled(double factor, const OnCircle<Real>& a) {
-  return {factor * a.even, factor * a.odd};
-}
-
-template <typename Real>
-OnCircle<Real> sum(const OnCircle<Real>& a, const OnCircle<Real>& b) {
-  return {a.even + b.even, a.odd + b.odd};
-}
 
 // sin(L angle) / sin(angle) and its derivative; angles beyond pi/2 are reflected to keep digits near pi.
 struct DirichletRatio {
@@ -55,7 +45,8 @@ OnCircle<BoundedJet> delay_factor(std::size_t delay_samples, double begin, doubl
   const double centre = 0.5 * (begin + end);
   const double h = 0.5 * (end - begin);
   const double reach = samples * h;
-  const BoundedJet even(std::cos(samples * centre), -reach * std::sin(samples * centre), reach * reach, 1.0);
+  const double rounding = 1.0 + samples / 16.0;  // of L angle, the argument of sin and cos
+  const BoundedJet even(std::cos(samples * centre), -reach * std::sin(samples * centre), reach * reach, rounding);
   const DirichletRatio ratio = dirichlet_ratio(samples, centre);
   // |u''| from u = sum of L cosines, or from u = sin(L t)/sin t away from its zeros, whichever is smaller.
   double second = samples * (samples * samples - 1.0) / 3.0;
@@ -67,21 +58,8 @@ OnCircle<BoundedJet> delay_factor(std::size_t delay_samples, double begin, doubl
     second = std::min(second, (samples * samples + 2.0 * first + u) / sine);
     size = u;
   }
-  return {even, {ratio.value, ratio.derivative * h, second * h * h + 2.0 * ratio.derivative_error * h, size}};
-}
-
-CirclePoint<BoundedJet> circle_interval(double begin, double end) {
-  const double centre = 0.5 * (begin + end);
-  const double h = 0.5 * (end - begin);
-  const double half_sine = std::sin(centre / 2.0);
-  const double half_cosine = std::cos(centre / 2.0);
-  const double sine = 2.0 * half_sine * half_cosine;
-  const double cosine = 1.0 - 2.0 * half_sine * half_sine;
-  BoundedJet chord(4.0 * half_sine * half_sine, 2.0 * sine * h, 2.0 * h * h, 0.0);  // |x''| = |2 cos| <= 2
-  BoundedJet sine_squared(sine * sine, 2.0 * sine * cosine * h, 2.0 * h * h, 0.0);  // |(sin²)''| = |2 cos 2t| <= 2
-  chord.weight = chord.size();
-  sine_squared.weight = sine_squared.size();
-  return {chord, sine_squared};
+  return {even,
+          {ratio.value, ratio.derivative * h, second * h * h + 2.0 * ratio.derivative_error * h, size * rounding}};
 }
 
 // delta^power; |delta|² = x is left out of every pair of factors: delta²/x = -z.
@@ -110,44 +88,6 @@ GainLocus::GainLocus(const SampledPlant& plant, Gain gain, double stiffness, Vir
   if (gain_ == Gain::damping && integrators_ > 0) integrators_kept_ = integrators_ - 1;
 }
 
-// S and D by the recursion (S, D) <- (S D_k + N_k D, D D_k), every step divided by a positive number, the size of D_k.
-template <typename Real>
-GainLocus::Fraction<Real> GainLocus::fraction(const CirclePoint<Real>& point) const {
-  // Where the damper is closed as well, den is a sum and keeps all its integrators.
-  const bool reduce = !(gain_ == Gain::stiffness && damping_ > 0.0);
-  const double sine = std::sqrt(std::max(value_of(point.sine_squared), 0.0));
-  OnCircle<Real> s{Real(0.0), Real(0.0)};
-  OnCircle<Real> d{Real(1.0), Real(0.0)};
-  OnCircle<Real> reduced{Real(1.0), Real(0.0)};
-  bool first = true;
-  for (const SampledTerm& term : plant_.terms) {
-    OnCircle<Real> d_k = polynomial(term.denominator, term.degree, 1.0, point);
-    OnCircle<Real> n_k = polynomial(term.numerator, term.degree, term.numerator[term.degree], point);
-    double scale = std::abs(value_of(d_k.even)) + sine * std::abs(value_of(d_k.odd));
-    scale = scale > 0.0 ? 1.0 / scale : 1.0;
-    d_k = scaled(scale, d_k);
-    n_k = scaled(scale, n_k);
-    OnCircle<Real> reduced_k = d_k;
-    if (reduce && term.integrators > 0 && (integrators_ > 1 || integrators_kept_ < integrators_)) {
-      const auto zeros = static_cast<std::size_t>(term.integrators);
-      reduced_k = multiply(reduced_integrators(integrators_kept_, point),
-                           polynomial(term.denominator + zeros, term.degree - zeros, 1.0, point), point);
-      reduced_k = scaled(scale, reduced_k);
-    }
-    if (first) {
-      s = n_k;
-      d = d_k;
-      reduced = reduced_k;
-      first = false;
-    } else {
-      s = sum(multiply(s, d_k, point), multiply(n_k, d, point));
-      d = multiply(d, d_k, point);
-      reduced = multiply(reduced, reduced_k, point);
-    }
-  }
-  return {s, reduced};
-}
-
 // (delta + c) conj(delta) and so on, see the header; integrators cancelled by the damper leave conj(delta) out.
 template <typename Real>
 OnCircle<Real> GainLocus::extra_factor(const CirclePoint<Real>& point) const {
@@ -162,38 +102,30 @@ OnCircle<Real> GainLocus::extra_factor(const CirclePoint<Real>& point) const {
 
 template <typename Real>
 Real GainLocus::assemble(const CirclePoint<Real>& point, const OnCircle<Real>& delay) const {
-  const Fraction<Real> plant = fraction(point);
+  // Where the damper is closed as well, den is a sum and keeps all its integrators; so does a single one.
+  const bool reduce = (integrators_ > 1 && !damper_closed()) || integrators_kept_ < integrators_;
+  OnCircle<Real> integrators{Real(1.0), Real(0.0)};
+  if (reduce) integrators = reduced_integrators(integrators_kept_, point);
+  const PlantFraction<Real> plant = plant_fraction(plant_, point, reduce ? &integrators : nullptr);
   OnCircle<Real> product = multiply(plant.denominator, conj(plant.numerator), point);
   if (gain_ != Gain::stiffness) product = multiply(product, extra_factor(point), point);
   const Real phase = plant_.delay_samples == 0 ? product.odd : delay.even * product.odd + delay.odd * product.even;
-  if (gain_ != Gain::stiffness || damping_ == 0.0) return phase;
+  if (!damper_closed()) return phase;
   const Real filter = (1.0 - c_) * point.chord_squared + c_ * c_;  // |delta + c|²
   return filter * phase + (damping_ * c_ * c_ / plant_.period) * squared_magnitude(plant.numerator, point);
 }
 
-double GainLocus::phase(double angle) const {
+double GainLocus::value(double angle) const {
   return assemble(circle_point(angle), delay_factor(plant_.delay_samples, angle));
 }
 
-BoundedJet GainLocus::phase(double begin, double end) const {
+BoundedJet GainLocus::model(double begin, double end) const {
   return assemble(circle_interval(begin, end), delay_factor(plant_.delay_samples, begin, end));
 }
 
 double GainLocus::gain(double angle) const {
   const CirclePoint<double> point = circle_point(angle);
-  OnCircle<double> numerator{0.0, 0.0};
-  OnCircle<double> denominator{1.0, 0.0};
-  const double sine = std::sqrt(point.sine_squared);
-  for (const SampledTerm& term : plant_.terms) {
-    OnCircle<double> d_k = polynomial(term.denominator, term.degree, 1.0, point);
-    OnCircle<double> n_k = polynomial(term.numerator, term.degree, term.numerator[term.degree], point);
-    double scale = std::abs(d_k.even) + sine * std::abs(d_k.odd);
-    scale = scale > 0.0 ? 1.0 / scale : 1.0;
-    d_k = scaled(scale, d_k);
-    n_k = scaled(scale, n_k);
-    numerator = sum(multiply(numerator, d_k, point), multiply(n_k, denominator, point));
-    denominator = multiply(denominator, d_k, point);
-  }
+  const auto [numerator, denominator] = plant_fraction(plant_, point);
   const OnCircle<double> product =
       multiply(multiply(denominator, conj(numerator), point), delay_factor(plant_.delay_samples, angle), point);
   const double inverse_plant =
@@ -215,8 +147,7 @@ int GainLocus::initially_unstable(double phase_near_zero) const {
   for (const SampledTerm& term : plant_.terms) unstable += term.unstable_poles;
   if (integrators_kept_ == 0) return unstable;
   // Near z = 1, delta^n r + kappa s = 0: the poles leave at the angles of (-kappa s / r)^(1/n).
-  const bool damper_closed = gain_ == Gain::stiffness && damping_ > 0.0;
-  const int n = damper_closed ? 1 : integrators_kept_;
+  const int n = damper_closed() ? 1 : integrators_kept_;
   double s = 0.0;
   double r = 1.0;
   for (const SampledTerm& term : plant_.terms) {
@@ -224,7 +155,7 @@ int GainLocus::initially_unstable(double phase_near_zero) const {
     const auto zeros = static_cast<std::size_t>(term.integrators);
     s = term.numerator[0];
     r = zeros < term.degree ? term.denominator[zeros] : 1.0;
-    if (damper_closed) r = (zeros == 1 ? r * c_ : 0.0) + damping_ * c_ / plant_.period * s;
+    if (damper_closed()) r = (zeros == 1 ? r * c_ : 0.0) + damping_ * c_ / plant_.period * s;
   }
   for (int i = 0; i < n; ++i) {
     const double turn = s * r > 0.0 ? 2.0 * i + 1.0 : 2.0 * i;

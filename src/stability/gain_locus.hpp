@@ -30,8 +30,8 @@ class GainLocus {
   GainLocus(const SampledPlant& plant, Gain gain, double stiffness, VirtualDamper damper);
 
   // f and its first-order Taylor model on [begin, end], 0 <= begin < end <= pi.
-  [[nodiscard]] double phase(double angle) const;
-  [[nodiscard]] BoundedJet phase(double begin, double end) const;
+  [[nodiscard]] double value(double angle) const;
+  [[nodiscard]] BoundedJet model(double begin, double end) const;
 
   // kappa = -den/num where it is real; infinite or NaN where num vanishes.
   [[nodiscard]] double gain(double angle) const;
@@ -40,16 +40,8 @@ class GainLocus {
   // undamped pairs apart. `phase_near_zero` is f between angle 0 and its first root.
   [[nodiscard]] int initially_unstable(double phase_near_zero) const;
 
-  [[nodiscard]] std::size_t delay_samples() const { return plant_.delay_samples; }
-
  private:
-  template <typename Real>
-  struct Fraction {
-    OnCircle<Real> numerator;    // S
-    OnCircle<Real> denominator;  // D, even powers of |delta| from integrators left out where `reduced`
-  };
-  template <typename Real>
-  Fraction<Real> fraction(const CirclePoint<Real>& point) const;
+  [[nodiscard]] bool damper_closed() const { return gain_ == Gain::stiffness && damping_ > 0.0; }
   template <typename Real>
   OnCircle<Real> extra_factor(const CirclePoint<Real>& point) const;
   template <typename Real>

@@ -32,7 +32,7 @@ struct Analysis {
   std::vector<Mode> modes;                   ///< vibration modes, by rising frequency
   std::optional<Mode> suspended_rigid_body;  ///< where springs tie the device to ground
   std::optional<RigidApproximation> rigid;   ///< absent for a transfer function
-  std::optional<QCriterion> q_criterion;     ///< absent unless two bodies
+  std::optional<QCriterion> q_criterion;     ///< absent unless as_two_mass() applies
   std::optional<WallMargins> wall;           ///< absent without wall.stiffness
 };
 

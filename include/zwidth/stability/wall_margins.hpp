@@ -8,34 +8,44 @@
 
 namespace zwidth {
 
-/// A frequency at which the loop gain |C P| is 1.
+/// A frequency at which the loop gain |L| is 1.
 struct GainCrossover {
   double frequency = 0.0;     ///< rad/s
-  double phase_margin = 0.0;  ///< rad, in (-pi, pi]: angle of C P plus pi
+  double phase_margin = 0.0;  ///< rad, in (-pi, pi]: angle of L plus pi
 };
 
-/// How far a given wall is from instability.
-struct WallMargins {
-  double stiffness = 0.0;
-  double damping = 0.0;
+/// How far a loop L under negative feedback is from instability. Margins are absent when the loop is unstable.
+struct LoopMargins {
   bool stable = false;
-  std::optional<double> gain_margin;        ///< least factor > 1 on the whole wall that destabilises; absent: none does
+  std::optional<double> gain_margin;        ///< least factor > 1 on L that destabilises; absent: none does
   std::optional<double> lower_gain_margin;  ///< largest factor in (0, 1) that destabilises; absent: none does
-  std::optional<double> phase_margin;       ///< rad; smallest of all gain crossovers; absent without one or if unstable
-  std::optional<double> delay_margin;       ///< s; min over all gain crossovers of phase/frequency; absent likewise
-  double spectral_radius = 0.0;             ///< largest closed-loop |z|
+  std::optional<double> phase_margin;       ///< rad > 0; least phase, either way, over all gain crossovers
+  std::optional<double> delay_margin;  ///< s; min over all gain crossovers of phase lag to -180 degrees / frequency
   std::vector<GainCrossover> gain_crossovers;  ///< all, by rising frequency
 };
 
-/// Judges the wall C(z) = K + B v(z) closed around the plant.
-///
-/// Margins are absent when the loop is unstable. The delay margin treats the added delay as e^{-jw tau} on the sampled
-/// loop: exact for whole samples, within the aliases (of order (w T / 2 pi)^2 relative) for fractions.
-/// Throws Error (invalid_argument) when wall.stiffness is absent or a value is outside its domain.
-[[nodiscard]] WallMargins wall_margins(const SampledPlant& plant, const Wall& wall);
+/// The verdict on a given wall.
+struct WallMargins : LoopMargins {
+  double stiffness = 0.0;        ///< K
+  double damping = 0.0;          ///< B
+  double spectral_radius = 0.0;  ///< largest closed-loop |z|
+};
 
-/// Gain, phase and delay margins of a continuous loop L(s) under unit negative feedback, by the same complete search
-/// after the bilinear map. Fields as above; spectral_radius is absent (0), the frequencies are continuous ones.
-[[nodiscard]] WallMargins continuous_margins(const TransferFunction& loop);
+/// Margins of L(z) = C(z) P(z), C(z) = K + B v(z) as in Wall; every gain and phase crossover is found as in
+/// critical_stiffness().
+///
+/// The delay margin treats the added delay as e^{-jw tau} on the sampled loop: exact for whole samples; for fractions
+/// the device's response above Nyquist is neglected (relative error of order (w T / 2 pi)²).
+/// Stable means all closed-loop poles strictly inside the unit circle: a free device with K = 0 is not.
+/// Throws Error (invalid_argument) when wall.stiffness is absent or a value is outside its domain.
+[[nodiscard]] LoopMargins loop_margins(const SampledPlant& plant, const Wall& wall);
+
+/// Margins of the device's own wall, and the closed loop's spectral radius by eigenvalues.
+/// Throws Error (invalid_argument) when the device has no wall stiffness.
+[[nodiscard]] WallMargins wall_margins(const Device& device);
+
+/// Margins of a continuous loop L(s) under unit negative feedback, by the same search after the bilinear map
+/// s = (2/T)(z - 1)/(z + 1), which keeps magnitudes and phases: exact. The transfer function is strictly proper.
+[[nodiscard]] LoopMargins continuous_margins(const TransferFunction& loop);
 
 }  // namespace zwidth

@@ -1,0 +1,55 @@
+#include "zwidth/stability/closed_loop.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "model/balance.hpp"
+
+namespace zwidth {
+
+std::vector<std::complex<double>> closed_loop_poles_minus_one(const DiscreteStateSpace& plant, const Wall& wall) {
+  const DiscreteStateSpace device = with_delay_states(plant);
+  const Eigen::Index n = device.Phi.rows();
+  const double stiffness = wall.stiffness.value_or(0.0);
+  const double rate = wall.damping / plant.period;
+  // y[k-1] for the backward difference; v[k-1] for its low-pass v = a v[k-1] + (1 - a)(y - y[k-1])/T.
+  const bool damped = wall.damping > 0.0;
+  const bool filtered = damped && wall.velocity_filter_hz > 0.0;
+  const double a = filtered ? std::exp(-2.0 * std::numbers::pi * wall.velocity_filter_hz * plant.period) : 0.0;
+  const Eigen::Index order = n + (damped ? 1 : 0) + (filtered ? 1 : 0);
+  Eigen::MatrixXd loop = Eigen::MatrixXd::Zero(order, order);  // state matrix minus I
+  loop.topLeftCorner(n, n) = device.Phi;
+  // u = -(K y + B v), v = a v_old + ((1 - a)/T)(y - y_old)
+  Eigen::RowVectorXd force = Eigen::RowVectorXd::Zero(order);
+  force.head(n) = -(stiffness + rate * (1.0 - a)) * device.C;
+  if (damped) {
+    force(n) = rate * (1.0 - a);
+    loop.row(n).head(n) = device.C;
+    loop(n, n) = -1.0;
+  }
+  if (filtered) {  // the filter state holds T v
+    force(n + 1) = -rate * a;
+    loop.row(n + 1).head(n) = (1.0 - a) * device.C;
+    loop(n + 1, n) = -(1.0 - a);
+    loop(n + 1, n + 1) = a - 1.0;
+  }
+  loop.topRows(n) += device.Gamma1 * force;
+  const Eigen::VectorXd scales = balancing_scales(loop);
+  const Eigen::MatrixXd balanced = scales.cwiseInverse().asDiagonal() * loop * scales.asDiagonal();
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(balanced, false);
+  const auto& values = solver.eigenvalues();
+  return {values.data(), values.data() + values.size()};
+}
+
+double stability_excess(const DiscreteStateSpace& plant, const Wall& wall) {
+  double largest = -1.0;
+  for (const std::complex<double>& delta : closed_loop_poles_minus_one(plant, wall)) {
+    // |1 + d| - 1 = (2 Re d + |d|²) / (|1 + d| + 1)
+    largest = std::max(largest, (2.0 * delta.real() + std::norm(delta)) / (std::abs(1.0 + delta) + 1.0));
+  }
+  return largest;
+}
+
+}  // namespace zwidth

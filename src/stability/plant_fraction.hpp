@@ -1,0 +1,86 @@
+#pragma once
+
+// P = z^-L S/D of a sampled plant on the unit circle, with nothing divided: S = sum of N_k prod_{j != k} D_j,
+// D = prod D_k. Real is double (a point) or BoundedJet (an interval).
+
+#include <algorithm>
+#include <cmath>
+
+#include "sampling/unit_circle.hpp"
+#include "stability/bounded_jet.hpp"
+#include "zwidth/sampling/sampled_plant.hpp"
+
+namespace zwidth {
+
+inline double value_of(double a) { return a; }
+inline double value_of(const BoundedJet& a) { return a.value; }
+
+template <typename Real>
+OnCircle<Real> scaled(double factor, const OnCircle<Real>& a) {
+  return {factor * a.even, factor * a.odd};
+}
+
+template <typename Real>
+OnCircle<Real> sum(const OnCircle<Real>& a, const OnCircle<Real>& b) {
+  return {a.even + b.even, a.odd + b.odd};
+}
+
+// x and sin² on [begin, end].
+inline CirclePoint<BoundedJet> circle_interval(double begin, double end) {
+  const double centre = 0.5 * (begin + end);
+  const double h = 0.5 * (end - begin);
+  const double half_sine = std::sin(centre / 2.0);
+  const double half_cosine = std::cos(centre / 2.0);
+  const double sine = 2.0 * half_sine * half_cosine;
+  const double cosine = 1.0 - 2.0 * half_sine * half_sine;
+  BoundedJet chord(4.0 * half_sine * half_sine, 2.0 * sine * h, 2.0 * h * h, 0.0);  // |x''| = |2 cos t| <= 2
+  BoundedJet sine_squared(sine * sine, 2.0 * sine * cosine * h, 2.0 * h * h, 0.0);  // |(sin²)''| = |2 cos 2t| <= 2
+  chord.weight = chord.size();
+  sine_squared.weight = sine_squared.size();
+  return {chord, sine_squared};
+}
+
+template <typename Real>
+struct PlantFraction {
+  OnCircle<Real> numerator;    // S
+  OnCircle<Real> denominator;  // D, or D with its integrators replaced
+};
+
+// S and D by the recursion (S, D) <- (S D_k + N_k D, D D_k). Both are divided by the size of each D_k, a positive
+// number. `integrators`: takes the place of delta^n of the term with n integrators, in D alone.
+template <typename Real>
+PlantFraction<Real> plant_fraction(const SampledPlant& plant, const CirclePoint<Real>& point,
+                                   const OnCircle<Real>* integrators = nullptr) {
+  const double sine = std::sqrt(std::max(value_of(point.sine_squared), 0.0));
+  OnCircle<Real> s{Real(0.0), Real(0.0)};
+  OnCircle<Real> d{Real(1.0), Real(0.0)};
+  OnCircle<Real> replaced{Real(1.0), Real(0.0)};
+  bool first = true;
+  for (const SampledTerm& term : plant.terms) {
+    OnCircle<Real> d_k = polynomial(term.denominator, term.degree, 1.0, point);
+    double scale = std::abs(value_of(d_k.even)) + sine * std::abs(value_of(d_k.odd));
+    scale = scale > 0.0 ? 1.0 / scale : 1.0;
+    d_k = scaled(scale, d_k);
+    const OnCircle<Real> n_k =
+        scaled(scale, polynomial(term.numerator, term.degree, term.numerator[term.degree], point));
+    OnCircle<Real> replaced_k = d_k;
+    if (integrators != nullptr && term.integrators > 0) {
+      const auto zeros = static_cast<std::size_t>(term.integrators);
+      replaced_k = scaled(
+          scale, multiply(*integrators, polynomial(term.denominator + zeros, term.degree - zeros, 1.0, point), point));
+    }
+    if (first) {
+      s = n_k;
+      d = d_k;
+      replaced = replaced_k;
+      first = false;
+    } else {
+      s = sum(multiply(s, d_k, point), multiply(n_k, d, point));
+      d = multiply(d, d_k, point);
+      if (integrators != nullptr) replaced = multiply(replaced, replaced_k, point);
+    }
+  }
+  return {s, integrators != nullptr ? replaced : d};
+}
+
+}  // namespace zwidth
