@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 
 #include "report/analysis_tables.hpp"
@@ -13,7 +14,6 @@ namespace zwidth::report {
 namespace {
 
 constexpr std::size_t width = 100;
-constexpr std::size_t column_name_width = 26;
 
 std::string paragraph(const std::optional<std::string>& text) { return text ? wrap(*text, width, 0) + "\n" : ""; }
 
@@ -65,6 +65,13 @@ std::string full_answer(const AnalysedDevice& analysed) {
          "What these numbers leave out\n" + bullets(caveats(analysed));
 }
 
+/// The comparison with device names as long as the width allows.
+std::string fitted_comparison(std::span<const AnalysedDevice> devices) {
+  static constexpr std::size_t shortest_name = 6;
+  const std::size_t beside_names = width_of(layout(comparison_table(devices, shortest_name))) - shortest_name;
+  return layout(comparison_table(devices, std::max(shortest_name, width - std::min(width, beside_names))));
+}
+
 std::string short_answer(const AnalysedDevice& analysed) {
   return answer_lines(analysed) + paragraph(meaning(analysed)) + wall_section(analysed) +
          paragraph(rigid_model_note(analysed));
@@ -74,7 +81,7 @@ std::string short_answer(const AnalysedDevice& analysed) {
 
 std::string analysis_text(std::span<const AnalysedDevice> devices) {
   if (devices.size() == 1) return full_answer(devices.front());
-  std::string text = layout(comparison_table(devices, column_name_width)) +
+  std::string text = fitted_comparison(devices) +
                      "  K_CR: stiffest stable wall. Rigid model: how far off the same device with rigid links is;\n"
                      "  above 0 dB it is UNSAFE.\n\n";
   for (std::size_t i = 0; i < devices.size(); ++i) text += fmt::format("{}. {}", i + 1, short_answer(devices[i]));

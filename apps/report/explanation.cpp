@@ -182,7 +182,7 @@ std::optional<std::string> q_criterion_note(const AnalysedDevice& analysed) {
   }
   const auto& rigid = analysed.analysis.rigid;
   if (!rigid || rigid->critical.status != StiffnessStatus::finite) {
-    return text + (*criterion->mode_matters ? "The mode matters." : "The mode hardly matters.");
+    return text + "There is no rigid critical stiffness to compare it with.";
   }
   const std::string rigid_value = stiffness_text(analysed, rigid->critical.stiffness);
   if (*criterion->mode_matters) {

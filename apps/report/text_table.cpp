@@ -32,6 +32,16 @@ std::string layout(const TextTable& table) {
   return text;
 }
 
+std::size_t width_of(std::string_view lines) {
+  std::size_t widest = 0;
+  while (!lines.empty()) {
+    const std::size_t end = std::min(lines.find('\n'), lines.size());
+    widest = std::max(widest, length(lines.substr(0, end)));
+    lines.remove_prefix(std::min(end + 1, lines.size()));
+  }
+  return widest;
+}
+
 std::string wrap(std::string_view text, std::size_t width, std::size_t indent) {
   std::string wrapped;
   std::string line;

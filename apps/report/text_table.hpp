@@ -17,6 +17,9 @@ struct TextTable {
 /// Lays the table out with two spaces before each column; no trailing spaces.
 [[nodiscard]] std::string layout(const TextTable& table);
 
+/// Characters of the longest line.
+[[nodiscard]] std::size_t width_of(std::string_view lines);
+
 /// Breaks text at spaces into lines of at most `width` characters, each after `indent` spaces.
 [[nodiscard]] std::string wrap(std::string_view text, std::size_t width, std::size_t indent);
 
