@@ -9,57 +9,54 @@
 namespace zwidth {
 namespace {
 
-// sin(L angle) / sin(angle) and its derivative; angles beyond pi/2 are reflected to keep digits near pi.
-struct DirichletRatio {
-  double value;
-  double derivative;
-  double derivative_error;
-};
-
-DirichletRatio dirichlet_ratio(double samples, double angle) {
-  const bool reflected = angle > std::numbers::pi / 2.0;
-  const double near = reflected ? std::numbers::pi - angle : angle;
-  if (near <= 0.0) {
-    const double limit = reflected && std::fmod(samples, 2.0) == 0.0 ? -samples : samples;
-    return {limit, 0.0, 0.0};
-  }
-  const double sine = std::sin(near);
-  const double ratio = std::sin(samples * near) / sine;
-  const double slope = (samples * std::cos(samples * near) - ratio * std::cos(near)) / sine;
-  const double error = 1e-15 * samples / sine;
-  if (!reflected) return {ratio, slope, error};
-  const double sign = std::fmod(samples, 2.0) == 0.0 ? -1.0 : 1.0;  // sin(L pi - y) = -cos(L pi) sin y
-  return {sign * ratio, -sign * slope, error};
+// u = sin(L angle) / sin(angle). Angles beyond pi/2 are given by their distance to pi: sin(L pi - y) = -cos(L pi) sin
+// y.
+double dirichlet_ratio(double samples, double distance, bool from_pi) {
+  const double ratio = distance > 0.0 ? std::sin(samples * distance) / std::sin(distance) : samples;
+  return from_pi && std::fmod(samples, 2.0) == 0.0 ? -ratio : ratio;
 }
 
 OnCircle<double> delay_factor(std::size_t delay_samples, double angle) {
   if (delay_samples == 0) return {1.0, 0.0};
   const auto samples = static_cast<double>(delay_samples);
-  return {std::cos(samples * angle), dirichlet_ratio(samples, angle).value};
+  const bool from_pi = angle > std::numbers::pi / 2.0;
+  return {std::cos(samples * angle), dirichlet_ratio(samples, from_pi ? std::numbers::pi - angle : angle, from_pi)};
 }
 
-// z^L on [centre - h, centre + h].
+// z^L on an interval of x, even = T_L(y) and odd = u = U_{L-1}(y) with y = 1 - x/2 = cos(angle):
+//   d even/dx = -(L/2) u,   du/dx = (L even - y u) / (2 sin²),
+// second derivatives from the Chebyshev equations 4 sin² e'' + 2 y e' + L² e = 0 and 4 sin² u'' + 6 y u' + (L² - 1) u =
+// 0, or from their greatest values, at x = 0, whichever bound is smaller.
 OnCircle<BoundedJet> delay_factor(std::size_t delay_samples, double begin, double end) {
   if (delay_samples == 0) return {BoundedJet(1.0), BoundedJet(0.0)};
   const auto samples = static_cast<double>(delay_samples);
-  const double centre = 0.5 * (begin + end);
+  const double x = 0.5 * (begin + end);
   const double h = 0.5 * (end - begin);
-  const double reach = samples * h;
-  const double rounding = 1.0 + samples / 16.0;  // of L angle, the argument of sin and cos
-  const BoundedJet even(std::cos(samples * centre), -reach * std::sin(samples * centre), reach * reach, rounding);
-  const DirichletRatio ratio = dirichlet_ratio(samples, centre);
-  // |u''| from u = sum of L cosines, or from u = sin(L t)/sin t away from its zeros, whichever is smaller.
-  double second = samples * (samples * samples - 1.0) / 3.0;
-  double size = samples;
-  const double sine = std::min(std::sin(begin), std::sin(end));
-  if (sine > 0.0) {
-    const double u = std::min(samples, 1.0 / sine);
-    const double first = (samples + u) / sine;
-    second = std::min(second, (samples * samples + 2.0 * first + u) / sine);
-    size = u;
+  const double y = 1.0 - 0.5 * x;
+  const double sine_squared = x * (1.0 - 0.25 * x);
+  const bool from_pi = x > 2.0;
+  const double distance = 2.0 * std::asin(0.5 * std::sqrt(from_pi ? 4.0 - x : x));
+  const double cosine = std::cos(samples * distance);
+  const double even = from_pi && std::fmod(samples, 2.0) == 1.0 ? -cosine : cosine;
+  const double odd = dirichlet_ratio(samples, distance, from_pi);
+  const double odd_slope = (samples * even - y * odd) / (2.0 * sine_squared);
+  const double slope_error = 1e-15 * samples / sine_squared;
+
+  const double squared = samples * samples;
+  double even_bend = squared * (squared - 1.0) / 12.0;
+  double odd_bend = (squared - 4.0) * (squared - 1.0) * samples / 60.0;
+  double odd_size = samples;
+  const double least_sine_squared = std::min(begin * (1.0 - 0.25 * begin), end * (1.0 - 0.25 * end));
+  if (least_sine_squared > 0.0) {
+    odd_size = std::min(samples, 1.0 / std::sqrt(least_sine_squared));
+    const double odd_slope_size =
+        std::min((samples + odd_size) / (2.0 * least_sine_squared), samples * (squared - 1.0) / 6.0);
+    even_bend = std::min(even_bend, (samples * odd_size + squared) / (4.0 * least_sine_squared));
+    odd_bend = std::min(odd_bend, (6.0 * odd_slope_size + (squared - 1.0) * odd_size) / (4.0 * least_sine_squared));
   }
-  return {even,
-          {ratio.value, ratio.derivative * h, second * h * h + 2.0 * ratio.derivative_error * h, size * rounding}};
+  const double rounding = 1.0 + samples / 16.0;  // of L angle, the argument of sin and cos
+  return {{even, -0.5 * samples * odd * h, std::max(even_bend, 0.0) * h * h, rounding},
+          {odd, odd_slope * h, std::max(odd_bend, 0.0) * h * h + 2.0 * slope_error * h, odd_size * rounding}};
 }
 
 // delta^power; |delta|² = x is left out of every pair of factors: delta²/x = -z.

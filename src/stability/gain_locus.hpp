@@ -29,7 +29,7 @@ class GainLocus {
   // `stiffness` matters for Gain::wall alone. The plant must outlive the locus.
   GainLocus(const SampledPlant& plant, Gain gain, double stiffness, VirtualDamper damper);
 
-  // f and its first-order Taylor model on [begin, end], 0 <= begin < end <= pi.
+  // f at an angle in [0, pi], and its first-order Taylor model on an interval of x = |z - 1|², 0 <= begin < end <= 4.
   [[nodiscard]] double value(double angle) const;
   [[nodiscard]] BoundedJet model(double begin, double end) const;
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "sampling/unit_circle.hpp"
 #include "stability/bounded_jet.hpp"
@@ -25,19 +26,19 @@ OnCircle<Real> sum(const OnCircle<Real>& a, const OnCircle<Real>& b) {
   return {a.even + b.even, a.odd + b.odd};
 }
 
-// x and sin² on [begin, end].
+// x = |z - 1|² from 0 (z = 1) to 4 (z = -1) is the variable of intervals: without delay every part of P is a polynomial
+// of low degree in it. sin² = x (1 - x/4).
 inline CirclePoint<BoundedJet> circle_interval(double begin, double end) {
-  const double centre = 0.5 * (begin + end);
+  const double x = 0.5 * (begin + end);
   const double h = 0.5 * (end - begin);
-  const double half_sine = std::sin(centre / 2.0);
-  const double half_cosine = std::cos(centre / 2.0);
-  const double sine = 2.0 * half_sine * half_cosine;
-  const double cosine = 1.0 - 2.0 * half_sine * half_sine;
-  BoundedJet chord(4.0 * half_sine * half_sine, 2.0 * sine * h, 2.0 * h * h, 0.0);  // |x''| = |2 cos t| <= 2
-  BoundedJet sine_squared(sine * sine, 2.0 * sine * cosine * h, 2.0 * h * h, 0.0);  // |(sin²)''| = |2 cos 2t| <= 2
-  chord.weight = chord.size();
-  sine_squared.weight = sine_squared.size();
+  const BoundedJet chord(x, h, 0.0, end);
+  const BoundedJet sine_squared(x * (1.0 - 0.25 * x), (1.0 - 0.5 * x) * h, 0.5 * h * h, std::min(end, 1.0));
   return {chord, sine_squared};
+}
+
+// The angle in [0, pi] of x; near pi from 4 - x, which keeps its digits.
+inline double angle_of(double x) {
+  return x <= 2.0 ? 2.0 * std::asin(0.5 * std::sqrt(x)) : std::numbers::pi - 2.0 * std::asin(0.5 * std::sqrt(4.0 - x));
 }
 
 template <typename Real>

@@ -1,7 +1,7 @@
 #pragma once
 
-// All roots on [0, pi] of a function given by value and by first-order Taylor models on intervals, by subdivision: no
-// root can hide between points of a grid. See docs/completeness.md.
+// All roots on the upper unit circle of a function given by value and by first-order Taylor models on intervals, by
+// subdivision: no root can hide between points of a grid. See docs/completeness.md.
 
 #include <algorithm>
 #include <boost/math/tools/roots.hpp>
@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "stability/bounded_jet.hpp"
+#include "stability/plant_fraction.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth {
@@ -27,7 +28,7 @@ namespace root_isolation {
 // Rounding of f, relative to the sum of magnitudes of its terms (BoundedJet::weight). Evaluation takes a few dozen
 // operations per modal term.
 inline constexpr double rounding = 256.0 * std::numeric_limits<double>::epsilon();
-// An interval this narrow, relative to its angle, is not divided further.
+// An interval this narrow, relative to its end, is not divided further.
 inline constexpr double narrowest = 1e-14;
 inline constexpr std::size_t max_intervals_per_piece = 100000;
 inline constexpr std::uintmax_t max_polish_steps = 100;
@@ -45,11 +46,17 @@ double polish(const Function& f, double begin, double end, double at_begin, doub
   return 0.5 * (low + high);
 }
 
+// Where to divide an interval of x: by ratio while it spans orders of magnitude, else in half.
+inline double division(double begin, double end) {
+  if (begin == 0.0) return end / 32.0;
+  return end > 4.0 * begin ? std::sqrt(begin * end) : 0.5 * (begin + end);
+}
+
 }  // namespace root_isolation
 
-// Function: double value(double angle) const; BoundedJet model(double begin, double end) const. `pieces` equal
-// intervals to start with: about one per half turn of the function's fastest oscillation.
-// Throws Error (did_not_converge) past a cap on the number of intervals.
+// Function: double value(double angle) const; BoundedJet model(double begin, double end) const on an interval of
+// x = |z - 1|². `pieces` intervals, equal in angle, to start with: about one per half turn of the function's fastest
+// oscillation. Throws Error (did_not_converge) past a cap on the number of intervals.
 template <typename Function>
 std::vector<CircleRoot> roots_on_circle(const Function& f, std::size_t pieces) {
   using namespace root_isolation;
@@ -60,19 +67,21 @@ std::vector<CircleRoot> roots_on_circle(const Function& f, std::size_t pieces) {
   std::vector<CircleRoot> roots;
   std::vector<Interval> stack;
   stack.reserve(64 + pieces);
-  const double step = std::numbers::pi / static_cast<double>(pieces);
+  double right = 4.0;
   for (std::size_t i = pieces; i-- > 0;) {  // leftmost on top
-    stack.push_back(
-        {static_cast<double>(i) * step, i + 1 == pieces ? std::numbers::pi : static_cast<double>(i + 1) * step});
+    const double half_sine = std::sin(0.5 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(pieces));
+    const double left = 4.0 * half_sine * half_sine;
+    stack.push_back({left, right});
+    right = left;
   }
   std::size_t intervals_left = max_intervals_per_piece * pieces;
   double zero_begin = -1.0;  // a run of neighbouring intervals in which f is zero to rounding
   double zero_end = -1.0;
   const auto end_of_run = [&] {
     if (zero_begin < 0.0) return;
-    const bool before = f.value(zero_begin) > 0.0;
-    const bool after = f.value(zero_end) > 0.0;
-    roots.push_back({0.5 * (zero_begin + zero_end), before == after ? 0 : after ? 1 : -1});
+    const bool before = f.value(angle_of(zero_begin)) > 0.0;
+    const bool after = f.value(angle_of(zero_end)) > 0.0;
+    roots.push_back({angle_of(0.5 * (zero_begin + zero_end)), before == after ? 0 : after ? 1 : -1});
     zero_begin = -1.0;
   };
   while (!stack.empty()) {
@@ -87,10 +96,12 @@ std::vector<CircleRoot> roots_on_circle(const Function& f, std::size_t pieces) {
     }
     if (std::abs(model.slope) > model.bend + noise) {  // monotone: at most one root
       end_of_run();
-      const double at_begin = f.value(begin);
-      const double at_end = f.value(end);
-      if ((at_begin > 0.0) != (at_end > 0.0)) {
-        roots.push_back({polish(f, begin, end, at_begin, at_end), at_end > 0.0 ? 1 : -1});
+      const double first = angle_of(begin);
+      const double last = angle_of(end);
+      const double at_first = f.value(first);
+      const double at_last = f.value(last);
+      if ((at_first > 0.0) != (at_last > 0.0)) {
+        roots.push_back({polish(f, first, last, at_first, at_last), at_last > 0.0 ? 1 : -1});
       }
       continue;
     }
@@ -99,7 +110,7 @@ std::vector<CircleRoot> roots_on_circle(const Function& f, std::size_t pieces) {
       zero_end = end;
       continue;
     }
-    const double middle = 0.5 * (begin + end);
+    const double middle = division(begin, end);
     stack.push_back({middle, end});
     stack.push_back({begin, middle});
   }
