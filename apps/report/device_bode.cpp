@@ -107,9 +107,11 @@ BodeFigure device_bode_figure(std::span<const AnalysedDevice> devices, const Bod
   } else {
     figure.title = "What the sampled wall sees";
     for (std::size_t i = 0; i < devices.size(); ++i) {
-      figure.curves.push_back(
-          {devices[i].device.name(), device_bode(devices[i], figure.range, options.points).sampled});
-      add_marks(figure, devices[i], i, "; " + devices[i].device.name());
+      // Letters: names can be long and alike.
+      const char letter = static_cast<char>('A' + i);
+      figure.curves.push_back({fmt::format("{}: {}", letter, devices[i].device.name()),
+                               device_bode(devices[i], figure.range, options.points).sampled});
+      add_marks(figure, devices[i], i, fmt::format(" ({})", letter));
     }
   }
   const auto same_nyquist = [&](const AnalysedDevice& each) { return nyquist(each.device) == nyquist(first.device); };

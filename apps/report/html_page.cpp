@@ -25,7 +25,7 @@ th, td { padding: .3rem .7rem; border-bottom: 1px solid #ddd; text-align: left; 
 th { border-bottom: 2px solid #888; font-weight: 600; }
 .n { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
 th.n { white-space: normal; }
-td:last-child:not(.n) { min-width: 17rem; }
+.reasons td:last-child { min-width: 17rem; }
 figure { margin: 1.2rem 0; }
 figure svg { width: 100%; height: auto; display: block; }
 figcaption { font-size: .9rem; color: #444; margin-top: .3rem; }

@@ -55,8 +55,8 @@ PaperFigure figure_07() {
   const std::array devices{analysed(paper_lhifam()), analysed(paper_lhifam_rigid())};
   BodeFigure figure = device_bode_figure(devices, {});
   figure.title = "Figure 7: Z[H G_m] of LHIfAM (Table I) and its margins";
-  figure.curves[0].name = "Z[H G_m], two bodies, eq. 7";
-  figure.curves[1].name = "Z[H G], one rigid body, eq. 2";
+  figure.curves[0].name = "A: Z[H G_m], two bodies, eq. 7";
+  figure.curves[1].name = "B: Z[H G], one rigid body, eq. 2";
   return {
       "figure_07.svg", figure.title,
       fmt::format("The printed figure has the first curve only. The margin is that of the rigid-body branch: {:.2f} "

@@ -15,7 +15,7 @@ std::string numbers_table() {
   for (const PaperNumber& number : paper_numbers()) {
     table.rows.push_back({number.place, number.what, number.printed, number.ours, number.difference, number.reason});
   }
-  return html_table(table);
+  return "<div class=\"reasons\">\n" + html_table(table) + "</div>\n";
 }
 
 }  // namespace

@@ -16,6 +16,7 @@ constexpr Box bar_sides{40.0, 860.0, 0.0, 0.0};
 constexpr double bar_height = 40.0;
 constexpr double row_height = 20.0;
 constexpr double text_size = 12.0;
+constexpr double text_gap = 5.0;
 constexpr std::string_view stable_colour = "#bfe3c5";
 constexpr std::string_view unstable_colour = "#f6d5d0";
 constexpr LineStyle leader{"#555555", 0.8, "1"};
@@ -29,7 +30,6 @@ struct Label {
   std::string text;
   LineStyle style;
   double x = 0.0;       ///< of the leader
-  double text_x = 0.0;  ///< centre of the text, kept inside the canvas
   std::size_t row = 0;  ///< from the bar upwards
 };
 
@@ -82,49 +82,42 @@ Axis axis_of(const std::vector<Label>& labels) {
           std::pow(10.0, std::ceil(std::log10(most->stiffness) + 0.3))};
 }
 
-/// Gives each label the lowest row in which it touches neither a text nor the leader of a label in a higher row.
-std::size_t place(std::vector<Label>& labels, const Axis& axis) {
-  constexpr double gap = 6.0;
-  struct Taken {
-    double left;
-    double right;
-    std::size_t row;
-  };
-  std::vector<Taken> texts;
-  std::vector<double> leaders;
-  for (Label& label : labels) {
-    label.x = axis.x(label.stiffness);
-    leaders.push_back(label.x);
-  }
+/// Each text stands left of its leader, like a flag, in the lowest row above every leader that it passes: so no leader
+/// crosses a text. Returns whether all texts keep inside the canvas.
+bool place(std::vector<Label>& labels, const Axis& axis) {
   std::sort(labels.begin(), labels.end(), [](const Label& a, const Label& b) { return a.stiffness < b.stiffness; });
-  std::size_t rows = 0;
-  for (Label& label : labels) {
-    if (label.text.empty()) continue;
-    const double half = 0.5 * Canvas::text_width(label.text, text_size) + gap;
-    label.text_x = std::clamp(label.x, half, canvas_width - half);
-    const double left = label.text_x - half;
-    const double right = label.text_x + half;
-    const auto free = [&](std::size_t row) {
-      return std::none_of(texts.begin(), texts.end(), [&](const Taken& taken) {
-        return taken.row == row && taken.left < right && left < taken.right;
-      });
-    };
-    while (!free(label.row)) ++label.row;
-    texts.push_back({left, right, label.row});
-    rows = std::max(rows, label.row + 1);
+  bool inside = true;
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    Label& label = labels[i];
+    label.x = axis.x(label.stiffness);
+    label.row = 0;
+    const double left = label.x - text_gap - Canvas::text_width(label.text, text_size);
+    for (std::size_t j = 0; j < i; ++j) {
+      if (labels[j].x > left - text_gap) label.row = std::max(label.row, labels[j].row + 1);
+    }
+    inside = inside && left > text_gap;
   }
-  return rows;
+  return inside;
+}
+
+/// Lowers the axis until the leftmost texts have room.
+Axis place_with_room(std::vector<Label>& labels) {
+  constexpr int most_decades = 4;
+  Axis axis = axis_of(labels);
+  for (int i = 0; i < most_decades && !place(labels, axis); ++i) axis.low /= 10.0;
+  return axis;
 }
 
 }  // namespace
 
 std::string draw_stiffness_axis(const AnalysedDevice& analysed, FigureFormat format) {
   std::vector<Label> labels = labels_of(analysed);
-  const Axis axis = axis_of(labels);
-  const std::size_t rows = place(labels, axis);
+  const Axis axis = place_with_room(labels);
+  std::size_t rows = 0;
+  for (const Label& label : labels) rows = std::max(rows, label.row + 1);
   const double bar_top = 48.0 + row_height * static_cast<double>(rows);
   const Box bar{bar_sides.left, bar_sides.right, bar_top, bar_top + bar_height};
-  Canvas canvas("Stable wall stiffness", canvas_width, bar.bottom + 60.0);
+  Canvas canvas("Stable wall stiffness", canvas_width, bar.bottom + 66.0);
   canvas.text(bar.left, 16.0, "Wall stiffness K: where the sampled loop is stable", {Anchor::left, 15.0});
 
   canvas.rectangle(bar, unstable_colour);
@@ -145,14 +138,10 @@ std::string draw_stiffness_axis(const AnalysedDevice& analysed, FigureFormat for
 
   for (const Label& label : labels) {
     const double text_y = bar.top - 16.0 - row_height * static_cast<double>(label.row);
-    if (label.text.empty()) {
-      canvas.line(label.x, bar.top - 6.0, label.x, bar.bottom, label.style);
-      continue;
-    }
-    canvas.line(label.x, text_y + 8.0, label.x, bar.bottom, label.style);
-    canvas.text(label.text_x, text_y, label.text, {Anchor::centre, text_size, label.style.colour});
+    canvas.line(label.x, text_y - 6.0, label.x, bar.top + 8.0, label.style);
+    canvas.text(label.x - text_gap, text_y, label.text, {Anchor::right, text_size, label.style.colour});
   }
-  canvas.text(0.5 * (bar.left + bar.right), bar.bottom + 42.0,
+  canvas.text(0.5 * (bar.left + bar.right), bar.bottom + 48.0,
               fmt::format("K ({}), from 0 on the left", units_of(analysed.device.parameters().motion).stiffness),
               {Anchor::centre, text_size});
   canvas.commands(fmt::format(
