@@ -103,8 +103,8 @@ void run_bode(const BodeArguments& arguments) {
   if (!arguments.output.empty() && !report::figure_format(arguments.output) && !is_csv(arguments.output)) {
     throw BadInput(fmt::format("--output: {}: unknown extension; .svg, .png, .pdf or .csv", arguments.output));
   }
-  std::vector<AnalysedDevice> devices;
-  for (Device& device : read_devices(arguments.devices)) devices.push_back(report::analysed_device(std::move(device)));
+  check_output_is_no_input(arguments.devices, "--output", arguments.output);
+  const std::vector<AnalysedDevice> devices = analyze_devices(arguments.devices);
   check(arguments, devices);
   if (!arguments.output.empty()) write_output(arguments, devices);
   if (arguments.json) {
@@ -127,8 +127,7 @@ void add_bode(CLI::App& app) {
   command->add_option("--from", arguments->bode.from, "Lowest frequency, rad/s")->type_name("W");
   command->add_option("--to", arguments->bode.to, "Highest frequency, rad/s; Nyquist unless given")->type_name("W");
   command
-      ->add_option("--points", arguments->bode.points,
-                   "Frequencies, even on the logarithmic axis; more are added where a curve bends")
+      ->add_option("--points", arguments->bode.points, "Frequencies on the logarithmic axis, more where a curve bends")
       ->capture_default_str()
       ->type_name("N")
       ->check(CLI::Range(2, 100000));

@@ -51,8 +51,7 @@ std::vector<report::AnalysedDevice> analyze_devices(const DeviceArguments& argum
   std::vector<report::AnalysedDevice> analysed;
   for (Device& device : read_devices(arguments)) {
     try {
-      Analysis analysis = analyze(device);
-      analysed.push_back({std::move(device), std::move(analysis)});
+      analysed.push_back(report::analysed_device(std::move(device)));
     } catch (const Error& error) {
       throw WorkFailed(arguments.files[analysed.size()] + ": " + error.what());
     }

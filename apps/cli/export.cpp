@@ -24,9 +24,9 @@ std::string exported(const report::ExportedModel& model, const std::string& form
 }
 
 void run_export(const ExportArguments& arguments) {
-  std::vector<Device> devices = read_devices(arguments.devices);
-  const std::string text =
-      exported(report::exported_model(report::analysed_device(std::move(devices.front()))), arguments.format);
+  check_output_is_no_input(arguments.devices, "--output", arguments.output);
+  const auto devices = analyze_devices(arguments.devices);
+  const std::string text = exported(report::exported_model(devices.front()), arguments.format);
   if (arguments.output.empty()) {
     write_standard_output(text);
   } else {

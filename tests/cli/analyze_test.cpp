@@ -159,12 +159,5 @@ TEST_F(Analyze, AReportThatCannotBeWrittenFailsAndLeavesNothing) {
   EXPECT_EQ(run("ls").output, "devices\n");
 }
 
-TEST_F(Analyze, AReportNeverOverwritesADeviceFile) {
-  const Outcome outcome = run("zwidth analyze devices/lhifam.toml --report ./devices/../devices/lhifam.toml");
-  EXPECT_EQ(outcome.status, 2);
-  EXPECT_THAT(outcome.errors, HasSubstr("would overwrite the device file"));
-  EXPECT_EQ(documents("zwidth analyze devices/lhifam.toml --json").size(), 1U);
-}
-
 }  // namespace
 }  // namespace zwidth::cli

@@ -121,36 +121,37 @@ class Export : public Workspace, public ::testing::WithParamInterface<Case> {
 };
 
 TEST_P(Export, RunsInOctaveWithOurResponse) {
-  write("check.m", R"(1;
+  write("check.m", R"octave(1;
 evalc("source('device.m')");
-  w = load('frequencies.txt')'; p = sampled_response(model, w);
-  printf('%.17g %.17g\n', [real(p); imag(p)]);
-)");
-  const Outcome outcome = run(
-      "zwidth export device.toml --format octave --output device.m && /usr/bin/octave-cli device.m > table.txt && "
-      "/usr/bin/octave-cli check.m");
-ASSERT_EQ(outcome.status, 0) << outcome.errors;
-expect_our_response(outcome.output);
+w = load('frequencies.txt')';
+p = sampled_response(model, w);
+printf('%.17g %.17g\n', [real(p); imag(p)]);
+)octave");
+  const Outcome outcome =
+      run("zwidth export device.toml --format octave --output device.m && /usr/bin/octave-cli device.m > table.txt && "
+          "/usr/bin/octave-cli check.m");
+  ASSERT_EQ(outcome.status, 0) << outcome.errors;
+  expect_our_response(outcome.output);
 }
 
 TEST_P(Export, OctaveSystemsAreTheModel) {
   // sysc by its own frequency response, and sysd by its own: general-purpose code loses digits at low frequency.
-  write("check.m", R"(1;
+  write("check.m", R"octave(1;
 evalc("source('device.m')");
-  w = load('frequencies.txt')'; w = w(w > 20);
-  p = sampled_response(model, w);
-  q = squeeze(freqresp(sysd, w))
-          .'; printf('%d %.3g\n', isa(sysc, 'ss') && isa(sysd, 'ss') && isct(sysc) && isdt(sysd),
-                     max(abs(p - q)./ abs(p)));
-)");
+w = load('frequencies.txt')';
+w = w(w > 20);
+p = sampled_response(model, w);
+q = squeeze(freqresp(sysd, w)).';
+printf('%d %.3g\n', isa(sysc, 'ss') && isa(sysd, 'ss') && isct(sysc) && isdt(sysd), max(abs(p - q) ./ abs(p)));
+)octave");
   const Outcome outcome = run("zwidth export device.toml --format octave > device.m && /usr/bin/octave-cli check.m");
-ASSERT_EQ(outcome.status, 0) << outcome.errors;
-std::istringstream fields(outcome.output);
-int are_systems = 0;
-double error = 1.0;
-fields >> are_systems >> error;
-EXPECT_EQ(are_systems, 1);
-EXPECT_LT(error, 1e-7);
+  ASSERT_EQ(outcome.status, 0) << outcome.errors;
+  std::istringstream fields(outcome.output);
+  int are_systems = 0;
+  double error = 1.0;
+  fields >> are_systems >> error;
+  EXPECT_EQ(are_systems, 1);
+  EXPECT_LT(error, 1e-7);
 }
 
 TEST_P(Export, RunsInPythonWithOurResponse) {

@@ -106,6 +106,17 @@ TEST_F(Frame, WrongUsageExitsWithTwoAndSaysWhatWasMeant) {
   }
 }
 
+TEST_F(Frame, NoCommandOverwritesItsDeviceFile) {
+  write("device.csv", run("cat devices/lhifam.toml").output);
+  for (const std::string command : {"analyze device.csv --report ./device.csv", "bode device.csv --output ./device.csv",
+                                    "export device.csv --format json --output ./device.csv"}) {
+    const Outcome outcome = run("zwidth " + command);
+    EXPECT_EQ(outcome.status, 2) << command;
+    EXPECT_THAT(outcome.errors, HasSubstr("would overwrite the device file")) << command;
+  }
+  EXPECT_EQ(run("cmp device.csv devices/lhifam.toml").status, 0);
+}
+
 TEST_F(Frame, OutputHasNoColour) {
   for (const std::string environment : {"", "NO_COLOR=1 ", "CLICOLOR_FORCE=1 "}) {
     const Outcome outcome = run(environment + "zwidth analyze devices/lhifam.toml");
