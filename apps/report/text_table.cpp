@@ -53,7 +53,8 @@ std::string wrap(std::string_view text, std::size_t width, std::size_t indent) {
       end_line();
       line.clear();
     }
-    line += (line.empty() ? "" : " ") + std::string(word);
+    if (!line.empty()) line += ' ';
+    line += word;
     text.remove_prefix(std::min(end + 1, text.size()));
   }
   if (!line.empty()) end_line();
