@@ -1,5 +1,6 @@
 #include "stability/gain_crossings.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -25,7 +26,7 @@ bool is_undamped_pole(const SampledPlant& plant, double angle) {
 
 GainCrossings gain_crossings(const SampledPlant& plant, const GainLocus& locus) {
   GainCrossings result;
-  const std::vector<CircleRoot> roots = roots_on_circle(locus, 1 + 2 * plant.delay_samples);
+  const std::vector<CircleRoot> roots = roots_on_circle(locus, std::max<std::size_t>(1, plant.delay_samples));
   result.initially_unstable = locus.initially_unstable(locus.value(roots.empty() ? 1.0 : 0.5 * roots.front().angle));
   result.crossings.reserve(roots.size() + 1);
   for (const CircleRoot& root : roots) {
