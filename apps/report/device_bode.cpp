@@ -83,6 +83,8 @@ DeviceBode device_bode(const AnalysedDevice& analysed, FrequencyRange range, std
   // The phase is unwrapped from well below everything, whatever part is asked for.
   const FrequencyRange whole{std::min(range.from, bode_range({&analysed, 1}, {}).from), range.to};
   std::vector<double> frequencies = bode_frequencies(responses, whole, modes, period, points);
+  const auto start = std::lower_bound(frequencies.begin(), frequencies.end(), range.from);
+  if (*start != range.from) frequencies.insert(start, range.from);
   const auto below_nyquist = std::upper_bound(frequencies.begin(), frequencies.end(), nyquist(device));
   DeviceBode bode{bode_points(responses[1], frequencies),
                   bode_points(responses[0], {frequencies.begin(), below_nyquist})};

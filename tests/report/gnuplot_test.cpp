@@ -57,6 +57,7 @@ TEST(Canvas, TextFromAFileIsDrawnAsItIs) {
   const std::string hostile = R"(<b> & {/Symbol a} a_b ^2 \n `touch /tmp/zwidth_must_not_exist` 'quoted' "%s" µ)";
   Canvas canvas(hostile, 400, 100);
   canvas.text(10, 50, hostile);
+  canvas.commands("set xrange [0:1]\nset yrange [0:1]");
   canvas.plot({20, 380, 10, 90}, "NaN notitle");
   const std::string svg = canvas.draw(FigureFormat::svg);
   EXPECT_THAT(svg,

@@ -1,0 +1,175 @@
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "cli/workspace.hpp"
+#include "zwidth/io/device_file.hpp"
+#include "zwidth/sampling/sampled_plant.hpp"
+
+namespace zwidth::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+class Figures : public Workspace {
+ protected:
+  [[nodiscard]] std::string contents(const std::string& name) const {
+    std::ifstream file(directory() / name, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+  [[nodiscard]] bool exists(const std::string& name) const { return fs::exists(directory() / name); }
+  void expect_refusal(const std::string& command, int status, const std::string& message) const {
+    const Outcome outcome = run(command);
+    EXPECT_EQ(outcome.status, status) << command;
+    EXPECT_THAT(outcome.errors, HasSubstr(message)) << command;
+    EXPECT_THAT(outcome.errors, StartsWith("zwidth: ")) << command;
+  }
+};
+
+std::vector<double> numbers_of(const std::string& line) {
+  std::vector<double> numbers;
+  std::istringstream cells(line);
+  for (std::string cell; std::getline(cells, cell, ',');) numbers.push_back(cell.empty() ? std::nan("") : std::stod(cell));
+  return numbers;
+}
+
+TEST_F(Figures, BodeListsCrossoversWithoutAnOutput) {
+  const Outcome outcome = run("zwidth bode devices/lhifam.toml");
+  EXPECT_EQ(outcome.status, 0) << outcome.errors;
+  EXPECT_THAT(outcome.output, HasSubstr("<- critical"));
+  EXPECT_THAT(outcome.output, HasSubstr("--output"));
+}
+
+TEST_F(Figures, BodeDrawsByExtension) {
+  ASSERT_EQ(run("zwidth bode devices/lhifam.toml -o a.svg && zwidth bode devices/lhifam.toml -o a.PNG && "
+                "zwidth bode devices/lhifam.toml devices/lhifam_rigid.toml --output a.pdf")
+                .status,
+            0);
+  EXPECT_THAT(contents("a.svg"), HasSubstr("rigid body: critical"));
+  EXPECT_THAT(contents("a.PNG"), StartsWith("\x89PNG"));
+  EXPECT_THAT(contents("a.pdf"), StartsWith("%PDF"));
+}
+
+TEST_F(Figures, CsvIsTheLibrarysResponse) {
+  ASSERT_EQ(run("zwidth bode devices/lhifam.toml --set loop.delay=2.25e-3 --to 5000 --output a.csv").status, 0);
+  const Device device =
+      *read_device_file((directory() / "devices/lhifam.toml").string(), std::vector<std::string>{"loop.delay=2.25e-3"});
+  const SampledPlant plant = sampled_plant(device);
+  const ModalForm form = modal_form(device);
+  std::istringstream lines(contents("a.csv"));
+  std::string line;
+  std::getline(lines, line);
+  EXPECT_EQ(line, "frequency_rad_s,frequency_hz,magnitude_db,phase_deg,continuous_magnitude_db,continuous_phase_deg");
+  constexpr double degree = std::numbers::pi / 180.0;
+  std::size_t rows = 0;
+  double last = 0.0;
+  while (std::getline(lines, line)) {
+    const std::vector<double> row = numbers_of(line);
+    ASSERT_EQ(row.size(), 6U) << line;
+    EXPECT_GT(row[0], last);
+    last = row[0];
+    EXPECT_NEAR(row[1], row[0] / (2.0 * std::numbers::pi), 1e-12 * row[0]);
+    const auto continuous = std::polar(std::pow(10.0, row[4] / 20.0), row[5] * degree);
+    EXPECT_LT(std::abs(continuous - response(form, row[0])), 1e-9 * std::abs(continuous)) << line;
+    if (row[0] > std::numbers::pi / 1e-3) {
+      EXPECT_TRUE(std::isnan(row[2]) && std::isnan(row[3])) << line;
+    } else {
+      const auto sampled = std::polar(std::pow(10.0, row[2] / 20.0), row[3] * degree);
+      EXPECT_LT(std::abs(sampled - response(plant, row[0])), 1e-9 * std::abs(sampled)) << line;
+    }
+    ++rows;
+  }
+  EXPECT_GE(rows, 400U);
+  EXPECT_NEAR(last, 5000.0, 1e-9);
+}
+
+TEST_F(Figures, JsonIsOneLinePerDevice) {
+  const Outcome outcome = run("zwidth bode devices/lhifam.toml devices/lhifam_rigid.toml --json --points 10");
+  ASSERT_EQ(outcome.status, 0);
+  std::istringstream lines(outcome.output);
+  std::string line;
+  int documents = 0;
+  while (std::getline(lines, line)) {
+    const auto document = nlohmann::json::parse(line);
+    EXPECT_EQ(document.at("schema"), "zwidth.bode/1");
+    EXPECT_EQ(document.at("sampled").at("frequency_rad_s").size(), document.at("sampled").at("phase_deg").size());
+    EXPECT_FALSE(document.at("crossovers").empty());
+    ++documents;
+  }
+  EXPECT_EQ(documents, 2);
+}
+
+TEST_F(Figures, TheVirtualDamperIsClosedInTheMarkedCurve) {
+  // At a crossover the closed response is -1/K; the csv is asked for just that frequency.
+  const std::string damper = "--set wall.damping=5 --set wall.velocity_filter_hz=60 ";
+  const auto analysis = nlohmann::json::parse(run("zwidth analyze devices/lhifam.toml --json " + damper).output);
+  const double frequency = analysis.at("critical_frequency_rad_s");
+  ASSERT_EQ(
+      run(fmt::format("zwidth bode devices/lhifam.toml {} --from {:.17g} --output a.csv", damper, frequency)).status,
+      0);
+  std::istringstream lines(contents("a.csv"));
+  std::string line;
+  std::getline(lines, line);
+  std::getline(lines, line);
+  const std::vector<double> row = numbers_of(line);
+  EXPECT_NEAR(row[0], frequency, 1e-9 * frequency);
+  EXPECT_NEAR(row[2], -analysis.at("critical_stiffness_db").get<double>(), 1e-7);
+  EXPECT_NEAR(row[3], -180.0, 1e-6);
+}
+
+TEST_F(Figures, BodeRefusals) {
+  expect_refusal("zwidth bode devices/lhifam.toml --output a.jpg", 2, "unknown extension; .svg, .png, .pdf or .csv");
+  expect_refusal("zwidth bode devices/lhifam.toml --from 0 -o a.svg", 2, "--from: is 0; a frequency in rad/s > 0");
+  expect_refusal("zwidth bode devices/lhifam.toml --to nan -o a.svg", 2, "--to: is nan");
+  expect_refusal("zwidth bode devices/lhifam.toml --from 100 --to 10 -o a.svg", 2, "above --from");
+  expect_refusal("zwidth bode devices/lhifam.toml --from 4000 --to 5000 -o a.svg", 2, "below the Nyquist frequency");
+  expect_refusal("zwidth bode devices/lhifam.toml --points 1 -o a.svg", 2, "--points");
+  expect_refusal("zwidth bode devices/lhifam.toml devices/lhifam_rigid.toml -o a.csv", 2, "one device");
+  expect_refusal("zwidth bode devices/lhifam.toml devices/quanser_torsion.toml -o a.svg", 2, "linear and rotary");
+  expect_refusal("d=devices/lhifam.toml; zwidth bode $d $d $d $d $d -o a.svg", 2, "at most 4");
+  expect_refusal("mkdir a.svg; zwidth bode devices/lhifam.toml -o a.svg", 1, "is a directory");
+  expect_refusal("zwidth bode devices/lhifam.toml -o none/a.png", 1, "none/a.png: cannot write");
+  EXPECT_FALSE(exists("a.jpg"));
+}
+
+TEST_F(Figures, AFailedFigureLeavesTheOldFile) {
+  write("a.svg", "old");
+  // Without gnuplot on the path.
+  const Outcome outcome =
+      run("program=$(command -v zwidth); PATH=/nonexistent $program bode devices/lhifam.toml -o a.svg");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.errors, HasSubstr("apt-get install gnuplot-nox"));
+  EXPECT_EQ(contents("a.svg"), "old");
+}
+
+TEST_F(Figures, ReproduceFillsAFolderAndLeavesTheRestAlone) {
+  const Outcome outcome =
+      run("mkdir -p paper/lhifam; echo mine > paper/lhifam/notes.txt; zwidth reproduce paper/lhifam");
+  EXPECT_EQ(outcome.status, 0) << outcome.errors;
+  for (const char* name :
+       {"figure_03.svg", "figure_07.svg", "figure_09.svg", "figure_10.svg", "figure_14.svg", "index.html"}) {
+    EXPECT_GT(contents(std::string("paper/lhifam/") + name).size(), 10000U) << name;
+  }
+  EXPECT_EQ(contents("paper/lhifam/notes.txt"), "mine\n");
+  EXPECT_EQ(std::distance(fs::directory_iterator(directory() / "paper/lhifam"), fs::directory_iterator()), 8);
+}
+
+TEST_F(Figures, ReproduceRefusals) {
+  expect_refusal("zwidth reproduce", 2, "OUTDIR");
+  expect_refusal("echo x > file; zwidth reproduce file", 1, "file");
+  expect_refusal("echo x > file; zwidth reproduce file/below", 1, "cannot make the directory");
+}
+
+}  // namespace
+}  // namespace zwidth::cli

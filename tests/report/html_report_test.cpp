@@ -1,0 +1,120 @@
+#include "report/html_report.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "report/example_analyses.hpp"
+#include "report/stiffness_axis_figure.hpp"
+
+namespace zwidth::report {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+std::string report_of(std::vector<AnalysedDevice> devices) { return html_report(devices); }
+
+/// Nothing is fetched from anywhere, and no id is used twice.
+void expect_self_contained(const std::string& page) {
+  EXPECT_THAT(page, Not(HasSubstr("http")));
+  EXPECT_THAT(page, Not(HasSubstr("<link")));
+  EXPECT_THAT(page, Not(HasSubstr("<script")));
+  EXPECT_THAT(page, Not(HasSubstr("src=")));
+  std::set<std::string> ids;
+  const std::regex id(R"( id=["']([^"']+)["'])");
+  for (std::sregex_iterator match(page.begin(), page.end(), id), end; match != end; ++match) {
+    EXPECT_TRUE(ids.insert((*match)[1]).second) << (*match)[1];
+  }
+}
+
+std::size_t count_of(const std::string& page, std::string_view text) {
+  std::size_t count = 0;
+  for (std::size_t at = page.find(text); at != std::string::npos; at = page.find(text, at + 1)) ++count;
+  return count;
+}
+
+TEST(HtmlReport, AnswersOnTopWithFiguresAndNumbers) {
+  const std::string page = report_of({lhifam()});
+  expect_self_contained(page);
+  const std::size_t answer = page.find("8.849 kN/m (78.94 dB re 1 N/m)");
+  const std::size_t figure = page.find("<svg");
+  ASSERT_NE(answer, std::string::npos);
+  ASSERT_NE(figure, std::string::npos);
+  EXPECT_LT(answer, figure);
+  EXPECT_EQ(count_of(page, "<svg"), 2U);
+  for (const char* text :
+       {"Limited by the rigid body", "140.4 kN/m", "33.9 kN/m", "135.2 MN/m", "84.31 Hz", "With rigid links",
+        "Q criterion", "Nobody holds", "motor to handle: stiffness", "79500 N/m",
+        "1   K = 78.94 dB (8.849 kN/m) at 38.6 rad/s (6.143 Hz), rigid body: critical",
+        "3   K = 90.60 dB (33.9 kN/m) at 618.1 rad/s (98.37 Hz), vibration mode 1", "Magnitude (dB re 1 m/N)",
+        "Phase (degrees)", "Frequency (Hz)", "Frequency (rad/s)", "Nyquist, 3142 rad/s (500 Hz)"}) {
+    EXPECT_THAT(page, HasSubstr(text));
+  }
+}
+
+TEST(HtmlReport, JudgesTheWall) {
+  const std::string page = report_of({lhifam_with_wall()});
+  EXPECT_THAT(page, HasSubstr("The wall of the file"));
+  EXPECT_THAT(page, HasSubstr("gain margin"));
+  EXPECT_THAT(page, HasSubstr("The virtual damper of 5 N s/m behind its 100 Hz filter is closed"));
+  EXPECT_THAT(page, HasSubstr("the wall, 5 kN/m"));
+}
+
+TEST(HtmlReport, SpeaksOfRotaryUnitsAndOfNoStableWall) {
+  const std::string page = report_of({undamped_paddle()});
+  EXPECT_THAT(page, HasSubstr("none: no wall is stable"));
+  EXPECT_THAT(page, HasSubstr("dB re 1 rad/(N m)"));
+  EXPECT_THAT(page, HasSubstr("K (N m/rad), from 0 on the left"));
+  EXPECT_THAT(page, HasSubstr("kg m²"));
+}
+
+TEST(HtmlReport, EscapesWhatComesFromTheFile) {
+  AnalysedDevice hostile = lhifam();
+  DeviceParameters parameters = hostile.device.parameters();
+  parameters.name = R"(<script>alert("1")</script>)";
+  parameters.bodies[0].name = "<img src=x onerror=alert(1)>";
+  hostile.device = Device(parameters);
+  const std::string page = report_of({hostile});
+  expect_self_contained(std::regex_replace(page, std::regex("src=x"), ""));
+  EXPECT_THAT(page, HasSubstr("&lt;script&gt;"));
+  EXPECT_THAT(page, Not(HasSubstr("<img")));
+}
+
+TEST(HtmlReport, ComparesSeveralDevicesFirst) {
+  const std::string page = report_of({lhifam(), lhifam_with_wall()});
+  expect_self_contained(page);
+  EXPECT_LT(page.find("Critical stiffness of 2 devices"), page.find("1. LHIfAM"));
+  EXPECT_THAT(page, HasSubstr("2. LHIfAM"));
+  EXPECT_EQ(count_of(page, "<svg"), 5U);
+  EXPECT_THAT(page, HasSubstr("A: LHIfAM, translational axis"));
+}
+
+TEST(HtmlReport, LinearAndRotaryDevicesShareNoFigure) {
+  const std::string page = report_of({lhifam(), undamped_paddle(), unlimited_transfer_function()});
+  EXPECT_EQ(count_of(page, "<svg"), 6U);
+  EXPECT_THAT(page, HasSubstr("&lt;b&gt;red &amp; &quot;name&quot; µ"));
+  EXPECT_THAT(page, HasSubstr("unbounded: every wall is stable"));
+  EXPECT_THAT(page, HasSubstr("There is none."));
+}
+
+TEST(StiffnessAxis, ShowsEveryInterval) {
+  const std::string svg = draw_stiffness_axis(undamped_paddle(), FigureFormat::svg);
+  EXPECT_EQ(count_of(svg, ">stable<"), 1U);
+  EXPECT_EQ(count_of(svg, ">unstable<"), 2U);
+}
+
+TEST(StiffnessAxis, NamesTheCriticalAndTheApproximateOnes) {
+  const std::string svg = draw_stiffness_axis(lhifam(), FigureFormat::svg);
+  EXPECT_THAT(svg, HasSubstr("1: critical, 8.849 kN/m"));
+  EXPECT_THAT(svg, HasSubstr("rigid model, 7.001 kN/m"));
+  EXPECT_THAT(svg, HasSubstr("Q, 8.469 kN/m"));
+}
+
+}  // namespace
+}  // namespace zwidth::report

@@ -1,0 +1,76 @@
+#include "report/reproduction.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <string>
+
+namespace zwidth::report {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsSupersetOf;
+using ::testing::StartsWith;
+
+/// The row whose `what` starts so.
+PaperNumber row(const std::string& what) {
+  for (const PaperNumber& number : paper_numbers()) {
+    if (number.what.starts_with(what)) return number;
+  }
+  ADD_FAILURE() << "no row " << what;
+  return {};
+}
+
+TEST(Reproduction, DrawsTheFigures) {
+  std::set<std::string> files;
+  for (const PaperFigure& figure : paper_figures()) {
+    files.insert(figure.file);
+    EXPECT_THAT(figure.svg, HasSubstr("</svg>"));
+    EXPECT_FALSE(figure.caption.empty());
+    EXPECT_THAT(figure.svg, HasSubstr(figure.title));
+  }
+  EXPECT_THAT(files,
+              IsSupersetOf({"figure_03.svg", "figure_07.svg", "figure_09.svg", "figure_10.svg", "figure_14.svg"}));
+}
+
+// Ours as the theory notes give them, section 2 and section 3.
+TEST(Reproduction, OursAreTheKnownValues) {
+  EXPECT_EQ(row("Mass m").ours, "5.4 kg");
+  EXPECT_EQ(row("Damping b").ours, "3.5 N s/m");
+  EXPECT_EQ(row("Q of Table I").ours, "78.5565 dB (8468.9 N/m)");
+  EXPECT_EQ(row("Q of Table I").printed, "78.16 dB");
+  EXPECT_EQ(row("Q of Table I").difference, "+0.40 dB");
+  EXPECT_THAT(row("Q of Table I").reason, HasSubstr("79.044 dB for G_m and 79.146 dB for Z[H G_m]"));
+  EXPECT_EQ(row("Gain margin with the mode").ours, "78.938 dB with, 76.903 dB rigid");
+  EXPECT_THAT(row("Gain margin with the mode").reason, HasSubstr("26 %"));
+  EXPECT_EQ(row("Phase crossover with reduced").ours, "411.2257 rad/s");
+  EXPECT_THAT(row("Number of phase crossovers").ours, StartsWith("1 below Nyquist"));
+  EXPECT_EQ(row("Inherent delay").ours, "80.216 dB at 37.7 rad/s with 250 µs");
+  EXPECT_THAT(row("Inherent delay").reason, HasSubstr("60.5 Hz and 83.83 dB"));
+  EXPECT_EQ(row("Margin computed for Fig. 9").ours, "6.98 dB");
+  EXPECT_EQ(row("Handle sensed").ours, "the rigid body: 76.638 dB at 35.69 rad/s");
+  EXPECT_THAT(row("Factorised form").ours, HasSubstr("2.1e-08"));
+}
+
+TEST(Reproduction, Table2IsListedAsMissing) {
+  const auto numbers = paper_numbers();
+  EXPECT_EQ(std::count_if(numbers.begin(), numbers.end(),
+                          [](const PaperNumber& number) { return number.reason.starts_with("Not reproduced yet"); }),
+            9);
+  EXPECT_EQ(row("Relay experiment, t_d = 0 ms").printed, "65.06 Hz, 80.23 dB");
+  EXPECT_EQ(row("Relay experiment, t_d = 8 ms").printed, "2.32 Hz, 61.16 dB");
+}
+
+TEST(Reproduction, ThePageHoldsEveryRowAndFigure) {
+  const auto figures = paper_figures();
+  const std::string page = reproduction_page(figures);
+  EXPECT_THAT(page, ::testing::Not(HasSubstr("http")));
+  for (const PaperFigure& figure : figures) EXPECT_THAT(page, HasSubstr(figure.title));
+  EXPECT_THAT(page, HasSubstr("411.2257 rad/s"));
+  EXPECT_THAT(page, HasSubstr("Not reproduced yet"));
+}
+
+}  // namespace
+}  // namespace zwidth::report
