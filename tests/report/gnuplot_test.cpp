@@ -61,7 +61,7 @@ TEST(Canvas, TextFromAFileIsDrawnAsItIs) {
   canvas.plot({20, 380, 10, 90}, "NaN notitle");
   const std::string svg = canvas.draw(FigureFormat::svg);
   EXPECT_THAT(svg,
-              HasSubstr("&lt;b&gt; &amp; {/Symbol a} a_b ^2 \\n `touch /tmp/zwidth_must_not_exist` 'quoted' \"%s\" µ"));
+              HasSubstr("&lt;b> &amp; {/Symbol a} a_b ^2 \\n `touch /tmp/zwidth_must_not_exist` 'quoted' \"%s\" µ"));
   EXPECT_THAT(svg, Not(HasSubstr("<b>")));
 }
 
