@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "report/analysis_json.hpp"
+#include "report/explanation.hpp"
 #include "report/quantity.hpp"
 
 namespace zwidth::report {
@@ -101,7 +102,7 @@ BodeFigure device_bode_figure(std::span<const AnalysedDevice> devices, const Bod
   figure.motion = first.device.parameters().motion;
   if (devices.size() == 1) {
     DeviceBode bode = device_bode(first, figure.range, options.points);
-    figure.title = first.device.name();
+    figure.title = display_name(first.device);
     figure.notes = loop_notes(first.device);
     figure.curves.push_back({"What the sampled wall sees, Z[H G e^(-t_d s)]", std::move(bode.sampled)});
     figure.curves.push_back({"The device, G(s), without sampling and delay", std::move(bode.continuous)});
@@ -111,7 +112,7 @@ BodeFigure device_bode_figure(std::span<const AnalysedDevice> devices, const Bod
     for (std::size_t i = 0; i < devices.size(); ++i) {
       // Letters: names can be long and alike.
       const char letter = static_cast<char>('A' + i);
-      figure.curves.push_back({fmt::format("{}: {}", letter, devices[i].device.name()),
+      figure.curves.push_back({fmt::format("{}: {}", letter, display_name(devices[i].device)),
                                device_bode(devices[i], figure.range, options.points).sampled});
       add_marks(figure, devices[i], i, fmt::format(" ({})", letter));
     }

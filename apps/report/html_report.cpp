@@ -29,10 +29,6 @@ std::string list(const std::vector<std::string>& texts) {
   return fmt::format("<ul>\n{}</ul>\n", items);
 }
 
-std::string name_of(const AnalysedDevice& analysed) {
-  return analysed.device.name().empty() ? "(unnamed device)" : analysed.device.name();
-}
-
 std::string answer(const AnalysedDevice& analysed) {
   const CriticalStiffness& critical = analysed.analysis.critical;
   std::string text = "<div class=\"answer\">\n<p>Critical stiffness, the stiffest stable wall</p>\n";
@@ -167,13 +163,13 @@ std::string html_report(std::span<const AnalysedDevice> devices) {
   std::string title;
   std::string body;
   if (devices.size() == 1) {
-    title = name_of(devices.front());
+    title = display_name(devices.front().device);
     body = element("h1", title) + device_section(devices.front(), 1);
   } else {
     title = fmt::format("Critical stiffness of {} devices", devices.size());
     body = element("h1", title) + comparison(devices);
     for (std::size_t i = 0; i < devices.size(); ++i) {
-      body += "<section class=\"device\">\n" + element("h1", fmt::format("{}. {}", i + 1, name_of(devices[i]))) +
+      body += "<section class=\"device\">\n" + element("h1", fmt::format("{}. {}", i + 1, display_name(devices[i].device))) +
               device_section(devices[i], i + 1) + "</section>\n";
     }
   }
