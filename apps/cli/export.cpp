@@ -27,7 +27,7 @@ void run_export(const ExportArguments& arguments) {
   check_output_is_no_input(arguments.devices, "--output", arguments.output);
   const auto devices = analyze_devices(arguments.devices);
   const std::string text = exported(report::exported_model(devices.front()), arguments.format);
-  if (arguments.output.empty()) {
+  if (arguments.output.empty() || arguments.output == "-") {
     write_standard_output(text);
   } else {
     report::write_whole(arguments.output, text);

@@ -54,7 +54,7 @@ void add_mode(std::vector<double>& frequencies, const Mode& mode, double period)
 }  // namespace
 
 DrawnResponse drawn_response(ModalForm form, double delay) {
-  return {[form = std::move(form)](double frequency) { return response(form, frequency); }, delay};
+  return {[form = std::move(form)](double frequency) { return response(form, frequency); }, delay, 0.0};
 }
 
 DrawnResponse drawn_response(SampledPlant plant, VirtualDamper damper) {
@@ -67,7 +67,7 @@ DrawnResponse drawn_response(SampledPlant plant, VirtualDamper damper) {
                 velocity_response(damper, plant.period, frequency) * undelayed * std::polar(1.0, -frequency * delay);
             return undelayed / (1.0 + loop);
           },
-          delay};
+          delay, damper.damping == 0.0 ? 0.0 : delay};
 }
 
 FrequencyRange default_range(double period, std::span<const double> events) {
@@ -90,6 +90,12 @@ std::vector<double> bode_frequencies(std::span<const DrawnResponse> responses, F
     frequencies.push_back(range.from * std::exp(span * static_cast<double>(i) / static_cast<double>(intervals)));
   }
   frequencies.push_back(range.to);
+  for (const DrawnResponse& response : responses) {
+    constexpr double part_of_turn = 0.5;  // rad between samples
+    if (response.loop_delay == 0.0) continue;
+    const double step = std::max(part_of_turn / response.loop_delay, range.to / (0.5 * most_frequencies));
+    for (double w = range.from + step; w < range.to; w += step) frequencies.push_back(w);
+  }
   std::sort(frequencies.begin(), frequencies.end());
   frequencies.erase(std::unique(frequencies.begin(), frequencies.end()), frequencies.end());
 

@@ -16,7 +16,8 @@ namespace zwidth::report {
 /// sample per turn.
 struct DrawnResponse {
   std::function<std::complex<double>(double)> value;
-  double delay = 0.0;  ///< s, >= 0
+  double delay = 0.0;       ///< s, >= 0
+  double loop_delay = 0.0;  ///< s; of a loop closed inside value, which ripples once per turn of that delay
 };
 
 /// The continuous response, with a delay if any.

@@ -169,7 +169,8 @@ std::string html_report(std::span<const AnalysedDevice> devices) {
     title = fmt::format("Critical stiffness of {} devices", devices.size());
     body = element("h1", title) + comparison(devices);
     for (std::size_t i = 0; i < devices.size(); ++i) {
-      body += "<section class=\"device\">\n" + element("h1", fmt::format("{}. {}", i + 1, display_name(devices[i].device))) +
+      body += "<section class=\"device\">\n" +
+              element("h1", fmt::format("{}. {}", i + 1, display_name(devices[i].device))) +
               device_section(devices[i], i + 1) + "</section>\n";
     }
   }

@@ -84,11 +84,12 @@ PaperFigure figure_10() {
   const std::array<std::string, 3> names{"no delay", "t_d = 1 ms", "t_d' = 4 ms"};
   add_curves(figure, responses, names, form.modes);
   figure.notes.emplace_back(inferred);
-  return {"figure_10.svg", figure.title,
-          "The paper draws this one as a scheme, without numbers. The delay lowers the phase only: the first frequency "
-          "at which it crosses -180° moves from the resonance into the straight part, of -40 dB per decade. The delays "
-          "are ours.",
-          draw(figure, FigureFormat::svg)};
+  return {
+      "figure_10.svg", figure.title,
+      "The paper draws this one as a scheme, without numbers. A delay lowers the phase only. The longer it is, the "
+      "earlier the phase passes -180°: on the straight part, of -40 dB per decade, instead of behind the resonance. "
+      "The two delays are ours.",
+      draw(figure, FigureFormat::svg)};
 }
 
 DelaySeries critical_stiffness_series(std::string name, const DeviceParameters& device) {

@@ -40,7 +40,8 @@ class Figures : public Workspace {
 std::vector<double> numbers_of(const std::string& line) {
   std::vector<double> numbers;
   std::istringstream cells(line);
-  for (std::string cell; std::getline(cells, cell, ',');) numbers.push_back(cell.empty() ? std::nan("") : std::stod(cell));
+  for (std::string cell; std::getline(cells, cell, ',');)
+    numbers.push_back(cell.empty() ? std::nan("") : std::stod(cell));
   return numbers;
 }
 
@@ -126,6 +127,24 @@ TEST_F(Figures, TheVirtualDamperIsClosedInTheMarkedCurve) {
   EXPECT_NEAR(row[0], frequency, 1e-9 * frequency);
   EXPECT_NEAR(row[2], -analysis.at("critical_stiffness_db").get<double>(), 1e-7);
   EXPECT_NEAR(row[3], -180.0, 1e-6);
+}
+
+TEST_F(Figures, PhaseKeepsContinuousWithAVirtualDamperAndALongDelay) {
+  ASSERT_EQ(run("zwidth bode devices/lhifam.toml --set wall.damping=200 --set loop.delay=40e-3 --output a.csv").status,
+            0);
+  std::istringstream lines(contents("a.csv"));
+  std::string line;
+  std::getline(lines, line);
+  std::getline(lines, line);
+  double last = numbers_of(line)[3];
+  while (std::getline(lines, line)) {
+    const std::vector<double> row = numbers_of(line);
+    // At the Nyquist frequency itself the response turns real at once.
+    if (row[0] < 0.999 * std::numbers::pi / 1e-3) {
+      EXPECT_LT(std::abs(row[3] - last), 90.0) << line;
+    }
+    last = row[3];
+  }
 }
 
 TEST_F(Figures, BodeRefusals) {
