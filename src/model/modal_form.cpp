@@ -29,8 +29,9 @@ constexpr double unresolved_step = 1e-3;
 // All non-zero roots of both pencils (the same function in two precisions) from starting values.
 template <typename Pencil, typename PencilX>
 std::vector<ComplexX> find_poles(const Pencil& pencil, const PencilX& extended, std::vector<ComplexD> start) {
-  // Distinct starting values: coincident ones would move together for ever.
+  // Off the real axis, which the iteration would never leave, and distinct: coincident values would move together.
   for (std::size_t i = 0; i < start.size(); ++i) {
+    if (start[i].im == 0.0) start[i].im = (i % 2 == 0 ? 1e-3 : -1e-3) * start[i].re;
     for (std::size_t j = 0; j < i; ++j) {
       if (magnitude(start[i] - start[j]) <= 1e-6 * magnitude(start[i])) {
         start[i] *= ComplexD(1.0 + 1e-3 * static_cast<double>(i + 1), 2e-3 * static_cast<double>(i + 1));

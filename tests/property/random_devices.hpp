@@ -1,0 +1,107 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <random>
+#include <string_view>
+
+#include "zwidth/model/device.hpp"
+
+namespace zwidth::test {
+
+// The fifteen kinds of the reference data, and four harder ones.
+inline constexpr std::array<std::string_view, 19> device_kinds = {
+    "rigid",         "two_mass",      "user_side",      "three_mass", "light_damping", "long_delay", "fractional_delay",
+    "slow_sampling", "fast_sampling", "virtual_damper", "operator",   "grounded",      "rotary",     "filtered_damper",
+    "actuator_lag",  "overdamped",    "chain",          "stiff_link", "everything"};
+
+class RandomDevices {
+ public:
+  explicit RandomDevices(std::uint64_t seed) : engine_(seed) {}
+
+  double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
+  double log_uniform(double low, double high) { return std::exp(uniform(std::log(low), std::log(high))); }
+  bool chance(double probability) { return uniform(0.0, 1.0) < probability; }
+  std::size_t index(std::size_t count) { return std::uniform_int_distribution<std::size_t>(0, count - 1)(engine_); }
+
+  DeviceParameters device(std::string_view kind) {
+    DeviceParameters d;
+    d.name = kind;
+    d.loop.sampling_period = 1e-3;
+    const bool everything = kind == "everything";
+    if (kind == "rigid") {
+      d.bodies.push_back(body("handle", 0.03, 10.0));
+      if (chance(0.5)) d.loop.delay = log_uniform(1e-5, 3e-4);
+      return d;
+    }
+    d.bodies.push_back(body("motor", 0.01, 1.0));
+    std::size_t middle = kind == "three_mass" ? 1 : 0;
+    if (kind == "chain" || everything) middle = index(5);
+    for (std::size_t i = 0; i < middle; ++i) d.bodies.push_back(body("carriage" + std::to_string(i), 0.1, 2.0));
+    d.bodies.push_back(body("handle", 0.04, 10.0));
+    d.loop.held = d.bodies.size() - 1;
+
+    double lowest = 15.0;
+    double highest = 450.0;
+    double least_ratio = 1e-3;
+    double greatest_ratio = 0.2;
+    if (kind == "light_damping") least_ratio = 1e-5, greatest_ratio = 1e-3;
+    if (kind == "overdamped") least_ratio = 0.5, greatest_ratio = 5.0;
+    if (kind == "stiff_link") lowest = 3e3, highest = 3e5;
+    if (kind == "slow_sampling" || everything) {
+      d.loop.sampling_period = std::array{1e-3, 2e-3, 5e-3, 1e-2}[index(4)];
+      lowest = kind == "slow_sampling" ? 300.0 : 15.0;
+      highest = 3000.0;
+    }
+    if (kind == "fast_sampling" || (everything && chance(0.5))) {
+      d.loop.sampling_period = std::array{1e-5, 2.5e-5, 5e-5, 1e-4}[index(4)];
+    }
+    for (std::size_t i = 0; i + 1 < d.bodies.size(); ++i) {
+      const double m1 = d.bodies[i].mass;
+      const double m2 = d.bodies[i + 1].mass;
+      const double reduced = m1 * m2 / (m1 + m2);
+      const double w = 2.0 * std::numbers::pi * log_uniform(lowest, highest);
+      d.links.push_back({i, i + 1, reduced * w * w, 2.0 * log_uniform(least_ratio, greatest_ratio) * w * reduced});
+    }
+    const double period = d.loop.sampling_period;
+    if (kind == "user_side") d.loop.sensed = 1;
+    if (kind == "three_mass" || kind == "chain" || everything) d.loop.sensed = index(d.bodies.size());
+    if (kind == "user_side" || kind == "three_mass" || kind == "fast_sampling" || kind == "virtual_damper" ||
+        kind == "filtered_damper" || kind == "operator" || kind == "actuator_lag") {
+      if (chance(0.5)) d.loop.delay = log_uniform(1e-2, 2.0) * period;
+    }
+    if (kind == "fractional_delay") d.loop.delay = log_uniform(1e-3, 2.0) * period;
+    if (kind == "long_delay")
+      d.loop.delay = chance(0.5) ? static_cast<double>(3 + index(10)) * period : uniform(3.0, 15.0) * period;
+    if (everything && chance(0.7)) d.loop.delay = log_uniform(1e-2, 10.0) * period;
+    if (kind == "virtual_damper" || kind == "filtered_damper" || (everything && chance(0.5))) {
+      d.wall.damping = log_uniform(0.05, 50.0);
+      if (kind == "filtered_damper" || (everything && chance(0.5)))
+        d.wall.velocity_filter_hz = log_uniform(20.0, 400.0);
+    }
+    if (kind == "operator" || (everything && chance(0.5))) {
+      d.user = {log_uniform(0.05, 0.8), log_uniform(1.0, 30.0), log_uniform(20.0, 1000.0)};
+    }
+    if (kind == "grounded" || (everything && chance(0.3))) {
+      d.bodies[index(d.bodies.size())].stiffness = log_uniform(1.0, 2000.0);
+    }
+    if (kind == "actuator_lag" || (everything && chance(0.3))) d.actuator.time_constant = log_uniform(5e-5, 3e-3);
+    if (kind == "rotary") {
+      d.motion = Motion::rotary;
+      for (Body& b : d.bodies) b.mass *= 1e-4, b.damping *= 1e-4;
+      for (Link& link : d.links) link.stiffness *= 1e-4, link.damping *= 1e-4;
+    }
+    return d;
+  }
+
+ private:
+  Body body(std::string name, double lightest, double heaviest) {
+    return {std::move(name), log_uniform(lightest, heaviest), log_uniform(0.01, 10.0), 0.0, 0.0};
+  }
+
+  std::mt19937_64 engine_;
+};
+
+}  // namespace zwidth::test
