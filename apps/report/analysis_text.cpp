@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <optional>
+#include <vector>
 
 #include "report/analysis_tables.hpp"
 #include "report/explanation.hpp"
@@ -22,12 +24,28 @@ std::string labelled(std::string_view label, std::string_view text, std::size_t 
   return wrap(text, width, indent).replace(0, label.size(), label);
 }
 
+/// The device with only its crossovers of least stiffness, `most` of them.
+AnalysedDevice with_softest_crossovers(AnalysedDevice analysed, std::size_t most) {
+  auto& crossovers = analysed.analysis.critical.crossovers;
+  std::vector<double> stiffnesses;
+  for (const Crossover& crossover : crossovers) stiffnesses.push_back(crossover.stiffness);
+  const auto last = stiffnesses.begin() + static_cast<std::ptrdiff_t>(most - 1);
+  std::nth_element(stiffnesses.begin(), last, stiffnesses.end());
+  std::erase_if(crossovers, [last](const Crossover& crossover) { return crossover.stiffness > *last; });
+  return analysed;
+}
+
 std::string crossovers(const AnalysedDevice& analysed) {
+  // A long delay has hundreds.
+  static constexpr std::size_t most = 20;
   const std::string title =
       fmt::format("Phase crossovers (a closed-loop pole on the unit circle), all up to Nyquist at {}",
                   quantity(0.5 / analysed.device.loop().sampling_period, "Hz"));
-  if (analysed.analysis.critical.crossovers.empty()) return title + ": none\n\n";
-  return title + "\n" + layout(crossover_table(analysed)) + "\n";
+  const std::size_t count = analysed.analysis.critical.crossovers.size();
+  if (count == 0) return title + ": none\n\n";
+  if (count <= most) return title + "\n" + layout(crossover_table(analysed)) + "\n";
+  return title + "\n" + layout(crossover_table(with_softest_crossovers(analysed, most))) +
+         fmt::format("  ... the {} softest of {}; --json gives all\n\n", most, count);
 }
 
 std::string modes(const AnalysedDevice& analysed) {

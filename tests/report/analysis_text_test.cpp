@@ -55,6 +55,18 @@ TEST(AnalysisText, ListsEveryCrossoverAndMarksTheLimit) {
   EXPECT_THAT(text, HasSubstr("     500 Hz   3142  135.2 MN/m  162.62  rigid body  1 pole leaves   Nyquist\n"));
 }
 
+TEST(AnalysisText, ShortensALongListOfCrossoversToTheSoftest) {
+  AnalysedDevice analysed = lhifam();
+  auto& crossovers = analysed.analysis.critical.crossovers;
+  for (int i = 1; i < 500; ++i) crossovers.push_back({700.0 + i, 1e9 / i, {}, 2});
+  const std::string text = text_of(analysed);
+  EXPECT_LT(std::count(text.begin(), text.end(), '\n'), 50);
+  EXPECT_THAT(text, HasSubstr("<- limits"));
+  EXPECT_THAT(text, HasSubstr("2.004 MN/m"));   // 1e9 / 499, the softest that was added
+  EXPECT_THAT(text, Not(HasSubstr("1 GN/m")));  // the stiffest
+  EXPECT_THAT(text, HasSubstr("the 20 softest of 503; --json gives all"));
+}
+
 TEST(AnalysisText, SaysOnWhichSideTheRigidModelIs) {
   AnalysedDevice analysed = lhifam();
   EXPECT_THAT(unwrapped(text_of(analysed)), HasSubstr("7.001 kN/m (-2.03 dB), 20.9 % too low: the safe side"));
