@@ -128,6 +128,8 @@ ModalTerm real_term(const PoleGroup& group, PolynomialX numerator, PolynomialX d
   for (std::size_t i = 0; i < term.degree; ++i) {
     term.numerator[i] = i < numerator.size() ? leading(numerator[i].re) : 0.0;
     term.denominator[i] = leading(denominator[i].re);
+    if (i < numerator.size()) term.numerator_rest[i] = leading(numerator[i].re - Extended(term.numerator[i]));
+    term.denominator_rest[i] = leading(denominator[i].re - Extended(term.denominator[i]));
     if (!std::isfinite(term.numerator[i]) || !std::isfinite(term.denominator[i])) {
       throw Error(ErrorCode::did_not_converge,
                   "the modes of the device could not be found: its values are too extreme");
@@ -147,7 +149,10 @@ void finish(ModalForm& form, double lag) {
   const double largest = *std::max_element(weights.begin(), weights.end());
   for (std::size_t i = 0; i < form.terms.size(); ++i) {
     ModalTerm& term = form.terms[i];
-    if (term.mode > 0 && weights[i] <= unseen_below * largest) std::fill_n(term.numerator, term.degree, 0.0);
+    if (term.mode > 0 && weights[i] <= unseen_below * largest) {
+      std::fill_n(term.numerator, term.degree, 0.0);
+      std::fill_n(term.numerator_rest, term.degree, 0.0);
+    }
     if (lag > 0.0 && term.mode >= 0 && term.degree == 2) {
       // The mode without the lag is N (lag s + 1) mod D; its residue at s = -1/lag is its part of the lag's term.
       const double n0 = term.numerator[0] - lag * term.numerator[1] * term.denominator[0];

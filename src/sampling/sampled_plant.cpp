@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
-#include "sampling/cluster_sampling.hpp"
+#include "sampling/extended_sampling.hpp"
 #include "sampling/hold_integrals.hpp"
 #include "sampling/sampling_instants.hpp"
 #include "sampling/unit_circle.hpp"
@@ -59,6 +60,35 @@ void sample_second_order(const ModalTerm& term, const SamplingInstants& split, d
   sampled.numerator[0] = constant;
 }
 
+bool is_seen(const ModalTerm& term) {
+  return std::any_of(term.numerator, term.numerator + term.degree, [](double n) { return n != 0.0; });
+}
+
+void round_into(const ExtendedTerm& term, SampledTerm& sampled) {
+  for (std::size_t i = 0; i <= sampled.degree; ++i) sampled.numerator[i] = leading(term.numerator[i]);
+  for (std::size_t i = 0; i < sampled.degree; ++i) sampled.denominator[i] = leading(term.denominator[i]);
+}
+
+// The largest part of the terms that their sum loses: 1 without cancellation, looked at where it is worst, far above
+// the modes.
+double cancellation(const SampledPlant& plant) {
+  double worst = 1.0;
+  for (const double angle : {std::numbers::pi / 3.0, 2.0 * std::numbers::pi / 3.0}) {
+    std::complex<double> sum = 0.0;
+    double size = 0.0;
+    for (const SampledTerm& term : plant.terms) {
+      const std::complex<double> value = response(term, angle);
+      sum += value;
+      size += std::abs(value);
+    }
+    worst = std::max(worst, size / std::abs(sum));
+  }
+  return worst;
+}
+
+// Beyond this loss the numerators are added up in double-double instead.
+constexpr double tolerable_cancellation = 1e3;
+
 }  // namespace
 
 SampledPlant sample(const ModalForm& form, Sampling sampling) {
@@ -71,8 +101,7 @@ SampledPlant sample(const ModalForm& form, Sampling sampling) {
   for (const ModalTerm& term : form.terms)
     if (term.mode < 0) lag_numerator = term.numerator[0];
   for (const ModalTerm& term : form.terms) {
-    const bool seen = std::any_of(term.numerator, term.numerator + term.degree, [](double n) { return n != 0.0; });
-    if (!seen) continue;
+    if (!is_seen(term)) continue;
     SampledTerm sampled;
     sampled.degree = term.degree;
     sampled.mode = term.mode;
@@ -85,9 +114,15 @@ SampledPlant sample(const ModalForm& form, Sampling sampling) {
     } else if (term.degree == 2) {
       sample_second_order(term, instants, sampling.period, sampled);
     } else {
-      sample_cluster(term, instants, sampled);
+      round_into(sample_extended(term, instants), sampled);
     }
     plant.terms.push_back(sampled);
+  }
+  if (plant.terms.size() > 1 && cancellation(plant) > tolerable_cancellation) {
+    std::vector<ExtendedTerm> terms;
+    for (const ModalTerm& term : form.terms)
+      if (is_seen(term)) terms.push_back(sample_extended(term, instants));
+    plant.numerator = common_numerator(terms);
   }
   return plant;
 }
@@ -108,7 +143,18 @@ std::complex<double> response(const SampledTerm& term, double angle) {
 std::complex<double> response(const SampledPlant& plant, double frequency) {
   const double angle = frequency * plant.period;
   std::complex<double> sum = 0.0;
-  for (const SampledTerm& term : plant.terms) sum += response(term, angle);
+  if (plant.numerator.empty()) {
+    for (const SampledTerm& term : plant.terms) sum += response(term, angle);
+  } else {
+    const CirclePoint<double> point = circle_point(angle);
+    const OnCircle<double> numerator =
+        polynomial(plant.numerator.data(), plant.numerator.size() - 1, plant.numerator.back(), point);
+    sum = {numerator.even, numerator.odd * std::sin(angle)};
+    for (const SampledTerm& term : plant.terms) {
+      const OnCircle<double> denominator = polynomial(term.denominator, term.degree, 1.0, point);
+      sum /= std::complex<double>(denominator.even, denominator.odd * std::sin(angle));
+    }
+  }
   return sum * std::polar(1.0, -static_cast<double>(plant.delay_samples) * angle);
 }
 

@@ -56,14 +56,20 @@ PlantFraction<Real> plant_fraction(const SampledPlant& plant, const CirclePoint<
   OnCircle<Real> s{Real(0.0), Real(0.0)};
   OnCircle<Real> d{Real(1.0), Real(0.0)};
   OnCircle<Real> replaced{Real(1.0), Real(0.0)};
+  const bool add_up = plant.numerator.empty();
+  if (!add_up) s = polynomial(plant.numerator.data(), plant.numerator.size() - 1, plant.numerator.back(), point);
   bool first = true;
   for (const SampledTerm& term : plant.terms) {
     OnCircle<Real> d_k = polynomial(term.denominator, term.degree, 1.0, point);
     double scale = std::abs(value_of(d_k.even)) + sine * std::abs(value_of(d_k.odd));
     scale = scale > 0.0 ? 1.0 / scale : 1.0;
     d_k = scaled(scale, d_k);
-    const OnCircle<Real> n_k =
-        scaled(scale, polynomial(term.numerator, term.degree, term.numerator[term.degree], point));
+    OnCircle<Real> n_k{Real(0.0), Real(0.0)};
+    if (add_up) {
+      n_k = scaled(scale, polynomial(term.numerator, term.degree, term.numerator[term.degree], point));
+    } else {
+      s = scaled(scale, s);
+    }
     OnCircle<Real> replaced_k = d_k;
     if (integrators != nullptr && term.integrators > 0) {
       const auto zeros = static_cast<std::size_t>(term.integrators);
@@ -71,12 +77,12 @@ PlantFraction<Real> plant_fraction(const SampledPlant& plant, const CirclePoint<
           scale, multiply(*integrators, polynomial(term.denominator + zeros, term.degree - zeros, 1.0, point), point));
     }
     if (first) {
-      s = n_k;
+      if (add_up) s = n_k;
       d = d_k;
       replaced = replaced_k;
       first = false;
     } else {
-      s = sum(multiply(s, d_k, point), multiply(n_k, d, point));
+      if (add_up) s = sum(multiply(s, d_k, point), multiply(n_k, d, point));
       d = multiply(d, d_k, point);
       if (integrators != nullptr) replaced = multiply(replaced, replaced_k, point);
     }

@@ -48,8 +48,8 @@ double polish(const Function& f, double begin, double end, double at_begin, doub
 
 // Where to divide an interval of x: by ratio while it spans orders of magnitude, else in half.
 inline double division(double begin, double end) {
-  if (begin == 0.0) return end / 32.0;
-  return end > 4.0 * begin ? std::sqrt(begin * end) : 0.5 * (begin + end);
+  if (begin == 0.0) return end / 256.0;
+  return end > 9 * begin ? std::sqrt(begin * end) : 0.5 * (begin + end);
 }
 
 }  // namespace root_isolation

@@ -20,6 +20,9 @@ struct ModalTerm {
   std::size_t degree = 0;
   double numerator[max_degree] = {};
   double denominator[max_degree] = {};  ///< monic; the leading 1 is not stored
+  /// What rounding to double left out of each coefficient, for sums of terms that nearly cancel
+  double numerator_rest[max_degree] = {};
+  double denominator_rest[max_degree] = {};
   /// 0: rigid body; i > 0: vibration mode i, by rising frequency; -1: actuator lag
   int mode = 0;
   /// The part of the lag term's numerator that stems from this mode: lag_numerator / (s + 1/tau)

@@ -33,6 +33,9 @@ struct SampledPlant {
   double period = 0.0;            ///< T, s
   std::size_t delay_samples = 0;  ///< whole samples outside the sum
   std::vector<SampledTerm> terms;
+  /// sum_k N_k prod_{j != k} D_j as one polynomial in delta, ascending. Only where the terms nearly cancel (position
+  /// sensed across several links, far above the modes), computed in double-double; empty elsewhere.
+  std::vector<double> numerator;
 };
 
 /// Samples exactly behind a zero-order hold with any real delay (modified z-transform; no Padé, no rounding to

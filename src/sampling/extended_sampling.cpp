@@ -1,9 +1,8 @@
-#include "sampling/cluster_sampling.hpp"
+#include "sampling/extended_sampling.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
-
-#include "model/extended_precision.hpp"
 
 namespace zwidth {
 namespace {
@@ -54,10 +53,11 @@ Matrix exponential_minus_one(Matrix m) {
 
 }  // namespace
 
-void sample_cluster(const ModalTerm& term, const SamplingInstants& instants, SampledTerm& sampled) {
+ExtendedTerm sample_extended(const ModalTerm& term, const SamplingInstants& instants) {
   const double with_new = instants.with_new;
   const double with_old = instants.with_old;
   const std::size_t n = term.degree;
+  const auto coefficient = [](double value, double rest) { return Extended(value) + Extended(rest); };
   // Companion form in time units of 1/unit, so that its entries are of order one: state i is scaled by unit^i.
   double unit = 0.0;
   for (std::size_t i = 0; i < n; ++i)
@@ -71,7 +71,7 @@ void sample_cluster(const ModalTerm& term, const SamplingInstants& instants, Sam
     Extended scale = step;
     for (std::size_t i = n; i-- > 0;) {
       scale = scale / Extended(unit);
-      m(n - 1, i) = Extended(-term.denominator[i]) * scale;
+      m(n - 1, i) = Extended(-1.0) * coefficient(term.denominator[i], term.denominator_rest[i]) * scale;
     }
     m(n - 1, n) = step;  // the input, scaled by unit^n in all
     return m;
@@ -79,7 +79,7 @@ void sample_cluster(const ModalTerm& term, const SamplingInstants& instants, Sam
   Extended scale(1.0);
   for (std::size_t i = 0; i < n; ++i) scale = scale / Extended(unit);
   for (std::size_t i = 0; i < n; ++i) {  // y = sum n_i x_i, x_i = unit^i (scaled state), input scaled by unit^-n
-    output[i] = Extended(term.numerator[i]) * scale;
+    output[i] = coefficient(term.numerator[i], term.numerator_rest[i]) * scale;
     scale = scale * Extended(unit);
   }
   const Matrix first = exponential_minus_one(generator(with_new));
@@ -92,6 +92,9 @@ void sample_cluster(const ModalTerm& term, const SamplingInstants& instants, Sam
     gamma_new[i] = first(i, n);
     gamma_old[i] = whole(i, n) - first(i, n);
   }
+  ExtendedTerm sampled;
+  sampled.numerator.assign(n + 1, Extended(0.0));
+  sampled.denominator.assign(n + 1, Extended(1.0));
   // Faddeev-LeVerrier: adj(delta I - Phi) = sum B_k delta^k, B_{n-1} = I, c_{n-k} = -tr(Phi B_{n-k}) / k,
   // B_{n-k-1} = Phi B_{n-k} + c_{n-k} I.
   Matrix b{n, {}};
@@ -109,17 +112,40 @@ void sample_cluster(const ModalTerm& term, const SamplingInstants& instants, Sam
     Extended trace(0.0);
     for (std::size_t i = 0; i < n; ++i) trace += b(i, i);
     const Extended c = Extended(0.0) - trace / Extended(static_cast<double>(k));
-    sampled.denominator[n - k] = leading(c);
+    sampled.denominator[n - k] = c;
     for (std::size_t i = 0; i < n; ++i) b(i, i) += c;
   }
   for (std::size_t i = 0; i < n; ++i) {
     if (with_old == 0.0) {
-      sampled.numerator[i] = leading(from_new[i]);
+      sampled.numerator[i] = from_new[i];
     } else {  // (1 + delta) N_new + N_old
-      sampled.numerator[i] = leading(from_new[i] + from_old[i] + (i > 0 ? from_new[i - 1] : Extended(0.0)));
+      sampled.numerator[i] = from_new[i] + from_old[i] + (i > 0 ? from_new[i - 1] : Extended(0.0));
     }
   }
-  if (with_old > 0.0) sampled.numerator[n] = leading(from_new[n - 1]);
+  if (with_old > 0.0) sampled.numerator[n] = from_new[n - 1];
+  return sampled;
+}
+
+std::vector<double> common_numerator(const std::vector<ExtendedTerm>& terms) {
+  const auto multiply = [](const std::vector<Extended>& a, const std::vector<Extended>& b) {
+    std::vector<Extended> product(a.size() + b.size() - 1, Extended(0.0));
+    for (std::size_t i = 0; i < a.size(); ++i)
+      for (std::size_t j = 0; j < b.size(); ++j) product[i + j] += a[i] * b[j];
+    return product;
+  };
+  std::vector<Extended> numerator{Extended(0.0)};
+  std::vector<Extended> denominator{Extended(1.0)};
+  for (const ExtendedTerm& term : terms) {
+    std::vector<Extended> sum = multiply(numerator, term.denominator);
+    const std::vector<Extended> added = multiply(term.numerator, denominator);
+    sum.resize(std::max(sum.size(), added.size()), Extended(0.0));
+    for (std::size_t i = 0; i < added.size(); ++i) sum[i] += added[i];
+    numerator = std::move(sum);
+    denominator = multiply(denominator, term.denominator);
+  }
+  std::vector<double> rounded;
+  for (const Extended& c : numerator) rounded.push_back(leading(c));
+  return rounded;
 }
 
 }  // namespace zwidth
