@@ -14,8 +14,8 @@ struct ExtendedTerm {
   std::vector<Extended> denominator;
 };
 
-// Samples a term of any degree: matrix exponential of the companion form and Faddeev-LeVerrier, in double-double. With a
-// fractional delay the numerator stands over one sample of delay more, as in sample().
+// Samples a term of any degree: matrix exponential of the companion form and Faddeev-LeVerrier, in double-double. With
+// a fractional delay the numerator stands over one sample of delay more, as in sample().
 ExtendedTerm sample_extended(const ModalTerm& term, const SamplingInstants& instants);
 
 // sum_k N_k prod_{j != k} D_j.

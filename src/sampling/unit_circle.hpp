@@ -2,7 +2,7 @@
 
 // Real-coefficient functions of z on the unit circle z = e^{j angle}, split as even + j sin(angle) odd with both parts
 // real and smooth. The split removes the trivial zeros of the imaginary part at z = 1 and z = -1 and keeps, as sums of
-// small terms, the digits that 1 - cos(angle) would lose at fast sampling. Real is double or BoundedJet.
+// small terms, the digits that 1 - cos(angle) would lose at fast sampling. Real is double or a BoundedJet.
 
 #include <cmath>
 #include <cstddef>

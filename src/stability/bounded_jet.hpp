@@ -7,53 +7,58 @@
 //
 // so that "no root here" and "at most one root here" are decided for the interval, not for points of a grid.
 // `weight` bounds the sum of magnitudes of everything added up in f: weight times a few rounding units bounds rounding.
+// Scalar is double, or Extended where double cannot tell f from zero.
 
-#include <algorithm>
 #include <cmath>
+
+#include "model/extended_precision.hpp"
 
 namespace zwidth {
 
+template <typename Scalar>
 struct BoundedJet {
-  double value = 0.0;
-  double slope = 0.0;
+  Scalar value{0.0};
+  Scalar slope{0.0};
   double bend = 0.0;    // >= sup |f''|
   double weight = 0.0;  // >= sup of the sum of |terms|
 
   BoundedJet() = default;
   explicit BoundedJet(double constant) : value(constant), weight(std::abs(constant)) {}
-  BoundedJet(double value_at_centre, double slope_at_centre, double bend_bound, double weight_bound)
+  BoundedJet(const Scalar& value_at_centre, const Scalar& slope_at_centre, double bend_bound, double weight_bound)
       : value(value_at_centre), slope(slope_at_centre), bend(bend_bound), weight(weight_bound) {}
 
-  [[nodiscard]] double size() const { return std::abs(value) + std::abs(slope) + 0.5 * bend; }  // >= sup |f|
-  [[nodiscard]] double slope_size() const { return std::abs(slope) + bend; }                    // >= sup |f'|
-};
+  [[nodiscard]] double size() const {
+    return std::abs(leading(value)) + std::abs(leading(slope)) + 0.5 * bend;
+  }                                                                                    // >= sup |f|
+  [[nodiscard]] double slope_size() const { return std::abs(leading(slope)) + bend; }  // >= sup |f'|
 
-inline BoundedJet operator+(const BoundedJet& a, const BoundedJet& b) {
-  return {a.value + b.value, a.slope + b.slope, a.bend + b.bend, a.weight + b.weight};
-}
-inline BoundedJet operator-(const BoundedJet& a, const BoundedJet& b) {
-  return {a.value - b.value, a.slope - b.slope, a.bend + b.bend, a.weight + b.weight};
-}
-inline BoundedJet operator-(const BoundedJet& a) { return {-a.value, -a.slope, a.bend, a.weight}; }
-inline BoundedJet operator+(const BoundedJet& a, double c) {
-  return {a.value + c, a.slope, a.bend, a.weight + std::abs(c)};
-}
-inline BoundedJet operator-(double c, const BoundedJet& a) {
-  return {c - a.value, -a.slope, a.bend, a.weight + std::abs(c)};
-}
-inline BoundedJet operator*(double c, const BoundedJet& a) {
-  const double size = std::abs(c);
-  return {c * a.value, c * a.slope, size * a.bend, size * a.weight};
-}
-// (f g)'' = f'' g + 2 f' g' + f g''
-inline BoundedJet operator*(const BoundedJet& a, const BoundedJet& b) {
-  return {a.value * b.value, a.value * b.slope + a.slope * b.value,
-          a.bend * b.size() + 2.0 * a.slope_size() * b.slope_size() + a.size() * b.bend, a.weight * b.weight};
-}
-inline BoundedJet square(const BoundedJet& a) {
-  const double slope_size = a.slope_size();
-  return {a.value * a.value, 2.0 * a.value * a.slope, 2.0 * (a.bend * a.size() + slope_size * slope_size),
-          a.weight * a.weight};
-}
+  friend BoundedJet operator+(const BoundedJet& a, const BoundedJet& b) {
+    return {a.value + b.value, a.slope + b.slope, a.bend + b.bend, a.weight + b.weight};
+  }
+  friend BoundedJet operator-(const BoundedJet& a, const BoundedJet& b) {
+    return {a.value - b.value, a.slope - b.slope, a.bend + b.bend, a.weight + b.weight};
+  }
+  friend BoundedJet operator-(const BoundedJet& a) { return {-a.value, -a.slope, a.bend, a.weight}; }
+  friend BoundedJet operator+(const BoundedJet& a, double c) {
+    return {a.value + c, a.slope, a.bend, a.weight + std::abs(c)};
+  }
+  friend BoundedJet operator-(double c, const BoundedJet& a) {
+    return {c - a.value, -a.slope, a.bend, a.weight + std::abs(c)};
+  }
+  friend BoundedJet operator*(double c, const BoundedJet& a) {
+    const double size = std::abs(c);
+    return {c * a.value, c * a.slope, size * a.bend, size * a.weight};
+  }
+  // (f g)'' = f'' g + 2 f' g' + f g''
+  friend BoundedJet operator*(const BoundedJet& a, const BoundedJet& b) {
+    return {a.value * b.value, a.value * b.slope + a.slope * b.value,
+            a.bend * b.size() + 2.0 * a.slope_size() * b.slope_size() + a.size() * b.bend, a.weight * b.weight};
+  }
+  friend BoundedJet square(const BoundedJet& a) {
+    const double slope_size = a.slope_size();
+    return {a.value * a.value, 2.0 * (a.value * a.slope), 2.0 * (a.bend * a.size() + slope_size * slope_size),
+            a.weight * a.weight};
+  }
+};
 
 }  // namespace zwidth

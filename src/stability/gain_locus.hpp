@@ -31,7 +31,8 @@ class GainLocus {
 
   // f at an angle in [0, pi], and its first-order Taylor model on an interval of x = |z - 1|², 0 <= begin < end <= 4.
   [[nodiscard]] double value(double angle) const;
-  [[nodiscard]] BoundedJet model(double begin, double end) const;
+  template <typename Scalar>
+  [[nodiscard]] BoundedJet<Scalar> model(double begin, double end) const;
 
   // kappa = -den/num where it is real; infinite or NaN where num vanishes.
   [[nodiscard]] double gain(double angle) const;

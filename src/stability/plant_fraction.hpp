@@ -14,7 +14,10 @@
 namespace zwidth {
 
 inline double value_of(double a) { return a; }
-inline double value_of(const BoundedJet& a) { return a.value; }
+template <typename Scalar>
+double value_of(const BoundedJet<Scalar>& a) {
+  return leading(a.value);
+}
 
 template <typename Real>
 OnCircle<Real> scaled(double factor, const OnCircle<Real>& a) {
@@ -28,12 +31,11 @@ OnCircle<Real> sum(const OnCircle<Real>& a, const OnCircle<Real>& b) {
 
 // x = |z - 1|² from 0 (z = 1) to 4 (z = -1) is the variable of intervals: without delay every part of P is a polynomial
 // of low degree in it. sin² = x (1 - x/4).
-inline CirclePoint<BoundedJet> circle_interval(double begin, double end) {
-  const double x = 0.5 * (begin + end);
+template <typename Scalar>
+CirclePoint<BoundedJet<Scalar>> circle_interval(double begin, double end) {
+  const Scalar x = 0.5 * (Scalar(begin) + Scalar(end));
   const double h = 0.5 * (end - begin);
-  const BoundedJet chord(x, h, 0.0, end);
-  const BoundedJet sine_squared(x * (1.0 - 0.25 * x), (1.0 - 0.5 * x) * h, 0.5 * h * h, std::min(end, 1.0));
-  return {chord, sine_squared};
+  return {{x, Scalar(h), 0.0, end}, {x * (1.0 - 0.25 * x), (1.0 - 0.5 * x) * h, 0.5 * h * h, std::min(end, 1.0)}};
 }
 
 // The angle in [0, pi] of x; near pi from 4 - x, which keeps its digits.

@@ -1,7 +1,8 @@
 #pragma once
 
 // All roots on the upper unit circle of a function given by value and by first-order Taylor models on intervals, by
-// subdivision: no root can hide between points of a grid. See docs/completeness.md.
+// subdivision: no root can hide between points of a grid. Where double precision cannot tell the function from zero the
+// same is done in double-double. See docs/completeness.md.
 
 #include <algorithm>
 #include <boost/math/tools/roots.hpp>
@@ -25,45 +26,88 @@ struct CircleRoot {
 
 namespace root_isolation {
 
-// Rounding of f, relative to the sum of magnitudes of its terms (BoundedJet::weight). Evaluation takes a few dozen
+// Rounding of f, relative to the sum of magnitudes of its terms (BoundedJet::weight): evaluation takes a few dozen
 // operations per modal term.
+template <typename Scalar>
 inline constexpr double rounding = 256.0 * std::numeric_limits<double>::epsilon();
+template <>
+inline constexpr double rounding<Extended> = 1e-28;
+
 // An interval this narrow, relative to its end, is not divided further.
 inline constexpr double narrowest = 1e-14;
 inline constexpr std::size_t max_intervals_per_piece = 100000;
-inline constexpr std::uintmax_t max_polish_steps = 100;
+inline constexpr std::uintmax_t max_polish_steps = 200;
 
+struct Interval {
+  double begin;
+  double end;
+  bool extended;  // double precision did not decide
+};
+
+enum class Content { none, at_most_one, undecided, zero_to_rounding };
+
+template <typename Scalar>
+Content content(const BoundedJet<Scalar>& f) {
+  const double noise = rounding<Scalar> * f.weight;
+  const double value = std::abs(leading(f.value));
+  const double slope = std::abs(leading(f.slope));
+  if (value > slope + 0.5 * f.bend + noise) return Content::none;
+  if (slope > f.bend + noise) return Content::at_most_one;
+  return f.size() <= 4.0 * noise ? Content::zero_to_rounding : Content::undecided;
+}
+
+// Sign of f at x, the same whoever asks: neighbours agree about their common end.
 template <typename Function>
-double polish(const Function& f, double begin, double end, double at_begin, double at_end) {
-  if (at_begin == 0.0) return begin;
-  if (at_end == 0.0) return end;
+bool is_positive(const Function& f, double x) {
+  const BoundedJet<double> point = f.template model<double>(x, x);
+  if (std::abs(point.value) > rounding<double> * point.weight) return point.value > 0.0;
+  return leading(f.template model<Extended>(x, x).value) > 0.0;
+}
+
+// Angle of the one root in an interval of x with a sign change.
+template <typename Function>
+double polish(const Function& f, const Interval& interval) {
   std::uintmax_t steps = max_polish_steps;
   const auto close_enough = [](double a, double b) {
     return std::abs(b - a) <= 2.0 * std::numeric_limits<double>::epsilon() * std::abs(b);
   };
-  const auto [low, high] = boost::math::tools::toms748_solve([&f](double angle) { return f.value(angle); }, begin, end,
-                                                             at_begin, at_end, close_enough, steps);
-  return 0.5 * (low + high);
+  if (!interval.extended) {
+    const double first = angle_of(interval.begin);
+    const double last = angle_of(interval.end);
+    const double at_first = f.value(first);
+    const double at_last = f.value(last);
+    if ((at_first > 0.0) != (at_last > 0.0) && at_first != 0.0 && at_last != 0.0) {
+      const auto [low, high] = boost::math::tools::toms748_solve([&f](double angle) { return f.value(angle); }, first,
+                                                                 last, at_first, at_last, close_enough, steps);
+      return 0.5 * (low + high);
+    }
+  }
+  const auto sign = [&f](double x) { return leading(f.template model<Extended>(x, x).value); };
+  const double at_begin = sign(interval.begin);
+  const double at_end = sign(interval.end);
+  if (at_begin == 0.0 || at_end == 0.0 || (at_begin > 0.0) == (at_end > 0.0)) {
+    return angle_of(std::abs(at_begin) < std::abs(at_end) ? interval.begin : interval.end);
+  }
+  const auto [low, high] =
+      boost::math::tools::toms748_solve(sign, interval.begin, interval.end, at_begin, at_end, close_enough, steps);
+  return angle_of(0.5 * (low + high));
 }
 
 // Where to divide an interval of x: by ratio while it spans orders of magnitude, else in half.
 inline double division(double begin, double end) {
-  if (begin == 0.0) return end / 256.0;
-  return end > 9 * begin ? std::sqrt(begin * end) : 0.5 * (begin + end);
+  if (begin == 0.0) return end / 32.0;
+  return end > 4.0 * begin ? std::sqrt(begin * end) : 0.5 * (begin + end);
 }
 
 }  // namespace root_isolation
 
-// Function: double value(double angle) const; BoundedJet model(double begin, double end) const on an interval of
-// x = |z - 1|². `pieces` intervals, equal in angle, to start with: about one per half turn of the function's fastest
-// oscillation. Throws Error (did_not_converge) past a cap on the number of intervals.
+// Function: double value(double angle) const; BoundedJet<Scalar> model<Scalar>(double begin, double end) const on an
+// interval of x = |z - 1|², in double and Extended. `pieces` intervals, equal in angle, to start with: about one per
+// half turn of the function's fastest oscillation. Throws Error (did_not_converge) past a cap on the number of
+// intervals.
 template <typename Function>
 std::vector<CircleRoot> roots_on_circle(const Function& f, std::size_t pieces) {
   using namespace root_isolation;
-  struct Interval {
-    double begin;
-    double end;
-  };
   std::vector<CircleRoot> roots;
   std::vector<Interval> stack;
   stack.reserve(64 + pieces);
@@ -71,7 +115,7 @@ std::vector<CircleRoot> roots_on_circle(const Function& f, std::size_t pieces) {
   for (std::size_t i = pieces; i-- > 0;) {  // leftmost on top
     const double half_sine = std::sin(0.5 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(pieces));
     const double left = 4.0 * half_sine * half_sine;
-    stack.push_back({left, right});
+    stack.push_back({left, right, false});
     right = left;
   }
   std::size_t intervals_left = max_intervals_per_piece * pieces;
@@ -79,40 +123,40 @@ std::vector<CircleRoot> roots_on_circle(const Function& f, std::size_t pieces) {
   double zero_end = -1.0;
   const auto end_of_run = [&] {
     if (zero_begin < 0.0) return;
-    const bool before = f.value(angle_of(zero_begin)) > 0.0;
-    const bool after = f.value(angle_of(zero_end)) > 0.0;
+    const bool before = is_positive(f, zero_begin);
+    const bool after = is_positive(f, zero_end);
     roots.push_back({angle_of(0.5 * (zero_begin + zero_end)), before == after ? 0 : after ? 1 : -1});
     zero_begin = -1.0;
   };
   while (!stack.empty()) {
     if (intervals_left-- == 0) throw Error(ErrorCode::did_not_converge, "the crossovers could not be isolated");
-    const auto [begin, end] = stack.back();
+    const Interval interval = stack.back();
+    const auto [begin, end, extended] = interval;
     stack.pop_back();
-    const BoundedJet model = f.model(begin, end);
-    const double noise = rounding * model.weight;
-    if (std::abs(model.value) > std::abs(model.slope) + 0.5 * model.bend + noise) {  // no root
-      end_of_run();
+    Content found =
+        extended ? content(f.template model<Extended>(begin, end)) : content(f.template model<double>(begin, end));
+    const bool narrow = end - begin <= narrowest * end;
+    if (!extended && (found == Content::zero_to_rounding || (narrow && found == Content::undecided))) {
+      stack.push_back({begin, end, true});
       continue;
     }
-    if (std::abs(model.slope) > model.bend + noise) {  // monotone: at most one root
-      end_of_run();
-      const double first = angle_of(begin);
-      const double last = angle_of(end);
-      const double at_first = f.value(first);
-      const double at_last = f.value(last);
-      if ((at_first > 0.0) != (at_last > 0.0)) {
-        roots.push_back({polish(f, first, last, at_first, at_last), at_last > 0.0 ? 1 : -1});
-      }
-      continue;
-    }
-    if (model.size() <= 4.0 * noise || end - begin <= narrowest * end) {
+    if (narrow && found == Content::undecided) found = Content::zero_to_rounding;
+    if (found == Content::zero_to_rounding) {
       if (zero_begin < 0.0) zero_begin = begin;
       zero_end = end;
       continue;
     }
-    const double middle = division(begin, end);
-    stack.push_back({middle, end});
-    stack.push_back({begin, middle});
+    if (found == Content::undecided) {
+      const double middle = division(begin, end);
+      stack.push_back({middle, end, extended});
+      stack.push_back({begin, middle, extended});
+      continue;
+    }
+    end_of_run();
+    if (found == Content::at_most_one) {
+      const bool after = is_positive(f, end);
+      if (is_positive(f, begin) != after) roots.push_back({polish(f, interval), after ? 1 : -1});
+    }
   }
   end_of_run();
   return roots;

@@ -25,7 +25,10 @@ class UnitGain {
       : plant_(plant), stiffness_(stiffness), rate_(rate), c_(c) {}
 
   [[nodiscard]] double value(double angle) const { return evaluate(circle_point(angle)); }
-  [[nodiscard]] BoundedJet model(double begin, double end) const { return evaluate(circle_interval(begin, end)); }
+  template <typename Scalar>
+  [[nodiscard]] BoundedJet<Scalar> model(double begin, double end) const {
+    return evaluate(circle_interval<Scalar>(begin, end));
+  }
 
  private:
   template <typename Real>

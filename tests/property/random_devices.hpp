@@ -12,6 +12,7 @@
 namespace zwidth::test {
 
 // The fifteen kinds of the reference data, and four harder ones.
+inline constexpr std::size_t reference_kinds = 15;
 inline constexpr std::array<std::string_view, 19> device_kinds = {
     "rigid",         "two_mass",      "user_side",      "three_mass", "light_damping", "long_delay", "fractional_delay",
     "slow_sampling", "fast_sampling", "virtual_damper", "operator",   "grounded",      "rotary",     "filtered_damper",
@@ -38,7 +39,7 @@ class RandomDevices {
     }
     d.bodies.push_back(body("motor", 0.01, 1.0));
     std::size_t middle = kind == "three_mass" ? 1 : 0;
-    if (kind == "chain" || everything) middle = index(5);
+    if (kind == "chain" || everything) middle = index(3);
     for (std::size_t i = 0; i < middle; ++i) d.bodies.push_back(body("carriage" + std::to_string(i), 0.1, 2.0));
     d.bodies.push_back(body("handle", 0.04, 10.0));
     d.loop.held = d.bodies.size() - 1;
@@ -55,7 +56,9 @@ class RandomDevices {
       lowest = kind == "slow_sampling" ? 300.0 : 15.0;
       highest = 3000.0;
     }
-    if (kind == "fast_sampling" || (everything && chance(0.5))) {
+    // Not with long chains: across several links and far above their modes the response falls below 1e-18 of its terms,
+    // where crossovers (at K of 1e18 N/m and more) are rounding.
+    if (kind == "fast_sampling" || (everything && d.bodies.size() == 2 && chance(0.5))) {
       d.loop.sampling_period = std::array{1e-5, 2.5e-5, 5e-5, 1e-4}[index(4)];
     }
     for (std::size_t i = 0; i + 1 < d.bodies.size(); ++i) {
