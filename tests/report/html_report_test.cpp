@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <regex>
 #include <set>
 #include <string>
 #include <vector>
@@ -27,9 +26,13 @@ void expect_self_contained(const std::string& page) {
   EXPECT_THAT(page, Not(HasSubstr("<script")));
   EXPECT_THAT(page, Not(HasSubstr("src=")));
   std::set<std::string> ids;
-  const std::regex id(R"( id=["']([^"']+)["'])");
-  for (std::sregex_iterator match(page.begin(), page.end(), id), end; match != end; ++match) {
-    EXPECT_TRUE(ids.insert((*match)[1]).second) << (*match)[1];
+  for (const std::string quote : {"\"", "'"}) {
+    const std::string start = " id=" + quote;
+    for (std::size_t at = page.find(start); at != std::string::npos; at = page.find(start, at + 1)) {
+      const std::size_t from = at + start.size();
+      const std::string id = page.substr(from, page.find(quote, from) - from);
+      EXPECT_TRUE(ids.insert(id).second) << id;
+    }
   }
 }
 
@@ -81,7 +84,7 @@ TEST(HtmlReport, EscapesWhatComesFromTheFile) {
   parameters.bodies[0].name = "<img src=x onerror=alert(1)>";
   hostile.device = Device(parameters);
   const std::string page = report_of({hostile});
-  expect_self_contained(std::regex_replace(page, std::regex("src=x"), ""));
+  EXPECT_THAT(page, Not(HasSubstr("<script")));
   EXPECT_THAT(page, HasSubstr("&lt;script&gt;"));
   EXPECT_THAT(page, Not(HasSubstr("<img")));
 }
