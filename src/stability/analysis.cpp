@@ -38,7 +38,7 @@ std::optional<QCriterion> q_criterion(const Device& device, const RigidApproxima
   if (!two) return std::nullopt;
   const TwoMassFactors factors = two_mass_factors(*two);
   QCriterion criterion{two->motor_mass * factors.z_n * factors.omega_n, std::nullopt};  // eq. 24
-  if (device.loop().sensed == device.loop().actuated) {
+  if (device.loop().sensed == device.loop().actuated && rigid.critical.status == StiffnessStatus::finite) {
     criterion.mode_matters = criterion.stiffness <= rigid.critical.stiffness;
   }
   return criterion;

@@ -10,6 +10,7 @@
 #include "stability/gain_crossings.hpp"
 #include "stability/plant_fraction.hpp"
 #include "stability/root_isolation.hpp"
+#include "stability/spectral_radius.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/stability/closed_loop.hpp"
 
@@ -18,11 +19,15 @@ namespace {
 
 using std::numbers::pi;
 
-// |C_num S|² - |(delta + c) D|², zero where |C P| = 1; C = K + B (c/T) delta / (delta + c).
+// |C_num S|² - |(delta + c) D|², zero where |C P| = 1; C = K + B (c/T) delta / (delta + c). Without a spring the
+// damper's delta cancels one of the plant's integrators: both sides are divided by |delta|² then.
 class UnitGain {
  public:
   UnitGain(const SampledPlant& plant, double stiffness, double rate, double c)
-      : plant_(plant), stiffness_(stiffness), rate_(rate), c_(c) {}
+      : plant_(plant), stiffness_(stiffness), rate_(rate), c_(c) {
+    if (stiffness > 0.0) return;
+    for (const SampledTerm& term : plant.terms) integrators_ += term.integrators;
+  }
 
   [[nodiscard]] double value(double angle) const { return evaluate(circle_point(angle)); }
   template <typename Scalar>
@@ -33,13 +38,16 @@ class UnitGain {
  private:
   template <typename Real>
   Real evaluate(const CirclePoint<Real>& point) const {
-    const PlantFraction<Real> plant = plant_fraction(plant_, point);
     const Real& x = point.chord_squared;
+    OnCircle<Real> kept{Real(1.0), Real(0.0)};  // delta^(integrators - 1)
+    for (int i = 1; i < integrators_; ++i) kept = multiply(kept, {-0.5 * x, Real(1.0)}, point);
+    const bool cancel = integrators_ > 0;
+    const PlantFraction<Real> plant = plant_fraction(plant_, point, cancel ? &kept : nullptr);
     const Real filter = (1.0 - c_) * x + c_ * c_;  // |delta + c|²
     // |(K + B c/T) delta + K c|² = (K + r)² x + (K c)² - (K + r) K c x
     const double lead = stiffness_ + rate_;
     const double constant = stiffness_ * c_;
-    const Real wall = (lead * (lead - constant)) * x + constant * constant;
+    const Real wall = cancel ? Real(rate_ * rate_) : (lead * (lead - constant)) * x + constant * constant;
     return wall * squared_magnitude(plant.numerator, point) - filter * squared_magnitude(plant.denominator, point);
   }
 
@@ -47,6 +55,7 @@ class UnitGain {
   double stiffness_;
   double rate_;  // B c / T
   double c_;
+  int integrators_ = 0;  // of the plant, where one cancels
 };
 
 void check(const Wall& wall) {
@@ -71,6 +80,7 @@ void find_gain_margins(const GainCrossings& crossings, double factor_at_wall, Lo
 template <typename ToFrequency>
 void find_phase_margins(const SampledPlant& plant, double stiffness, double rate, double c, ToFrequency to_frequency,
                         LoopMargins& margins) {
+  if (stiffness == 0.0 && rate == 0.0) return;
   for (const CircleRoot& root : roots_on_circle(UnitGain(plant, stiffness, rate, c), 1)) {
     const double half = std::sin(root.angle / 2.0);
     const std::complex<double> delta(-2.0 * half * half, std::sin(root.angle));
@@ -138,10 +148,16 @@ LoopMargins continuous_margins(const TransferFunction& loop) {
 }
 
 WallMargins wall_margins(const Device& device) {
+  constexpr std::size_t most_samples_for_eigenvalues = 100;
   const Wall& wall = device.parameters().wall;
-  WallMargins margins{loop_margins(sampled_plant(device), wall), *wall.stiffness, wall.damping, 0.0};
-  const DiscreteStateSpace plant = sample(state_space(device), {device.loop().sampling_period, device.loop().delay});
-  margins.spectral_radius = 1.0 + stability_excess(plant, wall);
+  const SampledPlant plant = sampled_plant(device);
+  WallMargins margins{loop_margins(plant, wall), *wall.stiffness, wall.damping, 0.0};
+  if (plant.delay_samples > most_samples_for_eigenvalues) {
+    margins.spectral_radius = spectral_radius_by_winding(plant, wall);
+  } else {
+    const Sampling sampling{device.loop().sampling_period, device.loop().delay};
+    margins.spectral_radius = 1.0 + stability_excess(sample(state_space(device), sampling), wall);
+  }
   return margins;
 }
 

@@ -23,7 +23,7 @@ struct RigidApproximation {
 /// theory, section 3.3). Q is about the least stiffness of the resonance branch over all delays. An approximation.
 struct QCriterion {
   double stiffness = 0.0;            ///< Q
-  std::optional<bool> mode_matters;  ///< Q <= rigid critical stiffness; absent unless the actuated body is sensed
+  std::optional<bool> mode_matters;  ///< Q <= rigid critical stiffness; absent unless the actuated body is sensed and that is finite
 };
 
 /// The whole answer for one device.

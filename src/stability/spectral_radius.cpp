@@ -1,0 +1,107 @@
+#include "stability/spectral_radius.hpp"
+
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+namespace zwidth {
+namespace {
+
+using Complex = std::complex<double>;
+using std::numbers::pi;
+
+// The characteristic polynomial, over positive numbers, and over z^L.
+class Characteristic {
+ public:
+  Characteristic(const SampledPlant& plant, const Wall& wall) : plant_(plant) {
+    c_ = wall.velocity_filter_hz > 0.0 ? -std::expm1(-2.0 * pi * wall.velocity_filter_hz * plant.period) : 1.0;
+    stiffness_ = *wall.stiffness;
+    rate_ = wall.damping * c_ / plant.period;
+    order_ = plant.delay_samples + 1;
+    for (const SampledTerm& term : plant.terms) order_ += term.degree;
+  }
+
+  [[nodiscard]] std::size_t order() const { return order_; }
+
+  // p(z) / z^L at z = radius e^{j angle}: D (delta + c) + z^-L (K (delta + c) + rate delta) S.
+  [[nodiscard]] Complex operator()(double radius, double angle) const {
+    const Complex delta = std::polar(radius, angle) - 1.0;
+    Complex s = plant_.numerator.empty() ? 0.0 : evaluate(plant_.numerator.data(), plant_.numerator.size(), delta);
+    Complex d = 1.0;
+    for (const SampledTerm& term : plant_.terms) {
+      Complex d_k = evaluate(term.denominator, term.degree, delta) + std::pow(delta, static_cast<int>(term.degree));
+      Complex n_k = evaluate(term.numerator, term.degree + 1, delta);
+      const double scale = 1.0 / std::max(std::abs(d_k), 1e-300);
+      s = plant_.numerator.empty() ? (s * d_k + n_k * d) * scale : s * scale;
+      d = d * d_k * scale;
+    }
+    const auto delay = static_cast<double>(plant_.delay_samples);
+    const Complex shift = std::polar(std::exp(-delay * std::log(radius)), -delay * angle);
+    return d * (delta + c_) + shift * (stiffness_ * (delta + c_) + rate_ * delta) * s;
+  }
+
+ private:
+  static Complex evaluate(const double* c, std::size_t count, Complex delta) {
+    Complex value = 0.0;
+    for (std::size_t i = count; i-- > 0;) value = value * delta + c[i];
+    return value;
+  }
+
+  const SampledPlant& plant_;
+  double c_;
+  double stiffness_;
+  double rate_;
+  std::size_t order_ = 0;
+};
+
+// Change of the phase of p / z^L between two angles, halving the step until it is unambiguous.
+double turn(const Characteristic& p, double radius, double begin, Complex at_begin, double end, Complex at_end,
+            int halvings) {
+  const double change = std::arg(at_end / at_begin);
+  if (halvings == 0) return change;
+  const double middle = 0.5 * (begin + end);
+  const Complex at_middle = p(radius, middle);
+  const double first = std::arg(at_middle / at_begin);
+  const double second = std::arg(at_end / at_middle);
+  if (std::abs(first) + std::abs(second) < pi / 3.0) return first + second;
+  return turn(p, radius, begin, at_begin, middle, at_middle, halvings - 1) +
+         turn(p, radius, middle, at_middle, end, at_end, halvings - 1);
+}
+
+bool holds_all_poles(const Characteristic& p, double radius, std::size_t delay_samples) {
+  constexpr int max_halvings = 40;
+  const std::size_t steps = 8 * p.order();
+  double total = 0.0;
+  double begin = 0.0;
+  Complex at_begin = p(radius, 0.0);
+  for (std::size_t i = 1; i <= steps; ++i) {
+    const double end = pi * static_cast<double>(i) / static_cast<double>(steps);
+    const Complex at_end = p(radius, end);
+    total += turn(p, radius, begin, at_begin, end, at_end, max_halvings);
+    begin = end;
+    at_begin = at_end;
+  }
+  // Half the circle turns p by pi per zero inside; p / z^L by L less.
+  const double inside = total / pi + static_cast<double>(delay_samples);
+  return std::lround(inside) >= static_cast<long>(p.order());
+}
+
+}  // namespace
+
+double spectral_radius_by_winding(const SampledPlant& plant, const Wall& wall) {
+  constexpr int max_steps = 60;
+  const Characteristic p(plant, wall);
+  double low = 0.0;
+  double high = 2.0;
+  while (high < 1e12 && !holds_all_poles(p, high, plant.delay_samples)) {
+    low = high;
+    high *= 4.0;
+  }
+  for (int i = 0; i < max_steps && high - low > 1e-15 * high; ++i) {
+    const double middle = 0.5 * (low + high);
+    (holds_all_poles(p, middle, plant.delay_samples) ? high : low) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+}  // namespace zwidth
