@@ -154,7 +154,7 @@ TEST_P(CriticalStiffnessProperty, ScalesWithUnits) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, CriticalStiffnessProperty, testing::ValuesIn(test::device_kinds),
-                         [](const auto& info) { return std::string(info.param); });
+                         [](const auto& kind) { return std::string(kind.param); });
 
 }  // namespace
 }  // namespace zwidth
