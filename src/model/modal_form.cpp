@@ -158,9 +158,29 @@ PolynomialPencil<Real> small_device_pencil(const Device& device, Path path, doub
   return pencil;
 }
 
+// 1/(m s² + b s + k): its own modal form.
+ModalForm single_body(const DeviceMatrices<double>& matrices, std::size_t zeros) {
+  const double mass = matrices.mass[0];
+  ModalTerm term;
+  term.degree = 2;
+  term.numerator[0] = 1.0 / mass;
+  term.denominator[0] = matrices.stiffness[0] / mass;
+  term.denominator[1] = matrices.damping[0] / mass;
+  term.integrators = static_cast<int>(zeros);
+  term.undamped_pairs = zeros == 0 && term.denominator[1] == 0.0 ? 1 : 0;
+  ModalForm form;
+  form.terms.push_back(term);
+  if (zeros == 0) {
+    const double frequency = std::sqrt(term.denominator[0]);
+    form.suspended_rigid_body = Mode{frequency, term.denominator[1] / (2.0 * frequency)};
+  }
+  return form;
+}
+
 ModalForm expand_bodies(const Device& device, Path path, double lag) {
   const DeviceMatrices<double> matrices = device_matrices<double>(device);
   const std::size_t zeros = poles_at_zero(device);
+  if (matrices.mass.size() == 1 && lag == 0.0) return single_body(matrices, zeros);
   double mass = 0.0;
   double damping = device.parameters().user.damping;
   for (double m : matrices.mass) mass += m;
