@@ -145,7 +145,8 @@ void expect_proper(const InputError& error) {
 }
 
 TEST(DeviceReader, SurvivesDamagedFiles) {
-  static const std::string letters("\0\n\r\t \"'#.,=[]{}-+_eE0159axn\\\x7f\x80\xc3\xa9\xef\xff", 36);
+  using namespace std::string_literals;
+  static const std::string letters = "\0\n\r\t \"'#.,=[]{}-+_eE0159axn\\\x7f\x80\xc3\xa9\xef\xff"s;
   std::size_t refused = 0;
   for (unsigned seed = 1; seed <= 5000; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);

@@ -22,8 +22,9 @@ struct RigidApproximation {
 /// The mode matters when Q is similar to or *smaller* than the rigid critical stiffness (the paper prints "larger": see
 /// theory, section 3.3). Q is about the least stiffness of the resonance branch over all delays. An approximation.
 struct QCriterion {
-  double stiffness = 0.0;            ///< Q
-  std::optional<bool> mode_matters;  ///< Q <= rigid critical stiffness; absent unless the actuated body is sensed and that is finite
+  double stiffness = 0.0;  ///< Q
+  /// Q <= rigid critical stiffness; absent unless the actuated body is sensed and that stiffness is finite.
+  std::optional<bool> mode_matters;
 };
 
 /// The whole answer for one device.
