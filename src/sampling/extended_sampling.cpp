@@ -143,8 +143,8 @@ std::vector<double> common_numerator(const std::vector<ExtendedTerm>& terms) {
     numerator = std::move(sum);
     denominator = multiply(denominator, term.denominator);
   }
-  std::vector<double> rounded;
-  for (const Extended& c : numerator) rounded.push_back(leading(c));
+  std::vector<double> rounded(numerator.size());
+  std::transform(numerator.begin(), numerator.end(), rounded.begin(), [](const Extended& c) { return leading(c); });
   return rounded;
 }
 
