@@ -1,0 +1,121 @@
+#include "zwidth/stability/analysis.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "lhifam.hpp"
+
+namespace zwidth {
+namespace {
+
+TEST(Analysis, OfLhifam) {
+  DeviceParameters device = test::lhifam_parameters();
+  device.wall.stiffness = 3000.0;
+  const Analysis analysis = analyze(Device(device));
+  EXPECT_EQ(analysis.critical.status, StiffnessStatus::finite);
+  EXPECT_NEAR(analysis.critical.stiffness, 8848.70869499712, 1e-5);
+  ASSERT_TRUE(analysis.critical.limit.has_value());
+  EXPECT_EQ(analysis.critical.limit->limited_by.kind, Mechanism::Kind::rigid_body);
+  ASSERT_EQ(analysis.critical.crossovers.size(), 4U);
+  EXPECT_EQ(analysis.critical.crossovers[2].limited_by.kind, Mechanism::Kind::vibration_mode);
+  EXPECT_EQ(analysis.critical.crossovers[2].limited_by.mode, 1);
+  ASSERT_EQ(analysis.modes.size(), 1U);
+  EXPECT_NEAR(analysis.modes[0].frequency, 529.7, 1.0);
+  EXPECT_FALSE(analysis.suspended_rigid_body.has_value());
+  ASSERT_TRUE(analysis.rigid.has_value());
+  EXPECT_NEAR(analysis.rigid->mass, 5.4, 1e-15);
+  EXPECT_NEAR(analysis.rigid->damping, 3.5, 1e-15);
+  EXPECT_EQ(analysis.rigid->stiffness, 0.0);
+  EXPECT_NEAR(analysis.rigid->critical.stiffness, 7000.75625452837, 1e-5);
+  ASSERT_TRUE(analysis.q_criterion.has_value());
+  EXPECT_NEAR(analysis.q_criterion->stiffness, 8468.9, 0.05);
+  EXPECT_EQ(analysis.q_criterion->mode_matters, false);
+  ASSERT_TRUE(analysis.wall.has_value());
+  EXPECT_TRUE(analysis.wall->stable);
+  EXPECT_NEAR(*analysis.wall->gain_margin, 8848.70869499712 / 3000.0, 1e-9);
+  EXPECT_LT(analysis.wall->spectral_radius, 1.0);
+}
+
+TEST(Analysis, WithoutAWallNothingIsJudged) {
+  EXPECT_FALSE(analyze(Device(test::lhifam_parameters())).wall.has_value());
+}
+
+// The mode matters when Q is similar to or smaller than the rigid critical stiffness.
+TEST(Analysis, QCriterionSpeaksUpForASoftCable) {
+  DeviceParameters device = test::lhifam_parameters();
+  device.links[0] = {0, 1, 27.55e3, 5.0};
+  const Analysis analysis = analyze(Device(device));
+  ASSERT_TRUE(analysis.q_criterion.has_value());
+  EXPECT_LT(analysis.q_criterion->stiffness, analysis.rigid->critical.stiffness);
+  EXPECT_EQ(analysis.q_criterion->mode_matters, true);
+}
+
+// Eq. 24 is about the motor's own resonance: no verdict where another body is sensed, or no rigid limit exists.
+TEST(Analysis, QCriterionWithoutAVerdict) {
+  const Analysis handle = analyze(Device(test::handle_sensed(test::lhifam_parameters())));
+  ASSERT_TRUE(handle.q_criterion.has_value());
+  EXPECT_FALSE(handle.q_criterion->mode_matters.has_value());
+  DeviceParameters undamped = test::lhifam_parameters();
+  undamped.bodies[0].damping = undamped.bodies[1].damping = 0.0;
+  const Analysis free = analyze(Device(undamped));
+  EXPECT_EQ(free.rigid->critical.status, StiffnessStatus::none_stable);
+  ASSERT_TRUE(free.q_criterion.has_value());
+  EXPECT_FALSE(free.q_criterion->mode_matters.has_value());
+}
+
+TEST(Analysis, ThreeBodiesHaveNoQ) {
+  DeviceParameters device = test::lhifam_parameters();
+  device.bodies.push_back({"carriage", 0.8, 0.4, 0.0, 0.0});
+  device.links.push_back({0, 2, 4e4, 2.0});
+  const Analysis analysis = analyze(Device(device));
+  EXPECT_FALSE(analysis.q_criterion.has_value());
+  EXPECT_EQ(analysis.modes.size(), 2U);
+  ASSERT_TRUE(analysis.rigid.has_value());
+  EXPECT_NEAR(analysis.rigid->mass, 6.2, 1e-14);
+  EXPECT_NEAR(analysis.rigid->damping, 3.9, 1e-14);
+}
+
+TEST(Analysis, TransferFunctionHasNoRigidApproximation) {
+  const Analysis analysis = analyze(Device(test::transfer_function_parameters({1.0}, {1.0, 2.0, 0.0}, 1e-2)));
+  EXPECT_EQ(analysis.critical.status, StiffnessStatus::finite);
+  EXPECT_FALSE(analysis.rigid.has_value());
+  EXPECT_FALSE(analysis.q_criterion.has_value());
+  EXPECT_TRUE(analysis.modes.empty());
+  EXPECT_FALSE(analysis.suspended_rigid_body.has_value());
+}
+
+// The operator, the lag, the delay and the damper belong to the rigid approximation's loop as well.
+TEST(Analysis, RigidApproximationHasEverythingElseOfTheLoop) {
+  DeviceParameters device = test::with_delay(test::lhifam_parameters(), 0.4e-3);
+  device.user = {0.6, 4.0, 300.0};
+  device.actuator.time_constant = 0.5e-3;
+  device.wall.damping = 2.0;
+  device.wall.velocity_filter_hz = 60.0;
+  const Analysis analysis = analyze(Device(device));
+  ASSERT_TRUE(analysis.rigid.has_value());
+  EXPECT_NEAR(analysis.rigid->mass, 6.0, 1e-14);
+  EXPECT_NEAR(analysis.rigid->damping, 7.5, 1e-14);
+  EXPECT_EQ(analysis.rigid->stiffness, 300.0);
+  DeviceParameters rigid = device;
+  rigid.bodies = {{"body", 6.0, 7.5, 300.0, 0.0}};
+  rigid.links.clear();
+  rigid.loop.actuated = rigid.loop.sensed = rigid.loop.held = 0;
+  rigid.user = {};
+  EXPECT_NEAR(analysis.rigid->critical.stiffness / analyze(Device(rigid)).critical.stiffness, 1.0, 1e-12);
+  // The operator's spring suspends the device.
+  ASSERT_TRUE(analysis.suspended_rigid_body.has_value());
+  EXPECT_NEAR(analysis.suspended_rigid_body->frequency, std::sqrt(300.0 / 6.0), 0.05);
+  EXPECT_FALSE(analysis.q_criterion.has_value());
+}
+
+TEST(Analysis, OneBodyIsItsOwnRigidApproximation) {
+  const Analysis analysis = analyze(Device(test::rigid_parameters()));
+  ASSERT_TRUE(analysis.rigid.has_value());
+  EXPECT_EQ(analysis.rigid->critical.stiffness, analysis.critical.stiffness);
+  EXPECT_TRUE(analysis.modes.empty());
+  EXPECT_FALSE(analysis.q_criterion.has_value());
+}
+
+}  // namespace
+}  // namespace zwidth
