@@ -22,8 +22,8 @@ using partial_fractions::expand;
 // step of `last_step` leaves an error below last_step² times the root's condition; multiple roots converge linearly
 // and are refined by contour integrals (partial_fractions).
 constexpr int max_sweeps_in_double = 12;
-constexpr int max_sweeps_in_extended = 300;
-constexpr double last_step = 1e-11;
+constexpr int max_sweeps_in_extended = 80;
+constexpr double last_step = 1e-13;
 constexpr double unresolved_step = 1e-3;
 
 // All non-zero roots of both pencils (the same function in two precisions) from starting values.
@@ -167,7 +167,10 @@ ModalForm single_body(const DeviceMatrices<double>& matrices, std::size_t zeros)
   term.denominator[0] = matrices.stiffness[0] / mass;
   term.denominator[1] = matrices.damping[0] / mass;
   term.integrators = static_cast<int>(zeros);
-  term.undamped_pairs = zeros == 0 && term.denominator[1] == 0.0 ? 1 : 0;
+  if (zeros == 0 && term.denominator[1] == 0.0) {
+    term.undamped_pairs = 1;
+    term.undamped_frequency = std::sqrt(term.denominator[0]);
+  }
   ModalForm form;
   form.terms.push_back(term);
   if (zeros == 0) {

@@ -69,19 +69,20 @@ PolynomialX from_power_sums(const std::vector<ComplexX>& sums) {
   return p;
 }
 
-std::vector<ComplexX> contour_directions() {
-  std::vector<ComplexX> directions;
-  for (std::size_t i = 0; i < contour_points; ++i) {
-    const double angle = 2.0 * std::numbers::pi * (static_cast<double>(i) + 0.5) / static_cast<double>(contour_points);
+std::vector<ComplexX> directions(std::size_t count) {
+  std::vector<ComplexX> result;
+  const auto n = static_cast<double>(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double angle = 2.0 * std::numbers::pi * (static_cast<double>(i) + 0.5) / n;
     ComplexX z{Extended(std::cos(angle)), Extended(std::sin(angle))};
     // One Newton step on z^n = -1 takes the direction from double to double-double.
     ComplexX power = z;
-    for (std::size_t j = 1; j < contour_points; ++j) power *= z;
+    for (std::size_t j = 1; j < count; ++j) power *= z;
     const ComplexX residual{power.re + Extended(1.0), power.im};
-    z -= residual * z / (power * Extended(static_cast<double>(contour_points)));
-    directions.push_back(z);
+    z -= residual * z / (power * Extended(n));
+    result.push_back(z);
   }
-  return directions;
+  return result;
 }
 
 double isolation(const PoleGroup& group, const std::vector<ComplexX>& all_poles) {
@@ -125,6 +126,8 @@ ModalTerm real_term(const PoleGroup& group, PolynomialX numerator, PolynomialX d
       term.unstable_poles += group.closed ? 1 : 2;
     }
   }
+  term.undamped_pairs = std::min(term.undamped_pairs, static_cast<int>(term.degree) / 2);  // less what cancelled
+  if (term.undamped_pairs > 0) term.undamped_frequency = std::abs(leading(group.poles.front().im));
   for (std::size_t i = 0; i < term.degree; ++i) {
     term.numerator[i] = i < numerator.size() ? leading(numerator[i].re) : 0.0;
     term.denominator[i] = leading(denominator[i].re);

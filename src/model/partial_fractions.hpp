@@ -3,8 +3,7 @@
 // Partial fractions of G(s) from its poles, in double-double. Private to modal_form().
 //
 // Around a group I of poles G = f / p_I with p_I = prod (s - pole) and f analytic; the group's term is
-// (f mod p_I) / p_I. f is evaluated as G p_I beside the poles: averaged over s +- h its error is of order h²/d², d the
-// distance of the next other pole, far below double precision.
+// (f mod p_I) / p_I. f is evaluated as G p_I on circles around the poles, d being the distance of the next other pole.
 
 #include <algorithm>
 #include <cmath>
@@ -24,13 +23,18 @@ namespace zwidth::partial_fractions {
 using ComplexX = Complex<Extended>;
 using PolynomialX = std::vector<ComplexX>;  // ascending powers
 
-// h, relative to the distance of the next other pole, for the value of f and for its slope.
-inline constexpr double value_offset = 1e-10;
-inline constexpr double slope_offset = 1e-7;
-// Two poles closer than this, relative to the next other pole, take the slope of f instead of its difference.
-inline constexpr double slope_below = 1e-8;
+// h of the value of f at a pole: averaged over four points around it, the error is (h/d)^4.
+inline constexpr double value_offset = 1e-5;
+// Two poles closer than this, relative to d, take f mod p_I from the Taylor series of f about their middle, by the
+// trapezoidal rule on a circle of radius taylor_radius d; the error is taylor_radius^taylor_points.
+inline constexpr double taylor_below = 1e-3;
+inline constexpr double taylor_radius = 0.02;
+inline constexpr std::size_t taylor_points = 16;
+inline constexpr std::size_t taylor_terms = 8;
 // Points on the circle of a contour integral; the error falls like (ratio of radii)^points.
 inline constexpr std::size_t contour_points = 96;
+// A numerator that vanishes at its cluster's centre to this, relative, has a factor in common with the denominator.
+inline constexpr double cancel_below = 1e-12;
 // A mode whose numerator is smaller than this, relative to the largest, is rounding: the path does not see the mode.
 inline constexpr double unseen_below = 1e-20;
 
@@ -40,8 +44,13 @@ PolynomialX shifted(const PolynomialX& p, const ComplexX& center);  // from powe
 ComplexX product(const std::vector<ComplexX>& roots, const ComplexX& s);
 // Monic polynomial from the power sums sigma_1..sigma_k of its roots (Newton's identities).
 PolynomialX from_power_sums(const std::vector<ComplexX>& sums);
-// exp(2 pi i (k + 1/2) / contour_points) in double-double.
-std::vector<ComplexX> contour_directions();
+// exp(2 pi i (k + 1/2) / count), k = 0 .. count - 1, in double-double.
+std::vector<ComplexX> directions(std::size_t count);
+template <std::size_t Count>
+const std::vector<ComplexX>& circle_directions() {
+  static const std::vector<ComplexX> computed = directions(Count);
+  return computed;
+}
 // Distance from the group to the nearest other pole; the size of its own poles where there is none.
 double isolation(const PoleGroup& group, const std::vector<ComplexX>& all_poles);
 // The real term of numerator / denominator, plus its conjugate unless the group is closed.
@@ -56,26 +65,47 @@ ComplexX analytic_part(const Pencil& pencil, const PoleGroup& group, const Compl
 
 template <typename Pencil>
 ComplexX analytic_value(const Pencil& pencil, const PoleGroup& group, const ComplexX& s, double nearest) {
-  const ComplexX h{Extended(value_offset * nearest)};
-  return (analytic_part(pencil, group, s + h) + analytic_part(pencil, group, s - h)) * Extended(0.5);
+  const Extended h(value_offset * nearest);
+  const ComplexX real{h};
+  const ComplexX imaginary{Extended(0.0), h};
+  return (analytic_part(pencil, group, s + real) + analytic_part(pencil, group, s - real) +
+          analytic_part(pencil, group, s + imaginary) + analytic_part(pencil, group, s - imaginary)) *
+         Extended(0.25);
 }
 
-// Two poles: N = f(first) + f[first, second] (s - first).
+// Two real poles: N = f(first) + f[first, second] (s - first); close together, with q = (half their gap)² and Taylor
+// coefficients f_j about their middle c, N = sum f_2k q^k + (s - c) sum f_2k+1 q^k.
 template <typename Pencil>
 PolynomialX pair_numerator(const Pencil& pencil, const PoleGroup& group, double nearest) {
   const ComplexX& first = group.poles[0];
   const ComplexX& second = group.poles[1];
-  if (magnitude(first - second) > slope_below * nearest) {
+  if (magnitude(first - second) > taylor_below * nearest) {
     const ComplexX value = analytic_value(pencil, group, first, nearest);
     const ComplexX slope = (value - analytic_value(pencil, group, second, nearest)) / (first - second);
     return {value - slope * first, slope};
   }
   const ComplexX middle = (first + second) * Extended(0.5);
-  const ComplexX value = analytic_value(pencil, group, middle, nearest);
-  const ComplexX h{Extended(slope_offset * nearest)};
-  const ComplexX slope =
-      (analytic_part(pencil, group, middle + h) - analytic_part(pencil, group, middle - h)) / (h * Extended(2.0));
-  return {value - slope * middle, slope};
+  const Extended radius(taylor_radius * nearest);
+  std::vector<Extended> coefficients(taylor_terms, Extended(0.0));  // f_j radius^j: real, as f and the middle are
+  const std::vector<ComplexX>& directions = circle_directions<taylor_points>();
+  for (std::size_t i = 0; i < taylor_points / 2; ++i) {  // the conjugate half adds the conjugate
+    const ComplexX value = analytic_part(pencil, group, middle + directions[i] * radius);
+    ComplexX turn = value;
+    for (std::size_t j = 0; j < taylor_terms; ++j) {
+      coefficients[j] += turn.re * Extended(2.0 / static_cast<double>(taylor_points));
+      turn *= conj(directions[i]);
+    }
+  }
+  const Extended half_gap = (first.re - second.re) * Extended(0.5) / radius;
+  const Extended q = half_gap * half_gap;
+  Extended value(0.0);
+  Extended slope(0.0);
+  for (std::size_t j = taylor_terms; j >= 2; j -= 2) {
+    value = value * q + coefficients[j - 2];
+    slope = slope * q + coefficients[j - 1];
+  }
+  slope = slope / radius;
+  return {ComplexX(value) - middle * slope, ComplexX(slope)};
 }
 
 // A cluster: p_I from sigma_j = 1/(2 pi i) contour integral of s^j p'/p ds, N = polynomial part of
@@ -92,7 +122,7 @@ ModalTerm cluster_term(const Pencil& pencil, const PoleGroup& group, double near
   for (const ComplexX& pole : group.poles) spread = std::max(spread, magnitude(pole - center));
   const Extended radius = Extended(std::sqrt(spread * nearest));
 
-  std::vector<ComplexX> points = contour_directions();
+  std::vector<ComplexX> points = circle_directions<contour_points>();
   std::vector<ComplexX> log_derivative(contour_points);
   std::vector<ComplexX> gain(contour_points);
   const ComplexX one{Extended(1.0)};
@@ -124,7 +154,14 @@ ModalTerm cluster_term(const Pencil& pencil, const PoleGroup& group, double near
     const ComplexX mu = moment(gain, j);
     for (std::size_t power = 0; power + j + 1 <= k; ++power) numerator[power] += denominator[power + j + 1] * mu;
   }
-  return real_term(group, shifted(numerator, center), shifted(denominator, center));
+  // Repeated modes of a symmetric device: a common factor (s - center), to rounding, cancels.
+  PolynomialX reduced = denominator;
+  while (numerator.size() > 1 &&
+         magnitude(numerator[0]) <= cancel_below * magnitude(center) * magnitude(numerator[1])) {
+    numerator.erase(numerator.begin());
+    reduced.erase(reduced.begin());
+  }
+  return real_term(group, shifted(numerator, center), shifted(reduced, center));
 }
 
 template <typename Pencil>

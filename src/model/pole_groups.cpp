@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "zwidth/error.hpp"
 
@@ -13,32 +12,54 @@ using ComplexX = Complex<Extended>;
 
 bool close(const ComplexX& a, const ComplexX& b) { return magnitude(a - b) <= cluster_tolerance * magnitude(a); }
 
-// Below these the double-double iteration's rounding stands where an exact zero should.
-constexpr double real_below = 1e-15;
-constexpr double undamped_below = 1e-19;
+// Damping below this is rounding (of the device's own numbers, too): the mode is undamped.
+constexpr double undamped_below = 1e-14;
+// A cluster takes in poles until the next one is this many times its radius away.
+constexpr double isolated_beyond = 8.0;
 
-// Exact conjugate symmetry: real poles and the half with positive imaginary part.
-void make_symmetric(const std::vector<ComplexX>& poles, std::vector<ComplexX>& real, std::vector<ComplexX>& upper) {
-  std::size_t lower = 0;
-  for (const ComplexX& pole : poles) {
-    const double size = magnitude(pole);
-    if (std::abs(leading(pole.im)) <= real_below * size) {
-      real.emplace_back(pole.re);
-    } else if (leading(pole.im) > 0.0) {
-      upper.push_back(pole);
-      if (std::abs(leading(pole.re)) <= undamped_below * size) upper.back().re = Extended(0.0);
-    } else {
-      ++lower;
+struct Disc {
+  ComplexX center;
+  double radius = 0.0;
+};
+
+Disc disc_of(const std::vector<ComplexX>& poles) {
+  Disc disc;
+  for (const ComplexX& pole : poles) disc.center += pole;
+  disc.center = disc.center * (Extended(1.0) / Extended(static_cast<double>(poles.size())));
+  for (const ComplexX& pole : poles) disc.radius = std::max(disc.radius, magnitude(pole - disc.center));
+  return disc;
+}
+
+// Sets of poles that lie together, each in one set: poles closer than cluster_tolerance, and whatever is so near to
+// such a set that a circle could not separate it.
+std::vector<std::vector<ComplexX>> gather(const std::vector<ComplexX>& poles) {
+  std::vector<std::vector<ComplexX>> sets;
+  for (const ComplexX& pole : poles) sets.push_back({pole});
+  bool merged = true;
+  while (merged) {
+    merged = false;
+    for (std::size_t i = 0; i < sets.size(); ++i) {
+      const Disc disc = disc_of(sets[i]);
+      const double reach = std::max(cluster_tolerance * magnitude(disc.center), isolated_beyond * disc.radius);
+      for (std::size_t j = 0; j < sets.size(); ++j) {
+        if (j == i) continue;
+        const bool near = std::any_of(sets[j].begin(), sets[j].end(),
+                                      [&](const ComplexX& pole) { return magnitude(pole - disc.center) <= reach; });
+        if (!near) continue;
+        sets[i].insert(sets[i].end(), sets[j].begin(), sets[j].end());
+        sets.erase(sets.begin() + static_cast<std::ptrdiff_t>(j));
+        merged = true;
+        break;
+      }
+      if (merged) break;
     }
   }
-  if (lower != upper.size()) {
-    throw Error(ErrorCode::did_not_converge, "the poles of the device could not be found: its values are too extreme");
-  }
+  return sets;
 }
 
 Mode mode_of(const PoleGroup& group) {
   const ComplexX& first = group.poles.front();
-  if (group.poles.size() == 2 && !group.cluster) {  // a pair of real poles, or nearly real ones
+  if (group.poles.size() == 2 && group.closed) {
     const double product = leading((first * group.poles[1]).re);
     const double sum = leading((first + group.poles[1]).re);
     const double frequency = std::sqrt(std::abs(product));
@@ -63,56 +84,44 @@ std::size_t rigid_partner(const std::vector<ComplexX>& real, const PoleLabels& l
   return best;
 }
 
-// Connected components of "closer than cluster_tolerance".
-std::vector<std::vector<std::size_t>> components(const std::vector<ComplexX>& poles) {
-  std::vector<std::size_t> label(poles.size());
-  std::iota(label.begin(), label.end(), std::size_t{0});
-  for (std::size_t i = 0; i < poles.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      if (label[i] != label[j] && close(poles[i], poles[j])) {
-        const std::size_t from = label[i];
-        const std::size_t to = label[j];
-        std::replace(label.begin(), label.end(), from, to);
-      }
-    }
-  }
-  std::vector<std::vector<std::size_t>> result;
-  for (std::size_t root = 0; root < poles.size(); ++root) {
-    std::vector<std::size_t> members;
-    for (std::size_t i = 0; i < poles.size(); ++i)
-      if (label[i] == root) members.push_back(i);
-    if (!members.empty()) result.push_back(std::move(members));
-  }
-  return result;
-}
-
 }  // namespace
 
 std::vector<PoleGroup> group_poles(std::vector<ComplexX>& poles, std::size_t zero_roots, const PoleLabels& labels,
                                    ModalForm& form) {
-  std::vector<ComplexX> real;
-  std::vector<ComplexX> upper;
-  make_symmetric(poles, real, upper);
-
-  // All poles that may coincide: real ones, upper ones, and the conjugates of those near the real axis.
-  std::vector<ComplexX> candidates = real;
-  for (const ComplexX& pole : upper) {
-    candidates.push_back(pole);
-    if (close(pole, conj(pole))) candidates.push_back(conj(pole));
-  }
+  // Sets near the real axis are their own conjugates; of the others the upper one stands for both.
   std::vector<PoleGroup> groups;
   std::vector<ComplexX> single_real;
-  for (const std::vector<std::size_t>& members : components(candidates)) {
-    PoleGroup group;
-    for (std::size_t i : members) group.poles.push_back(candidates[i]);
-    const ComplexX& first = group.poles.front();
-    group.closed = close(first, conj(first));
-    if (group.closed && group.poles.size() == 1) {
-      single_real.push_back(first);
-      continue;
+  std::vector<ComplexX> symmetric;
+  std::size_t upper = 0;
+  std::size_t lower = 0;
+  for (std::vector<ComplexX>& set : gather(poles)) {
+    const Disc disc = disc_of(set);
+    const double height = leading(disc.center.im);
+    if (std::abs(height) <= std::max(disc.radius, 1e-15 * magnitude(disc.center))) {
+      if (set.size() == 1) {
+        single_real.emplace_back(set.front().re);
+        symmetric.push_back(single_real.back());
+        continue;
+      }
+      symmetric.insert(symmetric.end(), set.begin(), set.end());
+      groups.push_back({std::move(set), true, true, 0});
+    } else if (height < 0.0) {
+      lower += set.size();
+    } else {
+      upper += set.size();
+      if (set.size() == 1 && std::abs(leading(set.front().re)) <= undamped_below * magnitude(set.front())) {
+        set.front().re = Extended(0.0);
+      }
+      for (const ComplexX& pole : set) {
+        symmetric.push_back(pole);
+        symmetric.push_back(conj(pole));
+      }
+      const bool cluster = set.size() > 1;
+      groups.push_back({std::move(set), false, cluster, 0});
     }
-    group.cluster = group.poles.size() > (group.closed ? 2U : 1U);
-    groups.push_back(std::move(group));
+  }
+  if (lower != upper) {
+    throw Error(ErrorCode::did_not_converge, "the poles of the device could not be found: its values are too extreme");
   }
 
   PoleGroup rigid;
@@ -151,11 +160,7 @@ std::vector<PoleGroup> group_poles(std::vector<ComplexX>& poles, std::size_t zer
   }
   if (!rigid.poles.empty()) groups.insert(groups.begin(), std::move(rigid));
 
-  poles = real;
-  for (const ComplexX& pole : upper) {
-    poles.push_back(pole);
-    poles.push_back(conj(pole));
-  }
+  poles = std::move(symmetric);
   poles.insert(poles.end(), zero_roots, ComplexX());
   return groups;
 }
@@ -170,7 +175,7 @@ void add_lag_pole(std::vector<PoleGroup>& groups, const ComplexX& pole) {
       own.mode = group.mode;
       if (group.cluster || close(group.poles.front(), group.poles.back())) {  // all of them lie here
         group.poles.push_back(pole);
-        group.cluster = group.poles.size() > 2;
+        group.cluster = true;
         return;
       }
       own.poles.push_back(group.poles[i]);
@@ -179,6 +184,7 @@ void add_lag_pole(std::vector<PoleGroup>& groups, const ComplexX& pole) {
     }
     if (!own.poles.empty()) break;
   }
+  own.cluster = !own.poles.empty();
   own.poles.push_back(pole);
   groups.push_back(std::move(own));
 }

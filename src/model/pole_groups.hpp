@@ -29,7 +29,8 @@ inline constexpr double cluster_tolerance = 1e-4;
 
 // Groups all poles: the rigid body's {0, -b/m} first, then modes by rising frequency; fills form.modes and
 // form.suspended_rigid_body. `poles` are the non-zero ones, closed under conjugation to rounding; they come back with
-// exact symmetry. Throws Error (did_not_converge) when they are not closed.
+// the ones at zero and, where they stand alone, with exact symmetry. Throws Error (did_not_converge) when they are not
+// closed.
 std::vector<PoleGroup> group_poles(std::vector<Complex<Extended>>& poles, std::size_t zero_roots,
                                    const PoleLabels& labels, ModalForm& form);
 

@@ -126,6 +126,27 @@ ExtendedTerm sample_extended(const ModalTerm& term, const SamplingInstants& inst
   return sampled;
 }
 
+double response_at_nyquist(const std::vector<ExtendedTerm>& terms, std::size_t delay_samples) {
+  // What the double-double poles and residues resolve of a sum.
+  constexpr double resolution = 1e-19;
+  Extended sum(0.0);
+  double size = 0.0;
+  for (const ExtendedTerm& term : terms) {
+    Extended numerator(0.0);
+    double numerator_size = 0.0;
+    Extended denominator(0.0);
+    for (std::size_t i = term.denominator.size(); i-- > 0;) {
+      numerator = Extended(-2.0) * numerator + term.numerator[i];
+      numerator_size = 2.0 * numerator_size + std::abs(leading(term.numerator[i]));
+      denominator = Extended(-2.0) * denominator + term.denominator[i];
+    }
+    sum += numerator / denominator;
+    size += std::abs(numerator_size / leading(denominator));
+  }
+  if (std::abs(leading(sum)) <= resolution * size) return 0.0;
+  return delay_samples % 2 == 0 ? leading(sum) : -leading(sum);
+}
+
 std::vector<double> common_numerator(const std::vector<ExtendedTerm>& terms) {
   const auto multiply = [](const std::vector<Extended>& a, const std::vector<Extended>& b) {
     std::vector<Extended> product(a.size() + b.size() - 1, Extended(0.0));

@@ -18,6 +18,9 @@ struct ExtendedTerm {
 // a fractional delay the numerator stands over one sample of delay more, as in sample().
 ExtendedTerm sample_extended(const ModalTerm& term, const SamplingInstants& instants);
 
+// P(-1), the delay included; 0 where it vanishes to rounding.
+double response_at_nyquist(const std::vector<ExtendedTerm>& terms, std::size_t delay_samples);
+
 // sum_k N_k prod_{j != k} D_j.
 std::vector<double> common_numerator(const std::vector<ExtendedTerm>& terms);
 

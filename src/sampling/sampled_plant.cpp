@@ -86,6 +86,28 @@ double cancellation(const SampledPlant& plant) {
   return worst;
 }
 
+// The same at z = -1, for the coefficients within each numerator: a slow device's response nearly vanishes there.
+double cancellation_at_nyquist(const SampledPlant& plant) {
+  double sum = 0.0;
+  double size = 0.0;
+  for (const SampledTerm& term : plant.terms) {
+    double numerator = 0.0;
+    double numerator_size = 0.0;
+    double denominator = 1.0;
+    for (std::size_t i = term.degree + 1; i-- > 0;) {
+      numerator = -2.0 * numerator + term.numerator[i];
+      numerator_size = 2.0 * numerator_size + std::abs(term.numerator[i]);
+      if (i < term.degree) denominator = -2.0 * denominator + term.denominator[i];
+    }
+    sum += numerator / denominator;
+    size += std::abs(numerator_size / denominator);
+  }
+  return size / std::abs(sum);
+}
+
+// 1e-16 times this is what a stiffness at Nyquist may lose.
+constexpr double tolerable_cancellation_at_nyquist = 1e5;
+
 // Beyond this loss the numerators are added up in double-double instead.
 constexpr double tolerable_cancellation = 1e3;
 
@@ -108,6 +130,8 @@ SampledPlant sample(const ModalForm& form, Sampling sampling) {
     sampled.integrators = term.integrators;
     sampled.unstable_poles = term.unstable_poles;
     sampled.undamped_pairs = term.undamped_pairs;
+    sampled.undamped_angle =
+        std::abs(std::remainder(term.undamped_frequency * sampling.period, 2.0 * std::numbers::pi));
     if (lag_numerator != 0.0) sampled.lag_share = term.lag_numerator / lag_numerator;
     if (term.degree == 1) {
       sample_first_order(term, instants, sampled);
@@ -118,11 +142,14 @@ SampledPlant sample(const ModalForm& form, Sampling sampling) {
     }
     plant.terms.push_back(sampled);
   }
-  if (plant.terms.size() > 1 && cancellation(plant) > tolerable_cancellation) {
+  const bool sum_cancels = plant.terms.size() > 1 && cancellation(plant) > tolerable_cancellation;
+  const bool nyquist_cancels = cancellation_at_nyquist(plant) > tolerable_cancellation_at_nyquist;
+  if (sum_cancels || nyquist_cancels) {
     std::vector<ExtendedTerm> terms;
     for (const ModalTerm& term : form.terms)
       if (is_seen(term)) terms.push_back(sample_extended(term, instants));
-    plant.numerator = common_numerator(terms);
+    if (sum_cancels) plant.numerator = common_numerator(terms);
+    plant.at_nyquist = response_at_nyquist(terms, plant.delay_samples);
   }
   return plant;
 }
@@ -142,6 +169,7 @@ std::complex<double> response(const SampledTerm& term, double angle) {
 
 std::complex<double> response(const SampledPlant& plant, double frequency) {
   const double angle = frequency * plant.period;
+  if (plant.at_nyquist && angle >= std::numbers::pi) return *plant.at_nyquist;
   std::complex<double> sum = 0.0;
   if (plant.numerator.empty()) {
     for (const SampledTerm& term : plant.terms) sum += response(term, angle);

@@ -12,14 +12,10 @@ namespace {
 // A root of the phase condition this close, relative, to an undamped pole is that pole, at kappa = 0.
 constexpr double same_angle = 1e-9;
 
-// Angle of an undamped pair of a term of degree 2: |delta|² = d[0].
 bool is_undamped_pole(const SampledPlant& plant, double angle) {
-  for (const SampledTerm& term : plant.terms) {
-    if (term.undamped_pairs == 0 || term.degree != 2) continue;
-    const double pole = 2.0 * std::asin(std::min(1.0, 0.5 * std::sqrt(std::max(term.denominator[0], 0.0))));
-    if (std::abs(angle - pole) <= same_angle * angle) return true;
-  }
-  return false;
+  return std::any_of(plant.terms.begin(), plant.terms.end(), [angle](const SampledTerm& term) {
+    return term.undamped_pairs > 0 && std::abs(angle - term.undamped_angle) <= same_angle * angle;
+  });
 }
 
 }  // namespace
@@ -39,7 +35,11 @@ GainCrossings gain_crossings(const SampledPlant& plant, const GainLocus& locus) 
     const double gain = locus.gain(root.angle);
     if (gain > 0.0 && std::isfinite(gain)) result.crossings.push_back({root.angle, gain, poles_leaving});
   }
-  // z = -1 is real: always a crossing where the gain is positive.
+  // z = 1 and z = -1 are real: crossings where the gain is positive. At z = 1 that takes a negative static response.
+  const double at_rest = locus.gain(0.0);
+  if (at_rest > 0.0 && std::isfinite(at_rest)) {
+    result.crossings.insert(result.crossings.begin(), {0.0, at_rest, locus.value(0.0) < 0.0 ? 1 : -1});
+  }
   const double gain = locus.gain(std::numbers::pi);
   if (gain > 0.0 && std::isfinite(gain)) {
     result.crossings.push_back({std::numbers::pi, gain, locus.value(std::numbers::pi) > 0.0 ? 1 : -1});

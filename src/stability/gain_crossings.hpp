@@ -8,7 +8,7 @@ namespace zwidth {
 
 // A gain kappa > 0 at which closed-loop poles lie on the unit circle.
 struct GainCrossing {
-  double angle = 0.0;  // (0, pi]; pi exactly at Nyquist
+  double angle = 0.0;  // [0, pi]; 0 for a real pole at z = 1, pi exactly at Nyquist
   double gain = 0.0;
   int poles_leaving = 0;  // as Crossover::poles_leaving
 };

@@ -45,6 +45,9 @@ OnCircle<Extended> delay_at(std::size_t delay_samples, const Extended& x) {
   return power;
 }
 
+// Close enough to z = 1 for a limit; the error is its square.
+constexpr double cancelled_angle = 1e-7;
+
 template <typename Scalar>
 constexpr double rounding_unit = std::numeric_limits<double>::epsilon();
 template <>
@@ -150,19 +153,21 @@ template BoundedJet<double> GainLocus::model<double>(double, double) const;
 template BoundedJet<Extended> GainLocus::model<Extended>(double, double) const;
 
 double GainLocus::gain(double angle) const {
+  // The damper's zero at z = 1 and an integrator cancel: the limit.
+  if (angle == 0.0 && gain_ == Gain::damping && integrators_ > 0) angle = cancelled_angle;
   const CirclePoint<double> point = circle_point(angle);
   const auto [numerator, denominator] = plant_fraction(plant_, point);
   const OnCircle<double> product =
       multiply(multiply(denominator, conj(numerator), point), delay_factor(plant_.delay_samples, angle), point);
-  const double inverse_plant =
-      product.even / squared_magnitude(numerator, point);  // Re 1/P where Im is zero, or B v = 0
+  // 1/P, real where the phase condition holds without a damper
+  OnCircle<double> one_over_plant = scaled(1.0 / squared_magnitude(numerator, point), product);
+  if (plant_.at_nyquist && angle >= std::numbers::pi) one_over_plant = {1.0 / *plant_.at_nyquist, 0.0};
   const double x = point.chord_squared;
   const double filter = c_ * c_ + (1.0 - c_) * x;
   const double rate = c_ / plant_.period;
   const double velocity = rate * x * (1.0 - 0.5 * c_) / filter;  // Re v; Im v / sin = rate c / filter
-  if (gain_ == Gain::stiffness) return -inverse_plant - damping_ * velocity;
+  if (gain_ == Gain::stiffness) return -one_over_plant.even - damping_ * velocity;
   // kappa = -1 / (P C) = -Re[(1/P) conj C] / |C|², C = v or K + B v
-  const OnCircle<double> one_over_plant = scaled(1.0 / squared_magnitude(numerator, point), product);
   OnCircle<double> controller{velocity, rate * c_ / filter};
   if (gain_ == Gain::wall) controller = sum(scaled(damping_, controller), {stiffness_, 0.0});
   return -multiply(one_over_plant, conj(controller), point).even / squared_magnitude(controller, point);

@@ -96,9 +96,11 @@ void find_phase_margins(const SampledPlant& plant, double stiffness, double rate
   }
 }
 
-bool has_pole_on_circle(const SampledPlant& plant) {
-  return std::any_of(plant.terms.begin(), plant.terms.end(),
-                     [](const SampledTerm& term) { return term.integrators > 0 || term.undamped_pairs > 0; });
+// Without a spring: the pole at z = 1 of a free device stays, and without a damper those of undamped modes.
+bool keeps_pole_on_circle(const SampledPlant& plant, const Wall& wall) {
+  return std::any_of(plant.terms.begin(), plant.terms.end(), [&wall](const SampledTerm& term) {
+    return term.integrators > 0 || (term.undamped_pairs > 0 && wall.damping == 0.0);
+  });
 }
 
 template <typename ToFrequency>
@@ -111,7 +113,7 @@ LoopMargins margins_of(const SampledPlant& plant, const Wall& wall, ToFrequency 
   LoopMargins margins;
   if (stiffness == 0.0) {  // a free device keeps its pole at z = 1: not asymptotically stable
     const GainCrossings by_damping = gain_crossings(plant, GainLocus(plant, GainLocus::Gain::damping, 0.0, damper));
-    margins.stable = !has_pole_on_circle(plant) && unstable_poles(by_damping, wall.damping) == 0;
+    margins.stable = !keeps_pole_on_circle(plant, wall) && unstable_poles(by_damping, wall.damping) == 0;
     if (margins.stable && wall.damping > 0.0) find_gain_margins(by_damping, wall.damping, margins);
   } else {
     const GainCrossings by_stiffness = stiffness_crossings(plant, damper);

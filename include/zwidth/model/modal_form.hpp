@@ -27,9 +27,10 @@ struct ModalTerm {
   int mode = 0;
   /// The part of the lag term's numerator that stems from this mode: lag_numerator / (s + 1/tau)
   double lag_numerator = 0.0;
-  int integrators = 0;     ///< poles at s = 0
-  int unstable_poles = 0;  ///< poles with positive real part (of a transfer function)
-  int undamped_pairs = 0;  ///< pole pairs on the imaginary axis, s != 0
+  int integrators = 0;              ///< poles at s = 0
+  int unstable_poles = 0;           ///< poles with positive real part (of a transfer function)
+  int undamped_pairs = 0;           ///< pole pairs on the imaginary axis, s != 0
+  double undamped_frequency = 0.0;  ///< their frequency, rad/s
 };
 
 /// A vibration mode: the pole pair s² + 2 zeta w s + w².

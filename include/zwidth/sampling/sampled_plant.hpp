@@ -2,6 +2,7 @@
 
 #include <complex>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "zwidth/model/modal_form.hpp"
@@ -26,6 +27,7 @@ struct SampledTerm {
   int integrators = 0;                               ///< poles at z = 1
   int unstable_poles = 0;                            ///< poles with |z| > 1 (of a transfer function)
   int undamped_pairs = 0;                            ///< pole pairs with |z| = 1, z != 1
+  double undamped_angle = 0.0;                       ///< their angle in [0, pi]
 };
 
 /// The plant that the sampled wall sees: Z[H(s) G(s) e^{-t_d s}] = z^-delay_samples sum_k N_k(z - 1) / D_k(z - 1).
@@ -36,6 +38,8 @@ struct SampledPlant {
   /// sum_k N_k prod_{j != k} D_j as one polynomial in delta, ascending. Only where the terms nearly cancel (position
   /// sensed across several links, far above the modes), computed in double-double; empty elsewhere.
   std::vector<double> numerator;
+  /// P(-1), where the terms' numerators nearly vanish at Nyquist; computed in double-double.
+  std::optional<double> at_nyquist;
 };
 
 /// Samples exactly behind a zero-order hold with any real delay (modified z-transform; no Padé, no rounding to

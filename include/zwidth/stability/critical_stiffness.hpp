@@ -16,7 +16,8 @@ struct Mechanism {
 
 /// A wall stiffness at which a closed-loop pole lies on the unit circle: a phase crossover of the loop.
 struct Crossover {
-  double frequency = 0.0;  ///< rad/s, in (0, pi/T]; exactly pi/T at Nyquist
+  /// rad/s, in (0, pi/T]; exactly pi/T at Nyquist; 0 where a real pole passes z = 1 (negative static response)
+  double frequency = 0.0;
   double stiffness = 0.0;  ///< K > 0
   Mechanism limited_by;
   /// Poles that leave the unit circle as K rises through this crossover: +2 or -2 (+1, -1 at Nyquist),
