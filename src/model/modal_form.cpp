@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "model/device_matrices.hpp"
 #include "model/partial_fractions.hpp"
@@ -101,16 +102,38 @@ UndampedModes undamped_modes(const Device& device, const DeviceMatrices<double>&
   return modes;
 }
 
-// How many poles at s = 0 the structure implies: 1 without springs to ground, 2 without dampers to ground either.
+// How many poles at s = 0 the structure implies: one for every set of bodies that no spring ties to ground, directly or
+// through others, and one more for every set of those sets that no damper ties to ground either.
 std::size_t poles_at_zero(const Device& device) {
+  const std::size_t n = device.bodies().size();
   const Operator& user = device.parameters().user;
-  bool spring = user.stiffness > 0.0;
-  bool damper = user.damping > 0.0;
-  for (const Body& body : device.bodies()) {
-    spring = spring || body.stiffness > 0.0;
-    damper = damper || body.damping > 0.0;
-  }
-  return spring ? 0 : damper ? 1 : 2;
+  // Label of each body's set; ground is label n.
+  std::vector<std::size_t> set(n + 1);
+  std::iota(set.begin(), set.end(), std::size_t{0});
+  const auto join = [&set](std::size_t a, std::size_t b) {
+    const std::size_t low = std::min(set[a], set[b]);
+    const std::size_t high = std::max(set[a], set[b]);
+    std::replace(set.begin(), set.end(), low, high);
+  };
+  const auto sets_off_ground = [&set] {
+    std::size_t count = 0;
+    for (std::size_t label = 0; label < set.size(); ++label) {
+      if (label != set.back() && std::find(set.begin(), set.end(), label) != set.end()) ++count;
+    }
+    return count;
+  };
+  for (std::size_t i = 0; i < n; ++i)
+    if (device.bodies()[i].stiffness > 0.0) join(i, n);
+  if (user.stiffness > 0.0) join(device.loop().held, n);
+  for (const Link& link : device.links())
+    if (link.stiffness > 0.0) join(link.first, link.second);
+  const std::size_t without_spring = sets_off_ground();
+  for (std::size_t i = 0; i < n; ++i)
+    if (device.bodies()[i].damping > 0.0) join(i, n);
+  if (user.damping > 0.0) join(device.loop().held, n);
+  for (const Link& link : device.links())
+    if (link.damping > 0.0) join(link.first, link.second);
+  return without_spring + sets_off_ground();
 }
 
 template <typename Real>
@@ -203,12 +226,16 @@ ModalForm expand_bodies(const Device& device, Path path, double lag) {
   } else {
     const UndampedModes modes = undamped_modes(device, matrices);
     labels.lowest_mode_is_rigid = zeros == 0 && modes.lowest_mode_is_rigid;
-    if (zeros == 1) start.emplace_back(-labels.rigid_pole);
-    for (std::size_t k = zeros > 0 ? 1 : 0; k < modes.stiffness.size(); ++k) {
+    for (std::size_t k = 0; k < modes.stiffness.size(); ++k) {
       const auto [first, second] = quadratic_roots(modes.damping[k], modes.stiffness[k]);
       start.push_back(first);
       start.push_back(second);
     }
+    // The poles at zero are known; the smallest starting values stand for them.
+    std::sort(start.begin(), start.end(),
+              [](const ComplexD& a, const ComplexD& b) { return magnitude(a) < magnitude(b); });
+    start.erase(start.begin(), start.begin() + static_cast<std::ptrdiff_t>(zeros));
+    if (zeros == 1) start.front() = ComplexD(-labels.rigid_pole);
   }
   // A start of zero (a mode lost in rounding) would divide by zero.
   for (ComplexD& s : start) {

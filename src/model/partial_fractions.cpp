@@ -85,6 +85,19 @@ std::vector<ComplexX> directions(std::size_t count) {
   return result;
 }
 
+void cancel_common_factors(PolynomialX& numerator, PolynomialX& denominator, double scale) {
+  while (numerator.size() > 1) {
+    double size = 0.0;
+    double power = scale;
+    for (std::size_t j = 1; j < numerator.size(); ++j, power *= scale) {
+      size = std::max(size, magnitude(numerator[j]) * power);
+    }
+    if (magnitude(numerator[0]) > cancel_below * size) return;
+    numerator.erase(numerator.begin());
+    denominator.erase(denominator.begin());
+  }
+}
+
 double isolation(const PoleGroup& group, const std::vector<ComplexX>& all_poles) {
   double nearest = std::numeric_limits<double>::infinity();
   double size = 0.0;
@@ -118,9 +131,8 @@ ModalTerm real_term(const PoleGroup& group, PolynomialX numerator, PolynomialX d
   for (const ComplexX& pole : group.poles) {
     const double re = leading(pole.re);
     const double size = magnitude(pole);
-    if (size == 0.0) {
-      ++term.integrators;
-    } else if (std::abs(re) <= on_axis * size && !group.closed) {
+    if (size == 0.0) continue;
+    if (std::abs(re) <= on_axis * size && !group.closed) {
       ++term.undamped_pairs;
     } else if (re > 0.0) {
       term.unstable_poles += group.closed ? 1 : 2;
@@ -128,6 +140,10 @@ ModalTerm real_term(const PoleGroup& group, PolynomialX numerator, PolynomialX d
   }
   term.undamped_pairs = std::min(term.undamped_pairs, static_cast<int>(term.degree) / 2);  // less what cancelled
   if (term.undamped_pairs > 0) term.undamped_frequency = std::abs(leading(group.poles.front().im));
+  while (static_cast<std::size_t>(term.integrators) < term.degree &&
+         magnitude(denominator[static_cast<std::size_t>(term.integrators)]) == 0.0) {
+    ++term.integrators;
+  }
   for (std::size_t i = 0; i < term.degree; ++i) {
     term.numerator[i] = i < numerator.size() ? leading(numerator[i].re) : 0.0;
     term.denominator[i] = leading(denominator[i].re);

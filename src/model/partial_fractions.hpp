@@ -33,8 +33,8 @@ inline constexpr std::size_t taylor_points = 16;
 inline constexpr std::size_t taylor_terms = 8;
 // Points on the circle of a contour integral; the error falls like (ratio of radii)^points.
 inline constexpr std::size_t contour_points = 96;
-// A numerator that vanishes at its cluster's centre to this, relative, has a factor in common with the denominator.
-inline constexpr double cancel_below = 1e-12;
+// A numerator that vanishes at its poles to this, relative, has a factor in common with the denominator.
+inline constexpr double cancel_below = 1e-20;
 // A mode whose numerator is smaller than this, relative to the largest, is rounding: the path does not see the mode.
 inline constexpr double unseen_below = 1e-20;
 
@@ -53,6 +53,9 @@ const std::vector<ComplexX>& circle_directions() {
 }
 // Distance from the group to the nearest other pole; the size of its own poles where there is none.
 double isolation(const PoleGroup& group, const std::vector<ComplexX>& all_poles);
+// Divides out factors s that numerator and denominator have in common, to rounding: repeated modes of a symmetric
+// device, and motions at rest that the path does not see. `scale`: the frequency at which coefficients compare.
+void cancel_common_factors(PolynomialX& numerator, PolynomialX& denominator, double scale);
 // The real term of numerator / denominator, plus its conjugate unless the group is closed.
 ModalTerm real_term(const PoleGroup& group, PolynomialX numerator, PolynomialX denominator);
 // Clears numerators of modes that the path does not see; says how much of the lag's term stems from each mode.
@@ -148,20 +151,15 @@ ModalTerm cluster_term(const Pencil& pencil, const PoleGroup& group, double near
   }
   std::vector<ComplexX> sums;
   for (std::size_t j = 1; j <= k; ++j) sums.push_back(moment(log_derivative, j));
-  const PolynomialX denominator = from_power_sums(sums);
+  PolynomialX denominator = from_power_sums(sums);
+  if (magnitude(center) == 0.0) denominator = expand_product(group.poles);  // all at zero, exactly
   PolynomialX numerator(k);
   for (std::size_t j = 0; j < k; ++j) {
     const ComplexX mu = moment(gain, j);
     for (std::size_t power = 0; power + j + 1 <= k; ++power) numerator[power] += denominator[power + j + 1] * mu;
   }
-  // Repeated modes of a symmetric device: a common factor (s - center), to rounding, cancels.
-  PolynomialX reduced = denominator;
-  while (numerator.size() > 1 &&
-         magnitude(numerator[0]) <= cancel_below * magnitude(center) * magnitude(numerator[1])) {
-    numerator.erase(numerator.begin());
-    reduced.erase(reduced.begin());
-  }
-  return real_term(group, shifted(numerator, center), shifted(reduced, center));
+  cancel_common_factors(numerator, denominator, leading(radius));
+  return real_term(group, shifted(numerator, center), shifted(denominator, center));
 }
 
 template <typename Pencil>
@@ -171,6 +169,7 @@ ModalTerm term_of(const Pencil& pencil, const PoleGroup& group, const std::vecto
   PolynomialX denominator = expand_product(group.poles);
   PolynomialX numerator = group.poles.size() == 1 ? PolynomialX{analytic_value(pencil, group, group.poles[0], nearest)}
                                                   : pair_numerator(pencil, group, nearest);
+  if (magnitude(denominator[0]) == 0.0) cancel_common_factors(numerator, denominator, nearest);
   return real_term(group, std::move(numerator), std::move(denominator));
 }
 

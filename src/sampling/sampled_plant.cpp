@@ -8,6 +8,7 @@
 #include "sampling/hold_integrals.hpp"
 #include "sampling/sampling_instants.hpp"
 #include "sampling/unit_circle.hpp"
+#include "zwidth/error.hpp"
 
 namespace zwidth {
 namespace {
@@ -67,6 +68,17 @@ bool is_seen(const ModalTerm& term) {
 void round_into(const ExtendedTerm& term, SampledTerm& sampled) {
   for (std::size_t i = 0; i <= sampled.degree; ++i) sampled.numerator[i] = leading(term.numerator[i]);
   for (std::size_t i = 0; i < sampled.degree; ++i) sampled.denominator[i] = leading(term.denominator[i]);
+}
+
+// Products of a few terms must stay in range: an unstable pole may grow that much within one period.
+void check_range(const SampledTerm& sampled) {
+  constexpr double largest = 1e60;
+  const auto in_range = [](double c) { return std::abs(c) <= largest; };
+  if (!std::all_of(sampled.numerator, sampled.numerator + sampled.degree + 1, in_range) ||
+      !std::all_of(sampled.denominator, sampled.denominator + sampled.degree, in_range)) {
+    throw Error(ErrorCode::did_not_converge,
+                "the response of the device within one sampling period is out of range: a pole is too unstable");
+  }
 }
 
 // The largest part of the terms that their sum loses: 1 without cancellation, looked at where it is worst, far above
@@ -140,6 +152,7 @@ SampledPlant sample(const ModalForm& form, Sampling sampling) {
     } else {
       round_into(sample_extended(term, instants), sampled);
     }
+    check_range(sampled);
     plant.terms.push_back(sampled);
   }
   const bool sum_cancels = plant.terms.size() > 1 && cancellation(plant) > tolerable_cancellation;
