@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -39,7 +40,7 @@ class DeviceReader {
 
   [[nodiscard]] DeviceParameters read(std::string_view source) && {
     root_.refuse_keys_not_of(DeviceTable::root);
-    device_.name = root_.text("name").value_or(std::filesystem::path(source).stem().string());
+    device_.name = root_.text("name").value_or(without_controls(std::filesystem::path(source).stem().string()));
     read_motion();
     read_bodies();
     read_links();
@@ -173,10 +174,15 @@ class DeviceReader {
   std::size_t body_index(TableReader& reader, std::string_view key, const std::string& name) {
     const auto found = std::ranges::find(names_, name);
     if (found != names_.end()) return static_cast<std::size_t>(found - names_.begin());
-    // Without any body the device is refused for that.
-    if (!names_.empty())
+    // Without any body, or with a name that two bodies share, the device is refused for that.
+    if (!names_.empty() && !has_repeated_name()) {
       reader.refuse(key, fmt::format("there is no body {}", in_quotes(name)), bodies_remedy(name, names_));
+    }
     return 0;
+  }
+
+  [[nodiscard]] bool has_repeated_name() const {
+    return std::set<std::string>(names_.begin(), names_.end()).size() < names_.size();
   }
 
   DeviceReading& reading_;
@@ -195,12 +201,7 @@ std::string InputError::str() const {
   line_of_text += what;
   if (!allowed.empty()) line_of_text += "; " + allowed;
   // Names come from the file: nothing in them may break the line or reach the terminal as a control sequence.
-  std::string result;
-  for (const char c : line_of_text) {
-    const auto byte = static_cast<unsigned char>(c);
-    result += byte < 0x20 || byte == 0x7f ? fmt::format("\\x{:02X}", byte) : std::string(1, c);
-  }
-  return result;
+  return without_controls(line_of_text);
 }
 
 tl::expected<Device, InputError> parse_device(std::string_view text, std::string_view source,

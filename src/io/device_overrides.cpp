@@ -145,6 +145,9 @@ tl::expected<toml::table, InputError> parse_value(std::string_view key, std::str
   if (!document && is_word && text.find_first_of("\"\\") == std::string_view::npos) {
     document = parse_toml(fmt::format("value = \"{}\"", text), override_source);
   }
+  if (!document && document.error().what == number_out_of_range) {
+    return tl::unexpected(refusal(key, document.error().what, document.error().allowed));
+  }
   if (!document || document->size() != 1) {
     return tl::unexpected(refusal(key, fmt::format("cannot read the value {}", in_quotes(text)),
                                   "must be a TOML value such as 0.25e-3, \"handle\" or [1, 2]"));

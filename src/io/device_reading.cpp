@@ -109,7 +109,10 @@ double TableReader::required_positive_number(std::string_view key) {
 std::optional<std::string> TableReader::text(std::string_view key) {
   const toml::node* node = find(key);
   if (!node) return std::nullopt;
-  if (const auto* text = node->as_string()) return text->get();
+  if (const auto* text = node->as_string()) {
+    if (has_controls(text->get())) refuse(key, "has a control character", "must be one line of plain text");
+    return text->get();
+  }
   refuse_type(*node, key, "must be text in quotes");
   return std::nullopt;
 }

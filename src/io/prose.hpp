@@ -15,4 +15,11 @@ namespace zwidth {
 /// `words` as a list in prose: a, b, c.
 [[nodiscard]] std::string listed(std::span<const std::string> words);
 
+/// Whether UTF-8 text has a control character: U+0000 to U+001F, U+007F to U+009F, or one that turns the direction of
+/// what follows (U+202A to U+202E, U+2066 to U+2069), which would make a name read as another.
+[[nodiscard]] bool has_controls(std::string_view text);
+
+/// The text with the bytes of its control characters as \xHH.
+[[nodiscard]] std::string without_controls(std::string_view text);
+
 }  // namespace zwidth

@@ -26,6 +26,15 @@ std::string_view without_macro(std::string_view description) {
   return description.substr(0, description.find(" (TOML_"));
 }
 
+/// toml++ has no code for it, and says of a number too large for a double only that it is no value.
+bool is_number_out_of_range(std::string_view description) {
+  const auto number = description.substr(std::min(description.find('\''), description.size()));
+  const bool overflows = description.find("floating-point") != std::string_view::npos &&
+                         description.ends_with("could not be interpreted as a value") && number.size() > 1 &&
+                         number.find_first_of("0123456789") != std::string_view::npos;
+  return overflows || description.find("is not representable in 64 bits") != std::string_view::npos;
+}
+
 std::optional<InputError> problem_of_text(std::string_view text, std::string_view source) {
   const auto refusal = [&](Line line, std::string what, std::string allowed) {
     return InputError{std::string(source), line.number, line.column, "", std::move(what), std::move(allowed)};
@@ -53,12 +62,15 @@ tl::expected<toml::table, InputError> parse_toml(std::string_view text, std::str
   toml::parse_result parsed = toml::parse(text, source);
   if (parsed.failed()) {
     const toml::parse_error& error = parsed.error();
-    return tl::unexpected(InputError{.source = std::string(source),
-                                     .line = std::max<std::size_t>(1, error.source().begin.line),
-                                     .column = std::max<std::size_t>(1, error.source().begin.column),
-                                     .key = "",
-                                     .what = fmt::format("is not TOML: {}", without_macro(error.description())),
-                                     .allowed = "must be the TOML text of a device"});
+    const bool is_out_of_range = is_number_out_of_range(error.description());
+    return tl::unexpected(
+        InputError{.source = std::string(source),
+                   .line = std::max<std::size_t>(1, error.source().begin.line),
+                   .column = std::max<std::size_t>(1, error.source().begin.column),
+                   .key = "",
+                   .what = is_out_of_range ? std::string(number_out_of_range)
+                                           : fmt::format("is not TOML: {}", without_macro(error.description())),
+                   .allowed = std::string(is_out_of_range ? number_range : "must be the TOML text of a device")});
   }
   return std::move(parsed).table();
 }

@@ -154,7 +154,10 @@ template BoundedJet<Extended> GainLocus::model<Extended>(double, double) const;
 
 double GainLocus::gain(double angle) const {
   // The damper's zero at z = 1 and an integrator cancel: the limit.
-  if (angle == 0.0 && gain_ == Gain::damping && integrators_ > 0) angle = cancelled_angle;
+  if (angle == 0.0 && gain_ == Gain::damping && integrators_ > 0) {
+    if (integrators_kept_ > 0) return 0.0;
+    angle = cancelled_angle;
+  }
   const CirclePoint<double> point = circle_point(angle);
   const auto [numerator, denominator] = plant_fraction(plant_, point);
   const OnCircle<double> product =

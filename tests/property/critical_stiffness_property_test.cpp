@@ -10,6 +10,7 @@
 #include "zwidth/sampling/discrete_state_space.hpp"
 #include "zwidth/stability/closed_loop.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
+#include "zwidth/stability/wall_margins.hpp"
 
 namespace zwidth {
 namespace {
@@ -65,6 +66,9 @@ TEST_P(CriticalStiffnessProperty, EigenvaluesConfirmEveryCrossoverAndNoOther) {
         return i.lower < stiffness && (!i.upper || stiffness < *i.upper);
       });
     };
+    // Far stiffer crossovers than the softest are beyond what eigenvalues in double precision resolve.
+    std::erase_if(by_stiffness, [softest = by_stiffness.empty() ? 0.0 : by_stiffness.front().stiffness](
+                                    const Crossover& c) { return c.stiffness > 1e13 * softest; });
     int before = -1;  // poles outside, seen on the upper side of the last crossover
     for (std::size_t i = 0; i < by_stiffness.size(); ++i) {
       const Crossover& crossover = by_stiffness[i];
@@ -92,8 +96,10 @@ TEST_P(CriticalStiffnessProperty, EigenvaluesConfirmEveryCrossoverAndNoOther) {
     }
     // Far below the first and far above the last crossover.
     if (!by_stiffness.empty() && before >= 0) {
-      ASSERT_EQ(poles_outside(plant, wall, 10.0 * by_stiffness.back().stiffness), before)
-          << GetParam() << " seed " << seed;
+      if (by_stiffness.size() == result.crossovers.size()) {
+        ASSERT_EQ(poles_outside(plant, wall, 10.0 * by_stiffness.back().stiffness), before)
+            << GetParam() << " seed " << seed;
+      }
       ASSERT_EQ(poles_outside(plant, wall, 0.1 * by_stiffness.front().stiffness) == 0,
                 claimed_stable(0.1 * by_stiffness.front().stiffness))
           << GetParam() << " seed " << seed;
@@ -105,6 +111,7 @@ TEST_P(CriticalStiffnessProperty, OrderOfBodiesDoesNotMatter) {
   for (std::size_t seed = 0; seed < cases_per_kind(); ++seed) {
     test::RandomDevices random(seed * 999983 + 7);
     const DeviceParameters parameters = random.device(GetParam());
+    if (parameters.bodies.empty()) return;  // a transfer function has no order of bodies
     DeviceParameters reversed = parameters;
     const std::size_t last = parameters.bodies.size() - 1;
     std::reverse(reversed.bodies.begin(), reversed.bodies.end());
@@ -128,6 +135,7 @@ TEST_P(CriticalStiffnessProperty, ScalesWithUnits) {
   for (std::size_t seed = 0; seed < cases_per_kind(); ++seed) {
     test::RandomDevices random(seed * 999979 + 11);
     const DeviceParameters parameters = random.device(GetParam());
+    if (parameters.bodies.empty()) return;  // nor units of mass
     const double mass = random.log_uniform(1e-3, 1e3);
     const double time = random.log_uniform(0.1, 10.0);
     DeviceParameters scaled = parameters;
@@ -150,6 +158,23 @@ TEST_P(CriticalStiffnessProperty, ScalesWithUnits) {
     if (a.limit) {
       ASSERT_NEAR(b.stiffness / (a.stiffness * stiffness), 1.0, 1e-9) << GetParam() << " seed " << seed;
     }
+  }
+}
+
+// The verdict on a wall and the spectral radius come by different routes.
+TEST_P(CriticalStiffnessProperty, AStableWallHasItsPolesInsideTheCircle) {
+  for (std::size_t seed = 0; seed < cases_per_kind(); ++seed) {
+    test::RandomDevices random(seed * 999961 + 13);
+    DeviceParameters parameters = random.device(GetParam());
+    const CriticalStiffness result = critical_stiffness_of(Device(parameters));
+    const double typical =
+        result.crossovers.empty() ? 1.0 : result.crossovers[random.index(result.crossovers.size())].stiffness;
+    parameters.wall.stiffness = typical * random.log_uniform(0.1, 10.0);
+    const WallMargins margins = wall_margins(Device(parameters));
+    if (std::abs(margins.spectral_radius - 1.0) < 1e-9) continue;  // the eigenvalues do not tell
+    ASSERT_EQ(margins.stable, margins.spectral_radius < 1.0)
+        << GetParam() << " seed " << seed << " K = " << *parameters.wall.stiffness << " radius "
+        << margins.spectral_radius;
   }
 }
 

@@ -11,12 +11,14 @@
 
 namespace zwidth::test {
 
-// The fifteen kinds of the reference data, and four harder ones.
+// The fifteen kinds of the reference data, and five harder ones.
 inline constexpr std::size_t reference_kinds = 15;
-inline constexpr std::array<std::string_view, 19> device_kinds = {
-    "rigid",         "two_mass",      "user_side",      "three_mass", "light_damping", "long_delay", "fractional_delay",
-    "slow_sampling", "fast_sampling", "virtual_damper", "operator",   "grounded",      "rotary",     "filtered_damper",
-    "actuator_lag",  "overdamped",    "chain",          "stiff_link", "everything"};
+inline constexpr std::array<std::string_view, 20> device_kinds = {
+    "rigid",         "two_mass",        "user_side",        "three_mass",
+    "light_damping", "long_delay",      "fractional_delay", "slow_sampling",
+    "fast_sampling", "virtual_damper",  "operator",         "grounded",
+    "rotary",        "filtered_damper", "actuator_lag",     "overdamped",
+    "chain",         "stiff_link",      "everything",       "transfer_function"};
 
 class RandomDevices {
  public:
@@ -35,6 +37,13 @@ class RandomDevices {
     if (kind == "rigid") {
       d.bodies.push_back(body("handle", 0.03, 10.0));
       if (chance(0.5)) d.loop.delay = log_uniform(1e-5, 3e-4);
+      return d;
+    }
+    if (kind == "transfer_function") {
+      d.transfer_function = transfer_function();
+      d.loop.sampling_period = log_uniform(1e-3, 0.3);
+      if (chance(0.5)) d.loop.delay = log_uniform(0.01, 5.0) * d.loop.sampling_period;
+      if (chance(0.3)) d.wall.damping = log_uniform(1e-3, 1.0);
       return d;
     }
     d.bodies.push_back(body("motor", 0.01, 1.0));
@@ -100,6 +109,36 @@ class RandomDevices {
   }
 
  private:
+  // Poles and zeros anywhere: in the right half plane, at the origin, twice the same; either sign of the gain.
+  TransferFunction transfer_function() {
+    const auto times = [](const std::vector<double>& a, const std::vector<double>& b) {
+      std::vector<double> product(a.size() + b.size() - 1, 0.0);
+      for (std::size_t i = 0; i < a.size(); ++i)
+        for (std::size_t j = 0; j < b.size(); ++j) product[i + j] += a[i] * b[j];
+      return product;
+    };
+    const auto factor = [this]() -> std::vector<double> {
+      if (chance(0.1)) return {1.0, 0.0};
+      const double sign = chance(0.15) ? -1.0 : 1.0;
+      if (chance(0.5)) return {1.0, sign * log_uniform(0.1, 10.0)};
+      const double w = log_uniform(0.3, 30.0);
+      return {1.0, sign * 2.0 * log_uniform(1e-3, 1.0) * w, w * w};
+    };
+    TransferFunction result{{chance(0.8) ? 1.0 : -1.0}, {1.0}};
+    const std::size_t factors = 1 + index(3);
+    for (std::size_t i = 0; i < factors; ++i) {
+      const std::vector<double> drawn = factor();
+      result.denominator = times(result.denominator, drawn);
+      if (chance(0.15)) result.denominator = times(result.denominator, drawn);
+    }
+    while (chance(0.4)) {
+      const std::vector<double> numerator = times(result.numerator, factor());
+      if (numerator.size() >= result.denominator.size()) break;
+      result.numerator = numerator;
+    }
+    return result;
+  }
+
   Body body(std::string name, double lightest, double heaviest) {
     return {std::move(name), log_uniform(lightest, heaviest), log_uniform(0.01, 10.0), 0.0, 0.0};
   }
