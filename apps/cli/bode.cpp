@@ -62,7 +62,8 @@ std::string crossover_table(const std::vector<AnalysedDevice>& devices) {
       table.rows.push_back(
           {report::number(crossover.frequency), report::number(report::hertz(crossover.frequency)),
            report::number(crossover.stiffness), fmt::format("{:.2f}", report::decibels(crossover.stiffness)),
-           report::mechanism_name(each.analysis, crossover.limited_by) + (limits ? "  <- critical" : "")});
+           report::mechanism_name(each.analysis, crossover.limited_by) +
+               (crossover.frequency == 0.0 ? ", a real pole at rest" : "") + (limits ? "  <- critical" : "")});
     }
     text += fmt::format("{}\n", each.device.name());
     text += critical.crossovers.empty() ? "  No phase crossover: no wall stiffness makes the loop oscillate.\n"
@@ -138,7 +139,14 @@ void add_bode(CLI::App& app) {
       "  zwidth bode devices/lhifam.toml --output lhifam.svg\n"
       "  zwidth bode devices/lhifam.toml devices/lhifam_rigid.toml --output comparison.pdf\n"
       "  zwidth bode devices/lhifam.toml --set loop.delay=0.25e-3 --output lhifam.csv --points 1000");
-  command->callback([arguments] { run_bode(*arguments); });
+  command->callback([arguments, command] {
+    for (const char* option : {"--from", "--to", "--points"}) {
+      if (command->count(option) > 0 && arguments->output.empty() && !arguments->json) {
+        throw BadInput(fmt::format("{}: is for a figure or its numbers; add --output FILE or --json", option));
+      }
+    }
+    run_bode(*arguments);
+  });
 }
 
 }  // namespace zwidth::cli

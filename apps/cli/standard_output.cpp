@@ -31,6 +31,7 @@ int write_all(int descriptor, std::string_view text) noexcept {
 
 void prepare_standard_output() noexcept {
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file-size limit is then a failed write, which is reported
   for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     const bool closed = ::fcntl(descriptor, F_GETFD) == -1 && errno == EBADF;
     // open() takes the lowest free number, which is this one. The wrong direction on purpose: using it stays an error.

@@ -46,7 +46,8 @@ TextTable crossover_table(const AnalysedDevice& analysed) {
                   {{"frequency", "rad/s", "stiffness", "dB", "belongs to", "as K rises", ""}}};
   for (const Crossover& crossover : critical.crossovers) {
     const bool is_limit = critical.limit && critical.limit->frequency == crossover.frequency;
-    const char* remark = is_limit ? "<- limits" : crossover.frequency >= nyquist ? "Nyquist" : "";
+    std::string remark = is_limit ? "<- limits" : crossover.frequency >= nyquist ? "Nyquist" : "";
+    if (crossover.frequency == 0.0) remark += is_limit ? ", a real pole at rest" : "a real pole at rest";
     table.rows.push_back({quantity(hertz(crossover.frequency), "Hz"), number(crossover.frequency),
                           quantity(crossover.stiffness, units_of(analysed.device.parameters().motion).stiffness),
                           fmt::format("{:.2f}", decibels(crossover.stiffness)), short_name(crossover.limited_by),

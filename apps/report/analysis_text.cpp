@@ -59,8 +59,8 @@ std::string answer_lines(const AnalysedDevice& analysed) {
       shortened(display_name(analysed.device), width - 8) + "\n" +
       labelled("  critical stiffness", critical_stiffness_text(critical, analysed.device.parameters().motion));
   if (critical.limit) {
-    text += labelled("  oscillates at", fmt::format("{} ({} rad/s)", quantity(hertz(critical.limit->frequency), "Hz"),
-                                                    number(critical.limit->frequency)));
+    text += labelled(critical.limit->frequency > 0.0 ? "  oscillates at" : "  drifts away at",
+                     crossover_frequency_text(critical.limit->frequency));
   }
   if (const auto limit = what_limits(analysed)) text += labelled("  limited by", *limit);
   return text + "\n";

@@ -78,6 +78,9 @@ double phase_at(const BodeCurve& curve, double frequency) {
 /// A crossover lies where the phase is an odd multiple of half a turn.
 double nearest_crossing_phase(double phase) { return 360.0 * std::round((phase + 180.0) / 360.0) - 180.0; }
 
+/// A crossover at 0 Hz has no place on a logarithmic axis; it is only listed.
+bool is_on_axis(const BodeMark& mark) { return mark.crossover.frequency > 0.0; }
+
 bool is_critical(const BodeMark& mark) { return mark.rank == BodeMark::Rank::critical; }
 
 class Layout {
@@ -127,24 +130,24 @@ void draw_legend(Canvas& canvas, const BodeFigure& figure, const Layout& layout)
   }
 }
 
+/// The number of a mark, and where it stands.
+struct Tag {
+  std::size_t mark = 0;
+  double x = 0.0;
+};
+
 /// Tags stand in one row at the top of the magnitude frame, moved sideways where they would touch.
-std::vector<double> tag_positions(const BodeFigure& figure, const Layout& layout) {
+std::vector<Tag> tag_positions(const BodeFigure& figure, const Layout& layout) {
   constexpr double apart = 20.0;
-  struct Tag {
-    std::size_t mark;
-    double x;
-  };
   std::vector<Tag> tags;
   for (std::size_t i = 0; i < std::min(figure.marks.size(), most_listed); ++i) {
-    tags.push_back({i, layout.x(figure.marks[i].crossover.frequency)});
+    if (is_on_axis(figure.marks[i])) tags.push_back({i, layout.x(figure.marks[i].crossover.frequency)});
   }
   std::sort(tags.begin(), tags.end(), [](const Tag& a, const Tag& b) { return a.x < b.x; });
   for (std::size_t i = 1; i < tags.size(); ++i) tags[i].x = std::max(tags[i].x, tags[i - 1].x + apart);
   double limit = frame_right - apart / 2;
   for (auto tag = tags.rbegin(); tag != tags.rend(); ++tag, limit -= apart) tag->x = std::min(tag->x, limit);
-  std::vector<double> positions(tags.size());
-  for (const Tag& tag : tags) positions[tag.mark] = tag.x;
-  return positions;
+  return tags;
 }
 
 void draw_list(Canvas& canvas, const BodeFigure& figure, const Layout& layout) {
@@ -156,9 +159,13 @@ void draw_list(Canvas& canvas, const BodeFigure& figure, const Layout& layout) {
   const std::size_t count = std::min(figure.marks.size(), most_listed);
   for (std::size_t i = 0; i < count; ++i) {
     const Crossover& crossover = figure.marks[i].crossover;
-    add_line(fmt::format("{}   K = {:.2f} dB ({}) at {} rad/s ({} Hz){}", i + 1, decibels(crossover.stiffness),
-                         quantity(crossover.stiffness, units_of(figure.motion).stiffness), number(crossover.frequency),
-                         number(hertz(crossover.frequency)), figure.marks[i].remark),
+    const std::string frequency =
+        is_on_axis(figure.marks[i])
+            ? fmt::format("{} rad/s ({} Hz)", number(crossover.frequency), number(hertz(crossover.frequency)))
+            : crossover_frequency_text(crossover.frequency) + ", left of the axis";
+    add_line(fmt::format("{}   K = {:.2f} dB ({}) at {}{}", i + 1, decibels(crossover.stiffness),
+                         quantity(crossover.stiffness, units_of(figure.motion).stiffness), frequency,
+                         figure.marks[i].remark),
              is_critical(figure.marks[i]) ? critical_style.colour : "#1a1a1a");
   }
   if (figure.marks.size() > count) {
@@ -180,17 +187,16 @@ std::vector<std::string> wrapped(const std::vector<std::string>& notes) {
 
 /// Lines of the marks: from the tag down to the curve, and through the phase for the critical one.
 void draw_mark_lines(Canvas& canvas, const BodeFigure& figure, const Layout& layout, Interval magnitude) {
-  const std::vector<double> tags = tag_positions(figure, layout);
   const Box& box = layout.magnitude;
   const double tag_y = box.top + 12.0;
-  for (std::size_t i = 0; i < tags.size(); ++i) {
-    const BodeMark& mark = figure.marks[i];
+  for (const Tag& tag : tag_positions(figure, layout)) {
+    const BodeMark& mark = figure.marks[tag.mark];
     const LineStyle& style = is_critical(mark) ? critical_style : mark_style;
     const double x = layout.x(mark.crossover.frequency);
     const double part = (-decibels(mark.crossover.stiffness) - magnitude.low) / (magnitude.high - magnitude.low);
     const double y = box.bottom - part * (box.bottom - box.top);
-    canvas.text(tags[i], tag_y, std::to_string(i + 1), {Anchor::centre, tag_size, style.colour});
-    canvas.line(tags[i], tag_y + 9.0, x, tag_y + 16.0, style);
+    canvas.text(tag.x, tag_y, std::to_string(tag.mark + 1), {Anchor::centre, tag_size, style.colour});
+    canvas.line(tag.x, tag_y + 9.0, x, tag_y + 16.0, style);
     canvas.line(x, tag_y + 16.0, x, is_critical(mark) ? layout.phase.bottom : y, style);
     if (is_critical(mark)) canvas.line(frame_left, y, x, y, mark_style);
   }
@@ -199,6 +205,7 @@ void draw_mark_lines(Canvas& canvas, const BodeFigure& figure, const Layout& lay
 void add_points(Canvas& canvas, std::string_view name, std::span<const BodeMark> marks, auto&& value) {
   canvas.commands(fmt::format("${} << EOD", name));
   for (const BodeMark& mark : marks) {
+    if (!is_on_axis(mark)) continue;
     canvas.commands(fmt::format("{} {} {}", mark.crossover.frequency, value(mark), is_critical(mark) ? 1 : 0));
   }
   canvas.commands("EOD");

@@ -46,7 +46,8 @@ std::vector<std::string> loop_notes(const Device& device) {
 void add_marks(BodeFigure& figure, const AnalysedDevice& analysed, std::size_t curve, std::string_view suffix) {
   const CriticalStiffness& critical = analysed.analysis.critical;
   for (const Crossover& crossover : critical.crossovers) {
-    if (crossover.frequency < figure.range.from || crossover.frequency > figure.range.to) continue;
+    const bool is_on_axis = crossover.frequency >= figure.range.from && crossover.frequency <= figure.range.to;
+    if (crossover.frequency > 0.0 && !is_on_axis) continue;
     const bool limits = critical.limit && critical.limit->frequency == crossover.frequency;
     const std::string belongs_to = crossover.limited_by.kind == Mechanism::Kind::rigid_body
                                        ? "rigid body"
@@ -62,7 +63,9 @@ FrequencyRange bode_range(std::span<const AnalysedDevice> devices, const BodeOpt
   FrequencyRange range{std::numeric_limits<double>::infinity(), 0.0};
   for (const AnalysedDevice& analysed : devices) {
     std::vector<double> events;
-    for (const Crossover& crossover : analysed.analysis.critical.crossovers) events.push_back(crossover.frequency);
+    for (const Crossover& crossover : analysed.analysis.critical.crossovers) {
+      if (crossover.frequency > 0.0) events.push_back(crossover.frequency);
+    }
     for (const Mode& mode : analysed.analysis.modes) events.push_back(mode.frequency);
     const FrequencyRange own = default_range(analysed.device.loop().sampling_period, events);
     range = {std::min(range.from, own.from), std::max(range.to, own.to)};

@@ -67,6 +67,14 @@ std::string other_intervals(const AnalysedDevice& analysed) {
   return fmt::format(" Stiffnesses {} are stable too, with an unstable range below.", fmt::join(higher, ", and "));
 }
 
+/// What the device does just above a crossover.
+std::string onset_text(const AnalysedDevice& analysed, double frequency) {
+  if (frequency == 0.0) return "drifts away without oscillating: " + crossover_frequency_text(frequency);
+  const double nyquist = std::numbers::pi / parameters_of(analysed).loop.sampling_period;
+  return fmt::format("oscillates by itself at about {}{}", quantity(hertz(frequency), "Hz"),
+                     frequency < nyquist ? "" : ", the Nyquist frequency: the force alternates at every sample");
+}
+
 }  // namespace
 
 std::string display_name(const Device& device) { return device.name().empty() ? "(unnamed device)" : device.name(); }
@@ -87,6 +95,10 @@ std::string mechanism_name(const Analysis& analysis, const Mechanism& mechanism)
 std::optional<std::string> what_limits(const AnalysedDevice& analysed) {
   const auto& limit = analysed.analysis.critical.limit;
   if (!limit) return std::nullopt;
+  if (limit->frequency == 0.0) {
+    return mechanism_name(analysed.analysis, limit->limited_by) +
+           ": a constant force moves the sensed position the other way, and a stiffer wall overcomes what holds it";
+  }
   const DeviceParameters& device = parameters_of(analysed);
   std::vector<std::string> causes = {
       fmt::format("the sampling delay of T/2 = {}", quantity(device.loop.sampling_period / 2.0, "s"))};
@@ -134,13 +146,9 @@ std::string meaning(const AnalysedDevice& analysed) {
     }
     return text + other_intervals(analysed);
   }
-  const double nyquist = std::numbers::pi / parameters_of(analysed).loop.sampling_period;
-  return fmt::format("{}{} wall softer than {} is stable. Just above, the device oscillates by itself at about {}{}.",
-                     condition, condition.empty() ? "Every" : "every", stiffness_text(analysed, critical.stiffness),
-                     quantity(hertz(critical.limit->frequency), "Hz"),
-                     critical.limit->frequency < nyquist
-                         ? ""
-                         : ", the Nyquist frequency: the force alternates at every sample") +
+  return fmt::format("{}{} wall softer than {} is stable. Just above, the device {}.", condition,
+                     condition.empty() ? "Every" : "every", stiffness_text(analysed, critical.stiffness),
+                     onset_text(analysed, critical.limit->frequency)) +
          other_intervals(analysed);
 }
 
@@ -177,12 +185,14 @@ std::optional<std::string> q_criterion_note(const AnalysedDevice& analysed) {
       "Q criterion (an approximation; the crossovers decide): Q = {} ({:.2f} dB re 1 {}), "
       "about the least stiffness at which the resonance can go unstable, over all delays. ",
       quantity(criterion->stiffness, unit), decibels(criterion->stiffness), unit);
-  if (!criterion->mode_matters) {
+  if (parameters_of(analysed).wall.damping > 0.0) text += "Q is of the device without the virtual damper. ";
+  const Loop& loop = parameters_of(analysed).loop;
+  if (loop.sensed != loop.actuated) {
     return text + "It says nothing about this loop: it is meant for position sensed at the actuated body.";
   }
   const auto& rigid = analysed.analysis.rigid;
-  if (!rigid || rigid->critical.status != StiffnessStatus::finite) {
-    return text + "There is no rigid critical stiffness to compare it with.";
+  if (!criterion->mode_matters || !rigid) {
+    return text + "The device with rigid links has no finite critical stiffness to compare it with.";
   }
   const std::string rigid_value = stiffness_text(analysed, rigid->critical.stiffness);
   if (*criterion->mode_matters) {
@@ -213,8 +223,9 @@ std::optional<std::string> wall_note(const AnalysedDevice& analysed) {
       critical.status == StiffnessStatus::finite
           ? fmt::format(" ({} of the critical stiffness)", percent(wall->stiffness / critical.stiffness))
           : "";
-  const std::string text = fmt::format("The wall of {} and {} {}{} is {}", quantity(wall->stiffness, units.stiffness),
-                                       number(wall->damping), units.damping, share, wall_verdict(analysed.analysis));
+  const std::string damper = wall->damping > 0.0 ? fmt::format(" and {} {}", number(wall->damping), units.damping) : "";
+  const std::string text = fmt::format("The wall of {}{}{} is {}", quantity(wall->stiffness, units.stiffness), damper,
+                                       share, wall_verdict(analysed.analysis));
   const double growth = 100.0 * (wall->spectral_radius - 1.0);
   if (!wall->stable && growth < growth_of_rounding) {
     return text + ", just: what is set in motion neither grows nor comes to rest.";
@@ -228,14 +239,16 @@ std::vector<std::string> wall_margin_notes(const Analysis& analysis) {
   if (!wall || !wall->stable) return {};
   std::vector<std::string> margins;
   if (wall->gain_margin) {
-    margins.push_back(fmt::format("gain margin {:.2f} dB: unstable when stiffness and damping grow {} times",
-                                  decibels(*wall->gain_margin), number(*wall->gain_margin)));
+    margins.push_back(fmt::format("gain margin {:.2f} dB: unstable when {} {} times", decibels(*wall->gain_margin),
+                                  wall->damping > 0.0 ? "stiffness and damping grow" : "the stiffness grows",
+                                  number(*wall->gain_margin)));
   } else {
     margins.emplace_back("gain margin without limit: no larger gain destabilises it");
   }
   if (wall->lower_gain_margin) {
-    margins.push_back(fmt::format("lower gain margin {:.2f} dB: unstable when both are scaled down to {} times",
-                                  decibels(*wall->lower_gain_margin), number(*wall->lower_gain_margin)));
+    margins.push_back(fmt::format(
+        "lower gain margin {:.2f} dB: unstable when {} scaled down to {} times", decibels(*wall->lower_gain_margin),
+        wall->damping > 0.0 ? "both are" : "the stiffness is", number(*wall->lower_gain_margin)));
   }
   if (wall->phase_margin) {
     margins.push_back(fmt::format("phase margin {} rad ({}°)", number(*wall->phase_margin),
@@ -243,7 +256,9 @@ std::vector<std::string> wall_margin_notes(const Analysis& analysis) {
   }
   if (wall->delay_margin) {
     margins.push_back(
-        fmt::format("delay margin {}: that much more delay destabilises it", quantity(*wall->delay_margin, "s")));
+        fmt::format("delay margin about {} (exact for whole samples of delay; for fractions the true value can be a "
+                    "few per mille shorter)",
+                    quantity(*wall->delay_margin, "s")));
   }
   return margins;
 }

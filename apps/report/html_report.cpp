@@ -35,8 +35,8 @@ std::string answer(const AnalysedDevice& analysed) {
   text += fmt::format("<p class=\"value\">{}</p>\n",
                       escape_markup(critical_stiffness_text(critical, analysed.device.parameters().motion)));
   if (critical.limit) {
-    text += element("p", fmt::format("Oscillates at {} ({} rad/s).", quantity(hertz(critical.limit->frequency), "Hz"),
-                                     number(critical.limit->frequency)));
+    text += element("p", fmt::format("{} at {}.", critical.limit->frequency > 0.0 ? "Oscillates" : "Drifts away",
+                                     crossover_frequency_text(critical.limit->frequency)));
   }
   if (const auto limit = what_limits(analysed)) text += element("p", fmt::format("Limited by {}.", *limit));
   return text + "</div>\n";
@@ -72,7 +72,7 @@ std::string figures(const AnalysedDevice& analysed, std::size_t index) {
          html_figure(
              bode, fmt::format("bode{}", index),
              "Response from the commanded force to the position. Where the phase is an odd multiple of 180° the "
-             "loop oscillates when 1/K equals the magnitude: the numbered points.");
+             "loop oscillates when 1/K equals the magnitude: the numbered points, as in the table of crossovers.");
 }
 
 std::string comparison(std::span<const AnalysedDevice> devices) {

@@ -16,8 +16,29 @@ namespace {
 
 namespace fs = std::filesystem;
 
+std::string_view remedy_for(int error) {
+  switch (error) {
+    case ENOENT:
+    case ENOTDIR:
+      return "; make the folder first, or name another";
+    case EACCES:
+    case EPERM:
+    case EROFS:
+      return "; name a file in a folder that you may write to";
+    case ENOSPC:
+    case EDQUOT:
+      return "; make room, or name a file on another disk";
+    case EFBIG:
+      return "; raise the limit of file size (ulimit -f)";
+    case ENAMETOOLONG:
+      return "; give a shorter name";
+    default:
+      return "";
+  }
+}
+
 [[noreturn]] void fail(const std::string& path, int error) {
-  throw OutputFailed(fmt::format("{}: cannot write: {}", path, std::strerror(error)));
+  throw OutputFailed(fmt::format("{}: cannot write: {}{}", path, std::strerror(error), remedy_for(error)));
 }
 
 /// An open descriptor that is closed on every way out.
@@ -91,8 +112,13 @@ void write_whole(const std::string& path, std::string_view contents) {
 void make_directory(const std::string& path) {
   std::error_code error;
   fs::create_directories(path, error);
-  if (error) throw OutputFailed(fmt::format("{}: cannot make the directory: {}", path, error.message()));
-  if (!fs::is_directory(path, error)) throw OutputFailed(fmt::format("{}: is not a directory", path));
+  if (error) {
+    throw OutputFailed(
+        fmt::format("{}: cannot make the directory: {}{}", path, error.message(), remedy_for(error.value())));
+  }
+  if (!fs::is_directory(path, error)) {
+    throw OutputFailed(fmt::format("{}: is not a directory; name a directory", path));
+  }
 }
 
 }  // namespace zwidth::report

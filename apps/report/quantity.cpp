@@ -37,4 +37,9 @@ double decibels(double value) { return 20.0 * std::log10(value); }
 
 double hertz(double frequency) { return frequency / (2.0 * std::numbers::pi); }
 
+std::string crossover_frequency_text(double frequency) {
+  if (frequency == 0.0) return "0 Hz (a real pole at rest)";
+  return fmt::format("{} ({} rad/s)", quantity(hertz(frequency), "Hz"), number(frequency));
+}
+
 }  // namespace zwidth::report

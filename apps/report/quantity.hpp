@@ -29,4 +29,7 @@ struct Units {
 /// w / (2 pi): rad/s to Hz.
 [[nodiscard]] double hertz(double frequency);
 
+/// Where a pole leaves the unit circle, from rad/s: "6.143 Hz (38.6 rad/s)", or "0 Hz (a real pole at rest)".
+[[nodiscard]] std::string crossover_frequency_text(double frequency);
+
 }  // namespace zwidth::report

@@ -1,5 +1,7 @@
 #include "report/text_table.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace zwidth::report {
@@ -10,6 +12,15 @@ bool starts_character(char byte) { return (static_cast<unsigned char>(byte) & 0x
 /// Characters (code points) of UTF-8 text.
 std::size_t length(std::string_view text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), starts_character));
+}
+
+/// Where character number `index` begins; the end of the text for the one after the last.
+std::size_t byte_of(std::string_view text, std::size_t index) {
+  std::size_t byte = 0;
+  for (std::size_t characters = 0; byte < text.size(); ++byte) {
+    if (starts_character(text[byte]) && characters++ == index) break;
+  }
+  return byte;
 }
 
 }  // namespace
@@ -62,12 +73,11 @@ std::string wrap(std::string_view text, std::size_t width, std::size_t indent) {
 }
 
 std::string shortened(std::string_view text, std::size_t width) {
-  if (length(text) <= width) return std::string(text);
-  std::size_t end = 0;
-  for (std::size_t characters = 0; end < text.size(); ++end) {
-    if (starts_character(text[end]) && characters++ == width - 1) break;
-  }
-  return std::string(text.substr(0, end)) + "…";
+  const std::size_t whole = length(text);
+  if (whole <= width) return std::string(text);
+  const std::size_t kept = width - 1;
+  const std::size_t at_end = kept / 2;
+  return fmt::format("{}…{}", text.substr(0, byte_of(text, kept - at_end)), text.substr(byte_of(text, whole - at_end)));
 }
 
 }  // namespace zwidth::report

@@ -23,7 +23,8 @@ struct TextTable {
 /// Breaks text at spaces into lines of at most `width` characters, each after `indent` spaces.
 [[nodiscard]] std::string wrap(std::string_view text, std::size_t width, std::size_t indent);
 
-/// At most `width` characters of UTF-8 text; what is cut off leaves an ellipsis. width > 0.
+/// At most `width` characters of UTF-8 text. What is cut out, in the middle, leaves an ellipsis: names that are alike
+/// differ at either end. width > 0.
 [[nodiscard]] std::string shortened(std::string_view text, std::size_t width);
 
 }  // namespace zwidth::report

@@ -28,11 +28,9 @@ std::string_view without_macro(std::string_view description) {
 
 /// toml++ has no code for it, and says of a number too large for a double only that it is no value.
 bool is_number_out_of_range(std::string_view description) {
-  const auto number = description.substr(std::min(description.find('\''), description.size()));
-  const bool overflows = description.find("floating-point") != std::string_view::npos &&
-                         description.ends_with("could not be interpreted as a value") && number.size() > 1 &&
-                         number.find_first_of("0123456789") != std::string_view::npos;
-  return overflows || description.find("is not representable in 64 bits") != std::string_view::npos;
+  return (description.find("floating-point") != std::string_view::npos &&
+          description.ends_with("could not be interpreted as a value")) ||
+         description.find("is not representable in 64 bits") != std::string_view::npos;
 }
 
 std::optional<InputError> problem_of_text(std::string_view text, std::string_view source) {

@@ -48,7 +48,9 @@ TEST(TextTable, WrapKeepsWordsWholeAndWithinTheWidth) {
 
 TEST(TextTable, ShortenedCutsBetweenCharacters) {
   EXPECT_EQ(shortened("µµµµ", 4), "µµµµ");
-  EXPECT_EQ(shortened("µµµµµ", 4), "µµµ…");
+  EXPECT_EQ(shortened("µµµµµ", 4), "µµ…µ");
+  EXPECT_EQ(shortened("device, original", 8), "devi…nal");
+  EXPECT_EQ(shortened("device", 1), "…");
 }
 
 }  // namespace
