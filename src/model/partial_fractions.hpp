@@ -121,7 +121,7 @@ ModalTerm cluster_term(const Pencil& pencil, const PoleGroup& group, double near
   for (const ComplexX& pole : group.poles) center += pole;
   center = center * (Extended(1.0) / Extended(static_cast<double>(k)));
   if (group.closed) center.im = Extended(0.0);
-  double spread = 1e-6 * nearest;
+  double spread = 0.1 * nearest;
   for (const ComplexX& pole : group.poles) spread = std::max(spread, magnitude(pole - center));
   const Extended radius = Extended(std::sqrt(spread * nearest));
 

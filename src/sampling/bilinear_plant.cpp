@@ -1,5 +1,6 @@
 #include "sampling/bilinear_plant.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace zwidth {
@@ -19,6 +20,19 @@ void substitute(const double* c, std::size_t count, std::size_t degree, double r
   }
 }
 
+// An unstable real pole near s = rate has no image.
+bool maps_to_infinity(const ModalForm& form, double rate) {
+  return std::any_of(form.terms.begin(), form.terms.end(), [rate](const ModalTerm& term) {
+    double value = 1.0;
+    double size = 1.0;
+    for (std::size_t i = term.degree; i-- > 0;) {
+      value = value * rate + term.denominator[i];
+      size = size * rate + std::abs(term.denominator[i]);
+    }
+    return std::abs(value) < 1e-3 * size;
+  });
+}
+
 }  // namespace
 
 SampledPlant bilinear_plant(const ModalForm& form) {
@@ -31,7 +45,8 @@ SampledPlant bilinear_plant(const ModalForm& form) {
     log_sum += std::log(std::abs(term.denominator[zeros]));
     poles += term.degree - zeros;
   }
-  const double rate = poles > 0 ? std::exp(log_sum / static_cast<double>(poles)) : 1.0;
+  double rate = poles > 0 ? std::exp(log_sum / static_cast<double>(poles)) : 1.0;
+  while (maps_to_infinity(form, rate)) rate *= 1.25;
   SampledPlant plant;
   plant.period = 2.0 / rate;
   for (const ModalTerm& term : form.terms) {

@@ -18,6 +18,18 @@ bool is_undamped_pole(const SampledPlant& plant, double angle) {
   });
 }
 
+// P(1) = 0 to rounding (a numerator with a factor s): no crossing there.
+bool vanishes_at_rest(const SampledPlant& plant) {
+  double sum = 0.0;
+  double size = 0.0;
+  for (const SampledTerm& term : plant.terms) {
+    if (term.integrators > 0) return false;
+    sum += term.numerator[0] / term.denominator[0];
+    size += std::abs(term.numerator[0] / term.denominator[0]);
+  }
+  return std::abs(sum) <= 1e-13 * size;
+}
+
 }  // namespace
 
 GainCrossings gain_crossings(const SampledPlant& plant, const GainLocus& locus) {
@@ -37,7 +49,7 @@ GainCrossings gain_crossings(const SampledPlant& plant, const GainLocus& locus) 
   }
   // z = 1 and z = -1 are real: crossings where the gain is positive. At z = 1 that takes a negative static response.
   const double at_rest = locus.gain(0.0);
-  if (at_rest > 0.0 && std::isfinite(at_rest)) {
+  if (at_rest > 0.0 && std::isfinite(at_rest) && !vanishes_at_rest(plant)) {
     result.crossings.insert(result.crossings.begin(), {0.0, at_rest, locus.value(0.0) < 0.0 ? 1 : -1});
   }
   const double gain = locus.gain(std::numbers::pi);

@@ -131,6 +131,14 @@ LoopMargins margins_of(const SampledPlant& plant, const Wall& wall, ToFrequency 
   return margins;
 }
 
+// No damping anywhere: L(jw) is real at every frequency, closed-loop poles lie symmetric to the imaginary axis, and no
+// gain makes the loop asymptotically stable.
+bool is_lossless(const ModalForm& form) {
+  return std::all_of(form.terms.begin(), form.terms.end(), [](const ModalTerm& term) {
+    return term.degree == 2 && term.numerator[1] == 0.0 && term.denominator[1] == 0.0;
+  });
+}
+
 }  // namespace
 
 LoopMargins loop_margins(const SampledPlant& plant, const Wall& wall) {
@@ -144,6 +152,7 @@ LoopMargins continuous_margins(const TransferFunction& loop) {
   parameters.transfer_function = loop;
   parameters.loop.sampling_period = 1.0;  // not used: the bilinear map takes the place of sampling
   const ModalForm form = modal_form(Device(std::move(parameters)));
+  if (is_lossless(form)) return {};
   const SampledPlant plant = bilinear_plant(form);
   const double rate = 2.0 / plant.period;
   return margins_of(plant, {1.0, 0.0, 0.0}, [rate](double angle) { return rate * std::tan(angle / 2.0); });

@@ -68,7 +68,7 @@ TEST_P(CriticalStiffnessProperty, EigenvaluesConfirmEveryCrossoverAndNoOther) {
     };
     // Far stiffer crossovers than the softest are beyond what eigenvalues in double precision resolve.
     std::erase_if(by_stiffness, [softest = by_stiffness.empty() ? 0.0 : by_stiffness.front().stiffness](
-                                    const Crossover& c) { return c.stiffness > 1e13 * softest; });
+                                    const Crossover& c) { return c.stiffness > std::min(1e13 * softest, 1e16); });
     int before = -1;  // poles outside, seen on the upper side of the last crossover
     for (std::size_t i = 0; i < by_stiffness.size(); ++i) {
       const Crossover& crossover = by_stiffness[i];
@@ -169,6 +169,7 @@ TEST_P(CriticalStiffnessProperty, AStableWallHasItsPolesInsideTheCircle) {
     const CriticalStiffness result = critical_stiffness_of(Device(parameters));
     const double typical =
         result.crossovers.empty() ? 1.0 : result.crossovers[random.index(result.crossovers.size())].stiffness;
+    if (typical > 1e20) continue;
     parameters.wall.stiffness = typical * random.log_uniform(0.1, 10.0);
     const WallMargins margins = wall_margins(Device(parameters));
     if (std::abs(margins.spectral_radius - 1.0) < 1e-9) continue;  // the eigenvalues do not tell
