@@ -41,7 +41,7 @@ std::string draw_delay_figure(const std::string& title, const std::vector<DelayS
       "set tics font ',12' scale 0.6,0.3\nset border lw 0.8\nset grid xtics ytics lw 0.5 lc rgb '#c8c8c8' dt 1 back\n"
       "set ylabel 'Critical stiffness (dB re 1 N/m)' font ',12' offset 0.5,0\nset ytics 5\n"
       // Markers must not lie on the frame.
-      "set offsets graph 0.02, graph 0.02, graph 0.04, graph 0.04");
+      "set autoscale xfix\nset offsets graph 0.02, graph 0.02, graph 0.04, graph 0.04");
   canvas.text(0.5 * (frame.left + frame.right), frame.bottom + 42.0, "Delay (ms), besides the zero-order hold",
               {Anchor::centre, 12.0});
   canvas.plot(frame, what + "NaN notitle");

@@ -255,10 +255,10 @@ std::vector<std::string> wall_margin_notes(const Analysis& analysis) {
                                   number(*wall->phase_margin * 180.0 / std::numbers::pi)));
   }
   if (wall->delay_margin) {
-    margins.push_back(
-        fmt::format("delay margin about {} (exact for whole samples of delay; for fractions the true value can be a "
-                    "few per mille shorter)",
-                    quantity(*wall->delay_margin, "s")));
+    margins.push_back(fmt::format(
+        "delay margin about {} (exact for whole samples of delay; for fractions off by some per mille, near "
+        "the Nyquist frequency by some per cent)",
+        quantity(*wall->delay_margin, "s")));
   }
   return margins;
 }

@@ -172,6 +172,32 @@ TEST_F(Figures, AFailedFigureLeavesTheOldFile) {
   EXPECT_EQ(contents("a.svg"), "old");
 }
 
+TEST_F(Figures, ACrossoverAtRestIsListedAndNotPlotted) {
+  write("rest.toml", "[transfer_function]\nnumerator = [-1]\ndenominator = [1, 1]\n[loop]\nsampling_period = 0.1\n");
+  const Outcome outcome = run("zwidth analyze --json rest.toml");
+  EXPECT_EQ(outcome.status, 0) << outcome.errors;
+  const auto answer = nlohmann::json::parse(outcome.output);
+  EXPECT_NEAR(answer.at("critical_stiffness").get<double>(), 1.0, 1e-12);
+  EXPECT_EQ(answer.at("critical_frequency_hz"), 0.0);
+  ASSERT_EQ(run("zwidth bode rest.toml -o a.svg && zwidth bode rest.toml -o a.csv && "
+                "zwidth analyze rest.toml --report a.html")
+                .status,
+            0);
+  for (const char* name : {"a.svg", "a.html"}) {
+    EXPECT_THAT(contents(name), HasSubstr("at 0 Hz (a real pole at rest)")) << name;
+    EXPECT_THAT(contents(name), Not(HasSubstr("inf"))) << name;
+  }
+  EXPECT_THAT(contents("a.csv"), Not(HasSubstr("nan")));
+  EXPECT_THAT(run("zwidth bode rest.toml").output, HasSubstr("a real pole at rest  <- critical"));
+}
+
+TEST_F(Figures, OptionsOfTheFigureNeedOne) {
+  for (const std::string option : {"--from", "--to", "--points"}) {
+    expect_refusal("zwidth bode devices/lhifam.toml " + option + " 10", 2, option + ": is for a figure");
+  }
+  EXPECT_EQ(run("zwidth bode devices/lhifam.toml --points 10 --json").status, 0);
+}
+
 TEST_F(Figures, ReproduceFillsAFolderAndLeavesTheRestAlone) {
   const Outcome outcome =
       run("mkdir -p paper/lhifam; echo mine > paper/lhifam/notes.txt; zwidth reproduce paper/lhifam");

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -136,6 +137,16 @@ TEST_F(Frame, AFullOrClosedStandardOutputIsAFailureOfTheWork) {
     EXPECT_EQ(closed.status, 1) << arguments;
     EXPECT_EQ(closed.errors, "zwidth: standard output: cannot write: Bad file descriptor\n") << arguments;
   }
+}
+
+TEST_F(Frame, AFailureOfTheWorkNamesARemedy) {
+  const Outcome missing = run("zwidth export devices/lhifam.toml --format json --output no/such.json");
+  EXPECT_EQ(missing.status, 1);
+  EXPECT_THAT(missing.errors, HasSubstr("make the folder first"));
+  const Outcome too_large = run("ulimit -f 1; zwidth export devices/lhifam.toml --format json --output large.json");
+  EXPECT_EQ(too_large.status, 1);
+  EXPECT_THAT(too_large.errors, HasSubstr("File too large; raise the limit"));
+  EXPECT_FALSE(std::filesystem::exists(directory() / "large.json"));
 }
 
 TEST_F(Frame, AReaderThatGoesAwayIsNoFailure) {

@@ -54,8 +54,18 @@ const BadText texts[] = {
      "a "
      "device"},
     {"huge_integer", body("damping = 99999999999999999999"),
-     "4:31: is not TOML: Error while parsing decimal integer: '99999999999999999999' is not representable in 64 bits; "
-     "must be the TOML text of a device"},
+     "4:31: the number is out of range; must be 0 or from 1e-30 to 1e30 in magnitude (coefficients: 1e-100 to 1e100)"},
+    {"huge_number", body("damping = 1e400"),
+     "4:16: the number is out of range; must be 0 or from 1e-30 to 1e30 in magnitude (coefficients: 1e-100 to 1e100)"},
+    {"bidirectional_control", "name = \"a\u202Eb\"\n" + body("") + loop(),
+     "1:8: name: has a control character; must be one line of plain text"},
+    {"isolating_control", "name = \"a\u2066b\"\n" + body("") + loop(),
+     "1:8: name: has a control character; must be one line of plain text"},
+    {"second_control_set", "name = \"a\u009Bb\"\n" + body("") + loop(),
+     "1:8: name: has a control character; must be one line of plain text"},
+    {"repeated_name_before_a_reference_to_it",
+     body("") + body("") + "[[link]]\nbetween = [\"a\", \"b\"]\nstiffness = 1\n" + loop(),
+     "6:8: body.1.name: \"a\" names two bodies; must be different for every body"},
     {"table_twice", body("") + loop() + loop(),
      "8:1: is not TOML: Error while parsing table header: cannot redefine existing table 'loop'; must be the TOML text "
      "of a device"},

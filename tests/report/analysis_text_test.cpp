@@ -86,8 +86,19 @@ TEST(AnalysisText, ExplainsTheQCriterionInTheRightDirection) {
               HasSubstr("not above the rigid critical stiffness of 7.001 kN/m: the vibration mode matters"));
   analysed.analysis.q_criterion = QCriterion{3e5, false};
   EXPECT_THAT(unwrapped(text_of(analysed)), HasSubstr("the mode hardly matters"));
+}
+
+TEST(AnalysisText, SaysWhyTheQCriterionIsSilent) {
+  AnalysedDevice analysed = lhifam();
   analysed.analysis.q_criterion = QCriterion{3e5, std::nullopt};
+  analysed.analysis.rigid->critical.status = StiffnessStatus::none_stable;
+  EXPECT_THAT(unwrapped(text_of(analysed)), HasSubstr("rigid links has no finite critical stiffness to compare"));
+  DeviceParameters parameters = analysed.device.parameters();
+  parameters.loop.sensed = 1;
+  analysed.device = Device(parameters);
   EXPECT_THAT(unwrapped(text_of(analysed)), HasSubstr("It says nothing about this loop"));
+  EXPECT_THAT(unwrapped(text_of(lhifam())), Not(HasSubstr("without the virtual damper")));
+  EXPECT_THAT(unwrapped(text_of(lhifam_with_wall())), HasSubstr("Q is of the device without the virtual damper."));
 }
 
 TEST(AnalysisText, JudgesTheWall) {
@@ -96,10 +107,32 @@ TEST(AnalysisText, JudgesTheWall) {
   EXPECT_THAT(stable, HasSubstr("The wall of 5 kN/m and 5 N s/m (56.5 % of the critical stiffness) is stable"));
   EXPECT_THAT(stable, HasSubstr("gain margin 6.02 dB"));
   EXPECT_THAT(stable, HasSubstr("phase margin 0.1 rad (5.73°)"));
-  EXPECT_THAT(stable, HasSubstr("delay margin 1.5 ms"));
+  EXPECT_THAT(stable, HasSubstr("delay margin about 1.5 ms (exact for whole samples"));
+  EXPECT_THAT(stable, HasSubstr("unstable when stiffness and damping grow 2 times"));
+  EXPECT_THAT(stable, HasSubstr("unstable when both are scaled down to 0.5 times"));
   const std::string unstable = unwrapped(text_of(undamped_paddle()));
   EXPECT_THAT(unstable, HasSubstr("is UNSTABLE: an oscillation grows by 0.03 % per sample"));
   EXPECT_THAT(unstable, Not(HasSubstr("margin")));
+}
+
+TEST(AnalysisText, NamesNoDampingThatAWallDoesNotHave) {
+  AnalysedDevice spring = lhifam_with_wall();
+  DeviceParameters parameters = spring.device.parameters();
+  parameters.wall.damping = 0.0;
+  spring.device = Device(parameters);
+  spring.analysis.wall->damping = 0.0;
+  const std::string text = unwrapped(text_of(spring));
+  EXPECT_THAT(text, HasSubstr("The wall of 5 kN/m (56.5 % of"));
+  EXPECT_THAT(text, HasSubstr("unstable when the stiffness grows 2 times"));
+  EXPECT_THAT(text, HasSubstr("unstable when the stiffness is scaled down to 0.5 times"));
+}
+
+TEST(AnalysisText, ACrossoverAtRestDoesNotOscillate) {
+  const std::string text = unwrapped(text_of(pushed_the_wrong_way()));
+  EXPECT_THAT(text, HasSubstr("drifts away at 0 Hz (a real pole at rest)"));
+  EXPECT_THAT(text, HasSubstr("Just above, the device drifts away without oscillating"));
+  EXPECT_THAT(text, HasSubstr("1 pole leaves <- limits, a real pole at rest"));
+  EXPECT_THAT(text, Not(HasSubstr("oscillates")));
 }
 
 TEST(AnalysisText, ExplainsNoneStableWithItsHigherInterval) {

@@ -85,4 +85,18 @@ inline AnalysedDevice unlimited_transfer_function() {
   return {Device(parameters), analysis};
 }
 
+/// -1/(s + 1): a real pole leaves through z = 1 at K = 1.
+inline AnalysedDevice pushed_the_wrong_way() {
+  DeviceParameters parameters;
+  parameters.name = "pushed the wrong way";
+  parameters.transfer_function = TransferFunction{{-1.0}, {1.0, 1.0}};
+  parameters.loop.sampling_period = 0.1;
+  Analysis analysis;
+  analysis.critical.stiffness = 1.0;
+  analysis.critical.limit = Crossover{0.0, 1.0, {}, 1};
+  analysis.critical.crossovers = {*analysis.critical.limit};
+  analysis.critical.stable_intervals = {{0.0, 1.0}};
+  return {Device(parameters), analysis};
+}
+
 }  // namespace zwidth::report
