@@ -16,6 +16,8 @@ bool close(const ComplexX& a, const ComplexX& b) { return magnitude(a - b) <= cl
 constexpr double undamped_below = 1e-14;
 // A cluster takes in poles until the next one is this many times its radius away.
 constexpr double isolated_beyond = 8.0;
+// Real poles gather sooner: three or four of them lose digits with the square or cube of their distance.
+constexpr double real_cluster_tolerance = 1e-2;
 
 struct Disc {
   ComplexX center;
@@ -40,7 +42,9 @@ std::vector<std::vector<ComplexX>> gather(const std::vector<ComplexX>& poles) {
     merged = false;
     for (std::size_t i = 0; i < sets.size(); ++i) {
       const Disc disc = disc_of(sets[i]);
-      const double reach = std::max(cluster_tolerance * magnitude(disc.center), isolated_beyond * disc.radius);
+      const bool real = std::abs(leading(disc.center.im)) <= real_cluster_tolerance * magnitude(disc.center);
+      const double tolerance = real ? real_cluster_tolerance : cluster_tolerance;
+      const double reach = std::max(tolerance * magnitude(disc.center), isolated_beyond * disc.radius);
       for (std::size_t j = 0; j < sets.size(); ++j) {
         if (j == i) continue;
         const bool near = std::any_of(sets[j].begin(), sets[j].end(),
@@ -104,7 +108,8 @@ std::vector<PoleGroup> group_poles(std::vector<ComplexX>& poles, std::size_t zer
         continue;
       }
       symmetric.insert(symmetric.end(), set.begin(), set.end());
-      groups.push_back({std::move(set), true, true, 0});
+      const bool cluster = set.size() > 2 || disc.radius <= cluster_tolerance * magnitude(disc.center);
+      groups.push_back({std::move(set), true, cluster, 0});
     } else if (height < 0.0) {
       lower += set.size();
     } else {

@@ -10,7 +10,7 @@ namespace zwidth {
 namespace {
 
 // A root of the phase condition this close, relative, to an undamped pole is that pole, at kappa = 0.
-constexpr double same_angle = 1e-9;
+constexpr double same_angle = 1e-6;
 
 bool is_undamped_pole(const SampledPlant& plant, double angle) {
   return std::any_of(plant.terms.begin(), plant.terms.end(), [angle](const SampledTerm& term) {
@@ -30,6 +30,19 @@ bool vanishes_at_rest(const SampledPlant& plant) {
   return std::abs(sum) <= 1e-13 * size;
 }
 
+// P is zero to rounding (an undamped antiresonance): no gain, however large, has a pole there.
+bool vanishes(const SampledPlant& plant, double angle) {
+  if (!plant.numerator.empty()) return false;  // cancelled terms were added up with more digits
+  std::complex<double> sum = 0.0;
+  double size = 0.0;
+  for (const SampledTerm& term : plant.terms) {
+    const std::complex<double> value = response(term, angle);
+    sum += value;
+    size += std::abs(value);
+  }
+  return std::abs(sum) <= 1e-13 * size;
+}
+
 }  // namespace
 
 GainCrossings gain_crossings(const SampledPlant& plant, const GainLocus& locus) {
@@ -45,7 +58,9 @@ GainCrossings gain_crossings(const SampledPlant& plant, const GainLocus& locus) 
       continue;
     }
     const double gain = locus.gain(root.angle);
-    if (gain > 0.0 && std::isfinite(gain)) result.crossings.push_back({root.angle, gain, poles_leaving});
+    if (gain > 0.0 && std::isfinite(gain) && !vanishes(plant, root.angle)) {
+      result.crossings.push_back({root.angle, gain, poles_leaving});
+    }
   }
   // z = 1 and z = -1 are real: crossings where the gain is positive. At z = 1 that takes a negative static response.
   const double at_rest = locus.gain(0.0);

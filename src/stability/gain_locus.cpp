@@ -179,6 +179,8 @@ double GainLocus::gain(double angle) const {
 int GainLocus::initially_unstable(double phase_near_zero) const {
   int unstable = 0;
   for (const SampledTerm& term : plant_.terms) unstable += term.unstable_poles;
+  // Of poles that coincide on the circle, half leave it outwards.
+  for (const SampledTerm& term : plant_.terms) unstable += 2 * (term.undamped_pairs / 2);
   if (integrators_kept_ == 0) return unstable;
   // Near z = 1, delta^n r + kappa s = 0: the poles leave at the angles of (-kappa s / r)^(1/n).
   const int n = damper_closed() ? 1 : integrators_kept_;

@@ -135,7 +135,10 @@ LoopMargins margins_of(const SampledPlant& plant, const Wall& wall, ToFrequency 
 // gain makes the loop asymptotically stable.
 bool is_lossless(const ModalForm& form) {
   return std::all_of(form.terms.begin(), form.terms.end(), [](const ModalTerm& term) {
-    return term.degree == 2 && term.numerator[1] == 0.0 && term.denominator[1] == 0.0;
+    const double rounding = 1e-14 * std::sqrt(std::abs(term.denominator[0]));
+    return term.degree == 2 && std::abs(term.denominator[1]) <= rounding &&
+           std::abs(term.numerator[1]) * std::sqrt(std::abs(term.denominator[0])) <=
+               1e-14 * std::abs(term.numerator[0]);
   });
 }
 
