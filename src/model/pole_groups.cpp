@@ -70,7 +70,8 @@ Mode mode_of(const PoleGroup& group) {
     return {frequency, frequency > 0.0 ? -sum / (2.0 * frequency) : 0.0};
   }
   const double frequency = magnitude(first);
-  return {frequency, frequency > 0.0 ? -leading(first.re) / frequency : 0.0};
+  const double ratio = frequency > 0.0 ? -leading(first.re) / frequency : 0.0;
+  return {frequency, std::abs(ratio) > undamped_below ? ratio : 0.0};
 }
 
 // The single real pole nearest to -b/m; the smallest one where b/m is not known. None: real.size().
