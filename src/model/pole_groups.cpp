@@ -36,6 +36,7 @@ Disc disc_of(const std::vector<ComplexX>& poles) {
 // such a set that a circle could not separate it.
 std::vector<std::vector<ComplexX>> gather(const std::vector<ComplexX>& poles) {
   std::vector<std::vector<ComplexX>> sets;
+  sets.reserve(poles.size());
   for (const ComplexX& pole : poles) sets.push_back({pole});
   bool merged = true;
   while (merged) {
