@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "sampling/cancellation.hpp"
 #include "sampling/extended_sampling.hpp"
 #include "sampling/hold_integrals.hpp"
 #include "sampling/sampling_instants.hpp"
@@ -81,21 +82,9 @@ void check_range(const SampledTerm& sampled) {
   }
 }
 
-// The largest part of the terms that their sum loses: 1 without cancellation, looked at where it is worst, far above
-// the modes.
-double cancellation(const SampledPlant& plant) {
-  double worst = 1.0;
-  for (const double angle : {std::numbers::pi / 3.0, 2.0 * std::numbers::pi / 3.0}) {
-    std::complex<double> sum = 0.0;
-    double size = 0.0;
-    for (const SampledTerm& term : plant.terms) {
-      const std::complex<double> value = response(term, angle);
-      sum += value;
-      size += std::abs(value);
-    }
-    worst = std::max(worst, size / std::abs(sum));
-  }
-  return worst;
+// Looked at where it is worst, far above the modes.
+double worst_cancellation(const SampledPlant& plant) {
+  return std::max(cancellation(plant, std::numbers::pi / 3.0), cancellation(plant, 2.0 * std::numbers::pi / 3.0));
 }
 
 // The same at z = -1, for the coefficients within each numerator: a slow device's response nearly vanishes there.
@@ -155,7 +144,7 @@ SampledPlant sample(const ModalForm& form, Sampling sampling) {
     check_range(sampled);
     plant.terms.push_back(sampled);
   }
-  const bool sum_cancels = plant.terms.size() > 1 && cancellation(plant) > tolerable_cancellation;
+  const bool sum_cancels = plant.terms.size() > 1 && worst_cancellation(plant) > tolerable_cancellation;
   const bool nyquist_cancels = cancellation_at_nyquist(plant) > tolerable_cancellation_at_nyquist;
   if (sum_cancels || nyquist_cancels) {
     std::vector<ExtendedTerm> terms;
@@ -178,6 +167,17 @@ std::complex<double> response(const SampledTerm& term, double angle) {
   const OnCircle<double> product = multiply(numerator, conj(denominator), point);
   const double scale = 1.0 / squared_magnitude(denominator, point);
   return {product.even * scale, product.odd * std::sin(angle) * scale};
+}
+
+double cancellation(const SampledPlant& plant, double angle) {
+  std::complex<double> sum = 0.0;
+  double size = 0.0;
+  for (const SampledTerm& term : plant.terms) {
+    const std::complex<double> value = response(term, angle);
+    sum += value;
+    size += std::abs(value);
+  }
+  return size / std::abs(sum);
 }
 
 std::complex<double> response(const SampledPlant& plant, double frequency) {

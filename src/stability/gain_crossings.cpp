@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "sampling/cancellation.hpp"
 #include "stability/root_isolation.hpp"
 
 namespace zwidth {
@@ -18,30 +19,9 @@ bool is_undamped_pole(const SampledPlant& plant, double angle) {
   });
 }
 
-// P(1) = 0 to rounding (a numerator with a factor s): no crossing there.
-bool vanishes_at_rest(const SampledPlant& plant) {
-  double sum = 0.0;
-  double size = 0.0;
-  for (const SampledTerm& term : plant.terms) {
-    if (term.integrators > 0) return false;
-    sum += term.numerator[0] / term.denominator[0];
-    size += std::abs(term.numerator[0] / term.denominator[0]);
-  }
-  return std::abs(sum) <= 1e-13 * size;
-}
-
-// P is zero to rounding (an undamped antiresonance): no gain, however large, has a pole there.
-bool vanishes(const SampledPlant& plant, double angle) {
-  if (!plant.numerator.empty()) return false;  // cancelled terms were added up with more digits
-  std::complex<double> sum = 0.0;
-  double size = 0.0;
-  for (const SampledTerm& term : plant.terms) {
-    const std::complex<double> value = response(term, angle);
-    sum += value;
-    size += std::abs(value);
-  }
-  return std::abs(sum) <= 1e-13 * size;
-}
+// P is zero to rounding (an undamped antiresonance, a numerator with a factor s): no gain, however large, has a pole
+// there.
+bool vanishes(const SampledPlant& plant, double angle) { return cancellation(plant, angle) >= 1e13; }
 
 }  // namespace
 
@@ -58,13 +38,15 @@ GainCrossings gain_crossings(const SampledPlant& plant, const GainLocus& locus) 
       continue;
     }
     const double gain = locus.gain(root.angle);
-    if (gain > 0.0 && std::isfinite(gain) && !vanishes(plant, root.angle)) {
+    // Where terms cancel by nature they were added up with more digits.
+    const bool lost = plant.numerator.empty() && vanishes(plant, root.angle);
+    if (gain > 0.0 && std::isfinite(gain) && !lost) {
       result.crossings.push_back({root.angle, gain, poles_leaving});
     }
   }
   // z = 1 and z = -1 are real: crossings where the gain is positive. At z = 1 that takes a negative static response.
   const double at_rest = locus.gain(0.0);
-  if (at_rest > 0.0 && std::isfinite(at_rest) && !vanishes_at_rest(plant)) {
+  if (at_rest > 0.0 && std::isfinite(at_rest) && !vanishes(plant, 0.0)) {
     result.crossings.insert(result.crossings.begin(), {0.0, at_rest, locus.value(0.0) < 0.0 ? 1 : -1});
   }
   const double gain = locus.gain(std::numbers::pi);
