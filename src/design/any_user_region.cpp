@@ -1,0 +1,124 @@
+#include "zwidth/design/any_user_region.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "zwidth/error.hpp"
+#include "zwidth/stability/any_user.hpp"
+
+namespace zwidth {
+namespace {
+
+constexpr double first_ratio = 1e-6;  // the least B > 0 sampled, as a share of the largest
+constexpr double scan_ratio = 1.5;
+constexpr int end_bisections = 24;
+constexpr int max_depth = 7;
+
+class Sampler {
+ public:
+  Sampler(const Device& device, double velocity_filter_hz, double deviation)
+      : device_(device), velocity_filter_hz_(velocity_filter_hz), deviation_(deviation) {}
+
+  [[nodiscard]] AnyUserPoint at(double damping) const {
+    const AnyUserLimit limit = any_user_limit(device_, {damping, velocity_filter_hz_});
+    return {damping, limit.stiffness, limit.frequency};
+  }
+
+  // The end of the limit between a B where it is above 0 and one where it is 0.
+  [[nodiscard]] AnyUserPoint end_between(const AnyUserPoint& inside, const AnyUserPoint& outside) const {
+    double in = inside.damping;
+    double out = outside.damping;
+    for (int i = 0; i < end_bisections; ++i) {
+      const double middle = 0.5 * (in + out);
+      if (middle == in || middle == out) break;
+      (at(middle).stiffness > 0.0 ? in : out) = middle;
+    }
+    return {in, 0.0, 0.0};
+  }
+
+  // Appends the points after `from` up to `to`.
+  void refine(const AnyUserPoint& from, const AnyUserPoint& to, int depth, std::vector<AnyUserPoint>& points) const {
+    const AnyUserPoint middle = at(0.5 * (from.damping + to.damping));
+    const double off = std::abs(middle.stiffness - 0.5 * (from.stiffness + to.stiffness)) / stiffness_extent;
+    const double width = (to.damping - from.damping) / damping_extent;
+    if (depth < max_depth && width > deviation_ && off > deviation_) {
+      refine(from, middle, depth + 1, points);
+      refine(middle, to, depth + 1, points);
+      return;
+    }
+    points.push_back(to);
+  }
+
+  double stiffness_extent = 0.0;
+  double damping_extent = 0.0;
+
+ private:
+  const Device& device_;
+  double velocity_filter_hz_;
+  double deviation_;
+};
+
+std::vector<AnyUserPoint> scan(const Sampler& sampler, double largest) {
+  std::vector<AnyUserPoint> points{sampler.at(0.0)};
+  for (double damping = first_ratio * largest; damping < largest; damping *= scan_ratio) {
+    points.push_back(sampler.at(damping));
+  }
+  points.push_back(sampler.at(largest));
+  return points;
+}
+
+// The scan cut into ranges of B with a limit above 0, their ends found.
+std::vector<std::vector<AnyUserPoint>> ranges_of(const Sampler& sampler, const std::vector<AnyUserPoint>& points) {
+  std::vector<std::vector<AnyUserPoint>> ranges;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const bool here = points[i].stiffness > 0.0;
+    const bool before = i > 0 && points[i - 1].stiffness > 0.0;
+    if (here && !before) {
+      ranges.emplace_back();
+      if (i > 0) ranges.back().push_back(sampler.end_between(points[i], points[i - 1]));
+    }
+    if (here) ranges.back().push_back(points[i]);
+    if (!here && before) ranges.back().push_back(sampler.end_between(points[i - 1], points[i]));
+  }
+  return ranges;
+}
+
+}  // namespace
+
+AnyUserRegion any_user_region(const Device& device, double velocity_filter_hz, double largest_damping,
+                              AnyUserRegionOptions options) {
+  if (!(largest_damping > 0.0) || !std::isfinite(largest_damping)) {
+    throw Error(ErrorCode::invalid_argument,
+                "the largest damping is " + std::to_string(largest_damping) + "; must be finite and > 0");
+  }
+  if (!(options.deviation > 0.0 && options.deviation < 1.0)) {
+    throw Error(ErrorCode::invalid_argument,
+                "the region's deviation is " + std::to_string(options.deviation) + "; must be above 0 and below 1");
+  }
+  Sampler sampler(device, velocity_filter_hz, options.deviation);
+  AnyUserRegion region;
+  const auto coarse = ranges_of(sampler, scan(sampler, largest_damping));
+  for (const auto& range : coarse) {
+    sampler.damping_extent = range.back().damping;
+    for (const AnyUserPoint& point : range) {
+      if (std::isfinite(point.stiffness))
+        sampler.stiffness_extent = std::max(sampler.stiffness_extent, point.stiffness);
+    }
+  }
+  for (const auto& range : coarse) {
+    std::vector<AnyUserPoint> points{range.front()};
+    for (std::size_t i = 0; i + 1 < range.size(); ++i) sampler.refine(range[i], range[i + 1], 0, points);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (!region.stiffest || points[i].stiffness > region.stiffest->stiffness) region.stiffest = points[i];
+      if (i == 0) continue;
+      region.area +=
+          0.5 * (points[i].stiffness + points[i - 1].stiffness) * (points[i].damping - points[i - 1].damping);
+    }
+    region.most_damped = points.back();
+    region.ranges.push_back(std::move(points));
+  }
+  return region;
+}
+
+}  // namespace zwidth

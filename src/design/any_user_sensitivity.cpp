@@ -1,0 +1,198 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "design/controller_slopes.hpp"
+#include "design/design_parameter.hpp"
+#include "design/disc_slopes.hpp"
+#include "stability/disc_stiffness.hpp"
+#include "zwidth/design/sensitivity.hpp"
+
+namespace zwidth {
+namespace {
+
+using Complex = std::complex<double>;
+
+Device without_operator(const Device& device) {
+  DeviceParameters parameters = device.parameters();
+  parameters.user = {};
+  parameters.uncertainty.reset();
+  return Device(std::move(parameters));
+}
+
+std::vector<DesignParameter> parameters_of(const Device& free) {
+  using Kind = DesignParameter::Kind;
+  std::vector<DesignParameter> parameters = design_parameters(free);
+  std::erase_if(parameters, [](const DesignParameter& each) {
+    return each.kind == Kind::user_mass || each.kind == Kind::user_damping || each.kind == Kind::user_stiffness;
+  });
+  return parameters;
+}
+
+constexpr double same_limit = 1e-6;      // relative
+constexpr double rounding_unit = 2e-13;  // relative error of K at w T = 1; it grows as 1/(w T)²
+
+double stiffness_at(const Device& free, const UserDiscs& discs, double angle) {
+  return least_stiffness(discs.at(angle / free.loop().sampling_period), damper_slopes(free, angle, {}).value);
+}
+
+/// Steps from rest, rad per sample: large ones keep digits, small ones see slow modes and filters.
+constexpr double rest_steps[] = {3.0 * clear_angle, 2.0 * clear_angle, clear_angle, 0.1 * clear_angle,
+                                 0.01 * clear_angle};
+constexpr double fits_well = 1e-8;  // relative, of the values; slopes bend more
+
+/// From how far the limit at w -> 0 can be extrapolated; nothing where the limit is not reached there.
+std::optional<double> step_from_rest(const Device& free, const UserDiscs& discs, const AnyUserLimit& limit) {
+  const double angle = limit.frequency * free.loop().sampling_period;
+  if (angle >= clear_angle) return std::nullopt;
+  const double rounding = angle > 0.0 ? rounding_unit / (angle * angle) : 0.0;
+  std::optional<double> fitting;
+  for (const double step : rest_steps) {
+    const double y1 = stiffness_at(free, discs, step);
+    const double y2 = stiffness_at(free, discs, 2.0 * step);
+    const double y3 = stiffness_at(free, discs, 3.0 * step);
+    const double y4 = stiffness_at(free, discs, 4.0 * step);
+    const double at_rest = even_parabola(y1, y2, y3, 0.0);
+    const double misfit = std::abs(even_parabola(y1, y2, y3, 4.0) - y4);
+    const bool is_there = std::abs(at_rest - limit.stiffness) <= (same_limit + rounding) * at_rest;
+    if (!is_there || !(misfit <= smooth_enough * y4)) continue;
+    if (misfit <= fits_well * y4) return step;
+    if (!fitting) fitting = step;
+  }
+  return fitting;
+}
+
+/// f = 1 + 2 Re(C c) + |C|² (|c|² - r²), C = K + B v: 0 where a passive user brings the loop to its limit.
+class Condition {
+ public:
+  Condition(const Device& free, const UserDiscs& discs) : free_(free), discs_(discs) {}
+
+  struct Value {
+    double f = 0.0;
+    double by_stiffness = 0.0;
+  };
+  [[nodiscard]] Value at(double stiffness, double angle) const {
+    const UserDiscs::Disc disc = discs_.at(angle / free_.loop().sampling_period);
+    const Complex controller = stiffness + damper_slopes(free_, angle, {}).value;
+    return {1.0 + 2.0 * (controller * disc.centre).real() + std::norm(controller) * disc.power,
+            2.0 * disc.centre.real() + 2.0 * controller.real() * disc.power};
+  }
+
+ private:
+  const Device& free_;
+  const UserDiscs& discs_;
+};
+
+/// Where the limit is reached.
+struct Touch {
+  double stiffness = 0.0;
+  double angle = 0.0;
+};
+
+/// The least K near a touch: f = 0 and df/dangle = 0 by Newton's method. any_user_limit() finds it by values of K,
+/// which are flat there; and K has a square root's edge where f has no zero beyond, while f stays smooth. Unchanged at
+/// the ends of the range, or where the iteration leaves the neighbourhood.
+Touch polished(const Device& free, const UserDiscs& discs, const Touch& start) {
+  constexpr int rounds = 6;
+  constexpr double widest_step = 1e-4;  // of the angle
+  constexpr double narrowest_step = 1e-7;
+  constexpr double of_a_mode = 0.03;      // of its relative width
+  constexpr double neighbourhood = 0.03;  // relative
+  double share = widest_step;
+  for (const Mode& mode : discs.held_form().modes) share = std::min(share, of_a_mode * mode.damping_ratio);
+  const double step = std::max(share, narrowest_step) * start.angle;
+  if (start.angle + 2.0 * step >= std::numbers::pi) return start;
+  const Condition condition(free, discs);
+  Touch touch = start;
+  for (int i = 0; i < rounds; ++i) {
+    const Condition::Value here = condition.at(touch.stiffness, touch.angle);
+    const Condition::Value up = condition.at(touch.stiffness, touch.angle + step);
+    const Condition::Value down = condition.at(touch.stiffness, touch.angle - step);
+    const Condition::Value upper = condition.at(touch.stiffness, touch.angle + 2.0 * step);
+    const Condition::Value lower = condition.at(touch.stiffness, touch.angle - 2.0 * step);
+    const double slope = (8.0 * (up.f - down.f) - (upper.f - lower.f)) / (12.0 * step);
+    const double bend = (16.0 * (up.f + down.f) - (upper.f + lower.f) - 30.0 * here.f) / (12.0 * step * step);
+    const double mixed = (up.by_stiffness - down.by_stiffness) / (2.0 * step);
+    const double determinant = here.by_stiffness * bend - slope * mixed;
+    const double turn = -(here.by_stiffness * slope - mixed * here.f) / determinant;
+    touch.angle += turn;
+    touch.stiffness -= (here.f + slope * turn) / here.by_stiffness;
+    const bool is_near = std::abs(touch.angle - start.angle) <= neighbourhood * start.angle &&
+                         std::abs(touch.stiffness - start.stiffness) <= neighbourhood * start.stiffness &&
+                         touch.angle + 2.0 * step < std::numbers::pi;
+    if (!is_near) return start;
+    if (std::abs(turn) <= 1e-10 * touch.angle) break;
+  }
+  return touch;
+}
+
+/// dK/dp = -f_p/f_K at a fixed angle.
+std::vector<double> slopes_at(const Device& free, const UserDiscs& discs, const Touch& touch,
+                              std::span<const DesignParameter> parameters) {
+  const double angle = touch.angle;
+  const DiscSlopes slopes = disc_slopes(free, discs, angle, parameters);
+  const DamperSlopes damper = damper_slopes(free, angle, parameters);
+  // The discs' own sums, which keep more digits.
+  const UserDiscs::Disc disc = discs.at(angle / free.loop().sampling_period);
+  const Complex c = disc.centre;
+  const Complex controller = touch.stiffness + damper.value;
+  const auto by_controller = [&](Complex slope) {
+    return 2.0 * (slope * c).real() + 2.0 * (std::conj(controller) * slope).real() * disc.power;
+  };
+  const double by_stiffness = by_controller(1.0);
+  std::vector<double> result;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const Complex by = slopes.centre_by_parameter[i];
+    const double by_square = 2.0 * ((std::conj(c) * by).real() - disc.radius * slopes.radius_by_parameter[i]);
+    const double by_parameter =
+        2.0 * (controller * by).real() + std::norm(controller) * by_square + by_controller(damper.by_parameter[i]);
+    result.push_back(-by_parameter / by_stiffness);
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<Sensitivity> any_user_sensitivities(const Device& device) {
+  const Wall& wall = device.parameters().wall;
+  return any_user_sensitivities(device, any_user_limit(device, {wall.damping, wall.velocity_filter_hz}));
+}
+
+std::vector<Sensitivity> any_user_sensitivities(const Device& device, const AnyUserLimit& limit) {
+  if (!(limit.stiffness > 0.0) || !std::isfinite(limit.stiffness)) return {};
+  const Device free = without_operator(device);
+  if (limit.needs_no_user) {
+    std::vector<Sensitivity> own = stiffness_sensitivities(free);
+    std::erase_if(own, [](const Sensitivity& each) { return each.key.starts_with("operator."); });
+    return own;
+  }
+  const UserDiscs discs(free);
+  const std::vector<DesignParameter> parameters = parameters_of(free);
+  std::vector<double> slopes;
+  const std::optional<double> step = step_from_rest(free, discs, limit);
+  if (!step && limit.frequency == 0.0) return {};
+  if (!step) {
+    const double angle = std::min(limit.frequency * free.loop().sampling_period, std::numbers::pi);
+    slopes = slopes_at(free, discs, polished(free, discs, {limit.stiffness, angle}), parameters);
+  } else {
+    const auto near_rest = [&](double steps) {
+      const double angle = steps * *step;
+      return slopes_at(free, discs, {stiffness_at(free, discs, angle), angle}, parameters);
+    };
+    const std::vector<double> y1 = near_rest(1.0);
+    const std::vector<double> y2 = near_rest(2.0);
+    const std::vector<double> y3 = near_rest(3.0);
+    for (std::size_t i = 0; i < parameters.size(); ++i) slopes.push_back(even_parabola(y1[i], y2[i], y3[i], 0.0));
+  }
+  std::vector<Sensitivity> result;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    if (!std::isfinite(slopes[i])) continue;
+    const double value = parameters[i].value;
+    result.push_back({parameters[i].key, value, slopes[i],
+                      value != 0.0 ? std::optional(value / limit.stiffness * slopes[i]) : std::nullopt});
+  }
+  return result;
+}
+
+}  // namespace zwidth

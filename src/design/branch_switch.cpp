@@ -1,0 +1,128 @@
+#include "zwidth/design/branch_switch.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+
+#include "zwidth/error.hpp"
+#include "zwidth/model/parameter.hpp"
+#include "zwidth/sampling/sampled_plant.hpp"
+
+namespace zwidth {
+namespace {
+
+constexpr double steps_per_decade = 12.0;
+constexpr double jump = 0.02;        // of log frequency: another crossover
+constexpr double resolution = 1e-9;  // of p
+constexpr int max_bisections = 60;
+constexpr double first_share = 1e-3;  // of the way from 0
+
+struct Point {
+  double value = 0.0;
+  CriticalStiffness critical;
+};
+
+/// How far apart the limiting crossovers are: infinite where one is missing or at rest.
+double distance(const Point& a, const Point& b) {
+  if (!a.critical.limit || !b.critical.limit) return std::numeric_limits<double>::infinity();
+  const double first = a.critical.limit->frequency;
+  const double second = b.critical.limit->frequency;
+  if (first == second) return 0.0;
+  return std::abs(std::log(first / second));
+}
+
+class Way {
+ public:
+  Way(const Device& device, const std::string& key) : parameters_(device.parameters()), key_(key) {
+    parameters_.uncertainty.reset();
+  }
+
+  /// Nothing where the value makes no device.
+  [[nodiscard]] std::optional<Point> at(double value) const {
+    DeviceParameters moved = parameters_;
+    set_parameter(moved, key_, value);
+    if (find_problem(moved)) return std::nullopt;
+    const VirtualDamper damper{moved.wall.damping, moved.wall.velocity_filter_hz};
+    return Point{value, critical_stiffness(filtered_plant(Device(std::move(moved))), damper)};
+  }
+
+  /// Halves the way between two points towards the jump; nothing where it closes: one branch that moves fast.
+  [[nodiscard]] std::optional<BranchSwitch> switch_between(Point near, Point far) const {
+    for (int i = 0; i < max_bisections && std::abs(far.value - near.value) > resolution * std::abs(far.value); ++i) {
+      auto middle = at(0.5 * (near.value + far.value));
+      if (!middle) return std::nullopt;
+      const double before = distance(near, *middle);
+      const double beyond = distance(*middle, far);
+      if (std::max(before, beyond) < jump) return std::nullopt;
+      (before >= beyond ? far : near) = *std::move(middle);
+    }
+    if (distance(near, far) < jump) return std::nullopt;
+    return BranchSwitch{
+        key_, far.value, near.critical.stiffness, far.critical.stiffness, *near.critical.limit, far.critical.limit};
+  }
+
+  /// The first switch along rising step numbers.
+  template <typename Values>
+  [[nodiscard]] std::optional<BranchSwitch> first_switch(const CriticalStiffness& own, double value, int steps,
+                                                         const Values& value_at) const {
+    Point last{value, own};
+    for (int i = 1; i <= steps; ++i) {
+      auto next = at(value_at(i));
+      if (!next) return std::nullopt;
+      if (distance(last, *next) >= jump) {
+        if (auto found = switch_between(last, *next)) return found;
+      }
+      if (!next->critical.limit) return std::nullopt;
+      last = *std::move(next);
+    }
+    return std::nullopt;
+  }
+
+ private:
+  DeviceParameters parameters_;
+  std::string key_;
+};
+
+std::vector<BranchSwitch> switches_of(const Device& device, const CriticalStiffness& own, const Sensitivity& each,
+                                      double factor) {
+  std::vector<BranchSwitch> switches;
+  const Way way(device, each.key);
+  // From the device's own value, by equal factors from `start` to `end`.
+  const auto follow = [&](double start, double end) {
+    const int steps = static_cast<int>(std::ceil(steps_per_decade * std::abs(std::log10(end / start))));
+    auto found = way.first_switch(own, each.value, steps, [&](int i) {
+      return i == steps ? end : start * std::pow(end / start, static_cast<double>(i) / steps);
+    });
+    if (found) switches.push_back(*std::move(found));
+  };
+  if (each.value > 0.0) {
+    follow(each.value, each.value / factor);
+    follow(each.value, each.value * factor);
+  } else if (each.slope != 0.0) {
+    const double full = own.stiffness / std::abs(each.slope);
+    follow(first_share * full, factor * full);
+  }
+  return switches;
+}
+
+}  // namespace
+
+std::vector<BranchSwitch> branch_switches(const Device& device, BranchSwitchOptions options) {
+  if (!(options.factor > 1.0) || !std::isfinite(options.factor)) {
+    throw Error(ErrorCode::invalid_argument, "the factor is " + std::to_string(options.factor) + "; must be above 1");
+  }
+  const Wall& wall = device.parameters().wall;
+  const CriticalStiffness own = critical_stiffness(filtered_plant(device), {wall.damping, wall.velocity_filter_hz});
+  const std::vector<Sensitivity> sensitivities = stiffness_sensitivities(device, own);
+  std::vector<std::vector<BranchSwitch>> found(sensitivities.size());
+  tbb::parallel_for(std::size_t{0}, sensitivities.size(),
+                    [&](std::size_t i) { found[i] = switches_of(device, own, sensitivities[i], options.factor); });
+  std::vector<BranchSwitch> switches;
+  for (auto& each : found) std::ranges::move(each, std::back_inserter(switches));
+  return switches;
+}
+
+}  // namespace zwidth

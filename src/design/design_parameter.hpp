@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "zwidth/model/device.hpp"
+
+namespace zwidth {
+
+/// One of the numbers that a limit of the wall depends on.
+struct DesignParameter {
+  enum class Kind {
+    body_mass,
+    body_damping,
+    body_stiffness,
+    link_stiffness,
+    link_damping,
+    sampling_period,
+    delay,
+    time_constant,
+    wall_damping,
+    velocity_filter_hz,
+    filter_frequency_hz,
+    filter_damping_ratio,
+    filter_depth,
+    filter_ratio,
+    user_mass,
+    user_damping,
+    user_stiffness,
+  };
+  Kind kind = Kind::body_mass;
+  std::size_t index = 0;  // of the body, link or filter
+  std::string key;        // model/parameter.hpp
+  double value = 0.0;
+};
+
+/// In the order of the device file. A velocity filter of 0 Hz is none: no number that could grow.
+[[nodiscard]] std::vector<DesignParameter> design_parameters(const Device& device);
+
+}  // namespace zwidth

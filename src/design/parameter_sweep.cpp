@@ -1,0 +1,175 @@
+#include "zwidth/design/parameter_sweep.hpp"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <mutex>
+
+#include "zwidth/error.hpp"
+#include "zwidth/model/parameter.hpp"
+
+namespace zwidth {
+namespace {
+
+constexpr std::size_t worth_threads = 64;      // points
+constexpr std::size_t points_per_report = 16;  // of progress
+
+/// Numbers of the device that no limit depends on.
+bool is_for_simulation(const std::string& key) {
+  return key.ends_with(".coulomb") || key == "actuator.force_limit" || key == "sensor.resolution" ||
+         key == "wall.stiffness";
+}
+
+std::optional<DeviceProblem> find_axis_problem(const DeviceParameters& parameters, const SweepAxis& axis) {
+  const std::string key = full_parameter_key(parameters, axis.key);
+  const std::vector<std::string> keys = parameter_keys(parameters);
+  if (std::ranges::find(keys, key) == keys.end()) {
+    return DeviceProblem{axis.key, "is no number of the device",
+                         "must be a key as in --set, body.NAME.mass for instance"};
+  }
+  if (is_for_simulation(key)) {
+    return DeviceProblem{key, "does not change the critical stiffness", "sweep a number that does"};
+  }
+  if (!std::isfinite(axis.first) || !std::isfinite(axis.last)) {
+    return DeviceProblem{key, fmt::format("runs from {} to {}", axis.first, axis.last), "both ends must be finite"};
+  }
+  if (axis.first == axis.last) {
+    return DeviceProblem{key, fmt::format("runs from {} to {}", axis.first, axis.last), "the ends must differ"};
+  }
+  if (axis.spacing == SweepAxis::Spacing::logarithmic && !(axis.first > 0.0 && axis.last > 0.0)) {
+    return DeviceProblem{key, fmt::format("runs from {} to {} by equal factors", axis.first, axis.last),
+                         "both ends must be > 0"};
+  }
+  if (axis.count < 2 || axis.count > most_sweep_points) {
+    return DeviceProblem{key, fmt::format("takes {} values", axis.count),
+                         fmt::format("must be 2 to {}", most_sweep_points)};
+  }
+  return std::nullopt;
+}
+
+class Points {
+ public:
+  Points(const Device& device, const std::vector<SweepAxis>& axes) : parameters_(device.parameters()), axes_(axes) {
+    parameters_.uncertainty.reset();
+    for (const SweepAxis& axis : axes) values_.push_back(values_of(axis));
+  }
+
+  [[nodiscard]] const std::vector<std::vector<double>>& values() const { return values_; }
+
+  [[nodiscard]] std::size_t count() const {
+    std::size_t product = 1;
+    for (const auto& each : values_) product *= each.size();
+    return product;
+  }
+
+  [[nodiscard]] DeviceParameters at(std::size_t index) const {
+    DeviceParameters moved = parameters_;
+    for (std::size_t axis = axes_.size(); axis-- > 0;) {
+      set_parameter(moved, axes_[axis].key, values_[axis][index % values_[axis].size()]);
+      index /= values_[axis].size();
+    }
+    return moved;
+  }
+
+ private:
+  DeviceParameters parameters_;
+  const std::vector<SweepAxis>& axes_;
+  std::vector<std::vector<double>> values_;
+};
+
+SweepPoint point_of(const Device& device, const SweepOptions& options) {
+  const Wall& wall = device.parameters().wall;
+  const VirtualDamper damper{wall.damping, wall.velocity_filter_hz};
+  CriticalStiffness critical = critical_stiffness(filtered_plant(device), damper);
+  SweepPoint point{critical.status, critical.stiffness, critical.limit, std::nullopt, {}};
+  if (options.any_user) point.any_user = any_user_limit(device, damper);
+  if (options.crossovers) point.crossovers = std::move(critical.crossovers);
+  return point;
+}
+
+/// Counts points of all threads; one of them at a time reports.
+class SharedProgress {
+ public:
+  SharedProgress(const Progress& progress, std::size_t total) : progress_(progress), total_(total) {}
+
+  void add_one() {
+    const std::size_t done = ++done_;
+    if (!progress_ || (done % points_per_report != 0 && done < total_)) return;
+    const std::lock_guard lock(mutex_);
+    reported_ = std::max(reported_, static_cast<double>(done) / static_cast<double>(total_));
+    progress_(reported_);
+  }
+
+ private:
+  const Progress& progress_;
+  std::size_t total_;
+  std::atomic<std::size_t> done_{0};
+  std::mutex mutex_;
+  double reported_ = 0.0;
+};
+
+}  // namespace
+
+std::vector<double> values_of(const SweepAxis& axis) {
+  std::vector<double> values(axis.count);
+  const bool logarithmic = axis.spacing == SweepAxis::Spacing::logarithmic;
+  for (std::size_t i = 0; i < axis.count; ++i) {
+    const double share = static_cast<double>(i) / static_cast<double>(axis.count - 1);
+    values[i] = logarithmic ? axis.first * std::pow(axis.last / axis.first, share)
+                            : axis.first + share * (axis.last - axis.first);
+  }
+  values.back() = axis.last;
+  return values;
+}
+
+std::optional<DeviceProblem> find_sweep_problem(const Device& device, const std::vector<SweepAxis>& axes) {
+  if (axes.empty() || axes.size() > 2) {
+    return DeviceProblem{"sweep", fmt::format("has {} parameters", axes.size()), "must be one or two"};
+  }
+  for (const SweepAxis& axis : axes) {
+    if (auto problem = find_axis_problem(device.parameters(), axis)) return problem;
+  }
+  if (axes.size() == 2) {
+    const std::string first = full_parameter_key(device.parameters(), axes[0].key);
+    if (first == full_parameter_key(device.parameters(), axes[1].key)) {
+      return DeviceProblem{first, "is swept twice", "the two parameters must differ"};
+    }
+    if (axes[0].count > most_sweep_points / axes[1].count) {
+      return DeviceProblem{"sweep", fmt::format("has {} times {} points", axes[0].count, axes[1].count),
+                           fmt::format("must be at most {} in all", most_sweep_points)};
+    }
+  }
+  const Points points(device, axes);
+  for (std::size_t i = 0; i < points.count(); ++i) {
+    if (auto problem = find_problem(points.at(i))) return problem;
+  }
+  return std::nullopt;
+}
+
+ParameterSweep parameter_sweep(const Device& device, const std::vector<SweepAxis>& axes, SweepOptions options,
+                               const Progress& progress) {
+  if (const auto problem = find_sweep_problem(device, axes)) {
+    throw Error(ErrorCode::invalid_argument, fmt::format("{}: {}; {}", problem->key, problem->what, problem->allowed));
+  }
+  if (options.any_user && !device.has_bodies()) {
+    throw Error(ErrorCode::needs_bodies, "a transfer function has no body for a user to hold");
+  }
+  const Points points(device, axes);
+  ParameterSweep sweep{axes, points.values(), std::vector<SweepPoint>(points.count())};
+  SharedProgress shared(progress, sweep.points.size());
+  const auto compute = [&](std::size_t i) {
+    sweep.points[i] = point_of(Device(points.at(i)), options);
+    shared.add_one();
+  };
+  if (sweep.points.size() > worth_threads) {
+    tbb::parallel_for(std::size_t{0}, sweep.points.size(), compute);
+  } else {
+    for (std::size_t i = 0; i < sweep.points.size(); ++i) compute(i);
+  }
+  return sweep;
+}
+
+}  // namespace zwidth

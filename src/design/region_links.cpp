@@ -1,0 +1,113 @@
+#include "design/region_links.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace zwidth {
+namespace {
+
+// Ends this close, as a share of the greatest |K| + |B|/T of the level, meet.
+constexpr double same_place = 1e-7;
+
+}  // namespace
+
+RegionLinks::RegionLinks(const StableWalls::Structure& structure) : structure_(structure) {
+  std::size_t cells = 0;
+  for (const RegionSlab& slab : structure.slabs) {
+    first_cell_.push_back(cells);
+    cells += slab.cells.size();
+  }
+  partners_.resize(4 * cells);
+  parents_.resize(cells);
+  std::iota(parents_.begin(), parents_.end(), std::size_t{0});
+  for (std::size_t slab = 0; slab <= structure.slabs.size(); ++slab) link_bottom_of(slab);
+}
+
+const RegionEdge& RegionLinks::edge(const EdgeEnd& end) const {
+  const RegionCell& cell = structure_.slabs[end.slab].cells[end.cell];
+  return end.right ? *cell.right : cell.left;
+}
+
+double RegionLinks::damping(const EdgeEnd& end) const {
+  const RegionSlab& slab = structure_.slabs[end.slab];
+  return end.top ? slab.upper : slab.lower;
+}
+
+StableWalls::Structure::EdgePoint RegionLinks::point(const EdgeEnd& end) const {
+  return structure_.edge_at(edge(end), damping(end));
+}
+
+std::size_t RegionLinks::root(std::size_t cell) const {
+  while (parents_[cell] != cell) cell = parents_[cell];
+  return cell;
+}
+
+void RegionLinks::pair(const EdgeEnd& a, const EdgeEnd& b) {
+  partners_[index(a)] = b;
+  partners_[index(b)] = a;
+}
+
+// The ends at one level by rising K: of the slab that begins there and of the one that ends there.
+std::vector<RegionLinks::Placed> RegionLinks::ends_at_bottom_of(std::size_t slab) const {
+  std::vector<Placed> ends;
+  const auto add = [&](std::size_t of, bool top) {
+    for (std::size_t cell = 0; cell < structure_.slabs[of].cells.size(); ++cell) {
+      for (const bool right : {false, true}) {
+        const EdgeEnd end{of, cell, right, top};
+        ends.push_back({end, point(end).stiffness, 0});
+      }
+    }
+  };
+  if (slab > 0) add(slab - 1, true);
+  if (slab < structure_.slabs.size()) add(slab, false);
+  std::sort(ends.begin(), ends.end(), [](const Placed& a, const Placed& b) { return a.stiffness < b.stiffness; });
+  return ends;
+}
+
+// By continuity the cells below and those above cover the same K at their common level. So an end is in the same place
+// as its neighbour by rising K. Where more than two meet, a cell that is born or dies there closes on itself, and of
+// the rest right sides go on as right sides.
+void RegionLinks::link_bottom_of(std::size_t slab) {
+  std::vector<Placed> ends = ends_at_bottom_of(slab);
+  if (ends.empty()) return;
+  const double damping = this->damping(ends.front().end);
+  const double tolerance = same_place * (ends.back().stiffness + damping / structure_.curve.plant().period);
+  for (std::size_t i = 1; i < ends.size(); ++i) {
+    ends[i].cluster = ends[i - 1].cluster + (ends[i].stiffness - ends[i - 1].stiffness > tolerance ? 1 : 0);
+  }
+  std::sort(ends.begin(), ends.end(), [](const Placed& a, const Placed& b) {
+    if (a.cluster != b.cluster) return a.cluster < b.cluster;
+    return a.end.right > b.end.right;
+  });
+  std::vector<EdgeEnd> open;
+  for (const Placed& each : ends) {
+    EdgeEnd other = each.end;
+    other.right = !other.right;
+    const auto same_cell =
+        std::find_if(ends.begin(), ends.end(), [&](const Placed& placed) { return placed.end == other; });
+    if (same_cell->cluster == each.cluster) {
+      pair(each.end, other);
+    } else {
+      open.push_back(each.end);
+    }
+  }
+  for (std::size_t i = 0; i + 1 < open.size(); i += 2) pair(open[i], open[i + 1]);
+  if (slab > 0 && slab < structure_.slabs.size()) join(slab, tolerance);
+}
+
+// Cells that share more than an end are connected.
+void RegionLinks::join(std::size_t upper_slab, double tolerance) {
+  const auto range = [this](std::size_t slab, std::size_t cell, bool top) {
+    return std::pair{point({slab, cell, false, top}).stiffness, point({slab, cell, true, top}).stiffness};
+  };
+  for (std::size_t below = 0; below < structure_.slabs[upper_slab - 1].cells.size(); ++below) {
+    const auto [low, high] = range(upper_slab - 1, below, true);
+    for (std::size_t above = 0; above < structure_.slabs[upper_slab].cells.size(); ++above) {
+      const auto [first, last] = range(upper_slab, above, false);
+      if (std::min(high, last) - std::max(low, first) <= tolerance) continue;
+      parents_[root(first_cell_[upper_slab - 1] + below)] = root(first_cell_[upper_slab] + above);
+    }
+  }
+}
+
+}  // namespace zwidth

@@ -1,0 +1,198 @@
+#include "design/ring_tracer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "stability/mechanism_at.hpp"
+
+namespace zwidth {
+namespace {
+
+using Node = BoundaryBranch::Node;
+
+constexpr int max_depth = 16;
+
+class RingTracer {
+ public:
+  RingTracer(const StableWalls::Structure& structure, double deviation)
+      : structure_(structure), links_(structure), deviation_(deviation) {
+    for (const RegionSlab& slab : structure.slabs) {
+      for (const RegionCell& cell : slab.cells) {
+        for (const RegionEdge& edge : {cell.left, *cell.right}) measure(edge, slab);
+      }
+    }
+  }
+
+  TracedRing trace(const EdgeEnd& start, std::vector<std::vector<bool>>& visited) {
+    TracedRing traced;
+    traced.component = links_.component(start);
+    EdgeEnd from = start;
+    do {
+      if (from.right) visited[from.slab][from.cell] = true;
+      EdgeEnd to = from;
+      to.top = !to.top;
+      add_edge(traced.ring, from, to);
+      from = links_.partner(to);
+      if (links_.damping(to) == 0.0) {
+        add(traced.ring, BoundaryKind::no_damping, {plain(to), plain(from)});
+      }
+    } while (!(from == start));
+    close(traced.ring);
+    return traced;
+  }
+
+ private:
+  void measure(const RegionEdge& edge, const RegionSlab& slab) {
+    const auto first = structure_.edge_at(edge, slab.lower);
+    const auto last = structure_.edge_at(edge, slab.upper);
+    stiffness_extent_ = std::max({stiffness_extent_, first.stiffness, last.stiffness});
+    damping_extent_ = std::max(damping_extent_, slab.upper);
+    if (edge.kind != BoundaryKind::oscillation) return;
+    for (const Node& node : structure_.branches[edge.branch].nodes()) {
+      const bool on_edge = (node.angle - first.angle) * (node.angle - last.angle) < 0.0;
+      if (on_edge) stiffness_extent_ = std::max(stiffness_extent_, node.wall.stiffness);
+    }
+  }
+
+  [[nodiscard]] BoundaryPoint plain(const EdgeEnd& end) const {
+    return {links_.point(end).stiffness, links_.damping(end), std::nullopt, std::nullopt};
+  }
+
+  [[nodiscard]] BoundaryPoint at_angle(const WallPoint& wall, double angle) const {
+    const SampledPlant& plant = structure_.curve.plant();
+    const double frequency = angle >= std::numbers::pi ? std::numbers::pi / plant.period : angle / plant.period;
+    // K = 0 and B = 0 are met to rounding of the extent.
+    const auto cleared = [](double value, double extent) { return value > rounding * extent ? value : 0.0; };
+    return {cleared(wall.stiffness, stiffness_extent_), cleared(wall.damping, damping_extent_), frequency,
+            mechanism_at(plant, angle)};
+  }
+
+  // Distance of a wall from the chord, in shares of the extent.
+  [[nodiscard]] double off_chord(const WallPoint& wall, const WallPoint& a, const WallPoint& b) const {
+    const double x = (b.stiffness - a.stiffness) / stiffness_extent_;
+    const double y = (b.damping - a.damping) / damping_extent_;
+    const double px = (wall.stiffness - a.stiffness) / stiffness_extent_;
+    const double py = (wall.damping - a.damping) / damping_extent_;
+    const double length = std::hypot(x, y);
+    return length > 0.0 ? std::abs(x * py - y * px) / length : std::hypot(px, py);
+  }
+
+  // Points between two nodes, without the first. Two looks, so that no inflection passes for a straight line.
+  void refine(const Node& from, const Node& to, int depth, std::vector<BoundaryPoint>& points) const {
+    const auto between = [&](double part) {
+      const double angle = from.angle + part * (to.angle - from.angle);
+      return Node{angle, structure_.curve.at(angle)};
+    };
+    const auto strays = [&](double part) { return off_chord(between(part).wall, from.wall, to.wall) > deviation_; };
+    if (depth < max_depth && (strays(1.0 / 3.0) || strays(2.0 / 3.0))) {
+      const Node middle = between(0.5);
+      refine(from, middle, depth + 1, points);
+      refine(middle, to, depth + 1, points);
+      return;
+    }
+    points.push_back(at_angle(to.wall, to.angle));
+  }
+
+  [[nodiscard]] double apart(const WallPoint& a, const WallPoint& b) const {
+    return std::hypot((a.stiffness - b.stiffness) / stiffness_extent_, (a.damping - b.damping) / damping_extent_);
+  }
+
+  // The curve from one end to the other.
+  [[nodiscard]] std::vector<BoundaryPoint> curve_points(const EdgeEnd& from, const EdgeEnd& to) const {
+    const auto node = [this](const EdgeEnd& end) {
+      const auto point = links_.point(end);
+      return Node{point.angle, {point.stiffness, links_.damping(end)}};
+    };
+    const Node first = node(from);
+    const Node last = node(to);
+    // The branch's own nodes keep sharp bends from being overlooked.
+    std::vector<Node> stops{first};
+    std::vector<Node> nodes = structure_.branches[links_.edge(from).branch].nodes();
+    if (last.angle < first.angle) std::reverse(nodes.begin(), nodes.end());
+    for (const Node& each : nodes) {
+      const bool between = (each.angle - first.angle) * (each.angle - last.angle) < 0.0;
+      if (between && apart(each.wall, stops.back().wall) > spacing && apart(each.wall, last.wall) > spacing) {
+        stops.push_back(each);
+      }
+    }
+    stops.push_back(last);
+    std::vector<BoundaryPoint> points{at_angle(first.wall, first.angle)};
+    for (std::size_t i = 0; i + 1 < stops.size(); ++i) refine(stops[i], stops[i + 1], 0, points);
+    return points;
+  }
+
+  void add_edge(BoundaryRing& ring, const EdgeEnd& from, const EdgeEnd& to) const {
+    const BoundaryKind kind = links_.edge(from).kind;
+    if (kind == BoundaryKind::oscillation) {
+      add(ring, kind, curve_points(from, to));
+    } else if (kind == BoundaryKind::no_stiffness) {
+      add(ring, kind, {plain(from), plain(to)});
+    } else {
+      const auto end = [this](const EdgeEnd& each) {
+        const auto point = links_.point(each);
+        return at_angle({point.stiffness, links_.damping(each)}, point.angle);
+      };
+      add(ring, kind, {end(from), end(to)});
+    }
+  }
+
+  // Goes on with the last arc where the kind and the place are the same.
+  void add(BoundaryRing& ring, BoundaryKind kind, const std::vector<BoundaryPoint>& points) const {
+    const auto wall = [](const BoundaryPoint& point) { return WallPoint{point.stiffness, point.damping}; };
+    if (points.size() == 2 && apart(wall(points[0]), wall(points[1])) == 0.0) return;
+    if (!ring.arcs.empty() && continues(ring.arcs.back(), kind, points.front())) {
+      auto& last = ring.arcs.back().points;
+      if (kind != BoundaryKind::oscillation) last.pop_back();
+      last.insert(last.end(), points.begin() + 1, points.end());
+    } else {
+      ring.arcs.push_back({kind, points});
+    }
+  }
+
+  // The last arc may be the start of the first.
+  void close(BoundaryRing& ring) const {
+    if (ring.arcs.size() < 2) return;
+    BoundaryArc& first = ring.arcs.front();
+    BoundaryArc& last = ring.arcs.back();
+    if (!continues(last, first.kind, first.points.front())) return;
+    last.points.insert(last.points.end(), first.points.begin() + 1, first.points.end());
+    first = std::move(last);
+    ring.arcs.pop_back();
+  }
+
+  [[nodiscard]] static bool continues(const BoundaryArc& arc, BoundaryKind kind, const BoundaryPoint& point) {
+    constexpr double same_frequency = 1e-6;
+    if (arc.kind != kind) return false;
+    const BoundaryPoint& end = arc.points.back();
+    return kind != BoundaryKind::oscillation ||
+           std::abs(*end.frequency - *point.frequency) <= same_frequency * *point.frequency;
+  }
+
+  static constexpr double spacing = 1e-3;
+  static constexpr double rounding = 1e-14;
+
+  const StableWalls::Structure& structure_;
+  RegionLinks links_;
+  double deviation_;
+  double stiffness_extent_ = 0.0;
+  double damping_extent_ = 0.0;
+};
+
+}  // namespace
+
+std::vector<TracedRing> trace_rings(const StableWalls::Structure& structure, double deviation) {
+  RingTracer tracer(structure, deviation);
+  std::vector<std::vector<bool>> visited;
+  for (const RegionSlab& slab : structure.slabs) visited.emplace_back(slab.cells.size(), false);
+  std::vector<TracedRing> rings;
+  // Every ring goes up a right side somewhere.
+  for (std::size_t slab = 0; slab < visited.size(); ++slab) {
+    for (std::size_t cell = 0; cell < visited[slab].size(); ++cell) {
+      if (!visited[slab][cell]) rings.push_back(tracer.trace({slab, cell, true, false}, visited));
+    }
+  }
+  return rings;
+}
+
+}  // namespace zwidth

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <vector>
+
+#include "design/region_links.hpp"
+#include "zwidth/design/stable_region.hpp"
+
+namespace zwidth {
+
+// A closed boundary and the component it belongs to.
+struct TracedRing {
+  BoundaryRing ring;
+  std::size_t component = 0;
+};
+
+// Every closed boundary of the region, the region on its left, with points of the curve so dense that chords stay
+// within `deviation` of it (a share of the region's extent in K and in B).
+std::vector<TracedRing> trace_rings(const StableWalls::Structure& structure, double deviation);
+
+}  // namespace zwidth

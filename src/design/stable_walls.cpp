@@ -1,0 +1,67 @@
+#include "zwidth/design/stable_walls.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "design/region_structure.hpp"
+#include "zwidth/error.hpp"
+
+namespace zwidth {
+namespace {
+
+SampledPlant checked(SampledPlant plant, double velocity_filter_hz) {
+  if (!(velocity_filter_hz >= 0.0) || !std::isfinite(velocity_filter_hz)) {
+    throw Error(ErrorCode::invalid_argument,
+                "the velocity filter has " + std::to_string(velocity_filter_hz) + " Hz; must be finite and >= 0");
+  }
+  return plant;
+}
+
+}  // namespace
+
+StableWalls::StableWalls(SampledPlant plant, double velocity_filter_hz)
+    : structure_(std::make_shared<const Structure>(checked(std::move(plant), velocity_filter_hz), velocity_filter_hz)) {
+}
+
+double StableWalls::velocity_filter_hz() const { return structure_->curve.velocity_filter_hz(); }
+
+std::vector<StableInterval> StableWalls::stable_stiffnesses(double damping) const {
+  if (!(damping >= 0.0)) {
+    throw Error(ErrorCode::invalid_argument, "the virtual damper has " + std::to_string(damping) + "; must be >= 0");
+  }
+  const auto& slabs = structure_->slabs;
+  const auto slab = std::partition_point(slabs.begin(), slabs.end(),
+                                         [damping](const RegionSlab& each) { return each.upper <= damping; });
+  std::vector<StableInterval> intervals;
+  if (slab == slabs.end()) return intervals;
+  for (const RegionCell& cell : slab->cells) {
+    StableInterval interval{structure_->edge_at(cell.left, damping).stiffness, std::nullopt};
+    if (cell.right) interval.upper = structure_->edge_at(*cell.right, damping).stiffness;
+    if (!interval.upper || interval.lower < *interval.upper) intervals.push_back(interval);
+  }
+  return intervals;
+}
+
+std::vector<std::uint8_t> stable_on_grid(const StableWalls& walls, std::span<const double> stiffnesses,
+                                         std::span<const double> dampings) {
+  if (!std::is_sorted(stiffnesses.begin(), stiffnesses.end()) ||
+      std::any_of(stiffnesses.begin(), stiffnesses.end(), [](double value) { return std::isnan(value); })) {
+    throw Error(ErrorCode::invalid_argument, "the stiffnesses of the grid do not rise");
+  }
+  std::vector<std::uint8_t> stable(stiffnesses.size() * dampings.size(), 0);
+  auto row = stable.begin();
+  for (const double damping : dampings) {
+    for (const StableInterval& interval : walls.stable_stiffnesses(damping)) {
+      const auto first = std::upper_bound(stiffnesses.begin(), stiffnesses.end(), interval.lower);
+      const auto last =
+          interval.upper ? std::lower_bound(first, stiffnesses.end(), *interval.upper) : stiffnesses.end();
+      std::fill(row + (first - stiffnesses.begin()), row + (last - stiffnesses.begin()), std::uint8_t{1});
+    }
+    row += static_cast<std::ptrdiff_t>(stiffnesses.size());
+  }
+  return stable;
+}
+
+}  // namespace zwidth

@@ -1,0 +1,63 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "design/controller_slopes.hpp"
+#include "design/design_parameter.hpp"
+#include "design/plant_slopes.hpp"
+#include "zwidth/design/sensitivity.hpp"
+#include "zwidth/error.hpp"
+#include "zwidth/sampling/sampled_plant.hpp"
+
+namespace zwidth {
+namespace {
+
+using Complex = std::complex<double>;
+
+constexpr double same_stiffness = 1e-6;  // relative, of a crossover handed in and the loop's own K there
+
+std::vector<Sensitivity> at_crossover(const Device& device, const SampledPlant& unfiltered, const Crossover& limit) {
+  const double nyquist = std::numbers::pi / device.loop().sampling_period;
+  const bool is_real = limit.frequency == 0.0 || limit.frequency >= nyquist;  // z = 1 or -1: the angle stays
+  const double angle = limit.frequency >= nyquist ? std::numbers::pi : limit.frequency * device.loop().sampling_period;
+  const std::vector<DesignParameter> parameters = design_parameters(device);
+  const PlantSlopes plant = plant_slopes(device, angle, parameters, response(unfiltered, limit.frequency));
+  const FilterSlopes filters = filter_slopes(device, angle, parameters);
+  const DamperSlopes damper = damper_slopes(device, angle, parameters);
+  // L = -1/(F P) - B v
+  const Complex open = -1.0 / (filters.value * plant.value);
+  const Complex stiffness = open - damper.value;
+  if (!(std::abs(stiffness.real() - limit.stiffness) <= same_stiffness * (limit.stiffness + std::abs(open)))) {
+    throw Error(ErrorCode::invalid_argument, "the critical stiffness handed in is not that of the device");
+  }
+  const Complex by_angle = -open * (filters.log_by_angle + plant.by_angle / plant.value) - damper.by_angle;
+  const double along = is_real ? 0.0 : by_angle.real() / by_angle.imag();
+  std::vector<Sensitivity> result;
+  result.reserve(parameters.size());
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const Complex slope =
+        -open * (filters.log_by_parameter[i] + plant.by_parameter[i] / plant.value) - damper.by_parameter[i];
+    const double by_parameter = slope.real() - along * slope.imag();
+    if (!std::isfinite(by_parameter)) continue;
+    const double value = parameters[i].value;
+    result.push_back({parameters[i].key, value, by_parameter,
+                      value != 0.0 ? std::optional(value / limit.stiffness * by_parameter) : std::nullopt});
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<Sensitivity> stiffness_sensitivities(const Device& device) {
+  const Wall& wall = device.parameters().wall;
+  const SampledPlant plant = sampled_plant(device);
+  const CriticalStiffness critical =
+      critical_stiffness(filtered_plant(plant, wall.filters), {wall.damping, wall.velocity_filter_hz});
+  return critical.limit ? at_crossover(device, plant, *critical.limit) : std::vector<Sensitivity>{};
+}
+
+std::vector<Sensitivity> stiffness_sensitivities(const Device& device, const CriticalStiffness& critical) {
+  return critical.limit ? at_crossover(device, sampled_plant(device), *critical.limit) : std::vector<Sensitivity>{};
+}
+
+}  // namespace zwidth

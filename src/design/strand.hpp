@@ -1,0 +1,51 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "design/boundary_curve.hpp"
+#include "design/wall_bounds.hpp"
+
+namespace zwidth {
+
+// A piece of boundary with K and B as first-order Taylor models in u in [-1, 1]: of the curve, on an interval of
+// x = |z - 1|², or of a straight line.
+struct Strand {
+  BoundaryCurve::Jet stiffness;
+  BoundaryCurve::Jet damping;
+  double begin = 0.0;
+  double end = 0.0;
+  bool straight = false;
+  bool follows = false;  // the strand before it in the list ends where it begins
+
+  // +1 or -1 where the quantity certainly rises or falls from begin to end, else 0.
+  [[nodiscard]] int damping_sign() const { return sign(damping); }
+  [[nodiscard]] int stiffness_sign() const { return sign(stiffness); }
+
+ private:
+  [[nodiscard]] static int sign(const BoundaryCurve::Jet& a) {
+    return std::abs(a.slope) <= a.bend ? 0 : a.slope > 0.0 ? 1 : -1;
+  }
+};
+
+// Details smaller than this share of |B| + T |K| (or |K| + |B|/T) are points.
+inline constexpr double finest_detail = 1e-10;
+
+// Smaller than finest_detail in K and B, or too narrow to be divided.
+bool is_point(const Strand& strand, double period);
+
+// K and B as quotients; nothing where P may vanish on the interval.
+std::optional<Strand> curve_strand(const BoundaryCurve& curve, double begin, double end);
+
+WallPoint point_of(const BoundaryCurve& curve, const Strand& strand, double u);
+
+// Both halves; nothing where a model fails.
+std::optional<std::array<Strand, 2>> halves(const BoundaryCurve& curve, const Strand& strand);
+
+// The curve within K >= 0, B >= 0 and the bounds (and somewhat beyond), by rising x, in strands on each of which B
+// certainly rises or falls, or K does and B changes by less than finest_detail of itself.
+// Throws Error (did_not_converge) past a cap on their number.
+std::vector<Strand> curve_strands(const BoundaryCurve& curve, const WallBounds& bounds);
+
+}  // namespace zwidth
