@@ -1,0 +1,207 @@
+#include "identification/crossing_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace zwidth {
+namespace {
+
+/// The 97.5 % point of the normal distribution.
+constexpr double two_sided_95 = 1.959963984540054;
+/// A step nearer than this to half a turn may have gone either way round.
+constexpr double ambiguity = std::numbers::pi / 6.0;
+
+double turned(double angle) { return std::remainder(angle, 2.0 * std::numbers::pi); }
+
+/// Where between two lines, as a share of the way, a value passes 0.
+double zero_between(double before, double after) { return std::clamp(before / (before - after), 0.0, 1.0); }
+
+double between(double a, double b, double share) { return a + share * (b - a); }
+
+/// How far a straight line between samples 1 and 2 may be off, by the curvature that samples 0 and 3 show.
+double sag(double y0, double y1, double y2, double y3) { return std::abs(y0 - y1 - y2 + y3) / 16.0; }
+
+class Crossing {
+ public:
+  Crossing(std::span<const PhaseLine> lines, std::span<const PhaseVerdict> verdicts, const PhaseRun& below,
+           const PhaseRun& above, MeetingLines meeting)
+      : lines_(lines), verdicts_(verdicts), below_(below), above_(above), meeting_(meeting) {
+    first_open_ = meeting.after;
+    while (first_open_ > below.first && verdicts[first_open_ - 1].sign != below.sign) --first_open_;
+    end_open_ = meeting.after;
+    while (end_open_ <= above.last && verdicts[end_open_].sign != above.sign) ++end_open_;
+    find_sags();
+  }
+
+  [[nodiscard]] FittedCrossing fitted() const {
+    FittedCrossing result;
+    MeasuredCrossover& crossover = result.crossover;
+    result.first_open = first_open_;
+    result.end_open = end_open_;
+    crossover.poles_leaving = below_.sign > 0 ? 2 : -2;
+    const auto [frequency, log_magnitude] = passes_once() ? interpolated() : smoothed();
+    crossover.frequency = frequency;
+    crossover.stiffness = std::exp(-log_magnitude);
+    crossover.frequency_interval = {std::min(lower_end(), frequency), std::max(upper_end(), frequency)};
+    crossover.stiffness_interval = stiffness_interval(crossover);
+    return result;
+  }
+
+ private:
+  struct Point {
+    double frequency = 0.0;
+    double log_magnitude = 0.0;
+  };
+
+  /// Curvature of phase and ln |P| over the four lines around the meeting, where there are four.
+  void find_sags() {
+    const std::size_t before = meeting_.before;
+    const std::size_t after = meeting_.after;
+    if (after != before + 1 || before == 0 || after + 1 >= lines_.size()) return;
+    for (std::size_t i = before - 1; i <= after + 1; ++i) {
+      if (!lines_[i].measured) return;
+    }
+    const auto magnitude = [&](std::size_t i) { return std::log(std::abs(lines_[i].value)); };
+    const double middle = lines_[before].deviation;
+    const auto phase = [&](std::size_t i) { return turned(lines_[i].deviation - middle); };
+    phase_sag_ = sag(phase(before - 1), phase(before), phase(after), phase(after + 1));
+    magnitude_sag_ = sag(magnitude(before - 1), magnitude(before), magnitude(after), magnitude(after + 1));
+  }
+
+  /// The signs of single lines change once in all that may hold the crossing.
+  [[nodiscard]] bool passes_once() const {
+    std::size_t changes = 0;
+    double last = below_.sign;
+    for (std::size_t i = first_open_; i < end_open_; ++i) {
+      if (!lines_[i].measured) continue;
+      if ((lines_[i].deviation > 0.0) != (last > 0.0)) ++changes;
+      last = lines_[i].deviation;
+    }
+    if ((last > 0.0) != (above_.sign > 0)) ++changes;
+    return changes <= 1;
+  }
+
+  [[nodiscard]] Point interpolated() const {
+    const PhaseLine& before = lines_[meeting_.before];
+    const PhaseLine& after = lines_[meeting_.after];
+    const double end = before.deviation + turned(after.deviation - before.deviation);
+    const double share = zero_between(before.deviation, end);
+    return {between(before.frequency, after.frequency, share),
+            between(std::log(std::abs(before.value)), std::log(std::abs(after.value)), share)};
+  }
+
+  /// Where the smoothed phase passes, nearest to where the runs meet.
+  [[nodiscard]] Point smoothed() const {
+    Point best{lines_[meeting_.before].frequency, verdicts_[meeting_.before].log_magnitude.value};
+    double nearest = std::numeric_limits<double>::infinity();
+    const double middle = 0.5 * (lines_[meeting_.before].frequency + lines_[meeting_.after].frequency);
+    const std::size_t first = first_open_ > 0 ? first_open_ - 1 : 0;
+    for (std::size_t i = first, next; i < end_open_; i = next) {
+      next = i + 1;
+      while (next < lines_.size() && !lines_[next].measured) ++next;
+      if (next >= lines_.size() || !lines_[i].measured) continue;
+      const double one = verdicts_[i].deviation.value;
+      const double other = verdicts_[next].deviation.value;
+      if ((one > 0.0) != (below_.sign > 0) || (other > 0.0) != (above_.sign > 0)) continue;
+      const double share = zero_between(one, other);
+      const double at = between(lines_[i].frequency, lines_[next].frequency, share);
+      if (std::abs(at - middle) >= nearest) continue;
+      nearest = std::abs(at - middle);
+      best = {at, between(verdicts_[i].log_magnitude.value, verdicts_[next].log_magnitude.value, share)};
+    }
+    return best;
+  }
+
+  /// The bound of the smoothed phase towards -180 degrees and beyond, with the sign of its run: positive where proven.
+  [[nodiscard]] double bound(std::size_t line, int sign) const {
+    const Estimate& deviation = verdicts_[line].deviation;
+    return sign * deviation.value - two_sided_95 * deviation.sigma - phase_sag_;
+  }
+
+  [[nodiscard]] double lower_end() const {
+    if (first_open_ == below_.first) return lines_[first_open_].frequency;
+    const std::size_t proven = first_open_ - 1;
+    if (!lines_[first_open_].measured) return lines_[proven].frequency;
+    return between(lines_[proven].frequency, lines_[first_open_].frequency,
+                   zero_between(bound(proven, below_.sign), bound(first_open_, below_.sign)));
+  }
+
+  [[nodiscard]] double upper_end() const {
+    if (end_open_ > above_.last) return lines_[above_.last].frequency;
+    const std::size_t last = end_open_ - 1;
+    if (!lines_[last].measured) return lines_[end_open_].frequency;
+    return between(lines_[end_open_].frequency, lines_[last].frequency,
+                   zero_between(bound(end_open_, above_.sign), bound(last, above_.sign)));
+  }
+
+  /// ln |P|, smoothed, between the lines.
+  [[nodiscard]] Estimate log_magnitude_at(double frequency) const {
+    const auto usable = [&](std::size_t i) { return lines_[i].measured; };
+    std::size_t above = meeting_.after;
+    while (above > 0 && lines_[above - 1].frequency >= frequency) --above;
+    while (above < lines_.size() && (lines_[above].frequency < frequency || !usable(above))) ++above;
+    if (above == lines_.size()) return verdicts_[meeting_.after].log_magnitude;
+    if (above == 0) return verdicts_[0].log_magnitude;
+    std::size_t below = above - 1;
+    while (below > 0 && !usable(below)) --below;
+    const double share = (frequency - lines_[below].frequency) / (lines_[above].frequency - lines_[below].frequency);
+    const Estimate& one = verdicts_[below].log_magnitude;
+    const Estimate& other = verdicts_[above].log_magnitude;
+    return {between(one.value, other.value, share), std::max(one.sigma, other.sigma)};
+  }
+
+  /// The magnitude's own error, and what the crossing's place makes of its slope, are independent.
+  [[nodiscard]] Interval stiffness_interval(const MeasuredCrossover& crossover) const {
+    const Estimate here = log_magnitude_at(crossover.frequency);
+    double largest = here.value;
+    double least = here.value;
+    const auto include = [&](double log_magnitude) {
+      largest = std::max(largest, log_magnitude);
+      least = std::min(least, log_magnitude);
+    };
+    include(log_magnitude_at(crossover.frequency_interval.lower).value);
+    include(log_magnitude_at(crossover.frequency_interval.upper).value);
+    for (std::size_t i = first_open_; i < end_open_; ++i) {
+      if (lines_[i].measured) include(verdicts_[i].log_magnitude.value);
+    }
+    const double own = two_sided_95 * here.sigma + magnitude_sag_;
+    return {std::min(crossover.stiffness, std::exp(-here.value - std::hypot(own, largest - here.value))),
+            std::max(crossover.stiffness, std::exp(-here.value + std::hypot(own, here.value - least)))};
+  }
+
+  std::span<const PhaseLine> lines_;
+  std::span<const PhaseVerdict> verdicts_;
+  PhaseRun below_;
+  PhaseRun above_;
+  MeetingLines meeting_;
+  std::size_t first_open_ = 0;
+  std::size_t end_open_ = 0;
+  double phase_sag_ = 0.0;
+  double magnitude_sag_ = 0.0;
+};
+
+}  // namespace
+
+MeetingLines meeting_lines(std::span<const PhaseLine> lines, const PhaseRun& below, const PhaseRun& above) {
+  MeetingLines meeting{below.last, above.first};
+  while (meeting.before > below.first && !lines[meeting.before].measured) --meeting.before;
+  while (meeting.after < above.last && !lines[meeting.after].measured) ++meeting.after;
+  return meeting;
+}
+
+bool is_ambiguous_step(const PhaseLine& before, const PhaseLine& after) {
+  return std::abs(turned(after.deviation - before.deviation)) > std::numbers::pi - ambiguity;
+}
+
+std::optional<FittedCrossing> fitted_crossing(std::span<const PhaseLine> lines, std::span<const PhaseVerdict> verdicts,
+                                              const PhaseRun& below, const PhaseRun& above) {
+  const MeetingLines meeting = meeting_lines(lines, below, above);
+  const PhaseLine& before = lines[meeting.before];
+  const PhaseLine& after = lines[meeting.after];
+  const double end = before.deviation + turned(after.deviation - before.deviation);
+  if (is_ambiguous_step(before, after) || (end > 0.0) == (before.deviation > 0.0)) return std::nullopt;
+  return Crossing(lines, verdicts, below, above, meeting).fitted();
+}
+
+}  // namespace zwidth

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+
+#include "identification/phase_lines.hpp"
+#include "identification/phase_runs.hpp"
+#include "identification/phase_verdict.hpp"
+#include "zwidth/identification/measured_stiffness.hpp"
+
+namespace zwidth {
+
+/// A proven crossing, and the lines between which it may lie.
+struct FittedCrossing {
+  MeasuredCrossover crossover;
+  std::size_t first_open = 0;  ///< lines [first_open, end_open) are open, or contradict the run that they lie in
+  std::size_t end_open = 0;
+};
+
+/// Where the phase passes -180 degrees between two runs that meet, with its 95 % intervals.
+///
+/// Place and stiffness by interpolation of phase and ln |P| between the two neighbouring lines; where the noise makes
+/// the phase pass several times near by, of the smoothed ones. The interval reaches on either side to the first line
+/// proven to be on its run's side, interpolated to where the 95 % bound of the smoothed phase leaves -180 degrees; a
+/// curvature of the phase between the two lines widens it.
+/// Nothing where the phase passes 0 instead of -180 degrees, or steps so far that it may have done either.
+[[nodiscard]] std::optional<FittedCrossing> fitted_crossing(std::span<const PhaseLine> lines,
+                                                            std::span<const PhaseVerdict> verdicts,
+                                                            const PhaseRun& below, const PhaseRun& above);
+
+/// The last measured line of one run and the first of the next.
+struct MeetingLines {
+  std::size_t before = 0;
+  std::size_t after = 0;
+};
+[[nodiscard]] MeetingLines meeting_lines(std::span<const PhaseLine> lines, const PhaseRun& below,
+                                         const PhaseRun& above);
+
+/// The phase steps by so much between these neighbours that it may have gone either way round.
+[[nodiscard]] bool is_ambiguous_step(const PhaseLine& before, const PhaseLine& after);
+
+}  // namespace zwidth

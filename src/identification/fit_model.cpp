@@ -1,0 +1,158 @@
+#include "identification/fit_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "zwidth/error.hpp"
+#include "zwidth/model/parameter.hpp"
+#include "zwidth/sampling/sampled_plant.hpp"
+
+namespace zwidth {
+namespace {
+
+// Of a central difference: the response is known to some 1e-13, its curvature is felt from 1e-3 of a light damping on.
+constexpr double difference_step = 1e-6;
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+bool ends_with_mass(std::string_view key) { return key.ends_with(".mass"); }
+
+Coordinate::Kind kind_of(std::string_view key) {
+  const bool is_link_stiffness = key.starts_with("link.") && key.ends_with(".stiffness");
+  const bool is_mass = key.starts_with("body.") && ends_with_mass(key);
+  return is_mass || is_link_stiffness ? Coordinate::Kind::logarithmic : Coordinate::Kind::not_negative;
+}
+
+/// What the key's quantity typically is, from the sizes of force per position, per velocity and per acceleration.
+double unit_of(std::string_view key, const std::vector<ResponsePoint>& points) {
+  const int order = ends_with_mass(key) ? 2 : key.ends_with(".damping") ? 1 : 0;
+  if (key == "loop.delay" || key == "actuator.time_constant") return 1.0 / points.back().frequency;
+  std::vector<double> sizes;
+  for (const ResponsePoint& point : points) {
+    sizes.push_back(1.0 / (std::abs(point.value) * std::pow(point.frequency, order)));
+  }
+  return median(std::move(sizes));
+}
+
+void check_response(const FrequencyResponse& response, std::size_t parameters) {
+  for (const ResponsePoint& point : response.points) {
+    const bool is_finite = std::isfinite(point.value.real()) && std::isfinite(point.value.imag());
+    if (!is_finite || point.value == 0.0 || !(point.frequency > 0.0) || !(point.variance >= 0.0)) {
+      throw Error(ErrorCode::invalid_argument,
+                  "the response at " + std::to_string(point.frequency) +
+                      " rad/s is not a frequency > 0 with a finite value that is not 0 and a variance >= 0");
+    }
+  }
+  if (response.points.size() <= parameters) {
+    throw Error(ErrorCode::invalid_argument, "the response has " + std::to_string(response.points.size()) +
+                                                 " points for " + std::to_string(parameters) +
+                                                 " free parameters; it must have more points than that");
+  }
+}
+
+void check_free(const DeviceParameters& parameters, const std::string& key) {
+  static const std::set<std::string> not_in_response = {"loop.sampling_period", "actuator.force_limit",
+                                                        "sensor.resolution",    "wall.stiffness",
+                                                        "wall.damping",         "wall.velocity_filter_hz"};
+  if (!parameter(parameters, key) && not_in_response.count(key) == 0) {
+    throw Error(ErrorCode::invalid_argument, "no parameter of the structure is called " + key);
+  }
+  if (not_in_response.count(key) > 0 || key.ends_with(".coulomb")) {
+    throw Error(ErrorCode::invalid_argument, key + " does not show in a frequency response; it cannot be free");
+  }
+}
+
+}  // namespace
+
+double Coordinate::value(double x) const { return kind == Kind::logarithmic ? unit * std::exp(x) : unit * x; }
+
+double Coordinate::position(double value) const {
+  return kind == Kind::logarithmic ? std::log(std::max(value, 1e-12 * unit) / unit) : value / unit;
+}
+
+double Coordinate::slope(double x) const { return kind == Kind::logarithmic ? value(x) : unit; }
+
+FitModel::FitModel(const Device& structure, const FrequencyResponse& response, const std::vector<std::string>& free,
+                   const std::vector<std::string>& locked)
+    : structure_(structure), sampling_period_(response.sampling_period) {
+  if (!structure.has_bodies()) {
+    throw Error(ErrorCode::invalid_argument, "the structure is a transfer function; it must be a device of bodies");
+  }
+  for (const std::string& name : locked) locked_.push_back(structure.body_index(name));
+  (void)locked_device(structure, locked_);  // refuses what cannot be locked
+  check_response(response, free.size());
+  std::set<std::string> seen;
+  for (const std::string& given : free) {
+    const std::string key = full_parameter_key(structure.parameters(), given);
+    check_free(structure.parameters(), key);
+    if (!seen.insert(key).second) throw Error(ErrorCode::invalid_argument, key + " is given twice as free");
+    coordinates_.push_back({key, kind_of(key), unit_of(key, response.points)});
+  }
+}
+
+Eigen::VectorXd FitModel::position_of(const DeviceParameters& parameters) const {
+  Eigen::VectorXd x(static_cast<Eigen::Index>(coordinates_.size()));
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    const Coordinate& coordinate = coordinates_[static_cast<std::size_t>(i)];
+    x(i) = coordinate.position(*parameter(parameters, coordinate.key));
+  }
+  return x;
+}
+
+DeviceParameters FitModel::parameters_at(const Eigen::VectorXd& x) const {
+  DeviceParameters parameters = structure_.parameters();
+  parameters.uncertainty.reset();
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    const Coordinate& coordinate = coordinates_[static_cast<std::size_t>(i)];
+    set_parameter(parameters, coordinate.key, coordinate.value(x(i)));
+  }
+  return parameters;
+}
+
+Eigen::VectorXcd FitModel::response_at(const Eigen::VectorXd& x, const std::vector<double>& frequencies) const {
+  DeviceParameters parameters = parameters_at(x);
+  if (sampling_period_) parameters.loop.sampling_period = *sampling_period_;
+  parameters.wall.filters.clear();  // no wall acted; and at the record's rate they may be impossible
+  const Device device = locked_device(Device(std::move(parameters)), locked_);
+  Eigen::VectorXcd values(static_cast<Eigen::Index>(frequencies.size()));
+  if (sampling_period_) {
+    const SampledPlant plant = sampled_plant(device);
+    for (std::size_t i = 0; i < frequencies.size(); ++i) {
+      values(static_cast<Eigen::Index>(i)) = response(plant, frequencies[i]);
+    }
+  } else {  // G(jw) e^{-jw t_d}
+    const ModalForm form = modal_form(device);
+    for (std::size_t i = 0; i < frequencies.size(); ++i) {
+      values(static_cast<Eigen::Index>(i)) =
+          response(form, frequencies[i]) * std::polar(1.0, -frequencies[i] * device.loop().delay);
+    }
+  }
+  return values;
+}
+
+ResponseWithSlopes FitModel::slopes_at(const Eigen::VectorXd& x, const std::vector<double>& frequencies) const {
+  ResponseWithSlopes result{response_at(x, frequencies),
+                            Eigen::MatrixXcd(static_cast<Eigen::Index>(frequencies.size()), x.size())};
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    const auto shifted = [&](double by) {
+      Eigen::VectorXd moved = x;
+      moved(i) += by;
+      return response_at(moved, frequencies);
+    };
+    constexpr double h = difference_step;
+    const bool at_bound = coordinates_[static_cast<std::size_t>(i)].kind == Coordinate::Kind::not_negative && x(i) < h;
+    if (at_bound) {
+      result.slopes.col(i) = (4.0 * shifted(h) - 3.0 * result.values - shifted(2.0 * h)) / (2.0 * h);
+    } else {
+      result.slopes.col(i) = (shifted(h) - shifted(-h)) / (2.0 * h);
+    }
+  }
+  return result;
+}
+
+}  // namespace zwidth

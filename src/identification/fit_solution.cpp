@@ -1,0 +1,106 @@
+#include "identification/fit_solution.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "identification/fit_weights.hpp"
+#include "identification/initial_values.hpp"
+#include "identification/response_features.hpp"
+#include "zwidth/error.hpp"
+
+namespace zwidth {
+namespace {
+
+constexpr std::size_t points_for_starts = 40;
+// Nepers: a logarithmic fit as close as this on average has found its minimum.
+constexpr double close_start = 0.1;
+
+/// A fit of the logarithm from each initial position, until one comes close.
+std::vector<LeastSquares> logarithmic_fits(const FitModel& model, const std::vector<ResponsePoint>& points,
+                                           const ResponseFeatures& features) {
+  constexpr LeastSquaresOptions options{
+      .misfit = Misfit::logarithmic, .robust_threshold = 0.5, .most_iterations = 30, .tolerance = 1e-3};
+  const FitData data = fit_data(points, 0.0);
+  std::vector<LeastSquares> fits;
+  for (const Eigen::VectorXd& start : initial_positions(model, points, features)) {
+    fits.push_back(least_squares(model, data, start, options));
+    const double mean_square = 2.0 * fits.back().cost / static_cast<double>(points.size());
+    if (mean_square < close_start * close_start) break;
+  }
+  std::ranges::stable_sort(fits, {}, &LeastSquares::cost);
+  return fits;
+}
+
+}  // namespace
+
+Start start_at(const FitModel& model, const Eigen::VectorXd& x) {
+  return start_at(model, x, x, std::vector<bool>(static_cast<std::size_t>(x.size()), true));
+}
+
+Start start_at(const FitModel& model, const Eigen::VectorXd& x, const Eigen::VectorXd& towards,
+               const std::vector<bool>& determined) {
+  constexpr double weak = 0.3;  // 1 / standard deviation, in nepers or typical values
+  Start start{x, {x, Eigen::VectorXd::Zero(x.size())}};
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const bool is_logarithmic = model.coordinates()[k].kind == Coordinate::Kind::logarithmic;
+    if (is_logarithmic || !determined[k]) start.pull.strength(i) = weak;
+    if (!determined[k]) start.pull.towards(i) = towards(i);
+  }
+  return start;
+}
+
+std::vector<Start> promising_starts(const FitModel& model, const std::vector<ResponsePoint>& points) {
+  std::vector<ResponsePoint> clear;  // those that the noise does not drown
+  for (const ResponsePoint& point : points) {
+    if (point.variance < 0.1 * std::norm(point.value)) clear.push_back(point);
+  }
+  if (clear.size() < 10) clear = points;
+  const ResponseFeatures features = response_features(clear);
+  const std::vector<ResponsePoint> some = thinned(clear, features, points_for_starts);
+  const std::vector<LeastSquares> fits = logarithmic_fits(model, some, features);
+  std::vector<Start> starts;
+  for (const LeastSquares& fit : fits) {
+    const bool is_new = std::ranges::none_of(
+        starts, [&](const Start& other) { return (fit.x - other.x).lpNorm<Eigen::Infinity>() < 0.2; });
+    if (starts.empty() || (is_new && fit.cost < 2.0 * fits.front().cost)) starts.push_back(start_at(model, fit.x));
+    if (starts.size() == 2) break;
+  }
+  return starts;
+}
+
+Solution solve(const FitModel& model, const std::vector<ResponsePoint>& points, const std::vector<Start>& starts,
+               double robust_threshold) {
+  constexpr int most_rounds = 6;
+  constexpr double close_enough = 0.05;
+  const LeastSquaresOptions options{Misfit::weighted, robust_threshold, 200};
+  const FitData all = fit_data(points, 0.0);
+  LeastSquaresOptions rough = options;
+  rough.tolerance = 1e-5;
+  Solution best;
+  best.model_error = std::numeric_limits<double>::infinity();
+  double best_cost = best.model_error;
+  for (const Start& start : starts) {  // the one that explains the data best
+    const double error = model_error_of(points, model.response_at(start.x, all.frequencies));
+    const LeastSquares fit = least_squares(model, fit_data(points, error), start.x, rough, start.pull);
+    const double left = model_error_of(points, model.response_at(fit.x, all.frequencies));
+    if (std::pair(left, fit.cost) < std::pair(best.model_error, best_cost)) {
+      best = {fit.x, left, start.pull};
+      best_cost = fit.cost;
+    }
+  }
+  for (int round = 0; round < most_rounds; ++round) {
+    const LeastSquares fit = least_squares(model, fit_data(points, best.model_error), best.x, options, best.pull);
+    if (!fit.converged) throw Error(ErrorCode::did_not_converge, "the fit does not converge");
+    const double error = model_error_of(points, model.response_at(fit.x, all.frequencies));
+    const bool is_done = std::abs(error - best.model_error) <= close_enough * error;
+    best.x = fit.x;
+    if (!is_done) best.model_error = error;
+    if (is_done) break;
+  }
+  return best;
+}
+
+}  // namespace zwidth

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "identification/fit_model.hpp"
+#include "identification/least_squares.hpp"
+
+namespace zwidth {
+
+/// Where a search begins, and where it is weakly drawn.
+struct Start {
+  Eigen::VectorXd x;
+  Pull pull;
+};
+
+/// A start at x that is drawn to x itself. Every mass and stiffness is taken as known to a factor of 28 (one standard
+/// deviation) beforehand: what the data determine does not feel it, and what they leave open does not drift away.
+[[nodiscard]] Start start_at(const FitModel& model, const Eigen::VectorXd& x);
+
+/// The same, with the coordinates that the data leave open drawn to another position.
+[[nodiscard]] Start start_at(const FitModel& model, const Eigen::VectorXd& x, const Eigen::VectorXd& towards,
+                             const std::vector<bool>& determined);
+
+/// A fit and the model error that goes with it.
+struct Solution {
+  Eigen::VectorXd x;
+  double model_error = 0.0;
+  Pull pull;  ///< of the start that it was found from
+};
+
+/// Starting points from the data, the best first: after a fit of the logarithm at some of the points.
+[[nodiscard]] std::vector<Start> promising_starts(const FitModel& model, const std::vector<ResponsePoint>& points);
+
+/// Alternates between the parameters and the model error that weights the points, from the start that explains the data
+/// best. Throws Error (did_not_converge).
+[[nodiscard]] Solution solve(const FitModel& model, const std::vector<ResponsePoint>& points,
+                             const std::vector<Start>& starts, double robust_threshold);
+
+}  // namespace zwidth

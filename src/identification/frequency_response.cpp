@@ -1,0 +1,141 @@
+#include "zwidth/identification/frequency_response.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "identification/period_detection.hpp"
+#include "identification/periodic_response.hpp"
+#include "identification/welch.hpp"
+#include "zwidth/error.hpp"
+
+namespace zwidth {
+namespace {
+
+using Excitation = FrequencyResponseOptions::Excitation;
+
+constexpr std::size_t fewest_samples = 16;
+
+[[noreturn]] void refuse(const std::string& what) { throw Error(ErrorCode::invalid_argument, what); }
+
+void check_samples(std::span<const double> signal, const char* name) {
+  const auto bad = std::find_if_not(signal.begin(), signal.end(), [](double value) { return std::isfinite(value); });
+  if (bad != signal.end()) refuse(fmt::format("sample {} of the {} is {}; a number", bad - signal.begin(), name, *bad));
+}
+
+void check(std::span<const double> force, std::span<const double> output, double sampling_period,
+           const FrequencyResponseOptions& options) {
+  if (force.size() != output.size()) {
+    refuse(fmt::format("{} samples of force, {} of the motion; equally many", force.size(), output.size()));
+  }
+  if (force.size() < fewest_samples) {
+    refuse(fmt::format("the record has {} samples; at least {}", force.size(), fewest_samples));
+  }
+  if (!(std::isfinite(sampling_period) && sampling_period > 0.0)) {
+    refuse(fmt::format("sampling period of {} s; above 0", sampling_period));
+  }
+  check_samples(force, "force");
+  check_samples(output, "motion");
+  const auto constant = [](std::span<const double> signal) {
+    return std::all_of(signal.begin(), signal.end(), [&](double value) { return value == signal.front(); });
+  };
+  if (constant(force)) refuse("the force is constant: it excites nothing; a force that varies");
+  if (constant(output)) refuse("the motion is constant: nothing to measure; another column, or a stronger force");
+  if (!(options.overlap >= 0.0 && options.overlap < 1.0)) {
+    refuse(fmt::format("overlap of {}; 0 up to, but not including, 1", options.overlap));
+  }
+  const double lowest = options.lowest.value_or(0.0);
+  const double highest = options.highest.value_or(std::numeric_limits<double>::infinity());
+  if (!(lowest >= 0.0 && highest > lowest)) {
+    refuse(fmt::format("band from {:.6g} to {:.6g} rad/s; rising, from 0 on", lowest, highest));
+  }
+}
+
+void check_period(std::size_t samples, std::size_t period, std::size_t skipped) {
+  if (period < 2 || period > samples / 2) {
+    refuse(fmt::format("period of {} samples in a record of {}; 2 up to half the record", period, samples));
+  }
+  if (samples / period < skipped + 2) {
+    refuse(fmt::format("{} of {} whole periods skipped; at least two must remain", skipped, samples / period));
+  }
+}
+
+FrequencyResponse estimate(std::span<const double> force, std::span<const double> output, double sampling_period,
+                           const FrequencyResponseOptions& options, const Progress& progress) {
+  if (options.excitation == Excitation::aperiodic) {
+    return welch_response(force, output, sampling_period, options, progress);
+  }
+  if (options.period && options.excitation == Excitation::periodic) {
+    check_period(force.size(), *options.period, options.skip_periods);
+    return periodic_response(force, output, sampling_period,
+                             {*options.period, options.skip_periods, PeriodicRecord::Transient::remark}, options,
+                             progress);
+  }
+  if (const auto period = detect_period(force)) {
+    check_period(force.size(), *period, options.skip_periods);
+    const auto transient =
+        options.skip_periods == 0 ? PeriodicRecord::Transient::skip : PeriodicRecord::Transient::remark;
+    FrequencyResponse response = periodic_response(force, output, sampling_period,
+                                                   {*period, options.skip_periods, transient}, options, progress);
+    response.remarks.insert(response.remarks.begin(),
+                            {Remark::Severity::note, fmt::format("the force repeats every {} samples", *period), ""});
+    return response;
+  }
+  if (options.excitation == Excitation::periodic) {
+    refuse("the force does not repeat itself, within half the record; give the period, or take it as aperiodic");
+  }
+  return welch_response(force, output, sampling_period, options, progress);
+}
+
+/// Velocity and acceleration as position; the Nyquist line, where jw has no real counterpart in samples, is left out.
+void to_position(FrequencyResponse& response, OutputQuantity output, double sampling_period) {
+  if (output == OutputQuantity::position) return;
+  const double nyquist = std::acos(-1.0) / sampling_period;
+  std::erase_if(response.points, [&](const ResponsePoint& point) { return point.frequency > 0.999999 * nyquist; });
+  for (ResponsePoint& point : response.points) {
+    const std::complex<double> jw(0.0, point.frequency);
+    const std::complex<double> factor = output == OutputQuantity::velocity ? 1.0 / jw : 1.0 / (jw * jw);
+    point.value *= factor;
+    point.variance *= std::norm(factor);
+  }
+  response.remarks.push_back(
+      {Remark::Severity::note,
+       output == OutputQuantity::velocity ? "the velocity is turned into a position by 1/(jw)"
+                                          : "the acceleration is turned into a position by -1/w^2",
+       "an approximation under a held force: the position comes out too large by about (wT)^2/12 for a velocity, twice "
+       "that for an acceleration, and the critical stiffness too low; a filter that made the signal is part of the "
+       "response"});
+}
+
+}  // namespace
+
+FrequencyResponse frequency_response(std::span<const double> force, std::span<const double> output,
+                                     double sampling_period, const FrequencyResponseOptions& options,
+                                     const Progress& progress) {
+  check(force, output, sampling_period, options);
+  FrequencyResponse response = estimate(force, output, sampling_period, options, progress);
+  to_position(response, options.output, sampling_period);
+  std::erase_if(response.points, [&](const ResponsePoint& point) {
+    return point.frequency < options.lowest.value_or(0.0) ||
+           point.frequency > options.highest.value_or(std::numeric_limits<double>::infinity());
+  });
+  if (progress) progress(1.0);
+  return response;
+}
+
+double confidence_radius(const ResponsePoint& point, double averages) {
+  // P(F > x) = (1 + x / m)^-m for 2 and 2 m degrees of freedom; exp(-x) in the limit.
+  constexpr double outside = 0.05;
+  if (averages == 0.0) {
+    return point.variance == 0.0 ? std::numeric_limits<double>::infinity()
+                                 : std::sqrt(-std::log(outside) * point.variance);
+  }
+  if (averages < 2.0) return std::numeric_limits<double>::infinity();
+  const double m = averages - 1.0;
+  return std::sqrt(point.variance * m * std::expm1(-std::log(outside) / m));
+}
+
+}  // namespace zwidth

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "identification/fit_model.hpp"
+#include "identification/least_squares.hpp"
+
+namespace zwidth {
+
+/// Which coordinates the data determine.
+struct Identifiability {
+  std::vector<bool> determined;                        ///< by the data alone, one per coordinate
+  std::vector<std::vector<std::size_t>> combinations;  ///< coordinates of which only a combination shows, or nothing
+};
+
+/// From the eigenvalues of the normal matrix, scaled to correlations: those that vanish belong to directions in which
+/// the response does not change at all.
+[[nodiscard]] Identifiability identifiability(const ResponseWithSlopes& at_solution, const FitData& data);
+
+/// Covariance of the determined coordinates at the solution, 0 for the others.
+///
+/// A^-1 B A^-1 with the normal matrix A and the scores' covariance B (White 1980): B takes the residuals' size from
+/// around each point, and their correlation from the whole band, so that deviations which are wrong, and lines which a
+/// window correlates, do not spoil the intervals.
+[[nodiscard]] Eigen::MatrixXd covariance(const ResponseWithSlopes& at_solution, const FitData& data,
+                                         const std::vector<bool>& determined, double robust_threshold);
+
+}  // namespace zwidth

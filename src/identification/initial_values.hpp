@@ -1,0 +1,21 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "identification/fit_model.hpp"
+#include "identification/response_features.hpp"
+
+namespace zwidth {
+
+/// Positions from which a fit may find the global minimum, the most promising first; at least one.
+///
+/// Masses, stiffnesses and dampings are combined from what the response shows: the line at low frequencies (whole mass,
+/// or static stiffness), the one at high frequencies (mass of the actuated body), resonances and antiresonances
+/// (stiffness over reduced mass), the slope of the phase (delay and lag). Every combination is judged by the mean
+/// logarithmic misfit at some of the points, and the best are kept. Fixed parameters keep the structure's values.
+[[nodiscard]] std::vector<Eigen::VectorXd> initial_positions(const FitModel& model,
+                                                             const std::vector<ResponsePoint>& points,
+                                                             const ResponseFeatures& features);
+
+}  // namespace zwidth

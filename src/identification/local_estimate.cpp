@@ -1,0 +1,87 @@
+#include "identification/local_estimate.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+namespace zwidth {
+namespace {
+
+constexpr std::array<std::size_t, 12> reaches{1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64};
+/// A wider fit agrees with a narrower one within this many of the narrower one's standard deviations.
+constexpr double agreement = 2.0;
+/// The neighbourhood is chosen by the same data, which costs certainty: by this much, as simulated (the intervals of
+/// crossovers then hold the truth in 93 to 97 % of cases).
+constexpr double cost_of_choice = 1.2;
+/// Standard deviations by which the misfit may exceed its expectation.
+constexpr double most_misfit = 2.0;
+
+struct Fit {
+  Estimate estimate;
+  double misfit = 0.0;   ///< sum of squared residuals over variances
+  double freedom = 0.0;  ///< samples less coefficients
+};
+
+/// Weighted least squares by a parabola around `middle`, in x scaled by the window's half width.
+std::optional<Fit> polynomial_fit(std::span<const CurveSample> window, double middle, double correlation) {
+  const double scale = std::max(window.back().x - middle, middle - window.front().x);
+  const auto count = std::count_if(window.begin(), window.end(), [](const CurveSample& s) { return s.counts; });
+  if (count < 3 || !(scale > 0.0)) return std::nullopt;
+  constexpr std::ptrdiff_t enough_for_a_parabola = 6;
+  const Eigen::Index coefficients = count >= enough_for_a_parabola ? 3 : 2;
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  normal.topLeftCorner(coefficients, coefficients).setZero();
+  const auto powers = [&](const CurveSample& sample) {
+    const double t = (sample.x - middle) / scale;
+    return Eigen::Vector3d(1.0, t, coefficients == 3 ? t * t : 0.0);
+  };
+  for (const CurveSample& sample : window) {
+    if (!sample.counts) continue;
+    const double weight = 1.0 / (sample.sigma * sample.sigma);
+    const Eigen::Vector3d p = powers(sample);
+    normal += weight * p * p.transpose();
+    right += weight * sample.y * p;
+  }
+  const Eigen::Matrix3d covariance = normal.inverse();
+  const Eigen::Vector3d solution = covariance * right;
+  Fit fit;
+  fit.freedom = static_cast<double>(count - coefficients);
+  for (const CurveSample& sample : window) {
+    if (!sample.counts) continue;
+    const double residual = (sample.y - powers(sample).dot(solution)) / sample.sigma;
+    fit.misfit += residual * residual;
+  }
+  const double inflation = std::min(static_cast<double>(count), correlation);
+  fit.estimate = {solution(0), std::sqrt(inflation * std::max(0.0, covariance(0, 0)))};
+  if (!std::isfinite(fit.estimate.value) || !std::isfinite(fit.estimate.sigma)) return std::nullopt;
+  return fit;
+}
+
+}  // namespace
+
+Estimate local_estimate(std::span<const CurveSample> samples, std::size_t index, double correlation) {
+  Estimate best{samples[index].y, samples[index].sigma};
+  double lowest = best.value - agreement * best.sigma;
+  double highest = best.value + agreement * best.sigma;
+  for (const std::size_t reach : reaches) {
+    const std::size_t first = index - std::min(index, reach);
+    const std::size_t last = std::min(samples.size() - 1, index + reach);
+    const auto fit = polynomial_fit(samples.subspan(first, last - first + 1), samples[index].x, correlation);
+    if (fit) {
+      const Estimate& wider = fit->estimate;
+      const bool fits = fit->misfit <= fit->freedom + most_misfit * std::sqrt(2.0 * fit->freedom);
+      if (!fits || wider.value < lowest || wider.value > highest) break;
+      if (wider.sigma < best.sigma) best = wider;
+      lowest = std::max(lowest, wider.value - agreement * wider.sigma);
+      highest = std::min(highest, wider.value + agreement * wider.sigma);
+    }
+    if (first == 0 && last + 1 == samples.size()) break;
+  }
+  if (best.sigma < samples[index].sigma) best.sigma = std::min(cost_of_choice * best.sigma, samples[index].sigma);
+  return best;
+}
+
+}  // namespace zwidth

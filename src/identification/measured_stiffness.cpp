@@ -1,0 +1,295 @@
+#include "zwidth/identification/measured_stiffness.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "identification/crossing_fit.hpp"
+#include "identification/phase_lines.hpp"
+#include "identification/phase_runs.hpp"
+#include "identification/phase_verdict.hpp"
+#include "zwidth/error.hpp"
+
+namespace zwidth {
+namespace {
+
+double hertz(double frequency) { return frequency / (2.0 * std::numbers::pi); }
+
+std::string band_text(const Interval& band) {
+  return band.lower == band.upper ? fmt::format("at {:.4g} Hz", hertz(band.lower))
+                                  : fmt::format("from {:.4g} to {:.4g} Hz", hertz(band.lower), hertz(band.upper));
+}
+
+/// A phase farther above 0 than this is no sensor's or noise's lead: it has come from below.
+constexpr double most_lead = std::numbers::pi / 6.0;
+/// Lines at an end of the band that count as outside it rather than as a doubt within.
+constexpr std::size_t most_ragged_lines = 3;
+
+/// How many lines to give up from an end on: those that are not measured, and few measured ones between them.
+template <typename Iterator>
+std::ptrdiff_t ragged_lines(Iterator begin, Iterator end) {
+  std::ptrdiff_t given_up = 0;
+  std::size_t measured_ones = 0;
+  for (Iterator line = begin; line != end && measured_ones <= most_ragged_lines; ++line) {
+    measured_ones = line->measured ? measured_ones + 1 : 0;
+    if (!line->measured) given_up = line + 1 - begin;
+  }
+  return given_up;
+}
+
+std::vector<PhaseLine> without_ragged_ends(const std::vector<PhaseLine>& lines) {
+  const auto first = lines.begin() + ragged_lines(lines.begin(), lines.end());
+  const auto last = lines.end() - ragged_lines(lines.rbegin(), lines.rend());
+  return first < last ? std::vector<PhaseLine>(first, last) : std::vector<PhaseLine>{};
+}
+
+/// The least stiffness that a crossing among these lines could have: they may be larger than measured, by 95 %.
+double least_stiffness(std::span<const PhaseLine> lines) {
+  const double radius_per_sigma = std::sqrt(-2.0 * std::log(0.05));
+  double largest = 0.0;
+  for (const PhaseLine& line : lines) {
+    largest = std::max(largest, std::abs(line.value) + radius_per_sigma * line.sigma);
+  }
+  return 1.0 / largest;
+}
+
+/// A stretch of the band that may hide crossings.
+struct Doubt {
+  Interval band;
+  double least_stiffness = 0.0;
+};
+
+Doubt doubt_over(std::span<const PhaseLine> lines, std::size_t first, std::size_t last) {
+  return {{lines[first].frequency, lines[last].frequency}, least_stiffness(lines.subspan(first, last - first + 1))};
+}
+
+/// A crossing near which several lines are open may be near the positive real axis: nothing crosses there.
+bool may_cross(std::span<const PhaseLine> stretch) {
+  return std::any_of(stretch.begin(), stretch.end(),
+                     [](const PhaseLine& line) { return !line.measured || line.value.real() < 0.0; });
+}
+
+/// What the lines prove about crossings below the Nyquist frequency.
+struct Findings {
+  std::vector<PhaseRun> runs;
+  std::vector<MeasuredCrossover> crossovers;
+  std::vector<Doubt> doubts;
+  Interval band;  ///< in which the phase is known up to crossovers and doubts
+  /// Where the imaginary part is positive at first, the phase is past -180 degrees, and not a little above 0: a device
+  /// on a spring starts from 0, on either side by the noise.
+  bool starts_past_half_turn = false;
+};
+
+/// Lines that are open, or contradict their run, and that no crossing accounts for: each stretch is a doubt.
+void add_open_stretches(Findings& findings, std::span<const PhaseLine> lines, std::span<const PhaseVerdict> verdicts,
+                        const std::vector<bool>& accounted) {
+  std::vector<bool> open(lines.size(), false);
+  for (const PhaseRun& run : findings.runs) {
+    for (std::size_t i = run.first; i <= run.last; ++i) open[i] = verdicts[i].sign != run.sign && !accounted[i];
+  }
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (!open[i]) continue;
+    const std::size_t first = i;
+    while (i + 1 < lines.size() && open[i + 1]) ++i;
+    const std::size_t count = i - first + 1;
+    const bool is_at_start = first == 0 && i + 1 < lines.size();
+    const bool is_at_end = i + 1 == lines.size() && first > 0;
+    if (is_at_start && count <= most_ragged_lines) {
+      findings.band.lower = lines[i + 1].frequency;
+    } else if (is_at_end && count <= most_ragged_lines) {
+      findings.band.upper = lines[first - 1].frequency;
+    } else if (may_cross(lines.subspan(first, count))) {
+      findings.doubts.push_back(doubt_over(lines, first, i));
+    }
+  }
+}
+
+Findings find_crossings(std::span<const PhaseLine> lines, std::span<const PhaseVerdict> verdicts,
+                        std::vector<PhaseRun> runs) {
+  Findings findings;
+  findings.runs = std::move(runs);
+  findings.band = {lines.front().frequency, lines.back().frequency};
+  const auto settled =
+      std::find_if(verdicts.begin(), verdicts.end(), [](const PhaseVerdict& v) { return v.sign != 0; });
+  if (settled != verdicts.end()) {
+    const PhaseLine& line = lines[static_cast<std::size_t>(settled - verdicts.begin())];
+    findings.starts_past_half_turn = std::arg(line.value) > most_lead;
+  }
+  std::vector<bool> accounted(lines.size(), false);
+  for (std::size_t i = 1; i < findings.runs.size(); ++i) {
+    const PhaseRun& below = findings.runs[i - 1];
+    const PhaseRun& above = findings.runs[i];
+    const MeetingLines meeting = meeting_lines(lines, below, above);
+    if (const auto crossing = fitted_crossing(lines, verdicts, below, above)) {
+      findings.crossovers.push_back(crossing->crossover);
+      for (std::size_t j = crossing->first_open; j < crossing->end_open; ++j) accounted[j] = true;
+    } else if (is_ambiguous_step(lines[meeting.before], lines[meeting.after])) {
+      findings.doubts.push_back(doubt_over(lines, meeting.before, meeting.after));
+    }
+  }
+  add_open_stretches(findings, lines, verdicts, accounted);
+  return findings;
+}
+
+/// The response is real at the Nyquist frequency: a negative value is a crossing, by a single pole.
+std::optional<MeasuredCrossover> nyquist_crossing(const FrequencyResponse& response,
+                                                  const std::vector<PhaseRun>& runs) {
+  const auto point = nyquist_point(response);
+  if (!point || runs.empty()) return std::nullopt;
+  const double radius = confidence_radius(*point, response.averages);
+  const double magnitude = -point->value.real();
+  if (!(magnitude > radius)) return std::nullopt;
+  return MeasuredCrossover{point->frequency,
+                           1.0 / magnitude,
+                           {point->frequency, point->frequency},
+                           {1.0 / (magnitude + radius), 1.0 / (magnitude - radius)},
+                           runs.back().sign > 0 ? 1 : -1};
+}
+
+const MeasuredCrossover* softest(const std::vector<MeasuredCrossover>& crossovers) {
+  const auto least = std::min_element(crossovers.begin(), crossovers.end(),
+                                      [](const auto& a, const auto& b) { return a.stiffness < b.stiffness; });
+  return least == crossovers.end() ? nullptr : &*least;
+}
+
+void warn(MeasuredStiffness& result, std::string what, std::string meaning) {
+  result.remarks.push_back({Remark::Severity::warning, std::move(what), std::move(meaning)});
+}
+
+/// The phase is below -180 degrees where the band begins, or the softest crossing is one by which poles return.
+/// Not so where the lines at the beginning contradict their run, or leave it open: that is a doubt.
+bool begins_unstable(const MeasuredStiffness& result, const Findings& findings) {
+  const bool doubtful_start = std::any_of(findings.doubts.begin(), findings.doubts.end(),
+                                          [&](const Doubt& doubt) { return doubt.band.lower <= findings.band.lower; });
+  if (doubtful_start) return false;
+  if (findings.runs.front().sign < 0 && findings.starts_past_half_turn) return true;
+  const MeasuredCrossover* least = softest(result.crossovers);
+  return least && least->poles_leaving < 0;
+}
+
+/// The lines from the first on whose phase cannot be told from -180 degrees each by itself. What lies where the band
+/// begins is where a limiting crossing hides most easily: there no line is believed for its neighbours' sake.
+std::optional<Doubt> doubtful_start(std::span<const PhaseLine> lines) {
+  const double radius_per_sigma = std::sqrt(-2.0 * std::log(0.05));
+  std::size_t open = 0;
+  while (open < lines.size()) {
+    const PhaseLine& line = lines[open];
+    const double distance = std::abs(line.value) * std::sin(std::min(std::abs(line.deviation), std::numbers::pi / 2.0));
+    if (line.measured && distance > radius_per_sigma * line.sigma) break;
+    ++open;
+  }
+  if (open == 0) return std::nullopt;
+  return doubt_over(lines, 0, std::min(open, lines.size() - 1));
+}
+
+void judge(MeasuredStiffness& result, const Findings& findings) {
+  if (findings.runs.empty()) {
+    result.status = MeasuredStiffnessStatus::undetermined;
+    result.doubtful_bands.push_back(findings.band);
+    warn(result, "the phase cannot be told from -180 degrees anywhere in the band",
+         "the critical stiffness is unknown; excite more strongly or for longer");
+    return;
+  }
+  if (begins_unstable(result, findings)) {
+    result.status = MeasuredStiffnessStatus::not_in_band;
+    warn(result,
+         fmt::format("the phase is past -180 degrees already where the band begins, {:.4g} Hz",
+                     hertz(findings.band.lower)),
+         "the crossover that limits lies below, or no wall is stable (is the sign of the motion right?); excite lower "
+         "frequencies");
+    return;
+  }
+  if (const MeasuredCrossover* least = softest(result.crossovers)) {
+    result.limit = *least;
+  } else {
+    result.status = MeasuredStiffnessStatus::not_in_band;
+    warn(result, fmt::format("the phase does not pass -180 degrees {}", band_text(findings.band)),
+         "the crossover that limits, if there is one, lies outside; excite a wider band");
+  }
+  for (const Doubt& doubt : findings.doubts) {
+    if (result.limit && doubt.least_stiffness >= result.limit->stiffness_interval.lower) continue;
+    result.doubtful_bands.push_back(doubt.band);
+    warn(result, "the noise hides whether the phase passes -180 degrees " + band_text(doubt.band),
+         result.limit ? "a crossover there would be softer than any that is proven: the critical stiffness is unknown"
+                      : "the critical stiffness is unknown");
+  }
+  if (!result.doubtful_bands.empty()) result.status = MeasuredStiffnessStatus::undetermined;
+}
+
+/// Wide holes between excited lines, in which nothing is known either.
+void remark_gaps(MeasuredStiffness& result, std::span<const PhaseLine> lines) {
+  constexpr double wide = 4.0;
+  for (std::size_t i = 2; i + 1 < lines.size(); ++i) {
+    const double gap = lines[i].frequency - lines[i - 1].frequency;
+    const double usual =
+        std::max(lines[i - 1].frequency - lines[i - 2].frequency, lines[i + 1].frequency - lines[i].frequency);
+    if (gap > wide * usual) {
+      warn(result, "no line is excited " + band_text({lines[i - 1].frequency, lines[i].frequency}),
+           "a crossover there is not seen");
+    }
+  }
+}
+
+}  // namespace
+
+MeasuredStiffness measured_stiffness(const FrequencyResponse& response) {
+  if (!response.sampling_period) {
+    throw Error(ErrorCode::invalid_argument,
+                "the critical stiffness of a continuous response; one of the sampled plant (give its sampling period)");
+  }
+  if (response.points.size() < 2) {
+    throw Error(ErrorCode::invalid_argument,
+                fmt::format("the critical stiffness from {} lines; at least 2", response.points.size()));
+  }
+  MeasuredStiffness result;
+  const std::vector<PhaseLine> all_lines = phase_lines(response);
+  const std::vector<PhaseLine> lines = without_ragged_ends(all_lines);
+  if (lines.size() < 2) {
+    result.status = MeasuredStiffnessStatus::undetermined;
+    result.measured_band = {response.points.front().frequency, response.points.back().frequency};
+    result.doubtful_bands.push_back(result.measured_band);
+    warn(result, "the noise leaves the phase open by more than 30 degrees " + band_text(result.measured_band),
+         "the critical stiffness is unknown; excite more strongly or for longer");
+    return result;
+  }
+  Findings findings = find_crossings(lines, phase_verdicts(lines, response.line_correlation),
+                                     phase_runs(lines, response.line_correlation));
+  result.measured_band = findings.band;
+  result.crossovers = findings.crossovers;
+  if (const auto crossing = nyquist_crossing(response, findings.runs)) result.crossovers.push_back(*crossing);
+  // Last, so that a beginning past -180 degrees is judged by the lines that are known.
+  const std::optional<Doubt> start = doubtful_start(all_lines);
+  if (start && may_cross(std::span(all_lines).first(1))) findings.doubts.push_back(*start);
+  judge(result, findings);
+  remark_gaps(result, lines);
+  const bool noise_known =
+      response.averages > 0.0 || std::any_of(response.points.begin(), response.points.end(),
+                                             [](const ResponsePoint& point) { return point.variance > 0.0; });
+  if (!noise_known) {
+    warn(result, "the response comes without its noise",
+         "intervals show only how far lines stand off their neighbours");
+  }
+  result.remarks.push_back(
+      {Remark::Severity::note,
+       fmt::format("the phase is measured {}; outside, nothing is known", band_text(result.measured_band)),
+       "a softer crossover there would limit instead"});
+  return result;
+}
+
+std::optional<Interval> stiffness_interval(const MeasuredStiffness& measured) {
+  if (measured.status != MeasuredStiffnessStatus::found || !measured.limit) return std::nullopt;
+  Interval interval = measured.limit->stiffness_interval;
+  for (const MeasuredCrossover& crossover : measured.crossovers) {
+    if (crossover.poles_leaving < 0) continue;
+    interval.lower = std::min(interval.lower, crossover.stiffness_interval.lower);
+    interval.upper = std::min(interval.upper, crossover.stiffness_interval.upper);
+  }
+  // The least of several estimates is no larger than any of them.
+  interval.upper = std::max(interval.upper, measured.limit->stiffness);
+  return interval;
+}
+
+}  // namespace zwidth

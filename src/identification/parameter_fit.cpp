@@ -1,0 +1,251 @@
+#include "zwidth/identification/parameter_fit.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "identification/critical_hold.hpp"
+#include "identification/fit_solution.hpp"
+#include "identification/fit_weights.hpp"
+#include "identification/identifiability.hpp"
+#include "identification/residual_checks.hpp"
+#include "zwidth/error.hpp"
+#include "zwidth/model/modal_form.hpp"
+#include "zwidth/model/parameter.hpp"
+#include "zwidth/stability/critical_stiffness.hpp"
+
+namespace zwidth {
+namespace {
+
+// 97.5 % quantile of the normal distribution.
+constexpr double two_sided = 1.959963984540054;
+
+std::vector<ResponsePoint> points_in_band(const FrequencyResponse& response, const ParameterFitOptions& options) {
+  std::vector<ResponsePoint> points;
+  for (const ResponsePoint& point : response.points) {
+    if (options.lowest && point.frequency < *options.lowest) continue;
+    if (options.highest && point.frequency > *options.highest) continue;
+    points.push_back(point);
+  }
+  return points;
+}
+
+Identifiability identifiability_at(const FitModel& model, const std::vector<ResponsePoint>& points,
+                                   const Solution& solution) {
+  const FitData data = fit_data(points, solution.model_error);
+  return identifiability(model.slopes_at(solution.x, data.frequencies), data);
+}
+
+bool is_at_bound(const Coordinate& coordinate, double x) {
+  return coordinate.kind == Coordinate::Kind::not_negative && x < 1e-9;
+}
+
+ParameterEstimate estimate(const Coordinate& coordinate, double x, bool determined, double variance) {
+  ParameterEstimate result{coordinate.key, coordinate.value(x), determined, std::nullopt, std::nullopt, std::nullopt};
+  if (is_at_bound(coordinate, x)) result.value = 0.0;
+  if (!determined) return result;
+  const double deviation = coordinate.slope(x) * std::sqrt(variance);
+  result.standard_deviation = deviation;
+  result.lower = std::max(0.0, result.value - two_sided * deviation);
+  result.upper = result.value + two_sided * deviation;
+  return result;
+}
+
+std::vector<StrongCorrelation> strong_correlations(const FitModel& model, const Eigen::MatrixXd& covariance) {
+  constexpr double strong = 0.95;
+  std::vector<StrongCorrelation> result;
+  for (Eigen::Index i = 0; i < covariance.rows(); ++i) {
+    for (Eigen::Index j = i + 1; j < covariance.rows(); ++j) {
+      const double scale = std::sqrt(covariance(i, i) * covariance(j, j));
+      if (scale == 0.0 || std::abs(covariance(i, j)) <= strong * scale) continue;
+      result.push_back({model.coordinates()[static_cast<std::size_t>(i)].key,
+                        model.coordinates()[static_cast<std::size_t>(j)].key, covariance(i, j) / scale});
+    }
+  }
+  return result;
+}
+
+/// The covariance of the values of the determined coordinates.
+std::optional<Uncertainty> uncertainty(const FitModel& model, const Eigen::VectorXd& x,
+                                       const std::vector<bool>& determined, const Eigen::MatrixXd& covariance) {
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    if (determined[static_cast<std::size_t>(i)]) kept.push_back(i);
+  }
+  if (kept.empty() || kept.size() > max_uncertain_parameters) return std::nullopt;
+  Uncertainty result;
+  for (const Eigen::Index i : kept) {
+    const Coordinate& row = model.coordinates()[static_cast<std::size_t>(i)];
+    result.parameters.push_back(row.key);
+    result.covariance.emplace_back();
+    for (const Eigen::Index j : kept) {
+      const Coordinate& column = model.coordinates()[static_cast<std::size_t>(j)];
+      result.covariance.back().push_back(row.slope(x(i)) * covariance(i, j) * column.slope(x(j)));
+    }
+  }
+  return result;
+}
+
+std::optional<double> misfit(const std::vector<ResponsePoint>& points, const Eigen::VectorXcd& fitted) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points[i].variance == 0.0) return std::nullopt;
+    sum += std::norm(points[i].value - fitted(static_cast<Eigen::Index>(i))) / points[i].variance;
+  }
+  return std::sqrt(sum / static_cast<double>(points.size()));
+}
+
+std::vector<double> mode_frequencies(const Device& device, const std::vector<std::size_t>& locked) {
+  const ModalForm form = modal_form(locked_device(device, locked));
+  std::vector<double> frequencies;
+  for (const Mode& mode : form.modes) frequencies.push_back(mode.frequency);
+  if (form.suspended_rigid_body) frequencies.push_back(form.suspended_rigid_body->frequency);
+  return frequencies;
+}
+
+/// K_CR at the record's sampling period.
+double stiffness_at(const FitModel& model, const Eigen::VectorXd& x) {
+  DeviceParameters parameters = model.parameters_at(x);
+  parameters.loop.sampling_period = *model.sampling_period();
+  parameters.wall.filters.clear();  // of the bare device, as everything that is fitted
+  return critical_stiffness(sampled_plant(Device(std::move(parameters)))).stiffness;
+}
+
+/// Whether the response with its sign turned round fits much better: a position that falls as the force rises.
+std::optional<Remark> wrong_sign(const FitModel& model, std::vector<ResponsePoint> points, double model_error,
+                                 double robust_threshold) {
+  constexpr double suspicious = 0.3;
+  constexpr double much_better = 0.3;
+  if (model_error < suspicious) return std::nullopt;
+  for (ResponsePoint& point : points) point.value = -point.value;
+  try {
+    const double turned = solve(model, points, promising_starts(model, points), robust_threshold).model_error;
+    if (turned > much_better * model_error) return std::nullopt;
+    return Remark{Remark::Severity::warning,
+                  fmt::format("with its sign turned round, {:.2g} % of the response would be unexplained, not {:.2g} %",
+                              100.0 * turned, 100.0 * model_error),
+                  "the position falls as the force rises: scale one of them by -1"};
+  } catch (const Error&) {  // then it fits no better
+    return std::nullopt;
+  }
+}
+
+void add_remarks(ParameterFit& fit, const FitModel& model, const std::vector<ResponsePoint>& points) {
+  for (const UnidentifiableCombination& each : fit.unidentifiable) {
+    const bool alone = each.parameters.size() == 1;
+    fit.remarks.push_back(
+        {Remark::Severity::warning,
+         alone ? fmt::format("the response says nothing about {}", each.parameters.front())
+               : fmt::format("the response determines only a combination of {}", fmt::join(each.parameters, ", ")),
+         fmt::format("{} near the structure's value{}, without an interval", alone ? "it stays" : "they stay as",
+                     alone ? "" : "s as the data allow")});
+  }
+  for (const ParameterEstimate& each : fit.estimates) {
+    if (each.standard_deviation && each.value > 0.0 && *each.standard_deviation > 0.5 * each.value) {
+      fit.remarks.push_back({Remark::Severity::warning,
+                             fmt::format("{} is known to {:.2g} % only (one standard deviation)", each.key,
+                                         100.0 * *each.standard_deviation / each.value),
+                             "the data hardly determine it"});
+    }
+  }
+  if (fit.stiffness_without_hold) {
+    fit.remarks.push_back(
+        {Remark::Severity::note,
+         "the fit is held to the measured critical point, since the structure misses the data by more than their noise",
+         fmt::format("all points alike would give a critical stiffness of {:.4g}", *fit.stiffness_without_hold)});
+  }
+  for (Remark& remark : check_residuals(fit, points, mode_frequencies(fit.device, model.locked()))) {
+    fit.remarks.push_back(std::move(remark));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> fittable_parameters(const Device& structure, const std::vector<std::string>& locked) {
+  const DeviceParameters& parameters = structure.parameters();
+  const auto is_locked = [&](std::size_t body) { return std::ranges::count(locked, parameters.bodies[body].name) > 0; };
+  std::vector<std::string> keys;
+  for (std::size_t i = 0; i < parameters.bodies.size(); ++i) {
+    if (is_locked(i)) continue;
+    const std::string key = "body." + parameters.bodies[i].name;
+    keys.insert(keys.end(), {key + ".mass", key + ".damping"});
+    if (parameters.bodies[i].stiffness > 0.0) keys.push_back(key + ".stiffness");
+  }
+  for (std::size_t i = 0; i < parameters.links.size(); ++i) {
+    if (is_locked(parameters.links[i].first) && is_locked(parameters.links[i].second)) continue;
+    const std::string key = "link." + std::to_string(i);
+    keys.insert(keys.end(), {key + ".stiffness", key + ".damping"});
+  }
+  if (parameters.loop.delay > 0.0) keys.emplace_back("loop.delay");
+  if (parameters.actuator.time_constant > 0.0) keys.emplace_back("actuator.time_constant");
+  return keys;
+}
+
+ParameterFit fit_parameters(const Device& structure, const FrequencyResponse& response,
+                            const ParameterFitOptions& options) {
+  const std::vector<ResponsePoint> points = points_in_band(response, options);
+  FrequencyResponse in_band = response;
+  in_band.points = points;
+  const std::vector<std::string> free =
+      options.free.empty() ? fittable_parameters(structure, options.locked) : options.free;
+  if (free.empty()) throw Error(ErrorCode::invalid_argument, "no parameter is free");
+  if (free.size() > max_free_parameters) {
+    throw Error(ErrorCode::invalid_argument, fmt::format("{} parameters are free; at most {} can be fitted at once",
+                                                         free.size(), max_free_parameters));
+  }
+  const FitModel model(structure, in_band, free, options.locked);
+
+  const Eigen::VectorXd own = model.position_of(structure.parameters());
+  const bool from_data = options.start == ParameterFitOptions::Start::from_data;
+  const std::vector<Start> starts = from_data ? promising_starts(model, points) : std::vector{start_at(model, own)};
+  Solution solution = solve(model, points, starts, options.robust_threshold);
+  const Identifiability known = identifiability_at(model, points, solution);
+  if (std::ranges::count(known.determined, false) > 0) {
+    // What the data leave open depends on the start: it goes to the structure's values as far as the data allow.
+    solution = solve(model, points, {start_at(model, solution.x, own, known.determined)}, options.robust_threshold);
+  }
+  std::optional<double> without_hold;
+  if (const auto critical = measured_critical_point(in_band, options)) {
+    if (const auto held = hold(model, points, solution, *critical, options.robust_threshold)) {
+      without_hold = stiffness_at(model, solution.x);
+      solution = *held;
+    }
+  }
+  const FitData data = fit_data(points, solution.model_error);
+  const ResponseWithSlopes at_solution = model.slopes_at(solution.x, data.frequencies);
+  const Eigen::MatrixXd covariance_of_x = covariance(at_solution, data, known.determined, options.robust_threshold);
+
+  DeviceParameters fitted = model.parameters_at(solution.x);
+  ParameterFit fit{.device = Device(fitted),
+                   .correlations = strong_correlations(model, covariance_of_x),
+                   .misfit = misfit(points, at_solution.values),
+                   .model_error = solution.model_error,
+                   .stiffness_without_hold = without_hold,
+                   .frequencies = data.frequencies};
+  for (Eigen::Index i = 0; i < solution.x.size(); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    fit.estimates.push_back(
+        estimate(model.coordinates()[k], solution.x(i), known.determined[k], covariance_of_x(i, i)));
+    set_parameter(fitted, fit.estimates.back().key, fit.estimates.back().value);
+  }
+  fitted.uncertainty = uncertainty(model, solution.x, known.determined, covariance_of_x);
+  fit.device = Device(std::move(fitted));
+  for (const std::vector<std::size_t>& combination : known.combinations) {
+    fit.unidentifiable.emplace_back();
+    for (const std::size_t k : combination) fit.unidentifiable.back().parameters.push_back(model.coordinates()[k].key);
+  }
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    fit.fitted.push_back(at_solution.values(static_cast<Eigen::Index>(i)));
+    fit.residuals.push_back(points[i].value - fit.fitted.back());
+  }
+  add_remarks(fit, model, points);
+  if (auto remark = wrong_sign(model, points, fit.model_error, options.robust_threshold)) {
+    fit.remarks.push_back(*std::move(remark));
+  }
+  return fit;
+}
+
+}  // namespace zwidth

@@ -1,0 +1,230 @@
+#include "identification/periodic_response.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <numeric>
+#include <vector>
+
+#include "identification/fourier.hpp"
+
+namespace zwidth {
+namespace {
+
+using Complex = std::complex<double>;
+
+/// Lines with less than this share of the strongest line's amplitude are not excited (-60 dB) ...
+constexpr double excited_share = 1e-3;
+/// ... nor are those whose power is less than this many times the variance that the noise gives their mean.
+constexpr double least_signal_to_noise = 10.0;
+/// A leading period shows the transient where it differs from the last by more than this many times the usual power.
+constexpr double transient_ratio = 4.0;
+/// Periods that one is given up of, so that the drift can be taken off by a moving average.
+constexpr std::size_t least_periods_for_drift = 3;
+
+/// A signal less its moving average over one period: every line k / period is kept exactly (a boxcar of one period is
+/// zero there), while drift up to the third power of time goes, but for its constant part.
+/// The result begins half a period later and is one period shorter.
+std::vector<double> without_drift(std::span<const double> signal, std::size_t period) {
+  // The average is centred: for an even period the two windows half a sample to either side are averaged.
+  const std::size_t half = period / 2;
+  const std::size_t size = signal.size() - 2 * half;
+  const double count = static_cast<double>(period);
+  double sum = std::accumulate(signal.begin(), signal.begin() + static_cast<std::ptrdiff_t>(period), 0.0);
+  std::vector<double> result(size);
+  for (std::size_t i = 0; i < size; ++i) {
+    double next = sum;
+    if (i + period < signal.size()) next += signal[i + period] - signal[i];
+    const double average = period % 2 == 1 ? sum / count : 0.5 * (sum + next) / count;
+    result[i] = signal[i + half] - average;
+    sum = next;
+  }
+  return result;
+}
+
+/// A signal less the line through the averages of its first and its last period.
+std::vector<double> without_line(std::span<const double> signal, std::size_t period) {
+  const auto length = static_cast<std::ptrdiff_t>(period);
+  const double count = static_cast<double>(period);
+  const double first = std::accumulate(signal.begin(), signal.begin() + length, 0.0) / count;
+  const double last = std::accumulate(signal.end() - length, signal.end(), 0.0) / count;
+  const double slope = (last - first) / static_cast<double>(signal.size() - period);
+  std::vector<double> result(signal.begin(), signal.end());
+  for (std::size_t i = 0; i < result.size(); ++i) result[i] -= first + slope * static_cast<double>(i);
+  return result;
+}
+
+/// Sums over the periods of D = F_p - F_last and E = X_p - X_last. The last period as reference keeps the digits of a
+/// scatter that is far smaller than the lines themselves.
+struct Scatter {
+  explicit Scatter(std::size_t lines) : force(lines), output(lines), ff(lines), xx(lines), xf(lines) {}
+  std::vector<Complex> force;   ///< sum D
+  std::vector<Complex> output;  ///< sum E
+  std::vector<double> ff;       ///< sum |D|^2
+  std::vector<double> xx;       ///< sum |E|^2
+  std::vector<Complex> xf;      ///< sum E conj D
+};
+
+/// The spectra of two real signals from the transform of f + j x.
+struct LinePair {
+  Complex force;
+  Complex output;
+};
+LinePair unpacked(const std::vector<Complex>& packed, std::size_t k) {
+  const Complex plus = packed[k];
+  const Complex minus = std::conj(packed[packed.size() - k]);
+  return {0.5 * (plus + minus), Complex(0.0, -0.5) * (plus - minus)};
+}
+
+class Periods {
+ public:
+  Periods(std::vector<double> force, std::vector<double> output, std::size_t period)
+      : force_(std::move(force)), output_(std::move(output)), period_(period), transform_(period) {
+    const auto energy = [](const std::vector<double>& s) {
+      return std::inner_product(s.begin(), s.end(), s.begin(), 0.0);
+    };
+    const double force_energy = energy(force_);
+    const double output_energy = energy(output_);
+    // Of equal size, so that neither drowns in the rounding of the other.
+    if (force_energy > 0.0 && output_energy > 0.0) scale_ = std::sqrt(force_energy / output_energy);
+  }
+
+  [[nodiscard]] std::size_t count() const { return force_.size() / period_; }
+  [[nodiscard]] double output_scale() const { return scale_; }
+
+  void spectrum(std::size_t index, std::vector<Complex>& lines) {
+    time_.resize(period_);
+    for (std::size_t i = 0; i < period_; ++i) {
+      time_[i] = {force_[index * period_ + i], scale_ * output_[index * period_ + i]};
+    }
+    transform_.forward(time_, lines);
+  }
+
+ private:
+  std::vector<double> force_;
+  std::vector<double> output_;
+  std::size_t period_;
+  FourierTransform transform_;
+  std::vector<Complex> time_;
+  double scale_ = 1.0;
+};
+
+/// How far each leading period is from the last, in power over all lines of force and output.
+struct Sums {
+  Scatter scatter;
+  std::vector<Complex> last;
+  std::vector<double> distance;
+};
+
+Sums sum_periods(Periods& periods, std::size_t period, const Progress& progress) {
+  const std::size_t lines = period / 2 + 1;
+  Sums sums{Scatter(lines), std::vector<Complex>(period), std::vector<double>(periods.count() - 1)};
+  std::vector<Complex> packed(period);
+  periods.spectrum(periods.count() - 1, sums.last);
+  for (std::size_t p = 0; p + 1 < periods.count(); ++p) {
+    if (progress) progress(static_cast<double>(p) / static_cast<double>(periods.count()));
+    periods.spectrum(p, packed);
+    for (std::size_t i = 0; i < period; ++i) packed[i] -= sums.last[i];
+    for (std::size_t k = 1; k < lines; ++k) {
+      const auto [force, output] = unpacked(packed, k);
+      sums.scatter.force[k] += force;
+      sums.scatter.output[k] += output;
+      sums.scatter.ff[k] += std::norm(force);
+      sums.scatter.xx[k] += std::norm(output);
+      sums.scatter.xf[k] += output * std::conj(force);
+      sums.distance[p] += std::norm(force) + std::norm(output);
+    }
+  }
+  return sums;
+}
+
+/// Leading periods that are still on their way to the rest. Among few periods none can be told from the others.
+std::size_t transient_periods(const std::vector<double>& distance) {
+  constexpr std::size_t fewest = 4;
+  if (distance.size() < fewest) return 0;
+  std::vector<double> later(distance.begin() + static_cast<std::ptrdiff_t>(distance.size() / 2), distance.end());
+  const auto middle = later.begin() + static_cast<std::ptrdiff_t>(later.size() / 2);
+  std::nth_element(later.begin(), middle, later.end());
+  std::size_t transient = 0;
+  while (transient < distance.size() / 2 && distance[transient] > transient_ratio * *middle) ++transient;
+  return transient;
+}
+
+/// Variance of one period's value about the mean over `count` periods (the last, of distance 0, included).
+double scatter(double sum_of_squares, Complex sum, double count) {
+  return std::max(0.0, sum_of_squares - std::norm(sum) / count) / (count - 1.0);
+}
+
+}  // namespace
+
+FrequencyResponse periodic_response(std::span<const double> force, std::span<const double> output,
+                                    double sampling_period, const PeriodicRecord& record,
+                                    const FrequencyResponseOptions& options, const Progress& progress) {
+  const std::size_t period = record.period;
+  const std::size_t whole = force.size() / period - record.skipped;
+  const std::size_t start = record.skipped * period;
+  const bool averaged_off = options.detrend && whole >= least_periods_for_drift;
+  const auto prepared = [&](std::span<const double> signal) {
+    const std::span<const double> used = signal.subspan(start, whole * period);
+    if (!options.detrend) return std::vector<double>(used.begin(), used.end());
+    return averaged_off ? without_drift(used, period) : without_line(used, period);
+  };
+  Periods periods(prepared(force), prepared(output), period);
+  const Sums sums = sum_periods(periods, period, progress);
+  const std::size_t transient = transient_periods(sums.distance);
+  if (transient > 0 && record.transient == PeriodicRecord::Transient::skip) {
+    PeriodicRecord shorter = record;
+    shorter.skipped += transient;
+    shorter.transient = PeriodicRecord::Transient::remark;
+    return periodic_response(force, output, sampling_period, shorter, options, progress);
+  }
+
+  const double count = static_cast<double>(periods.count());
+  FrequencyResponse response;
+  response.sampling_period = sampling_period;
+  response.averages = count;
+  std::vector<Complex> mean_force(period / 2 + 1);
+  double strongest = 0.0;
+  for (std::size_t k = 1; k < mean_force.size(); ++k) {
+    mean_force[k] = unpacked(sums.last, k).force + sums.scatter.force[k] / count;
+    strongest = std::max(strongest, std::abs(mean_force[k]));
+  }
+  for (std::size_t k = 1; k < mean_force.size(); ++k) {
+    const Complex f = mean_force[k];
+    const double force_noise = scatter(sums.scatter.ff[k], sums.scatter.force[k], count);
+    if (std::abs(f) < excited_share * strongest || std::norm(f) < least_signal_to_noise * force_noise / count) continue;
+    const Complex x = unpacked(sums.last, k).output + sums.scatter.output[k] / count;
+    const Complex h = x / f;
+    // sum |E - H D|^2, of which the mean is taken off as of any other.
+    const double squares =
+        sums.scatter.xx[k] - 2.0 * (std::conj(h) * sums.scatter.xf[k]).real() + std::norm(h) * sums.scatter.ff[k];
+    const double noise = scatter(squares, sums.scatter.output[k] - h * sums.scatter.force[k], count);
+    ResponsePoint point;
+    point.frequency = 2.0 * std::numbers::pi * static_cast<double>(k) / (static_cast<double>(period) * sampling_period);
+    point.value = h / periods.output_scale();
+    point.variance = noise / (count * std::norm(f)) / (periods.output_scale() * periods.output_scale());
+    point.coherence = x == 0.0 ? 0.0 : std::norm(x) / (std::norm(x) + noise);
+    response.points.push_back(point);
+  }
+
+  response.remarks.push_back(
+      {Remark::Severity::note,
+       fmt::format("period of {} samples ({:.4g} s); {} of {} whole periods averaged{}{}", period,
+                   static_cast<double>(period) * sampling_period, periods.count(), force.size() / period,
+                   record.skipped > 0 ? fmt::format(", the first {} skipped as transient", record.skipped) : "",
+                   averaged_off ? ", one spent on taking off the drift" : ""),
+       ""});
+  if (transient > 0) {
+    response.remarks.push_back(
+        {Remark::Severity::warning,
+         fmt::format("the first {} of the averaged periods differ from the later ones: the transient has not died out",
+                     transient),
+         "skip more periods"});
+  }
+  return response;
+}
+
+}  // namespace zwidth

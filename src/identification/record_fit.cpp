@@ -1,0 +1,105 @@
+#include "zwidth/identification/record_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "identification/period_detection.hpp"
+#include "zwidth/model/state_space.hpp"
+#include "zwidth/sampling/forced_response.hpp"
+#include "zwidth/sampling/sampled_plant.hpp"
+
+namespace zwidth {
+namespace {
+
+using Excitation = FrequencyResponseOptions::Excitation;
+
+/// The fitted device as it was in the experiment: bodies locked, sampled at the record's rate.
+Device device_in_experiment(const Device& fitted, const std::vector<std::string>& locked, double sampling_period) {
+  std::vector<std::size_t> bodies;
+  for (const std::string& name : locked) bodies.push_back(fitted.body_index(name));
+  DeviceParameters parameters = locked_device(fitted, bodies).parameters();
+  parameters.loop.sampling_period = sampling_period;
+  parameters.wall.filters.clear();  // no wall acted; and at the record's rate they may be impossible
+  return Device(std::move(parameters));
+}
+
+/// P_M + H1(force -> y - y_M).
+FrequencyResponse corrected_response(const FrequencyResponse& last, const Device& device, std::span<const double> force,
+                                     std::span<const double> output, FrequencyResponseOptions options) {
+  const double period = device.loop().sampling_period;
+  const std::vector<double> motion = forced_response(sample(state_space(device), {period, device.loop().delay}), force);
+  std::vector<double> rest(output.begin(), output.end());
+  for (std::size_t i = 0; i < rest.size(); ++i) rest[i] -= motion[i];
+  options.excitation = Excitation::aperiodic;
+  FrequencyResponse response = frequency_response(force, rest, period, options);
+  response.remarks = last.remarks;
+  const SampledPlant plant = sampled_plant(device);
+  for (ResponsePoint& point : response.points) {
+    point.value += zwidth::response(plant, point.frequency);
+    // The coherence of an output with this noise: |P|^2 against n variance.
+    const double noise = std::max(1.0, response.averages) * point.variance;
+    point.coherence = std::norm(point.value) / (std::norm(point.value) + noise);
+  }
+  std::erase_if(response.points, [](const ResponsePoint& point) { return point.value == 0.0; });
+  return response;
+}
+
+double median_noise(const FrequencyResponse& response) {
+  std::vector<double> shares;
+  for (const ResponsePoint& point : response.points) shares.push_back(point.variance / std::norm(point.value));
+  const auto middle = shares.begin() + static_cast<std::ptrdiff_t>(shares.size() / 2);
+  std::nth_element(shares.begin(), middle, shares.end());
+  return *middle;
+}
+
+/// Whether no parameter has moved by a notable part of its standard deviation.
+bool stands_still(const ParameterFit& before, const ParameterFit& after) {
+  constexpr double notable = 0.1;
+  for (std::size_t i = 0; i < after.estimates.size(); ++i) {
+    const ParameterEstimate& estimate = after.estimates[i];
+    const double moved = std::abs(estimate.value - before.estimates[i].value);
+    if (estimate.standard_deviation && moved > notable * *estimate.standard_deviation) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+RecordFit without_leakage(RecordFit first, std::span<const double> force, std::span<const double> output,
+                          const FrequencyResponseOptions& response_options, const ParameterFitOptions& fit_options) {
+  const bool averages_periods = response_options.excitation == Excitation::periodic ||
+                                (response_options.excitation == Excitation::detect && detect_period(force).has_value());
+  if (averages_periods || response_options.output != OutputQuantity::position) return first;
+  if (!first.response.sampling_period) return first;
+  ParameterFitOptions options = fit_options;
+  options.start = ParameterFitOptions::Start::from_structure;
+  options.free.clear();  // as resolved by the first fit: a fitted 0 must stay free
+  for (const ParameterEstimate& estimate : first.fit.estimates) options.free.push_back(estimate.key);
+  RecordFit best = std::move(first);
+  constexpr int most_rounds = 3;
+  for (int round = 0; round < most_rounds; ++round) {
+    const Device device = device_in_experiment(best.fit.device, options.locked, *best.response.sampling_period);
+    FrequencyResponse response = corrected_response(best.response, device, force, output, response_options);
+    if (response.points.size() <= best.fit.estimates.size() || median_noise(response) > median_noise(best.response)) {
+      break;
+    }
+    ParameterFit fit = fit_parameters(best.fit.device, response, options);
+    const bool is_done = stands_still(best.fit, fit);
+    best = {std::move(fit), std::move(response)};
+    if (is_done) break;
+  }
+  return best;
+}
+
+RecordFit fit_record(const Device& structure, std::span<const double> force, std::span<const double> output,
+                     double sampling_period, const FrequencyResponseOptions& response_options,
+                     const ParameterFitOptions& fit_options, const Progress& progress) {
+  FrequencyResponse response = frequency_response(force, output, sampling_period, response_options, progress);
+  ParameterFit fit = fit_parameters(structure, response, fit_options);
+  return without_leakage({std::move(fit), std::move(response)}, force, output, response_options, fit_options);
+}
+
+}  // namespace zwidth

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <span>
+
+#include "zwidth/identification/frequency_response.hpp"
+
+namespace zwidth {
+
+/// frequency_response() by averaging over windowed segments, from force to `output` as it is (a velocity is not turned
+/// into a position). The arguments are valid and the force is not constant.
+[[nodiscard]] FrequencyResponse welch_response(std::span<const double> force, std::span<const double> output,
+                                               double sampling_period, const FrequencyResponseOptions& options,
+                                               const Progress& progress);
+
+}  // namespace zwidth
