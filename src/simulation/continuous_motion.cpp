@@ -1,0 +1,388 @@
+#include "simulation/continuous_motion.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "model/balance.hpp"
+#include "model/device_matrices.hpp"
+#include "sampling/matrix_exponential.hpp"
+#include "simulation/first_root.hpp"
+#include "zwidth/error.hpp"
+#include "zwidth/model/state_space.hpp"
+
+namespace zwidth {
+namespace {
+
+/// |other forces| may exceed F_c by this relative amount before a body counts as broken away: rounding.
+constexpr double hold_tolerance = 1e-12;
+/// A term of the series this small beside every component of the state, with |A| h <= 1, ends it.
+constexpr double negligible = 1e-20;
+/// Pieces over which the bound on a second derivative is taken; more: tighter, costs at construction only.
+constexpr int bound_pieces = 16;
+
+/// Of the part that moves: constants (the forces, a stuck body's velocity) have a zero row and only feed the others.
+double balanced_norm(const Eigen::MatrixXd& matrix) {
+  const Eigen::VectorXd scales = balancing_scales(matrix);
+  const Eigen::MatrixXd balanced = scales.cwiseInverse().asDiagonal() * matrix * scales.asDiagonal();
+  double norm = 0.0;
+  for (Eigen::Index i = 0; i < matrix.cols(); ++i) {
+    if (!matrix.row(i).isZero(0.0)) norm = std::max(norm, balanced.col(i).cwiseAbs().sum());
+  }
+  return norm;
+}
+
+Eigen::MatrixXd exponential(const Eigen::MatrixXd& matrix) {
+  return Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols()) + exponential_minus_one(matrix);
+}
+
+/// How far a functional of the state moves within one piece of a step, at most, and how it is carried to the next.
+struct Pieces {
+  Eigen::MatrixXd step;    // e^{A piece}
+  Eigen::MatrixXd growth;  // e^{|A| piece}
+};
+
+Pieces pieces_of(const Eigen::MatrixXd& matrix, double h) {
+  const double piece = h / bound_pieces;
+  return {exponential(matrix * piece), exponential(matrix.cwiseAbs() * piece)};
+}
+
+/// sup over 0 <= t <= h of |row e^{At}|, by component: at the ends of pieces, |row e^{At}| <= |row| e^{|A|t} inside.
+Eigen::VectorXd largest_over(const Eigen::RowVectorXd& row, const Pieces& pieces) {
+  Eigen::RowVectorXd at = row;
+  Eigen::RowVectorXd largest = Eigen::RowVectorXd::Zero(row.size());
+  for (int k = 0; k < bound_pieces; ++k) {
+    largest = largest.cwiseMax(at.cwiseAbs() * pieces.growth);
+    at = at * pieces.step;
+  }
+  return largest.transpose();
+}
+
+/// Where nothing but a constant force moves the device, the series is exact over any time.
+constexpr double least_rate = 1e-30;
+
+int sign_of(double value) noexcept { return value > 0.0 ? 1 : value < 0.0 ? -1 : 0; }
+
+}  // namespace
+
+ContinuousMotion::ContinuousMotion(const Device& device, OutsideForce outside,
+                                   const std::vector<double>& recurring_lengths)
+    : lengths_(recurring_lengths) {
+  if (device.has_bodies()) {
+    bodies_ = device.bodies().size();
+    sensed_ = device.loop().sensed;
+    actuated_ = device.loop().actuated;
+    size_ = 2 * bodies_;
+    lag_ = device.parameters().actuator.time_constant > 0.0 ? size_++ : no_state;
+  } else {
+    const ContinuousStateSpace system = state_space(device);
+    output_ = system.C.transpose();
+    size_ = static_cast<std::size_t>(system.A.rows());
+  }
+  command_ = size_++;
+  outside_ = outside.acts ? size_ : no_state;
+  if (outside.acts) size_ += 2;
+  for (std::size_t i = 0; i < bodies_; ++i) {
+    if (device.bodies()[i].coulomb > 0.0) friction_.push_back({i, device.bodies()[i].coulomb, size_++, {}, 1, false});
+  }
+  if (friction_.size() > max_friction_bodies) {
+    throw Error(ErrorCode::invalid_argument, "simulation takes Coulomb friction on at most " +
+                                                 std::to_string(max_friction_bodies) + " bodies, not on " +
+                                                 std::to_string(friction_.size()));
+  }
+  const auto n = static_cast<Eigen::Index>(size_);
+  state_ = Eigen::VectorXd::Zero(n);
+  next_ = Eigen::VectorXd::Zero(n);
+  series_ = Eigen::MatrixXd::Zero(n, degree + 1);
+  multiply_ = matrix_vector(size_);
+
+  const Eigen::MatrixXd free = matrix_of(device, outside, 0);
+  for (FrictionBody& each : friction_) {
+    const auto row = static_cast<Eigen::Index>(bodies_ + each.body);
+    const double mass = 1.0 / free(row, static_cast<Eigen::Index>(each.force));
+    each.other_forces = mass * free.row(row).transpose();
+    each.other_forces[static_cast<Eigen::Index>(each.force)] = 0.0;
+    each.other_forces[row] = 0.0;  // at rest
+  }
+  for (unsigned stuck = 0; stuck < 1u << friction_.size(); ++stuck) {
+    patterns_.push_back(make_pattern(matrix_of(device, outside, stuck), stuck));
+  }
+  reset();
+}
+
+void ContinuousMotion::reset() noexcept {
+  state_.setZero();
+  events_ = overloaded_ = 0;
+  for (FrictionBody& each : friction_) stick(each);
+}
+
+Eigen::MatrixXd ContinuousMotion::matrix_of(const Device& device, OutsideForce outside, unsigned stuck) const {
+  const auto n = static_cast<Eigen::Index>(size_);
+  const auto command = static_cast<Eigen::Index>(command_);
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n, n);
+  if (!device.has_bodies()) {
+    const ContinuousStateSpace system = state_space(device);
+    matrix.topLeftCorner(system.A.rows(), system.A.cols()) = system.A;
+    matrix.col(command).head(system.B.size()) = system.B;
+    return matrix;
+  }
+  const auto bodies = static_cast<Eigen::Index>(bodies_);
+  const auto parts = device_matrices<double>(device);
+  const DeviceParameters& parameters = device.parameters();
+  for (Eigen::Index i = 0; i < bodies; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    const Eigen::Index velocity = bodies + i;
+    // q_0' = v_0; (q_i - q_0)' = v_i - v_0
+    matrix(i, velocity) = 1.0;
+    if (i > 0) matrix(i, bodies) = -1.0;
+    // m v' = -k_ground q_0 - sum_j K_ij (q_j - q_0) - sum_j D_ij v_j: the links' stiffness cancels from q_0's column
+    const double mass = parts.mass[at];
+    const double ground = device.bodies()[at].stiffness + (at == device.loop().held ? parameters.user.stiffness : 0.0);
+    matrix(velocity, 0) = -ground / mass;
+    for (Eigen::Index j = 0; j < bodies; ++j) {
+      const std::size_t entry = at * bodies_ + static_cast<std::size_t>(j);
+      if (j > 0) matrix(velocity, j) = -parts.stiffness[entry] / mass;
+      matrix(velocity, bodies + j) = -parts.damping[entry] / mass;
+    }
+    if (at == actuated_) matrix(velocity, lag_ == no_state ? command : static_cast<Eigen::Index>(lag_)) = 1.0 / mass;
+    if (outside_ != no_state && at == device.loop().held)
+      matrix(velocity, static_cast<Eigen::Index>(outside_)) = 1.0 / mass;
+  }
+  if (lag_ != no_state) {
+    const auto lag = static_cast<Eigen::Index>(lag_);
+    matrix(lag, lag) = -1.0 / parameters.actuator.time_constant;
+    matrix(lag, command) = 1.0 / parameters.actuator.time_constant;
+  }
+  if (outside_ != no_state) {
+    const auto w = static_cast<Eigen::Index>(outside_);
+    matrix(w, w + 1) = outside.rise;
+    matrix(w + 1, w) = -outside.fall;
+  }
+  for (std::size_t k = 0; k < friction_.size(); ++k) {
+    const auto velocity = static_cast<Eigen::Index>(bodies_ + friction_[k].body);
+    if ((stuck >> k & 1u) != 0) {
+      matrix.row(velocity).setZero();
+    } else {
+      matrix(velocity, static_cast<Eigen::Index>(friction_[k].force)) = 1.0 / parts.mass[friction_[k].body];
+    }
+  }
+  return matrix;
+}
+
+ContinuousMotion::Pattern ContinuousMotion::make_pattern(const Eigen::MatrixXd& matrix, unsigned stuck) const {
+  Pattern pattern{matrix, std::max(balanced_norm(matrix), least_rate), {}};
+  const Eigen::MatrixXd square = matrix * matrix;
+  for (const double h : lengths_) {
+    RecurringStep step{exponential(matrix * h), {}};
+    if (friction_.empty()) {
+      pattern.steps.push_back(std::move(step));
+      continue;
+    }
+    const Pieces pieces = pieces_of(matrix, h);
+    for (std::size_t k = 0; k < friction_.size(); ++k) {
+      const auto velocity = static_cast<Eigen::Index>(bodies_ + friction_[k].body);
+      const Eigen::RowVectorXd row = (stuck >> k & 1u) != 0
+                                         ? Eigen::RowVectorXd(friction_[k].other_forces.transpose() * square)
+                                         : Eigen::RowVectorXd(square.row(velocity));
+      step.bend.push_back(h * h / 8.0 * largest_over(row, pieces));
+    }
+    pattern.steps.push_back(std::move(step));
+  }
+  return pattern;
+}
+
+void ContinuousMotion::set_outside(double w0, double w1) noexcept {
+  if (outside_ == no_state) return;
+  state_.data()[outside_] = w0;
+  state_.data()[outside_ + 1] = w1;
+}
+
+void ContinuousMotion::set_motion(const double* positions, const double* velocities) noexcept {
+  for (std::size_t i = 0; i < bodies_; ++i) {
+    state_.data()[i] = positions[i] - (i == 0 ? 0.0 : positions[0]);
+    state_.data()[bodies_ + i] = velocities[i];
+  }
+  for (FrictionBody& each : friction_) {
+    const double velocity = this->velocity(each.body);
+    if (velocity == 0.0) {
+      release_or_hold(each);
+    } else {
+      slide(each, sign_of(velocity));
+      each.fresh = false;
+    }
+  }
+}
+
+double ContinuousMotion::sensed() const noexcept {
+  return bodies_ > 0 ? position(sensed_) : output_.dot(state_.head(output_.size()));
+}
+
+double ContinuousMotion::actuated() const noexcept { return bodies_ > 0 ? position(actuated_) : sensed(); }
+
+double ContinuousMotion::rate() const noexcept {
+  double rate = 0.0;
+  for (const Pattern& each : patterns_) rate = std::max(rate, each.norm);
+  return rate;
+}
+
+bool ContinuousMotion::sticks(std::size_t body) const noexcept {
+  return std::any_of(friction_.begin(), friction_.end(),
+                     [body](const FrictionBody& each) { return each.body == body && each.direction == 0; });
+}
+
+void ContinuousMotion::slide(FrictionBody& body, int direction) noexcept {
+  const auto index = static_cast<unsigned>(&body - friction_.data());
+  body.direction = direction;
+  body.fresh = true;
+  state_.data()[body.force] = -direction * body.limit;
+  stuck_ &= ~(1u << index);
+}
+
+void ContinuousMotion::stick(FrictionBody& body) noexcept {
+  const auto index = static_cast<unsigned>(&body - friction_.data());
+  body.direction = 0;
+  body.fresh = false;
+  state_.data()[bodies_ + body.body] = 0.0;
+  stuck_ |= 1u << index;
+}
+
+void ContinuousMotion::release_or_hold(FrictionBody& body) noexcept {
+  state_.data()[bodies_ + body.body] = 0.0;
+  const double others = body.other_forces.dot(state_);
+  if (std::abs(others) <= body.limit * (1.0 + hold_tolerance)) {
+    stick(body);
+  } else {
+    slide(body, sign_of(others));
+  }
+}
+
+void ContinuousMotion::break_away() noexcept {
+  for (FrictionBody& each : friction_) {
+    if (each.direction == 0) release_or_hold(each);
+  }
+}
+
+bool ContinuousMotion::nothing_happens(const RecurringStep& step) const noexcept {
+  for (std::size_t k = 0; k < friction_.size(); ++k) {
+    const FrictionBody& each = friction_[k];
+    const double bend = step.bend[k].dot(state_.cwiseAbs());
+    // A function lies above its chord less h²/8 sup |y''|.
+    if (each.direction != 0) {
+      const double start = each.direction * state_.data()[bodies_ + each.body];
+      const double end = each.direction * next_.data()[bodies_ + each.body];
+      if (!(std::min(start, end) > bend)) return false;
+    } else {
+      const double start = std::abs(each.other_forces.dot(state_));
+      const double end = std::abs(each.other_forces.dot(next_));
+      if (!(each.limit - std::max(start, end) > bend)) return false;
+    }
+  }
+  return true;
+}
+
+void ContinuousMotion::advance_recurring(std::size_t which) noexcept {
+  const RecurringStep& step = pattern().steps[which];
+  multiply_(step.transition.data(), state_.data(), next_.data(), size_);
+  if (nothing_happens(step)) {
+    state_.swap(next_);
+  } else {
+    advance(lengths_[which]);
+  }
+}
+
+void ContinuousMotion::expand(double length) noexcept {
+  const Pattern& now = pattern();
+  std::copy_n(state_.data(), size_, series_.data());
+  terms_ = degree + 1;
+  for (int k = 1; k <= degree; ++k) {
+    double* column = series_.data() + static_cast<std::size_t>(k) * size_;
+    multiply_(now.matrix.data(), column - size_, column, size_);
+    const double factor = length / k;
+    bool is_negligible = true;
+    for (std::size_t i = 0; i < size_; ++i) {
+      column[i] *= factor;
+      is_negligible = is_negligible && std::abs(column[i]) <= negligible * std::abs(state_.data()[i]);
+    }
+    if (!is_negligible) continue;
+    terms_ = static_cast<std::size_t>(k);
+    return;
+  }
+}
+
+void ContinuousMotion::evaluate_series(double fraction) noexcept {
+  double* x = state_.data();
+  for (std::size_t i = 0; i < size_; ++i) x[i] = 0.0;
+  for (std::size_t k = terms_; k-- > 0;) {
+    const double* column = series_.data() + k * size_;
+    for (std::size_t i = 0; i < size_; ++i) x[i] = x[i] * fraction + column[i];
+  }
+}
+
+double ContinuousMotion::first_event(std::size_t& body) noexcept {
+  std::array<double, degree + 1> y{};
+  double first = 2.0;
+  const auto consider = [&](std::size_t k, std::size_t from) {
+    const double found = first_turn_negative(std::span<const double>(y).subspan(from, terms_ - from));
+    if (found >= first) return;
+    first = found;
+    body = k;
+  };
+  for (std::size_t k = 0; k < friction_.size(); ++k) {
+    const FrictionBody& each = friction_[k];
+    if (each.direction != 0) {
+      for (std::size_t i = 0; i < terms_; ++i) y[i] = each.direction * series_.data()[i * size_ + bodies_ + each.body];
+      std::size_t from = 0;
+      if (each.fresh) {
+        // The velocity starts at exactly 0: look at y/s, and at y/s² where the body only just breaks away.
+        const double others = std::abs(each.other_forces.dot(state_));
+        from = others <= each.limit * (1.0 + hold_tolerance) ? 2 : 1;
+      }
+      consider(k, from);
+    } else {
+      for (std::size_t i = 0; i < terms_; ++i) {
+        y[i] = -each.other_forces.dot(series_.col(static_cast<Eigen::Index>(i)));
+      }
+      const double others = -y[0];
+      const double tolerance = hold_tolerance * each.limit;
+      for (const double direction : {1.0, -1.0}) {  // F_c - others, F_c + others
+        y[0] = each.limit - direction * others;
+        if (y[0] < 0.0 && y[0] >= -tolerance) y[0] = 0.0;
+        consider(k, 0);
+        for (double& coefficient : y) coefficient = -coefficient;
+      }
+    }
+  }
+  return first;
+}
+
+void ContinuousMotion::advance(double duration) noexcept {
+  break_away();
+  double remaining = duration;
+  for (int count = 0; remaining > 0.0;) {
+    const double longest = 1.0 / pattern().norm;
+    const double length = longest < remaining ? longest : remaining;
+    expand(length);
+    std::size_t body = 0;
+    const double fraction = friction_.empty() || count >= max_events ? 2.0 : first_event(body);
+    if (fraction <= 1.0) {
+      evaluate_series(fraction);
+      for (FrictionBody& each : friction_) each.fresh = each.fresh && fraction == 0.0;
+      FrictionBody& met = friction_[body];
+      if (met.direction != 0) {
+        release_or_hold(met);
+      } else {
+        slide(met, sign_of(met.other_forces.dot(state_)));
+      }
+      ++events_;
+      if (++count == max_events) ++overloaded_;
+      remaining -= fraction * length;
+    } else {
+      evaluate_series(1.0);
+      for (FrictionBody& each : friction_) each.fresh = false;
+      remaining = length == remaining ? 0.0 : remaining - length;
+    }
+  }
+}
+
+}  // namespace zwidth

@@ -1,0 +1,96 @@
+#include "simulation/first_root.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+namespace zwidth {
+namespace {
+
+constexpr std::size_t max_coefficients = 32;
+constexpr int max_depth = 50;  // halvings: below that the interval is one point of double
+constexpr int max_iterations = 100;
+constexpr double none = 2.0;
+
+using Coefficients = std::array<double, max_coefficients>;
+
+/// The one root in [lower, upper], where the polynomial falls from >= 0 to negative: Newton, kept in its bracket.
+double polish(std::span<const double> power, double lower, double upper) noexcept {
+  double s = 0.5 * (lower + upper);
+  for (int i = 0; i < max_iterations; ++i) {
+    double value = 0.0;
+    double slope = 0.0;
+    for (std::size_t k = power.size(); k-- > 0;) {
+      slope = slope * s + value;
+      value = value * s + power[k];
+    }
+    (value >= 0.0 ? lower : upper) = s;
+    double next = s - value / slope;
+    if (!(next > lower && next < upper)) next = 0.5 * (lower + upper);
+    if (std::abs(next - s) <= std::numeric_limits<double>::epsilon() * s) return next;
+    s = next;
+  }
+  return s;
+}
+
+double search(std::span<const double> power, const Coefficients& bernstein, double lower, double upper,
+              int depth) noexcept {
+  const std::size_t count = power.size();
+  if (bernstein[0] < 0.0) return lower;
+  int changes = 0;
+  bool negative = false;
+  for (std::size_t k = 0; k < count; ++k) {
+    if (bernstein[k] == 0.0 || (bernstein[k] < 0.0) == negative) continue;
+    negative = !negative;
+    ++changes;
+  }
+  if (changes == 0) return none;
+  if (depth == max_depth) return lower;
+  if (changes == 1) return polish(power, lower, upper);
+  // de Casteljau at the middle
+  Coefficients left{};
+  Coefficients right = bernstein;
+  for (std::size_t k = 0; k < count; ++k) {
+    left[k] = right[0];
+    for (std::size_t i = 0; i + 1 < count - k; ++i) right[i] = 0.5 * (right[i] + right[i + 1]);
+  }
+  // After the loop right[i] holds the i-th level's last value: exactly the right half, read from its start.
+  const double middle = 0.5 * (lower + upper);
+  const double found = search(power, left, lower, middle, depth + 1);
+  return found <= 1.0 ? found : search(power, right, middle, upper, depth + 1);
+}
+
+}  // namespace
+
+double first_turn_negative(std::span<const double> coefficients) noexcept {
+  const std::size_t count = coefficients.size();
+  if (count == 0) return none;
+  // Most are dismissed, or known to be monotone, by the size of their coefficients alone.
+  double sum = 0.0;
+  double others = 0.0;
+  double slopes = 0.0;
+  for (std::size_t k = 1; k < count; ++k) {
+    sum += coefficients[k];
+    others += std::abs(coefficients[k]);
+    if (k > 1) slopes += static_cast<double>(k) * std::abs(coefficients[k]);
+  }
+  if (coefficients[0] < 0.0) return 0.0;
+  if (coefficients[0] >= others) return none;
+  if (count > 1 && std::abs(coefficients[1]) > slopes) {
+    return coefficients[0] + sum >= 0.0 ? none : polish(coefficients, 0.0, 1.0);
+  }
+  // b_i = sum_k C(i, k) / C(n, k) a_k
+  Coefficients bernstein{};
+  const std::size_t n = count - 1;
+  for (std::size_t i = 0; i < count; ++i) {
+    double weight = 1.0;  // C(i, k) / C(n, k)
+    for (std::size_t k = 0; k <= i; ++k) {
+      bernstein[i] += weight * coefficients[k];
+      if (k < n) weight *= static_cast<double>(i - k) / static_cast<double>(n - k);
+    }
+  }
+  return search(coefficients, bernstein, 0.0, 1.0, 0);
+}
+
+}  // namespace zwidth

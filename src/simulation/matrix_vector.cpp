@@ -1,0 +1,42 @@
+#include "simulation/matrix_vector.hpp"
+
+#include <array>
+#include <utility>
+
+namespace zwidth {
+namespace {
+
+constexpr std::size_t largest_unrolled = 12;
+
+template <std::size_t size>
+void multiply(const double* __restrict matrix, const double* __restrict x, double* __restrict y,
+              std::size_t /*size*/) noexcept {
+  double sum[size];
+  for (std::size_t i = 0; i < size; ++i) sum[i] = matrix[i] * x[0];
+  for (std::size_t j = 1; j < size; ++j) {
+    for (std::size_t i = 0; i < size; ++i) sum[i] += matrix[j * size + i] * x[j];
+  }
+  for (std::size_t i = 0; i < size; ++i) y[i] = sum[i];
+}
+
+void multiply_any(const double* __restrict matrix, const double* __restrict x, double* __restrict y,
+                  std::size_t size) noexcept {
+  for (std::size_t i = 0; i < size; ++i) y[i] = 0.0;
+  for (std::size_t j = 0; j < size; ++j) {
+    for (std::size_t i = 0; i < size; ++i) y[i] += matrix[j * size + i] * x[j];
+  }
+}
+
+template <std::size_t... sizes>
+constexpr std::array<MatrixVector, sizeof...(sizes)> table(std::index_sequence<sizes...>) {
+  return {&multiply<sizes + 1>...};
+}
+
+}  // namespace
+
+MatrixVector matrix_vector(std::size_t size) {
+  static constexpr auto unrolled = table(std::make_index_sequence<largest_unrolled>());
+  return size >= 1 && size <= largest_unrolled ? unrolled[size - 1] : &multiply_any;
+}
+
+}  // namespace zwidth

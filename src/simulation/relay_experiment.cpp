@@ -1,0 +1,122 @@
+#include "zwidth/simulation/relay_experiment.hpp"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <cmath>
+#include <mutex>
+#include <random>
+
+#include "simulation/check_relay.hpp"
+#include "zwidth/error.hpp"
+#include "zwidth/simulation/hybrid_loop.hpp"
+
+namespace zwidth {
+namespace {
+
+constexpr std::size_t samples_per_report = 1 << 14;
+
+[[noreturn]] void refuse(const std::string& what) { throw Error(ErrorCode::invalid_argument, what); }
+
+std::size_t samples_per_trial(const Device& device, const RelayExperimentOptions& options) {
+  check_relay(options.relay);
+  if (options.trials == 0) refuse("no trials; at least 1");
+  if (!(options.variation >= 0.0 && options.variation < 1.0)) {
+    refuse(fmt::format("variation is {}; 0 up to, but not including, 1", options.variation));
+  }
+  if (!std::isfinite(options.start_offset)) refuse("the start offset is not finite");
+  if (!device.has_bodies() && options.start_offset != 0.0) {
+    throw Error(ErrorCode::needs_bodies, "a start offset needs bodies; a transfer function starts at rest at 0");
+  }
+  const double samples = std::round(options.duration / device.loop().sampling_period);
+  const double all = samples * static_cast<double>(options.trials);
+  if (!(samples >= least_relay_samples && all <= most_relay_samples)) {
+    refuse(fmt::format("{} trials of {} s are {:.6g} samples each; at least {} each, at most {} in all", options.trials,
+                       options.duration, samples, least_relay_samples, most_relay_samples));
+  }
+  if (device.loop().delay >= options.duration) {
+    refuse(fmt::format("the delay of {} s is not shorter than the duration of {} s", device.loop().delay,
+                       options.duration));
+  }
+  return static_cast<std::size_t>(samples);
+}
+
+/// The trials, drawn but not yet run.
+std::vector<RelayTrial> drawn_trials(const RelayExperimentOptions& options) {
+  std::mt19937_64 random(options.seed);
+  const auto factor = [&] {
+    const double uniform = static_cast<double>(random() >> 11) * 0x1p-53;  // the same on every platform
+    return 1.0 + options.variation * (2.0 * uniform - 1.0);
+  };
+  std::vector<RelayTrial> trials(options.trials);
+  for (RelayTrial& trial : trials) {
+    trial.start_offset = options.start_offset * factor();
+    trial.friction_factor = factor();
+  }
+  return trials;
+}
+
+/// Samples done by all threads, told one at a time.
+class SharedProgress {
+ public:
+  SharedProgress(const Progress& progress, std::size_t all) : progress_(progress), all_(static_cast<double>(all)) {}
+
+  void add(std::size_t samples) {
+    if (!progress_) return;
+    const std::lock_guard lock(mutex_);
+    done_ += samples;
+    progress_(static_cast<double>(done_) / all_);
+  }
+
+ private:
+  const Progress& progress_;
+  double all_;
+  std::mutex mutex_;
+  std::size_t done_ = 0;
+};
+
+HybridLoop loop_of(const Device& device, const Relay& relay, const RelayTrial& trial) {
+  DeviceParameters parameters = device.parameters();
+  for (Body& body : parameters.bodies) body.coulomb *= trial.friction_factor;
+  HybridLoopOptions options;
+  options.controller.kind = ControllerOptions::Kind::relay;
+  options.controller.amplitude = relay.amplitude;
+  options.controller.hysteresis = relay.hysteresis;
+  options.initial_position.assign(parameters.bodies.size(), trial.start_offset);
+  return HybridLoop(Device(std::move(parameters)), options);
+}
+
+void run(RelayTrial& trial, HybridLoop loop, std::size_t samples, SharedProgress& progress) {
+  trial.force.reserve(samples);
+  trial.position.reserve(samples);
+  std::size_t reported = 0;
+  for (std::size_t k = 1; k <= samples; ++k) {
+    loop.step();
+    trial.force.push_back(loop.command());
+    trial.position.push_back(loop.measured());
+    if (k - reported < samples_per_report && k < samples) continue;
+    progress.add(k - reported);
+    reported = k;
+  }
+}
+
+}  // namespace
+
+std::vector<RelayTrial> relay_experiment(const Device& device, const RelayExperimentOptions& options,
+                                         const Progress& progress) {
+  const std::size_t samples = samples_per_trial(device, options);
+  std::vector<RelayTrial> trials = drawn_trials(options);
+  SharedProgress shared(progress, samples * options.trials);
+  tbb::task_arena arena(options.threads == 0 ? tbb::task_arena::automatic : static_cast<int>(options.threads));
+  arena.execute([&] {
+    tbb::parallel_for(std::size_t{0}, trials.size(), [&](std::size_t i) {
+      RelayTrial& trial = trials[i];
+      run(trial, loop_of(device, options.relay, trial), samples, shared);
+      trial.result = analyse_relay_record(trial.force, trial.position, device.loop().sampling_period, options.analysis);
+    });
+  });
+  return trials;
+}
+
+}  // namespace zwidth

@@ -1,0 +1,204 @@
+#include "zwidth/simulation/relay_record.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "identification/averaged_spectra.hpp"
+#include "identification/window_function.hpp"
+#include "simulation/oscillation_cycles.hpp"
+#include "simulation/steady_part.hpp"
+#include "simulation/straight_line.hpp"
+#include "zwidth/error.hpp"
+
+namespace zwidth {
+namespace {
+
+constexpr std::size_t least_samples = 64;
+constexpr std::size_t least_stretch = 8;  // samples
+constexpr double cycles_per_stretch = 4.0;
+constexpr double least_cycles = 16.0;             // of the record: two per stretch then
+constexpr double least_cycles_per_segment = 4.0;  // else its line stands in the main lobe of the window at 0 Hz
+constexpr double overlap = 0.75;                  // weighs every instant alike
+constexpr double threshold_of_cycles = 0.5;       // of the largest excursion
+constexpr double least_share = 0.2;               // of the position's power in the peak, for an oscillation
+constexpr double noticeable_drift = 0.2;          // of the amplitude, over the steady part
+constexpr std::size_t least_encoder_steps = 10;
+
+[[noreturn]] void refuse(const std::string& what) { throw Error(ErrorCode::invalid_argument, what); }
+
+void check(std::span<const double> force, std::span<const double> position, double sampling_period,
+           const RelayAnalysisOptions& options) {
+  if (force.size() != position.size()) {
+    refuse(fmt::format("{} samples of force, {} of position; equally many", force.size(), position.size()));
+  }
+  const auto is_finite = [](double value) { return std::isfinite(value); };
+  if (!std::all_of(force.begin(), force.end(), is_finite)) refuse("the force is not finite");
+  if (!std::all_of(position.begin(), position.end(), is_finite)) refuse("the position is not finite");
+  if (!(is_finite(sampling_period) && sampling_period > 0.0)) {
+    refuse(fmt::format("sampling period of {} s; above 0", sampling_period));
+  }
+  if (options.segment_length < least_samples) {
+    refuse(fmt::format("segments of {} samples; at least {}", options.segment_length, least_samples));
+  }
+  if (!(options.steady_tolerance > 0.0 && options.steady_tolerance < 1.0)) {
+    refuse(fmt::format("steady tolerance of {}; above 0, below 1", options.steady_tolerance));
+  }
+}
+
+bool is_constant(std::span<const double> signal) {
+  return std::all_of(signal.begin(), signal.end(), [&](double value) { return value == signal.front(); });
+}
+
+/// The strongest line of two signals.
+struct Peak {
+  std::size_t line = 0;
+  std::size_t segment_length = 0;
+  std::size_t segments = 0;
+  double stiffness = 0.0;
+  double share = 0.0;  ///< of the position's power, in the window's main lobe about the line
+  [[nodiscard]] double per_sample() const { return static_cast<double>(line) / static_cast<double>(segment_length); }
+};
+
+Peak strongest_line(std::span<const double> force, std::span<const double> position, std::size_t segment_length) {
+  const std::vector<double> f = without_line(force);
+  const std::vector<double> x = without_line(position);
+  const Segments segments = segments_of(f.size(), std::min(segment_length, f.size()), Window::hann, overlap);
+  const AveragedSpectra spectra = averaged_spectra(f, x, segments, SignalForm::as_recorded);
+  double force_power = 0.0;
+  double position_power = 0.0;
+  for (std::size_t k = 0; k < spectra.ff.size(); ++k) {
+    force_power += spectra.ff[k];
+    position_power += spectra.xx[k];
+  }
+  Peak peak{0, segments.length, segments.count, 0.0, 0.0};
+  double highest = 0.0;
+  const std::size_t lobe = main_lobe_half_width(Window::hann);
+  for (std::size_t k = lobe; k < spectra.ff.size(); ++k) {
+    const double height = spectra.ff[k] / force_power + spectra.xx[k] / position_power;
+    if (height <= highest) continue;
+    highest = height;
+    peak.line = k;
+  }
+  if (peak.line == 0) return peak;
+  peak.stiffness =
+      spectra.ff[peak.line] * spectra.output_scale / std::hypot(spectra.fx_real[peak.line], spectra.fx_imag[peak.line]);
+  const std::size_t last = std::min(peak.line + lobe, spectra.xx.size() - 1);
+  for (std::size_t k = peak.line - lobe; k <= last; ++k) peak.share += spectra.xx[k] / position_power;
+  return peak;
+}
+
+/// What makes a record hopeless before any spectrum; empty when nothing does.
+std::string nothing_moves(std::span<const double> force, std::span<const double> position, double sampling_period) {
+  if (force.size() < least_samples) {
+    return fmt::format("the record has {} samples; at least {}", force.size(), least_samples);
+  }
+  if (is_constant(force)) return "the force never changes";
+  if (is_constant(position)) return "the position never changes";
+  const std::size_t half = force.size() / 2;
+  const double since = static_cast<double>(half) * sampling_period;
+  if (is_constant(force.subspan(half))) return fmt::format("the force no longer changes after {:.4g} s", since);
+  if (is_constant(position.subspan(half))) return fmt::format("the position no longer changes after {:.4g} s", since);
+  return "";
+}
+
+void remark_steadiness(RelayResult& result, const SteadyPart& part, const RelayAnalysisOptions& options) {
+  if (std::abs(part.trend) > std::max(options.steady_tolerance, 2.0 * part.scatter)) {
+    result.remarks.push_back({Remark::Severity::warning,
+                              fmt::format("the swing still {} by {:.0f} % over the last half of the record",
+                                          part.trend > 0.0 ? "grows" : "falls", 100.0 * std::abs(part.trend)),
+                              "not steady: record for longer"});
+  } else if (part.scatter > options.steady_tolerance) {
+    result.remarks.push_back(
+        {Remark::Severity::warning,
+         fmt::format("the swing varies by {:.0f} % and never becomes steady", 100.0 * part.scatter),
+         "the oscillation does not repeat itself; frequency and stiffness are averages"});
+  }
+}
+
+void remark_signals(RelayResult& result, std::span<const double> position, const RelayAnalysisOptions& options) {
+  if (result.steady_samples < options.segment_length) {
+    result.remarks.push_back(
+        {Remark::Severity::warning,
+         fmt::format("the steady part has {} samples, less than a segment of {}", result.steady_samples,
+                     options.segment_length),
+         fmt::format("it is one segment: the frequency is known to {:.3g} Hz only; record for longer",
+                     result.line_spacing / (2.0 * std::numbers::pi))});
+  }
+  const StraightLine line = straight_line(position);
+  const double drift = std::abs(line.slope) * static_cast<double>(position.size());
+  if (drift > noticeable_drift * result.amplitude) {
+    result.remarks.push_back({Remark::Severity::warning,
+                              fmt::format("the position drifts by {:.0f} % of the amplitude over the steady part",
+                                          100.0 * drift / result.amplitude),
+                              "the relay is off centre, or something else pushes"});
+  }
+  if (std::set<double>(position.begin(), position.end()).size() < least_encoder_steps) {
+    result.remarks.push_back({Remark::Severity::warning, "the oscillation spans few steps of the encoder",
+                              "a larger force gives a larger motion"});
+  }
+}
+
+}  // namespace
+
+tl::expected<RelayResult, NoOscillation> analyse_relay_record(std::span<const double> force,
+                                                              std::span<const double> position, double sampling_period,
+                                                              const RelayAnalysisOptions& options) {
+  check(force, position, sampling_period, options);
+  if (std::string reason = nothing_moves(force, position, sampling_period); !reason.empty()) {
+    return tl::unexpected(NoOscillation{std::move(reason)});
+  }
+  const std::size_t half = force.size() / 2;
+  // As one segment: a period may be longer than one of the segments asked for.
+  const Peak rough = strongest_line(force.subspan(half), position.subspan(half), force.size() - half);
+  const double cycles_recorded = rough.per_sample() * static_cast<double>(force.size());
+  if (!(cycles_recorded >= least_cycles)) {
+    return tl::unexpected(NoOscillation{
+        fmt::format("the record holds no oscillation of at least {:.0f} cycles; record for longer", least_cycles)});
+  }
+  const double cycles_per_segment = rough.per_sample() * static_cast<double>(options.segment_length);
+  if (!(cycles_per_segment >= least_cycles_per_segment)) {
+    return tl::unexpected(NoOscillation{fmt::format(
+        "a segment of {} samples holds {:.2g} cycles of the oscillation near {:.3g} Hz; at least {:.0f}: make the "
+        "segments longer",
+        options.segment_length, cycles_per_segment, rough.per_sample() / sampling_period, least_cycles_per_segment)});
+  }
+  // Four stretches at least in the last half.
+  const auto stretch = std::min(
+      force.size() / 8, std::max(least_stretch, static_cast<std::size_t>(cycles_per_stretch / rough.per_sample())));
+  const SteadyPart part = steady_part(position, stretch, options.steady_tolerance);
+  const auto steady_force = force.subspan(part.from);
+  const auto steady_position = position.subspan(part.from);
+  const Peak peak = strongest_line(steady_force, steady_position, options.segment_length);
+  if (peak.line == 0 || peak.share < least_share) {
+    return tl::unexpected(NoOscillation{
+        fmt::format("no frequency stands out: the strongest holds {:.0f} % of the motion's power; at least {:.0f} %",
+                    100.0 * peak.share, 100.0 * least_share)});
+  }
+
+  RelayResult result;
+  const double angle = 2.0 * std::numbers::pi / sampling_period;  // rad/s of one cycle per sample
+  result.frequency = angle * peak.per_sample();
+  result.stiffness = peak.stiffness;
+  result.line_spacing = angle / static_cast<double>(peak.segment_length);
+  result.segments = peak.segments;
+  result.steady_from = part.from;
+  result.steady_samples = steady_position.size();
+  result.scatter = part.scatter;
+  const std::vector<double> motion = without_line(steady_position);
+  const auto [lowest, highest] = std::minmax_element(motion.begin(), motion.end());
+  const OscillationCycles cycles = oscillation_cycles(motion, threshold_of_cycles * 0.5 * (*highest - *lowest));
+  result.amplitude = cycles.count > 0 ? cycles.mean_swing : 0.5 * (*highest - *lowest);
+  if (cycles.count > 0) {
+    const double frequency = angle / cycles.mean_length;
+    if (std::abs(frequency - result.frequency) <= result.line_spacing) result.cycle_frequency = frequency;
+  }
+  remark_steadiness(result, part, options);
+  remark_signals(result, steady_position, options);
+  return result;
+}
+
+}  // namespace zwidth

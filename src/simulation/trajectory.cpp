@@ -1,0 +1,199 @@
+#include "zwidth/simulation/trajectory.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <string>
+
+#include "simulation/fitted_sine.hpp"
+#include "simulation/loop_judgement.hpp"
+#include "zwidth/error.hpp"
+
+namespace zwidth {
+namespace {
+
+constexpr double settled_share = 0.02;   // of the largest excursion
+constexpr std::size_t end_part = 16;     // of the run: its last sixteenth shows where it ends
+constexpr double same_frequency = 0.01;  // relative: a multiple of the user's frequency
+constexpr double small_share = 0.01;     // of the user's rhythm: a motion beside it that does not count
+constexpr double never = std::numeric_limits<double>::infinity();
+constexpr std::size_t samples_per_report = 1 << 16;
+
+std::size_t sample_count(const Device& device, const SimulationOptions& options) {
+  const double count = std::round(options.duration / device.loop().sampling_period);
+  if (!(count >= 1.0 && count <= max_simulated_samples)) {
+    throw Error(ErrorCode::invalid_argument,
+                "duration is " + std::to_string(options.duration) + " s; must be 1 to 20 million sampling periods");
+  }
+  if (!(options.divergence > 0.0)) throw Error(ErrorCode::invalid_argument, "divergence bound must be > 0");
+  return static_cast<std::size_t>(count);
+}
+
+/// Keeps every n-th point of the loop.
+class TrajectoryKeeper {
+ public:
+  TrajectoryKeeper(const Device& device, std::size_t samples, std::size_t every)
+      : every_(every), bodies_(device.bodies().size()) {
+    if (every == 0) return;
+    const std::size_t size = samples / every + 1;
+    for (auto* each : {&kept_.time, &kept_.measured, &kept_.command, &kept_.user_force}) each->reserve(size);
+    const std::size_t columns = std::max<std::size_t>(bodies_, 1);
+    kept_.position.resize(columns);
+    kept_.velocity.resize(bodies_);
+    for (auto& each : kept_.position) each.reserve(size);
+    for (auto& each : kept_.velocity) each.reserve(size);
+  }
+
+  /// The motion at k T, before the step.
+  void note_motion(const HybridLoop& loop) {
+    if (!is_kept(loop.sample())) return;
+    kept_.time.push_back(loop.time());
+    kept_.user_force.push_back(loop.user_force());
+    for (std::size_t i = 0; i < bodies_; ++i) {
+      kept_.position[i].push_back(loop.position(i));
+      kept_.velocity[i].push_back(loop.velocity(i));
+    }
+    if (bodies_ == 0) kept_.position[0].push_back(loop.sensed_position());
+  }
+
+  /// What was measured and commanded at k T, known after the step.
+  void note_control(const HybridLoop& loop) {
+    if (!is_kept(loop.sample() - 1)) return;
+    kept_.measured.push_back(loop.measured());
+    kept_.command.push_back(loop.command());
+  }
+
+  [[nodiscard]] Trajectory take() { return std::move(kept_); }
+
+ private:
+  [[nodiscard]] bool is_kept(std::size_t sample) const { return every_ > 0 && sample % every_ == 0; }
+
+  std::size_t every_;
+  std::size_t bodies_;
+  Trajectory kept_;
+};
+
+std::optional<double> settling_time(const std::vector<double>& position, double period) {
+  const auto [end_low, end_high] =
+      std::minmax_element(position.end() - static_cast<std::ptrdiff_t>(position.size() / end_part + 1), position.end());
+  const double final = 0.5 * (*end_low + *end_high);
+  double largest = 0.0;
+  for (const double each : position) largest = std::max(largest, std::abs(each - final));
+  if (*end_high - *end_low > 2.0 * settled_share * largest) return std::nullopt;
+  std::size_t settled = position.size();
+  while (settled > 0 && std::abs(position[settled - 1] - final) <= settled_share * largest) --settled;
+  return static_cast<double>(settled) * period;
+}
+
+/// Energy that the wall takes and gives, by the passivity observer.
+class WallEnergy {
+ public:
+  WallEnergy(const ControllerOptions& wall, double force_limit, double start)
+      : wall_(wall), limit_(force_limit), held_at_start_(held(start)) {}
+
+  [[nodiscard]] double generated(double work, double position) const { return work + held(position) - held_at_start_; }
+
+ private:
+  /// Integral of min(K p, limit): K p²/2 up to the limit.
+  [[nodiscard]] double held(double position) const {
+    const double beyond = position - wall_.position;
+    const double depth =
+        wall_.contact == ControllerOptions::Contact::bilateral ? std::abs(beyond) : std::max(beyond, 0.0);
+    const double force = std::min(wall_.stiffness * depth, limit_);
+    return force * depth - (force > 0.0 ? 0.5 * force * force / wall_.stiffness : 0.0);
+  }
+
+  ControllerOptions wall_;
+  double limit_;
+  double held_at_start_;
+};
+
+/// The sensed positions that the verdict is about: from the start of the user's force on.
+std::span<const double> judged(const std::vector<double>& sensed, const UserForce& force, double period) {
+  if (force.kind == UserForce::Kind::none) return sensed;
+  const double before = std::ceil(force.start / period);
+  return std::span(sensed).subspan(before < static_cast<double>(sensed.size()) ? static_cast<std::size_t>(before) : 0);
+}
+
+/// Takes the user's rhythm out of the verdict: what is left of the motion is the loop's own.
+void judge_beside_sine(Simulation& result, std::span<const double> sensed, const Device& device,
+                       const UserForce& force) {
+  const double period = device.loop().sampling_period;
+  const FittedSine sine = fit_sine(sensed.last(sensed.size() / 2), force.frequency * period);
+  const std::vector<double> own = without(sine, sensed);
+  const LoopJudgement judgement = judge_loop(own, period, device.parameters().sensor.resolution);
+  const double order = judgement.oscillation ? judgement.oscillation->frequency / force.frequency : 0.0;
+  const bool is_harmonic =
+      judgement.verdict == LoopVerdict::limit_cycle && std::abs(order - std::round(order)) <= same_frequency * order;
+  const bool is_small = judgement.oscillation && judgement.oscillation->amplitude <= small_share * sine.amplitude;
+  if (judgement.verdict == LoopVerdict::settles || judgement.verdict == LoopVerdict::drifts || is_harmonic ||
+      is_small) {
+    result.verdict = LoopVerdict::forced;
+    result.oscillation = Oscillation{force.frequency, sine.amplitude};
+    result.growth_rate = judgement.growth_rate;
+    return;
+  }
+  result.verdict = judgement.verdict;
+  result.growth_rate = judgement.growth_rate;
+  result.oscillation = judgement.oscillation;
+}
+
+void judge(Simulation& result, const std::vector<double>& sensed, const Device& device, const UserForce& force) {
+  const double period = device.loop().sampling_period;
+  const std::span<const double> part = judged(sensed, force, period);
+  if (force.kind == UserForce::Kind::sine) return judge_beside_sine(result, part, device, force);
+  const LoopJudgement judgement = judge_loop(part, period, device.parameters().sensor.resolution);
+  result.verdict = judgement.verdict;
+  result.growth_rate = judgement.growth_rate;
+  result.oscillation = judgement.oscillation;
+  if (result.verdict == LoopVerdict::settles) result.settling_time = settling_time(sensed, period);
+}
+
+}  // namespace
+
+Simulation simulate(const Device& device, const SimulationOptions& options, const Progress& progress) {
+  const std::size_t samples = sample_count(device, options);
+  HybridLoop loop(device, options.loop);
+  TrajectoryKeeper keeper(device, samples, options.keep_every);
+  const ControllerOptions& wall = options.loop.controller;
+  const bool has_wall = wall.kind == ControllerOptions::Kind::wall;
+  Simulation result;
+  std::vector<double> sensed;
+  sensed.reserve(samples + 1);
+  const double start = loop.sensed_position();
+  sensed.push_back(start);
+  const WallEnergy energy(wall, device.parameters().actuator.force_limit.value_or(never), start);
+  if (has_wall) {
+    result.generated_energy = 0.0;
+    result.peak_penetration = std::max(0.0, start - wall.position);
+  }
+  bool diverges = false;
+  for (std::size_t k = 0; k < samples && !diverges; ++k) {
+    if (progress && k % samples_per_report == 0) progress(static_cast<double>(k) / static_cast<double>(samples));
+    keeper.note_motion(loop);
+    loop.step();
+    keeper.note_control(loop);
+    const double position = loop.sensed_position();
+    sensed.push_back(position);
+    diverges = !(std::abs(position - start) <= options.divergence);
+    if (!has_wall) continue;
+    result.generated_energy = energy.generated(loop.work(), position);
+    result.peak_generated_energy = std::max(result.peak_generated_energy, *result.generated_energy);
+    result.peak_penetration = std::max(result.peak_penetration, position - wall.position);
+  }
+  if (progress) progress(1.0);
+  if (diverges) {
+    result.verdict = LoopVerdict::unstable;
+  } else {
+    judge(result, sensed, device, options.loop.user_force);
+  }
+  result.final_position = sensed.back();
+  result.friction_events = loop.friction_events();
+  result.overloaded_steps = loop.overloaded_steps();
+  result.samples = loop.sample();
+  result.trajectory = keeper.take();
+  return result;
+}
+
+}  // namespace zwidth
