@@ -29,7 +29,8 @@ RigidApproximation rigid_approximation(const Device& device, const CriticalStiff
   parameters.loop.sampling_period = device.loop().sampling_period;
   parameters.loop.delay = device.loop().delay;
   parameters.actuator = device.parameters().actuator;
-  rigid.critical = critical_stiffness(sampled_plant(Device(std::move(parameters))), damper_of(device));
+  parameters.wall.filters = device.parameters().wall.filters;
+  rigid.critical = critical_stiffness(filtered_plant(Device(std::move(parameters))), damper_of(device));
   return rigid;
 }
 
@@ -48,7 +49,8 @@ std::optional<QCriterion> q_criterion(const Device& device, const RigidApproxima
 
 Analysis analyze(const Device& device) {
   ModalForm form = modal_form(device);
-  const SampledPlant plant = sample(form, {device.loop().sampling_period, device.loop().delay});
+  const SampledPlant plant = filtered_plant(sample(form, {device.loop().sampling_period, device.loop().delay}),
+                                            device.parameters().wall.filters);
   Analysis analysis;
   analysis.critical = critical_stiffness(plant, damper_of(device));
   analysis.modes = std::move(form.modes);
@@ -58,6 +60,7 @@ Analysis analyze(const Device& device) {
     analysis.q_criterion = q_criterion(device, *analysis.rigid);
   }
   if (device.parameters().wall.stiffness) analysis.wall = wall_margins(device);
+  if (device.parameters().uncertainty) analysis.interval = stiffness_interval(device);
   return analysis;
 }
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -18,7 +19,13 @@ std::vector<std::complex<double>> closed_loop_poles_minus_one(const DiscreteStat
   const bool damped = wall.damping > 0.0;
   const bool filtered = damped && wall.velocity_filter_hz > 0.0;
   const double a = filtered ? std::exp(-2.0 * std::numbers::pi * wall.velocity_filter_hz * plant.period) : 0.0;
-  const Eigen::Index order = n + (damped ? 1 : 0) + (filtered ? 1 : 0);
+  std::vector<FilterSection> sections;
+  Eigen::Index order = n + (damped ? 1 : 0) + (filtered ? 1 : 0);
+  Eigen::Index next = order;
+  for (const WallFilter& filter : wall.filters) {
+    sections.push_back(filter_section(filter, plant.period));
+    order += static_cast<Eigen::Index>(sections.back().degree);
+  }
   Eigen::MatrixXd loop = Eigen::MatrixXd::Zero(order, order);  // state matrix minus I
   loop.topLeftCorner(n, n) = device.Phi;
   // u = -(K y + B v), v = a v_old + ((1 - a)/T)(y - y_old)
@@ -34,6 +41,19 @@ std::vector<std::complex<double>> closed_loop_poles_minus_one(const DiscreteStat
     loop.row(n + 1).head(n) = (1.0 - a) * device.C;
     loop(n + 1, n) = -(1.0 - a);
     loop(n + 1, n + 1) = a - 1.0;
+  }
+  // Each filter in the states w, delta w of delta^degree w + ... + d0 w = force; what leaves it is the next one's
+  // force.
+  for (const FilterSection& section : sections) {
+    const auto degree = static_cast<Eigen::Index>(section.degree);
+    const std::array<double, 3> numerator = whole_numerator(section);
+    Eigen::RowVectorXd highest = force;  // delta^degree w
+    for (Eigen::Index i = 0; i < degree; ++i) highest(next + i) -= section.denominator[static_cast<std::size_t>(i)];
+    for (Eigen::Index i = 0; i + 1 < degree; ++i) loop(next + i, next + i + 1) = 1.0;
+    loop.row(next + degree - 1) = highest;
+    force = numerator[section.degree] * highest;
+    for (Eigen::Index i = 0; i < degree; ++i) force(next + i) += numerator[static_cast<std::size_t>(i)];
+    next += degree;
   }
   loop.topRows(n) += device.Gamma1 * force;
   const Eigen::VectorXd scales = balancing_scales(loop);

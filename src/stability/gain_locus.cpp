@@ -5,87 +5,14 @@
 #include <limits>
 #include <numbers>
 
+#include "stability/delay_factor.hpp"
 #include "stability/plant_fraction.hpp"
 
 namespace zwidth {
 namespace {
 
-// u = sin(L angle) / sin(angle). Angles beyond pi/2 are given by their distance to pi: sin(L pi - y) = -cos(L pi) sin
-// y.
-double dirichlet_ratio(double samples, double distance, bool from_pi) {
-  const double ratio = distance > 0.0 ? std::sin(samples * distance) / std::sin(distance) : samples;
-  return from_pi && std::fmod(samples, 2.0) == 0.0 ? -ratio : ratio;
-}
-
-OnCircle<double> delay_factor(std::size_t delay_samples, double angle) {
-  if (delay_samples == 0) return {1.0, 0.0};
-  const auto samples = static_cast<double>(delay_samples);
-  const bool from_pi = angle > std::numbers::pi / 2.0;
-  return {std::cos(samples * angle), dirichlet_ratio(samples, from_pi ? std::numbers::pi - angle : angle, from_pi)};
-}
-
-// z^L at x, by the angle; near z = -1 by the distance to pi.
-OnCircle<double> delay_at(std::size_t delay_samples, double x) {
-  const auto samples = static_cast<double>(delay_samples);
-  const bool from_pi = x > 2.0;
-  const double distance = 2.0 * std::asin(0.5 * std::sqrt(from_pi ? 4.0 - x : x));
-  const double cosine = std::cos(samples * distance);
-  return {from_pi && std::fmod(samples, 2.0) == 1.0 ? -cosine : cosine, dirichlet_ratio(samples, distance, from_pi)};
-}
-
-// z^L at x by repeated squaring, in double-double.
-OnCircle<Extended> delay_at(std::size_t delay_samples, const Extended& x) {
-  const CirclePoint<Extended> point{x, x * (1.0 - 0.25 * x)};
-  OnCircle<Extended> power{Extended(1.0), Extended(0.0)};
-  OnCircle<Extended> square{1.0 - 0.5 * x, Extended(1.0)};
-  for (std::size_t left = delay_samples; left > 0; left /= 2) {
-    if (left % 2 == 1) power = multiply(power, square, point);
-    square = multiply(square, square, point);
-  }
-  return power;
-}
-
 // Close enough to z = 1 for a limit; the error is its square.
 constexpr double cancelled_angle = 1e-7;
-
-template <typename Scalar>
-constexpr double rounding_unit = std::numeric_limits<double>::epsilon();
-template <>
-constexpr double rounding_unit<Extended> = 1e-31;
-
-// z^L on an interval of x, even = T_L(y) and odd = u = U_{L-1}(y) with y = 1 - x/2 = cos(angle):
-//   d even/dx = -(L/2) u,   du/dx = (L even - y u) / (2 sin²),
-// second derivatives from the Chebyshev equations 4 sin² e'' + 2 y e' + L² e = 0 and 4 sin² u'' + 6 y u' + (L² - 1) u =
-// 0, or from their greatest values, at x = 0, whichever bound is smaller.
-template <typename Scalar>
-OnCircle<BoundedJet<Scalar>> delay_factor(std::size_t delay_samples, double begin, double end) {
-  using Jet = BoundedJet<Scalar>;
-  if (delay_samples == 0) return {Jet(1.0), Jet(0.0)};
-  const auto samples = static_cast<double>(delay_samples);
-  const CirclePoint<Jet> interval = circle_interval<Scalar>(begin, end);
-  const double h = 0.5 * (end - begin);
-  const Scalar y = 1.0 - 0.5 * interval.chord_squared.value;
-  const Scalar sine_squared = interval.sine_squared.value;
-  const OnCircle<Scalar> centre = delay_at(delay_samples, interval.chord_squared.value);
-  const Scalar odd_slope = (samples * centre.even - y * centre.odd) / (2.0 * sine_squared);
-  const double slope_error = rounding_unit<Scalar> * 8.0 * samples / leading(sine_squared);
-
-  const double squared = samples * samples;
-  double even_bend = squared * (squared - 1.0) / 12.0;
-  double odd_bend = std::max((squared - 4.0) * (squared - 1.0) * samples / 60.0, 0.0);
-  double odd_size = samples;
-  const double least_sine_squared = std::min(begin * (1.0 - 0.25 * begin), end * (1.0 - 0.25 * end));
-  if (least_sine_squared > 0.0) {
-    odd_size = std::min(samples, 1.0 / std::sqrt(least_sine_squared));
-    const double odd_slope_size =
-        std::min((samples + odd_size) / (2.0 * least_sine_squared), samples * (squared - 1.0) / 6.0);
-    even_bend = std::min(even_bend, (samples * odd_size + squared) / (4.0 * least_sine_squared));
-    odd_bend = std::min(odd_bend, (6.0 * odd_slope_size + (squared - 1.0) * odd_size) / (4.0 * least_sine_squared));
-  }
-  const double rounding = 1.0 + samples / 16.0;  // of z^L
-  return {{centre.even, (-0.5 * samples * h) * centre.odd, even_bend * h * h, rounding},
-          {centre.odd, odd_slope * h, odd_bend * h * h + 2.0 * slope_error * h, odd_size * rounding}};
-}
 
 // delta^power; |delta|² = x is left out of every pair of factors: delta²/x = -z.
 template <typename Real>
@@ -108,6 +35,7 @@ GainLocus::GainLocus(const SampledPlant& plant, Gain gain, double stiffness, Vir
              ? -std::expm1(-2.0 * std::numbers::pi * damper.velocity_filter_hz * plant.period)
              : 1.0) {
   for (const SampledTerm& term : plant.terms) integrators_ += term.integrators;
+  nyquist_pairs_ = nyquist_zeros(plant) / 2;
   integrators_kept_ = integrators_;
   // The backward difference cancels one pole at z = 1.
   if (gain_ == Gain::damping && integrators_ > 0) integrators_kept_ = integrators_ - 1;
@@ -131,13 +59,18 @@ Real GainLocus::assemble(const CirclePoint<Real>& point, const OnCircle<Real>& d
   const bool reduce = (integrators_ > 1 && !damper_closed()) || integrators_kept_ < integrators_;
   OnCircle<Real> integrators{Real(1.0), Real(0.0)};
   if (reduce) integrators = reduced_integrators(integrators_kept_, point);
-  const PlantFraction<Real> plant = plant_fraction(plant_, point, reduce ? &integrators : nullptr);
+  PlantFraction<Real> plant = plant_fraction(plant_, point, reduce ? &integrators : nullptr, 2 * nyquist_pairs_);
+  // Of every pair of the filters' zeros at z = -1, (z + 1)² = z (4 - x), the positive 4 - x is left out.
+  const OnCircle<Real> z{1.0 - 0.5 * point.chord_squared, Real(1.0)};
+  for (std::size_t i = 0; i < nyquist_pairs_; ++i) plant.numerator = multiply(plant.numerator, z, point);
   OnCircle<Real> product = multiply(plant.denominator, conj(plant.numerator), point);
   if (gain_ != Gain::stiffness) product = multiply(product, extra_factor(point), point);
   const Real phase = plant_.delay_samples == 0 ? product.odd : delay.even * product.odd + delay.odd * product.even;
   if (!damper_closed()) return phase;
   const Real filter = (1.0 - c_) * point.chord_squared + c_ * c_;  // |delta + c|²
-  return filter * phase + (damping_ * c_ * c_ / plant_.period) * squared_magnitude(plant.numerator, point);
+  Real seen = squared_magnitude(plant.numerator, point);
+  for (std::size_t i = 0; i < nyquist_pairs_; ++i) seen = (4.0 - point.chord_squared) * seen;
+  return filter * phase + (damping_ * c_ * c_ / plant_.period) * seen;
 }
 
 double GainLocus::value(double angle) const {
@@ -152,19 +85,67 @@ BoundedJet<Scalar> GainLocus::model(double begin, double end) const {
 template BoundedJet<double> GainLocus::model<double>(double, double) const;
 template BoundedJet<Extended> GainLocus::model<Extended>(double, double) const;
 
+// With P = z^-L S/D and positive factors left out, f = -Im[P W] + B Im[v] |P|², W = 1, v or K + B v.
+GainLocus::TermSum GainLocus::by_terms(double angle) const {
+  constexpr double unit = 16.0 * std::numeric_limits<double>::epsilon();
+  const std::complex<double> delta(-0.5 * circle_point(angle).chord_squared, std::sin(angle));
+  std::complex<double> plant = 0.0;
+  double noise = 0.0;
+  for (const SampledTerm& term : plant_.terms) {
+    const std::complex<double> value = response(term, angle);
+    std::complex<double> power = 1.0;
+    std::complex<double> denominator = 0.0;
+    double size = 0.0;
+    for (std::size_t i = 0; i <= term.degree; ++i, power *= delta) {
+      const double coefficient = i < term.degree ? term.denominator[i] : 1.0;
+      denominator += coefficient * power;
+      size += std::abs(coefficient) * std::abs(power);
+    }
+    plant += value;
+    noise += unit * std::abs(value) * (1.0 + size / std::abs(denominator));
+  }
+  const std::complex<double> turned =
+      filter_response(plant_, angle) * std::polar(1.0, -static_cast<double>(plant_.delay_samples) * angle);
+  plant *= turned;
+  noise = noise * std::abs(turned) + unit * std::abs(plant) * (1.0 + static_cast<double>(plant_.delay_samples));
+  const std::complex<double> velocity = c_ / plant_.period * delta / (delta + c_);
+  if (gain_ == Gain::stiffness) {
+    const double damping = damping_ * velocity.imag();
+    const double size = std::abs(plant);
+    return {-plant.imag() + damping * size * size, noise * (1.0 + 2.0 * damping * size)};
+  }
+  const std::complex<double> weight = gain_ == Gain::damping ? velocity : stiffness_ + damping_ * velocity;
+  return {-(plant * weight).imag(), noise * std::abs(weight)};
+}
+
+std::vector<double> GainLocus::pole_angles() const {
+  std::vector<double> angles;
+  for (const SampledTerm& term : plant_.terms) {
+    if (term.degree != 2) continue;
+    // delta² + d1 delta + d0
+    const double half = -0.5 * term.denominator[1];
+    const double square = term.denominator[0] - half * half;
+    if (square > 0.0) angles.push_back(std::atan2(std::sqrt(square), 1.0 + half));
+  }
+  return angles;
+}
+
 double GainLocus::gain(double angle) const {
   // The damper's zero at z = 1 and an integrator cancel: the limit.
   if (angle == 0.0 && gain_ == Gain::damping && integrators_ > 0) {
     if (integrators_kept_ > 0) return 0.0;
     angle = cancelled_angle;
   }
+  if (angle >= std::numbers::pi && nyquist_zeros(plant_) > 0) return std::numeric_limits<double>::infinity();
   const CirclePoint<double> point = circle_point(angle);
   const auto [numerator, denominator] = plant_fraction(plant_, point);
   const OnCircle<double> product =
       multiply(multiply(denominator, conj(numerator), point), delay_factor(plant_.delay_samples, angle), point);
   // 1/P, real where the phase condition holds without a damper
   OnCircle<double> one_over_plant = scaled(1.0 / squared_magnitude(numerator, point), product);
-  if (plant_.at_nyquist && angle >= std::numbers::pi) one_over_plant = {1.0 / *plant_.at_nyquist, 0.0};
+  if (plant_.at_nyquist && angle >= std::numbers::pi) {
+    one_over_plant = {1.0 / (*plant_.at_nyquist * filter_response(plant_, angle).real()), 0.0};
+  }
   const double x = point.chord_squared;
   const double filter = c_ * c_ + (1.0 - c_) * x;
   const double rate = c_ / plant_.period;
@@ -190,6 +171,7 @@ int GainLocus::initially_unstable(double phase_near_zero) const {
     if (term.integrators == 0) continue;
     const auto zeros = static_cast<std::size_t>(term.integrators);
     s = term.numerator[0];
+    for (const FilterSection& section : plant_.filters) s *= static_gain(section);
     r = zeros < term.degree ? term.denominator[zeros] : 1.0;
     if (damper_closed()) r = (zeros == 1 ? r * c_ : 0.0) + damping_ * c_ / plant_.period * s;
   }

@@ -12,9 +12,11 @@
 //     damping        kappa = B, no spring:        f = Im[z^L D (delta + c) conj(delta) conj S]
 //     wall           kappa scales K + B v:        f = Im[z^L D (delta + c) conj(K (delta + c) + B (c/T) delta) conj S]
 //
+// Filters of the wall are further factors of S and D; pairs of their zeros at z = -1 are left out of f, being trivial.
 // Nothing is divided, so f has no poles; Im[.] / sin(angle) is the `odd` part of OnCircle.
 
 #include <cstddef>
+#include <vector>
 
 #include "sampling/unit_circle.hpp"
 #include "stability/bounded_jet.hpp"
@@ -34,6 +36,17 @@ class GainLocus {
   template <typename Scalar>
   [[nodiscard]] BoundedJet<Scalar> model(double begin, double end) const;
 
+  // f over positive factors from the sum of the modal terms, and a bound of its rounding. Where sharp resonances crowd,
+  // their product in value() and model() is zero to rounding, while each term of the sum keeps its digits.
+  struct TermSum {
+    double value = 0.0;
+    double noise = 0.0;
+  };
+  [[nodiscard]] TermSum by_terms(double angle) const;
+
+  // Angles of the plant's oscillating poles.
+  [[nodiscard]] std::vector<double> pole_angles() const;
+
   // kappa = -den/num where it is real; infinite or NaN where num vanishes.
   [[nodiscard]] double gain(double angle) const;
 
@@ -52,9 +65,10 @@ class GainLocus {
   Gain gain_;
   double stiffness_;
   double damping_;
-  double c_;                  // 1 - a; 1 without a velocity filter
-  int integrators_ = 0;       // poles at z = 1 of the plant
-  int integrators_kept_ = 0;  // those of den/num
+  double c_;                       // 1 - a; 1 without a velocity filter
+  int integrators_ = 0;            // poles at z = 1 of the plant
+  int integrators_kept_ = 0;       // those of den/num
+  std::size_t nyquist_pairs_ = 0;  // of the filters' zeros at z = -1
 };
 
 }  // namespace zwidth

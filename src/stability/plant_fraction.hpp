@@ -49,11 +49,40 @@ struct PlantFraction {
   OnCircle<Real> denominator;  // D, or D with its integrators replaced
 };
 
+// Zeros of the filters at z = -1 in all.
+inline std::size_t nyquist_zeros(const SampledPlant& plant) {
+  std::size_t zeros = 0;
+  for (const FilterSection& section : plant.filters) zeros += section.nyquist_zeros;
+  return zeros;
+}
+
+// The filters' numerators over denominators times S/D, over the size of the denominators. Of the zeros at z = -1 the
+// last `left_out` are not multiplied in.
+template <typename Real>
+void multiply_filters(const SampledPlant& plant, const CirclePoint<Real>& point, std::size_t left_out,
+                      PlantFraction<Real>& fraction) {
+  const double sine = std::sqrt(std::max(value_of(point.sine_squared), 0.0));
+  for (const FilterSection& section : plant.filters) {
+    OnCircle<Real> d = polynomial(section.denominator.data(), section.degree, 1.0, point);
+    const double size = std::abs(value_of(d.even)) + sine * std::abs(value_of(d.odd));
+    const double scale = size > 0.0 ? 1.0 / size : 1.0;
+    const std::size_t degree = section.degree - section.nyquist_zeros;
+    const OnCircle<Real> n = polynomial(section.numerator.data(), degree, section.numerator[degree], point);
+    fraction.numerator = multiply(fraction.numerator, scaled(scale, n), point);
+    fraction.denominator = multiply(fraction.denominator, scaled(scale, d), point);
+  }
+  const OnCircle<Real> zero{2.0 - 0.5 * point.chord_squared, Real(1.0)};  // delta + 2
+  for (std::size_t i = left_out; i < nyquist_zeros(plant); ++i) {
+    fraction.numerator = multiply(fraction.numerator, zero, point);
+  }
+}
+
 // S and D by the recursion (S, D) <- (S D_k + N_k D, D D_k). Both are divided by the size of each D_k, a positive
-// number. `integrators`: takes the place of delta^n of the term with n integrators, in D alone.
+// number. `integrators`: takes the place of delta^n of the term with n integrators, in D alone. `zeros_left_out`: of
+// the filters' zeros at z = -1.
 template <typename Real>
 PlantFraction<Real> plant_fraction(const SampledPlant& plant, const CirclePoint<Real>& point,
-                                   const OnCircle<Real>* integrators = nullptr) {
+                                   const OnCircle<Real>* integrators = nullptr, std::size_t zeros_left_out = 0) {
   const double sine = std::sqrt(std::max(value_of(point.sine_squared), 0.0));
   OnCircle<Real> s{Real(0.0), Real(0.0)};
   OnCircle<Real> d{Real(1.0), Real(0.0)};
@@ -89,7 +118,9 @@ PlantFraction<Real> plant_fraction(const SampledPlant& plant, const CirclePoint<
       if (integrators != nullptr) replaced = multiply(replaced, replaced_k, point);
     }
   }
-  return {s, integrators != nullptr ? replaced : d};
+  PlantFraction<Real> fraction{s, integrators != nullptr ? replaced : d};
+  if (!plant.filters.empty()) multiply_filters(plant, point, zeros_left_out, fraction);
+  return fraction;
 }
 
 }  // namespace zwidth

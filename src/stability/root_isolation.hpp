@@ -93,6 +93,53 @@ double polish(const Function& f, const Interval& interval) {
   return angle_of(0.5 * (low + high));
 }
 
+// The roots in a run of intervals where the function is zero to rounding, from its sum of terms, in angles. Asked
+// evenly and ever closer to each pole.
+struct RootsByTerms {
+  std::vector<CircleRoot> roots;
+  bool is_certain = true;  // the sign was beyond rounding wherever it was asked
+};
+
+template <typename Function>
+RootsByTerms roots_by_terms(const Function& f, double begin, double end) {
+  constexpr int even_points = 64;
+  constexpr int halvings = 44;
+  const double width = end - begin;
+  std::vector<double> angles;
+  for (int i = 0; i <= even_points; ++i) angles.push_back(begin + width * i / even_points);
+  for (const double pole : f.pole_angles()) {
+    double distance = width;
+    for (int i = 0; i < halvings; ++i, distance *= 0.5) {
+      for (const double angle : {pole - distance, pole + distance}) {
+        if (angle > begin && angle < end) angles.push_back(angle);
+      }
+    }
+  }
+  std::sort(angles.begin(), angles.end());
+  RootsByTerms found;
+  double last_angle = begin;
+  double last = 0.0;  // the last value whose sign is certain
+  for (const double angle : angles) {
+    const auto [value, noise] = f.by_terms(angle);
+    if (!(std::abs(value) > noise)) {
+      found.is_certain = false;
+      continue;
+    }
+    if (last != 0.0 && (value > 0.0) != (last > 0.0)) {
+      std::uintmax_t steps = max_polish_steps;
+      const auto close_enough = [](double a, double b) {
+        return std::abs(b - a) <= 2.0 * std::numeric_limits<double>::epsilon() * std::abs(b);
+      };
+      const auto [low, high] = boost::math::tools::toms748_solve([&f](double at) { return f.by_terms(at).value; },
+                                                                 last_angle, angle, last, value, close_enough, steps);
+      found.roots.push_back({0.5 * (low + high), value > 0.0 ? 1 : -1});
+    }
+    last_angle = angle;
+    last = value;
+  }
+  return found;
+}
+
 // Where to divide an interval of x: by ratio while it spans orders of magnitude, else in half.
 inline double division(double begin, double end) {
   if (begin == 0.0) return end / 32.0;
@@ -125,6 +172,18 @@ std::vector<CircleRoot> roots_on_circle(const Function& f, std::size_t pieces) {
     if (zero_begin < 0.0) return;
     const bool before = is_positive(f, zero_begin);
     const bool after = is_positive(f, zero_end);
+    if constexpr (requires { f.by_terms(0.0); }) {
+      const auto [inside, is_certain] = roots_by_terms(f, angle_of(zero_begin), angle_of(zero_end));
+      // What comes of the run must agree with what goes in.
+      const bool agrees =
+          !inside.empty() && (inside.front().direction > 0) != before && (inside.back().direction > 0) == after;
+      const bool nothing_there = inside.empty() && is_certain && before == after;
+      if (agrees || nothing_there) {
+        roots.insert(roots.end(), inside.begin(), inside.end());
+        zero_begin = -1.0;
+        return;
+      }
+    }
     roots.push_back({angle_of(0.5 * (zero_begin + zero_end)), before == after ? 0 : after ? 1 : -1});
     zero_begin = -1.0;
   };

@@ -19,6 +19,7 @@ class Characteristic {
     rate_ = wall.damping * c_ / plant.period;
     order_ = plant.delay_samples + 1;
     for (const SampledTerm& term : plant.terms) order_ += term.degree;
+    for (const FilterSection& section : plant.filters) order_ += section.degree;
   }
 
   [[nodiscard]] std::size_t order() const { return order_; }
@@ -34,6 +35,15 @@ class Characteristic {
       const double scale = 1.0 / std::max(std::abs(d_k), 1e-300);
       s = plant_.numerator.empty() ? (s * d_k + n_k * d) * scale : s * scale;
       d = d * d_k * scale;
+    }
+    for (const FilterSection& section : plant_.filters) {
+      Complex n = evaluate(section.numerator.data(), section.numerator.size(), delta);
+      for (std::size_t i = 0; i < section.nyquist_zeros; ++i) n *= delta + 2.0;
+      const Complex d_k = evaluate(section.denominator.data(), section.degree, delta) +
+                          std::pow(delta, static_cast<int>(section.degree));
+      const double scale = 1.0 / std::max(std::abs(d_k), 1e-300);
+      s *= n * scale;
+      d *= d_k * scale;
     }
     const auto delay = static_cast<double>(plant_.delay_samples);
     const Complex shift = std::polar(std::exp(-delay * std::log(radius)), -delay * angle);

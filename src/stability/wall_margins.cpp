@@ -164,7 +164,7 @@ LoopMargins continuous_margins(const TransferFunction& loop) {
 WallMargins wall_margins(const Device& device) {
   constexpr std::size_t most_samples_for_eigenvalues = 100;
   const Wall& wall = device.parameters().wall;
-  const SampledPlant plant = sampled_plant(device);
+  const SampledPlant plant = filtered_plant(device);
   WallMargins margins{loop_margins(plant, wall), *wall.stiffness, wall.damping, 0.0};
   if (plant.delay_samples > most_samples_for_eigenvalues) {
     margins.spectral_radius = spectral_radius_by_winding(plant, wall);

@@ -1,0 +1,55 @@
+#include "stability/alias_tail.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace zwidth {
+namespace {
+
+constexpr int node_count = 16;
+
+struct LaguerreRule {
+  std::array<double, node_count> node{};
+  std::array<double, node_count> weight{};
+};
+
+/// Nodes and weights of int_0^inf e^-u f(u) du from the recurrence's tridiagonal matrix (Golub & Welsch 1969).
+LaguerreRule make_rule() {
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(node_count, node_count);
+  for (int i = 0; i < node_count; ++i) {
+    matrix(i, i) = 2.0 * i + 1.0;
+    if (i > 0) matrix(i, i - 1) = matrix(i - 1, i) = i;
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(matrix);
+  LaguerreRule rule;
+  for (int i = 0; i < node_count; ++i) {
+    rule.node[static_cast<std::size_t>(i)] = solver.eigenvalues()[i];
+    rule.weight[static_cast<std::size_t>(i)] = solver.eigenvectors()(0, i) * solver.eigenvectors()(0, i);
+  }
+  return rule;
+}
+
+}  // namespace
+
+std::complex<double> alias_tail(double first, double x, double angle, int power) {
+  static const LaguerreRule rule = make_rule();
+  const double start = first + x;
+  const std::complex<double> turn = std::polar(1.0, -angle);
+  const bool still = turn.real() == 1.0;
+  std::complex<double> integral = 0.0;
+  for (std::size_t i = 0; i < node_count; ++i) {
+    const double t = rule.node[i] / start;
+    const std::complex<double> sum = still ? -std::expm1(-t) : 1.0 - turn * std::exp(-t);
+    integral += rule.weight[i] * std::pow(rule.node[i], power - 1) / sum;
+  }
+  return std::polar(1.0, -angle * first) * std::pow(start, -power) / std::tgamma(power) * integral;
+}
+
+double alias_tail_error(double first, double angle) {
+  if (angle == 0.0) return 1e-13;
+  return std::max(2e-9, 0.05 * std::exp(-3.0 * first * std::abs(angle)));
+}
+
+}  // namespace zwidth

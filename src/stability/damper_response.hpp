@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "zwidth/stability/critical_stiffness.hpp"
+
+namespace zwidth {
+
+/// B v(e^{jwT}).
+inline std::complex<double> damper_response(VirtualDamper damper, double period, double frequency) {
+  if (damper.damping == 0.0) return 0.0;
+  const double angle = frequency * period;
+  const double filter =
+      damper.velocity_filter_hz > 0.0 ? std::exp(-2.0 * std::numbers::pi * damper.velocity_filter_hz * period) : 0.0;
+  // 1 - e^{-ja} = 2 j sin(a/2) e^{-ja/2}
+  const std::complex<double> difference = std::polar(2.0 * std::sin(0.5 * angle), 0.5 * (std::numbers::pi - angle));
+  return damper.damping / period * difference * (1.0 - filter) / (1.0 - filter * std::polar(1.0, -angle));
+}
+
+}  // namespace zwidth

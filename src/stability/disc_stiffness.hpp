@@ -1,0 +1,18 @@
+#pragma once
+
+#include <complex>
+
+#include "stability/user_discs.hpp"
+
+namespace zwidth {
+
+/// The least K > 0 with |1 + (K + B v) c| = |K + B v| r, where `damper` is B v; infinity where there is none.
+[[nodiscard]] double least_stiffness(const UserDiscs::Disc& disc, std::complex<double> damper);
+
+/// Relative, of a fourth sample from the parabola through three: the function is smooth enough to extrapolate to 0.
+inline constexpr double smooth_enough = 1e-6;
+
+/// The value at `steps` of an even function's parabola through its values at 1, 2 and 3 steps.
+[[nodiscard]] double even_parabola(double y1, double y2, double y3, double steps);
+
+}  // namespace zwidth
