@@ -4,30 +4,10 @@
 #include <cmath>
 
 #include "model/balance.hpp"
+#include "sampling/matrix_exponential.hpp"
 #include "sampling/sampling_instants.hpp"
 
 namespace zwidth {
-namespace {
-
-// e^M - I by Taylor series and E <- 2 E + E² for each halving of M; keeps the digits that e^M loses to its diagonal.
-Eigen::MatrixXd exponential_minus_one(const Eigen::MatrixXd& matrix) {
-  const Eigen::VectorXd scales = balancing_scales(matrix);
-  Eigen::MatrixXd m = scales.cwiseInverse().asDiagonal() * matrix * scales.asDiagonal();
-  const double norm = m.cwiseAbs().rowwise().sum().maxCoeff();
-  const int halvings = norm > 0.25 ? static_cast<int>(std::ceil(std::log2(norm / 0.25))) : 0;
-  m *= std::ldexp(1.0, -halvings);
-  constexpr int terms = 12;  // 0.25^12 / 12! < 1e-16
-  Eigen::MatrixXd sum = m;
-  Eigen::MatrixXd power = m;
-  for (int k = 2; k <= terms; ++k) {
-    power = power * m / static_cast<double>(k);
-    sum += power;
-  }
-  for (int i = 0; i < halvings; ++i) sum = 2.0 * sum + sum * sum.eval();
-  return scales.asDiagonal() * sum * scales.cwiseInverse().asDiagonal();
-}
-
-}  // namespace
 
 DiscreteStateSpace sample(const ContinuousStateSpace& system, Sampling sampling) {
   const SamplingInstants instants = sampling_instants(sampling);

@@ -160,6 +160,21 @@ SampledPlant sampled_plant(const Device& device) {
   return sample(modal_form(device), {device.loop().sampling_period, device.loop().delay});
 }
 
+SampledPlant filtered_plant(SampledPlant plant, const std::vector<WallFilter>& filters) {
+  for (const WallFilter& filter : filters) plant.filters.push_back(filter_section(filter, plant.period));
+  return plant;
+}
+
+SampledPlant filtered_plant(const Device& device) {
+  return filtered_plant(sampled_plant(device), device.parameters().wall.filters);
+}
+
+std::complex<double> filter_response(const SampledPlant& plant, double angle) {
+  std::complex<double> product = 1.0;
+  for (const FilterSection& section : plant.filters) product *= response(section, angle);
+  return product;
+}
+
 std::complex<double> response(const SampledTerm& term, double angle) {
   const CirclePoint<double> point = circle_point(angle);
   const OnCircle<double> numerator = polynomial(term.numerator, term.degree, term.numerator[term.degree], point);
@@ -182,7 +197,8 @@ double cancellation(const SampledPlant& plant, double angle) {
 
 std::complex<double> response(const SampledPlant& plant, double frequency) {
   const double angle = frequency * plant.period;
-  if (plant.at_nyquist && angle >= std::numbers::pi) return *plant.at_nyquist;
+  const std::complex<double> filters = filter_response(plant, angle);
+  if (plant.at_nyquist && angle >= std::numbers::pi) return *plant.at_nyquist * filters;
   std::complex<double> sum = 0.0;
   if (plant.numerator.empty()) {
     for (const SampledTerm& term : plant.terms) sum += response(term, angle);
@@ -196,7 +212,7 @@ std::complex<double> response(const SampledPlant& plant, double frequency) {
       sum /= std::complex<double>(denominator.even, denominator.odd * std::sin(angle));
     }
   }
-  return sum * std::polar(1.0, -static_cast<double>(plant.delay_samples) * angle);
+  return sum * filters * std::polar(1.0, -static_cast<double>(plant.delay_samples) * angle);
 }
 
 }  // namespace zwidth
