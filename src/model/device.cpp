@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "model/uncertainty_problem.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth {
@@ -212,6 +213,18 @@ void check_loop(const DeviceParameters& parameters, Checks& checks) {
   }
 }
 
+void check_filters(const DeviceParameters& parameters, Checks& checks) {
+  const std::vector<WallFilter>& filters = parameters.wall.filters;
+  if (filters.size() > max_wall_filters) {
+    checks.refuse("wall.filter", fmt::format("stands {} times", filters.size()),
+                  fmt::format("must be at most {} filters", max_wall_filters));
+  }
+  for (std::size_t i = 0; i < filters.size() && checks.passed(); ++i) {
+    const auto problem = find_problem(filters[i], parameters.loop.sampling_period);
+    if (problem) checks.refuse(fmt::format("wall.filter.{}.{}", i, problem->member), problem->what, problem->allowed);
+  }
+}
+
 void check_surroundings(const DeviceParameters& parameters, Checks& checks) {
   checks.not_negative("actuator", "time_constant", parameters.actuator.time_constant);
   if (parameters.actuator.force_limit) checks.positive("actuator", "force_limit", *parameters.actuator.force_limit);
@@ -219,6 +232,7 @@ void check_surroundings(const DeviceParameters& parameters, Checks& checks) {
   if (parameters.wall.stiffness) checks.not_negative("wall", "stiffness", *parameters.wall.stiffness);
   checks.not_negative("wall", "damping", parameters.wall.damping);
   checks.not_negative("wall", "velocity_filter_hz", parameters.wall.velocity_filter_hz);
+  check_filters(parameters, checks);
   checks.not_negative("operator", "mass", parameters.user.mass);
   checks.not_negative("operator", "damping", parameters.user.damping);
   checks.not_negative("operator", "stiffness", parameters.user.stiffness);
@@ -241,6 +255,7 @@ std::optional<DeviceProblem> find_problem(const DeviceParameters& parameters) {
   }
   check_loop(parameters, checks);
   check_surroundings(parameters, checks);
+  if (checks.passed() && parameters.uncertainty) return find_uncertainty_problem(parameters);
   return std::move(checks).first_problem();
 }
 

@@ -25,14 +25,14 @@ DeviceMatrices<Real> device_matrices(const Device& device) {
                                 std::vector<Real>(n * n, Real(0.0))};
   for (std::size_t i = 0; i < n; ++i) {
     const Body& body = device.bodies()[i];
-    matrices.mass[i] += body.mass;
-    matrices.damping[i * n + i] += body.damping;
-    matrices.stiffness[i * n + i] += body.stiffness;
+    matrices.mass[i] += Real(body.mass);
+    matrices.damping[i * n + i] += Real(body.damping);
+    matrices.stiffness[i * n + i] += Real(body.stiffness);
   }
   const std::size_t held = device.loop().held;
-  matrices.mass[held] += user.mass;
-  matrices.damping[held * n + held] += user.damping;
-  matrices.stiffness[held * n + held] += user.stiffness;
+  matrices.mass[held] += Real(user.mass);
+  matrices.damping[held * n + held] += Real(user.damping);
+  matrices.stiffness[held * n + held] += Real(user.stiffness);
   for (const Link& link : device.links()) {
     for (const auto& [i, j, sign] :
          {std::tuple{link.first, link.first, 1.0}, std::tuple{link.second, link.second, 1.0},

@@ -1,0 +1,108 @@
+#include "model/uncertainty_problem.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+
+#include "zwidth/model/parameter.hpp"
+
+namespace zwidth {
+namespace {
+
+// Squares of what a parameter may be.
+constexpr double smallest_variance = 1e-60;
+constexpr double largest_variance = 1e60;
+// What rounding of the file's digits may do, relative to the standard deviations.
+constexpr double rounding = 1e-9;
+
+DeviceProblem parameters_problem(std::string what, std::string allowed) {
+  return {"uncertainty.parameters", std::move(what), std::move(allowed)};
+}
+
+DeviceProblem covariance_problem(std::string what, std::string allowed) {
+  return {"uncertainty.covariance", std::move(what), std::move(allowed)};
+}
+
+std::optional<DeviceProblem> find_key_problem(const DeviceParameters& parameters) {
+  const std::vector<std::string>& uncertain = parameters.uncertainty->parameters;
+  if (uncertain.empty()) return parameters_problem("is empty", "must be one or more keys; or leave out [uncertainty]");
+  if (uncertain.size() > max_uncertain_parameters) {
+    return parameters_problem(fmt::format("has {} keys", uncertain.size()),
+                              fmt::format("must be at most {} keys", max_uncertain_parameters));
+  }
+  const std::vector<std::string> known = parameter_keys(parameters);
+  std::set<std::string> seen;
+  for (const std::string& key : uncertain) {
+    const std::string full = full_parameter_key(parameters, key);
+    if (std::ranges::count(known, full) == 0) {
+      return parameters_problem(fmt::format("\"{}\" is no parameter of the device", key),
+                                "must be keys such as body.NAME.mass, link.0.stiffness or loop.delay");
+    }
+    if (!parameter(parameters, full)) {
+      return parameters_problem(fmt::format("\"{}\" has no value in the device", key),
+                                "give it one, or leave it out here");
+    }
+    if (!seen.insert(full).second) {
+      return parameters_problem(fmt::format("\"{}\" stands twice", key), "must be different keys");
+    }
+  }
+  return std::nullopt;
+}
+
+bool is_variance(double value) { return value == 0.0 || (value >= smallest_variance && value <= largest_variance); }
+
+}  // namespace
+
+std::optional<DeviceProblem> find_uncertainty_problem(const DeviceParameters& parameters) {
+  if (auto problem = find_key_problem(parameters)) return problem;
+  const std::vector<std::string>& keys = parameters.uncertainty->parameters;
+  const std::vector<std::vector<double>>& covariance = parameters.uncertainty->covariance;
+  const std::size_t n = keys.size();
+  if (covariance.size() != n) {
+    return covariance_problem(fmt::format("has {} rows", covariance.size()),
+                              fmt::format("must have a row for each of the {} parameters", n));
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    if (covariance[i].size() != n) {
+      return covariance_problem(fmt::format("row {} has {} numbers", i + 1, covariance[i].size()),
+                                fmt::format("must have a number for each of the {} parameters", n));
+    }
+    if (!is_variance(covariance[i][i])) {
+      return covariance_problem(fmt::format("the variance of \"{}\" is {}", keys[i], covariance[i][i]),
+                                fmt::format("must be 0 or from {} to {}", smallest_variance, largest_variance));
+    }
+  }
+  const auto deviation = [&](std::size_t i) { return std::sqrt(covariance[i][i]); };
+  Eigen::MatrixXd correlation = Eigen::MatrixXd::Identity(static_cast<int>(n), static_cast<int>(n));
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const double scale = deviation(i) * deviation(j);
+      if (!(std::abs(covariance[i][j] - covariance[j][i]) <= rounding * scale)) {
+        return covariance_problem(fmt::format("rows {0} and {1} have {2} and {3} for one pair", j + 1, i + 1,
+                                              covariance[j][i], covariance[i][j]),
+                                  "must be a symmetric matrix of finite numbers");
+      }
+      if (!(std::abs(covariance[i][j]) <= (1.0 + rounding) * scale)) {
+        return covariance_problem(
+            fmt::format("\"{}\" and \"{}\" have a covariance of {}", keys[j], keys[i], covariance[i][j]),
+            fmt::format("must be at most the product of their standard deviations, {}", scale));
+      }
+      const auto row = static_cast<int>(i);
+      const auto column = static_cast<int>(j);
+      if (scale > 0.0) correlation(row, column) = correlation(column, row) = covariance[i][j] / scale;
+    }
+  }
+  const double least =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(correlation, Eigen::EigenvaluesOnly).eigenvalues().minCoeff();
+  if (least < -rounding * static_cast<double>(n)) {
+    return covariance_problem("is no covariance: some combination of the parameters would have a negative variance",
+                              "must be positive semidefinite");
+  }
+  return std::nullopt;
+}
+
+}  // namespace zwidth

@@ -1,0 +1,123 @@
+#include "zwidth/model/wall_filter.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace zwidth {
+namespace {
+
+constexpr double smallest_depth = 1e-6;
+constexpr double largest_ratio = 1e6;
+constexpr double smallest_damping_ratio = 1e-6;
+constexpr double largest_damping_ratio = 1e3;
+constexpr double smallest_coefficient = 1e-100;
+constexpr double largest_coefficient = 1e100;
+constexpr double smallest_frequency = 1e-30;  // Hz: its square is still a number
+
+using Problem = std::optional<WallFilterProblem>;
+
+Problem check_between(const char* member, double value, double least, double greatest) {
+  if (value >= least && value <= greatest) return std::nullopt;
+  return WallFilterProblem{member, fmt::format("is {}", value), fmt::format("must be from {} to {}", least, greatest)};
+}
+
+// All roots in Re s < 0: for degrees 1 and 2, all coefficients of one sign.
+bool is_stable_in_s(const std::vector<double>& d) {
+  return std::ranges::all_of(d, [&](double c) { return c * d.front() > 0.0; });
+}
+
+// All roots in |z| < 1: |a1| < 1 for z + a1; |a2| < 1 and |a1| < 1 + a2 for z² + a1 z + a2.
+bool is_stable_in_z(const std::vector<double>& d) {
+  const double a1 = d[1] / d[0];
+  if (d.size() == 2) return std::abs(a1) < 1.0;
+  const double a2 = d[2] / d[0];
+  return std::abs(a2) < 1.0 && std::abs(a1) < 1.0 + a2;
+}
+
+double sum(const std::vector<double>& coefficients) {
+  double total = 0.0;
+  for (const double c : coefficients) total += c;
+  return total;
+}
+
+Problem check_coefficients(const WallFilter& filter) {
+  const bool digital = filter.kind == WallFilter::Kind::digital;
+  const std::vector<double>& numerator = filter.numerator;
+  const std::vector<double>& denominator = filter.denominator;
+  if (denominator.size() < 2 || denominator.size() > 3) {
+    return WallFilterProblem{"denominator", fmt::format("has {} coefficients", denominator.size()),
+                             "must have 2 or 3, by falling powers"};
+  }
+  if (numerator.empty() || numerator.size() > denominator.size()) {
+    return WallFilterProblem{"numerator", fmt::format("has {} coefficients", numerator.size()),
+                             "must have at least 1 and no more than the denominator"};
+  }
+  for (const std::vector<double>* each : {&numerator, &denominator}) {
+    for (const double c : *each) {
+      if (c == 0.0 || (std::abs(c) >= smallest_coefficient && std::abs(c) <= largest_coefficient)) continue;
+      return WallFilterProblem{each == &numerator ? "numerator" : "denominator",
+                               fmt::format("has the coefficient {}", c),
+                               fmt::format("every coefficient must be 0 or from {} to {} in magnitude",
+                                           smallest_coefficient, largest_coefficient)};
+    }
+  }
+  if (denominator.front() == 0.0) {
+    return WallFilterProblem{"denominator", "begins with 0", "the leading coefficient must not be 0"};
+  }
+  if (digital ? !is_stable_in_z(denominator) : !is_stable_in_s(denominator)) {
+    return WallFilterProblem{"denominator", "has a pole that does not die out",
+                             digital ? "all roots in z must lie inside the unit circle"
+                                     : "all coefficients must have one sign, none may be 0"};
+  }
+  const double gain = digital ? sum(numerator) / sum(denominator) : numerator.back() / denominator.back();
+  if (!(gain > 0.0)) {
+    return WallFilterProblem{"numerator", fmt::format("gives the static gain {}", gain),
+                             "the static gain must be > 0, or the wall does not push back"};
+  }
+  return std::nullopt;
+}
+
+Problem check_frequency(const WallFilter& filter, double sampling_period) {
+  using enum WallFilter::Kind;
+  const double nyquist = 0.5 / sampling_period;
+  if (filter.kind == digital) {
+    if (filter.frequency_hz == 0.0) return std::nullopt;
+    return WallFilterProblem{"frequency_hz", fmt::format("is {}", filter.frequency_hz),
+                             "a digital filter runs as it stands: leave it out"};
+  }
+  if (filter.kind == biquad && filter.frequency_hz == 0.0) return std::nullopt;
+  if (filter.frequency_hz >= smallest_frequency && filter.frequency_hz < nyquist) return std::nullopt;
+  return WallFilterProblem{
+      "frequency_hz", fmt::format("is {}", filter.frequency_hz),
+      fmt::format("must be at least {} and below the Nyquist frequency, {:.6g} Hz", smallest_frequency, nyquist)};
+}
+
+}  // namespace
+
+std::optional<WallFilterProblem> find_problem(const WallFilter& filter, double sampling_period) {
+  using enum WallFilter::Kind;
+  if (auto problem = check_frequency(filter, sampling_period)) return problem;
+  const auto damping_ratio = [&] {
+    return check_between("damping_ratio", filter.damping_ratio, smallest_damping_ratio, largest_damping_ratio);
+  };
+  switch (filter.kind) {
+    case low_pass:
+      if (filter.order != 1 && filter.order != 2) {
+        return WallFilterProblem{"order", fmt::format("is {}", filter.order), "must be 1 or 2"};
+      }
+      return filter.order == 2 ? damping_ratio() : std::nullopt;
+    case notch:
+      if (auto problem = damping_ratio()) return problem;
+      return check_between("depth", filter.depth, smallest_depth, 1.0);
+    case lead_lag:
+      return check_between("ratio", filter.ratio, 1.0 / largest_ratio, largest_ratio);
+    case biquad:
+    case digital:
+      return check_coefficients(filter);
+  }
+  return std::nullopt;
+}
+
+}  // namespace zwidth
