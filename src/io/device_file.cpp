@@ -13,6 +13,7 @@
 #include "io/key_suggestion.hpp"
 #include "io/prose.hpp"
 #include "io/toml_text.hpp"
+#include "io/wall_filter_reading.hpp"
 
 namespace zwidth {
 namespace {
@@ -47,6 +48,7 @@ class DeviceReader {
     read_transfer_function();
     read_loop();
     read_surroundings();
+    read_uncertainty();
     return std::move(device_);
   }
 
@@ -80,7 +82,7 @@ class DeviceReader {
     for (const toml::table* table : root_.tables(DeviceTable::link)) {
       TableReader reader(reading_, *table, fmt::format("link.{}", device_.links.size()));
       reader.refuse_keys_not_of(DeviceTable::link);
-      const auto between = reader.required_texts("between");
+      const auto between = reader.required_texts("between", "an array of two body names");
       if (between.size() != 2) {
         reader.refuse("between", fmt::format("has length {}", between.size()), "must name two bodies");
       }
@@ -145,6 +147,7 @@ class DeviceReader {
       device_.wall.stiffness = reader.number("stiffness");
       device_.wall.damping = reader.number("damping").value_or(0.0);
       device_.wall.velocity_filter_hz = reader.number("velocity_filter_hz").value_or(0.0);
+      read_filters(reader);
     }
     if (const toml::table* table = root_.table(DeviceTable::user)) {
       TableReader reader = table_reader(DeviceTable::user, *table);
@@ -152,6 +155,22 @@ class DeviceReader {
       device_.user.damping = reader.number("damping").value_or(0.0);
       device_.user.stiffness = reader.number("stiffness").value_or(0.0);
     }
+  }
+
+  void read_filters(TableReader& wall) {
+    for (const toml::table* table : wall.tables(DeviceTable::filter)) {
+      TableReader reader(reading_, *table,
+                         fmt::format("{}.{}", path_of(DeviceTable::filter), device_.wall.filters.size()));
+      device_.wall.filters.push_back(read_wall_filter(reader));
+    }
+  }
+
+  void read_uncertainty() {
+    const toml::table* table = root_.table(DeviceTable::uncertainty);
+    if (!table) return;
+    TableReader reader = table_reader(DeviceTable::uncertainty, *table);
+    device_.uncertainty = {reader.required_texts("parameters", "an array of keys such as \"link.0.stiffness\""),
+                           reader.required_rows("covariance")};
   }
 
   TableReader table_reader(DeviceTable kind, const toml::table& table) {
@@ -192,17 +211,6 @@ class DeviceReader {
 };
 
 }  // namespace
-
-std::string InputError::str() const {
-  std::string line_of_text = source;
-  if (line > 0) line_of_text += fmt::format(":{}:{}", line, column);
-  line_of_text += ": ";
-  if (!key.empty()) line_of_text += key + ": ";
-  line_of_text += what;
-  if (!allowed.empty()) line_of_text += "; " + allowed;
-  // Names come from the file: nothing in them may break the line or reach the terminal as a control sequence.
-  return without_controls(line_of_text);
-}
 
 tl::expected<Device, InputError> parse_device(std::string_view text, std::string_view source,
                                               std::span<const std::string> overrides) {

@@ -18,17 +18,21 @@ struct TableKeys {
 };
 
 /// In the order of DeviceTable.
-const std::array<TableKeys, 9>& all_tables() {
-  static const std::array<TableKeys, 9> tables{{
-      {"", {"name", "motion", "body", "link", "loop", "actuator", "sensor", "wall", "operator", "transfer_function"}},
+const std::array<TableKeys, 11>& all_tables() {
+  static const std::array<TableKeys, 11> tables{{
+      {"",
+       {"name", "motion", "body", "link", "loop", "actuator", "sensor", "wall", "operator", "transfer_function",
+        "uncertainty"}},
       {"body", {"name", "mass", "inertia", "damping", "stiffness", "coulomb"}},
       {"link", {"between", "stiffness", "damping"}},
       {"loop", {"actuated", "sensed", "held", "sampling_period", "delay"}},
       {"actuator", {"time_constant", "force_limit"}},
       {"sensor", {"resolution"}},
-      {"wall", {"stiffness", "damping", "velocity_filter_hz"}},
+      {"wall", {"stiffness", "damping", "velocity_filter_hz", "filter"}},
+      {"filter", {"type", "frequency_hz", "order", "damping_ratio", "depth", "ratio", "numerator", "denominator"}},
       {"operator", {"mass", "inertia", "damping", "stiffness"}},
       {"transfer_function", {"numerator", "denominator"}},
+      {"uncertainty", {"parameters", "covariance"}},
   }};
   return tables;
 }
@@ -41,13 +45,18 @@ std::span<const std::string> keys_of(DeviceTable table) { return entry(table).ke
 
 std::string_view name_of(DeviceTable table) { return entry(table).name; }
 
+std::string path_of(DeviceTable table) {
+  return table == DeviceTable::filter ? "wall.filter" : std::string(name_of(table));
+}
+
 std::string header_of(DeviceTable table) {
   switch (table) {
     case DeviceTable::root:
       return "the top level";
     case DeviceTable::body:
     case DeviceTable::link:
-      return fmt::format("[[{}]]", name_of(table));
+    case DeviceTable::filter:
+      return fmt::format("[[{}]]", path_of(table));
     default:
       return fmt::format("[{}]", name_of(table));
   }

@@ -65,7 +65,7 @@ tl::expected<std::size_t, InputError> selected(const toml::array& tables, Device
   if (const auto index = as_index(selector); index && *index < tables.size()) return *index;
   if (selector.empty() && tables.size() == 1) return 0;
 
-  const std::string_view table = name_of(kind);
+  const std::string table = path_of(kind);
   if (selector.empty()) {
     return tl::unexpected(refusal(whole_key, fmt::format("could be in any of {} {}", tables.size(), header_of(kind)),
                                   fmt::format("write for instance {}.0.{}", table, key)));
@@ -80,7 +80,19 @@ tl::expected<std::size_t, InputError> selected(const toml::array& tables, Device
   return tl::unexpected(refusal(whole_key, fmt::format("there is no {} {}", table, in_quotes(selector)), allowed));
 }
 
-/// Resolves body.NAME.key, body.0.key, link.0.key, link.key.
+/// The node that holds the [[tables]]: in the document, or in its [wall].
+toml::node* tables_node(toml::table& document, DeviceTable kind) {
+  if (kind != DeviceTable::filter) return document.get(name_of(kind));
+  toml::node* wall = document.get(name_of(DeviceTable::wall));
+  return wall && wall->is_table() ? wall->as_table()->get(name_of(kind)) : wall;
+}
+
+std::string remedy_without_tables(DeviceTable kind) {
+  if (kind == DeviceTable::filter) return "to add one write wall.filter=[{type=\"low_pass\", frequency_hz=60}]";
+  return "an override changes what the file has; it adds no body or link";
+}
+
+/// Resolves body.NAME.key, body.0.key, link.0.key, link.key, wall.filter.0.key, wall.filter.key.
 tl::expected<Target, InputError> target_in_tables(toml::table& document, DeviceTable kind, std::string_view path,
                                                   std::string_view whole_key) {
   const auto dot = path.rfind('.');  // body names may contain dots, keys do not
@@ -90,10 +102,10 @@ tl::expected<Target, InputError> target_in_tables(toml::table& document, DeviceT
     return tl::unexpected(
         refusal(whole_key, fmt::format("unknown key {}", in_quotes(key)), remedy_for_unknown_key(kind, key)));
   }
-  toml::node* node = document.get(name_of(kind));
+  toml::node* node = tables_node(document, kind);
   if (!node) {
-    return tl::unexpected(refusal(whole_key, fmt::format("the device has no {}", header_of(kind)),
-                                  "an override changes what the file has; it adds no body or link"));
+    return tl::unexpected(
+        refusal(whole_key, fmt::format("the device has no {}", header_of(kind)), remedy_without_tables(kind)));
   }
   toml::array* tables = node->as_array();
   if (!tables || tables->empty()) return Target{};
@@ -106,8 +118,10 @@ tl::expected<Target, InputError> target_in_tables(toml::table& document, DeviceT
 tl::expected<Target, InputError> target_in_table(toml::table& document, DeviceTable kind, std::string_view key,
                                                  std::string_view whole_key) {
   if (!is_key_of(kind, key)) {
+    const std::string_view head = key.substr(0, key.find('.'));  // of wall.fliter.0.depth, what is misspelt
+    const std::string_view unknown = is_key_of(kind, head) ? key : head;
     return tl::unexpected(
-        refusal(whole_key, fmt::format("unknown key {}", in_quotes(key)), remedy_for_unknown_key(kind, key)));
+        refusal(whole_key, fmt::format("unknown key {}", in_quotes(unknown)), remedy_for_unknown_key(kind, unknown)));
   }
   const std::string_view name = name_of(kind);
   toml::node* node = document.get(name);
@@ -127,8 +141,12 @@ tl::expected<Target, InputError> find_target(toml::table& document, std::string_
   for (const DeviceTable kind : {DeviceTable::body, DeviceTable::link}) {
     if (first == name_of(kind)) return target_in_tables(document, kind, rest, whole_key);
   }
+  const std::string filters = path_of(DeviceTable::filter) + ".";
+  if (whole_key.starts_with(filters)) {
+    return target_in_tables(document, DeviceTable::filter, whole_key.substr(filters.size()), whole_key);
+  }
   for (const DeviceTable kind : {DeviceTable::loop, DeviceTable::actuator, DeviceTable::sensor, DeviceTable::wall,
-                                 DeviceTable::user, DeviceTable::transfer_function}) {
+                                 DeviceTable::user, DeviceTable::transfer_function, DeviceTable::uncertainty}) {
     if (first == name_of(kind)) return target_in_table(document, kind, rest, whole_key);
   }
   return tl::unexpected(refusal(whole_key, fmt::format("{} is one value, not a table", in_quotes(first)),

@@ -128,10 +128,24 @@ const toml::array* TableReader::required_array(std::string_view key, std::string
 }
 
 std::vector<double> TableReader::required_numbers(std::string_view key) {
-  std::vector<double> numbers;
   const toml::array* array = required_array(key, "an array of numbers");
-  if (!array) return numbers;
-  for (const toml::node& element : *array) {
+  return array ? numbers_of(*array, key) : std::vector<double>{};
+}
+
+std::vector<std::vector<double>> TableReader::required_rows(std::string_view key) {
+  std::vector<std::vector<double>> rows;
+  const toml::array* array = required_array(key, "an array of rows, each an array of numbers");
+  if (!array) return rows;
+  for (const toml::node& row : *array) {
+    if (!row.is_array()) refuse_type(row, key, "every row must be an array of numbers");
+    rows.push_back(row.is_array() ? numbers_of(*row.as_array(), key) : std::vector<double>{});
+  }
+  return rows;
+}
+
+std::vector<double> TableReader::numbers_of(const toml::array& array, std::string_view key) {
+  std::vector<double> numbers;
+  for (const toml::node& element : array) {
     const auto value = as_number(element);
     if (!value) refuse_type(element, key, "every element must be a number");
     numbers.push_back(value.value_or(0.0));
@@ -139,9 +153,9 @@ std::vector<double> TableReader::required_numbers(std::string_view key) {
   return numbers;
 }
 
-std::vector<std::string> TableReader::required_texts(std::string_view key) {
+std::vector<std::string> TableReader::required_texts(std::string_view key, std::string_view allowed) {
   std::vector<std::string> texts;
-  const toml::array* array = required_array(key, "an array of two body names");
+  const toml::array* array = required_array(key, allowed);
   if (!array) return texts;
   for (const toml::node& element : *array) {
     const auto* text = element.as_string();

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "zwidth/io/device_file.hpp"
+#include "zwidth/io/wall_filter_type.hpp"
 
 namespace zwidth {
 namespace {
@@ -30,6 +31,22 @@ std::string array_value(const std::vector<double>& values) {
   // One value a line: the reader takes any number of coefficients so, and long rows are hard to compare.
   std::string result = "[\n";
   for (const double value : values) result += fmt::format("  {},\n", number_value(value));
+  return result + "]";
+}
+
+std::string text_array_value(const std::vector<std::string>& texts) {
+  std::string result = "[\n";
+  for (const std::string& text : texts) result += fmt::format("  {},\n", text_value(text));
+  return result + "]";
+}
+
+std::string rows_value(const std::vector<std::vector<double>>& rows) {
+  std::string result = "[\n";
+  for (const std::vector<double>& row : rows) {
+    result += "  [";
+    for (std::size_t i = 0; i < row.size(); ++i) result += (i == 0 ? "" : ", ") + number_value(row[i]);
+    result += "],\n";
+  }
   return result + "]";
 }
 
@@ -59,6 +76,25 @@ void write_bodies(const DeviceParameters& device, std::string_view mass, Writer&
                                      text_value(device.bodies[link.second].name)));
     out.number("stiffness", link.stiffness);
     out.number("damping", link.damping);
+  }
+}
+
+void write_filters(const DeviceParameters& device, Writer& out) {
+  using enum WallFilter::Kind;
+  for (const WallFilter& filter : device.wall.filters) {
+    out.header("[[wall.filter]]");
+    out.value("type", text_value(wall_filter_type(filter.kind)));
+    if (filter.frequency_hz > 0.0) out.number("frequency_hz", filter.frequency_hz);
+    if (filter.kind == low_pass) out.value("order", fmt::format("{}", filter.order));
+    if (filter.kind == notch || (filter.kind == low_pass && filter.order == 2)) {
+      out.number("damping_ratio", filter.damping_ratio);
+    }
+    if (filter.kind == notch) out.number("depth", filter.depth);
+    if (filter.kind == lead_lag) out.number("ratio", filter.ratio);
+    if (filter.kind == biquad || filter.kind == digital) {
+      out.value("numerator", array_value(filter.numerator));
+      out.value("denominator", array_value(filter.denominator));
+    }
   }
 }
 
@@ -94,11 +130,17 @@ std::string write_device(const DeviceParameters& parameters) {
   if (device.wall.stiffness) out.number("stiffness", *device.wall.stiffness);
   out.number("damping", device.wall.damping);
   out.number("velocity_filter_hz", device.wall.velocity_filter_hz);
+  write_filters(device, out);
   if (checked.has_bodies()) {
     out.header("[operator]");
     out.number(mass, device.user.mass);
     out.number("damping", device.user.damping);
     out.number("stiffness", device.user.stiffness);
+  }
+  if (device.uncertainty) {
+    out.header("[uncertainty]");
+    out.value("parameters", text_array_value(device.uncertainty->parameters));
+    out.value("covariance", rows_value(device.uncertainty->covariance));
   }
   return std::move(out).text();
 }

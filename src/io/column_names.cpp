@@ -1,0 +1,106 @@
+#include "io/column_names.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "io/key_suggestion.hpp"
+#include "io/number_cell.hpp"
+#include "io/prose.hpp"
+
+namespace zwidth {
+namespace {
+
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  std::transform(lower.begin(), lower.end(), lower.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return lower;
+}
+
+/// Numbers from 1 of the columns that are in question, as the user may give them.
+std::string numbers_of(const std::vector<std::size_t>& indices) {
+  std::vector<std::string> numbers;
+  numbers.reserve(indices.size());
+  for (const std::size_t index : indices) numbers.push_back(std::to_string(index + 1));
+  return listed(numbers);
+}
+
+std::vector<std::size_t> where(std::span<const std::string> columns,
+                               const std::function<bool(std::string_view)>& fits) {
+  std::vector<std::size_t> indices;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    if (fits(columns[i])) indices.push_back(i);
+  }
+  return indices;
+}
+
+InputError unknown_column(std::span<const std::string> columns, const std::string& asked, const std::string& source,
+                          std::span<const std::string> shown) {
+  std::vector<std::string> names;
+  for (const std::string& column : columns) {
+    names.push_back(column);
+    if (const auto [name, unit] = name_and_unit(column); !unit.empty()) names.emplace_back(name);
+  }
+  const std::string meant = nearest_word(asked, names);
+  const std::string question = meant.empty() ? "" : fmt::format("did you mean \"{}\"? ", meant);
+  return {source,
+          0,
+          0,
+          shortened(asked),
+          "no such column",
+          fmt::format("{}the file has {}", question, listed_columns(shown.empty() ? columns : shown))};
+}
+
+}  // namespace
+
+NameAndUnit name_and_unit(std::string_view column) {
+  column = trimmed(column);
+  for (const auto& [open, close] : {std::pair{'[', ']'}, std::pair{'(', ')'}}) {
+    const std::size_t begin = column.rfind(open);
+    if (begin == std::string_view::npos || begin == 0 || column.back() != close) continue;
+    return {trimmed(column.substr(0, begin)), trimmed(column.substr(begin + 1, column.size() - begin - 2))};
+  }
+  return {column, {}};
+}
+
+std::string listed_columns(std::span<const std::string> columns) {
+  std::vector<std::string> shown;
+  shown.reserve(columns.size());
+  for (const std::string& column : columns) shown.push_back(shortened(column));
+  return fmt::format("{}: {}", columns.size() == 1 ? "1 column" : fmt::format("{} columns", columns.size()),
+                     listed(shown));
+}
+
+tl::expected<std::size_t, InputError> find_column(std::span<const std::string> columns, const std::string& asked,
+                                                  const std::string& source, std::span<const std::string> shown) {
+  const std::string asked_lower = lower_case(asked);
+  const auto without_unit = [](std::string_view column) { return name_and_unit(column).name; };
+  const std::function<bool(std::string_view)> readings[] = {
+      [&](std::string_view column) { return column == asked; },
+      [&](std::string_view column) { return without_unit(column) == asked; },
+      [&](std::string_view column) { return lower_case(column) == asked_lower; },
+      [&](std::string_view column) { return lower_case(without_unit(column)) == asked_lower; },
+  };
+  for (const auto& reading : readings) {
+    const auto found = where(columns, reading);
+    if (found.size() == 1) return found.front();
+    if (found.size() > 1) {
+      return tl::unexpected(InputError{source, 0, 0, shortened(asked),
+                                       fmt::format("{} columns have this name", found.size()),
+                                       fmt::format("must be one of their numbers: {}", numbers_of(found))});
+    }
+  }
+  std::size_t number = 0;
+  const auto [end, error] = std::from_chars(asked.data(), asked.data() + asked.size(), number);
+  const bool is_number = error == std::errc() && end == asked.data() + asked.size();
+  if (is_number && number >= 1 && number <= columns.size()) return number - 1;
+  return tl::unexpected(unknown_column(columns, asked, source, shown));
+}
+
+}  // namespace zwidth

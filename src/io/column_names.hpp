@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <tl/expected.hpp>
+
+#include "zwidth/io/input_error.hpp"
+
+namespace zwidth {
+
+/// A column's name and the unit that follows it in brackets or parentheses: "F [N]" is F in N. No unit: empty.
+struct NameAndUnit {
+  std::string_view name;
+  std::string_view unit;
+};
+[[nodiscard]] NameAndUnit name_and_unit(std::string_view column);
+
+/// "3 columns: t, F [N], x"; the first of them where there are many.
+[[nodiscard]] std::string listed_columns(std::span<const std::string> columns);
+
+/// Index (from 0) of the column that is asked for: by its exact name, by its name without the unit, by either without
+/// regard to case, or by its number from 1 -- the first of these that fits one column.
+/// Refused: a name that no column or several have; the error lists the columns and the one that was probably meant.
+/// `shown`: how the error lists each column ("force (double 100x1)"); empty: by its name.
+[[nodiscard]] tl::expected<std::size_t, InputError> find_column(std::span<const std::string> columns,
+                                                                const std::string& asked, const std::string& source,
+                                                                std::span<const std::string> shown = {});
+
+}  // namespace zwidth

@@ -1,0 +1,70 @@
+#include "io/input_file.hpp"
+
+#include <fmt/format.h>
+#include <sys/types.h>
+
+#include <cerrno>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+namespace zwidth {
+
+void InputFile::Close::operator()(std::FILE* file) const noexcept {
+  if (file != stdin) std::fclose(file);
+}
+
+InputError InputFile::refusal(int error) const {
+  return {source_,
+          0,
+          0,
+          "",
+          fmt::format("cannot be read: {}", std::generic_category().message(error)),
+          fmt::format("must be a readable {}, or \"-\" for standard input", kind_)};
+}
+
+tl::expected<InputFile, InputError> InputFile::open(const std::string& path, const std::string& kind) {
+  const auto refused = [](const std::string& source, std::string what, std::string allowed) {
+    return tl::unexpected(InputError{source, 0, 0, "", std::move(what), std::move(allowed)});
+  };
+  const std::string or_standard_input = fmt::format("must be a {}, or \"-\" for standard input", kind);
+  InputFile input;
+  input.kind_ = kind;
+  if (path == "-") {
+    input.source_ = "standard input";
+    input.file_.reset(stdin);
+    return input;
+  }
+  if (path.empty()) return refused("\"\"", "is no file name", or_standard_input);
+  namespace fs = std::filesystem;
+  input.source_ = path;
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (error) return tl::unexpected(input.refusal(error.value()));
+  if (fs::is_directory(status)) return refused(path, "is a directory", fmt::format("must be a {}", kind));
+  input.regular_ = fs::is_regular_file(status);
+  if (!input.regular_ && !fs::is_fifo(status)) {
+    return refused(path, "is neither a file nor a pipe", or_standard_input);
+  }
+  input.file_.reset(std::fopen(path.c_str(), "rb"));
+  if (!input.file_) return tl::unexpected(input.refusal(errno));
+  if (input.regular_) {
+    const std::uintmax_t size = fs::file_size(path, error);
+    input.size_ = error ? 0 : size;
+  }
+  return input;
+}
+
+tl::expected<std::size_t, InputError> InputFile::read(std::span<char> bytes) {
+  errno = 0;
+  const std::size_t count = std::fread(bytes.data(), 1, bytes.size(), file_.get());
+  if (std::ferror(file_.get())) return tl::unexpected(refusal(errno));
+  return count;
+}
+
+tl::expected<void, InputError> InputFile::seek(std::uintmax_t offset) {
+  if (fseeko(file_.get(), static_cast<off_t>(offset), SEEK_SET) != 0) return tl::unexpected(refusal(errno));
+  return {};
+}
+
+}  // namespace zwidth

@@ -1,0 +1,196 @@
+#include "io/mat5_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "io/inflate.hpp"
+#include "io/mat5_matrix.hpp"
+
+namespace zwidth {
+namespace {
+
+using Bytes = std::vector<unsigned char>;
+
+constexpr std::size_t header_size = 128;
+constexpr std::size_t largest_variable = std::size_t{1} << 30;  // bytes
+
+/// A variable in the file: a matrix element, compressed or not.
+struct Variable {
+  std::uintmax_t offset = 0;  ///< of its tag in the file
+  Bytes matrix;               ///< what follows the tag of the matrix element
+};
+
+/// The variables of a file of version 5, one after the other.
+class Variables {
+ public:
+  static tl::expected<Variables, InputError> start(InputFile file);
+
+  /// The next variable; nothing at the file's end. A variable that does not unpack is the inner refusal, saying why.
+  using Result = tl::expected<Variable, std::string>;
+  [[nodiscard]] tl::expected<std::optional<Result>, InputError> next();
+  [[nodiscard]] tl::expected<Variable, InputError> at(std::uintmax_t offset);
+
+  [[nodiscard]] ByteOrder order() const { return order_; }
+  [[nodiscard]] const InputFile& file() const { return file_; }
+  [[nodiscard]] std::uintmax_t position() const { return position_; }
+
+  /// Where MATLAB keeps what its objects need; no variable of the user's.
+  [[nodiscard]] std::uintmax_t subsystem() const { return subsystem_; }
+
+ private:
+  explicit Variables(InputFile file) : file_(std::move(file)) {}
+  [[nodiscard]] tl::unexpected<InputError> damaged(const std::string& how) const {
+    return tl::unexpected(InputError{file_.source(), 0, 0, "", fmt::format("is damaged at byte {}: {}", position_, how),
+                                     "save or copy it again"});
+  }
+
+  InputFile file_;
+  ByteOrder order_ = ByteOrder::little;
+  std::uintmax_t position_ = header_size;
+  std::uintmax_t subsystem_ = 0;
+};
+
+std::span<char> as_characters(std::span<unsigned char> bytes) {
+  return {reinterpret_cast<char*>(bytes.data()), bytes.size()};
+}
+
+tl::expected<Variables, InputError> Variables::start(InputFile file) {
+  Variables variables(std::move(file));
+  std::array<unsigned char, header_size> header{};
+  const auto size = variables.file_.read(as_characters(header));
+  if (!size) return tl::unexpected(size.error());
+  variables.order_ = header[126] == 'I' ? ByteOrder::little : ByteOrder::big;
+  variables.subsystem_ = load<std::uint64_t>(header.data() + 116, variables.order_);
+  if (*size < header_size) {
+    variables.position_ = *size;
+    return variables.damaged("it ends inside its header");
+  }
+  return variables;
+}
+
+tl::expected<std::optional<Variables::Result>, InputError> Variables::next() {
+  std::array<unsigned char, 8> tag{};
+  const auto tag_size = file_.read(as_characters(tag));
+  if (!tag_size) return tl::unexpected(tag_size.error());
+  if (*tag_size == 0) return std::nullopt;
+  if (*tag_size < tag.size()) return damaged("the file ends inside a variable");
+  const auto type = load<std::uint32_t>(tag.data(), order_);
+  const std::size_t size = load<std::uint32_t>(tag.data() + 4, order_);
+  if (type != mat5_matrix && type != mat5_compressed) {
+    return damaged(fmt::format("an element of type {} where a variable must stand", type));
+  }
+  if (size > file_.size() || position_ + tag.size() > file_.size() - size) {
+    return damaged(fmt::format("a variable of {} bytes, where the file ends after {}", size,
+                               file_.size() - std::min<std::uintmax_t>(file_.size(), position_ + tag.size())));
+  }
+  Variable variable{position_, Bytes(size)};
+  const auto read = file_.read(as_characters(variable.matrix));
+  if (!read) return tl::unexpected(read.error());
+  if (*read < size) return damaged("the file ends inside a variable");
+  position_ += tag.size() + size;
+  if (type == mat5_matrix) return Result(std::move(variable));
+
+  auto unpacked = inflate_all(variable.matrix, largest_variable);
+  if (!unpacked) return Result(tl::unexpected(std::move(unpacked.error())));
+  // The outermost size is not used: matio writes one too large for text, and what is inside is checked anyway.
+  constexpr std::ptrdiff_t tag_bytes = 8;
+  if (unpacked->size() < tag_bytes || load<std::uint32_t>(unpacked->data(), order_) != mat5_matrix) {
+    return Result(tl::unexpected(std::string("it does not unpack to a variable")));
+  }
+  unpacked->erase(unpacked->begin(), unpacked->begin() + tag_bytes);
+  variable.matrix = std::move(*unpacked);
+  return Result(std::move(variable));
+}
+
+tl::expected<Variable, InputError> Variables::at(std::uintmax_t offset) {
+  if (auto sought = file_.seek(offset); !sought) return tl::unexpected(std::move(sought.error()));
+  position_ = offset;
+  auto variable = next();
+  if (!variable) return tl::unexpected(std::move(variable.error()));
+  if (!*variable || !**variable) return damaged("the file has changed while it was read");
+  return std::move(***variable);
+}
+
+/// Where an array's numbers are: the variable that holds it, and its index among the variable's arrays.
+struct Place {
+  std::uintmax_t offset = 0;
+  std::size_t index = 0;
+};
+
+/// Reads arrays at their places. The variable of the last one is kept: its neighbours are often next.
+class ArrayReader {
+ public:
+  ArrayReader(Variables variables, std::vector<Place> places)
+      : variables_(std::move(variables)), places_(std::move(places)) {}
+
+  tl::expected<std::vector<double>, InputError> values(std::size_t array) {
+    const Place place = places_.at(array);
+    if (!last_ || last_->offset != place.offset) {
+      last_.reset();
+      auto variable = variables_.at(place.offset);
+      if (!variable) return tl::unexpected(std::move(variable.error()));
+      last_ = std::move(*variable);
+    }
+    const auto matrix = read_mat5_matrix(last_->matrix, variables_.order());
+    if (!matrix || place.index >= matrix->numbers.size()) {
+      return tl::unexpected(InputError{variables_.file().source(), 0, 0, "", "has changed while it was read", ""});
+    }
+    return mat5_numbers(matrix->numbers[place.index], variables_.order());
+  }
+
+ private:
+  Variables variables_;
+  std::vector<Place> places_;
+  std::optional<Variable> last_;
+};
+
+void append(std::vector<SkippedMatArray>& skipped, std::vector<SkippedMatArray> more) {
+  std::move(more.begin(), more.end(), std::back_inserter(skipped));
+}
+
+}  // namespace
+
+tl::expected<MatFile, InputError> open_mat5_file(InputFile file, const Progress& progress) {
+  auto variables = Variables::start(std::move(file));
+  if (!variables) return tl::unexpected(std::move(variables.error()));
+  MatContents contents;
+  std::vector<Place> places;
+  const auto skip_damaged = [&](std::uintmax_t offset, const std::string& why) {
+    contents.skip(fmt::format("the variable at byte {}", offset), SkippedMatArray::Kind::damaged, why);
+  };
+  for (;;) {
+    const std::uintmax_t offset = variables->position();
+    auto variable = variables->next();
+    if (!variable) return tl::unexpected(std::move(variable.error()));
+    if (!*variable) break;
+    if (progress) {
+      progress(static_cast<double>(variables->position()) / static_cast<double>(variables->file().size()));
+    }
+    if (!**variable) {
+      skip_damaged(offset, (**variable).error());
+      continue;
+    }
+    auto matrix = read_mat5_matrix((**variable)->matrix, variables->order());
+    if (!matrix) {
+      skip_damaged(offset, matrix.error());
+      continue;
+    }
+    if (offset == variables->subsystem()) continue;
+    for (std::size_t i = 0; i < matrix->contents.arrays.size(); ++i) {
+      places.push_back({offset, i});
+      contents.arrays.push_back(std::move(matrix->contents.arrays[i]));
+    }
+    append(contents.skipped, std::move(matrix->contents.skipped));
+  }
+  const auto reader = std::make_shared<ArrayReader>(std::move(*variables), std::move(places));
+  return MatFile{std::move(contents), [reader](std::size_t array) { return reader->values(array); }};
+}
+
+}  // namespace zwidth

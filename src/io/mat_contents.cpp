@@ -1,0 +1,42 @@
+#include "io/mat_contents.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace zwidth {
+namespace {
+
+/// A recording has no more signals; an array of more columns has its signals in rows, or is no recording.
+constexpr std::size_t most_columns = 1024;
+
+}  // namespace
+
+void MatContents::skip(std::string name, SkippedMatArray::Kind kind, std::string why) {
+  skipped.push_back({std::move(name), kind, std::move(why)});
+}
+
+void MatContents::add(std::string name, std::string class_name, const std::vector<std::size_t>& dimensions) {
+  using Kind = SkippedMatArray::Kind;
+  if (std::find(dimensions.begin(), dimensions.end(), 0U) != dimensions.end()) {
+    return skip(std::move(name), Kind::no_table, "is empty");
+  }
+  if (dimensions.size() != 2) {
+    return skip(std::move(name), Kind::no_table, fmt::format("has {} dimensions", dimensions.size()));
+  }
+  const std::size_t rows = dimensions[0];
+  const std::size_t columns = dimensions[1];
+  if (rows > 1 && columns > most_columns) {
+    return skip(std::move(name), Kind::no_table,
+                fmt::format("is {}x{}: signals must be its columns, at most {}", rows, columns, most_columns));
+  }
+  arrays.push_back({std::move(name), std::move(class_name), rows, columns});
+}
+
+std::string mat_field_name(const std::string& parent, std::size_t index, std::size_t elements,
+                           const std::string& field) {
+  return elements == 1 ? fmt::format("{}.{}", parent, field) : fmt::format("{}({}).{}", parent, index + 1, field);
+}
+
+}  // namespace zwidth

@@ -1,0 +1,87 @@
+#include "io/recording_channels.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "io/column_names.hpp"
+#include "io/column_unit.hpp"
+#include "io/prose.hpp"
+#include "io/time_axis.hpp"
+#include "zwidth/error.hpp"
+
+namespace zwidth {
+namespace {
+
+/// A column in millimetres that is read as it stands makes newtons per millimetre: said, as only the user knows.
+void remark_unit(const RawColumn& column, const ColumnRequest& request, std::vector<Remark>& remarks) {
+  const std::string_view unit = name_and_unit(column.name).unit;
+  const auto scale = base_units_per(unit);
+  if (!scale || request.scale != 1.0) return;
+  remarks.push_back(
+      {Remark::Severity::warning,
+       fmt::format("{} is used as it stands, in {}", in_quotes(column.name), shortened(unit)),
+       fmt::format("results are in that unit; for base units (N, m, rad) scale the column by {:.6g}", *scale)});
+}
+
+tl::expected<Channel, InputError> make_channel(RawColumn column, const ColumnRequest& request,
+                                               std::vector<Remark>& remarks) {
+  if (auto filled = fill_missing(column, remarks); !filled) return tl::unexpected(std::move(filled.error()));
+  remark_unit(column, request, remarks);
+  for (std::size_t i = 0; i < column.values.size(); ++i) {
+    column.values[i] *= request.scale;
+    if (!std::isfinite(column.values[i])) {
+      return tl::unexpected(refused_sample(column, i, fmt::format("is too large for the scale {:.6g}", request.scale),
+                                           "must be below 1e308 after scaling"));
+    }
+  }
+  return Channel{std::move(column.name), std::move(column.values)};
+}
+
+tl::expected<TimeAxis, InputError> find_axis(std::optional<RawColumn> times, const RecordingOptions& options,
+                                             std::optional<double> period, const std::string& source) {
+  if (options.rate) return axis_of_rate(*options.rate);
+  if (times) return time_axis(std::move(*times), options);
+  if (period) return axis_of_rate(1.0 / *period);
+  return tl::unexpected(no_time_axis(source));
+}
+
+}  // namespace
+
+InputError no_time_axis(const std::string& source) {
+  return {source,
+          0,
+          0,
+          "",
+          "has no column whose name says time",
+          "state the rate in Hz (--rate) or the column of times (--time)"};
+}
+
+void check_recording_options(const RecordingOptions& options) {
+  const auto refuse = [](const std::string& what) { throw Error(ErrorCode::invalid_argument, what); };
+  if (options.columns.empty()) refuse("no columns are asked for; name one at least");
+  for (const ColumnRequest& request : options.columns) {
+    if (!std::isfinite(request.scale) || request.scale == 0.0) {
+      refuse(fmt::format("the scale of {} is {}; it must be finite and not 0", request.name, request.scale));
+    }
+  }
+}
+
+tl::expected<Recording, InputError> make_recording(std::vector<RawColumn> columns, std::optional<RawColumn> times,
+                                                   const RecordingOptions& options, std::optional<double> period) {
+  Recording recording;
+  recording.source = columns.front().source;
+  auto axis = find_axis(std::move(times), options, period, recording.source);
+  if (!axis) return tl::unexpected(std::move(axis.error()));
+  recording.sampling_period = axis->sampling_period;
+  recording.remarks = std::move(axis->remarks);
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    auto channel = make_channel(std::move(columns[i]), options.columns[i], recording.remarks);
+    if (!channel) return tl::unexpected(std::move(channel.error()));
+    recording.channels.push_back(std::move(*channel));
+  }
+  return recording;
+}
+
+}  // namespace zwidth

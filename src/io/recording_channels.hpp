@@ -1,0 +1,27 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <tl/expected.hpp>
+#include <vector>
+
+#include "io/raw_column.hpp"
+#include "zwidth/io/recording_file.hpp"
+
+namespace zwidth {
+
+/// Makes the recording of the asked-for columns (one per request, in order) and the column of times, where one is used:
+/// fills what little is missing, scales, finds the sampling period, and adds remarks on all of it.
+/// `period`: what the file itself states, s, where there is no rate and no column of times.
+[[nodiscard]] tl::expected<Recording, InputError> make_recording(std::vector<RawColumn> columns,
+                                                                 std::optional<RawColumn> times,
+                                                                 const RecordingOptions& options,
+                                                                 std::optional<double> period = {});
+
+/// The refusal of a recording that has neither a rate nor a column of times.
+[[nodiscard]] InputError no_time_axis(const std::string& source);
+
+/// Checks what every reader needs: columns to read, finite scales other than 0. Throws Error (invalid_argument).
+void check_recording_options(const RecordingOptions& options);
+
+}  // namespace zwidth

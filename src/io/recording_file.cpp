@@ -1,0 +1,88 @@
+#include "zwidth/io/recording_file.hpp"
+
+#include <new>
+#include <string_view>
+#include <utility>
+
+#include "io/input_file.hpp"
+#include "io/mat_recording.hpp"
+#include "io/prose.hpp"
+#include "io/recording_channels.hpp"
+#include "io/recording_format.hpp"
+#include "io/text_lines.hpp"
+#include "io/text_recording.hpp"
+#include "io/uff_recording.hpp"
+
+namespace zwidth {
+namespace {
+
+/// A recording that is open, and what it is.
+struct OpenRecording {
+  RecordingFormat format = RecordingFormat::text;
+  TextLines lines;
+};
+
+tl::expected<OpenRecording, InputError> open_recording(const std::string& path, RecordingFormat asked) {
+  auto file = InputFile::open(path, "recording");
+  if (!file) return tl::unexpected(std::move(file.error()));
+  auto lines = TextLines::start(std::move(*file));
+  if (!lines) return tl::unexpected(std::move(lines.error()));
+  const RecordingFormat format = asked == RecordingFormat::detect ? format_of(lines->buffered()) : asked;
+  if (format != RecordingFormat::text && !lines->file().is_regular()) {
+    const std::string_view name = format == RecordingFormat::mat ? "MAT" : "UFF";
+    return tl::unexpected(InputError{lines->file().source(), 0, 0, "",
+                                     "has the format " + std::string(name) + ", which cannot be read from a pipe",
+                                     "must be text, or a file given by its name"});
+  }
+  return OpenRecording{format, std::move(*lines)};
+}
+
+InputError too_large(const std::string& path) {
+  return {path == "-" ? "standard input" : path,
+          0,
+          0,
+          "",
+          "does not fit into memory",
+          "must be shorter, or have fewer columns asked for"};
+}
+
+}  // namespace
+
+tl::expected<Recording, InputError> read_recording(const std::string& path, const RecordingOptions& options,
+                                                   const Progress& progress) try {
+  check_recording_options(options);
+  if (options.rate && options.time_column) {
+    return tl::unexpected(InputError{path == "-" ? "standard input" : path, 0, 0, shortened(*options.time_column),
+                                     "a column of times is asked for beside a rate", "must be one of the two"});
+  }
+  auto input = open_recording(path, options.format);
+  if (!input) return tl::unexpected(std::move(input.error()));
+  switch (input->format) {
+    case RecordingFormat::mat:
+      return read_mat_recording(path, options, progress);
+    case RecordingFormat::uff:
+      return read_uff_recording(path, options, progress);
+    default:
+      return read_text_recording(std::move(input->lines), options, progress);
+  }
+} catch (const std::bad_alloc&) {
+  return tl::unexpected(too_large(path));
+}
+
+tl::expected<RecordingContents, InputError> list_recording(const std::string& path,
+                                                           const RecordingOptions& options) try {
+  auto input = open_recording(path, options.format);
+  if (!input) return tl::unexpected(std::move(input.error()));
+  switch (input->format) {
+    case RecordingFormat::mat:
+      return list_mat_recording(path, options);
+    case RecordingFormat::uff:
+      return list_uff_recording(path, options);
+    default:
+      return list_text_recording(std::move(input->lines), options);
+  }
+} catch (const std::bad_alloc&) {
+  return tl::unexpected(too_large(path));
+}
+
+}  // namespace zwidth

@@ -1,0 +1,102 @@
+#include "io/response_lines.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+namespace zwidth {
+namespace {
+
+using Refusal = tl::unexpected<InputError>;
+
+constexpr double rounding = 1e-9;  // relative, of a frequency against half the sampling rate
+
+double hertz(double frequency) { return frequency / (2.0 * std::numbers::pi); }
+
+bool is_number(const ResponseLine& line) {
+  return std::isfinite(line.frequency) && std::isfinite(line.value.real()) && std::isfinite(line.value.imag()) &&
+         std::isfinite(line.coherence);
+}
+
+/// Leaves out the lines of which `leave_out` is true; tells how many, and which was the first.
+template <class Predicate>
+std::pair<std::size_t, std::size_t> erase(std::vector<ResponseLine>& lines, Predicate leave_out) {
+  const auto first = std::find_if(lines.begin(), lines.end(), leave_out);
+  const std::size_t place = first == lines.end() ? 0 : first->line;
+  return {std::erase_if(lines, leave_out), place};
+}
+
+std::string at_line(std::size_t line) {
+  return line == 0 ? std::string() : fmt::format(", the first at line {}", line);
+}
+
+}  // namespace
+
+tl::expected<FrequencyResponse, InputError> make_response(std::vector<ResponseLine> lines,
+                                                          const ResponseTableOptions& options,
+                                                          const std::string& source) {
+  FrequencyResponse response;
+  response.sampling_period = options.sampling_period;
+  const auto refused = [&](const ResponseLine& line, std::string key, std::string what, std::string allowed) {
+    return Refusal(InputError{source, line.line, line.line > 0 ? std::size_t{1} : 0, std::move(key), std::move(what),
+                              std::move(allowed)});
+  };
+  const std::size_t all = lines.size();
+  const auto [missing, first_missing] = erase(lines, [](const ResponseLine& line) { return !is_number(line); });
+  if (missing > 0) {
+    response.remarks.push_back({Remark::Severity::warning,
+                                fmt::format("{} of {} lines have NaN, an infinity or no number and are left out{}",
+                                            missing, all, at_line(first_missing)),
+                                "nothing is known there: a crossing may be missed"});
+  }
+  const auto [zeros, first_zero] = erase(lines, [](const ResponseLine& line) { return line.frequency == 0.0; });
+  if (zeros > 0) {
+    response.remarks.push_back(
+        {Remark::Severity::note, fmt::format("the value at 0 Hz is left out{}", at_line(first_zero)), ""});
+  }
+  const double highest =
+      options.sampling_period ? std::numbers::pi / *options.sampling_period : std::numeric_limits<double>::infinity();
+  for (ResponseLine& line : lines) {
+    if (line.frequency > highest && line.frequency <= highest * (1.0 + rounding)) line.frequency = highest;
+  }
+  std::stable_sort(lines.begin(), lines.end(),
+                   [](const ResponseLine& a, const ResponseLine& b) { return a.frequency < b.frequency; });
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const ResponseLine& line = lines[i];
+    if (line.frequency < 0.0) {
+      return refused(line, "frequency", fmt::format("is {:.6g} Hz", hertz(line.frequency)), "must be above 0");
+    }
+    if (line.frequency > highest) {
+      return refused(line, "frequency", fmt::format("is {:.6g} Hz", hertz(line.frequency)),
+                     fmt::format("must be at most half the sampling rate, {:.6g} Hz", hertz(highest)));
+    }
+    if (i > 0 && line.frequency == lines[i - 1].frequency) {
+      return refused(line, "frequency",
+                     line.line > 0
+                         ? fmt::format("{:.6g} Hz is also at line {}", hertz(line.frequency), lines[i - 1].line)
+                         : fmt::format("{:.6g} Hz comes twice", hertz(line.frequency)),
+                     "must come once");
+    }
+    if (line.coherence < 0.0 || line.coherence > 1.0) {
+      return refused(line, "coherence", fmt::format("is {:.6g}", line.coherence), "must be 0 to 1");
+    }
+    const std::complex<double> value = line.value * options.scale;
+    if (!std::isfinite(value.real()) || !std::isfinite(value.imag())) {
+      return refused(line, "", fmt::format("the value is too large for the scale {:.6g}", options.scale),
+                     "must be below 1e308 after scaling");
+    }
+    response.points.push_back({line.frequency, value, 0.0, line.coherence});
+  }
+  if (response.points.size() < 2) {
+    return Refusal(InputError{source, 0, 0, "",
+                              fmt::format("has {} usable of {} lines of a response", response.points.size(), all),
+                              "must have two at least"});
+  }
+  return response;
+}
+
+}  // namespace zwidth

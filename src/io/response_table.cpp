@@ -1,0 +1,157 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <new>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "io/input_file.hpp"
+#include "io/prose.hpp"
+#include "io/recording_format.hpp"
+#include "io/response_columns.hpp"
+#include "io/response_lines.hpp"
+#include "io/text_lines.hpp"
+#include "io/text_table.hpp"
+#include "io/uff_response.hpp"
+#include "zwidth/error.hpp"
+#include "zwidth/io/recording_file.hpp"
+
+namespace zwidth {
+namespace {
+
+using Refusal = tl::unexpected<InputError>;
+
+void check_options(const ResponseTableOptions& options) {
+  const auto require = [](bool holds, const char* what) {
+    if (!holds) throw Error(ErrorCode::invalid_argument, what);
+  };
+  require(std::isfinite(options.scale) && options.scale != 0.0, "the scale of a response must be finite and not 0");
+  require(std::isfinite(options.frequency_scale) && options.frequency_scale > 0.0,
+          "the scale of frequencies must be finite and above 0");
+  require(std::isfinite(options.frequency_step) && options.frequency_step >= 0.0,
+          "the step of frequency must be finite and not negative");
+  require(!options.sampling_period || (std::isfinite(*options.sampling_period) && *options.sampling_period > 0.0),
+          "the sampling period must be finite and above 0");
+}
+
+/// Reads the rows of a text table.
+class RowReader {
+ public:
+  RowReader(TextTable& table, const ResponseColumns& columns, double step)
+      : table_(table), columns_(columns), step_(step) {}
+
+  tl::expected<void, InputError> add(const TextRow& row);
+
+  std::vector<ResponseLine> lines;
+
+ private:
+  tl::expected<double, InputError> number(const TextRow& row, std::size_t column);
+  tl::expected<std::complex<double>, InputError> value(const TextRow& row);
+
+  TextTable& table_;
+  const ResponseColumns& columns_;
+  double step_;
+};
+
+tl::expected<double, InputError> RowReader::number(const TextRow& row, std::size_t column) {
+  const NumberCell cell = table_.number(row.cells[column]);
+  if (cell.kind == NumberCell::Kind::text) return Refusal(table_.no_number(row, column));
+  return cell.value;
+}
+
+tl::expected<std::complex<double>, InputError> RowReader::value(const TextRow& row) {
+  using Form = ResponseColumns::Form;
+  if (columns_.form == Form::complex) {
+    if (const auto complex = table_.complex_number(row.cells[columns_.first])) return *complex;
+    if (table_.number(row.cells[columns_.first]).kind == NumberCell::Kind::missing) return std::nan("");
+    InputError refusal = table_.no_number(row, columns_.first);
+    refusal.what = fmt::format("{} is no complex number", in_quotes(as_utf8(row.cells[columns_.first])));
+    refusal.allowed = "must be one such as (1.5+2e-3j); or name magnitude and phase, or real and imaginary part";
+    return Refusal(std::move(refusal));
+  }
+  const auto first = number(row, columns_.first);
+  if (!first) return Refusal(first.error());
+  const auto second = number(row, columns_.second);
+  if (!second) return Refusal(second.error());
+  if (columns_.form == Form::real_and_imaginary) return std::complex<double>(*first, *second);
+  if (!columns_.magnitude_in_db && *first < 0.0) {
+    InputError refusal = table_.no_number(row, columns_.first);
+    refusal.what = fmt::format("the magnitude is {:.6g}", *first);
+    refusal.allowed = "must not be negative, unless it is in dB";
+    return Refusal(std::move(refusal));
+  }
+  const double magnitude = columns_.magnitude_in_db ? std::pow(10.0, *first / 20.0) : *first;
+  const double phase = columns_.phase_in_degrees ? *second * std::numbers::pi / 180.0 : *second;
+  return std::complex<double>(magnitude * std::cos(phase), magnitude * std::sin(phase));
+}
+
+tl::expected<void, InputError> RowReader::add(const TextRow& row) {
+  ResponseLine line;
+  line.line = row.line.number;
+  line.frequency = static_cast<double>(lines.size()) * step_;
+  if (columns_.frequency) {
+    const auto frequency = number(row, *columns_.frequency);
+    if (!frequency) return Refusal(frequency.error());
+    line.frequency = *frequency * columns_.frequency_scale;
+  }
+  const auto response = value(row);
+  if (!response) return Refusal(response.error());
+  line.value = *response;
+  if (columns_.coherence) {
+    const auto coherence = number(row, *columns_.coherence);
+    if (!coherence) return Refusal(coherence.error());
+    line.coherence = *coherence;
+  }
+  lines.push_back(line);
+  return {};
+}
+
+tl::expected<FrequencyResponse, InputError> read_text_response(TextLines text, const ResponseTableOptions& options,
+                                                               const Progress& progress) {
+  auto table = TextTable::open(std::move(text), options.file);
+  if (!table) return Refusal(std::move(table.error()));
+  const auto names = table->names();
+  const auto columns = find_response_columns(names, options, table->source());
+  if (!columns) return Refusal(columns.error());
+  RowReader rows(*table, *columns, options.frequency_step);
+  auto read = table->each_row([&](const TextRow& row) { return rows.add(row); }, progress);
+  if (!read) return Refusal(std::move(read.error()));
+  auto response = make_response(std::move(rows.lines), options, table->source());
+  if (!response) return response;
+  auto& remarks = response->remarks;
+  remarks.insert(remarks.end(), columns->remarks.begin(), columns->remarks.end());
+  remarks.insert(remarks.end(), table->remarks().begin(), table->remarks().end());
+  return response;
+}
+
+}  // namespace
+
+tl::expected<FrequencyResponse, InputError> read_response_table(const std::string& path,
+                                                                const ResponseTableOptions& options,
+                                                                const Progress& progress) try {
+  check_options(options);
+  auto file = InputFile::open(path, "response table");
+  if (!file) return Refusal(std::move(file.error()));
+  auto text = TextLines::start(std::move(*file));
+  if (!text) return Refusal(std::move(text.error()));
+  const bool detect = options.file.format == RecordingFormat::detect;
+  const RecordingFormat format = detect ? format_of(text->buffered()) : options.file.format;
+  const auto refused = [&](std::string what, std::string allowed) {
+    return Refusal(InputError{text->file().source(), 0, 0, "", std::move(what), std::move(allowed)});
+  };
+  if (format == RecordingFormat::mat) {
+    return refused("is a MAT file", "a response must be a text table or a record of a universal file");
+  }
+  if (format == RecordingFormat::text) return read_text_response(std::move(*text), options, progress);
+  if (!text->file().is_regular()) {
+    return refused("is a universal file, which cannot be read from a pipe", "must be a file given by its name");
+  }
+  return read_uff_response(path, options, progress);
+} catch (const std::bad_alloc&) {
+  return Refusal(
+      InputError{path == "-" ? "standard input" : path, 0, 0, "", "does not fit into memory", "must be shorter"});
+}
+
+}  // namespace zwidth

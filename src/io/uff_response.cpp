@@ -1,0 +1,151 @@
+#include "io/uff_response.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <complex>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "io/prose.hpp"
+#include "io/response_lines.hpp"
+#include "io/uff_file.hpp"
+#include "io/uff_names.hpp"
+#include "io/uff_values.hpp"
+
+namespace zwidth {
+namespace {
+
+using Refusal = tl::unexpected<InputError>;
+
+InputError refused(const UffFile& file, std::string key, std::string what, std::string allowed, std::size_t line = 0) {
+  return {file.source, line, line > 0 ? std::size_t{1} : 0, std::move(key), std::move(what), std::move(allowed)};
+}
+
+bool is_response(const UffRecord& record) {
+  return record.is_complex &&
+         (record.function_type == uff_frequency_response ||
+          (record.function_type == uff_unknown_function && record.abscissa.quantity == uff_frequency));
+}
+
+tl::expected<std::size_t, InputError> find_response(const UffFile& file, const std::string& asked) {
+  if (!asked.empty()) {
+    const auto found = find_uff_record(file, asked);
+    if (found && !is_response(file.records[*found])) {
+      return Refusal(refused(file, shortened(asked), fmt::format("is a {}", uff_description(file.records[*found])),
+                             "must be a complex frequency response (function type 4)", file.records[*found].line));
+    }
+    return found;
+  }
+  const auto names = uff_names(file);
+  std::vector<std::string> responses;
+  std::vector<std::string> others;
+  std::size_t found = 0;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (is_response(file.records[i])) {
+      responses.push_back(shortened(names[i]));
+      found = i;
+    } else {
+      others.push_back(fmt::format("{} ({})", shortened(names[i]), uff_function_name(file.records[i].function_type)));
+    }
+  }
+  if (responses.size() == 1) return found;
+  if (responses.empty()) {
+    return Refusal(refused(file, "", fmt::format("holds no frequency response, only {}", listed(others)),
+                           "must hold a complex record of function type 4"));
+  }
+  return Refusal(refused(file, "", fmt::format("holds {} frequency responses", responses.size()),
+                         fmt::format("name one of them: {}", listed(responses))));
+}
+
+/// What turns the ordinate into a position, and how that is said.
+struct ToPosition {
+  int derivatives = 0;  ///< of the position that the ordinate is
+  Remark remark;
+};
+
+std::optional<ToPosition> to_position(const UffRecord& record) {
+  using Severity = Remark::Severity;
+  switch (record.ordinate.quantity) {
+    case uff_displacement:
+      return std::nullopt;
+    case uff_velocity:
+      return ToPosition{1, {Severity::note, "the record is a velocity per force: divided by jw to get a position", ""}};
+    case uff_acceleration:
+      return ToPosition{
+          2, {Severity::note, "the record is an acceleration per force: divided by -w^2 to get a position", ""}};
+    default:
+      break;
+  }
+  const std::string unit =
+      record.ordinate.unit.empty() ? "no unit" : fmt::format("the unit {}", shortened(record.ordinate.unit));
+  return ToPosition{
+      0,
+      {Severity::warning,
+       fmt::format("the record does not say what it measures (quantity {}, {}); it is taken as a position "
+                   "per force",
+                   record.ordinate.quantity, unit),
+       "if it is an acceleration or a velocity, stiffnesses from it are meaningless"}};
+}
+
+tl::expected<std::vector<double>, InputError> read_coherence(const UffFile& file, const std::string& asked,
+                                                             const std::vector<double>& frequencies) {
+  const auto index = find_uff_record(file, asked);
+  if (!index) return Refusal(index.error());
+  const UffRecord& record = file.records[*index];
+  if (record.function_type != uff_coherence || record.is_complex) {
+    return Refusal(refused(file, shortened(asked), fmt::format("is a {}", uff_description(record)),
+                           "must be a real coherence (function type 6)", record.line));
+  }
+  auto values = read_uff_values(file, record);
+  if (!values) return Refusal(std::move(values.error()));
+  if (values->abscissa != frequencies) {
+    return Refusal(
+        refused(file, shortened(asked), "has other frequencies than the response", "must have the same", record.line));
+  }
+  return std::move(values->ordinate);
+}
+
+}  // namespace
+
+tl::expected<FrequencyResponse, InputError> read_uff_response(const std::string& path,
+                                                              const ResponseTableOptions& options,
+                                                              const Progress& progress) {
+  const auto file = read_uff_file(path, progress);
+  if (!file) return Refusal(file.error());
+  for (const std::string& column : {options.frequency, options.magnitude, options.phase, options.imaginary}) {
+    if (column.empty()) continue;
+    return Refusal(refused(*file, shortened(column), "a universal file has no columns",
+                           "name the record as that of the real parts"));
+  }
+  const auto index = find_response(*file, options.real);
+  if (!index) return Refusal(index.error());
+  const UffRecord& record = file->records[*index];
+  const auto values = read_uff_values(*file, record);
+  if (!values) return Refusal(values.error());
+
+  std::vector<ResponseLine> lines(values->abscissa.size());
+  const auto conversion = to_position(record);
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    lines[i].frequency = values->abscissa[i] * options.frequency_scale;
+    lines[i].value = {values->ordinate[i], values->imaginary[i]};
+    const std::complex<double> s(0.0, lines[i].frequency);
+    const bool at_rest = lines[i].frequency == 0.0;
+    for (int k = 0; conversion && !at_rest && k < conversion->derivatives; ++k) lines[i].value /= s;
+  }
+  if (options.coherence) {
+    const auto coherence = read_coherence(*file, *options.coherence, values->abscissa);
+    if (!coherence) return Refusal(coherence.error());
+    for (std::size_t i = 0; i < lines.size(); ++i) lines[i].coherence = (*coherence)[i];
+  }
+  auto response = make_response(std::move(lines), options, file->source);
+  if (!response) return response;
+  auto& remarks = response->remarks;
+  if (conversion) remarks.push_back(conversion->remark);
+  remarks.insert(remarks.end(), values->remarks.begin(), values->remarks.end());
+  remarks.insert(remarks.end(), file->remarks.begin(), file->remarks.end());
+  return response;
+}
+
+}  // namespace zwidth

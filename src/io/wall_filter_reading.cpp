@@ -1,0 +1,127 @@
+#include "io/wall_filter_reading.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/key_suggestion.hpp"
+#include "io/prose.hpp"
+#include "zwidth/io/wall_filter_type.hpp"
+
+namespace zwidth {
+namespace {
+
+using enum WallFilter::Kind;
+
+constexpr std::array all_kinds{low_pass, notch, lead_lag, biquad, digital};
+
+const std::vector<std::string>& type_names() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const WallFilter::Kind kind : all_kinds) all.emplace_back(wall_filter_type(kind));
+    return all;
+  }();
+  return names;
+}
+
+const std::vector<std::string>& keys_of_type(WallFilter::Kind kind) {
+  static const std::array<std::vector<std::string>, all_kinds.size()> keys{{
+      {"type", "frequency_hz", "order", "damping_ratio"},
+      {"type", "frequency_hz", "damping_ratio", "depth"},
+      {"type", "frequency_hz", "ratio"},
+      {"type", "numerator", "denominator", "frequency_hz"},
+      {"type", "numerator", "denominator"},
+  }};
+  return keys[static_cast<std::size_t>(kind)];
+}
+
+std::optional<WallFilter::Kind> read_kind(TableReader& reader) {
+  const std::string allowed = listed(type_names());
+  if (!reader.has("type")) reader.refuse("type", "is missing", "must be given as one of " + allowed);
+  const auto name = reader.text("type");
+  if (!name) return std::nullopt;
+  for (const WallFilter::Kind kind : all_kinds) {
+    if (*name == wall_filter_type(kind)) return kind;
+  }
+  const std::string meant = nearest_word(*name, type_names());
+  reader.refuse("type", fmt::format("is {}", in_quotes(*name)),
+                meant.empty() ? "must be one of " + allowed : fmt::format("did you mean \"{}\"?", meant));
+  return std::nullopt;
+}
+
+void refuse_keys_of_other_types(TableReader& reader, WallFilter::Kind kind) {
+  const std::vector<std::string>& keys = keys_of_type(kind);
+  for (const std::string& key : keys_of(DeviceTable::filter)) {
+    if (!reader.has(key) || std::ranges::count(keys, key) > 0) continue;
+    reader.refuse(key, fmt::format("is no key of a filter of type \"{}\"", wall_filter_type(kind)),
+                  fmt::format("its keys are {}", listed(keys)));
+  }
+}
+
+void read_low_pass(TableReader& reader, WallFilter& filter) {
+  const double order = reader.number("order").value_or(filter.order);
+  if (order != 1.0 && order != 2.0) {
+    reader.refuse("order", fmt::format("is {}", order), "must be 1 or 2");
+    return;
+  }
+  filter.order = order == 1.0 ? 1 : 2;
+  filter.damping_ratio = reader.number("damping_ratio").value_or(filter.damping_ratio);
+  if (filter.order == 1 && reader.has("damping_ratio")) {
+    reader.refuse("damping_ratio", "stands beside order 1, which has none", "must be left out, or set order = 2");
+  }
+}
+
+}  // namespace
+
+std::string_view wall_filter_type(WallFilter::Kind kind) {
+  switch (kind) {
+    case low_pass:
+      return "low_pass";
+    case notch:
+      return "notch";
+    case lead_lag:
+      return "lead_lag";
+    case biquad:
+      return "biquad";
+    case digital:
+      return "digital";
+  }
+  return "";
+}
+
+WallFilter read_wall_filter(TableReader& reader) {
+  WallFilter filter;
+  reader.refuse_keys_not_of(DeviceTable::filter);
+  const auto kind = read_kind(reader);
+  if (!kind) return filter;
+  filter.kind = *kind;
+  refuse_keys_of_other_types(reader, *kind);
+  switch (*kind) {
+    case low_pass:
+      filter.frequency_hz = reader.required_positive_number("frequency_hz");
+      read_low_pass(reader, filter);
+      break;
+    case notch:
+      filter.frequency_hz = reader.required_positive_number("frequency_hz");
+      filter.damping_ratio = reader.number("damping_ratio").value_or(filter.damping_ratio);
+      filter.depth = reader.number("depth").value_or(filter.depth);
+      break;
+    case lead_lag:
+      filter.frequency_hz = reader.required_positive_number("frequency_hz");
+      filter.ratio = reader.required_positive_number("ratio");
+      break;
+    case biquad:
+    case digital:
+      filter.numerator = reader.required_numbers("numerator");
+      filter.denominator = reader.required_numbers("denominator");
+      filter.frequency_hz = reader.number("frequency_hz").value_or(0.0);
+      break;
+  }
+  return filter;
+}
+
+}  // namespace zwidth
