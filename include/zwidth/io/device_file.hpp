@@ -6,20 +6,10 @@
 #include <string_view>
 #include <tl/expected.hpp>
 
+#include "zwidth/io/input_error.hpp"
 #include "zwidth/model/device.hpp"
 
 namespace zwidth {
-
-/// Where and why an input was refused. str() is one line: "FILE:LINE:COLUMN: key: what is wrong; what is allowed".
-struct InputError {
-  std::string source;      ///< file name, "standard input", or "--set"
-  std::size_t line = 0;    ///< from 1; 0 where there is no line
-  std::size_t column = 0;  ///< from 1; 0 where there is none
-  std::string key;         ///< dotted key, as in --set; may be empty
-  std::string what;        ///< what is wrong
-  std::string allowed;     ///< what is allowed, or the remedy; may be empty
-  [[nodiscard]] std::string str() const;
-};
 
 /// Reads a device from TOML text.
 ///

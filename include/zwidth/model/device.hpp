@@ -5,6 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "zwidth/model/uncertainty.hpp"
+#include "zwidth/model/wall_filter.hpp"
+
 namespace zwidth {
 
 /// Whether quantities are kg, N s/m, N/m or kg m², N m s/rad, N m/rad.
@@ -54,12 +57,13 @@ struct Sensor {
   double resolution = 0.0;  ///< m or rad, encoder step; >= 0; simulation only
 };
 
-/// The virtual wall C(z) = K + B v(z), where v is the backward difference (1 - z^-1)/T, optionally followed by
-/// the low-pass (1 - a)/(1 - a z^-1), a = exp(-2 pi f_c T).
+/// The virtual wall C(z) = F(z) (K + B v(z)), where v is the backward difference (1 - z^-1)/T, optionally followed by
+/// the low-pass (1 - a)/(1 - a z^-1), a = exp(-2 pi f_c T), and F the product of the filters.
 struct Wall {
-  std::optional<double> stiffness;  ///< K, N/m or N m/rad; >= 0; absent: no wall to judge
-  double damping = 0.0;             ///< B, N s/m or N m s/rad; >= 0
-  double velocity_filter_hz = 0.0;  ///< f_c; 0: no filter
+  std::optional<double> stiffness;       ///< K, N/m or N m/rad; >= 0; absent: no wall to judge
+  double damping = 0.0;                  ///< B, N s/m or N m s/rad; >= 0
+  double velocity_filter_hz = 0.0;       ///< f_c; 0: no filter
+  std::vector<WallFilter> filters = {};  ///< on the whole force, in the order in which they run; at most 20
 };
 
 /// A user at the held body: a mass, damper and spring to ground, all >= 0.
@@ -81,6 +85,7 @@ struct DeviceParameters {
   Sensor sensor;
   Wall wall;
   Operator user;
+  std::optional<Uncertainty> uncertainty;  ///< of some of the numbers above
 };
 
 /// The first thing that makes DeviceParameters impossible.
@@ -92,8 +97,9 @@ struct DeviceProblem {
 
 inline constexpr std::size_t max_bodies = 100;
 inline constexpr std::size_t max_links = 1000;
-inline constexpr std::size_t max_degree = 100;      ///< of a transfer function
-inline constexpr std::size_t max_name_size = 200;   ///< bytes
+inline constexpr std::size_t max_degree = 100;     ///< of a transfer function
+inline constexpr std::size_t max_name_size = 200;  ///< bytes
+inline constexpr std::size_t max_uncertain_parameters = 100;
 inline constexpr double max_delay_samples = 10000;  ///< whole device: delay / sampling_period
 
 /// Finds the first impossible value, or nothing when the parameters make a device.
@@ -101,7 +107,8 @@ inline constexpr double max_delay_samples = 10000;  ///< whole device: delay / s
 /// Checks: all numbers finite and in the ranges given with each member, and 0 or within 1e-30..1e30 in magnitude
 /// (coefficients of a transfer function: 1e-100..1e100), so that no product of a few of them overflows; body names
 /// unique and not empty; link ends distinct and existing; every body connected to every other through links; either
-/// bodies or a transfer function; no operator, link or second body with a transfer function.
+/// bodies or a transfer function; no operator, link or second body with a transfer function; uncertain parameters
+/// known, present and each once, their covariance square, symmetric and positive semidefinite.
 [[nodiscard]] std::optional<DeviceProblem> find_problem(const DeviceParameters& parameters);
 
 /// A haptic device and its sampled loop; valid once constructed.

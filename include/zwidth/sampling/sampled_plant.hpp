@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "zwidth/model/modal_form.hpp"
+#include "zwidth/sampling/filter_section.hpp"
 
 namespace zwidth {
 
@@ -38,8 +39,10 @@ struct SampledPlant {
   /// sum_k N_k prod_{j != k} D_j as one polynomial in delta, ascending. Only where the terms nearly cancel (position
   /// sensed across several links, far above the modes), computed in double-double; empty elsewhere.
   std::vector<double> numerator;
-  /// P(-1), where the terms' numerators nearly vanish at Nyquist; computed in double-double.
+  /// P(-1) without the filters, where the terms' numerators nearly vanish at Nyquist; computed in double-double.
   std::optional<double> at_nyquist;
+  /// Further factors of P: the filters of the wall, where the plant is seen through them.
+  std::vector<FilterSection> filters = {};
 };
 
 /// Samples exactly behind a zero-order hold with any real delay (modified z-transform; no Padé, no rounding to
@@ -55,6 +58,15 @@ struct SampledPlant {
 
 /// modal_form() and sample() of a device with its own period and delay.
 [[nodiscard]] SampledPlant sampled_plant(const Device& device);
+
+/// The plant as a wall of K + B v(z) sees it through the wall's filters: F P, since 1 + F (K + B v) P = 0 either way.
+[[nodiscard]] SampledPlant filtered_plant(SampledPlant plant, const std::vector<WallFilter>& filters);
+
+/// filtered_plant() of sampled_plant() with the device's own wall.filters: what critical_stiffness() needs for a wall.
+[[nodiscard]] SampledPlant filtered_plant(const Device& device);
+
+/// The product of the plant's filters at z = e^{j angle}; 1 without filters.
+[[nodiscard]] std::complex<double> filter_response(const SampledPlant& plant, double angle);
 
 /// One term at z = e^{j angle}, without the whole samples of delay; 0 < angle <= pi.
 [[nodiscard]] std::complex<double> response(const SampledTerm& term, double angle);

@@ -5,6 +5,7 @@
 
 #include "zwidth/model/device.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
+#include "zwidth/stability/stiffness_interval.hpp"
 #include "zwidth/stability/wall_margins.hpp"
 
 namespace zwidth {
@@ -30,11 +31,12 @@ struct QCriterion {
 /// The whole answer for one device.
 struct Analysis {
   CriticalStiffness critical;
-  std::vector<Mode> modes;                   ///< vibration modes, by rising frequency
-  std::optional<Mode> suspended_rigid_body;  ///< where springs tie the device to ground
-  std::optional<RigidApproximation> rigid;   ///< absent for a transfer function
-  std::optional<QCriterion> q_criterion;     ///< absent unless as_two_mass() applies
-  std::optional<WallMargins> wall;           ///< absent without wall.stiffness
+  std::vector<Mode> modes;                    ///< vibration modes, by rising frequency
+  std::optional<Mode> suspended_rigid_body;   ///< where springs tie the device to ground
+  std::optional<RigidApproximation> rigid;    ///< absent for a transfer function
+  std::optional<QCriterion> q_criterion;      ///< absent unless as_two_mass() applies
+  std::optional<WallMargins> wall;            ///< absent without wall.stiffness
+  std::optional<StiffnessInterval> interval;  ///< of the critical stiffness; absent without an uncertainty
 };
 
 /// Analyses a device: critical stiffness (with the wall's damper closed), modes, rigid approximation, Q, margins.

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "zwidth/model/device.hpp"
+
+namespace zwidth {
+
+/// The stiffest wall at one B that is stable with every passive user (see any_user_limit()).
+struct AnyUserPoint {
+  double damping = 0.0;    ///< B
+  double stiffness = 0.0;  ///< the limit of K; 0 at the ends of a range of B
+  double frequency = 0.0;  ///< rad/s, where the worst user destabilises it; 0 where the limit is 0
+};
+
+/// The walls (K, B) that no passive user destabilises: those below the limit.
+struct AnyUserRegion {
+  std::vector<std::vector<AnyUserPoint>> ranges;  ///< per range of B with a limit above 0: the limit by rising B
+  std::optional<AnyUserPoint> stiffest;           ///< among the points
+  std::optional<AnyUserPoint> most_damped;        ///< end of the last range
+  double area = 0.0;                              ///< in (K, B), of the polygons
+};
+
+struct AnyUserRegionOptions {
+  double deviation = 1e-3;  ///< aimed distance of the limit from the polygon, as a share of its extent in K and in B
+};
+
+/// Samples any_user_limit() over 0 <= B <= largest_damping, more densely where it bends. A range of B narrower than a
+/// factor of 1.5 may be missed between samples.
+/// Throws Error (needs_bodies) for a transfer function, (invalid_argument) for a largest_damping <= 0 or infinite, a
+/// deviation outside (0, 1), or a filter as in any_user_limit().
+[[nodiscard]] AnyUserRegion any_user_region(const Device& device, double velocity_filter_hz, double largest_damping,
+                                            AnyUserRegionOptions options = {});
+
+}  // namespace zwidth

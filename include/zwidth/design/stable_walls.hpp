@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "zwidth/sampling/sampled_plant.hpp"
+#include "zwidth/stability/critical_stiffness.hpp"
+
+namespace zwidth {
+
+/// Every stable wall of a loop: the open set of (K, B), K > 0 and B >= 0, with 1 + (K + B v(z)) P(z) stable.
+///
+/// Its boundary consists of the curve on which a pole pair lies on the unit circle,
+///
+///     B(w) = Im(-1/P) / Im v,   K(w) = Re(-1/P) - B Re v,   at z = e^{jwT}, 0 < w < pi/T,
+///
+/// of the line K + B v(-1) = -1/P(-1) (a pole at z = -1), of K = -1/P(1) (a pole at z = 1), and of K = 0, B = 0.
+/// Every B at which the stable intervals of K can change (extrema of B(w), crossings of these curves) is isolated by
+/// interval subdivision with bounds on second derivatives (docs/region.md); between two of them the intervals of
+/// critical_stiffness() at one B hold for all B, and only their ends move along the curve.
+/// Details thinner than 1e-10 of their distance from K = B = 0 are not resolved.
+class StableWalls {
+ public:
+  /// Throws Error (invalid_argument) for a negative or non-finite filter frequency (0: no filter), (did_not_converge)
+  /// when subdivision hits its cap.
+  explicit StableWalls(SampledPlant plant, double velocity_filter_hz = 0.0);
+
+  /// All stable intervals of K at this B >= 0, by rising K: critical_stiffness().stable_intervals at the cost of a few
+  /// evaluations of P. Throws Error (invalid_argument) for a negative or NaN B.
+  [[nodiscard]] std::vector<StableInterval> stable_stiffnesses(double damping) const;
+
+  [[nodiscard]] double velocity_filter_hz() const;
+
+  struct Structure;
+  /// For the functions of this room.
+  [[nodiscard]] const Structure& structure() const { return *structure_; }
+
+ private:
+  std::shared_ptr<const Structure> structure_;  // never changed once built
+};
+
+/// Which of the walls on a grid are stable, 1 or 0; element i * stiffnesses.size() + j is (stiffnesses[j],
+/// dampings[i]).
+///
+/// Exact: no eigenvalues, one look-up of stable intervals per damping. `stiffnesses` must rise; values <= 0 are not
+/// stable. Throws Error (invalid_argument) where they do not rise, or a damping is negative or NaN.
+[[nodiscard]] std::vector<std::uint8_t> stable_on_grid(const StableWalls& walls, std::span<const double> stiffnesses,
+                                                       std::span<const double> dampings);
+
+}  // namespace zwidth

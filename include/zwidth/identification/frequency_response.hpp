@@ -1,0 +1,80 @@
+#pragma once
+
+#include <complex>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "zwidth/progress.hpp"
+#include "zwidth/remark.hpp"
+
+namespace zwidth {
+
+/// One line of a measured response.
+struct ResponsePoint {
+  double frequency = 0.0;      ///< rad/s; > 0, at most pi/T
+  std::complex<double> value;  ///< position per force, m/N or rad/(N m)
+  double variance = 0.0;       ///< E|estimate - truth|^2 of `value`; 0: unknown
+  double coherence = 1.0;      ///< ordinary coherence, 0..1 (periodic: signal to signal-and-noise power)
+};
+
+/// A measured response from force to position, as the sampled controller sees it.
+struct FrequencyResponse {
+  /// T, s, of the record. The response is then that of the sampled plant: hold, lag and delay are in it. Absent for a
+  /// table of a continuous response.
+  std::optional<double> sampling_period;
+  std::vector<ResponsePoint> points;  ///< by rising frequency; only lines that the force excites
+  double averages = 0.0;              ///< effective number of independent averages; 0: unknown (tables)
+  /// Variance of the sum of the errors of neighbouring lines over that of as many independent ones: a window correlates
+  /// neighbours.
+  double line_correlation = 1.0;
+  std::vector<Remark> remarks;  ///< choices made, and doubts
+};
+
+enum class Window { rectangular, hann, hamming, blackman };
+enum class ResponseEstimator {
+  h1,  ///< S_fx / S_ff: noise on the position only; biased low by noise on the force
+  h2,  ///< S_xx / S_xf: noise on the force only
+};
+enum class OutputQuantity { position, velocity, acceleration };
+
+struct FrequencyResponseOptions {
+  OutputQuantity output = OutputQuantity::position;
+  ResponseEstimator estimator = ResponseEstimator::h1;
+  // Welch
+  Window window = Window::hann;
+  std::optional<std::size_t> segment_length;  ///< samples; chosen from the record when absent
+  /// Of a segment, in [0, 1). Three quarters of Hann segments weigh every instant alike, which a sweep needs: it passes
+  /// each frequency once.
+  double overlap = 0.75;
+  // Periodic excitation: the average over periods, with the noise measured from their scatter.
+  enum class Excitation { detect, periodic, aperiodic } excitation = Excitation::detect;
+  std::optional<std::size_t> period;  ///< samples; with Excitation::periodic, detected when absent
+  std::size_t skip_periods = 0;       ///< leading periods in which the transient dies out (with a given period)
+  bool detrend = true;                ///< remove mean and drift before the transform
+  std::optional<double> lowest;       ///< rad/s; points outside are left out
+  std::optional<double> highest;
+};
+
+/// The response from force to position, line by line, with its noise.
+///
+/// Aperiodic (Welch), over segments k:  H1 = sum conj(F_k) X_k / sum |F_k|^2,  H2 = sum |X_k|^2 / sum conj(X_k) F_k,
+/// coherence g^2 = |S_fx|^2 / (S_ff S_xx), variance = |H|^2 (1 - g^2) / (g^2 n), n the effective number of averages.
+/// Periodic, over whole periods p: H = mean X / mean F at the lines that F excites, variance from the scatter of
+/// X_p - H F_p over the periods (no leakage, no bias).
+/// A velocity v is turned into position by 1/(jw) and an acceleration by -1/w^2: an approximation under a held force,
+/// too large by about (wT)^2/12 and twice that; said in the remarks.
+/// Requires equally many finite samples, at least 16; `sampling_period` > 0. Throws Error (invalid_argument) otherwise,
+/// for a constant force, and for options that the record cannot meet (period longer than half the record, ...).
+/// Source: Welch 1967; Bendat & Piersol, Random Data, ch. 6 and 9; Pintelon & Schoukens, System Identification, ch. 2.
+[[nodiscard]] FrequencyResponse frequency_response(std::span<const double> force, std::span<const double> output,
+                                                   double sampling_period, const FrequencyResponseOptions& options = {},
+                                                   const Progress& progress = {});
+
+/// Radius of the disc around the point's value that holds the true one with 95 %: from the F distribution with 2 and
+/// 2 averages - 2 degrees of freedom (the normal limit when averages are unknown). Infinity below two averages, and
+/// where neither averages nor variance are known.
+[[nodiscard]] double confidence_radius(const ResponsePoint& point, double averages);
+
+}  // namespace zwidth

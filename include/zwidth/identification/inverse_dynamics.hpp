@@ -1,0 +1,56 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "zwidth/identification/parameter_fit.hpp"
+#include "zwidth/progress.hpp"
+#include "zwidth/remark.hpp"
+
+namespace zwidth {
+
+struct InverseDynamicsOptions {
+  std::optional<double> cutoff_hz;        ///< of the zero-phase low-pass; chosen from the record when absent
+  std::optional<std::size_t> decimation;  ///< chosen from the cutoff when absent
+};
+
+/// mass a + viscous v + coulomb sign(v) + offset = force, fitted to a record of a rigid body that moves both ways.
+struct RigidBodyFit {
+  ParameterEstimate mass;          ///< kg or kg m^2
+  ParameterEstimate viscous;       ///< N s/m or N m s/rad
+  ParameterEstimate coulomb;       ///< N or N m
+  ParameterEstimate offset;        ///< N or N m
+  ParameterEstimate delay;         ///< s: how much later than its sample the recorded force acts
+  Eigen::Matrix4d covariance;      ///< of mass, viscous, coulomb, offset
+  double relative_residual = 0.0;  ///< rms of the residual force / rms of the force, both filtered
+  double cutoff_hz = 0.0;
+  std::size_t decimation = 1;
+  std::size_t equations = 0;  ///< samples left after filtering, decimation and removal of rests
+  std::vector<Remark> remarks;
+};
+
+/// Identifies mass, viscous and Coulomb friction and offset from force and position, feedback or not.
+///
+///     L[F](t - delay) = mass L[a] + viscous L[v] + coulomb L[sign v] + offset
+///
+/// a and v are central differences of the position; the zero-phase low-pass L (Butterworth of fourth order, forwards
+/// and backwards) acts alike on all terms, so that it biases none; then every `decimation`-th equation is kept. The
+/// delay is fitted with the rest: a force that is held after its sample acts half a period late, a drive adds its own.
+/// Cutoff, where not given: the frequency below which 99 % of the acceleration's power above the encoder's noise lies,
+/// or five times that of half the power (so that the harmonics of Coulomb friction pass) if that is higher; at most a
+/// tenth of the rate. Decimation: 0.8 times the rate over twice the cutoff. Equations where the body rests (friction
+/// then is anything up to coulomb) and near the ends (filter transients) are left out.
+/// Ordinary least squares; 95 % intervals allow for residuals that vary in size and are correlated in time (Newey and
+/// West 1987, bandwidth by Andrews 1991).
+/// Requires equally many finite samples, at least 100; `sampling_period` > 0; cutoff below half the rate, decimation
+/// >= 1. Throws Error (invalid_argument) otherwise, and where the record does not tell the parameters apart (never
+/// moves, never reverses, too short).
+/// Source: Gautier, Janot, Vandanjon 2013 (inverse dynamic identification model with least squares, IDIM-LS).
+[[nodiscard]] RigidBodyFit identify_rigid_body(std::span<const double> force, std::span<const double> position,
+                                               double sampling_period, const InverseDynamicsOptions& options = {},
+                                               const Progress& progress = {});
+
+}  // namespace zwidth

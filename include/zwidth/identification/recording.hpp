@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "zwidth/remark.hpp"
+
+namespace zwidth {
+
+/// One measured signal.
+struct Channel {
+  std::string name;
+  std::vector<double> samples;  ///< finite, in the unit that the user asked for (already scaled)
+};
+
+/// Signals sampled together at one rate.
+struct Recording {
+  std::string source;             ///< file name
+  double sampling_period = 0.0;   ///< s; > 0
+  std::vector<Channel> channels;  ///< in the order asked for, all of one size
+  std::vector<Remark> remarks;    ///< what was noticed while reading: gaps, NaN, a timer that wraps, jitter
+};
+
+/// What a signal is called in remarks, and its role, which decides what a defect means.
+enum class SignalRole { force, position, velocity, acceleration };
+
+/// Looks for what spoils an identification: a constant signal, clipping (runs at the extreme values), coarse
+/// quantisation (few distinct steps), a dropout (a long constant run), too short a record. Empty when clean.
+[[nodiscard]] std::vector<Remark> check_signal(const Channel& channel, double sampling_period, SignalRole role);
+
+}  // namespace zwidth

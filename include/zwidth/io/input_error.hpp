@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+namespace zwidth {
+
+/// Where and why an input was refused. str() is one line: "FILE:LINE:COLUMN: key: what is wrong; what is allowed".
+struct InputError {
+  std::string source;      ///< file name, "standard input", or "--set"
+  std::size_t line = 0;    ///< from 1; 0 where there is no line
+  std::size_t column = 0;  ///< from 1; 0 where there is none
+  std::string key;         ///< dotted key as in --set, or the name of a recording's column; may be empty
+  std::string what;        ///< what is wrong
+  std::string allowed;     ///< what is allowed, or the remedy; may be empty
+  [[nodiscard]] std::string str() const;
+};
+
+}  // namespace zwidth

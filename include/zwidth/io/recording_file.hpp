@@ -1,0 +1,100 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <tl/expected.hpp>
+#include <vector>
+
+#include "zwidth/identification/frequency_response.hpp"
+#include "zwidth/identification/recording.hpp"
+#include "zwidth/io/input_error.hpp"
+#include "zwidth/progress.hpp"
+
+namespace zwidth {
+
+/// What a recording file may be. `detect` decides by content, never by the file's name alone.
+enum class RecordingFormat {
+  detect,
+  text,  ///< CSV, TSV, semicolons, blanks
+  mat,   ///< MAT v5 or v7.3
+  uff,   ///< universal file, dataset 58 or 58b
+};
+
+/// A column to read: its name in the header, a variable or struct field ("run.position") of a MAT file, the name of a
+/// UFF record, or its number from 1. Its samples are multiplied by `scale` (mm to m: 1e-3).
+struct ColumnRequest {
+  std::string name;
+  double scale = 1.0;
+};
+
+/// How to read a recording. What is absent is detected.
+struct RecordingOptions {
+  RecordingFormat format = RecordingFormat::detect;
+  std::vector<ColumnRequest> columns;  ///< required; become the recording's channels, in this order
+
+  // The time axis: a rate, or a column of times; with neither, a column whose name says time, or what the file states.
+  std::optional<double> rate;  ///< Hz
+  std::optional<std::string> time_column;
+  /// s per unit of the time column (milliseconds: 1e-3); absent: what the unit in its name says ("t [ms]"), else 1
+  std::optional<double> time_scale;
+  std::optional<unsigned> timer_bits;  ///< the time column counts up and wraps at 2^timer_bits
+
+  // Text only.
+  std::optional<char> delimiter;  ///< ',', ';', '\t' or ' ' (any run of blanks)
+  std::optional<char> decimal_mark;
+  enum class Header { detect, present, absent } header = Header::detect;
+  std::string comment = "#%";  ///< lines that begin with one of these are skipped
+};
+
+/// Reads the asked-for columns of a recording ("-": standard input, text only).
+///
+/// Text is streamed: memory is that of the columns asked for, whatever the file's size. The time column is checked:
+/// unwrapped where a timer wraps, refused where it falls back or stands still otherwise, and resampled never: periods
+/// that differ from their mean by more than 1 % (jitter) or gaps (a period of 1.5 or more that its neighbours do
+/// not make up) are remarked with their place and meaning. NaN, infinities and empty cells are refused with their line
+/// unless they are at most 1 % of a column; those are filled linearly and remarked. A missing column's error lists what
+/// the file has. A MAT file's MATLAB objects (tables, timeseries) are skipped with a remark; a file of nothing else is
+/// refused.
+[[nodiscard]] tl::expected<Recording, InputError> read_recording(const std::string& path,
+                                                                 const RecordingOptions& options,
+                                                                 const Progress& progress = {});
+
+/// What a recording file holds, for "what columns are there?".
+struct RecordingColumn {
+  std::string name;
+  std::size_t size = 0;  ///< samples
+  std::string detail;    ///< "double 50000x1", "time record, 0.0004 s", "frequency response"; may be empty
+};
+
+struct RecordingContents {
+  RecordingFormat format = RecordingFormat::text;  ///< never detect
+  std::vector<RecordingColumn> columns;
+  std::vector<Remark> remarks;  ///< what was skipped and why
+};
+
+[[nodiscard]] tl::expected<RecordingContents, InputError> list_recording(const std::string& path,
+                                                                         const RecordingOptions& options = {});
+
+/// Which column of a table is what. Names, or numbers from 1; the first set of three that is given counts. Where none
+/// is, columns whose names say what they are ("frequency_hz", "mag [dB]", "phase (rad)", "re"). A unit that such a name
+/// states counts before the one below, with a remark.
+struct ResponseTableOptions {
+  RecordingOptions file;  ///< format, delimiter, decimal mark, header, comment; `columns` and time are not used
+  std::string frequency;  ///< empty: a column named f, freq, frequency, ..., or the first (a UFF record has its own)
+  double frequency_scale = 6.283185307179586;  ///< rad/s per unit: Hz by default
+  std::string magnitude, phase;                ///< or
+  std::string real, imaginary;                 ///< or a column of complex numbers "(re+imj)", named by `real`
+  bool magnitude_in_db = false;
+  bool phase_in_degrees = true;
+  double scale = 1.0;                     ///< of the value
+  std::optional<std::string> coherence;   ///< a column, where there is one
+  std::optional<double> sampling_period;  ///< the table is the sampled plant's response; absent: continuous
+  double frequency_step = 0.0;            ///< rad/s, for a list of values without frequencies: they are k step, k >= 0
+};
+
+/// Reads a frequency response: a text table, or a UFF record that is one (function type 4; `real` names the record).
+[[nodiscard]] tl::expected<FrequencyResponse, InputError> read_response_table(const std::string& path,
+                                                                              const ResponseTableOptions& options,
+                                                                              const Progress& progress = {});
+
+}  // namespace zwidth

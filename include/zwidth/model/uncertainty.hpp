@@ -1,0 +1,18 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace zwidth {
+
+/// How well some parameters of a device are known: their joint normal distribution around the device's values.
+///
+/// In the device file:  [uncertainty]  parameters = ["link.0.stiffness", ...]  covariance = [[...], ...]
+struct Uncertainty {
+  std::vector<std::string> parameters;  ///< keys as in model/parameter.hpp, each once
+  /// Symmetric positive semidefinite, in the products of the parameters' units; row by row.
+  std::vector<std::vector<double>> covariance;
+};
+
+}  // namespace zwidth

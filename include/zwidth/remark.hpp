@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+namespace zwidth {
+
+/// Something about a recording or a result that its user should know.
+struct Remark {
+  enum class Severity {
+    note,     ///< how the work was done ("segments of 4096 samples, Hann, half overlapping")
+    warning,  ///< the result may be wrong or is less than asked for
+  };
+  Severity severity = Severity::note;
+  std::string what;     ///< one line: "force is constant from 3.2 s to 4.1 s"
+  std::string meaning;  ///< what it means for the result, or what to do; may be empty
+};
+
+}  // namespace zwidth

@@ -1,0 +1,96 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "zwidth/model/device.hpp"
+#include "zwidth/simulation/sampled_controller.hpp"
+
+namespace zwidth {
+
+/// A force of the user on the held body.
+struct UserForce {
+  enum class Kind {
+    none,
+    step,      ///< `amplitude` from `start` on
+    ramp,      ///< amplitude (t - start), from `start` on; amplitude in N/s
+    sine,      ///< amplitude sin(frequency (t - start)), from `start` on
+    recorded,  ///< `samples` at start + k period, linear in between, 0 before and after
+  };
+  Kind kind = Kind::none;
+  double amplitude = 0.0;  ///< N or N m (ramp: per s)
+  double frequency = 0.0;  ///< rad/s; > 0 for a sine
+  double start = 0.0;      ///< s; >= 0
+  std::vector<double> samples;
+  double period = 0.0;  ///< s; > 0 for a recorded force
+};
+
+/// What goes wrong in a real controller now and then. A force that would arrive after a newer one never does.
+struct Faults {
+  double lost_sample_probability = 0.0;  ///< nothing is measured or computed: the last force stays
+  double sampling_jitter = 0.0;          ///< s; each sample is late by a uniform part of it; < T
+  double overrun_probability = 0.0;      ///< the force is delivered late
+  double overrun_delay = 0.0;            ///< s, by which it then is late; at most max_delay_samples periods
+  std::uint64_t seed = 1;
+};
+
+struct HybridLoopOptions {
+  ControllerOptions controller;
+  UserForce user_force;
+  Faults faults;
+  std::vector<double> initial_position;  ///< of every body, m or rad; empty: 0
+  std::vector<double> initial_velocity;  ///< m/s or rad/s; empty: 0
+};
+
+/// The sampled loop in time, exactly: the continuous device between samples, the controller at its instants.
+///
+/// Each step is one sampling period: measure (encoder rounding to the nearest step), update the controller, limit the
+/// force, let it arrive t_d later (any real delay), move the device. The motion is the exact solution: matrix
+/// exponentials and, at stick-slip instants of Coulomb friction, located events; nothing is integrated step by step.
+///
+/// Uses sampling_period, delay, actuator, sensor.resolution, body.coulomb and the operator of the device; the wall is
+/// the controller's. Nothing allocates, locks or throws after construction.
+class HybridLoop {
+ public:
+  /// Throws Error (invalid_argument) for options outside their domain, sizes that are not the number of bodies, or
+  /// Coulomb friction on more than six bodies, or where user force, friction or faults act and the device's fastest
+  /// motion has more than some 10 000 rad per sampling period; (needs_bodies) for a user force, motion or friction on a
+  /// transfer function.
+  HybridLoop(const Device& device, const HybridLoopOptions& options);
+  HybridLoop(HybridLoop&&) noexcept;
+  HybridLoop& operator=(HybridLoop&&) noexcept;
+  ~HybridLoop();
+
+  /// Measures at t = k T, updates the controller, and moves the device to (k + 1) T.
+  void step() noexcept;
+
+  /// As constructed.
+  void reset() noexcept;
+
+  // At the end of the last step, k T:
+  [[nodiscard]] std::size_t sample() const noexcept;  ///< k
+  [[nodiscard]] double time() const noexcept;         ///< k T, s
+  [[nodiscard]] double sensed_position() const noexcept;
+  [[nodiscard]] double position(std::size_t body) const noexcept;
+  [[nodiscard]] double velocity(std::size_t body) const noexcept;
+  [[nodiscard]] bool sticks(std::size_t body) const noexcept;
+  [[nodiscard]] double user_force() const noexcept;
+  // Within the last step:
+  [[nodiscard]] double measured() const noexcept;  ///< what the encoder gave
+  [[nodiscard]] double command() const noexcept;   ///< what the controller asked for, limited
+  /// Work of the force that arrived at the actuator since the start, N m: sum of force times travel of the actuated
+  /// body (before the actuator's lag; of a transfer function, travel of its output).
+  [[nodiscard]] double work() const noexcept;
+  /// Stick-slip instants since the start.
+  [[nodiscard]] std::size_t friction_events() const noexcept;
+  /// Advances in which stick-slip instants were cut off at their cap: 0 in every sound simulation.
+  [[nodiscard]] std::size_t overloaded_steps() const noexcept;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace zwidth

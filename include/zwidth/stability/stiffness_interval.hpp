@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "zwidth/model/device.hpp"
+#include "zwidth/stability/critical_stiffness.hpp"
+
+namespace zwidth {
+
+/// What a device's uncertainty makes of its critical stiffness.
+struct StiffnessInterval {
+  double lower = 0.0;  ///< K_CR at 2.5 %
+  double upper = 0.0;  ///< K_CR at 97.5 %; infinity where that draw is unbounded
+  /// Share of the draws whose K_CR belongs to a mechanism of another kind or mode than the device's own, 0..1.
+  double other_mechanism = 0.0;
+  std::size_t draws = 0;
+};
+
+/// The 95 % interval of K_CR: `draws` devices drawn from the uncertainty (seeded; impossible values, such as a negative
+/// damping, are reflected into their domain), each analysed exactly. Unlike a gradient it holds where the limiting
+/// branch switches. Quantiles of 1000 draws lie within 0.09 standard deviations of the exact ones (one sigma).
+/// The draws are the same with every standard library. Requires an uncertainty and draws >= 1; throws Error
+/// (invalid_argument) otherwise.
+[[nodiscard]] StiffnessInterval stiffness_interval(const Device& device, std::size_t draws = 1000,
+                                                   std::uint64_t seed = 1);
+
+}  // namespace zwidth
