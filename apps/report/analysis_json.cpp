@@ -3,43 +3,23 @@
 #include <cmath>
 #include <optional>
 
+#include "report/json_value.hpp"
 #include "report/quantity.hpp"
+#include "report/wall_filter_json.hpp"
 
 namespace zwidth::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A number, or null where there is none: JSON has no infinity.
-Json number_or_null(std::optional<double> value) {
-  return value && std::isfinite(*value) ? Json(*value) : Json(nullptr);
-}
-
 Json decibels_or_null(std::optional<double> value) {
   return value && *value > 0.0 ? number_or_null(decibels(*value)) : Json(nullptr);
-}
-
-const char* name_of(StiffnessStatus status) {
-  switch (status) {
-    case StiffnessStatus::finite:
-      return "finite";
-    case StiffnessStatus::none_stable:
-      return "none_stable";
-    case StiffnessStatus::unbounded:
-      break;
-  }
-  return "unbounded";
-}
-
-Json to_json(const Mechanism& mechanism) {
-  if (mechanism.kind == Mechanism::Kind::rigid_body) return {{"kind", "rigid_body"}};
-  return {{"kind", "vibration_mode"}, {"mode", mechanism.mode}};
 }
 
 Json to_json(const Crossover& crossover) {
   return {{"frequency_rad_s", crossover.frequency},
           {"stiffness", crossover.stiffness},
-          {"limited_by", to_json(crossover.limited_by)},
+          {"limited_by", mechanism_json(crossover.limited_by)},
           {"poles_leaving", crossover.poles_leaving}};
 }
 
@@ -56,7 +36,7 @@ Json to_json(const RigidApproximation& rigid) {
           {"damping", rigid.damping},
           {"critical_stiffness", number_or_null(rigid.critical.stiffness)},
           {"stiffness", rigid.stiffness},
-          {"status", name_of(rigid.critical.status)}};
+          {"status", status_name(rigid.critical.status)}};
 }
 
 Json to_json(const QCriterion& criterion) {
@@ -76,6 +56,35 @@ Json to_json(const WallMargins& wall) {
           {"lower_gain_margin_db", decibels_or_null(wall.lower_gain_margin)}};
 }
 
+Json to_json(const StiffnessInterval& interval) {
+  return Json::array({interval.lower, number_or_null(interval.upper)});
+}
+
+Json to_json(const WorstUser& worst) {
+  Json absorbers = Json::array();
+  for (const auto& [mass, stiffness] : worst.user.absorbers) {
+    absorbers.push_back(Json{{"mass", mass}, {"stiffness", stiffness}});
+  }
+  return {{"mass", worst.user.mass},
+          {"damping", 0.0},
+          {"stiffness", worst.user.stiffness},
+          {"absorbers", absorbers},
+          {"critical_stiffness", worst.critical_stiffness},
+          {"frequency_rad_s", worst.frequency}};
+}
+
+Json to_json(const ValueRange& range) { return Json::array({range.least, range.greatest}); }
+
+Json to_json(const UserFamilyAnswer& answer) {
+  const Operator& user = answer.worst.user;
+  return {{"mass", to_json(answer.family.mass)},
+          {"damping", to_json(answer.family.damping)},
+          {"stiffness", to_json(answer.family.stiffness)},
+          {"worst_user", {{"mass", user.mass}, {"damping", user.damping}, {"stiffness", user.stiffness}}},
+          {"critical_stiffness", number_or_null(answer.worst.critical_stiffness)},
+          {"free_critical_stiffness", number_or_null(answer.free.stiffness)}};
+}
+
 template <typename T>
 Json to_json_or_null(const std::optional<T>& value) {
   return value ? to_json(*value) : Json(nullptr);
@@ -86,6 +95,16 @@ Json to_json_array(const std::vector<T>& values) {
   Json array = Json::array();
   for (const T& value : values) array.push_back(to_json(value));
   return array;
+}
+
+Json any_user_json(const AnalysedDevice& analysed) {
+  if (!analysed.any_user) return nullptr;
+  const AnyUserLimit& limit = *analysed.any_user;
+  return {{"critical_stiffness", number_or_null(limit.stiffness)},
+          {"frequency_rad_s",
+           limit.stiffness > 0.0 && std::isfinite(limit.stiffness) ? Json(limit.frequency) : Json(nullptr)},
+          {"truncation", limit.truncation},
+          {"worst_user", to_json_or_null(analysed.worst_user)}};
 }
 
 }  // namespace
@@ -102,23 +121,27 @@ nlohmann::ordered_json analysis_json(const AnalysedDevice& analysed) {
   document["schema"] = "zwidth.analysis/1";
   document["device"] = device.name;
   document["units"] = {{"stiffness", units.stiffness}, {"damping", units.damping}};
-  document["status"] = name_of(critical.status);
+  document["status"] = status_name(critical.status);
   document["critical_stiffness"] = number_or_null(critical.stiffness);
   document["critical_stiffness_db"] = decibels_or_null(critical.stiffness);
   document["critical_frequency_rad_s"] = number_or_null(frequency);
   document["critical_frequency_hz"] = frequency ? number_or_null(hertz(*frequency)) : Json(nullptr);
-  document["limited_by"] = critical.limit ? to_json(critical.limit->limited_by) : Json(nullptr);
+  document["limited_by"] = critical.limit ? mechanism_json(critical.limit->limited_by) : Json(nullptr);
   document["stable_intervals"] = to_json_array(critical.stable_intervals);
   document["crossovers"] = to_json_array(critical.crossovers);
   document["modes"] = to_json_array(analysis.modes);
   document["suspended_rigid_body"] = to_json_or_null(analysis.suspended_rigid_body);
   document["rigid_approximation"] = to_json_or_null(analysis.rigid);
   document["q_criterion"] = to_json_or_null(analysis.q_criterion);
-  document["any_user"] = nullptr;
+  document["any_user"] = any_user_json(analysed);
+  document["user_family"] = to_json_or_null(analysed.user_family);
   document["virtual_damper"] = device.wall.damping > 0.0 ? Json{{"damping", device.wall.damping},
                                                                 {"velocity_filter_hz", device.wall.velocity_filter_hz}}
                                                          : Json(nullptr);
+  document["wall_filters"] = wall_filters_json(device.wall, device.loop.sampling_period);
   document["wall"] = to_json_or_null(analysis.wall);
+  document["critical_stiffness_interval"] = to_json_or_null(analysis.interval);
+  document["other_mechanism_share"] = analysis.interval ? Json(analysis.interval->other_mechanism) : Json(nullptr);
   return document;
 }
 

@@ -11,6 +11,7 @@
 #include "report/explanation.hpp"
 #include "report/quantity.hpp"
 #include "report/text_table.hpp"
+#include "report/wall_filter_text.hpp"
 
 namespace zwidth::report {
 namespace {
@@ -62,7 +63,11 @@ std::string answer_lines(const AnalysedDevice& analysed) {
     text += labelled(critical.limit->frequency > 0.0 ? "  oscillates at" : "  drifts away at",
                      crossover_frequency_text(critical.limit->frequency));
   }
+  if (const auto interval = interval_note(analysed)) text += labelled("  95 % interval", *interval);
   if (const auto limit = what_limits(analysed)) text += labelled("  limited by", *limit);
+  if (const auto limit = any_user_note(analysed)) text += labelled("  any passive user", *limit);
+  if (const auto worst = worst_user_note(analysed)) text += labelled("  the worst one", *worst);
+  if (const auto family = user_family_note(analysed)) text += labelled("  users as given", *family);
   return text + "\n";
 }
 
@@ -74,7 +79,11 @@ std::string bullets(const std::vector<std::string>& texts) {
 
 std::string wall_section(const AnalysedDevice& analysed) {
   const auto verdict = wall_note(analysed);
-  return verdict ? wrap(*verdict, width, 0) + bullets(wall_margin_notes(analysed.analysis)) + "\n" : "";
+  const auto filters = wall_filters_text(analysed.device.parameters().wall);
+  if (!verdict && !filters) return "";
+  return (filters ? wrap(fmt::format("Filters in the wall, closed in every number here: {}.", *filters), width, 0)
+                  : "") +
+         (verdict ? wrap(*verdict, width, 0) + bullets(wall_margin_notes(analysed.analysis)) : "") + "\n";
 }
 
 std::string full_answer(const AnalysedDevice& analysed) {

@@ -73,7 +73,11 @@ void Canvas::line(double x1, double y1, double x2, double y2, const LineStyle& s
 }
 
 void Canvas::point(double x, double y, std::string_view colour) {
-  commands(fmt::format("set label '' at {} front point pt 6 ps 0.7 lw 1.3 lc rgb '{}'", position(x, y), colour));
+  marker(x, y, fmt::format("pt 6 ps 0.7 lw 1.3 lc rgb '{}'", colour));
+}
+
+void Canvas::marker(double x, double y, std::string_view style) {
+  commands(fmt::format("set label '' at {} front point {}", position(x, y), style));
 }
 
 void Canvas::rectangle(const Box& box, std::string_view colour) {
@@ -100,6 +104,8 @@ std::string Canvas::draw(FigureFormat format) const {
                               terminal(format, width_, height_), script_));
   if (format == FigureFormat::svg) {
     replace_all(picture, "<title>Gnuplot</title>", fmt::format("<title>{}</title>", escape_markup(title_)));
+    // Cells of a map have edges, which a viewer would blur.
+    replace_all(picture, "<image ", "<image style='image-rendering:pixelated' ");
     replace_all(picture, "font-family=\"Helvetica\"", "font-family=\"Helvetica, Arial, sans-serif\"");
   }
   return picture;

@@ -43,6 +43,8 @@ class Canvas {
   void text(double x, double y, std::string_view content, const TextStyle& style = {});
   void line(double x1, double y1, double x2, double y2, const LineStyle& style);
   void point(double x, double y, std::string_view colour);
+  /// A point of any gnuplot style: "pt 7 ps 0.8 lc rgb '#c2410c'".
+  void marker(double x, double y, std::string_view style);
   void rectangle(const Box& box, std::string_view colour);
 
   /// Appends gnuplot commands that prepare the next plot.

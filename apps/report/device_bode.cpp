@@ -11,6 +11,7 @@
 #include "report/analysis_json.hpp"
 #include "report/explanation.hpp"
 #include "report/quantity.hpp"
+#include "report/wall_filter_text.hpp"
 
 namespace zwidth::report {
 namespace {
@@ -40,6 +41,9 @@ std::vector<std::string> loop_notes(const Device& device) {
                                     ? fmt::format(" behind its {} filter", quantity(wall.velocity_filter_hz, "Hz"))
                                     : ""));
   }
+  if (const auto filters = wall_filters_text(wall)) {
+    notes.push_back("The sampled response is seen through the filters of the wall: " + *filters + ".");
+  }
   return notes;
 }
 
@@ -55,6 +59,15 @@ void add_marks(BodeFigure& figure, const AnalysedDevice& analysed, std::size_t c
     figure.marks.push_back({curve, crossover, limits ? BodeMark::Rank::critical : BodeMark::Rank::other,
                             fmt::format(", {}{}{}", belongs_to, limits ? ": critical" : "", suffix)});
   }
+}
+
+/// A filter with a zero at z = -1 (every low-pass) takes the curve down without end: the last of it is not drawn.
+void cut_at_nyquist_zero(const Device& device, std::vector<BodePoint>& points) {
+  const std::vector<FilterSection> filters = filtered_plant(device).filters;
+  if (std::ranges::all_of(filters, [](const FilterSection& each) { return each.nyquist_zeros == 0; })) return;
+  constexpr double last_drawn = 0.99;
+  if (points.empty() || points.front().frequency > last_drawn * nyquist(device)) return;
+  std::erase_if(points, [&](const BodePoint& point) { return point.frequency > last_drawn * nyquist(device); });
 }
 
 }  // namespace
@@ -82,7 +95,7 @@ DeviceBode device_bode(const AnalysedDevice& analysed, FrequencyRange range, std
   std::vector<Mode> modes = form.modes;
   if (form.suspended_rigid_body) modes.push_back(*form.suspended_rigid_body);
   const Wall& wall = device.parameters().wall;
-  const std::array responses{drawn_response(sampled_plant(device), {wall.damping, wall.velocity_filter_hz}),
+  const std::array responses{drawn_response(filtered_plant(device), {wall.damping, wall.velocity_filter_hz}),
                              drawn_response(std::move(form))};
   // The phase is unwrapped from well below everything, whatever part is asked for.
   const FrequencyRange whole{std::min(range.from, bode_range({&analysed, 1}, {}).from), range.to};
@@ -105,9 +118,13 @@ BodeFigure device_bode_figure(std::span<const AnalysedDevice> devices, const Bod
   figure.motion = first.device.parameters().motion;
   if (devices.size() == 1) {
     DeviceBode bode = device_bode(first, figure.range, options.points);
+    cut_at_nyquist_zero(first.device, bode.sampled);
     figure.title = display_name(first.device);
     figure.notes = loop_notes(first.device);
-    figure.curves.push_back({"What the sampled wall sees, Z[H G e^(-t_d s)]", std::move(bode.sampled)});
+    const bool is_filtered = !first.device.parameters().wall.filters.empty();
+    figure.curves.push_back(
+        {is_filtered ? "Through the filters, F Z[H G e^(-t_d s)]" : "What the sampled wall sees, Z[H G e^(-t_d s)]",
+         std::move(bode.sampled)});
     figure.curves.push_back({"The device, G(s), without sampling and delay", std::move(bode.continuous)});
     add_marks(figure, first, 0, "");
   } else {
@@ -117,6 +134,7 @@ BodeFigure device_bode_figure(std::span<const AnalysedDevice> devices, const Bod
       const char letter = static_cast<char>('A' + i);
       figure.curves.push_back({fmt::format("{}: {}", letter, display_name(devices[i].device)),
                                device_bode(devices[i], figure.range, options.points).sampled});
+      cut_at_nyquist_zero(devices[i].device, figure.curves.back().points);
       add_marks(figure, devices[i], i, fmt::format(" ({})", letter));
     }
   }

@@ -22,7 +22,8 @@ struct BodeOptions {
 /// The two frequency responses of a device, at the same frequencies.
 struct DeviceBode {
   std::vector<BodePoint> continuous;  ///< G, the virtual damper and the delay left out
-  std::vector<BodePoint> sampled;     ///< Z[H G e^{-t_d s}], its virtual damper closed; up to Nyquist
+  std::vector<BodePoint>
+      sampled;  ///< Z[H G e^{-t_d s}] through the wall's filters, its virtual damper closed; to Nyquist
 };
 
 [[nodiscard]] FrequencyRange bode_range(std::span<const AnalysedDevice> devices, const BodeOptions& options);

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "report/quantity.hpp"
+#include "zwidth/sampling/filter_section.hpp"
 
 namespace zwidth::report {
 namespace {
@@ -75,6 +76,15 @@ std::string onset_text(const AnalysedDevice& analysed, double frequency) {
                      frequency < nyquist ? "" : ", the Nyquist frequency: the force alternates at every sample");
 }
 
+/// Degrees by which the filters of the wall turn the phase back at w; below 0 where they lead.
+double lag_of_filters(const DeviceParameters& device, double w) {
+  double phase = 0.0;
+  for (const WallFilter& filter : device.wall.filters) {
+    phase += std::arg(response(filter_section(filter, device.loop.sampling_period), w * device.loop.sampling_period));
+  }
+  return -phase * 180.0 / std::numbers::pi;
+}
+
 }  // namespace
 
 std::string display_name(const Device& device) { return device.name().empty() ? "(unnamed device)" : device.name(); }
@@ -106,6 +116,9 @@ std::optional<std::string> what_limits(const AnalysedDevice& analysed) {
   if (device.actuator.time_constant > 0.0) {
     causes.push_back(fmt::format("the actuator's lag of {}", quantity(device.actuator.time_constant, "s")));
   }
+  if (const double lag = lag_of_filters(device, limit->frequency); lag > 0.0) {
+    causes.push_back(fmt::format("the wall's filters, {:.3g}° behind there", lag));
+  }
   const std::string last = causes.back();
   causes.pop_back();
   causes.insert(causes.begin(), mechanism_name(analysed.analysis, limit->limited_by));
@@ -125,6 +138,71 @@ std::string critical_stiffness_text(const CriticalStiffness& critical, Motion mo
       break;
   }
   return "unbounded: every wall is stable";
+}
+
+std::optional<std::string> interval_note(const AnalysedDevice& analysed) {
+  const auto& interval = analysed.analysis.interval;
+  if (!interval) return std::nullopt;
+  const std::string_view unit = units_of(analysed.device.parameters().motion).stiffness;
+  const auto end = [&](double stiffness) {
+    return std::isfinite(stiffness) ? quantity(stiffness, unit) : std::string("unbounded");
+  };
+  std::string note = fmt::format("{} to {}, from the uncertainty of the parameters in the file alone",
+                                 end(interval->lower), end(interval->upper));
+  if (interval->other_mechanism > 0.0) {
+    note += fmt::format("; in {:.2g} % of the devices that it allows another mechanism limits",
+                        100.0 * interval->other_mechanism);
+  }
+  return note;
+}
+
+std::optional<std::string> any_user_note(const AnalysedDevice& analysed) {
+  if (!analysed.any_user) return std::nullopt;
+  const AnyUserLimit& limit = *analysed.any_user;
+  if (limit.stiffness == 0.0) return "none: some passive user destabilises every wall";
+  if (!std::isfinite(limit.stiffness)) return "unbounded: no passive user destabilises a wall";
+  const std::string stiffness = quantity(limit.stiffness, device_units(analysed).stiffness);
+  if (limit.frequency == 0.0) return stiffness + ", approached by ever heavier users";
+  return fmt::format("{}, worst at {}", stiffness, quantity(hertz(limit.frequency), "Hz"));
+}
+
+std::optional<std::string> worst_user_note(const AnalysedDevice& analysed) {
+  if (!analysed.worst_user) return std::nullopt;
+  const UserNetwork& user = analysed.worst_user->user;
+  const Units units = device_units(analysed);
+  std::vector<std::string> parts;
+  if (user.mass > 0.0) parts.push_back(fmt::format("a mass of {} {}", number(user.mass), units.mass));
+  if (user.stiffness > 0.0) parts.push_back("a spring of " + quantity(user.stiffness, units.stiffness));
+  constexpr std::size_t most_named = 3;
+  if (user.absorbers.size() > most_named) {
+    parts.push_back(fmt::format("{} bodies on springs (--json lists them)", user.absorbers.size()));
+  } else {
+    for (const auto& [mass, stiffness] : user.absorbers) {
+      parts.push_back(
+          fmt::format("{} {} on a spring of {}", number(mass), units.mass, quantity(stiffness, units.stiffness)));
+    }
+  }
+  if (parts.empty()) parts.emplace_back("nobody");
+  const double above = analysed.worst_user->critical_stiffness / analysed.any_user->stiffness - 1.0;
+  return fmt::format("{}: {}, {} % above that limit", fmt::join(parts, ", "),
+                     quantity(analysed.worst_user->critical_stiffness, units.stiffness),
+                     number(100.0 * std::max(above, 0.0)));
+}
+
+std::optional<std::string> user_family_note(const AnalysedDevice& analysed) {
+  if (!analysed.user_family) return std::nullopt;
+  const auto& [family, worst, free] = *analysed.user_family;
+  const Units units = device_units(analysed);
+  if (std::isinf(worst.critical_stiffness)) return "unbounded: every wall is stable with each of them that was tried";
+  const std::string user =
+      fmt::format("mass {} {}, damping {} {}, stiffness {} {}", number(worst.user.mass), units.mass,
+                  number(worst.user.damping), units.damping, number(worst.user.stiffness), units.stiffness);
+  if (worst.critical_stiffness == 0.0) return "none: no wall is stable with " + user;
+  const std::string nobody = free.status == StiffnessStatus::none_stable ? "none"
+                             : free.status == StiffnessStatus::unbounded ? "unbounded"
+                                                                         : quantity(free.stiffness, units.stiffness);
+  return fmt::format("{}, least found, with {} (nobody: {})", quantity(worst.critical_stiffness, units.stiffness), user,
+                     nobody);
 }
 
 std::string meaning(const AnalysedDevice& analysed) {
@@ -277,12 +355,12 @@ std::vector<std::string> caveats(const AnalysedDevice& analysed) {
     texts.emplace_back("The transfer function is taken as it is: a user who is not in it is left out.");
   } else if (device.bodies.size() == 1) {
     texts.emplace_back(
-        "Nobody holds the device here. A user's mass and damping usually steady a rigid device; a springy "
-        "grasp need not.");
+        "Nobody holds the device for the critical stiffness. A wall below the limit for any passive user is stable in "
+        "every hand.");
   } else {
     texts.emplace_back(
-        "Nobody holds the device here. A flexible device that is stable alone can be made unstable by a "
-        "user's grasp: try one with [operator].");
+        "Nobody holds the device for the critical stiffness. A flexible device that is stable alone can be made "
+        "unstable by a user's grasp: the limit for any passive user allows for all of them.");
   }
   std::vector<std::string> left_out;
   const bool coulomb =

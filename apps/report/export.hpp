@@ -22,15 +22,17 @@ struct ExportedModel {
 
 [[nodiscard]] ExportedModel exported_model(AnalysedDevice analysed);
 
-/// The model as a JSON document, schema "zwidth.model/1". Matrices are arrays of rows; polynomials ascend.
+/// The model and its wall as a JSON document, schema "zwidth.model/1". Matrices are arrays of rows; polynomials ascend.
 /// "with_delay_states" is null where the delay exceeds most_delay_states samples: the matrix would be mostly zeros.
 [[nodiscard]] nlohmann::ordered_json export_json(const ExportedModel& model);
 inline constexpr std::size_t most_delay_states = 200;
 
-/// A script for GNU Octave with its control package, that runs as it is: `sysc`, `sysd` and sampled_response(model, w).
+/// A script for GNU Octave with its control package, that runs as it is: `sysc`, `sysd`,
+/// sampled_response(model, w), wall_controller(wall, T, K) and closed_loop_poles(sysd, wall, K).
 [[nodiscard]] std::string export_octave(const ExportedModel& model);
 
-/// A script for Python 3 with SciPy, that runs and imports as it is: `sysc`, `sysd` and sampled_response(w).
+/// A script for Python 3 with SciPy, that runs and imports as it is: `sysc`, `sysd`,
+/// sampled_response(w), wall_controller(K) and closed_loop_poles(K).
 [[nodiscard]] std::string export_python(const ExportedModel& model);
 
 }  // namespace zwidth::report

@@ -3,7 +3,9 @@
 
 #include "report/analysis_json.hpp"
 #include "report/export.hpp"
+#include "report/filter_coefficients.hpp"
 #include "report/quantity.hpp"
+#include "report/wall_filter_json.hpp"
 
 namespace zwidth::report {
 namespace {
@@ -71,6 +73,18 @@ Json with_delay_states_json(const DiscreteStateSpace& discrete) {
           {"C", rows(augmented.C)}};
 }
 
+Json wall_json(const Device& device) {
+  const Wall& wall = device.parameters().wall;
+  const double period = device.loop().sampling_period;
+  return {{"equation",
+           "u = -C(z) y, C(z) = F(z) (K + B v(z)), v(z) = (1 - a)/T (z - 1)/(z - a), F the product of the filters"},
+          {"stiffness", wall.stiffness ? Json(*wall.stiffness) : Json(nullptr)},
+          {"damping", wall.damping},
+          {"velocity_filter_hz", wall.velocity_filter_hz},
+          {"a", velocity_filter_pole(wall, period)},
+          {"filters", wall_filters_json(wall, period)}};
+}
+
 }  // namespace
 
 ExportedModel exported_model(AnalysedDevice analysed) {
@@ -112,6 +126,7 @@ Json export_json(const ExportedModel& model) {
            {{"equation", "z^-l sum N(d)/D(d), d = z - 1, coefficients ascending"},
             {"delay_samples", model.sampled.delay_samples},
             {"terms", sampled_terms(model.sampled)}}},
+          {"wall", wall_json(device)},
           {"status", analysis.at("status")},
           {"critical_stiffness", analysis.at("critical_stiffness")},
           {"crossovers", analysis.at("crossovers")}};

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "report/export.hpp"
+#include "report/filter_coefficients.hpp"
 
 namespace zwidth::report {
 namespace {
@@ -55,6 +56,20 @@ Eigen::MatrixXd crossover_rows(const CriticalStiffness& critical) {
   return rows;
 }
 
+/// The filters of the wall as one matrix each, numerator over denominator, by falling powers of z.
+std::string filter_list(const Wall& wall, double period, const Notation& notation, std::string_view start,
+                        std::string_view end) {
+  std::string text(start);
+  for (const WallFilter& filter : wall.filters) {
+    const FilterCoefficients z = in_z(filter_section(filter, period));
+    Eigen::MatrixXd rows(2, static_cast<Eigen::Index>(z.denominator.size()));
+    rows.row(0) = Eigen::Map<const Eigen::RowVectorXd>(z.numerator.data(), rows.cols());
+    rows.row(1) = Eigen::Map<const Eigen::RowVectorXd>(z.denominator.data(), rows.cols());
+    text += (&filter == &wall.filters.front() ? "" : ", ") + literal(rows, notation);
+  }
+  return text += end;
+}
+
 /// A name as a comment or string of one line: control characters become spaces.
 std::string one_line(std::string name) {
   for (char& character : name) {
@@ -100,8 +115,15 @@ model.Gamma2 = {Gamma2};
 model.terms = {terms};
 model.terms_delay_samples = {m};
 
-% Phase crossovers: frequency in rad/s, stiffness of the wall K (with the virtual damper of {damping:.17g} closed)
+% Phase crossovers: frequency in rad/s, stiffness of the wall K (with the virtual damper and the filters below closed)
 crossovers = {crossovers};
+
+% The wall: u = -C(z) y, C(z) = F(z) (K + B v(z)), v(z) = (1 - a)/T (z - 1)/(z - a), F the product of the filters:
+% numerator over denominator, falling powers of z
+wall.stiffness = {K};  % K{missing}
+wall.damping = {damping:.17g};  % B
+wall.a = {a:.17g};
+wall.filters = {filters};
 )";
 
 constexpr std::string_view octave_body = R"(
@@ -132,6 +154,36 @@ function response = sampled_response(model, w)
     response += polyval(fliplr(model.terms(k, :)), d) ./ polyval(fliplr(model.terms(k + 1, :)), d);
   end
   response .*= exp(-1i * w * model.T * model.terms_delay_samples);
+end
+
+% The wall C(z) as a state space, position in and the force that pushes back out
+function [A, B, C, D] = wall_controller(wall, T, stiffness)
+  rate = wall.damping * (1 - wall.a) / T;
+  sections = wall.filters;
+  A = zeros(0, 0); B = zeros(0, 1); C = zeros(1, 0); D = stiffness;
+  if (wall.damping > 0)
+    D = 1;
+    sections = [{[stiffness + rate, -(stiffness * wall.a + rate); 1, -wall.a]}, sections];
+  end
+  for k = 1:numel(sections)
+    b = sections{k}(1, :);
+    a = sections{k}(2, :);
+    n = numel(a) - 1;
+    As = [-a(2:end); eye(n - 1, n)];
+    Bs = eye(n, 1);
+    Cs = b(2:end) - b(1) * a(2:end);
+    A = [A, zeros(rows(A), n); Bs * C, As];
+    B = [B; Bs * D];
+    C = [b(1) * C, Cs];
+    D = b(1) * D;
+  end
+end
+
+% Poles z of the device with the wall closed at this stiffness, its damper and filters with it
+function poles = closed_loop_poles(sysd, wall, stiffness)
+  [F, G, H] = ssdata(sysd);
+  [A, B, C, D] = wall_controller(wall, sysd.tsam, stiffness);
+  poles = eig([F - G * D * H, -G * C; B * H, A]);
 end
 
 printf('%s\n', device);
@@ -177,9 +229,15 @@ Gamma2 = {Gamma2}
 terms = {terms}
 terms_delay_samples = {m}
 
-# Phase crossovers: frequency in rad/s, stiffness of the wall K (with the virtual damper of {damping:.17g} closed)
+# Phase crossovers: frequency in rad/s, stiffness of the wall K (with the virtual damper and the filters below closed)
 crossovers = {crossovers}.reshape(-1, 2)
 
+# The wall: u = -C(z) y, C(z) = F(z) (K + B v(z)), v(z) = (1 - a)/T (z - 1)/(z - a), F the product of the filters:
+# numerator over denominator, falling powers of z
+wall_stiffness = {K}  # K{missing}
+wall_damping = {damping:.17g}  # B
+wall_a = {a:.17g}
+wall_filters = {filters}
 )";
 
 constexpr std::string_view python_body = R"(
@@ -218,6 +276,33 @@ def sampled_response(w):
     return total * np.exp(-1j * w * T * terms_delay_samples)
 
 
+def wall_controller(stiffness):
+    """The wall C(z) as A, B, C, D: position in, the force that pushes back out."""
+    rate = wall_damping * (1.0 - wall_a) / T
+    sections = list(wall_filters)
+    A, B, C, D = np.zeros((0, 0)), np.zeros((0, 1)), np.zeros((1, 0)), stiffness
+    if wall_damping > 0.0:
+        D = 1.0
+        sections.insert(0, np.array([[stiffness + rate, -(stiffness * wall_a + rate)], [1.0, -wall_a]]))
+    for b, a in sections:
+        n = len(a) - 1
+        As = np.vstack([-a[1:], np.eye(n)[:-1]])
+        Bs = np.eye(n, 1)
+        Cs = (b[1:] - b[0] * a[1:]).reshape(1, n)
+        A = np.block([[A, np.zeros((len(A), n))], [Bs @ C, As]])
+        B = np.vstack([B, Bs * D])
+        C = np.hstack([b[0] * C, Cs])
+        D = b[0] * D
+    return A, B, C, D
+
+
+def closed_loop_poles(stiffness):
+    """Poles z of the device with the wall closed at this stiffness, its damper and filters with it."""
+    A, B, C, D = wall_controller(stiffness)
+    F, G, H = sysd.A, sysd.B, sysd.C
+    return np.linalg.eigvals(np.block([[F - G @ H * D, -G @ C], [B @ H, A]]))
+
+
 if __name__ == "__main__":
     print(device)
     print(f"{'frequency (rad/s)':>20} {'response, real':>25} {'imaginary':>25} {'K (N per unit)':>22}")
@@ -230,30 +315,44 @@ if __name__ == "__main__":
             print(f"{w:20.12g} {p.real:25.16e} {p.imag:25.16e}")
 )";
 
-std::string filled_in(std::string_view data, const ExportedModel& model, const Notation& notation,
+/// What a language calls things.
+struct Words {
+  std::string_view missing;
+  std::string_view list_start;
+  std::string_view list_end;
+};
+
+std::string filled_in(std::string_view data, const ExportedModel& model, const Notation& notation, const Words& words,
                       const std::string& name) {
+  const Wall& wall = model.analysed.device.parameters().wall;
   const Device& device = model.analysed.device;
   const DiscreteStateSpace& discrete = model.discrete;
   const auto matrix = [&](const Eigen::MatrixXd& values) { return literal(values, notation); };
-  return fmt::format(fmt::runtime(data), fmt::arg("comment", one_line(device.name())),
-                     fmt::arg("version", ZWIDTH_VERSION), fmt::arg("device", name),
-                     fmt::arg("A", matrix(model.continuous.A)), fmt::arg("B", matrix(model.continuous.B)),
-                     fmt::arg("C", matrix(model.continuous.C)), fmt::arg("T", discrete.period),
-                     fmt::arg("delay", device.loop().delay), fmt::arg("l", discrete.delay_samples),
-                     fmt::arg("Phi", matrix(discrete.Phi)), fmt::arg("Gamma1", matrix(discrete.Gamma1)),
-                     fmt::arg("Gamma2", matrix(discrete.Gamma2)), fmt::arg("terms", matrix(term_rows(model.sampled))),
-                     fmt::arg("m", model.sampled.delay_samples), fmt::arg("damping", device.parameters().wall.damping),
-                     fmt::arg("crossovers", matrix(crossover_rows(model.analysed.analysis.critical))));
+  return fmt::format(
+      fmt::runtime(data), fmt::arg("comment", one_line(device.name())), fmt::arg("version", ZWIDTH_VERSION),
+      fmt::arg("device", name), fmt::arg("A", matrix(model.continuous.A)), fmt::arg("B", matrix(model.continuous.B)),
+      fmt::arg("C", matrix(model.continuous.C)), fmt::arg("T", discrete.period), fmt::arg("delay", device.loop().delay),
+      fmt::arg("l", discrete.delay_samples), fmt::arg("Phi", matrix(discrete.Phi)),
+      fmt::arg("Gamma1", matrix(discrete.Gamma1)), fmt::arg("Gamma2", matrix(discrete.Gamma2)),
+      fmt::arg("terms", matrix(term_rows(model.sampled))), fmt::arg("m", model.sampled.delay_samples),
+      fmt::arg("damping", wall.damping),
+      fmt::arg("K", wall.stiffness ? fmt::format("{:.17g}", *wall.stiffness) : std::string(words.missing)),
+      fmt::arg("missing", wall.stiffness ? "" : ", not given"),
+      fmt::arg("a", velocity_filter_pole(wall, discrete.period)),
+      fmt::arg("filters", filter_list(wall, discrete.period, notation, words.list_start, words.list_end)),
+      fmt::arg("crossovers", matrix(crossover_rows(model.analysed.analysis.critical))));
 }
 
 }  // namespace
 
 std::string export_octave(const ExportedModel& model) {
-  return filled_in(octave_data, model, octave, octave_string(model.analysed.device.name())) + std::string(octave_body);
+  return filled_in(octave_data, model, octave, {"[]", "{", "}"}, octave_string(model.analysed.device.name())) +
+         std::string(octave_body);
 }
 
 std::string export_python(const ExportedModel& model) {
-  return filled_in(python_data, model, python, python_string(model.analysed.device.name())) + std::string(python_body);
+  return filled_in(python_data, model, python, {"None", "[", "]"}, python_string(model.analysed.device.name())) +
+         std::string(python_body);
 }
 
 }  // namespace zwidth::report

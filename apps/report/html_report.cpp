@@ -13,6 +13,7 @@
 #include "report/markup.hpp"
 #include "report/quantity.hpp"
 #include "report/stiffness_axis_figure.hpp"
+#include "report/wall_filter_text.hpp"
 
 namespace zwidth::report {
 namespace {
@@ -38,6 +39,7 @@ std::string answer(const AnalysedDevice& analysed) {
     text += element("p", fmt::format("{} at {}.", critical.limit->frequency > 0.0 ? "Oscillates" : "Drifts away",
                                      crossover_frequency_text(critical.limit->frequency)));
   }
+  if (const auto interval = interval_note(analysed)) text += element("p", "95 % interval: " + *interval + ".");
   if (const auto limit = what_limits(analysed)) text += element("p", fmt::format("Limited by {}.", *limit));
   return text + "</div>\n";
 }
@@ -133,13 +135,18 @@ std::string parameters(const AnalysedDevice& analysed) {
   if (device.wall.stiffness) add("wall: stiffness", *device.wall.stiffness, units.stiffness);
   add_if("wall: damping", device.wall.damping, units.damping);
   add_if("wall: velocity filter", device.wall.velocity_filter_hz, "Hz");
+  for (const WallFilter& filter : device.wall.filters) table.rows.push_back({"wall: filter", filter_text(filter)});
   return element("h2", "The device as given") + html_table(table);
 }
 
 std::string wall(const AnalysedDevice& analysed) {
   const auto verdict = wall_note(analysed);
-  if (!verdict) return "";
-  return element("h2", "The wall of the file") + element("p", *verdict) + list(wall_margin_notes(analysed.analysis));
+  const auto filters = wall_filters_text(analysed.device.parameters().wall);
+  if (!verdict && !filters) return "";
+  std::string text = element("h2", "The wall of the file");
+  if (filters) text += element("p", fmt::format("Filters in the wall, closed in every number here: {}.", *filters));
+  if (verdict) text += element("p", *verdict) + list(wall_margin_notes(analysed.analysis));
+  return text;
 }
 
 std::string why(const AnalysedDevice& analysed) {

@@ -58,55 +58,76 @@ class Descriptor {
   int value_;
 };
 
-/// 0 or errno.
-int write_all(int descriptor, std::string_view contents) {
+using Produce = std::function<void(const Sink&)>;
+
+/// A failed system call on the way.
+struct SystemError {
+  int number = 0;
+};
+
+void write_all(int descriptor, std::string_view contents) {
   while (!contents.empty()) {
     const ssize_t written = ::write(descriptor, contents.data(), contents.size());
-    if (written < 0 && errno != EINTR) return errno;
+    if (written < 0 && errno != EINTR) throw SystemError{errno};
     if (written > 0) contents.remove_prefix(static_cast<std::size_t>(written));
   }
-  return 0;
 }
 
-void write_through(const std::string& path, std::string_view contents) {
+void produce_into(Descriptor& file, const Produce& produce) {
+  produce([&file](std::string_view piece) { write_all(file.get(), piece); });
+}
+
+void write_through(const std::string& path, const Produce& produce) {
   Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
-  if (file.get() < 0) fail(path, errno);
-  if (const int error = write_all(file.get(), contents)) fail(path, error);
-  if (const int error = file.close()) fail(path, error);
+  if (file.get() < 0) throw SystemError{errno};
+  produce_into(file, produce);
+  if (const int error = file.close()) throw SystemError{error};
 }
 
-/// 0 or errno; the temporary is left for the caller to rename or remove.
-int write_temporary(const fs::path& temporary, std::string_view contents, const struct stat* replaced) {
+void write_temporary(const fs::path& temporary, const Produce& produce, const struct stat* replaced) {
   Descriptor file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
-  if (file.get() < 0) return errno;
-  if (replaced != nullptr && ::fchmod(file.get(), replaced->st_mode & 07777) != 0) return errno;
-  if (const int error = write_all(file.get(), contents)) return error;
-  if (::fsync(file.get()) != 0) return errno;
-  return file.close();
+  if (file.get() < 0) throw SystemError{errno};
+  if (replaced != nullptr && ::fchmod(file.get(), replaced->st_mode & 07777) != 0) throw SystemError{errno};
+  produce_into(file, produce);
+  if (::fsync(file.get()) != 0) throw SystemError{errno};
+  if (const int error = file.close()) throw SystemError{error};
+}
+
+void replace_file(const std::string& path, const Produce& produce) {
+  struct stat existing {};
+  const bool exists = ::stat(path.c_str(), &existing) == 0;
+  if (!exists && errno != ENOENT) throw SystemError{errno};
+  if (exists && S_ISDIR(existing.st_mode)) throw OutputFailed(fmt::format("{}: is a directory; give a file", path));
+  if (exists && !S_ISREG(existing.st_mode)) return write_through(path, produce);
+  if (exists && ::access(path.c_str(), W_OK) != 0) throw SystemError{errno};
+
+  std::error_code unresolved;
+  const fs::path target = exists ? fs::canonical(path, unresolved) : fs::path(path);
+  if (unresolved) throw SystemError{unresolved.value()};
+  const fs::path temporary = target.parent_path() / fmt::format(".zwidth-{}.part", ::getpid());
+  ::unlink(temporary.c_str());  // left by a killed process that had our number
+  try {
+    write_temporary(temporary, produce, exists ? &existing : nullptr);
+    if (::rename(temporary.c_str(), target.c_str()) != 0) throw SystemError{errno};
+  } catch (...) {
+    ::unlink(temporary.c_str());
+    throw;
+  }
 }
 
 }  // namespace
 
-void write_whole(const std::string& path, std::string_view contents) {
+void write_whole(const std::string& path, const std::function<void(const Sink&)>& produce) {
   if (path.empty()) throw OutputFailed("output: the file name is empty");
-  struct stat existing {};
-  const bool exists = ::stat(path.c_str(), &existing) == 0;
-  if (!exists && errno != ENOENT) fail(path, errno);
-  if (exists && S_ISDIR(existing.st_mode)) throw OutputFailed(fmt::format("{}: is a directory; give a file", path));
-  if (exists && !S_ISREG(existing.st_mode)) return write_through(path, contents);
-  if (exists && ::access(path.c_str(), W_OK) != 0) fail(path, errno);
-
-  std::error_code unresolved;
-  fs::path target = exists ? fs::canonical(path, unresolved) : fs::path(path);
-  if (unresolved) fail(path, unresolved.value());
-  const fs::path temporary = target.parent_path() / fmt::format(".zwidth-{}.part", ::getpid());
-  ::unlink(temporary.c_str());  // left by a killed process that had our number
-  int error = write_temporary(temporary, contents, exists ? &existing : nullptr);
-  if (error == 0 && ::rename(temporary.c_str(), target.c_str()) != 0) error = errno;
-  if (error != 0) {
-    ::unlink(temporary.c_str());
-    fail(path, error);
+  try {
+    replace_file(path, produce);
+  } catch (const SystemError& error) {
+    fail(path, error.number);
   }
+}
+
+void write_whole(const std::string& path, std::string_view contents) {
+  write_whole(path, [contents](const Sink& sink) { sink(contents); });
 }
 
 void make_directory(const std::string& path) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -16,6 +17,13 @@ struct OutputFailed : std::runtime_error {
 /// A symbolic link is followed. What is not a regular file (/dev/stdout, a FIFO) is written straight through.
 /// Throws OutputFailed and leaves what was there before (missing or unwritable directory, full disk, a directory).
 void write_whole(const std::string& path, std::string_view contents);
+
+/// Takes the next piece of a text.
+using Sink = std::function<void(std::string_view)>;
+
+/// The same for a text made piece by piece, which need not fit into memory: `produce` is called once, with where to put
+/// its pieces. What it throws passes through, and then too the old file stays.
+void write_whole(const std::string& path, const std::function<void(const Sink&)>& produce);
 
 /// Creates the directory, and its parents, where missing; throws OutputFailed.
 void make_directory(const std::string& path);

@@ -44,8 +44,8 @@ DeviceParameters with_delay(DeviceParameters device, double delay) {
   return device;
 }
 
-const std::array<RelayTrial, 36>& paper_table_2() {
-  static constexpr std::array<RelayTrial, 36> trials = {{
+const std::array<PaperTrial, 36>& paper_table_2() {
+  static constexpr std::array<PaperTrial, 36> trials = {{
       {0, 64.9414, 80.3149},     {0, 64.4531, 79.9414},     {0, 65.4297, 80.3552},     {0, 65.4297, 80.3019},
       {0.001, 60.0586, 76.2336}, {0.001, 59.0820, 75.3235}, {0.001, 60.3027, 75.8445}, {0.001, 58.9600, 75.3917},
       {0.002, 4.8828, 76.1063},  {0.002, 4.8828, 76.4240},  {0.002, 4.8828, 76.9967},  {0.002, 4.8828, 75.7971},

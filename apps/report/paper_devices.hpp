@@ -25,7 +25,7 @@ namespace zwidth::report {
 [[nodiscard]] DeviceParameters with_delay(DeviceParameters device, double delay);
 
 /// A trial of Table II: the relay experiment.
-struct RelayTrial {
+struct PaperTrial {
   double delay = 0.0;         ///< s
   double frequency_hz = 0.0;  ///< of the oscillation
   double margin_db = 0.0;     ///< dB re 1 N/m
@@ -33,6 +33,6 @@ struct RelayTrial {
 inline constexpr std::size_t trials_per_delay = 4;
 
 /// Table II, by rising delay, 0 to 8 ms, four trials each.
-[[nodiscard]] const std::array<RelayTrial, 36>& paper_table_2();
+[[nodiscard]] const std::array<PaperTrial, 36>& paper_table_2();
 
 }  // namespace zwidth::report

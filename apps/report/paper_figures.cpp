@@ -7,7 +7,10 @@
 #include "report/bode_figure.hpp"
 #include "report/delay_figure.hpp"
 #include "report/device_bode.hpp"
+#include "report/identification_figure.hpp"
 #include "report/paper_devices.hpp"
+#include "report/paper_identification.hpp"
+#include "report/paper_relay_figures.hpp"
 #include "report/quantity.hpp"
 #include "report/reproduction.hpp"
 
@@ -49,6 +52,35 @@ PaperFigure figure_03() {
           "The three responses of eq. 3, continuous, neither sampled nor delayed. All share the resonance; G_d and G_m "
           "have an antiresonance each, G_c has none.",
           draw(figure, FigureFormat::svg)};
+}
+
+/// Figs. 4 and 8: the cable's response and the model fitted to it.
+PaperFigure locked_chirp(int number, const DeviceParameters& device, std::string_view cable, std::string_view comment) {
+  const PaperChirp chirp;
+  const IdentifiedDevice identified = identified_cable(device, chirp);
+  const ParameterEstimate& stiffness = identified.fit.estimates[0];
+  const ParameterEstimate& damping = identified.fit.estimates[1];
+  IdentificationLabels labels;
+  labels.title = fmt::format("Figure {}: {}, handle locked (synthetic record)", number, cable);
+  labels.points = "synthetic record, with its 95 % band";
+  return {
+      fmt::format("figure_{:02}.svg", number), labels.title,
+      fmt::format(
+          "Synthetic: the exact sampled device with its handle locked, played with a chirp ({}), its response "
+          "estimated and the cable fitted to it as with a recording. k_c = {:.3f} ± {:.3f} kN/m, b_c = {:.3f} ± {:.3f} "
+          "N s/m (95 %). {}",
+          paper_chirp_text(chirp, device), 1e-3 * stiffness.value, 1e-3 * (*stiffness.upper - stiffness.value),
+          damping.value, *damping.upper - damping.value, comment),
+      draw_identification(identified, labels, FigureFormat::svg)};
+}
+
+PaperFigure figure_04() {
+  return locked_chirp(4, paper_lhifam(), "cable of Table I",
+                      "The points of the printed figure are the authors' measurement, which appears in an image only.");
+}
+
+PaperFigure figure_08() {
+  return locked_chirp(8, paper_lhifam_reduced_pretension(), "cable of reduced pretension", inferred);
 }
 
 PaperFigure figure_07() {
@@ -106,13 +138,12 @@ DelaySeries critical_stiffness_series(std::string name, const DeviceParameters& 
 
 PaperFigure figure_10_delays() {
   DelaySeries trials{"Table II, measured by the relay experiment", DelaySeries::Kind::points, {}};
-  for (const RelayTrial& trial : paper_table_2()) trials.points.push_back({trial.delay, trial.margin_db});
+  for (const PaperTrial& trial : paper_table_2()) trials.points.push_back({trial.delay, trial.margin_db});
   const std::string title = "Critical stiffness against delay";
   return {
       "figure_10_delays.svg", title,
       "Not in the paper: what Figure 10 argues, computed. The kink is where the limit moves from the resonance to "
-      "the rigid body. The measured points stand for comparison; the relay experiment is nonlinear and not "
-      "reproduced yet. " +
+      "the rigid body. The measured points stand for comparison: the relay experiment is nonlinear, see Figure 12. " +
           std::string(inferred),
       draw_delay_figure(title,
                         {critical_stiffness_series("Reduced pretension (inferred)", paper_lhifam_reduced_pretension()),
@@ -134,7 +165,8 @@ PaperFigure figure_14() {
 }  // namespace
 
 std::vector<PaperFigure> paper_figures() {
-  constexpr std::array makers{figure_03, figure_07, figure_09, figure_10, figure_10_delays, figure_14};
+  constexpr std::array makers{figure_03,        figure_04, figure_07, figure_08,          figure_09, figure_10,
+                              figure_10_delays, figure_11, figure_12, figure_12_friction, figure_14};
   std::vector<PaperFigure> figures;
   for (const auto& make : makers) figures.push_back(make());
   return figures;

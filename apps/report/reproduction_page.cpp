@@ -37,10 +37,8 @@ std::string reproduction_page(const std::vector<PaperFigure>& figures) {
     const PaperFigure& figure = figures[i];
     body += html_figure(figure.svg, fmt::format("figure{}", i), figure.caption);
   }
-  body += element("h2", "Not reproduced yet");
-  body += element("p",
-                  "Figures 4 and 8 (measured frequency responses of the cable), 11 and 12 and the measured columns of "
-                  "Table II (relay experiment). Figures 1, 2, 5, 6 and 13 are a photograph and diagrams.");
+  body += element("h2", "Not reproduced");
+  body += element("p", "Figures 1, 2, 5, 6 and 13: a photograph and diagrams.");
   body += fmt::format("<footer>Written by zwidth {}.</footer>\n", ZWIDTH_VERSION);
   return html_page("The LHIfAM paper, reproduced", body);
 }

@@ -1,0 +1,150 @@
+#include "report/design_sweep.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <optional>
+
+#include "report/designed_device.hpp"
+#include "report/explanation.hpp"
+#include "report/quantity.hpp"
+#include "report/text_table.hpp"
+
+namespace zwidth::report {
+namespace {
+
+using Align = TextTable::Align;
+
+constexpr std::size_t width = 100;
+constexpr std::size_t most_rows = 25;
+
+std::string status_text(const SweepPoint& point, std::string_view unit) {
+  switch (point.status) {
+    case StiffnessStatus::none_stable:
+      return "none stable";
+    case StiffnessStatus::unbounded:
+      return "unbounded";
+    case StiffnessStatus::finite:
+      break;
+  }
+  return quantity(point.stiffness, unit);
+}
+
+std::string any_user_text(const AnyUserLimit& limit, std::string_view unit) {
+  if (limit.stiffness == 0.0) return "none";
+  return std::isfinite(limit.stiffness) ? quantity(limit.stiffness, unit) : std::string("unbounded");
+}
+
+std::string mechanism_text(const Crossover& crossover) {
+  return crossover.limited_by.kind == Mechanism::Kind::rigid_body ? "rigid body"
+                                                                  : fmt::format("mode {}", crossover.limited_by.mode);
+}
+
+class Writer {
+ public:
+  explicit Writer(const DesignSweep& sweep)
+      : device_(sweep.device),
+        sweep_(sweep.sweep),
+        motion_(sweep.device.parameters().motion),
+        unit_(units_of(motion_).stiffness) {}
+
+  [[nodiscard]] std::string text() const {
+    const std::string title = shortened(display_name(device_), width) + "\n";
+    return title + (sweep_.axes.size() == 1 ? rows() : extremes());
+  }
+
+ private:
+  [[nodiscard]] std::string value_text(std::size_t axis, double value) const {
+    return parameter_text(sweep_.axes[axis].key, value, motion_);
+  }
+
+  [[nodiscard]] std::string rows() const {
+    const bool any_user = sweep_.points.front().any_user.has_value();
+    TextTable table{{Align::right, Align::right, Align::right, Align::left},
+                    {{sweep_.axes[0].key, "K_CR", "oscillates at", "limited by"}}};
+    if (any_user) {
+      table.alignment.push_back(Align::right);
+      table.rows[0].emplace_back("any user");
+    }
+    const std::size_t count = sweep_.points.size();
+    const std::size_t stride = (count - 1 + most_rows - 2) / (most_rows - 1);
+    for (std::size_t i = 0;; i = std::min(i + stride, count - 1)) {
+      const SweepPoint& point = sweep_.points[i];
+      std::vector<std::string> cells = {value_text(0, sweep_.values[0][i]), status_text(point, unit_),
+                                        point.limit ? quantity(hertz(point.limit->frequency), "Hz") : "-",
+                                        point.limit ? mechanism_text(*point.limit) : "-"};
+      if (any_user) cells.push_back(any_user_text(*point.any_user, unit_));
+      table.rows.push_back(std::move(cells));
+      if (i + 1 == count) break;
+    }
+    const std::size_t shown = table.rows.size() - 1;
+    const std::string thinned =
+        shown < count ? fmt::format("  {} of {} points; --output FILE.csv or --json gives all\n", shown, count) : "";
+    return layout(table) + thinned;
+  }
+
+  [[nodiscard]] std::string place(std::size_t index) const {
+    const std::size_t columns = sweep_.values[1].size();
+    return fmt::format("{} = {}, {} = {}", sweep_.axes[0].key, value_text(0, sweep_.values[0][index / columns]),
+                       sweep_.axes[1].key, value_text(1, sweep_.values[1][index % columns]));
+  }
+
+  [[nodiscard]] std::string extremes() const {
+    std::optional<std::size_t> least;
+    std::optional<std::size_t> most;
+    std::size_t none = 0;
+    std::size_t unbounded = 0;
+    for (std::size_t i = 0; i < sweep_.points.size(); ++i) {
+      const SweepPoint& point = sweep_.points[i];
+      none += point.status == StiffnessStatus::none_stable ? 1U : 0U;
+      unbounded += point.status == StiffnessStatus::unbounded ? 1U : 0U;
+      if (!point.limit) continue;
+      if (!least || point.stiffness < sweep_.points[*least].stiffness) least = i;
+      if (!most || point.stiffness > sweep_.points[*most].stiffness) most = i;
+    }
+    std::string text = fmt::format("  {} x {} points\n", sweep_.values[0].size(), sweep_.values[1].size());
+    if (most) {
+      text += wrap(fmt::format("largest K_CR {} at {}", quantity(sweep_.points[*most].stiffness, unit_), place(*most)),
+                   width, 2);
+      text += wrap(fmt::format("least K_CR {} at {}", quantity(sweep_.points[*least].stiffness, unit_), place(*least)),
+                   width, 2);
+    }
+    if (none > 0) text += fmt::format("  no wall is stable from K = 0 at {} points\n", none);
+    if (unbounded > 0) text += fmt::format("  every wall is stable at {} points\n", unbounded);
+    return text + "  --output FILE.csv or --json gives all points, FILE.svg a map\n";
+  }
+
+  const Device& device_;
+  const ParameterSweep& sweep_;
+  Motion motion_;
+  std::string_view unit_;
+};
+
+}  // namespace
+
+std::string sweep_text(const DesignSweep& sweep) { return Writer(sweep).text(); }
+
+std::string sweep_csv(const DesignSweep& design) {
+  const ParameterSweep& sweep = design.sweep;
+  const bool any_user = sweep.points.front().any_user.has_value();
+  const bool two = sweep.axes.size() == 2;
+  std::string rows = sweep.axes[0].key + (two ? "," + sweep.axes[1].key : "") +
+                     ",critical_stiffness,frequency_rad_s,mode" + (any_user ? ",any_user_stiffness" : "") + "\n";
+  const auto finite = [](double value) { return std::isfinite(value) ? fmt::format("{:.17g}", value) : ""; };
+  const std::size_t columns = two ? sweep.values[1].size() : 1;
+  for (std::size_t i = 0; i < sweep.points.size(); ++i) {
+    const SweepPoint& point = sweep.points[i];
+    rows += fmt::format("{:.17g}", sweep.values[0][i / columns]);
+    if (two) rows += fmt::format(",{:.17g}", sweep.values[1][i % columns]);
+    fmt::format_to(std::back_inserter(rows), ",{},{},{}", finite(point.stiffness),
+                   point.limit ? fmt::format("{:.17g}", point.limit->frequency) : "",
+                   point.limit ? fmt::format("{}", point.limit->limited_by.mode) : "");
+    if (any_user) rows += "," + finite(point.any_user->stiffness);
+    rows += "\n";
+  }
+  return rows;
+}
+
+}  // namespace zwidth::report

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "report/analysed_device.hpp"
+#include "zwidth/design/branch_switch.hpp"
+#include "zwidth/design/sensitivity.hpp"
+
+namespace zwidth::report {
+
+/// A device with what each of its numbers does to its critical stiffness, the input of every report of a design.
+struct DesignedDevice {
+  AnalysedDevice analysed;
+  std::vector<Sensitivity> sensitivities;  ///< of K_CR
+  std::vector<Sensitivity> any_user;       ///< of the any-user limit; empty where there is none
+  /// Of K_CR; absent above most_bodies_for_branch_switches.
+  std::optional<std::vector<BranchSwitch>> branch_switches;
+};
+
+/// Every number is followed through dozens of devices: with more bodies that would take minutes.
+inline constexpr std::size_t most_bodies_for_branch_switches = 8;
+
+/// Throws Error (did_not_converge) as its parts do.
+[[nodiscard]] DesignedDevice designed_device(Device device);
+
+/// "kg", "N s/m", "s", "Hz": the unit of a parameter's key; empty for a ratio.
+[[nodiscard]] std::string parameter_unit(const std::string& key, Motion motion);
+
+/// A parameter's value with its unit: "0.3 kg", "250 µs".
+[[nodiscard]] std::string parameter_text(const std::string& key, double value, Motion motion);
+
+/// The sensitivity of that key, or nullptr.
+[[nodiscard]] const Sensitivity* find_sensitivity(const std::vector<Sensitivity>& sensitivities,
+                                                  const std::string& key);
+
+}  // namespace zwidth::report
