@@ -1,15 +1,22 @@
+#include <fmt/format.h>
+
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "cli/device_arguments.hpp"
+#include "cli/progress_line.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
+#include "cli/users_argument.hpp"
 #include "report/analysed_device.hpp"
 #include "report/analysis_json.hpp"
 #include "report/analysis_text.hpp"
 #include "report/html_report.hpp"
 #include "report/output_file.hpp"
+#include "zwidth/error.hpp"
 
 namespace zwidth::cli {
 namespace {
@@ -18,11 +25,47 @@ struct AnalyzeOptions {
   DeviceArguments devices;
   bool json = false;
   std::optional<std::string> report;
+  bool worst_user = false;
+  std::string users;
 };
+
+void check_that_it_can_be_held(const std::string& option, const std::string& file, const Device& device) {
+  if (!device.has_bodies()) {
+    throw BadInput(fmt::format("{}: {}: is a transfer function; it has no body to hold", option, file));
+  }
+}
+
+/// What --worst-user and --users ask for.
+void answer_about_users(const AnalyzeOptions& options, std::vector<report::AnalysedDevice>& analysed) {
+  std::optional<UserRanges> ranges;
+  if (!options.users.empty()) ranges = user_ranges(options.users);
+  for (std::size_t i = 0; i < analysed.size(); ++i) {
+    const std::string& file = options.devices.files[i];
+    report::AnalysedDevice& each = analysed[i];
+    if (options.worst_user) {
+      check_that_it_can_be_held("--worst-user", file, each.device);
+      if (!each.any_user) {
+        throw BadInput(fmt::format("--worst-user: {}: has {} bodies; at most {}", file, each.device.bodies().size(),
+                                   report::most_bodies_for_any_user));
+      }
+    }
+    if (ranges) check_that_it_can_be_held("--users", file, each.device);
+    try {
+      if (options.worst_user) report::find_worst_user(each);
+      if (ranges) {
+        ProgressLine line("searching the users");
+        report::search_user_family(each, user_family(*ranges, each.device.parameters().user), line.progress());
+      }
+    } catch (const Error& error) {
+      throw WorkFailed(file + ": " + error.what());
+    }
+  }
+}
 
 void run_analyze(const AnalyzeOptions& options) {
   if (options.report) check_output_is_no_input(options.devices, "--report", *options.report);
-  const std::vector<report::AnalysedDevice> analysed = analyze_devices(options.devices);
+  std::vector<report::AnalysedDevice> analysed = analyze_devices(options.devices);
+  answer_about_users(options, analysed);
   if (options.report) report::write_whole(*options.report, report::html_report(analysed));
   if (options.json) {
     std::string lines;
@@ -43,11 +86,17 @@ void add_analyze(CLI::App& app) {
   command->add_flag("--json", options->json, "Print one JSON document per device, one per line");
   command->add_option("--report", options->report, "Also write one self-contained page with figures")
       ->type_name("OUT.html");
+  command->add_flag("--worst-user", options->worst_user,
+                    "Also name the passive user who proves the limit for any user tight");
+  command->add_option("--users", options->users, "Also search a family of users: ranges of mass, damping, stiffness")
+      ->type_name("RANGES")
+      ->check([](const std::string& text) { return text.empty() ? "is empty" : ""; });
   command->footer(
       "Examples:\n"
       "  zwidth analyze devices/lhifam.toml\n"
       "  zwidth analyze devices/lhifam.toml --set wall.stiffness=5000 --set wall.damping=5\n"
       "  zwidth analyze devices/lhifam.toml devices/lhifam_rigid.toml --json\n"
+      "  zwidth analyze devices/lhifam.toml --worst-user --users mass=0:2,damping=0:30,stiffness=0:1000\n"
       "  zwidth analyze devices/lhifam.toml --report lhifam.html");
   command->callback([options] { run_analyze(*options); });
 }

@@ -14,8 +14,8 @@ namespace zwidth::cli {
 void add_device_arguments(CLI::App& command, DeviceArguments& arguments, FileCount count) {
   command.add_option("FILE", arguments.files, "Device file (TOML); - reads standard input")
       ->type_name("")
-      ->required()
-      ->expected(1, count == FileCount::one ? 1 : CLI::detail::expected_max_vector_size);
+      ->required(count != FileCount::one_or_none)
+      ->expected(1, count == FileCount::several ? CLI::detail::expected_max_vector_size : 1);
   command.add_option("--set", arguments.overrides, "Override a key of the device file; may be repeated")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
@@ -45,6 +45,16 @@ void check_output_is_no_input(const DeviceArguments& arguments, const std::strin
       throw BadInput(option + ": " + output + ": would overwrite the device file; name another file");
     }
   }
+}
+
+void check_outputs_differ(const std::string& option, const std::string& output, const std::string& other_option,
+                          const std::string& other_output) {
+  if (output.empty() || other_output.empty()) return;
+  std::error_code one_is_missing;
+  const bool same =
+      std::filesystem::path(output).lexically_normal() == std::filesystem::path(other_output).lexically_normal() ||
+      std::filesystem::equivalent(output, other_output, one_is_missing);
+  if (same) throw BadInput(option + ": " + output + ": is the file of " + other_option + "; name another");
 }
 
 std::vector<report::AnalysedDevice> analyze_devices(const DeviceArguments& arguments) {

@@ -15,7 +15,7 @@ struct DeviceArguments {
   std::vector<std::string> overrides;  ///< KEY=VALUE of every --set, applied to every file
 };
 
-enum class FileCount { one, several };
+enum class FileCount { one_or_none, one, several };
 
 /// Declares FILE (or FILE...) and --set; `arguments` must outlive the parsing.
 void add_device_arguments(CLI::App& command, DeviceArguments& arguments, FileCount count);
@@ -26,6 +26,10 @@ void add_device_arguments(CLI::App& command, DeviceArguments& arguments, FileCou
 
 /// Throws BadInput when the file to write, given with `option`, is one of the device files.
 void check_output_is_no_input(const DeviceArguments& arguments, const std::string& option, const std::string& output);
+
+/// Throws BadInput when two files to write, each given with its option, are one: the second would replace the first.
+void check_outputs_differ(const std::string& option, const std::string& output, const std::string& other_option,
+                          const std::string& other_output);
 
 /// read_devices(), then analyses each. Throws WorkFailed with the file's name where an analysis fails.
 [[nodiscard]] std::vector<report::AnalysedDevice> analyze_devices(const DeviceArguments& arguments);

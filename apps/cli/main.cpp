@@ -38,8 +38,15 @@ int run(int argument_count, char** arguments) {
       "Exit status: 0 done, 1 the work failed, 2 wrong usage or bad input.");
   add_analyze(app);
   add_bode(app);
+  add_design(app);
+  add_excite(app);
   add_export(app);
+  add_frf(app);
+  add_identify(app);
+  add_region(app);
+  add_relay(app);
   add_reproduce(app);
+  add_simulate(app);
   for (CLI::App* command : app.get_subcommands({})) command->group("Commands");
   app.get_formatter()->label("SUBCOMMAND", "COMMAND");
   app.get_formatter()->label("REQUIRED", "");

@@ -20,7 +20,14 @@ struct WorkFailed : std::runtime_error {
 // "  zwidth ..." per example; the tests run every one of them beside a copy of devices/.
 void add_analyze(CLI::App& app);
 void add_bode(CLI::App& app);
+void add_design(CLI::App& app);
+void add_excite(CLI::App& app);
 void add_export(CLI::App& app);
+void add_frf(CLI::App& app);
+void add_identify(CLI::App& app);
+void add_region(CLI::App& app);
+void add_relay(CLI::App& app);
 void add_reproduce(CLI::App& app);
+void add_simulate(CLI::App& app);
 
 }  // namespace zwidth::cli

@@ -1,0 +1,234 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cli/design_notch.hpp"
+#include "cli/device_arguments.hpp"
+#include "cli/progress_line.hpp"
+#include "cli/standard_output.hpp"
+#include "cli/subcommand.hpp"
+#include "cli/sweep_argument.hpp"
+#include "report/canvas.hpp"
+#include "report/design_comparison.hpp"
+#include "report/design_json.hpp"
+#include "report/design_sweep.hpp"
+#include "report/design_sweep_figure.hpp"
+#include "report/design_sweep_json.hpp"
+#include "report/design_text.hpp"
+#include "report/output_file.hpp"
+#include "zwidth/design/parameter_sweep.hpp"
+#include "zwidth/error.hpp"
+#include "zwidth/io/device_file.hpp"
+#include "zwidth/model/parameter.hpp"
+
+namespace zwidth::cli {
+namespace {
+
+struct DesignArguments {
+  DeviceArguments devices;
+  std::vector<std::string> sweeps;
+  std::string compare;
+  std::vector<double> user;  // mass, damping, stiffness
+  std::string output;
+  NotchArguments notch;
+  bool any_user = false;
+  bool json = false;
+};
+
+/// Runs work on the device of `file`; an Error of it is the work's failure.
+template <typename Work>
+auto worked(const std::string& file, const Work& work) {
+  try {
+    return work();
+  } catch (const Error& error) {
+    throw WorkFailed(file + ": " + error.what());
+  }
+}
+
+void run_sensitivities(const DesignArguments& arguments) {
+  if (!arguments.output.empty())
+    throw BadInput("--output: is for a sweep or a notch; add --sweep KEY=FIRST:LAST:COUNT or --notch");
+  const std::vector<Device> devices = read_devices(arguments.devices);
+  std::string text;
+  for (std::size_t i = 0; i < devices.size(); ++i) {
+    const auto designed = worked(arguments.devices.files[i], [&] { return report::designed_device(devices[i]); });
+    if (arguments.json) {
+      text += report::design_json(designed).dump() + "\n";
+    } else {
+      text += (i > 0 ? "\n" : "") + report::design_text(designed);
+    }
+  }
+  write_standard_output(text);
+}
+
+Device only_device(const DesignArguments& arguments, const std::string& option) {
+  if (arguments.devices.files.size() != 1) throw BadInput(option + ": takes one device file");
+  return std::move(read_devices(arguments.devices).front());
+}
+
+/// What --output asks for.
+struct SweepOutput {
+  std::optional<report::FigureFormat> figure;
+  bool csv = false;
+};
+
+SweepOutput sweep_output(const DesignArguments& arguments) {
+  const std::string& path = arguments.output;
+  SweepOutput output{report::figure_format(path), path.ends_with(".csv") || path.ends_with(".CSV")};
+  if (!path.empty() && !output.figure && !output.csv) {
+    throw BadInput(fmt::format("--output: {}: unknown extension; .csv, .svg, .png or .pdf", path));
+  }
+  check_output_is_no_input(arguments.devices, "--output", path);
+  return output;
+}
+
+void check_sweep(const Device& device, const std::vector<SweepAxis>& axes) {
+  const auto problem = find_sweep_problem(device, axes);
+  if (!problem) return;
+  std::string message = fmt::format("--sweep: {}: {}; {}", problem->key, problem->what, problem->allowed);
+  const std::vector<std::string> keys = parameter_keys(device.parameters());
+  const bool is_unknown = std::ranges::any_of(axes, [&](const SweepAxis& axis) {
+    return std::ranges::find(keys, full_parameter_key(device.parameters(), axis.key)) == keys.end();
+  });
+  if (is_unknown) message += fmt::format("\n--sweep: the numbers of this device are {}", fmt::join(keys, ", "));
+  throw BadInput(message);
+}
+
+void run_sweep(const DesignArguments& arguments) {
+  std::vector<SweepAxis> axes;
+  for (const std::string& each : arguments.sweeps) axes.push_back(sweep_axis(each));
+  const SweepOutput output = sweep_output(arguments);
+  const Device device = only_device(arguments, "--sweep");
+  check_sweep(device, axes);
+  // The figure of one parameter shows the any-user limit beside it.
+  const bool is_curve = output.figure.has_value() && axes.size() == 1;
+  const SweepOptions options{arguments.any_user || (is_curve && device.has_bodies()), is_curve};
+  if (options.any_user && !device.has_bodies()) {
+    throw BadInput("--any-user: a transfer function has no body for a user to hold");
+  }
+  ProgressLine line("sweeping");
+  const report::DesignSweep sweep = worked(arguments.devices.files.front(), [&] {
+    return report::DesignSweep{device, parameter_sweep(device, axes, options, line.progress())};
+  });
+  if (output.csv) report::write_whole(arguments.output, report::sweep_csv(sweep));
+  if (output.figure) report::write_whole(arguments.output, report::draw_sweep(sweep, *output.figure));
+  write_standard_output(arguments.json ? report::sweep_json(sweep).dump() + "\n" : report::sweep_text(sweep));
+}
+
+std::vector<std::string> listed_values(const std::string& argument, std::size_t equals) {
+  std::vector<std::string> values(1);
+  int depth = 0;  // of brackets: a list of numbers is one value
+  for (const char letter : argument.substr(equals + 1)) {
+    depth += letter == '[' ? 1 : letter == ']' ? -1 : 0;
+    if (letter == ',' && depth == 0) {
+      values.emplace_back();
+    } else {
+      values.back() += letter;
+    }
+  }
+  return values;
+}
+
+void run_comparison(const DesignArguments& arguments) {
+  if (!arguments.output.empty()) throw BadInput("--output: is for a sweep, not for --compare");
+  const std::size_t equals = arguments.compare.find('=');
+  std::string key = arguments.compare.substr(0, equals);
+  if (equals == std::string::npos || key.empty()) {
+    throw BadInput("--compare: write KEY=VALUE,VALUE, for instance sensed=motor,handle");
+  }
+  for (const char* member : {"actuated", "sensed", "held"}) {
+    if (key == member) key = "loop." + key;
+  }
+  const std::vector<std::string> values = listed_values(arguments.compare, equals);
+  if (values.size() < 2) throw BadInput(fmt::format("--compare: {}: has one value; give two or more", key));
+  for (const std::string& value : values) {
+    if (std::ranges::count(values, value) > 1) throw BadInput(fmt::format("--compare: {}: has {} twice", key, value));
+  }
+  const Device device = only_device(arguments, "--compare");
+  const std::string text = write_device(device.parameters());
+  std::vector<report::Variant> variants;
+  std::string problems;
+  for (const std::string& value : values) {
+    const std::vector<std::string> override = {key + "=" + value};
+    if (auto variant = parse_device(text, arguments.devices.files.front(), override)) {
+      variants.push_back({value, *std::move(variant)});
+    } else {
+      InputError error = variant.error();
+      error.source = "--compare";
+      error.line = error.column = 0;
+      problems += (problems.empty() ? "" : "\n") + error.str();
+    }
+  }
+  if (!problems.empty()) throw BadInput(problems);
+  Operator user = device.parameters().user;
+  if (!arguments.user.empty()) {
+    if (!device.has_bodies()) throw BadInput("--operator: a transfer function has no body for a user to hold");
+    user = {arguments.user[0], arguments.user[1], arguments.user[2]};
+    DeviceParameters held = device.parameters();
+    held.user = user;
+    if (const auto problem = find_problem(held)) {
+      throw BadInput(fmt::format("--operator: {}: {}; {}", problem->key, problem->what, problem->allowed));
+    }
+  }
+  const auto comparison =
+      worked(arguments.devices.files.front(), [&] { return report::compare_designs(key, variants, user); });
+  write_standard_output(arguments.json ? report::comparison_json(comparison).dump() + "\n"
+                                       : report::comparison_text(comparison));
+}
+
+void run_design(const CLI::App& command, const DesignArguments& arguments) {
+  if (arguments.notch.wanted) {
+    if (!arguments.sweeps.empty() || !arguments.compare.empty()) {
+      throw BadInput("--notch: excludes --sweep and --compare");
+    }
+    if (arguments.devices.files.size() != 1) throw BadInput("--notch: takes one device file");
+    return run_notch(arguments.devices, arguments.notch, {arguments.output, arguments.json});
+  }
+  refuse_notch_options(command);
+  if (!arguments.sweeps.empty()) return run_sweep(arguments);
+  if (!arguments.compare.empty()) return run_comparison(arguments);
+  run_sensitivities(arguments);
+}
+
+}  // namespace
+
+void add_design(CLI::App& app) {
+  auto arguments = std::make_shared<DesignArguments>();
+  CLI::App* command =
+      app.add_subcommand("design", "What to change: slopes of every number, sweeps, comparisons, a notch");
+  add_device_arguments(*command, arguments->devices, FileCount::several);
+  command->add_flag("--json", arguments->json, "Print one JSON document per answer, on one line");
+  CLI::Option* sweep = command->add_option("--sweep", arguments->sweeps,
+                                           "Follow a number: KEY=FIRST:LAST:COUNT, or with :log; two: twice");
+  sweep->type_name("KEY=A:B:N")->allow_extra_args(false);
+  command->add_option("-o,--output", arguments->output, "Of a sweep: .csv; of it or of a notch: .svg, .png or .pdf")
+      ->type_name("FILE");
+  command->add_flag("--any-user", arguments->any_user, "Of a sweep: the limit over all passive users too")
+      ->needs(sweep);
+  CLI::Option* compare =
+      command->add_option("--compare", arguments->compare, "Judge several values of one key side by side");
+  compare->type_name("KEY=V,V")->excludes(sweep);
+  command->add_option("--operator", arguments->user, "Of a comparison: the user, instead of the file's [operator]")
+      ->type_name("MASS,DAMPING,STIFFNESS")
+      ->delimiter(',')
+      ->expected(3)
+      ->allow_extra_args(false)
+      ->needs(compare);
+  add_notch_options(*command, arguments->notch);
+  command->footer(
+      "Examples:\n"
+      "  zwidth design devices/lhifam.toml\n"
+      "  zwidth design devices/lhifam.toml --sweep loop.delay=0:8e-3:81 --output delay.svg\n"
+      "  zwidth design devices/lhifam.toml --sweep loop.delay=0:4e-3:9 --sweep link.damping=5:50:9 -o m.svg\n"
+      "  zwidth design devices/lhifam.toml --compare sensed=motor,handle --operator 0.5,6,135\n"
+      "  zwidth design devices/lhifam_reduced_pretension.toml --notch --drift-percent 10 --output notch.svg");
+  command->callback([arguments, command] { run_design(*command, *arguments); });
+}
+
+}  // namespace zwidth::cli

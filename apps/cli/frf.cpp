@@ -1,0 +1,87 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <memory>
+#include <string>
+
+#include "cli/device_arguments.hpp"
+#include "cli/remark_lines.hpp"
+#include "cli/response_arguments.hpp"
+#include "cli/standard_output.hpp"
+#include "cli/subcommand.hpp"
+#include "report/canvas.hpp"
+#include "report/frf_csv.hpp"
+#include "report/frf_figure.hpp"
+#include "report/frf_json.hpp"
+#include "report/frf_text.hpp"
+#include "report/measured_frf.hpp"
+#include "report/output_file.hpp"
+
+namespace zwidth::cli {
+namespace {
+
+struct FrfArguments {
+  ResponseArguments response;
+  report::FrfUnits units;
+  std::string csv;
+  std::string output;
+  bool json = false;
+  bool points = false;
+};
+
+void run_frf(const FrfArguments& arguments) {
+  const RecordingArguments& recording = arguments.response.recording;
+  if (recording.list && arguments.json) throw BadInput("--json: --list prints text; leave one of them out");
+  if (recording.list) return write_standard_output(contents_text(recording));
+  const auto format = report::figure_format(arguments.output);
+  if (!arguments.output.empty() && !format) {
+    throw BadInput(
+        fmt::format("--output: {}: unknown extension; .svg, .png or .pdf (numbers: --csv)", arguments.output));
+  }
+  if (arguments.points && !arguments.json) throw BadInput("--points: is for JSON; add --json, or use --csv FILE");
+  check_output_is_no_input(recording, "--output", arguments.output);
+  check_output_is_no_input(recording, "--csv", arguments.csv);
+  check_outputs_differ("--output", arguments.output, "--csv", arguments.csv);
+
+  MeasuredResponse measured = measured_response(arguments.response);
+  const report::MeasuredFrf frf =
+      report::measured_frf(measured.source, arguments.units, std::move(measured.response), std::move(measured.remarks));
+  if (!arguments.csv.empty()) report::write_whole(arguments.csv, report::frf_csv(frf.response));
+  if (format) report::write_whole(arguments.output, report::draw(frf, *format));
+  if (arguments.json) {
+    write_warnings(frf.remarks);
+    const auto content = arguments.points ? report::FrfContent::with_lines : report::FrfContent::summary;
+    write_standard_output(report::frf_json(frf, content).dump() + "\n");
+  } else {
+    write_standard_output(report::frf_text(frf));
+  }
+}
+
+}  // namespace
+
+void add_frf(CLI::App& app) {
+  auto arguments = std::make_shared<FrfArguments>();
+  CLI::App* command =
+      app.add_subcommand("frf", "Measured frequency response of a recording, and the critical stiffness it shows");
+  add_response_arguments(*command, arguments->response);
+  command->add_option("--force-unit", arguments->units.force, "Unit of the force, for the report")
+      ->type_name("UNIT")
+      ->capture_default_str();
+  command->add_option("--position-unit", arguments->units.position, "Unit of the position")
+      ->type_name("UNIT")
+      ->capture_default_str();
+  command->add_flag("--json", arguments->json, "Print one JSON document on one line");
+  command->add_flag("--points", arguments->points, "With --json: the lines of the response too");
+  command->add_option("--csv", arguments->csv, "Also write the lines of the response")->type_name("FILE");
+  command->add_option("-o,--output", arguments->output, "Also draw a figure: .svg, .png or .pdf")->type_name("FILE");
+  command->footer(
+      "Examples:\n"
+      "  zwidth frf recordings/locked_chirp.csv --list\n"
+      "  zwidth frf recordings/locked_chirp.csv --force force --position position --output frf.svg\n"
+      "  zwidth frf recordings/locked_chirp.csv --force 2 --position 3 --rate 1000 --csv frf.csv --json\n"
+      "  zwidth frf frf.csv --table --magnitude magnitude --phase phase_deg --rate 1000");
+  command->callback([arguments] { run_frf(*arguments); });
+}
+
+}  // namespace zwidth::cli

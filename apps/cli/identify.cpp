@@ -1,0 +1,239 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "cli/identify_rigid_body.hpp"
+#include "cli/progress_line.hpp"
+#include "cli/remark_lines.hpp"
+#include "cli/response_arguments.hpp"
+#include "cli/standard_output.hpp"
+#include "cli/structure_arguments.hpp"
+#include "cli/subcommand.hpp"
+#include "report/identification_figure.hpp"
+#include "report/identification_json.hpp"
+#include "report/identification_text.hpp"
+#include "report/output_file.hpp"
+#include "zwidth/error.hpp"
+#include "zwidth/identification/measured_stiffness.hpp"
+#include "zwidth/identification/record_fit.hpp"
+#include "zwidth/io/device_file.hpp"
+
+namespace zwidth::cli {
+namespace {
+
+struct IdentifyArguments {
+  std::string method = "frequency-response";
+  InverseDynamicsOptions inverse_dynamics;
+  ResponseArguments response;
+  StructureArguments structure;
+  bool from_structure = false;
+  bool no_hold = false;
+  std::string output_device;
+  std::string figure;
+  bool json = false;
+  bool points = false;
+};
+
+void check_output(const IdentifyArguments& arguments, const std::string& option, const std::string& output) {
+  if (output.empty() || output == "-") return;
+  check_output_is_no_input(arguments.response.recording, option, output);
+  std::error_code one_is_missing;
+  if (std::filesystem::equivalent(arguments.structure.structure, output, one_is_missing)) {
+    throw BadInput(option + ": " + output + ": would overwrite the structure; name another file");
+  }
+}
+
+void check_method(const CLI::App& command, const IdentifyArguments& arguments) {
+  if (arguments.method == "inverse-dynamics") return check_inverse_dynamics_options(command);
+  refuse_inverse_dynamics_options(command);
+  if (arguments.structure.structure.empty() && !arguments.response.recording.list) {
+    throw BadInput("--structure: missing; a device file, or rigid, two-body or three-body");
+  }
+}
+
+void check(const IdentifyArguments& arguments) {
+  check_output(arguments, "--output-device", arguments.output_device);
+  check_output(arguments, "--figure", arguments.figure);
+  if (!arguments.figure.empty() && !report::figure_format(arguments.figure)) {
+    throw BadInput(fmt::format("--figure: {}: unknown extension; .svg, .png or .pdf", arguments.figure));
+  }
+  if (arguments.output_device == "-" && arguments.json) {
+    throw BadInput("--output-device: - is standard output, which --json takes; name a file");
+  }
+  if (arguments.response.recording.file == "-" && arguments.structure.structure == "-") {
+    throw BadInput("standard input (-) is given for the recording and the structure; it can be read once");
+  }
+}
+
+/// The fit, and the response it is of.
+RecordFit fitted(const IdentifyArguments& arguments, const Device& device, const MeasuredResponse& measured) {
+  ParameterFitOptions options;
+  options.free = free_parameters(arguments.structure, device);
+  options.locked = arguments.structure.locked;
+  if (arguments.from_structure) options.start = ParameterFitOptions::Start::from_structure;
+  if (arguments.no_hold) options.critical_point = ParameterFitOptions::CriticalPoint::free;
+  try {
+    RecordFit fit{fit_parameters(device, measured.response, options), measured.response};
+    if (!measured.motion) return fit;
+    return without_leakage(std::move(fit), measured.motion->force(), measured.motion->motion(), measured.options,
+                           options);
+  } catch (const Error& error) {
+    if (error.code() == ErrorCode::did_not_converge) throw WorkFailed(measured.source + ": " + error.what());
+    throw BadInput(measured.source + ": " + error.what());
+  }
+}
+
+/// Numbers of a named structure that the data leave open are no one's.
+void warn_of_placeholders(const IdentifyArguments& arguments, report::IdentifiedDevice& identified) {
+  if (!is_named_structure(arguments.structure)) return;
+  for (const ParameterEstimate& estimate : identified.fit.estimates) {
+    if (estimate.identifiable) continue;
+    identified.remarks.push_back(
+        {Remark::Severity::warning,
+         fmt::format("{} = {:.4g} is a placeholder: the data do not determine it", estimate.key, estimate.value),
+         "give what is known with --set, or a device file as the structure"});
+  }
+}
+
+/// A fit whose critical stiffness lies above the one that the same data show without a model is not to be trusted.
+void warn_of_unsafe_fit(report::IdentifiedDevice& identified) {
+  constexpr double tolerated = 1.05;
+  const Device& device = identified.fit.device;
+  const auto& period = identified.response.sampling_period;
+  const bool same_loop = period && std::abs(*period - device.loop().sampling_period) <= 1e-6 * *period;
+  if (!same_loop || device.parameters().wall.damping > 0.0 || identified.response.points.size() < 2) return;
+  const MeasuredStiffness measured = measured_stiffness(identified.response);
+  if (measured.crossovers.empty()) return;
+  double proven = std::numeric_limits<double>::infinity();
+  for (const MeasuredCrossover& each : measured.crossovers) {
+    if (each.poles_leaving > 0) proven = std::min(proven, each.stiffness_interval.upper);
+  }
+  const double fitted = identified.analysed.analysis.critical.stiffness;
+  if (!(fitted > tolerated * proven)) return;
+  identified.remarks.push_back(
+      {Remark::Severity::warning,
+       fmt::format("UNSAFE: this device's critical stiffness, {:.4g}, lies above {:.4g}, where the same data show an "
+                   "oscillation without any model",
+                   fitted, proven),
+       "use the one of zwidth frf; the structure lacks something: try --free all,loop.delay,actuator.time_constant, or "
+       "name bodies that were --locked"});
+}
+
+report::IdentifiedDevice identified_device(const IdentifyArguments& arguments) {
+  MeasuredResponse measured = measured_response(arguments.response);
+  const Device device = structure(arguments.structure, measured.response.sampling_period);
+  RecordFit fit = fitted(arguments, device, measured);
+  report::AnalysedDevice analysed = [&] {
+    try {
+      return report::analysed_device(fit.fit.device);
+    } catch (const Error& error) {
+      throw WorkFailed(measured.source + ": " + error.what());
+    }
+  }();
+  report::IdentifiedDevice identified{measured.source, std::move(fit.response), std::move(fit.fit), std::move(analysed),
+                                      std::move(measured.remarks)};
+  for (const Remark& remark : identified.fit.remarks) identified.remarks.push_back(remark);
+  warn_of_placeholders(arguments, identified);
+  if (arguments.structure.locked.empty()) warn_of_unsafe_fit(identified);
+  return identified;
+}
+
+/// The device file, its warnings as comments at the top: whoever reads it later is told as well.
+std::string device_text(const report::IdentifiedDevice& identified) {
+  std::string text;
+  for (const Remark& remark : identified.remarks) {
+    if (remark.severity != Remark::Severity::warning) continue;
+    std::string line = "WARNING: " + remark.what + (remark.meaning.empty() ? "" : "; " + remark.meaning);
+    std::replace_if(
+        line.begin(), line.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
+    text += "# " + line + "\n";
+  }
+  return text + write_device(identified.fit.device.parameters());
+}
+
+std::string device_hint(const IdentifyArguments& arguments) {
+  return arguments.output_device.empty() ? "\nThe device as a file: add --output-device FILE.toml\n"
+                                         : "\nThe device is in " + arguments.output_device + "\n";
+}
+
+/// `identify --method inverse-dynamics`, whose outputs have been checked.
+void run_inverse_dynamics(const IdentifyArguments& arguments) {
+  const report::IdentifiedRigidBody identified =
+      fitted_rigid_body(arguments.response.recording, arguments.structure, arguments.inverse_dynamics);
+  const std::string device = write_device(identified.device.parameters());
+  const bool to_file = !arguments.output_device.empty() && arguments.output_device != "-";
+  if (to_file) report::write_whole(arguments.output_device, device);
+  if (arguments.json) {
+    write_standard_output(rigid_body_json(identified).dump() + "\n");
+  } else if (arguments.output_device == "-") {
+    write_warnings(identified.remarks);
+    write_standard_output(device);
+  } else {
+    write_standard_output(rigid_body_text(identified) + device_hint(arguments));
+  }
+}
+
+void run_identify(const IdentifyArguments& arguments) {
+  if (arguments.response.recording.list) {
+    write_standard_output(contents_text(arguments.response.recording));
+    return;
+  }
+  check(arguments);
+  if (arguments.method == "inverse-dynamics") return run_inverse_dynamics(arguments);
+  const report::IdentifiedDevice identified = identified_device(arguments);
+  const std::string device = device_text(identified);
+  const bool to_file = !arguments.output_device.empty() && arguments.output_device != "-";
+  if (!arguments.figure.empty()) {
+    report::write_whole(arguments.figure, draw_identification(identified, *report::figure_format(arguments.figure)));
+  }
+  if (to_file) report::write_whole(arguments.output_device, device);
+  if (arguments.json) {
+    const auto points = arguments.points ? report::PointsInJson::included : report::PointsInJson::left_out;
+    write_standard_output(identification_json(identified, points).dump() + "\n");
+  } else if (arguments.output_device == "-") {
+    write_warnings(identified.remarks);
+    write_standard_output(device);
+  } else {
+    write_standard_output(identification_text(identified) + device_hint(arguments));
+  }
+}
+
+}  // namespace
+
+void add_identify(CLI::App& app) {
+  auto arguments = std::make_shared<IdentifyArguments>();
+  CLI::App* command = app.add_subcommand("identify", "Parameters of a device from a recording, with their uncertainty");
+  add_response_arguments(*command, arguments->response);
+  add_structure_arguments(*command, arguments->structure);
+  command->get_option("--structure")->required(false);  // check_method() asks for it where it is needed
+  add_inverse_dynamics_options(*command, arguments->inverse_dynamics);
+  command->add_option("--method", arguments->method, "frequency-response, or inverse-dynamics (one rigid body)")
+      ->type_name("NAME")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"frequency-response", "inverse-dynamics"}));
+  command->add_flag("--from-structure", arguments->from_structure,
+                    "Start from the structure's values instead of what the data suggest");
+  command->add_flag("--no-hold", arguments->no_hold, "Do not hold an imperfect fit to the measured critical stiffness");
+  command->add_option("--output-device", arguments->output_device, "Write the fitted device; - is standard output")
+      ->type_name("FILE.toml");
+  command->add_option("--figure", arguments->figure, "Draw data, band and fit (.svg, .png, .pdf)")->type_name("FILE");
+  CLI::Option* json = command->add_flag("--json", arguments->json, "Print one JSON document on one line");
+  command->add_flag("--points", arguments->points, "Measured and fitted response in the JSON document")->needs(json);
+  command->footer(
+      "Examples:\n"
+      "  zwidth identify recordings/locked_chirp.csv --force force --position position \\\n"
+      "    --structure devices/lhifam.toml --free link.stiffness,link.damping --locked handle\n"
+      "  zwidth identify recordings/free_motion.csv --force force --position position \\\n"
+      "    --method inverse-dynamics");
+  command->callback([arguments, command] {
+    check_method(*command, *arguments);
+    run_identify(*arguments);
+  });
+}
+
+}  // namespace zwidth::cli

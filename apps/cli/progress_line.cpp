@@ -1,0 +1,42 @@
+#include "cli/progress_line.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <utility>
+
+#include "cli/standard_output.hpp"
+
+namespace zwidth::cli {
+namespace {
+
+using std::chrono::milliseconds;
+constexpr milliseconds quiet_for{500};
+constexpr milliseconds apart{100};
+constexpr std::string_view back_and_wipe = "\r\x1b[K";
+
+}  // namespace
+
+ProgressLine::ProgressLine(std::string work)
+    : work_(std::move(work)),
+      terminal_(::isatty(STDERR_FILENO) == 1),
+      next_(std::chrono::steady_clock::now() + quiet_for) {}
+
+ProgressLine::~ProgressLine() {
+  if (shown_) write_standard_error(back_and_wipe);
+}
+
+Progress ProgressLine::progress() {
+  if (!terminal_) return {};
+  return [this](double fraction) { show(fraction); };
+}
+
+void ProgressLine::show(double fraction) {
+  const auto now = std::chrono::steady_clock::now();
+  if (now < next_) return;
+  next_ = now + apart;
+  shown_ = true;
+  write_standard_error(fmt::format("{}{}: {:3.0f} %", back_and_wipe, work_, 100.0 * fraction));
+}
+
+}  // namespace zwidth::cli

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <chrono>
+#include <string>
+
+#include "zwidth/progress.hpp"
+
+namespace zwidth::cli {
+
+/// One line on a terminal's standard error that shows how far long work is, and is wiped when it ends. Nothing is
+/// written where standard error is no terminal, nor for work of less than half a second.
+class ProgressLine {
+ public:
+  explicit ProgressLine(std::string work);  ///< "reading run.csv"
+  ~ProgressLine();
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+
+  /// To hand to the library; must not outlive this.
+  [[nodiscard]] Progress progress();
+
+ private:
+  void show(double fraction);
+
+  std::string work_;
+  bool terminal_;
+  bool shown_ = false;
+  std::chrono::steady_clock::time_point next_;
+};
+
+}  // namespace zwidth::cli

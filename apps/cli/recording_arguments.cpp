@@ -1,0 +1,215 @@
+#include "cli/recording_arguments.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include "cli/progress_line.hpp"
+#include "cli/subcommand.hpp"
+#include "report/remark_line.hpp"
+#include "report/text_table.hpp"
+
+namespace zwidth::cli {
+namespace {
+
+constexpr const char* group = recording_group;
+
+void add_column(CLI::App& command, const std::string& name, ColumnRequest& column, const std::string& what) {
+  command.add_option("--" + name, column.name, what)->type_name("COLUMN")->group(group);
+  command.add_option("--" + name + "-scale", column.scale, "What its samples are multiplied by, to get SI units")
+      ->type_name("X")
+      ->capture_default_str()
+      ->group(group);
+}
+
+void check_scale(const std::string& option, double scale) {
+  if (!std::isfinite(scale) || scale == 0.0) throw BadInput(fmt::format("{}: is {}; a number but 0", option, scale));
+}
+
+void check_positive(const std::string& option, double value, std::string_view unit) {
+  if (!(std::isfinite(value) && value > 0.0)) {
+    throw BadInput(fmt::format("{}: is {}; a number of {} above 0", option, value, unit));
+  }
+}
+
+char delimiter_of(const std::string& text) {
+  if (text == "tab" || text == "\\t" || text == "\t") return '\t';
+  if (text == "space" || text == "blank" || text == " ") return ' ';
+  if (text == "comma" || text == ",") return ',';
+  if (text == "semicolon" || text == ";") return ';';
+  throw BadInput(fmt::format("--delimiter: is '{}'; comma, semicolon, tab or space", text));
+}
+
+char decimal_mark_of(const std::string& text) {
+  if (text == "." || text == "point") return '.';
+  if (text == "," || text == "comma") return ',';
+  throw BadInput(fmt::format("--decimal: is '{}'; point or comma", text));
+}
+
+RecordingFormat format_of(const std::string& text) {
+  if (text == "text") return RecordingFormat::text;
+  if (text == "mat") return RecordingFormat::mat;
+  if (text == "uff") return RecordingFormat::uff;
+  return RecordingFormat::detect;  // CLI11 has checked the word
+}
+
+/// "; FILE has: a, b, c", or nothing where the file cannot be listed (its own error is then better).
+std::string columns_of(const RecordingArguments& arguments) {
+  if (arguments.file == "-") return "";
+  const auto contents = list_recording(arguments.file, recording_options(arguments));
+  if (!contents) throw BadInput(contents.error().str());
+  constexpr std::size_t most = 30;
+  std::string names;
+  for (std::size_t i = 0; i < std::min(most, contents->columns.size()); ++i) {
+    names += (names.empty() ? "" : ", ") + contents->columns[i].name;
+  }
+  if (contents->columns.size() > most) names += ", ...";
+  return names.empty() ? "" : fmt::format("; {} has: {}", arguments.file, names);
+}
+
+struct RequestedMotion {
+  ColumnRequest column;
+  OutputQuantity output = OutputQuantity::position;
+  SignalRole role = SignalRole::position;
+};
+
+RequestedMotion requested_motion(const RecordingArguments& arguments) {
+  const std::array<RequestedMotion, 3> candidates{
+      RequestedMotion{arguments.position, OutputQuantity::position, SignalRole::position},
+      RequestedMotion{arguments.velocity, OutputQuantity::velocity, SignalRole::velocity},
+      RequestedMotion{arguments.acceleration, OutputQuantity::acceleration, SignalRole::acceleration}};
+  const RequestedMotion* found = nullptr;
+  for (const RequestedMotion& candidate : candidates) {
+    if (candidate.column.name.empty()) continue;
+    if (found) throw BadInput("--position, --velocity, --acceleration: more than one is given; give one");
+    found = &candidate;
+  }
+  if (!found) {
+    throw BadInput("--position: missing; name the column of the motion with --position, --velocity or --acceleration" +
+                   columns_of(arguments));
+  }
+  return *found;
+}
+
+}  // namespace
+
+void add_recording_arguments(CLI::App& command, RecordingArguments& arguments) {
+  command.add_option("FILE", arguments.file, "Recording: text (CSV, ...), MAT or UFF 58; - reads standard input")
+      ->type_name("")
+      ->required();
+  add_recording_options(command, arguments);
+}
+
+void add_recording_options(CLI::App& command, RecordingArguments& arguments) {
+  command.add_flag("--list", arguments.list, "Print what the file holds, and do nothing else")->group(group);
+  add_column(command, "force", arguments.force, "Commanded force: a column's name, or its number from 1");
+  add_column(command, "position", arguments.position, "Sensed position");
+  add_column(command, "velocity", arguments.velocity, "Sensed velocity, where no position is recorded");
+  add_column(command, "acceleration", arguments.acceleration, "Sensed acceleration, where no position is recorded");
+  command.add_option("--rate", arguments.options.rate, "Samples per second, where no column holds the time")
+      ->type_name("HZ")
+      ->group(group);
+  command.add_option("--time", arguments.options.time_column, "Column of times")->type_name("COLUMN")->group(group);
+  command
+      .add_option("--time-scale", arguments.options.time_scale,
+                  "Seconds per unit of that column; else by the unit in its name, or 1")
+      ->type_name("S")
+      ->group(group);
+  command.add_option("--timer-bits", arguments.options.timer_bits, "The time column counts up and wraps at 2^BITS")
+      ->type_name("BITS")
+      ->check(CLI::Range(1, 64))
+      ->group(group);
+  command.add_option("--format", arguments.format, "auto, text, mat or uff")
+      ->type_name("FORMAT")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"auto", "text", "mat", "uff"}))
+      ->group(group);
+  command.add_option("--delimiter", arguments.delimiter, "Of a text: comma, semicolon, tab or space; else detected")
+      ->type_name("NAME")
+      ->group(group);
+  command.add_option("--decimal", arguments.decimal_mark, "Of a text: point or comma; else detected")
+      ->type_name("NAME")
+      ->group(group);
+  CLI::Option* header =
+      command.add_flag("--header", arguments.header, "The first line of a text names the columns; else detected");
+  header->group(group);
+  command.add_flag("--no-header", arguments.no_header, "A text has no such line: columns are numbers from 1")
+      ->excludes(header)
+      ->group(group);
+  command
+      .add_option("--comment", arguments.options.comment, "Lines of a text that begin with one of these are skipped")
+      ->type_name("CHARACTERS")
+      ->capture_default_str()
+      ->group(group);
+}
+
+RecordingOptions recording_options(const RecordingArguments& arguments) {
+  RecordingOptions options = arguments.options;
+  if (options.rate) check_positive("--rate", *options.rate, "Hz");
+  if (options.time_scale) check_positive("--time-scale", *options.time_scale, "seconds");
+  check_scale("--force-scale", arguments.force.scale);
+  check_scale("--position-scale", arguments.position.scale);
+  check_scale("--velocity-scale", arguments.velocity.scale);
+  check_scale("--acceleration-scale", arguments.acceleration.scale);
+  options.format = format_of(arguments.format);
+  if (!arguments.delimiter.empty()) options.delimiter = delimiter_of(arguments.delimiter);
+  if (!arguments.decimal_mark.empty()) options.decimal_mark = decimal_mark_of(arguments.decimal_mark);
+  if (options.delimiter && options.decimal_mark && *options.delimiter == *options.decimal_mark) {
+    throw BadInput("--decimal: the decimal mark is the delimiter; they must differ");
+  }
+  if (arguments.header) options.header = RecordingOptions::Header::present;
+  if (arguments.no_header) options.header = RecordingOptions::Header::absent;
+  return options;
+}
+
+RecordedMotion read_motion(const RecordingArguments& arguments) {
+  RecordingOptions options = recording_options(arguments);
+  if (arguments.force.name.empty()) {
+    throw BadInput("--force: missing; name the column of the commanded force" + columns_of(arguments));
+  }
+  const RequestedMotion motion = requested_motion(arguments);
+  options.columns = {arguments.force, motion.column};
+  ProgressLine line("reading " + arguments.file);
+  auto recording = read_recording(arguments.file, options, line.progress());
+  if (!recording) throw BadInput(recording.error().str());
+  RecordedMotion recorded{*std::move(recording), motion.output};
+  const auto check = [&recorded](std::size_t channel, SignalRole role) {
+    for (Remark& remark :
+         check_signal(recorded.recording.channels[channel], recorded.recording.sampling_period, role)) {
+      recorded.recording.remarks.push_back(std::move(remark));
+    }
+  };
+  check(0, SignalRole::force);
+  check(1, motion.role);
+  return recorded;
+}
+
+std::string contents_text(const RecordingArguments& arguments) {
+  const auto contents = list_recording(arguments.file, recording_options(arguments));
+  if (!contents) throw BadInput(contents.error().str());
+  using Align = report::TextTable::Align;
+  report::TextTable table{{Align::right, Align::left, Align::right, Align::left}, {{"", "column", "samples", ""}}};
+  for (std::size_t i = 0; i < contents->columns.size(); ++i) {
+    const RecordingColumn& column = contents->columns[i];
+    table.rows.push_back({std::to_string(i + 1), column.name, std::to_string(column.size), column.detail});
+  }
+  std::string text = report::layout(table);
+  for (const Remark& remark : contents->remarks) {
+    text += report::remark_line(remark) + "\n";
+  }
+  return text;
+}
+
+void check_output_is_no_input(const RecordingArguments& arguments, const std::string& option,
+                              const std::string& output) {
+  std::error_code one_is_missing;
+  if (std::filesystem::equivalent(arguments.file, output, one_is_missing)) {
+    throw BadInput(option + ": " + output + ": would overwrite the recording; name another file");
+  }
+}
+
+}  // namespace zwidth::cli

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <CLI/App.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "zwidth/identification/frequency_response.hpp"
+#include "zwidth/identification/recording.hpp"
+#include "zwidth/io/recording_file.hpp"
+
+namespace zwidth::cli {
+
+/// What the commands about recordings share on their command line: the file, its columns, its time axis, its format.
+struct RecordingArguments {
+  std::string file;  ///< "-": standard input
+  ColumnRequest force;
+  ColumnRequest position;  ///< one of these three
+  ColumnRequest velocity;
+  ColumnRequest acceleration;
+  RecordingOptions options;  ///< all but the columns
+  bool list = false;         ///< print what the file holds and do nothing else
+
+  // As typed; recording_options() translates them.
+  std::string format = "auto";
+  std::string delimiter;
+  std::string decimal_mark;
+  bool header = false;
+  bool no_header = false;
+};
+
+/// Declares FILE and the options; `arguments` must outlive the parsing.
+void add_recording_arguments(CLI::App& command, RecordingArguments& arguments);
+
+inline constexpr const char* recording_group = "Recording";
+
+/// The options alone, in the group recording_group; the file is named otherwise.
+void add_recording_options(CLI::App& command, RecordingArguments& arguments);
+
+/// The reader's options as the command line asks for them, without columns. Throws BadInput.
+[[nodiscard]] RecordingOptions recording_options(const RecordingArguments& arguments);
+
+/// Force and motion as recorded together.
+struct RecordedMotion {
+  Recording recording;  ///< channels: force, motion
+  OutputQuantity output = OutputQuantity::position;
+  [[nodiscard]] const std::vector<double>& force() const { return recording.channels[0].samples; }
+  [[nodiscard]] const std::vector<double>& motion() const { return recording.channels[1].samples; }
+};
+
+/// Reads force and motion, shows progress, and adds what check_signal() finds to the recording's remarks.
+/// Throws BadInput: a column that is not named (the message lists the file's), or a file that is refused.
+[[nodiscard]] RecordedMotion read_motion(const RecordingArguments& arguments);
+
+/// What the file holds, as --list prints it. Throws BadInput.
+[[nodiscard]] std::string contents_text(const RecordingArguments& arguments);
+
+/// Throws BadInput when the file to write, given with `option`, is the recording.
+void check_output_is_no_input(const RecordingArguments& arguments, const std::string& option,
+                              const std::string& output);
+
+}  // namespace zwidth::cli

@@ -1,0 +1,80 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "cli/device_arguments.hpp"
+#include "cli/standard_output.hpp"
+#include "cli/subcommand.hpp"
+#include "report/canvas.hpp"
+#include "report/device_region.hpp"
+#include "report/output_file.hpp"
+#include "report/region_csv.hpp"
+#include "report/region_figure.hpp"
+#include "report/region_json.hpp"
+#include "report/region_text.hpp"
+#include "zwidth/error.hpp"
+
+namespace zwidth::cli {
+namespace {
+
+struct RegionArguments {
+  DeviceArguments devices;
+  std::string csv;
+  std::string output;
+  std::optional<std::size_t> raster;
+  bool json = false;
+};
+
+report::DeviceRegion region_of(const DeviceArguments& arguments) {
+  std::vector<Device> devices = read_devices(arguments);
+  try {
+    return report::device_region(std::move(devices.front()));
+  } catch (const Error& error) {
+    throw WorkFailed(arguments.files.front() + ": " + error.what());
+  }
+}
+
+void run_region(const RegionArguments& arguments) {
+  const auto format = report::figure_format(arguments.output);
+  if (!arguments.output.empty() && !format) {
+    throw BadInput(
+        fmt::format("--output: {}: unknown extension; .svg, .png or .pdf (numbers: --csv)", arguments.output));
+  }
+  if (arguments.raster && arguments.csv.empty()) throw BadInput("--raster: is for a csv file; add --csv FILE");
+  check_output_is_no_input(arguments.devices, "--output", arguments.output);
+  check_output_is_no_input(arguments.devices, "--csv", arguments.csv);
+  check_outputs_differ("--output", arguments.output, "--csv", arguments.csv);
+  const report::DeviceRegion device = region_of(arguments.devices);
+  if (!arguments.csv.empty()) {
+    report::write_whole(arguments.csv, arguments.raster ? report::region_raster_csv(device, *arguments.raster)
+                                                        : report::region_csv(device.region));
+  }
+  if (format) report::write_whole(arguments.output, report::draw_region(device, *format));
+  write_standard_output(arguments.json ? report::region_json(device).dump() + "\n" : report::region_text(device));
+}
+
+}  // namespace
+
+void add_region(CLI::App& app) {
+  auto arguments = std::make_shared<RegionArguments>();
+  CLI::App* command =
+      app.add_subcommand("region", "Every stable wall, stiff and damped: the region in the plane of K and B");
+  add_device_arguments(*command, arguments->devices, FileCount::one);
+  command->add_flag("--json", arguments->json, "Print the region as one JSON document on one line");
+  command->add_option("--csv", arguments->csv, "Also write the boundary's points")->type_name("FILE");
+  command->add_option("--raster", arguments->raster, "With --csv: N x N walls, each stable or not, instead")
+      ->type_name("N")
+      ->check(CLI::Range(2, 2000));
+  command->add_option("-o,--output", arguments->output, "Also draw a figure: .svg, .png or .pdf")->type_name("FILE");
+  command->footer(
+      "Examples:\n"
+      "  zwidth region devices/lhifam.toml\n"
+      "  zwidth region devices/lhifam.toml --set wall.velocity_filter_hz=100 --output region.svg\n"
+      "  zwidth region devices/lhifam.toml --set loop.delay=0.25e-3 --json --csv boundary.csv\n"
+      "  zwidth region devices/lhifam.toml --raster 100 --csv map.csv");
+  command->callback([arguments] { run_region(*arguments); });
+}
+
+}  // namespace zwidth::cli

@@ -1,0 +1,17 @@
+#include "cli/remark_lines.hpp"
+
+#include <string>
+
+#include "cli/standard_output.hpp"
+#include "report/remark_line.hpp"
+
+namespace zwidth::cli {
+
+void write_warnings(std::span<const Remark> remarks) {
+  for (const Remark& remark : remarks) {
+    if (remark.severity != Remark::Severity::warning) continue;
+    write_standard_error("zwidth: " + report::remark_line(remark) + "\n");
+  }
+}
+
+}  // namespace zwidth::cli

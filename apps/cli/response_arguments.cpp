@@ -1,0 +1,221 @@
+#include "cli/response_arguments.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+#include <utility>
+
+#include "cli/progress_line.hpp"
+#include "cli/subcommand.hpp"
+#include "zwidth/error.hpp"
+
+namespace zwidth::cli {
+namespace {
+
+constexpr const char* estimate_group = "Estimate";
+constexpr const char* table_group = "Table of a response";
+constexpr double radians_per_turn = 2.0 * std::numbers::pi;
+
+void add_estimate_options(CLI::App& command, ResponseArguments& arguments) {
+  CLI::Option* period = command.add_option("--period", arguments.period, "Samples after which the force repeats");
+  period->type_name("N")->check(CLI::PositiveNumber)->group(estimate_group);
+  command
+      .add_option("--skip-periods", arguments.options.skip_periods, "Leading periods in which the transient dies out")
+      ->type_name("N")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str()
+      ->group(estimate_group);
+  command.add_flag("--aperiodic", arguments.aperiodic, "Do not look for a period: average segments (Welch)")
+      ->excludes(period)
+      ->group(estimate_group);
+  command
+      .add_option("--segment", arguments.options.segment_length, "Samples of a segment; else chosen from the record")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber)
+      ->group(estimate_group);
+  command.add_option("--overlap", arguments.options.overlap, "Of segments, from 0 to below 1")
+      ->type_name("X")
+      ->capture_default_str()
+      ->group(estimate_group);
+  command.add_option("--window", arguments.window, "Of segments: hann, hamming, blackman or rectangular")
+      ->type_name("NAME")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"hann", "hamming", "blackman", "rectangular"}))
+      ->group(estimate_group);
+  command.add_option("--estimator", arguments.estimator, "h1: noise on the motion only; h2: noise on the force only")
+      ->type_name("NAME")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"h1", "h2"}))
+      ->group(estimate_group);
+  command.add_option("--lowest-hz", arguments.lowest_hz, "Leave out what is below")
+      ->type_name("HZ")
+      ->group(estimate_group);
+  command.add_option("--highest-hz", arguments.highest_hz, "Leave out what is above")
+      ->type_name("HZ")
+      ->group(estimate_group);
+  command.add_flag("--no-detrend", arguments.no_detrend, "Leave mean and drift in")->group(estimate_group);
+}
+
+void add_table_options(CLI::App& command, ResponseArguments& arguments) {
+  CLI::Option* table = command.add_flag("--table", arguments.is_table,
+                                        "FILE is a response: of a plant sampled at --rate, or else continuous");
+  table->group(table_group);
+  const auto add = [&](const char* name, auto& value, const char* what, const char* type) {
+    return command.add_option(name, value, what)->type_name(type)->needs(table)->group(table_group);
+  };
+  add("--frequency", arguments.table.frequency, "Column of frequencies; else found by its name", "COLUMN");
+  add("--frequency-unit", arguments.frequency_unit, "hz or rad_s", "UNIT")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"hz", "rad_s"}));
+  add("--frequency-step", arguments.frequency_step_hz, "For values without frequencies, from 0 Hz on", "HZ");
+  add("--magnitude", arguments.table.magnitude, "Column of magnitudes, position per force", "COLUMN");
+  command.add_flag("--db", arguments.table.magnitude_in_db, "Magnitudes are 20 log10")
+      ->needs(table)
+      ->group(table_group);
+  add("--phase", arguments.table.phase, "Column of phases", "COLUMN");
+  add("--phase-unit", arguments.phase_unit, "deg or rad", "UNIT")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"deg", "rad"}));
+  add("--real", arguments.table.real, "Column of real parts, or of complex numbers; a UFF record's name", "COLUMN");
+  add("--imaginary", arguments.table.imaginary, "Column of imaginary parts", "COLUMN");
+  add("--coherence", arguments.table.coherence, "Column of coherence, where there is one", "COLUMN");
+  add("--value-scale", arguments.table.scale, "What the values are multiplied by, to get SI units", "X")
+      ->capture_default_str();
+}
+
+Window window_of(const std::string& name) {
+  if (name == "rectangular") return Window::rectangular;
+  if (name == "hamming") return Window::hamming;
+  if (name == "blackman") return Window::blackman;
+  return Window::hann;  // CLI11 has checked the word
+}
+
+/// Hz to rad/s, checked.
+std::optional<double> angular(const char* option, std::optional<double> hertz) {
+  if (!hertz) return std::nullopt;
+  if (!(std::isfinite(*hertz) && *hertz > 0.0)) {
+    throw BadInput(fmt::format("{}: is {}; a frequency in Hz above 0", option, *hertz));
+  }
+  return radians_per_turn * *hertz;
+}
+
+struct Band {
+  std::optional<double> lowest;
+  std::optional<double> highest;
+};
+
+Band band_of(const ResponseArguments& arguments) {
+  const Band band{angular("--lowest-hz", arguments.lowest_hz), angular("--highest-hz", arguments.highest_hz)};
+  if (band.lowest && band.highest && *band.lowest >= *band.highest) {
+    throw BadInput(
+        fmt::format("--highest-hz: is {}; above --lowest-hz, {}", *arguments.highest_hz, *arguments.lowest_hz));
+  }
+  return band;
+}
+
+FrequencyResponseOptions estimate_options(const ResponseArguments& arguments) {
+  FrequencyResponseOptions options = arguments.options;
+  using Excitation = FrequencyResponseOptions::Excitation;
+  options.period = arguments.period;
+  if (arguments.period) options.excitation = Excitation::periodic;
+  if (arguments.aperiodic || options.segment_length) options.excitation = Excitation::aperiodic;
+  if (arguments.period && options.segment_length) {
+    throw BadInput("--segment: is for an aperiodic force; leave it out, or --period");
+  }
+  if (options.excitation == Excitation::aperiodic && options.skip_periods > 0) {
+    throw BadInput("--skip-periods: is for a periodic force; leave it out, or --aperiodic and --segment");
+  }
+  if (!(options.overlap >= 0.0 && options.overlap < 1.0)) {
+    throw BadInput(fmt::format("--overlap: is {}; from 0 to below 1", options.overlap));
+  }
+  options.window = window_of(arguments.window);
+  options.estimator = arguments.estimator == "h2" ? ResponseEstimator::h2 : ResponseEstimator::h1;
+  options.detrend = !arguments.no_detrend;
+  const Band band = band_of(arguments);
+  options.lowest = band.lowest;
+  options.highest = band.highest;
+  return options;
+}
+
+/// Options of a recording, which say nothing about a table.
+void check_table_options(const CLI::App& command) {
+  for (const char* option :
+       {"--force", "--position", "--velocity", "--acceleration", "--time", "--timer-bits", "--period", "--skip-periods",
+        "--aperiodic", "--segment", "--overlap", "--window", "--estimator", "--no-detrend"}) {
+    if (command.count(option) > 0) {
+      throw BadInput(
+          fmt::format("{}: is for a recording, not for a table of a response; leave it out, or --table", option));
+    }
+  }
+}
+
+MeasuredResponse from_table(const ResponseArguments& arguments) {
+  check_table_options(*arguments.command);
+  ResponseTableOptions options = arguments.table;
+  options.file = recording_options(arguments.recording);
+  options.frequency_scale = arguments.frequency_unit == "hz" ? radians_per_turn : 1.0;
+  options.phase_in_degrees = arguments.phase_unit == "deg";
+  options.frequency_step = angular("--frequency-step", arguments.frequency_step_hz).value_or(0.0);
+  if (!std::isfinite(options.scale) || options.scale == 0.0) {
+    throw BadInput(fmt::format("--value-scale: is {}; a number but 0", options.scale));
+  }
+  if (options.file.rate) options.sampling_period = 1.0 / *options.file.rate;
+  const Band band = band_of(arguments);
+  ProgressLine line("reading " + arguments.recording.file);
+  auto response = read_response_table(arguments.recording.file, options, line.progress());
+  if (!response) throw BadInput(response.error().str());
+  std::erase_if(response->points, [&](const ResponsePoint& point) {
+    return (band.lowest && point.frequency < *band.lowest) || (band.highest && point.frequency > *band.highest);
+  });
+  MeasuredResponse measured;
+  measured.source = arguments.recording.file;
+  measured.response = *std::move(response);
+  return measured;
+}
+
+MeasuredResponse from_recording(const ResponseArguments& arguments) {
+  const FrequencyResponseOptions estimate = estimate_options(arguments);
+  MeasuredResponse measured;
+  measured.source = arguments.recording.file;
+  RecordedMotion motion = read_motion(arguments.recording);
+  measured.remarks = std::move(motion.recording.remarks);
+  FrequencyResponseOptions options = estimate;
+  options.output = motion.output;
+  try {
+    ProgressLine line("estimating the response");
+    measured.response =
+        frequency_response(motion.force(), motion.motion(), motion.recording.sampling_period, options, line.progress());
+  } catch (const Error& error) {
+    // What the estimate refuses lies in the recording, or in an option that does not fit it.
+    throw BadInput(measured.source + ": " + error.what());
+  }
+  measured.motion = std::move(motion);
+  measured.options = options;
+  return measured;
+}
+
+}  // namespace
+
+void add_response_arguments(CLI::App& command, ResponseArguments& arguments) {
+  add_recording_arguments(command, arguments.recording);
+  add_estimate_options(command, arguments);
+  add_table_options(command, arguments);
+  arguments.command = &command;
+}
+
+MeasuredResponse measured_response(const ResponseArguments& arguments) {
+  MeasuredResponse measured = arguments.is_table ? from_table(arguments) : from_recording(arguments);
+  std::vector<Remark>& own = measured.response.remarks;
+  std::move(own.begin(), own.end(), std::back_inserter(measured.remarks));
+  own.clear();
+  if (measured.response.points.empty()) {
+    throw BadInput(measured.source + ": no line is left in the band; widen --lowest-hz and --highest-hz");
+  }
+  return measured;
+}
+
+}  // namespace zwidth::cli

@@ -1,0 +1,149 @@
+#include "cli/structure_arguments.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cli/subcommand.hpp"
+#include "io/key_suggestion.hpp"
+#include "zwidth/identification/parameter_fit.hpp"
+#include "zwidth/io/device_file.hpp"
+#include "zwidth/model/parameter.hpp"
+
+namespace zwidth::cli {
+namespace {
+
+constexpr const char* group = "Structure";
+
+/// The bodies of a named structure, from the motor to the user; empty for a file.
+std::vector<std::string> bodies_of(const std::string& structure) {
+  if (structure == "rigid") return {"body"};
+  if (structure == "two-body") return {"motor", "handle"};
+  if (structure == "three-body") return {"motor", "body", "handle"};
+  return {};
+}
+
+/// The named structure as a device file, all its numbers 1 (they are fitted).
+std::string device_text(const std::string& name, const std::string& motion, double sampling_period) {
+  DeviceParameters device;
+  device.name = name;
+  device.motion = motion == "rotary" ? Motion::rotary : Motion::linear;
+  for (const std::string& body : bodies_of(name)) {
+    if (!device.bodies.empty()) device.links.push_back({device.bodies.size() - 1, device.bodies.size(), 1.0, 1.0});
+    device.bodies.push_back({body, 1.0, 1.0, 0.0, 0.0});
+  }
+  device.loop.held = device.bodies.size() - 1;
+  device.loop.sampling_period = sampling_period;
+  return write_device(device);
+}
+
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& known) {
+  const std::string nearest = nearest_word(word, known);
+  return nearest.empty() ? fmt::format("; one of {}", fmt::join(known, ", "))
+                         : fmt::format("; did you mean {}?", nearest);
+}
+
+Device named_structure(const StructureArguments& arguments, std::optional<double> record_period) {
+  if (!arguments.sampling_period && !record_period) {
+    throw BadInput("--sampling-period: missing; the table has none, and the loop to judge needs one, in seconds");
+  }
+  const std::string text = device_text(arguments.structure, arguments.motion,
+                                       arguments.sampling_period.value_or(record_period.value_or(0.0)));
+  auto device = parse_device(text, "--structure " + arguments.structure, arguments.overrides);
+  if (!device) throw BadInput(device.error().str());
+  return *std::move(device);
+}
+
+Device structure_from_file(const StructureArguments& arguments) {
+  if (!arguments.motion.empty()) {
+    throw BadInput("--motion: is for a named structure; a device file says itself what its motion is");
+  }
+  std::vector<std::string> overrides = arguments.overrides;
+  if (arguments.sampling_period)
+    overrides.push_back(fmt::format("loop.sampling_period={}", *arguments.sampling_period));
+  auto device = read_device_file(arguments.structure, overrides);
+  if (!device) throw BadInput(device.error().str());
+  if (!device->has_bodies()) {
+    throw BadInput(fmt::format("--structure: {}: is a transfer function; a device of bodies", arguments.structure));
+  }
+  return *std::move(device);
+}
+
+}  // namespace
+
+void add_structure_arguments(CLI::App& command, StructureArguments& arguments) {
+  command.add_option("--structure", arguments.structure, "Device file to fit, or rigid, two-body or three-body")
+      ->type_name("DEVICE")
+      ->required()
+      ->group(group);
+  command.add_option("--free", arguments.free, "Keys to fit; all (the default): masses, dampings, stiffnesses")
+      ->type_name("KEYS")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->group(group);
+  command.add_option("--locked", arguments.locked, "Bodies held still in the experiment")
+      ->type_name("BODIES")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->group(group);
+  command.add_option("--set", arguments.overrides, "Override a key of the structure; may be repeated")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false)
+      ->group(group);
+  command.add_option("--motion", arguments.motion, "Of a named structure: linear (the default) or rotary")
+      ->type_name("KIND")
+      ->check(CLI::IsMember({"linear", "rotary"}))
+      ->group(group);
+  command
+      .add_option("--sampling-period", arguments.sampling_period,
+                  "Of the loop to judge, in s; else the structure's or record's")
+      ->type_name("S")
+      ->group(group);
+}
+
+bool is_named_structure(const StructureArguments& arguments) { return !bodies_of(arguments.structure).empty(); }
+
+Device structure(const StructureArguments& arguments, std::optional<double> record_period) {
+  if (arguments.sampling_period && !(std::isfinite(*arguments.sampling_period) && *arguments.sampling_period > 0.0)) {
+    throw BadInput(fmt::format("--sampling-period: is {}; a number of seconds above 0", *arguments.sampling_period));
+  }
+  const Device device =
+      is_named_structure(arguments) ? named_structure(arguments, record_period) : structure_from_file(arguments);
+  std::vector<std::string> names;
+  for (const Body& body : device.bodies()) names.push_back(body.name);
+  for (const std::string& name : arguments.locked) {
+    if (std::ranges::count(names, name) == 0) {
+      throw BadInput(fmt::format("--locked: there is no body {}{}", name, did_you_mean(name, names)));
+    }
+  }
+  return device;
+}
+
+std::vector<std::string> free_parameters(const StructureArguments& arguments, const Device& structure) {
+  const std::vector<std::string> all = fittable_parameters(structure, arguments.locked);
+  if (arguments.free.empty()) return all;
+  std::vector<std::string> known = all;
+  for (const std::string& key : parameter_keys(structure.parameters())) {
+    if (std::ranges::count(known, key) == 0) known.push_back(key);
+  }
+  std::vector<std::string> keys;
+  const auto add = [&](const std::string& key) {
+    if (std::ranges::count(keys, key) == 0) keys.push_back(key);
+  };
+  for (const std::string& given : arguments.free) {
+    if (given == "all") {
+      std::ranges::for_each(all, add);
+      continue;
+    }
+    const std::string key = full_parameter_key(structure.parameters(), given);
+    if (std::ranges::count(known, key) == 0) {
+      throw BadInput(fmt::format("--free: no parameter is called {}{}", given, did_you_mean(given, known)));
+    }
+    add(key);
+  }
+  return keys;
+}
+
+}  // namespace zwidth::cli

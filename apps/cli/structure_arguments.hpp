@@ -1,0 +1,34 @@
+#pragma once
+
+#include <CLI/App.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "zwidth/model/device.hpp"
+
+namespace zwidth::cli {
+
+/// The structure that a command fits to data: a device file, or a named one whose numbers need no guess.
+struct StructureArguments {
+  std::string structure;                  ///< a device file, "-", or rigid, two-body, three-body
+  std::vector<std::string> overrides;     ///< KEY=VALUE of every --set
+  std::string motion;                     ///< of a named structure; empty: linear
+  std::optional<double> sampling_period;  ///< s, of the loop to judge; else the structure's, else the record's
+  std::vector<std::string> free;          ///< keys, or "all"
+  std::vector<std::string> locked;        ///< names of bodies
+};
+
+/// Declares --structure, --set, --motion, --sampling-period, --free and --locked; `arguments` must outlive the parsing.
+void add_structure_arguments(CLI::App& command, StructureArguments& arguments);
+
+/// Whether the structure is named: its numbers are then placeholders until they are fitted.
+[[nodiscard]] bool is_named_structure(const StructureArguments& arguments);
+
+/// The structure as asked for. `record_period` is the record's sampling period, where it has one. Throws BadInput.
+[[nodiscard]] Device structure(const StructureArguments& arguments, std::optional<double> record_period);
+
+/// The keys of the free parameters, "all" written out, checked to be the structure's. Throws BadInput.
+[[nodiscard]] std::vector<std::string> free_parameters(const StructureArguments& arguments, const Device& structure);
+
+}  // namespace zwidth::cli

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+
+#include "zwidth/design/parameter_sweep.hpp"
+
+namespace zwidth::cli {
+
+/// KEY=FIRST:LAST:COUNT, evenly spaced, or KEY=FIRST:LAST:COUNT:log, by equal factors. Throws BadInput.
+[[nodiscard]] SweepAxis sweep_axis(const std::string& argument);
+
+}  // namespace zwidth::cli

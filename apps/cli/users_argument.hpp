@@ -1,0 +1,24 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "zwidth/design/user_family.hpp"
+
+namespace zwidth::cli {
+
+/// What --users says: the ranges that it names.
+struct UserRanges {
+  std::optional<ValueRange> mass;
+  std::optional<ValueRange> damping;
+  std::optional<ValueRange> stiffness;
+};
+
+/// Reads "mass=0:2,damping=0:30,stiffness=1000": some of the three keys (inertia is the mass of a rotary axis), each
+/// with a range LEAST:GREATEST or one value. Throws BadInput that names the key.
+[[nodiscard]] UserRanges user_ranges(const std::string& text);
+
+/// The family for a device: what is not named has the value of the device's own [operator].
+[[nodiscard]] UserFamily user_family(const UserRanges& ranges, const Operator& own);
+
+}  // namespace zwidth::cli
