@@ -1,0 +1,169 @@
+#include "zwidth/stability/stiffness_interval.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "lhifam.hpp"
+#include "zwidth/error.hpp"
+#include "zwidth/model/parameter.hpp"
+#include "zwidth/stability/analysis.hpp"
+
+namespace zwidth {
+namespace {
+
+DeviceParameters with_uncertainty(DeviceParameters device, std::vector<std::string> keys,
+                                  std::vector<std::vector<double>> covariance) {
+  device.uncertainty = Uncertainty{std::move(keys), std::move(covariance)};
+  return device;
+}
+
+double critical(DeviceParameters device) {
+  device.uncertainty.reset();
+  return analyze(Device(std::move(device))).critical.stiffness;
+}
+
+double slope(const DeviceParameters& device, const std::string& key) {
+  const double value = *parameter(device, key);
+  const double step = 1e-4 * value;
+  DeviceParameters above = device;
+  DeviceParameters below = device;
+  set_parameter(above, key, value + step);
+  set_parameter(below, key, value - step);
+  return (critical(above) - critical(below)) / (2.0 * step);
+}
+
+// Small uncertainties: K_CR is linear in the parameters, so its standard deviation is that of the gradient (delta
+// method), covariance included. 4000 draws know a 2.5 % quantile to 0.042 standard deviations (one sigma).
+TEST(StiffnessInterval, IsThatOfTheDeltaMethodForSmallUncertainty) {
+  const std::vector<std::string> keys{"body.motor.damping", "body.handle.damping", "link.0.stiffness"};
+  const std::vector<std::vector<double>> covariance{{1e-6, 2.4e-5, 0.0}, {2.4e-5, 1.156e-3, -3.0}, {0.0, -3.0, 6.32e4}};
+  const DeviceParameters device = with_uncertainty(test::lhifam_parameters(), keys, covariance);
+  double variance = 0.0;
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    for (std::size_t j = 0; j < keys.size(); ++j) {
+      variance += slope(device, keys[i]) * covariance[i][j] * slope(device, keys[j]);
+    }
+  }
+  const double deviation = std::sqrt(variance);
+  const StiffnessInterval interval = stiffness_interval(Device(device), 4000);
+  const double centre = critical(device);
+  EXPECT_NEAR(interval.lower, centre - 1.96 * deviation, 4.0 * 0.042 * deviation);
+  EXPECT_NEAR(interval.upper, centre + 1.96 * deviation, 4.0 * 0.042 * deviation);
+  EXPECT_EQ(interval.other_mechanism, 0.0);
+  EXPECT_EQ(interval.draws, 4000U);
+}
+
+// The exact K_CR = b²(1-a)/(m(1-a) - a b T) of a rigid device rises with b: its quantiles are those of b, however wide.
+TEST(StiffnessInterval, FollowsAMonotonicFunctionExactly) {
+  const DeviceParameters device = with_uncertainty(test::rigid_parameters(), {"body.body.damping"}, {{1.0}});
+  const StiffnessInterval interval = stiffness_interval(Device(device), 4000);
+  const auto with_damping = [](double damping) {
+    DeviceParameters other = test::rigid_parameters();
+    other.bodies[0].damping = damping;
+    return critical(other);
+  };
+  EXPECT_GT(interval.lower, with_damping(3.5 - 1.96 - 0.17));
+  EXPECT_LT(interval.lower, with_damping(3.5 - 1.96 + 0.17));
+  EXPECT_GT(interval.upper, with_damping(3.5 + 1.96 - 0.17));
+  EXPECT_LT(interval.upper, with_damping(3.5 + 1.96 + 0.17));
+}
+
+// Where the limit passes from one branch to another a gradient sees only one of them: here more link damping than the
+// nominal one changes nothing any more (the rigid body limits), less of it lets the mode limit.
+TEST(StiffnessInterval, HoldsWhereTheLimitingBranchSwitches) {
+  DeviceParameters device = test::lhifam_parameters();
+  const auto limited_by_mode = [&](double damping) {
+    device.links[0].damping = damping;
+    return analyze(Device(device)).critical.limit->limited_by.kind == Mechanism::Kind::vibration_mode;
+  };
+  double low = 0.1;  // limited by the mode
+  double high = 15.0;
+  ASSERT_TRUE(limited_by_mode(low));
+  while (high - low > 1e-6) (limited_by_mode(0.5 * (low + high)) ? low : high) = 0.5 * (low + high);
+  ASSERT_FALSE(limited_by_mode(high));
+  const double at_switch = critical(device);
+  const StiffnessInterval interval =
+      stiffness_interval(Device(with_uncertainty(device, {"link.0.damping"}, {{0.01 * high * high}})), 2000);
+  EXPECT_GT(interval.other_mechanism, 0.4);
+  EXPECT_LT(interval.other_mechanism, 0.6);
+  EXPECT_LT(interval.lower, 0.95 * at_switch);
+  EXPECT_GT(interval.upper, 0.95 * at_switch);
+}
+
+TEST(StiffnessInterval, TheVirtualDamperStaysClosed) {
+  DeviceParameters device = with_uncertainty(test::lhifam_parameters(), {"body.handle.damping"}, {{1e-8}});
+  device.wall.damping = 5.0;
+  device.wall.velocity_filter_hz = 50.0;
+  const StiffnessInterval interval = stiffness_interval(Device(device), 40);
+  EXPECT_NEAR(interval.lower, critical(device), 1.0);
+}
+
+TEST(StiffnessInterval, IsReproducible) {
+  const Device device(with_uncertainty(test::lhifam_parameters(), {"link.0.damping"}, {{4.0}}));
+  const StiffnessInterval once = stiffness_interval(device, 200, 7);
+  const StiffnessInterval again = stiffness_interval(device, 200, 7);
+  const StiffnessInterval other = stiffness_interval(device, 200, 8);
+  EXPECT_EQ(once.lower, again.lower);
+  EXPECT_EQ(once.upper, again.upper);
+  EXPECT_NE(once.lower, other.lower);
+}
+
+// Two parameters that always move together: the covariance is singular, its square root exists all the same.
+TEST(StiffnessInterval, TakesASemidefiniteCovariance) {
+  const DeviceParameters device = with_uncertainty(
+      test::lhifam_parameters(), {"body.motor.damping", "body.handle.damping"}, {{1e-4, 1e-4}, {1e-4, 1e-4}});
+  const StiffnessInterval interval = stiffness_interval(Device(device), 1000);
+  const double deviation = 0.01 * (slope(device, "body.motor.damping") + slope(device, "body.handle.damping"));
+  EXPECT_NEAR(interval.upper - interval.lower, 2.0 * 1.96 * deviation, 0.15 * deviation * 4.0);
+}
+
+TEST(StiffnessInterval, WithoutSpreadItIsAPoint) {
+  const DeviceParameters device = with_uncertainty(test::lhifam_parameters(), {"link.0.damping"}, {{0.0}});
+  const StiffnessInterval interval = stiffness_interval(Device(device), 50);
+  EXPECT_EQ(interval.lower, critical(device));
+  EXPECT_EQ(interval.upper, critical(device));
+}
+
+// Impossible draws are reflected: an uncertain damping near 0 stays a damping.
+TEST(StiffnessInterval, DrawsStayPossible) {
+  DeviceParameters device = test::lhifam_parameters();
+  device.bodies[0].damping = 0.01;
+  device.loop.delay = 1e-5;
+  const StiffnessInterval interval = stiffness_interval(
+      Device(with_uncertainty(device, {"body.motor.damping", "loop.delay"}, {{1.0, 0.0}, {0.0, 1e-8}})), 300);
+  EXPECT_GT(interval.lower, 0.0);
+  EXPECT_TRUE(std::isfinite(interval.upper));
+}
+
+// A mass without damping is unstable behind the softest wall, whatever the mass.
+TEST(StiffnessInterval, DrawsWithoutAStableWallCountAsZero) {
+  DeviceParameters device = test::rigid_parameters();
+  device.bodies[0].damping = 0.0;
+  const StiffnessInterval interval =
+      stiffness_interval(Device(with_uncertainty(device, {"body.body.mass"}, {{0.01}})), 100);
+  EXPECT_EQ(interval.lower, 0.0);
+  EXPECT_EQ(interval.upper, 0.0);
+}
+
+TEST(StiffnessInterval, RefusesWithoutUncertaintyOrDraws) {
+  EXPECT_THROW((void)stiffness_interval(Device(test::lhifam_parameters())), Error);
+  const Device device(with_uncertainty(test::lhifam_parameters(), {"link.0.damping"}, {{4.0}}));
+  EXPECT_THROW((void)stiffness_interval(device, 0), Error);
+}
+
+TEST(StiffnessInterval, AnalysisHasItWhereTheDeviceHasAnUncertainty) {
+  EXPECT_FALSE(analyze(Device(test::lhifam_parameters())).interval.has_value());
+  const Device device(with_uncertainty(test::lhifam_parameters(), {"link.0.damping"}, {{1.0}}));
+  const Analysis analysis = analyze(device);
+  ASSERT_TRUE(analysis.interval.has_value());
+  EXPECT_EQ(analysis.interval->lower, stiffness_interval(device).lower);
+  EXPECT_LT(analysis.interval->lower, analysis.critical.stiffness);
+  EXPECT_GT(analysis.interval->upper, analysis.critical.stiffness);
+}
+
+}  // namespace
+}  // namespace zwidth
