@@ -28,7 +28,7 @@ std::size_t cases_per_kind() {
 
 CriticalStiffness critical_stiffness_of(const Device& device) {
   const Wall& wall = device.parameters().wall;
-  return critical_stiffness(sampled_plant(device), {wall.damping, wall.velocity_filter_hz});
+  return critical_stiffness(filtered_plant(device), {wall.damping, wall.velocity_filter_hz});
 }
 
 // Poles outside the circle at stiffness K; a pole within rounding of the circle, other than by K's doing, cannot occur.
@@ -148,6 +148,7 @@ TEST_P(CriticalStiffnessProperty, ScalesWithUnits) {
     scaled.user.stiffness *= stiffness;
     scaled.wall.damping *= damping;
     scaled.wall.velocity_filter_hz /= time;
+    for (WallFilter& filter : scaled.wall.filters) filter.frequency_hz /= time;
     scaled.loop.sampling_period *= time;
     scaled.loop.delay *= time;
     scaled.actuator.time_constant *= time;

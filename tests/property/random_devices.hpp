@@ -11,14 +11,15 @@
 
 namespace zwidth::test {
 
-// The fifteen kinds of the reference data, and five harder ones.
+// The fifteen kinds of the reference data, and six harder ones.
 inline constexpr std::size_t reference_kinds = 15;
-inline constexpr std::array<std::string_view, 20> device_kinds = {
+inline constexpr std::array<std::string_view, 21> device_kinds = {
     "rigid",         "two_mass",        "user_side",        "three_mass",
     "light_damping", "long_delay",      "fractional_delay", "slow_sampling",
     "fast_sampling", "virtual_damper",  "operator",         "grounded",
     "rotary",        "filtered_damper", "actuator_lag",     "overdamped",
-    "chain",         "stiff_link",      "everything",       "transfer_function"};
+    "chain",         "stiff_link",      "everything",       "transfer_function",
+    "wall_filter"};
 
 class RandomDevices {
  public:
@@ -100,6 +101,12 @@ class RandomDevices {
       d.bodies[index(d.bodies.size())].stiffness = log_uniform(1.0, 2000.0);
     }
     if (kind == "actuator_lag" || (everything && chance(0.3))) d.actuator.time_constant = log_uniform(5e-5, 3e-3);
+    if (kind == "wall_filter") {
+      if (chance(0.5)) d.loop.delay = log_uniform(1e-2, 3.0) * period;
+      if (chance(0.4)) d.wall.damping = log_uniform(0.05, 50.0);
+      const std::size_t filters = 1 + index(2);
+      for (std::size_t i = 0; i < filters; ++i) d.wall.filters.push_back(wall_filter(period));
+    }
     if (kind == "rotary") {
       d.motion = Motion::rotary;
       for (Body& b : d.bodies) b.mass *= 1e-4, b.damping *= 1e-4;
@@ -109,6 +116,28 @@ class RandomDevices {
   }
 
  private:
+  WallFilter wall_filter(double period) {
+    WallFilter filter;
+    filter.kind = std::array{WallFilter::Kind::low_pass, WallFilter::Kind::notch, WallFilter::Kind::lead_lag,
+                             WallFilter::Kind::digital}[index(4)];
+    if (filter.kind == WallFilter::Kind::digital) {  // poles and zeros at radius r and angle t; or an average of two
+      filter.numerator = {0.5, 0.5};
+      filter.denominator = {1.0, 0.0};
+      if (chance(0.3)) return filter;
+      const double r = uniform(0.1, 0.98);
+      const double t = uniform(0.0, std::numbers::pi);
+      filter.denominator = {1.0, -2.0 * r * std::cos(t), r * r};
+      filter.numerator = {1.0, -uniform(-1.9, 1.9), 0.95};
+      return filter;
+    }
+    filter.frequency_hz = log_uniform(5.0, 0.48 / period);
+    filter.order = 1 + static_cast<int>(index(2));
+    filter.damping_ratio = log_uniform(0.02, 2.0);
+    filter.depth = log_uniform(1e-3, 1.0);
+    filter.ratio = log_uniform(0.1, 10.0);
+    return filter;
+  }
+
   // Poles and zeros anywhere: in the right half plane, at the origin, twice the same; either sign of the gain.
   TransferFunction transfer_function() {
     const auto times = [](const std::vector<double>& a, const std::vector<double>& b) {
