@@ -113,6 +113,72 @@ TEST_F(Analyze, SeveralDevicesAsTextLeadWithATable) {
   EXPECT_THAT(outcome.output, StartsWith("     device "));
 }
 
+TEST_F(Analyze, NamesTheWorstUserOnRequest) {
+  const auto document = documents("zwidth analyze devices/lhifam_handle_sensed.toml --worst-user --json").front();
+  const json& any_user = document["any_user"];
+  const json& worst = any_user["worst_user"];
+  EXPECT_LT(any_user["truncation"].get<double>(), 1e-7);
+  EXPECT_EQ(worst["damping"], 0.0);
+  EXPECT_EQ(worst["absorbers"].size(), 2U);
+  const double ratio = worst["critical_stiffness"].get<double>() / any_user["critical_stiffness"].get<double>();
+  EXPECT_GE(ratio, 1.0);
+  EXPECT_LE(ratio, 1.0001);
+  EXPECT_THAT(run("zwidth analyze devices/lhifam.toml --worst-user").output,
+              HasSubstr("\n  the worst one       a spring of 362.3 kN/m: 5.776 kN/m, 0.0002"));
+  EXPECT_TRUE(documents("zwidth analyze devices/lhifam.toml --json").front()["any_user"]["worst_user"].is_null());
+}
+
+TEST_F(Analyze, SearchesAFamilyOfUsers) {
+  const std::string users = " --users mass=0:2,damping=0:30,stiffness=0:1000";
+  const auto document = documents("zwidth analyze devices/lhifam.toml --json" + users).front();
+  const json& family = document["user_family"];
+  EXPECT_EQ(family["mass"], (json{0.0, 2.0}));
+  expect_relative(family["free_critical_stiffness"], 8848.70869499712);
+  EXPECT_EQ(family["worst_user"], (json{{"mass", 0.0}, {"damping", 0.0}, {"stiffness", 1000.0}}));
+  // The same user as [operator].
+  const auto held = documents("zwidth analyze devices/lhifam.toml --json --set operator.stiffness=1000").front();
+  EXPECT_EQ(family["critical_stiffness"], held["critical_stiffness"]);
+  EXPECT_THAT(run("zwidth analyze devices/lhifam.toml" + users).output,
+              HasSubstr("\n  users as given      8.829 kN/m, least found, with mass 0 kg, damping 0 N s/m"));
+}
+
+TEST_F(Analyze, AFamilyKeepsTheOperatorsOwnValues) {
+  const auto document =
+      documents("zwidth analyze devices/lhifam.toml --json --set operator.damping=4 --users mass=0.5,stiffness=1:2")
+          .front();
+  EXPECT_EQ(document["user_family"]["damping"], (json{4.0, 4.0}));
+  EXPECT_EQ(document["user_family"]["mass"], (json{0.5, 0.5}));
+}
+
+TEST_F(Analyze, RefusesImpossibleUsers) {
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"mass=-1:2", "mass: -1 is negative"},
+      {"mass=2:1", "mass: 2:1 is reversed; did you mean 1:2?"},
+      {"mas=0:1", "there is no key 'mas'; did you mean mass?"},
+      {"colour=0:1", "there is no key 'colour'; one of mass, damping, stiffness"},
+      {"mass=0:1:2", "must be LEAST:GREATEST or one number"},
+      {"mass=", "must be LEAST:GREATEST or one number"},
+      {"mass=0:inf", "must be LEAST:GREATEST or one number"},
+      {"mass=nan", "must be LEAST:GREATEST or one number"},
+      {"mass=0:1,mass=1:2", "mass is given twice"},
+      {"mass", "'mass' must be KEY=LEAST:GREATEST"},
+      {"mass=0:1,", "'' must be KEY=LEAST:GREATEST"},
+      {"''", "--users: is empty"},
+  };
+  for (const auto& [users, message] : cases) {
+    const Outcome outcome = run("zwidth analyze devices/lhifam.toml --users " + users);
+    EXPECT_EQ(outcome.status, 2) << users;
+    EXPECT_THAT(outcome.output, IsEmpty()) << users;
+    EXPECT_THAT(outcome.errors, HasSubstr(message)) << users;
+  }
+  write("lag.toml", "[transfer_function]\nnumerator = [1]\ndenominator = [1, 1]\n[loop]\nsampling_period = 1.0\n");
+  for (const std::string option : {"--worst-user", "--users mass=0:1"}) {
+    const Outcome outcome = run("zwidth analyze lag.toml " + option);
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_THAT(outcome.errors, HasSubstr("lag.toml: is a transfer function; it has no body to hold"));
+  }
+}
+
 TEST_F(Analyze, ATransferFunctionHasNoBodies) {
   write("lag.toml", "[transfer_function]\nnumerator = [1]\ndenominator = [1, 1]\n[loop]\nsampling_period = 1.0\n");
   const json document = documents("zwidth analyze lag.toml --json").front();
@@ -156,7 +222,7 @@ TEST_F(Analyze, AReportThatCannotBeWrittenFailsAndLeavesNothing) {
     EXPECT_THAT(outcome.errors, StartsWith("zwidth: ")) << target;
     EXPECT_EQ(std::count(outcome.errors.begin(), outcome.errors.end(), '\n'), 1) << outcome.errors;
   }
-  EXPECT_EQ(run("ls").output, "devices\n");
+  EXPECT_EQ(run("ls").output, "devices\nrecordings\n");
 }
 
 }  // namespace

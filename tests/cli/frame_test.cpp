@@ -39,7 +39,9 @@ std::vector<std::string> examples_in(const std::string& help) {
   std::vector<std::string> examples;
   std::istringstream lines(help.substr(std::min(help.find("Examples:"), help.size())));
   for (std::string line; std::getline(lines, line);) {
-    if (line.starts_with("  zwidth ")) examples.push_back(line.substr(2));
+    if (!line.starts_with("  zwidth ")) continue;
+    examples.push_back(line.substr(2));
+    while (examples.back().ends_with('\\') && std::getline(lines, line)) examples.back() += "\n" + line;
   }
   return examples;
 }

@@ -26,6 +26,7 @@ Workspace::Workspace() {
   directory_ = pattern;
   fs::permissions(directory_, fs::perms::others_read | fs::perms::others_exec, fs::perm_options::add);
   fs::copy(fs::path(ZWIDTH_SOURCE_DIR) / "devices", directory_ / "devices", fs::copy_options::recursive);
+  fs::copy(fs::path(ZWIDTH_SOURCE_DIR) / "recordings", directory_ / "recordings", fs::copy_options::recursive);
 }
 
 Workspace::~Workspace() {

@@ -80,13 +80,13 @@ const BadText texts[] = {
     {"key_of_several_tables", body("") + loop("stiffness = 1"),
      "7:1: loop.stiffness: unknown key \"stiffness\"; it belongs in [[body]] or [[link]] or [wall] or [operator]"},
     {"unheard_of_key", body("") + loop() + "[wall]\ncolour = 3\n",
-     "9:1: wall.colour: unknown key \"colour\"; the keys of [wall] are stiffness, damping, velocity_filter_hz"},
+     "9:1: wall.colour: unknown key \"colour\"; the keys of [wall] are stiffness, damping, velocity_filter_hz, filter"},
     {"key_with_newline", "\"a\\nb\" = 1\n",
      "1:1: a\\x0Ab: unknown key \"a\\x0Ab\"; the keys of the top level are name, motion, body, link, loop, actuator, "
-     "sensor, wall, operator, transfer_function"},
+     "sensor, wall, operator, transfer_function, uncertainty"},
     {"long_key", std::string(70, 'k') + " = 1\n",
      fmt::format("1:1: {0}...: unknown key \"{0}...\"; the keys of the top level are name, motion, body, link, loop, "
-                 "actuator, sensor, wall, operator, transfer_function",
+                 "actuator, sensor, wall, operator, transfer_function, uncertainty",
                  std::string(60, 'k'))},
     {"text_for_number", body("damping = \"x\""), "4:11: body.a.damping: is the text \"x\"; must be a number"},
     {"date_for_number", body("damping = 1979-05-27"), "4:11: body.a.damping: is a date or time; must be a number"},

@@ -62,6 +62,30 @@ void add_transfer_function(Random& random, DeviceParameters& device) {
   device.transfer_function = transfer;
 }
 
+double coefficient(Random& random) { return std::pow(10.0, std::uniform_real_distribution(-90.0, 90.0)(random)); }
+
+/// Only with the members that its type has.
+WallFilter random_filter(Random& random, double sampling_period) {
+  using enum WallFilter::Kind;
+  WallFilter filter;
+  filter.kind = static_cast<WallFilter::Kind>(index_below(random, 5));
+  const auto between = [&](double least, double greatest) {
+    return std::exp(std::uniform_real_distribution(std::log(least), std::log(greatest))(random));
+  };
+  if (filter.kind == biquad || filter.kind == digital) {
+    filter.denominator = filter.kind == digital ? std::vector{2.0, -between(0.01, 1.99)}
+                                                : std::vector{coefficient(random), coefficient(random)};
+    filter.numerator = {0.0, coefficient(random)};
+    if (filter.kind == digital || index_below(random, 2) == 0) return filter;
+  }
+  filter.frequency_hz = between(1e-2, 0.99) * 0.5 / sampling_period;
+  if (filter.kind == low_pass) filter.order = index_below(random, 2) == 0 ? 1 : 2;
+  if (filter.kind == notch || filter.order == 2) filter.damping_ratio = between(1e-5, 1e2);
+  if (filter.kind == notch) filter.depth = between(1e-5, 1.0);
+  if (filter.kind == lead_lag) filter.ratio = between(1e-5, 1e5);
+  return filter;
+}
+
 DeviceParameters random_device(Random& random) {
   DeviceParameters device;
   device.name = random_name(random, 0);
@@ -82,6 +106,12 @@ DeviceParameters random_device(Random& random) {
   if (index_below(random, 2) == 0) device.wall.stiffness = not_negative(random);
   device.wall.damping = not_negative(random);
   device.wall.velocity_filter_hz = not_negative(random);
+  if (device.loop.sampling_period < 1e25) {  // beyond, the Nyquist frequency is less than a filter may have
+    const std::size_t filters = std::max<std::size_t>(index_below(random, 6), 2) - 2;
+    for (std::size_t i = 0; i < filters; ++i) {
+      device.wall.filters.push_back(random_filter(random, device.loop.sampling_period));
+    }
+  }
   return device;
 }
 
@@ -114,6 +144,7 @@ void expect_same(const DeviceParameters& a, const DeviceParameters& b) {
   EXPECT_EQ(a.wall.stiffness, b.wall.stiffness);
   EXPECT_EQ(a.wall.damping, b.wall.damping);
   EXPECT_EQ(a.wall.velocity_filter_hz, b.wall.velocity_filter_hz);
+  EXPECT_TRUE(a.wall.filters == b.wall.filters);
   EXPECT_EQ(a.user.mass, b.user.mass);
   EXPECT_EQ(a.user.damping, b.user.damping);
   EXPECT_EQ(a.user.stiffness, b.user.stiffness);

@@ -4,6 +4,7 @@
 
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -38,8 +39,12 @@ TEST(AnalysisJson, KeysStandInTheirDocumentedOrder) {
                                              "rigid_approximation",
                                              "q_criterion",
                                              "any_user",
+                                             "user_family",
                                              "virtual_damper",
-                                             "wall"};
+                                             "wall_filters",
+                                             "wall",
+                                             "critical_stiffness_interval",
+                                             "other_mechanism_share"};
   for (const auto& analysed : {lhifam(), lhifam_with_wall(), undamped_paddle(), unlimited_transfer_function()}) {
     EXPECT_EQ(keys_of(analysis_json(analysed)), expected) << analysed.device.name();
   }
@@ -79,9 +84,48 @@ TEST(AnalysisJson, GivesTheNumbersOfAFiniteAnswerWithoutLoss) {
   EXPECT_EQ(document["rigid_approximation"]["critical_stiffness"].get<double>(), 7000.75625452837);
   EXPECT_EQ(document["q_criterion"]["mode_matters"], false);
   EXPECT_NEAR(document["q_criterion"]["db"].get<double>(), 78.5565, 5e-4);
-  EXPECT_TRUE(document["any_user"].is_null());
+  EXPECT_TRUE(document["any_user"].is_null());  // not in this hand-made answer
   EXPECT_TRUE(document["wall"].is_null());
   EXPECT_TRUE(document["virtual_damper"].is_null());
+}
+
+TEST(AnalysisJson, AnyUserLimitHasNullsWhereThereIsNone) {
+  AnalysedDevice analysed = lhifam();
+  analysed.any_user = AnyUserLimit{5776.09, 259.9, 1e-12};
+  const auto expected = [](const Json& stiffness, const Json& frequency, double truncation) {
+    return Json{{"critical_stiffness", stiffness},
+                {"frequency_rad_s", frequency},
+                {"truncation", truncation},
+                {"worst_user", nullptr}};
+  };
+  EXPECT_EQ(analysis_json(analysed)["any_user"], expected(5776.09, 259.9, 1e-12));
+  analysed.any_user = AnyUserLimit{0.0, 0.0, 0.0};
+  EXPECT_EQ(analysis_json(analysed)["any_user"], expected(0.0, nullptr, 0.0));
+  analysed.any_user->stiffness = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(analysis_json(analysed)["any_user"], expected(nullptr, nullptr, 0.0));
+}
+
+TEST(AnalysisJson, UsersAreWrittenAsTheyAre) {
+  AnalysedDevice analysed = lhifam();
+  analysed.any_user = AnyUserLimit{5776.09, 259.9, 0.0};
+  analysed.worst_user = WorstUser{{0.0, 362e3, {{0.1, 5e6}}}, 5776.1, 259.9};
+  EXPECT_EQ(analysis_json(analysed)["any_user"]["worst_user"],
+            (Json{{"mass", 0.0},
+                  {"damping", 0.0},
+                  {"stiffness", 362e3},
+                  {"absorbers", Json::array({Json{{"mass", 0.1}, {"stiffness", 5e6}}})},
+                  {"critical_stiffness", 5776.1},
+                  {"frequency_rad_s", 259.9}}));
+  EXPECT_TRUE(analysis_json(analysed)["user_family"].is_null());
+  analysed.user_family = UserFamilyAnswer{{{0.0, 2.0}, {1.0, 1.0}, {0.0, 1e3}}, {{0.5, 1.0, 20.0}, 8000.0}, {}};
+  analysed.user_family->free.stiffness = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(analysis_json(analysed)["user_family"],
+            (Json{{"mass", {0.0, 2.0}},
+                  {"damping", {1.0, 1.0}},
+                  {"stiffness", {0.0, 1e3}},
+                  {"worst_user", {{"mass", 0.5}, {"damping", 1.0}, {"stiffness", 20.0}}},
+                  {"critical_stiffness", 8000.0},
+                  {"free_critical_stiffness", nullptr}}));
 }
 
 TEST(AnalysisJson, WallMarginsAreInTheirUnits) {
@@ -94,6 +138,22 @@ TEST(AnalysisJson, WallMarginsAreInTheirUnits) {
   EXPECT_EQ(wall["phase_margin_rad"], 0.1);
   EXPECT_EQ(wall["delay_margin_s"], 1.5e-3);
   EXPECT_EQ(wall["spectral_radius"], 0.999);
+}
+
+TEST(AnalysisJson, FiltersHaveTheirKeysAndTheirSections) {
+  AnalysedDevice analysed = lhifam_with_wall();
+  DeviceParameters parameters = analysed.device.parameters();
+  parameters.wall.filters = {
+      {.kind = WallFilter::Kind::notch, .frequency_hz = 60.0},
+      {.kind = WallFilter::Kind::digital, .numerator = {1.0, 0.5}, .denominator = {2.0, -1.0, 0.25}}};
+  analysed.device = Device(parameters);
+  const Json filters = analysis_json(analysed)["wall_filters"];
+  ASSERT_EQ(filters.size(), 2U);
+  EXPECT_EQ(keys_of(filters[0]),
+            (std::vector<std::string>{"type", "frequency_hz", "damping_ratio", "depth", "z", "delta"}));
+  EXPECT_EQ(filters[0]["type"], "notch");
+  EXPECT_EQ(filters[1]["z"], (Json{{"numerator", {0.0, 0.5, 0.25}}, {"denominator", {1.0, -0.5, 0.125}}}));
+  EXPECT_EQ(filters[1]["delta"], (Json{{"numerator", {0.75, 0.5, 0.0}}, {"denominator", {0.625, 1.5, 1.0}}}));
 }
 
 TEST(AnalysisJson, NoneStableIsZeroWithoutFrequencyOrLimit) {

@@ -48,7 +48,7 @@ TEST(PaperDevices, Table2IsAsPrinted) {
   if (!file) GTEST_SKIP() << "the reference data beside the project is absent";
   std::string line;
   std::getline(file, line);
-  for (const RelayTrial& trial : paper_table_2()) {
+  for (const PaperTrial& trial : paper_table_2()) {
     ASSERT_TRUE(std::getline(file, line));
     std::istringstream fields(line);
     double delay_ms = 0.0;

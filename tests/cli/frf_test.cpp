@@ -1,0 +1,199 @@
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "cli/workspace.hpp"
+
+namespace zwidth::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::StartsWith;
+
+class Frf : public Workspace {
+ protected:
+  [[nodiscard]] json document(const std::string& command) const {
+    const Outcome outcome = run(command);
+    EXPECT_EQ(outcome.status, 0) << command << "\n" << outcome.errors;
+    EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 1) << command;
+    return json::parse(outcome.output, nullptr, false);
+  }
+  [[nodiscard]] std::string contents(const std::string& name) const {
+    std::ifstream file(directory() / name, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+  void expect_refusal(const std::string& command, const std::string& message) const {
+    const Outcome outcome = run(command);
+    EXPECT_EQ(outcome.status, 2) << command;
+    EXPECT_THAT(outcome.output, IsEmpty()) << command;
+    EXPECT_THAT(outcome.errors, StartsWith("zwidth: ")) << command;
+    EXPECT_THAT(outcome.errors, HasSubstr(message)) << command;
+    EXPECT_EQ(std::count(outcome.errors.begin(), outcome.errors.end(), '\n'), 1) << outcome.errors;
+  }
+};
+
+const std::string example = "zwidth frf recordings/locked_chirp.csv --force force --position position ";
+// Of the loop that made the example, by zwidth analyze on its device.
+constexpr double example_stiffness = 31139.4;
+constexpr double example_hz = 95.840;
+
+TEST_F(Frf, TheExampleHoldsItsKnownCriticalStiffness) {
+  const json found = document(example + "--json");
+  EXPECT_EQ(found["schema"], "zwidth.frf/1");
+  EXPECT_EQ(found["status"], "found");
+  EXPECT_EQ(found["units"]["stiffness"], "N/m");
+  EXPECT_NEAR(found["critical_stiffness"], example_stiffness, 0.01 * example_stiffness);
+  EXPECT_NEAR(found["critical_frequency_hz"], example_hz, 0.3);
+  EXPECT_LE(found["critical_stiffness_interval"][0], example_stiffness);
+  EXPECT_GE(found["critical_stiffness_interval"][1], example_stiffness);
+  ASSERT_EQ(found["crossovers"].size(), 1U);
+  EXPECT_TRUE(found["crossovers"][0]["limited_by"].is_null());
+  EXPECT_FALSE(found.contains("magnitude"));
+}
+
+TEST_F(Frf, PointsAddTheLines) {
+  const json found = document(example + "--json --points");
+  for (const char* key : {"frequency_hz", "magnitude", "magnitude_lower", "magnitude_upper", "phase_rad",
+                          "phase_lower_rad", "phase_upper_rad", "coherence"}) {
+    EXPECT_EQ(found[key].size(), found["lines"]) << key;
+  }
+  // 79.5 kN/m at low frequency, and the phase of a spring.
+  EXPECT_NEAR(found["magnitude"][10].get<double>() * 79.5e3, 1.0, 0.1);
+  EXPECT_NEAR(found["phase_rad"][10], 0.0, 0.1);
+}
+
+TEST_F(Frf, TheTableItWritesIsReadBack) {
+  const json measured = document(example + "--json --csv frf.csv");
+  const json read = document("zwidth frf frf.csv --table --magnitude magnitude --phase phase_deg --rate 1000 --json");
+  EXPECT_NEAR(read["critical_stiffness"], measured["critical_stiffness"], 1e-6 * example_stiffness);
+  const json complex =
+      document("zwidth frf frf.csv --table --real real --imaginary imaginary --rate 1000 --lowest-hz 50 --json");
+  EXPECT_NEAR(complex["critical_stiffness"], measured["critical_stiffness"], 1e-6 * example_stiffness);
+}
+
+TEST_F(Frf, AContinuousTableHasNoCriticalStiffness) {
+  ASSERT_EQ(run(example + "--csv frf.csv").status, 0);
+  const Outcome outcome = run("zwidth frf frf.csv --table --magnitude magnitude --phase phase_deg --json");
+  const json read = json::parse(outcome.output);
+  EXPECT_TRUE(read["status"].is_null());
+  EXPECT_TRUE(read["critical_stiffness"].is_null());
+  EXPECT_THAT(outcome.errors, HasSubstr("hold and delay are not in it"));
+}
+
+TEST_F(Frf, ScalesAndUnitsGoIntoTheStiffness) {
+  const json found = document(example + "--position-scale 1000 --position-unit mm --force-unit 'N m' --json");
+  EXPECT_EQ(found["units"]["stiffness"], "N m/mm");
+  EXPECT_NEAR(found["critical_stiffness"].get<double>() * 1000.0, example_stiffness, 0.01 * example_stiffness);
+}
+
+TEST_F(Frf, ABandWithoutTheCrossoverIsSaidNotGuessed) {
+  const Outcome outcome = run(example + "--highest-hz 70 --json");
+  EXPECT_EQ(outcome.status, 0);
+  const json found = json::parse(outcome.output);
+  EXPECT_EQ(found["status"], "not_in_band");
+  EXPECT_TRUE(found["critical_stiffness"].is_null());
+  EXPECT_TRUE(found["critical_stiffness_interval"].is_null());
+  EXPECT_THAT(outcome.errors, HasSubstr("zwidth: the phase does not pass -180 degrees"));
+}
+
+TEST_F(Frf, TextAndFigureSayTheSame) {
+  const Outcome outcome = run(example + "--output frf.svg");
+  EXPECT_EQ(outcome.status, 0) << outcome.errors;
+  EXPECT_THAT(outcome.output, HasSubstr("critical stiffness  31."));
+  EXPECT_THAT(outcome.output, HasSubstr("<- critical"));
+  const std::string figure = contents("frf.svg");
+  EXPECT_THAT(figure, HasSubstr("Coherence"));
+  EXPECT_THAT(figure, HasSubstr(": critical"));
+  EXPECT_THAT(figure, HasSubstr("</svg>"));
+}
+
+TEST_F(Frf, ListsTheColumns) {
+  const Outcome outcome = run("zwidth frf recordings/locked_chirp.csv --list");
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_THAT(outcome.output, HasSubstr("position"));
+  EXPECT_THAT(outcome.output, HasSubstr("10000"));
+}
+
+TEST_F(Frf, ReadsStandardInput) {
+  const json found = document("zwidth frf - --force force --position position --json < recordings/locked_chirp.csv");
+  EXPECT_NEAR(found["critical_stiffness"], example_stiffness, 0.01 * example_stiffness);
+}
+
+TEST_F(Frf, RefusesInOneLineThatNamesThePlace) {
+  expect_refusal("zwidth frf recordings/locked_chirp.csv", "--force: missing; name the column of the commanded force");
+  expect_refusal("zwidth frf recordings/locked_chirp.csv --force force", "has: time, force, position");
+  expect_refusal("zwidth frf missing.csv --force 1 --position 2", "missing.csv");
+  expect_refusal("zwidth frf recordings/locked_chirp.csv --force force --position angle", "time, force, position");
+  expect_refusal(example + "--velocity time", "give one");
+  expect_refusal(example + "--period 6000", "2 up to half the record");
+  expect_refusal(example + "--period 1000 --skip-periods 9", "at least two must remain");
+  expect_refusal(example + "--aperiodic --skip-periods 2", "is for a periodic force");
+  expect_refusal(example + "--segment 20000", "the record's length");
+  expect_refusal(example + "--overlap 1", "from 0 to below 1");
+  expect_refusal(example + "--lowest-hz nan", "above 0");
+  expect_refusal(example + "--lowest-hz 50 --highest-hz 40", "above --lowest-hz");
+  expect_refusal(example + "--lowest-hz 400", "no line is left in the band");
+  expect_refusal(example + "--rate 0", "--rate");
+  expect_refusal(example + "--position-scale 0", "--position-scale: is 0; a number but 0");
+  expect_refusal(example + "--delimiter x", "comma, semicolon, tab or space");
+  expect_refusal(example + "--table", "--force: is for a recording");
+  expect_refusal(example + "--output frf.txt", "unknown extension");
+  expect_refusal(example + "--points", "add --json");
+  expect_refusal(example + "--csv recordings/locked_chirp.csv", "would overwrite the recording");
+  expect_refusal("zwidth frf recordings/locked_chirp.csv --force time --position position --frequency 1", "--table");
+}
+
+TEST_F(Frf, AConstantForceIsRefused) {
+  std::string rows = "time,force,position\n";
+  for (int i = 0; i < 100; ++i) rows += std::to_string(i) + ",1," + std::to_string(i % 7) + "\n";
+  write("constant.csv", rows);
+  expect_refusal("zwidth frf constant.csv --force force --position position", "the force is constant");
+}
+
+class MotorBench : public Frf {
+ protected:
+  void SetUp() override {
+    file_ = fs::path(ZWIDTH_SHARED_DIR) / "data" / "two_mass_bench" / "MultisineTypeA.mat";
+    if (!fs::exists(file_)) GTEST_SKIP() << "no recordings beside the project";
+  }
+  /// Critical stiffness and crossovers as read off the raw data by others: 301.7 A/rad at 81.22 Hz, 28.56 and 46.9 Hz.
+  void expect_known(const std::string& options) const {
+    const json found = document(fmt_command(options));
+    EXPECT_EQ(found["status"], "found") << options;
+    EXPECT_NEAR(found["critical_stiffness"], 301.7, 0.02 * 301.7) << options;
+    EXPECT_NEAR(found["critical_frequency_hz"], 81.2, 0.5) << options;
+    EXPECT_LE(found["critical_stiffness_interval"][0], 301.7) << options;
+    EXPECT_GE(found["critical_stiffness_interval"][1], 301.7) << options;
+    ASSERT_EQ(found["crossovers"].size(), 3U) << options;
+    EXPECT_NEAR(found["crossovers"][0]["frequency_hz"], 28.56, 0.3) << options;
+    EXPECT_NEAR(found["crossovers"][1]["frequency_hz"], 46.9, 0.3) << options;
+    EXPECT_NEAR(found["crossovers"][2]["frequency_hz"], 81.2, 0.5) << options;
+  }
+  [[nodiscard]] std::string fmt_command(const std::string& options) const {
+    return "zwidth frf '" + file_.string() + "' --force iq_refx --position theta_mx --rate 2500 --json " + options;
+  }
+
+ private:
+  fs::path file_;
+};
+
+TEST_F(MotorBench, WithTheStatedPeriod) { expect_known("--period 2500 --skip-periods 3"); }
+
+TEST_F(MotorBench, WithItsPeriodDetected) {
+  expect_known("");
+  EXPECT_EQ(document(fmt_command(""))["lines"], 240);  // 11, 12, ..., 250 Hz
+}
+
+TEST_F(MotorBench, WithoutUseOfThePeriod) { expect_known("--aperiodic"); }
+
+}  // namespace
+}  // namespace zwidth::cli

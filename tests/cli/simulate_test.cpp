@@ -1,0 +1,230 @@
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "cli/workspace.hpp"
+#include "zwidth/io/device_file.hpp"
+#include "zwidth/simulation/hybrid_loop.hpp"
+
+namespace zwidth::cli {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+class Simulate : public Workspace {
+ protected:
+  [[nodiscard]] std::string contents(const std::string& name) const {
+    std::ifstream file(directory() / name, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+  [[nodiscard]] nlohmann::json json_of(const std::string& arguments) const {
+    const Outcome outcome = run("zwidth simulate " + arguments + " --json");
+    EXPECT_EQ(outcome.status, 0) << arguments << "\n" << outcome.errors;
+    EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 1) << outcome.output;
+    return nlohmann::json::parse(outcome.output, nullptr, false);
+  }
+  void expect_refusal(const std::string& arguments, const std::string& message) const {
+    const Outcome outcome = run("zwidth simulate " + arguments);
+    EXPECT_EQ(outcome.status, 2) << arguments << "\n" << outcome.output;
+    EXPECT_THAT(outcome.output, IsEmpty()) << arguments;
+    EXPECT_THAT(outcome.errors, StartsWith("zwidth: ")) << arguments;
+    EXPECT_THAT(outcome.errors, HasSubstr(message)) << arguments;
+    EXPECT_EQ(std::count(outcome.errors.begin(), outcome.errors.end(), '\n'), 1) << outcome.errors;
+  }
+};
+
+const std::string lhifam = "devices/lhifam.toml --set wall.stiffness=5000 ";
+
+std::vector<std::vector<double>> rows_of(const std::string& csv) {
+  std::istringstream lines(csv);
+  std::string line;
+  std::getline(lines, line);
+  std::vector<std::vector<double>> rows;
+  while (std::getline(lines, line)) {
+    std::istringstream cells(line);
+    rows.emplace_back();
+    for (std::string cell; std::getline(cells, cell, ',');) rows.back().push_back(std::stod(cell));
+  }
+  return rows;
+}
+
+TEST_F(Simulate, SaysWhatTheLoopDidWithNumbersAndUnits) {
+  const Outcome outcome = run("zwidth simulate " + lhifam);
+  EXPECT_EQ(outcome.status, 0) << outcome.errors;
+  EXPECT_THAT(outcome.errors, IsEmpty());
+  EXPECT_THAT(outcome.output, HasSubstr("SETTLES: the oscillation dies out"));
+  EXPECT_THAT(outcome.output, HasSubstr("peak penetration    1 mm"));
+  EXPECT_THAT(outcome.output, HasSubstr("critical stiffness 8.849 kN/m"));
+  EXPECT_THAT(outcome.output, HasSubstr("56.5 % of it"));
+  std::istringstream lines(outcome.output);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 110U) << line;
+}
+
+TEST_F(Simulate, TheVerdictFollowsTheCriticalStiffness) {
+  EXPECT_EQ(json_of("devices/lhifam.toml --set wall.stiffness=8000 --duration 20").at("verdict"), "settles");
+  const auto above = json_of("devices/lhifam.toml --set wall.stiffness=9800 --duration 20");
+  EXPECT_EQ(above.at("verdict"), "unstable");
+  EXPECT_GT(above.at("growth_rate_per_s"), 0.0);
+  EXPECT_EQ(above.at("linear").at("wall_stable"), false);
+  EXPECT_NEAR(above.at("linear").at("critical_stiffness").get<double>(), 8848.70869499712, 1e-6);
+}
+
+TEST_F(Simulate, JsonHasEveryKeyAndNullForWhatDoesNotExist) {
+  const auto moving = json_of(lhifam + "--duration 2");
+  EXPECT_EQ(moving.at("schema"), "zwidth.simulation/1");
+  EXPECT_EQ(moving.at("samples"), 2000);
+  EXPECT_EQ(moving.at("units").at("force"), "N");
+  EXPECT_TRUE(moving.at("user_force").is_null());
+  EXPECT_EQ(moving.at("start").at(1).at("body"), "handle");
+  EXPECT_EQ(moving.at("start").at(1).at("position"), 1e-3);
+  const auto free = json_of("devices/lhifam.toml --start-velocity 0.1 --duration 2");
+  EXPECT_EQ(free.at("verdict"), "drifts");
+  for (const char* key : {"wall", "peak_penetration", "generated_energy", "peak_generated_energy", "oscillation",
+                          "growth_rate_per_s", "settling_time_s"}) {
+    EXPECT_TRUE(free.at(key).is_null()) << key;
+  }
+  EXPECT_TRUE(free.at("linear").at("wall_stable").is_null());
+  EXPECT_THAT(free.at("remarks").at(0).at("what").get<std::string>(), HasSubstr("no wall"));
+}
+
+TEST_F(Simulate, CsvIsTheLibrarysMotion) {
+  ASSERT_EQ(run("zwidth simulate " + lhifam +
+                "--start motor=1e-3 --start handle=-2e-3 --start-velocity handle=0.1 "
+                "--user-force sine:5,3Hz@0.0205 --duration 0.5 --csv a.csv")
+                .status,
+            0);
+  EXPECT_THAT(contents("a.csv"), StartsWith("time_s,measured,command,user_force,motor.position,motor.velocity,"
+                                            "handle.position,handle.velocity\n"));
+  const auto rows = rows_of(contents("a.csv"));
+  ASSERT_EQ(rows.size(), 500U);
+  const Device device = *read_device_file((directory() / "devices/lhifam.toml").string(), {});
+  HybridLoopOptions options;
+  options.controller.kind = ControllerOptions::Kind::wall;
+  options.controller.stiffness = 5000.0;
+  options.initial_position = {1e-3, -2e-3};
+  options.initial_velocity = {0.0, 0.1};
+  options.user_force = {UserForce::Kind::sine, 5.0, 2.0 * std::numbers::pi * 3.0, 0.0205, {}, 0.0};
+  HybridLoop loop(device, options);
+  for (const std::vector<double>& row : rows) {
+    ASSERT_EQ(row.size(), 8U);
+    EXPECT_EQ(row[0], loop.time());
+    EXPECT_EQ(row[3], loop.user_force());
+    EXPECT_EQ(row[4], loop.position(0));
+    EXPECT_EQ(row[7], loop.velocity(1));
+    loop.step();
+    EXPECT_EQ(row[1], loop.measured());
+    EXPECT_EQ(row[2], loop.command());
+  }
+}
+
+TEST_F(Simulate, EveryThinsTheCsv) {
+  ASSERT_EQ(run("zwidth simulate " + lhifam + "--duration 1 --every 10 --csv a.csv").status, 0);
+  EXPECT_EQ(rows_of(contents("a.csv")).size(), 100U);
+}
+
+TEST_F(Simulate, ARecordedForceIsReadInItsOwnTime) {
+  std::string record = "time,force\n";
+  for (int k = 0; k <= 100; ++k) record += std::to_string(0.002 * k) + "," + std::to_string(0.05 * k) + "\n";
+  write("push.csv", record);
+  ASSERT_EQ(
+      run("zwidth simulate " + lhifam + "--user-force push.csv --user-force-scale 2 --duration 0.5 --csv a.csv").status,
+      0);
+  const auto rows = rows_of(contents("a.csv"));
+  EXPECT_NEAR(rows[101][3], 2.0 * 0.05 * 50.5, 1e-9);  // between two samples
+  EXPECT_EQ(rows[300][3], 0.0);                        // after the last
+  EXPECT_GT(rows[200][4], 0.0);
+}
+
+TEST_F(Simulate, FaultsAreRepeatedByTheirSeed) {
+  const std::string faults = lhifam + "--lost-samples 0.2 --jitter 5e-4 --overrun 0.1,7e-4 --duration 1 ";
+  const auto one = json_of(faults);
+  EXPECT_EQ(one, json_of(faults));
+  EXPECT_NE(one.at("final_position"), json_of(faults + "--seed 2").at("final_position"));
+  EXPECT_EQ(one.at("faults").at("overrun_delay_s"), 7e-4);
+}
+
+TEST_F(Simulate, DrawsByExtension) {
+  ASSERT_EQ(run("zwidth simulate " + lhifam + "--figure a.svg && zwidth simulate " + lhifam + "--figure a.PNG").status,
+            0);
+  EXPECT_THAT(contents("a.svg"), HasSubstr("motor (sensed)"));
+  EXPECT_THAT(contents("a.svg"), HasSubstr("inside the wall"));
+  EXPECT_THAT(contents("a.PNG"), StartsWith("\x89PNG"));
+}
+
+TEST_F(Simulate, ATransferFunctionStartsBesideItsWall) {
+  write("tf.toml",
+        "[transfer_function]\nnumerator = [1]\ndenominator = [5.4, 3.5, 0]\n[loop]\nsampling_period = 1e-3\n"
+        "[wall]\nstiffness = 5000\n");
+  const auto document = json_of("tf.toml");
+  EXPECT_EQ(document.at("verdict"), "settles");
+  EXPECT_EQ(document.at("wall").at("position"), -1e-3);
+  EXPECT_THAT(document.at("start"), IsEmpty());
+  expect_refusal("tf.toml --start 1e-3", "a transfer function has no bodies");
+  expect_refusal("tf.toml --user-force step:1", "no body that a user could hold");
+  expect_refusal("tf.toml --wall-position 0", "where nothing moves the device");
+}
+
+TEST_F(Simulate, AWallBehindTheStartIsSaid) {
+  const Outcome outcome = run("zwidth simulate " + lhifam + "--contact unilateral --start 2e-3 --duration 1");
+  EXPECT_EQ(outcome.status, 0) << outcome.errors;
+  EXPECT_THAT(outcome.output, HasSubstr("starts 2 mm inside the wall"));
+  const Outcome never = run("zwidth simulate " + lhifam + "--contact unilateral --start=-2e-3 --duration 1");
+  EXPECT_THAT(never.output, HasSubstr("never touches the wall"));
+}
+
+TEST_F(Simulate, Refusals) {
+  expect_refusal("devices/lhifam.toml", "nothing moves the device: add a wall");
+  expect_refusal("devices/lhifam.toml --set wall.stiffness=0", "nothing moves the device: add a wall");
+  expect_refusal(lhifam + "--start 1e300", "at most 1e30");
+  expect_refusal(lhifam + "--contact unilateral", "nothing presses the device against the wall");
+  expect_refusal(lhifam + "--contact both", "--contact");
+  expect_refusal(lhifam + "--start 0", "--start: every body starts at rest at 0");
+  expect_refusal(lhifam + "--start arm=1", "no body 'arm'; the device has motor, handle");
+  expect_refusal(lhifam + "--start motor=far", "--start: 'motor=far'");
+  expect_refusal(lhifam + "--start motor=nan", "--start: 'motor=nan'");
+  expect_refusal(lhifam + "--start-velocity ''", "--start-velocity: ''");
+  expect_refusal(lhifam + "--duration 0", "--duration: is 0 s");
+  expect_refusal(lhifam + "--duration 1e6", "1 to 20000000 sampling periods");
+  expect_refusal(lhifam + "--duration nan", "--duration: is nan s");
+  expect_refusal(lhifam + "--set loop.delay=2 --duration 1", "no force would arrive");
+  expect_refusal(lhifam + "--user-force step:5@3 --duration 1", "begins at 3 s only");
+  expect_refusal(lhifam + "--user-force step:5,3", "step:N@S");
+  expect_refusal(lhifam + "--user-force sine:5", "sine:N,HZ@S");
+  expect_refusal(lhifam + "--user-force sine:5,0", "sine:N,HZ@S");
+  expect_refusal(lhifam + "--user-force sine:0,3", "has no force");
+  expect_refusal(lhifam + "--user-force ramp:1@-1", "ramp:N_PER_S@S");
+  expect_refusal(lhifam + "--user-force missing.csv", "--user-force: missing.csv");
+  expect_refusal(lhifam + "--lost-samples 1.5", "--lost-samples: is 1.5");
+  expect_refusal(lhifam + "--jitter 1e-3", "below the sampling period");
+  expect_refusal(lhifam + "--overrun 0.5", "--overrun");
+  expect_refusal(lhifam + "--overrun 0.5,-1", "--overrun: is -1");
+  expect_refusal(lhifam + "--overrun 0.5,1e9", "at most 10 s");
+  expect_refusal(lhifam + "--wall-position inf", "--wall-position: is inf");
+  expect_refusal(lhifam + "--divergence 0", "--divergence: is 0");
+  expect_refusal(lhifam + "--every 2", "--every: is for --csv and --figure");
+  expect_refusal(lhifam + "--figure a.jpg", "unknown extension; .svg, .png or .pdf");
+  expect_refusal(lhifam + "--csv devices/lhifam.toml", "would overwrite the device file");
+  expect_refusal(lhifam + "--duration 10000 --csv a.csv", "thin them with --every");
+  expect_refusal("devices/lhifam.toml devices/lhifam.toml", "");
+  EXPECT_FALSE(std::filesystem::exists(directory() / "a.csv"));
+}
+
+TEST_F(Simulate, AnOutputThatCannotBeWrittenIsAFailure) {
+  const Outcome outcome = run("zwidth simulate " + lhifam + "--csv none/a.csv");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.errors, HasSubstr("none/a.csv: cannot write"));
+}
+
+}  // namespace
+}  // namespace zwidth::cli

@@ -1,0 +1,182 @@
+#include "zwidth/design/notch_design.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "lhifam.hpp"
+#include "zwidth/error.hpp"
+#include "zwidth/stability/analysis.hpp"
+#include "zwidth/stability/any_user.hpp"
+#include "zwidth/stability/closed_loop.hpp"
+
+namespace zwidth {
+namespace {
+
+// Limited by its first vibration mode, so that a notch can help: light bodies, a soft cable.
+Device mode_limited() {
+  DeviceParameters device = test::lhifam_parameters();
+  device.bodies[0].mass = 0.1;
+  device.bodies[1].damping = 30.0;
+  device.links[0] = {0, 1, 20e3, 2.0};
+  device.loop.delay = 1e-3;
+  return Device(std::move(device));
+}
+
+Device with_notch(const Device& device, const WallFilter& notch) {
+  DeviceParameters parameters = device.parameters();
+  parameters.wall.filters.push_back(notch);
+  return Device(std::move(parameters));
+}
+
+double excess(const Device& device, double stiffness) {
+  Wall wall = device.parameters().wall;
+  wall.stiffness = stiffness;
+  return stability_excess(sample(state_space(device), {device.loop().sampling_period, device.loop().delay}), wall);
+}
+
+TEST(NotchDesign, RaisesTheWorstWallAndEigenvaluesAgree) {
+  const Device device = mode_limited();
+  ASSERT_EQ(analyze(device).critical.limit->limited_by.kind, Mechanism::Kind::vibration_mode);
+  NotchOptions options;
+  options.drift = 0.1;
+  const NotchDesign design = design_notch(device, options);
+  ASSERT_TRUE(design.notch);
+  EXPECT_GT(design.with, 1.5 * design.without);
+  ASSERT_EQ(design.over_drift.size(), 41u);
+  double least = std::numeric_limits<double>::infinity();
+  for (const NotchAtDrift& each : design.over_drift) {
+    const Device notched = with_notch(drifted(device, each.drift), *design.notch);
+    EXPECT_NEAR(analyze(notched).critical.stiffness / each.with, 1.0, 1e-12);
+    EXPECT_LT(excess(notched, design.with * (1.0 - 1e-6)), 0.0) << each.drift;
+    EXPECT_GE(each.with, design.with);
+    least = std::min(least, each.with);
+  }
+  EXPECT_LE(design.with, least);
+  EXPECT_GT(design.with, 0.999 * least);
+}
+
+// Its worst lies between the drifts of the table.
+TEST(NotchDesign, KeepsItsPromiseBetweenTheDriftsOfTheTable) {
+  const Device device(test::reduced_pretension_parameters());
+  NotchOptions options;
+  options.drift = 0.1;
+  const NotchDesign design = design_notch(device, options);
+  ASSERT_TRUE(design.notch);
+  for (int i = -400; i <= 400; ++i) {
+    const double drift = 0.1 * i / 400.0;
+    const Device notched = with_notch(drifted(device, drift), *design.notch);
+    ASSERT_GE(analyze(notched).critical.stiffness, design.with) << drift;
+    if (i % 20 == 0) {
+      ASSERT_LT(excess(notched, design.with), 0.0) << drift;
+    }
+  }
+}
+
+// The margin asked for is met only far below the critical stiffness; a notch must not win by finding it at all.
+TEST(NotchDesign, ComparesWithTheTrueWallWithoutANotch) {
+  NotchOptions options;
+  options.gain_margin = 2.0;
+  options.phase_margin = 30.0 * std::numbers::pi / 180.0;
+  const Device device(test::reduced_pretension_parameters());
+  const double without = stiffest_wall(device, options);
+  EXPECT_GT(without, 7.0);
+  EXPECT_LT(without, 9.0);
+  DeviceParameters parameters = device.parameters();
+  parameters.wall.stiffness = without;
+  EXPECT_NEAR(wall_margins(Device(parameters)).phase_margin.value(), options.phase_margin, 1e-6);
+}
+
+TEST(NotchDesign, IsALocalOptimum) {
+  const Device device = mode_limited();
+  NotchOptions options;
+  options.drift = 0.1;
+  const NotchDesign design = design_notch(device, options);
+  ASSERT_TRUE(design.notch);
+  for (int i = 0; i < 6; ++i) {
+    WallFilter moved = *design.notch;
+    const double factor = i % 2 == 0 ? 1.02 : 1.0 / 1.02;
+    if (i / 2 == 0) moved.frequency_hz *= factor;
+    if (i / 2 == 1) moved.damping_ratio *= factor;
+    if (i / 2 == 2) moved.depth *= factor;
+    double least = std::numeric_limits<double>::infinity();
+    for (const NotchAtDrift& each : design.over_drift) {
+      least = std::min(least, analyze(with_notch(drifted(device, each.drift), moved)).critical.stiffness);
+    }
+    EXPECT_LE(least, design.with * 1.001) << i;
+  }
+}
+
+TEST(NotchDesign, KeepsTheMarginsAskedFor) {
+  const Device device = mode_limited();
+  NotchOptions options;
+  options.drift = 0.05;
+  options.gain_margin = 2.0;
+  options.phase_margin = 0.1;
+  const NotchDesign design = design_notch(device, options);
+  ASSERT_TRUE(design.notch);
+  for (const NotchAtDrift& each : design.over_drift) {
+    DeviceParameters parameters = with_notch(drifted(device, each.drift), *design.notch).parameters();
+    parameters.wall.stiffness = each.with;
+    const WallMargins margins = wall_margins(Device(std::move(parameters)));
+    EXPECT_TRUE(margins.stable);
+    EXPECT_GE(margins.gain_margin.value(), 2.0 * (1.0 - 1e-9));
+    EXPECT_GE(margins.phase_margin.value(), 0.1 * (1.0 - 1e-6));
+  }
+}
+
+TEST(NotchDesign, RaisesTheAnyUserLimit) {
+  const Device device = mode_limited();
+  NotchOptions options;
+  options.goal = StiffnessGoal::any_user_limit;
+  const NotchDesign design = design_notch(device, options);
+  EXPECT_GE(design.with, design.without);
+  if (design.notch) {
+    EXPECT_NEAR(any_user_limit(with_notch(device, *design.notch)).stiffness / design.with, 1.0, 1e-9);
+  }
+}
+
+// The rigid body limits: a notch only delays.
+TEST(NotchDesign, NeverMakesAWorseWall) {
+  for (const double delay : {0.0, 0.25e-3, 2e-3, 6e-3}) {
+    for (DeviceParameters parameters : {test::lhifam_parameters(), test::reduced_pretension_parameters()}) {
+      parameters.loop.delay = delay;
+      NotchOptions options;
+      options.drift = 0.1;
+      const NotchDesign design = design_notch(Device(parameters), options);
+      EXPECT_GE(design.with, design.without) << delay;
+      EXPECT_EQ(design.notch.has_value(), design.with > design.without);
+    }
+  }
+}
+
+TEST(NotchDesign, DriftMovesTheModesByItsFactor) {
+  DeviceParameters free = test::lhifam_parameters();
+  for (Body& body : free.bodies) body.damping = 0.0;
+  const double nominal = modal_form(Device(free)).modes.at(0).frequency;
+  const Mode moved = modal_form(drifted(Device(free), 0.2)).modes.at(0);
+  EXPECT_NEAR(moved.frequency / nominal, 1.2, 1e-12);
+  EXPECT_NEAR(moved.damping_ratio, modal_form(Device(free)).modes.at(0).damping_ratio, 1e-12);
+}
+
+TEST(NotchDesign, RefusesWhatItCannotDo) {
+  const Device device = mode_limited();
+  NotchOptions options;
+  options.drift = -0.1;
+  EXPECT_THROW((void)design_notch(device, options), Error);
+  options.drift = 0.95;
+  EXPECT_THROW((void)design_notch(device, options), Error);
+  options = {};
+  options.gain_margin = 0.5;
+  EXPECT_THROW((void)design_notch(device, options), Error);
+  options = {};
+  options.phase_margin = std::nan("");
+  EXPECT_THROW((void)design_notch(device, options), Error);
+  EXPECT_THROW((void)design_notch(Device(test::rigid_parameters()), {}), Error);
+  EXPECT_THROW((void)drifted(Device(test::rigid_parameters()), 0.1), Error);
+}
+
+}  // namespace
+}  // namespace zwidth

@@ -1,0 +1,124 @@
+#include "zwidth/design/wall_ceilings.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <string>
+#include <vector>
+
+#include "lhifam.hpp"
+#include "property/random_devices.hpp"
+#include "zwidth/design/stable_walls.hpp"
+#include "zwidth/error.hpp"
+#include "zwidth/stability/any_user.hpp"
+#include "zwidth/stability/closed_loop.hpp"
+
+namespace zwidth {
+namespace {
+
+/// Largest |z| - 1 of the closed loop by eigenvalues. With K = 0 a free device has its place at z = 1: that pole,
+/// the nearest, is left out.
+double excess(const Device& device, double stiffness, double damping) {
+  const DiscreteStateSpace plant = sample(state_space(device), {device.loop().sampling_period, device.loop().delay});
+  Wall wall = device.parameters().wall;
+  wall.stiffness = stiffness;
+  wall.damping = damping;
+  if (stiffness > 0.0) return stability_excess(plant, wall);
+  std::vector<std::complex<double>> poles = closed_loop_poles_minus_one(plant, wall);
+  poles.erase(std::ranges::min_element(poles, {}, [](const auto& d) { return std::abs(d); }));
+  double largest = -1.0;
+  for (const auto& d : poles) largest = std::max(largest, std::abs(1.0 + d) - 1.0);
+  return largest;
+}
+
+void expect_stable_rectangle(const Device& device, const WallCeilings& ceilings) {
+  for (const double k : {1e-3, 0.1, 0.35, 0.7, 1.0}) {
+    for (const double b : {0.0, 0.2, 0.5, 0.8, 1.0}) {
+      EXPECT_LT(excess(device, k * ceilings.stiffness, b * ceilings.damping), 0.0) << k << " " << b;
+    }
+  }
+}
+
+Device held_by(const Device& device, Operator user) {
+  DeviceParameters parameters = device.parameters();
+  parameters.user = user;
+  return Device(parameters);
+}
+
+TEST(WallCeilings, HoldTogetherAndAlone) {
+  std::vector<DeviceParameters> devices{test::lhifam_parameters(), test::rigid_parameters(),
+                                        test::reduced_pretension_parameters(),
+                                        test::with_delay(test::lhifam_parameters(), 0.25e-3)};
+  devices.push_back(test::lhifam_parameters());
+  devices.back().wall.velocity_filter_hz = 60.0;
+  devices.back().wall.filters = {{.kind = WallFilter::Kind::notch, .frequency_hz = 84.0},
+                                 {.kind = WallFilter::Kind::low_pass, .frequency_hz = 150.0}};
+  for (const DeviceParameters& parameters : devices) {
+    const Device device(parameters);
+    for (const double factor : {0.5, 0.95}) {
+      SCOPED_TRACE(parameters.name + " " + std::to_string(factor));
+      const auto ceilings = wall_ceilings(device, factor);
+      ASSERT_TRUE(ceilings.has_value());
+      EXPECT_EQ(ceilings->basis, WallCeilings::Basis::any_user);
+      EXPECT_EQ(ceilings->stiffness, factor * ceilings->limit);
+      EXPECT_EQ(ceilings->damping, factor * ceilings->damping_limit);
+      EXPECT_EQ(ceilings->limit, any_user_limit(device, {0.0, parameters.wall.velocity_filter_hz}).stiffness);
+      EXPECT_GT(ceilings->damping, 0.0);
+      expect_stable_rectangle(device, *ceilings);
+      EXPECT_LT(excess(device, 0.0, ceilings->damping), 0.0);  // damping alone
+      for (const Operator& user :
+           {Operator{0.5, 0.0, 0.0}, Operator{2.0, 0.0, 1000.0}, Operator{0.0, 0.0, 3e4}, Operator{0.1, 20.0, 500.0}}) {
+        expect_stable_rectangle(held_by(device, user), *ceilings);
+      }
+    }
+  }
+}
+
+// Where a user destabilises every wall the device itself sets the ceilings; random devices of every kind.
+TEST(WallCeilings, RandomDevices) {
+  test::RandomDevices random(77);
+  std::size_t by_device = 0;
+  std::size_t by_any_user = 0;
+  for (const std::string_view kind : test::device_kinds) {
+    if (kind == "long_delay" || kind == "fast_sampling" || kind == "everything" || kind == "chain") continue;  // slow
+    SCOPED_TRACE(kind);
+    const Device device(random.device(kind));
+    const auto ceilings = wall_ceilings(device, 0.7);
+    if (!ceilings) continue;
+    (ceilings->basis == WallCeilings::Basis::device ? by_device : by_any_user) += 1;
+    expect_stable_rectangle(device, *ceilings);
+    if (ceilings->basis == WallCeilings::Basis::any_user) continue;
+    // The limit of the damping is one: just beyond it some wall up to the stiffness is not stable.
+    const StableWalls walls(filtered_plant(device), device.parameters().wall.velocity_filter_hz);
+    const auto beyond = walls.stable_stiffnesses(1.001 * ceilings->damping_limit);
+    EXPECT_TRUE(beyond.empty() || beyond.front().lower > 0.0 ||
+                beyond.front().upper.value_or(1e300) < 1.001 * ceilings->stiffness);
+  }
+  EXPECT_GT(by_device, 0U);
+  EXPECT_GT(by_any_user, 5U);
+}
+
+// One body without delay: K + 2 B/T < 2 b/T is Colgate & Schenkel's, for any user: at K = S 2 b/T, B = (1 - S) b.
+TEST(WallCeilings, OfARigidDeviceAreColgateAndSchenkels) {
+  const auto ceilings = wall_ceilings(Device(test::rigid_parameters()), 0.4);
+  ASSERT_TRUE(ceilings.has_value());
+  EXPECT_NEAR(ceilings->limit, 7000.0, 7000.0 * 1e-6);
+  EXPECT_NEAR(ceilings->damping_limit, 0.6 * 3.5, 1e-5);
+}
+
+TEST(WallCeilings, NoneWithoutAStableWall) {
+  DeviceParameters undamped = test::rigid_parameters();
+  undamped.bodies[0].damping = 0.0;
+  EXPECT_FALSE(wall_ceilings(Device(undamped), 0.5).has_value());
+}
+
+TEST(WallCeilings, RefusedFactors) {
+  for (const double factor : {0.0, 1.0, -1.0, std::nan("")}) {
+    EXPECT_THROW((void)wall_ceilings(Device(test::rigid_parameters()), factor), Error);
+  }
+}
+
+}  // namespace
+}  // namespace zwidth

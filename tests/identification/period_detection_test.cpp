@@ -1,0 +1,62 @@
+#include "identification/period_detection.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "identification/synthetic_bench.hpp"
+
+namespace zwidth {
+namespace {
+
+std::vector<double> with_noise(std::vector<double> signal, double deviation) {
+  std::mt19937_64 generator(11);
+  std::normal_distribution<double> normal;
+  for (double& value : signal) value += deviation * normal(generator);
+  return signal;
+}
+
+TEST(PeriodDetection, FindsThePeriodOfAMultisine) {
+  for (const std::size_t periods : {2U, 3U, 10U}) {
+    const auto signal = excite(test::multisine(1.0, 200.0, 2.0 * static_cast<double>(periods), periods)).samples;
+    EXPECT_EQ(detect_period(signal), 2000U) << periods;
+  }
+}
+
+TEST(PeriodDetection, FindsItInAMeasuredForceThatBeginsLate) {
+  auto signal = excite(test::multisine(1.0, 200.0, 20.0, 10)).samples;
+  signal.insert(signal.begin(), 1234, 0.0);
+  EXPECT_EQ(detect_period(with_noise(signal, 0.2)), 2000U);
+}
+
+TEST(PeriodDetection, FindsTheLeastPeriodOfASquareWaveAndOfASine) {
+  std::vector<double> square(5000);
+  std::vector<double> sine(5000);
+  for (std::size_t i = 0; i < square.size(); ++i) {
+    square[i] = i % 50 < 25 ? 1.0 : -1.0;
+    sine[i] = std::sin(2.0 * std::numbers::pi * static_cast<double>(i) / 50.0);
+  }
+  EXPECT_EQ(detect_period(square), 50U);
+  EXPECT_EQ(detect_period(sine), 50U);
+}
+
+TEST(PeriodDetection, FindsNoneWhereThereIsNone) {
+  EXPECT_FALSE(detect_period(excite(test::chirp(1.0, 200.0, 20.0)).samples));
+  EXPECT_FALSE(detect_period(excite(test::broadband_noise(1.0, 200.0, 20.0, 1)).samples));
+  auto logarithmic = test::chirp(0.1, 200.0, 20.0);
+  logarithmic.kind = ExcitationKind::logarithmic_chirp;
+  EXPECT_FALSE(detect_period(excite(logarithmic).samples));
+  EXPECT_FALSE(detect_period(std::vector<double>(1000, 3.0)));
+  EXPECT_FALSE(detect_period(std::vector<double>{}));
+  auto early = excite(test::chirp(1.0, 200.0, 5.0)).samples;
+  early.insert(early.end(), 20000, 0.0);  // its last half is constant
+  EXPECT_FALSE(detect_period(early));
+  std::vector<double> ramp(1000);
+  for (std::size_t i = 0; i < ramp.size(); ++i) ramp[i] = static_cast<double>(i);
+  EXPECT_FALSE(detect_period(ramp));
+}
+
+}  // namespace
+}  // namespace zwidth

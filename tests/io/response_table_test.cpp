@@ -1,0 +1,294 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "io/recording_folder.hpp"
+#include "io/uff_text.hpp"
+#include "zwidth/error.hpp"
+#include "zwidth/io/recording_file.hpp"
+
+namespace zwidth {
+namespace {
+
+constexpr double turn = 2.0 * std::numbers::pi;  // rad
+
+class ResponseTable : public RecordingFolder {
+ protected:
+  [[nodiscard]] tl::expected<FrequencyResponse, InputError> read(const std::string& text,
+                                                                 const ResponseTableOptions& options = {}) const {
+    return read_response_table(write("a.csv", text), options);
+  }
+  [[nodiscard]] std::string refusal(const std::string& text, const ResponseTableOptions& options = {}) const {
+    const auto response = read(text, options);
+    return response ? "read" : response.error().str().substr(path("a.csv").size() + 1);
+  }
+};
+
+ResponseTableOptions in_columns(const std::string& magnitude, const std::string& phase) {
+  ResponseTableOptions options;
+  options.magnitude = magnitude;
+  options.phase = phase;
+  return options;
+}
+
+// One response, P(10 Hz) = 3 + 4j and P(20 Hz) = -2j, in every way that it is written.
+struct Written {
+  const char* how;
+  std::string text;
+  ResponseTableOptions options = {};
+};
+
+ResponseTableOptions with(void (*set)(ResponseTableOptions&)) {
+  ResponseTableOptions options;
+  set(options);
+  return options;
+}
+
+class ResponseWritten : public ResponseTable, public testing::WithParamInterface<Written> {};
+
+INSTANTIATE_TEST_SUITE_P(
+    Ways, ResponseWritten,
+    testing::Values(Written{"NamedParts", "f,re,im\n10,3,4\n20,0,-2\n"},
+                    Written{"UnitsInNames",
+                            "Frequency [Hz];Magnitude (dB);Phase [deg]\n10;13.9794000867204;53.13010235415598\n"
+                            "20;6.020599913279624;-90\n"},
+                    Written{"SuffixesOfUnits",
+                            "frequency_rad_s,magnitude_db,phase_rad\n62.83185307179586,13.9794000867204,"
+                            "0.9272952180016122\n125.66370614359172,6.020599913279624,-1.5707963267948966\n"},
+                    Written{"BothFrequencies",
+                            "frequency_rad_s,frequency_hz,magnitude,magnitude_lower,magnitude_upper,phase_deg\n"
+                            "62.83,10,5,4,6,53.13010235415598\n125.66,20,2,1,3,-90\n"},
+                    Written{"Omega", "omega,real,imag\n62.83185307179586,3,4\n125.66370614359172,0,-2\n"},
+                    Written{"DecimalComma", "f;re;im\n10,0;3,0;4,0\n20,0;0,0;-2,0\n"},
+                    Written{"Unsorted", "f,re,im\n20,0,-2\n10,3,4\n"},
+                    Written{"ComplexBehindFrequency", "10 (3+4j)\n20 (0-2j)\n"},
+                    Written{"Numbered", "10 9 3 4\n20 9 0 -2\n", with([](ResponseTableOptions& o) {
+                              o.real = "3";
+                              o.imaginary = "4";
+                            })},
+                    Written{"ScaledKilohertzInRadians", "0.01 5000 0.9272952180016122\n0.02 2000 -1.5707963267948966\n",
+                            with([](ResponseTableOptions& o) {
+                              o.magnitude = "2";
+                              o.phase = "3";
+                              o.phase_in_degrees = false;
+                              o.scale = 1e-3;
+                              o.frequency_scale = 1e3 * turn;
+                            })},
+                    Written{"DecibelsAsked", "10 13.9794000867204 53.13010235415598\n20 6.020599913279624 -90\n",
+                            with([](ResponseTableOptions& o) {
+                              o.magnitude = "2";
+                              o.phase = "3";
+                              o.magnitude_in_db = true;
+                            })},
+                    Written{"ListOfComplexNumbers", "(1+0j)\n(3+4j)\n-2j\n",
+                            with([](ResponseTableOptions& o) { o.frequency_step = 10.0 * turn; })}),
+    [](const auto& tested) { return std::string(tested.param.how); });
+
+TEST_P(ResponseWritten, ReadsTheSame) {
+  const auto response = read(GetParam().text, GetParam().options);
+  ASSERT_TRUE(response.has_value()) << response.error().str();
+  ASSERT_EQ(response->points.size(), 2U);
+  EXPECT_NEAR(response->points[0].frequency, 10.0 * turn, 1e-12 * turn);
+  EXPECT_NEAR(response->points[1].frequency, 20.0 * turn, 1e-12 * turn);
+  EXPECT_NEAR(std::abs(response->points[0].value - std::complex(3.0, 4.0)), 0.0, 1e-13);
+  EXPECT_NEAR(std::abs(response->points[1].value - std::complex(0.0, -2.0)), 0.0, 1e-13);
+  EXPECT_EQ(response->averages, 0.0);
+  EXPECT_FALSE(response->sampling_period.has_value());
+  EXPECT_EQ(warnings_in(response->remarks), 0U);
+}
+
+TEST_F(ResponseTable, SaysWhereANameOverridesAUnit) {
+  const auto response = read("f [rad/s],mag [dB],phase [rad]\n10,0,0\n20,0,0\n");
+  ASSERT_TRUE(response.has_value()) << response.error().str();
+  EXPECT_EQ(response->points[0].frequency, 10.0);
+  for (const char* unit : {"read in rad/s, as its name says", "read in dB", "read in radians"}) {
+    EXPECT_TRUE(mentions(response->remarks, unit)) << unit;
+  }
+}
+
+TEST_F(ResponseTable, LeavesOutZeroAndMissingLinesAndSaysSo) {
+  const auto response = read("f,re,im\n0,1,0\n10,3,4\n15,NaN,1\n20,0,-2\n30,1,\n");
+  ASSERT_TRUE(response.has_value()) << response.error().str();
+  EXPECT_EQ(response->points.size(), 2U);
+  EXPECT_TRUE(mentions(response->remarks, "the value at 0 Hz is left out, the first at line 2"));
+  EXPECT_TRUE(mentions(response->remarks,
+                       "2 of 5 lines have NaN, an infinity or no number and are left out, the first at line 4"));
+  EXPECT_EQ(warnings_in(response->remarks), 1U);
+}
+
+TEST_F(ResponseTable, RefusesWhatIsNoResponseAtItsLine) {
+  EXPECT_EQ(refusal("f,re,im\n10,3,4\n20,0,-2\n10,3,4\n"), "4:1: frequency: 10 Hz is also at line 2; must come once");
+  EXPECT_EQ(refusal("f,re,im\n10,3,4\n-20,0,-2\n"), "3:1: frequency: is -20 Hz; must be above 0");
+  EXPECT_EQ(refusal("f,re,im\n10,3,4\n"), " has 1 usable of 1 lines of a response; must have two at least");
+  EXPECT_EQ(refusal("f,mag,phase\n10,3,4\n20,-6,-2\n"),
+            "3:4: mag: the magnitude is -6; must not be negative, unless it is in dB");
+  EXPECT_EQ(refusal("f,re,im\n10,3,4\n20,x,-2\n").substr(0, 24), "3:4: re: \"x\" is no numbe");
+  ResponseTableOptions sampled;
+  sampled.sampling_period = 0.01;
+  EXPECT_EQ(refusal("f,re,im\n10,3,4\n50,1,0\n50.1,0,-2\n", sampled),
+            "4:1: frequency: is 50.1 Hz; must be at most half the sampling rate, 50 Hz");
+  ResponseTableOptions coherent;
+  coherent.coherence = "c";
+  EXPECT_EQ(refusal("f,re,im,c\n10,3,4,0.9\n20,0,-2,1.1\n", coherent), "3:1: coherence: is 1.1; must be 0 to 1");
+  ResponseTableOptions large;
+  large.scale = 1e300;
+  EXPECT_EQ(refusal("f,re,im\n10,3,4\n20,1e10,-2\n", large).substr(0, 30), "3:1: the value is too large fo");
+}
+
+TEST_F(ResponseTable, RefusesColumnsThatAreNotClear) {
+  EXPECT_EQ(
+      refusal("10 3 4\n20 0 -2\n"),
+      " it is not clear which columns are the response; name magnitude and phase, or real and imaginary part; the "
+      "columns are 1, 2, 3");
+  EXPECT_EQ(refusal("f,re,real,im\n10,3,3,4\n20,0,0,-2\n"),
+            " \"re\" and \"real\" may be the real; name the columns of the response");
+  EXPECT_NE(refusal("f,mag,phase\n10,3,4\n20,6,-2\n", in_columns("mga", "phase")).find("did you mean \"mag\"?"),
+            std::string::npos);
+  EXPECT_EQ(refusal("f,mag,x\n10,3,4\n20,6,-2\n", in_columns("mag", "")),
+            " the phase has no column; name it; the columns are f, mag, x");
+  EXPECT_EQ(refusal("(1+2j)\n(3+4j)\n"),
+            " has one column and so no frequencies; state the step of frequency between its lines");
+  EXPECT_EQ(refusal("10 3\n20 0\n"),
+            "1:4: 2: \"3\" is no complex number; must be one such as (1.5+2e-3j); or name "
+            "magnitude and phase, or real and imaginary part");
+  ResponseTableOptions both;
+  both.frequency = "f";
+  both.frequency_step = 1.0;
+  EXPECT_EQ(refusal("f,re,im\n10,3,4\n20,0,-2\n", both),
+            " f: a column of frequencies is asked for beside a step of frequency; must be one of the two");
+}
+
+TEST_F(ResponseTable, RefusesImpossibleOptions) {
+  const std::string file = write("a.csv", "f,re,im\n10,3,4\n20,0,-2\n");
+  EXPECT_THROW((void)read_response_table(file, with([](ResponseTableOptions& o) { o.scale = 0.0; })), Error);
+  EXPECT_THROW((void)read_response_table(file, with([](ResponseTableOptions& o) { o.frequency_scale = -1.0; })), Error);
+  EXPECT_THROW((void)read_response_table(file, with([](ResponseTableOptions& o) { o.sampling_period = 0.0; })), Error);
+  EXPECT_THROW((void)read_response_table(file, with([](ResponseTableOptions& o) { o.frequency_step = std::nan(""); })),
+               Error);
+}
+
+TEST_F(ResponseTable, KeepsTheSamplingPeriodAndTheNyquistLine) {
+  ResponseTableOptions sampled;
+  sampled.sampling_period = 0.01;
+  const auto response = read("f,re,im\n10,3,4\n50,-1,0\n", sampled);
+  ASSERT_TRUE(response.has_value()) << response.error().str();
+  EXPECT_EQ(response->sampling_period, 0.01);
+  EXPECT_LE(response->points.back().frequency, std::numbers::pi / 0.01);
+}
+
+/// A response at 10 and 20 Hz and a coherence of the same frequencies.
+UffFunction uff_response(int ordinate_quantity, std::vector<double> numbers) {
+  UffFunction function;
+  function.function_type = 4;
+  function.data_type = 6;
+  function.first = 10.0;
+  function.step = 10.0;
+  function.abscissa_quantity = 18;
+  function.abscissa_unit = "Hz";
+  function.ordinate_quantity = ordinate_quantity;
+  function.id_lines[0] = "H";
+  function.numbers = std::move(numbers);
+  return function;
+}
+
+TEST_F(ResponseTable, TurnsVelocityAndAccelerationOfAUniversalFileIntoPosition) {
+  // Of P = 1 / (m s^2), m = 2 kg: w^2 m x = -F, so that the acceleration per force is 1/2 at every frequency.
+  const std::vector<double> acceleration{0.5, 0.0, 0.5, 0.0};
+  std::vector<double> velocity;
+  std::vector<double> position;
+  for (const double w : {10.0 * turn, 20.0 * turn}) {
+    velocity.insert(velocity.end(), {0.0, -0.5 / w});
+    position.insert(position.end(), {-0.5 / (w * w), 0.0});
+  }
+  for (const auto& [quantity, numbers] : {std::pair{12, acceleration}, {11, velocity}, {8, position}}) {
+    const auto response = read(uff_text(uff_response(quantity, numbers)));
+    ASSERT_TRUE(response.has_value()) << response.error().str();
+    for (std::size_t i = 0; i < 2; ++i) {
+      const double w = response->points[i].frequency;
+      EXPECT_NEAR(w, 10.0 * turn * static_cast<double>(i + 1), 1e-9);
+      EXPECT_NEAR(std::abs(response->points[i].value * 2.0 * w * w + 1.0), 0.0, 1e-11) << quantity;
+    }
+    EXPECT_EQ(mentions(response->remarks, "to get a position"), quantity != 8);
+    EXPECT_EQ(warnings_in(response->remarks), 0U);
+  }
+  const auto unknown = read(uff_text(uff_response(0, position)));
+  ASSERT_TRUE(unknown.has_value());
+  EXPECT_TRUE(mentions(unknown->remarks, "does not say what it measures"));
+  EXPECT_EQ(warnings_in(unknown->remarks), 1U);
+}
+
+TEST_F(ResponseTable, ReadsTheCoherenceOfAUniversalFile) {
+  UffFunction coherence = uff_response(0, {0.9, 0.8});
+  coherence.function_type = 6;
+  coherence.data_type = 2;
+  coherence.id_lines[0] = "gamma2";
+  ResponseTableOptions options;
+  options.coherence = "gamma2";
+  const std::string response_text = uff_text(uff_response(8, {1.0, 0.0, 0.5, 0.0}));
+  const auto response = read(response_text + uff_text(coherence), options);
+  ASSERT_TRUE(response.has_value()) << response.error().str();
+  EXPECT_NEAR(response->points[0].coherence, 0.9, 1e-6);
+  EXPECT_NEAR(response->points[1].coherence, 0.8, 1e-6);
+  coherence.step = 5.0;
+  EXPECT_NE(refusal(response_text + uff_text(coherence), options).find("has other frequencies than the response"),
+            std::string::npos);
+}
+
+TEST_F(ResponseTable, AsksForTheRecordWhereAUniversalFileHasSeveral) {
+  UffFunction second = uff_response(8, {1.0, 0.0, 0.5, 0.0});
+  second.id_lines[0] = "G";
+  const std::string file = uff_text(uff_response(8, {2.0, 0.0, 0.25, 0.0})) + uff_text(second);
+  EXPECT_EQ(refusal(file), " holds 2 frequency responses; name one of them: H [m], G [m]");
+  ResponseTableOptions options;
+  options.real = "G";
+  const auto response = read(file, options);
+  ASSERT_TRUE(response.has_value()) << response.error().str();
+  EXPECT_EQ(response->points[0].value, std::complex(1.0, 0.0));
+  EXPECT_EQ(refusal(file, in_columns("2", "3")),
+            " 2: a universal file has no columns; name the record as that of the real parts");
+  UffFunction time;
+  time.numbers = {1.0, 2.0};
+  EXPECT_NE(refusal(uff_text(time)).find("holds no frequency response, only"), std::string::npos);
+}
+
+class RecordedResponse : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no recordings beside the project";
+  }
+  inline static const std::string folder = ZWIDTH_SHARED_DIR "/data/uff58/";
+};
+
+TEST_F(RecordedResponse, OfANonAsciiUniversalFile) {
+  const auto response = read_response_table(folder + "non_ascii_header.uff", {});
+  ASSERT_TRUE(response.has_value()) << response.error().str();
+  ASSERT_EQ(response->points.size(), 5U);
+  EXPECT_NEAR(response->points[0].frequency, 0.195313 * turn, 1e-12);
+  EXPECT_EQ(response->points[0].value, std::complex(-0.0599924, -0.055326));
+  EXPECT_EQ(response->points[4].value, std::complex(3.75037, 2.93363));
+  EXPECT_TRUE(mentions(response->remarks, "(1/N)*(m/s²)"));
+}
+
+TEST_F(RecordedResponse, OfAListOfComplexNumbers) {
+  ResponseTableOptions options;
+  options.frequency_step = 0.5 * turn;
+  const auto response = read_response_table(folder + "meas_point_1.txt", options);
+  ASSERT_TRUE(response.has_value()) << response.error().str();
+  ASSERT_EQ(response->points.size(), 1000U);  // of 1001; the first is at 0 Hz
+  EXPECT_EQ(response->points[0].value, std::complex(-0.17515115491765987, -0.12042372070051006));
+  EXPECT_NEAR(response->points[999].frequency, 500.0 * turn, 1e-9);
+}
+
+TEST_F(RecordedResponse, APowerSpectralDensityIsNone) {
+  const auto response = read_response_table(folder + "sample_dataset58_psd.uff", {});
+  ASSERT_FALSE(response.has_value());
+  EXPECT_EQ(response.error().what,
+            "holds no frequency response, only Power Spectral Density (PSD) (power spectral density)");
+}
+
+}  // namespace
+}  // namespace zwidth

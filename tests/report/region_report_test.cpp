@@ -1,0 +1,156 @@
+// Text, JSON, csv and figure of a region. Computed once: the any-user limit takes most of the time.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+#include "lhifam.hpp"
+#include "report/region_csv.hpp"
+#include "report/region_figure.hpp"
+#include "report/region_json.hpp"
+#include "report/region_text.hpp"
+
+namespace zwidth::report {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+using Json = nlohmann::ordered_json;
+
+const DeviceRegion& lhifam_region() {
+  static const DeviceRegion region = device_region(Device(test::lhifam_parameters()));
+  return region;
+}
+
+DeviceRegion transfer_function_region() {
+  return device_region(Device(test::transfer_function_parameters({1.0}, {1.0, 1.0}, 1.0)));
+}
+
+/// Negative damping: unstable whatever the wall.
+DeviceRegion hopeless_region() {
+  return device_region(Device(test::transfer_function_parameters({1.0}, {1.0, -8.0, 0.0}, 1.0)));
+}
+
+void collect_keys(const Json& value, std::set<std::string>& keys) {
+  if (value.is_object()) {
+    for (const auto& item : value.items()) keys.insert(item.key());
+  }
+  if (value.is_structured()) {
+    for (const auto& child : value) collect_keys(child, keys);
+  }
+}
+
+TEST(RegionJson, EveryKeyIsDocumented) {
+  std::ifstream file(ZWIDTH_SOURCE_DIR "/docs/region.md");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  std::set<std::string> keys;
+  collect_keys(region_json(lhifam_region()), keys);
+  EXPECT_GT(keys.size(), 30U);
+  for (const std::string& key : keys) {
+    if (key == "kind" || key == "mode" || key == "stiffness" || key == "damping") continue;
+    EXPECT_NE(text.find("`" + key + "`"), std::string::npos) << key;
+  }
+}
+
+TEST(RegionJson, GivesTheNumbersWithoutLoss) {
+  const DeviceRegion& region = lhifam_region();
+  const Json document = Json::parse(region_json(region).dump());
+  EXPECT_EQ(document["schema"], "zwidth.region/1");
+  EXPECT_EQ(document["status"], "bounded");
+  EXPECT_EQ(document["critical_stiffness"].get<double>(), region.region.critical_stiffness);
+  EXPECT_EQ(document["stiffest"]["stiffness"].get<double>(), region.region.stiffest->stiffness);
+  EXPECT_EQ(document["stiffest"]["limited_by"]["kind"], "vibration_mode");
+  EXPECT_EQ(document["area"].get<double>(), region.region.area);
+  ASSERT_EQ(document["components"].size(), 1U);
+  const Json& outline = document["components"][0]["outline"];
+  ASSERT_EQ(outline.size(), region.region.components[0].outline.arcs.size());
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const BoundaryArc& arc = region.region.components[0].outline.arcs[i];
+    EXPECT_EQ(outline[i]["boundary"], boundary_key(arc.kind));
+    ASSERT_EQ(outline[i]["points"].size(), arc.points.size());
+    EXPECT_EQ(outline[i]["points"][0]["stiffness"].get<double>(), arc.points[0].stiffness);
+    EXPECT_EQ(outline[i]["points"][0]["frequency_rad_s"].is_null(), !arc.points[0].frequency.has_value());
+  }
+  EXPECT_EQ(document["any_user"]["limits"].size(), 1U);
+  EXPECT_EQ(document["approximations"][0]["formula"], "colgate_schenkel");
+  EXPECT_EQ(document["approximations"][0]["not_met"][0], "flexible links");
+  EXPECT_TRUE(document["approximations"][1]["largest_damping"].is_null());
+  EXPECT_TRUE(document["approximations"][2]["unsafe_share"].is_null());
+}
+
+TEST(RegionJson, WhatDoesNotExistIsNull) {
+  const Json transfer = region_json(transfer_function_region());
+  EXPECT_TRUE(transfer["any_user"].is_null());
+  EXPECT_TRUE(transfer["approximations"].empty());
+  const Json hopeless = region_json(hopeless_region());
+  EXPECT_EQ(hopeless["status"], "none_stable");
+  EXPECT_TRUE(hopeless["stiffest"].is_null());
+  EXPECT_EQ(hopeless["area"], 0.0);
+  EXPECT_TRUE(hopeless["components"].empty());
+}
+
+TEST(RegionText, SaysWhatLimitsAndHowFarFormulasAreOff) {
+  const std::string text = region_text(lhifam_region());
+  EXPECT_THAT(text, StartsWith("LHIfAM\n"));
+  EXPECT_THAT(text, HasSubstr("188.3 kN/m"));
+  EXPECT_THAT(text, HasSubstr("8.849 kN/m (K_CR at B = 0)"));
+  EXPECT_THAT(text, HasSubstr("vibration mode 1"));
+  EXPECT_THAT(text, HasSubstr("5.776 kN/m without a"));
+  EXPECT_THAT(text, HasSubstr("+1.67 dB, UNSAFE"));
+  EXPECT_THAT(text, HasSubstr("this device has flexible links"));
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 110U) << line;
+}
+
+TEST(RegionText, OfADeviceWithoutStableWallsSaysSo) {
+  EXPECT_THAT(region_text(hopeless_region()), HasSubstr("No wall is stable"));
+}
+
+TEST(RegionCsv, HasALinePerPoint) {
+  const StableRegion& region = lhifam_region().region;
+  std::size_t points = 0;
+  for (const BoundaryArc& arc : region.components[0].outline.arcs) points += arc.points.size();
+  const std::string csv = region_csv(region);
+  EXPECT_THAT(csv, StartsWith("component,boundary,stiffness,damping,frequency_rad_s,mode\n1,oscillation,"));
+  EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')), points + 1);
+}
+
+TEST(RegionCsv, OfARasterIsTheGrid) {
+  const std::string csv = region_raster_csv(lhifam_region(), 20);
+  std::istringstream lines(csv);
+  std::string line;
+  std::getline(lines, line);
+  EXPECT_EQ(line, "stiffness,damping,stable");
+  std::size_t rows = 0;
+  std::size_t stable = 0;
+  while (std::getline(lines, line)) {
+    ++rows;
+    stable += line.ends_with(",1") ? 1U : 0U;
+  }
+  EXPECT_EQ(rows, 400U);
+  // The area of the region in a box a tenth larger than its extent, by 400 cells.
+  const StableRegion& region = lhifam_region().region;
+  const double share = region.area / (1.21 * region.stiffest->stiffness * region.most_damped->damping);
+  EXPECT_NEAR(static_cast<double>(stable) / 400.0, share, 0.02);
+}
+
+TEST(RegionFigure, ShowsTheRegionAndTheFormulas) {
+  const std::string svg = draw_region(lhifam_region(), FigureFormat::svg);
+  for (const char* text : {"Stable walls of LHIfAM", "with any passive user", "Colgate &amp; Schenkel", "Gil, Hulin",
+                           "Diolaiti", "Virtual damping B (N s/m)", "Stiffness K (kN/m)"}) {
+    EXPECT_THAT(svg, HasSubstr(text));
+  }
+}
+
+TEST(RegionFigure, OfNothingIsStillAFigure) {
+  const std::string svg = draw_region(hopeless_region(), FigureFormat::svg);
+  EXPECT_THAT(svg, HasSubstr("no wall is stable"));
+  EXPECT_THAT(svg, Not(HasSubstr("Colgate")));
+}
+
+}  // namespace
+}  // namespace zwidth::report
