@@ -3,7 +3,9 @@
 add_library(zwidth_warnings INTERFACE)
 target_compile_options(zwidth_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion
   -Wnon-virtual-dtor -Wold-style-cast -Woverloaded-virtual -Wdouble-promotion)
-# GCC 12 sees overlapping copies inside its own std::string (GCC bug 105651).
+# GCC 12 sees overlapping copies inside its own std::string (GCC bug 105651). What it says of bounds depends on how far it
+# inlined and is wrong of strings in moved aggregates too: shown, never an error; the sanitizers find the true ones.
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-  target_compile_options(zwidth_warnings INTERFACE -Wno-restrict)
+  target_compile_options(zwidth_warnings INTERFACE -Wno-restrict -Wno-error=array-bounds -Wno-error=stringop-overflow
+    -Wno-error=maybe-uninitialized)
 endif()
