@@ -154,8 +154,19 @@ std::string why(const AnalysedDevice& analysed) {
          paragraph(q_criterion_note(analysed));
 }
 
+std::string users(const AnalysedDevice& analysed) {
+  TextTable table{{Align::left, Align::left}, {{"who holds it", "critical stiffness"}}};
+  const auto add = [&](std::string who, const std::optional<std::string>& note) {
+    if (note) table.rows.push_back({std::move(who), *note});
+  };
+  add("any passive user", any_user_note(analysed));
+  add("the worst one", worst_user_note(analysed));
+  add("users as given", user_family_note(analysed));
+  return table.rows.size() < 2 ? "" : element("h2", "With a user") + html_table(table);
+}
+
 std::string device_section(const AnalysedDevice& analysed, std::size_t index) {
-  return answer(analysed) + why(analysed) + wall(analysed) + figures(analysed, index) + crossovers(analysed) +
+  return answer(analysed) + why(analysed) + users(analysed) + wall(analysed) + figures(analysed, index) + crossovers(analysed) +
          modes(analysed) + element("h2", "What these numbers leave out") + list(caveats(analysed)) +
          parameters(analysed);
 }
