@@ -9,6 +9,7 @@
 #include <random>
 #include <string>
 
+#include "lhifam.hpp"
 #include "zwidth/zwidth.hpp"
 
 namespace {
@@ -18,16 +19,6 @@ using namespace zwidth;
 constexpr double period = 1e-3;
 constexpr double amplitude = 5.0;
 constexpr double encoder_step = 3.14e-6;
-
-DeviceParameters lhifam() {
-  DeviceParameters device;
-  device.name = "LHIfAM";
-  device.bodies = {{.name = "motor", .mass = 0.3, .damping = 0.1}, {.name = "handle", .mass = 5.1, .damping = 3.4}};
-  device.links = {{.first = 0, .second = 1, .stiffness = 79.5e3, .damping = 15.0}};
-  device.loop.held = 1;
-  device.loop.sampling_period = period;
-  return device;
-}
 
 /// The record of a 20 s chirp on a device, as a CSV file of some 600 kB.
 class RecordFile {
@@ -70,9 +61,9 @@ std::string fitted_file(const std::string& path, const Device& structure, const 
 }
 
 void locked_device_to_file(benchmark::State& state) {
-  const Device device(lhifam());
+  const Device device(test::lhifam_parameters());
   const RecordFile record(locked_device(device, {1}), 10.0);
-  DeviceParameters structure = lhifam();
+  DeviceParameters structure = test::lhifam_parameters();
   structure.links[0] = {.first = 0, .second = 1, .stiffness = 1e4, .damping = 1.0};
   ParameterFitOptions fit;
   fit.locked = {"handle"};
@@ -81,7 +72,7 @@ void locked_device_to_file(benchmark::State& state) {
 }
 
 void free_device_to_file(benchmark::State& state) {
-  DeviceParameters device = lhifam();
+  DeviceParameters device = test::lhifam_parameters();
   device.bodies[1].mass = 0.4;
   device.bodies[1].damping = 0.9;
   const RecordFile record(Device(device), 1.0);

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "lhifam.hpp"
 #include "zwidth/zwidth.hpp"
 
 namespace {
@@ -11,16 +12,7 @@ namespace {
 using zwidth::Device;
 using zwidth::StableWalls;
 
-Device two_mass(double delay) {
-  zwidth::DeviceParameters device;
-  device.name = "LHIfAM";
-  device.bodies = {{.name = "motor", .mass = 0.3, .damping = 0.1}, {.name = "handle", .mass = 5.1, .damping = 3.4}};
-  device.links = {{.first = 0, .second = 1, .stiffness = 79.5e3, .damping = 15.0}};
-  device.loop.held = 1;
-  device.loop.sampling_period = 1e-3;
-  device.loop.delay = delay;
-  return Device(device);
-}
+Device two_mass(double delay) { return Device(zwidth::test::with_delay(zwidth::test::lhifam_parameters(), delay)); }
 
 struct Grid {
   std::vector<double> stiffnesses;

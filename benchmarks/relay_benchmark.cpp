@@ -2,6 +2,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include "lhifam.hpp"
 #include "zwidth/model/device.hpp"
 #include "zwidth/simulation/relay_experiment.hpp"
 #include "zwidth/simulation/relay_prediction.hpp"
@@ -12,13 +13,8 @@ using zwidth::Device;
 using zwidth::DeviceParameters;
 
 Device device_at(double delay) {
-  DeviceParameters device;
-  device.name = "LHIfAM, reduced pretension";
-  device.bodies = {{.name = "motor", .mass = 0.3, .damping = 0.1},
-                   {.name = "handle", .mass = 5.1, .damping = 3.4, .coulomb = 0.4}};
-  device.links = {{.first = 0, .second = 1, .stiffness = 27.55e3, .damping = 10.5}};
-  device.loop.held = 1;
-  device.loop.sampling_period = 1e-3;
+  DeviceParameters device = zwidth::test::reduced_pretension_parameters();
+  device.bodies[1].coulomb = 0.4;
   device.loop.delay = delay + 250e-6;
   device.sensor.resolution = 3.14e-6;
   return Device(device);

@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "lhifam.hpp"
 #include "zwidth/model/device.hpp"
 #include "zwidth/simulation/hybrid_loop.hpp"
 
@@ -13,25 +14,16 @@ using zwidth::Device;
 using zwidth::DeviceParameters;
 using zwidth::HybridLoop;
 using zwidth::HybridLoopOptions;
-
-DeviceParameters two_mass() {
-  DeviceParameters device;
-  device.name = "LHIfAM";
-  device.bodies = {{.name = "motor", .mass = 0.3, .damping = 0.1}, {.name = "handle", .mass = 5.1, .damping = 3.4}};
-  device.links = {{.first = 0, .second = 1, .stiffness = 79.5e3, .damping = 15.0}};
-  device.loop.held = 1;
-  device.loop.sampling_period = 1e-3;
-  return device;
-}
+using zwidth::test::lhifam_parameters;
 
 DeviceParameters two_mass_fractional_delay() {
-  DeviceParameters device = two_mass();
+  DeviceParameters device = lhifam_parameters();
   device.loop.delay = 2.25e-3;
   return device;
 }
 
 DeviceParameters friction_and_encoder() {
-  DeviceParameters device = two_mass();
+  DeviceParameters device = lhifam_parameters();
   device.bodies[0].coulomb = 0.02;
   device.bodies[1].coulomb = 0.05;
   device.sensor.resolution = 3.14e-6;
@@ -73,12 +65,13 @@ void step(benchmark::State& state, const DeviceParameters& device, const HybridL
   state.counters["stick_slip_per_s"] = static_cast<double>(loop.friction_events()) / 10.0;
 }
 
-BENCHMARK_CAPTURE(step, two_mass, two_mass(), wall(5000.0))->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(step, two_mass, lhifam_parameters(), wall(5000.0))->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(step, two_mass_fractional_delay, two_mass_fractional_delay(), wall(900.0))
     ->Unit(benchmark::kMicrosecond);
 // A user keeps it moving: it would come to rest, where nothing happens, within a second.
 BENCHMARK_CAPTURE(step, friction_on_both_and_encoder, friction_and_encoder(), held_in_motion(5000.0))
     ->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(step, lost_samples_and_jitter, two_mass(), with_faults(5000.0))->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(step, lost_samples_and_jitter, lhifam_parameters(), with_faults(5000.0))
+    ->Unit(benchmark::kMicrosecond);
 
 }  // namespace

@@ -2,12 +2,10 @@
 // one size or a one-line error.
 //
 // Input: a byte that chooses the options, then the file.
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
-#include "memory_file.hpp"
-#include "zwidth/io/recording_file.hpp"
+#include "recording_checks.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size < 1) return 0;
@@ -21,16 +19,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (data[0] & 2) options.columns.pop_back();
   if (data[0] & 4) options.rate = 1000.0;
   if (data[0] & 8) options.time_column = "2";
-  const auto recording = zwidth::read_recording(file.path(), options);
-  if (!recording) {
-    require_one_line(recording.error());
-    return 0;
-  }
-  require(contents.has_value());
-  require(recording->channels.size() == options.columns.size() && recording->sampling_period > 0.0);
-  for (const zwidth::Channel& channel : recording->channels) {
-    require(channel.samples.size() == recording->channels.front().samples.size() && channel.samples.size() > 1);
-    for (const double value : channel.samples) require(std::isfinite(value));
-  }
+  check_recording(file.path(), options, contents.has_value());
   return 0;
 }

@@ -108,12 +108,7 @@ TEST_F(DesignNotch, RefusesWhatItCannotDo) {
       {"devices/lhifam.toml --drift-percent 5", "add --notch"},
       {"missing.toml --notch", "missing.toml"},
   };
-  for (const auto& [arguments, message] : cases) {
-    const Outcome outcome = run("zwidth design " + arguments);
-    EXPECT_EQ(outcome.status, 2) << arguments << "\n" << outcome.errors;
-    EXPECT_THAT(outcome.errors, HasSubstr(message)) << arguments;
-    EXPECT_THAT(outcome.output, IsEmpty()) << arguments;
-  }
+  for (const auto& [arguments, message] : cases) expect_refusal("zwidth design " + arguments, message);
 }
 
 }  // namespace

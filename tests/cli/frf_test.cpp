@@ -31,14 +31,6 @@ class Frf : public Workspace {
     std::ifstream file(directory() / name, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};
   }
-  void expect_refusal(const std::string& command, const std::string& message) const {
-    const Outcome outcome = run(command);
-    EXPECT_EQ(outcome.status, 2) << command;
-    EXPECT_THAT(outcome.output, IsEmpty()) << command;
-    EXPECT_THAT(outcome.errors, StartsWith("zwidth: ")) << command;
-    EXPECT_THAT(outcome.errors, HasSubstr(message)) << command;
-    EXPECT_EQ(std::count(outcome.errors.begin(), outcome.errors.end(), '\n'), 1) << outcome.errors;
-  }
 };
 
 const std::string example = "zwidth frf recordings/locked_chirp.csv --force force --position position ";

@@ -28,14 +28,6 @@ class Identify : public Workspace {
     EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 1) << command;
     return json::parse(outcome.output, nullptr, false);
   }
-  void expect_refusal(const std::string& command, const std::string& message) const {
-    const Outcome outcome = run(command);
-    EXPECT_EQ(outcome.status, 2) << command << "\n" << outcome.output;
-    EXPECT_THAT(outcome.output, IsEmpty()) << command;
-    EXPECT_THAT(outcome.errors, StartsWith("zwidth: ")) << command;
-    EXPECT_THAT(outcome.errors, HasSubstr(message)) << command;
-    EXPECT_EQ(std::count(outcome.errors.begin(), outcome.errors.end(), '\n'), 1) << outcome.errors;
-  }
 };
 
 // The recording is of the paper's Table I (79.5 kN/m, 15 N s/m): recordings/README.md.

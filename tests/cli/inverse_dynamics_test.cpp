@@ -68,11 +68,6 @@ TEST_F(IdentifyRigidBody, TellsItInWords) {
 }
 
 TEST_F(IdentifyRigidBody, Refusals) {
-  const auto expect_refusal = [this](const std::string& command, const std::string& message) {
-    const Outcome outcome = run(command);
-    EXPECT_EQ(outcome.status, 2) << command;
-    EXPECT_THAT(outcome.errors, AllOf(StartsWith("zwidth: "), HasSubstr(message))) << command;
-  };
   const std::string rigid = example;
   expect_refusal(rigid + "--figure a.svg", "--figure: is not for --method inverse-dynamics");
   expect_refusal(rigid + "--window hann", "--window: is not for");

@@ -81,12 +81,7 @@ TEST_F(Region, RefusesWhatItCannotDoBeforeAnyWork) {
       {"missing.toml", "missing.toml"},
       {"devices/lhifam.toml --set wall.velocity_filter_hz=-1", "wall.velocity_filter_hz"},
   };
-  for (const auto& [arguments, message] : cases) {
-    const Outcome outcome = run("zwidth region " + arguments);
-    EXPECT_EQ(outcome.status, 2) << arguments;
-    EXPECT_THAT(outcome.errors, HasSubstr(message)) << arguments;
-    EXPECT_THAT(outcome.output, IsEmpty()) << arguments;
-  }
+  for (const auto& [arguments, message] : cases) expect_refusal("zwidth region " + arguments, message);
   EXPECT_FALSE(std::filesystem::exists(directory() / "a.csv"));
 }
 

@@ -34,13 +34,8 @@ class Simulate : public Workspace {
     EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 1) << outcome.output;
     return nlohmann::json::parse(outcome.output, nullptr, false);
   }
-  void expect_refusal(const std::string& arguments, const std::string& message) const {
-    const Outcome outcome = run("zwidth simulate " + arguments);
-    EXPECT_EQ(outcome.status, 2) << arguments << "\n" << outcome.output;
-    EXPECT_THAT(outcome.output, IsEmpty()) << arguments;
-    EXPECT_THAT(outcome.errors, StartsWith("zwidth: ")) << arguments;
-    EXPECT_THAT(outcome.errors, HasSubstr(message)) << arguments;
-    EXPECT_EQ(std::count(outcome.errors.begin(), outcome.errors.end(), '\n'), 1) << outcome.errors;
+  void expect_refused(const std::string& arguments, const std::string& message) const {
+    expect_refusal("zwidth simulate " + arguments, message);
   }
 };
 
@@ -170,9 +165,9 @@ TEST_F(Simulate, ATransferFunctionStartsBesideItsWall) {
   EXPECT_EQ(document.at("verdict"), "settles");
   EXPECT_EQ(document.at("wall").at("position"), -1e-3);
   EXPECT_THAT(document.at("start"), IsEmpty());
-  expect_refusal("tf.toml --start 1e-3", "a transfer function has no bodies");
-  expect_refusal("tf.toml --user-force step:1", "no body that a user could hold");
-  expect_refusal("tf.toml --wall-position 0", "where nothing moves the device");
+  expect_refused("tf.toml --start 1e-3", "a transfer function has no bodies");
+  expect_refused("tf.toml --user-force step:1", "no body that a user could hold");
+  expect_refused("tf.toml --wall-position 0", "where nothing moves the device");
 }
 
 TEST_F(Simulate, AWallBehindTheStartIsSaid) {
@@ -184,39 +179,39 @@ TEST_F(Simulate, AWallBehindTheStartIsSaid) {
 }
 
 TEST_F(Simulate, Refusals) {
-  expect_refusal("devices/lhifam.toml", "nothing moves the device: add a wall");
-  expect_refusal("devices/lhifam.toml --set wall.stiffness=0", "nothing moves the device: add a wall");
-  expect_refusal(lhifam + "--start 1e300", "at most 1e30");
-  expect_refusal(lhifam + "--contact unilateral", "nothing presses the device against the wall");
-  expect_refusal(lhifam + "--contact both", "--contact");
-  expect_refusal(lhifam + "--start 0", "--start: every body starts at rest at 0");
-  expect_refusal(lhifam + "--start arm=1", "no body 'arm'; the device has motor, handle");
-  expect_refusal(lhifam + "--start motor=far", "--start: 'motor=far'");
-  expect_refusal(lhifam + "--start motor=nan", "--start: 'motor=nan'");
-  expect_refusal(lhifam + "--start-velocity ''", "--start-velocity: ''");
-  expect_refusal(lhifam + "--duration 0", "--duration: is 0 s");
-  expect_refusal(lhifam + "--duration 1e6", "1 to 20000000 sampling periods");
-  expect_refusal(lhifam + "--duration nan", "--duration: is nan s");
-  expect_refusal(lhifam + "--set loop.delay=2 --duration 1", "no force would arrive");
-  expect_refusal(lhifam + "--user-force step:5@3 --duration 1", "begins at 3 s only");
-  expect_refusal(lhifam + "--user-force step:5,3", "step:N@S");
-  expect_refusal(lhifam + "--user-force sine:5", "sine:N,HZ@S");
-  expect_refusal(lhifam + "--user-force sine:5,0", "sine:N,HZ@S");
-  expect_refusal(lhifam + "--user-force sine:0,3", "has no force");
-  expect_refusal(lhifam + "--user-force ramp:1@-1", "ramp:N_PER_S@S");
-  expect_refusal(lhifam + "--user-force missing.csv", "--user-force: missing.csv");
-  expect_refusal(lhifam + "--lost-samples 1.5", "--lost-samples: is 1.5");
-  expect_refusal(lhifam + "--jitter 1e-3", "below the sampling period");
-  expect_refusal(lhifam + "--overrun 0.5", "--overrun");
-  expect_refusal(lhifam + "--overrun 0.5,-1", "--overrun: is -1");
-  expect_refusal(lhifam + "--overrun 0.5,1e9", "at most 10 s");
-  expect_refusal(lhifam + "--wall-position inf", "--wall-position: is inf");
-  expect_refusal(lhifam + "--divergence 0", "--divergence: is 0");
-  expect_refusal(lhifam + "--every 2", "--every: is for --csv and --figure");
-  expect_refusal(lhifam + "--figure a.jpg", "unknown extension; .svg, .png or .pdf");
-  expect_refusal(lhifam + "--csv devices/lhifam.toml", "would overwrite the device file");
-  expect_refusal(lhifam + "--duration 10000 --csv a.csv", "thin them with --every");
-  expect_refusal("devices/lhifam.toml devices/lhifam.toml", "");
+  expect_refused("devices/lhifam.toml", "nothing moves the device: add a wall");
+  expect_refused("devices/lhifam.toml --set wall.stiffness=0", "nothing moves the device: add a wall");
+  expect_refused(lhifam + "--start 1e300", "at most 1e30");
+  expect_refused(lhifam + "--contact unilateral", "nothing presses the device against the wall");
+  expect_refused(lhifam + "--contact both", "--contact");
+  expect_refused(lhifam + "--start 0", "--start: every body starts at rest at 0");
+  expect_refused(lhifam + "--start arm=1", "no body 'arm'; the device has motor, handle");
+  expect_refused(lhifam + "--start motor=far", "--start: 'motor=far'");
+  expect_refused(lhifam + "--start motor=nan", "--start: 'motor=nan'");
+  expect_refused(lhifam + "--start-velocity ''", "--start-velocity: ''");
+  expect_refused(lhifam + "--duration 0", "--duration: is 0 s");
+  expect_refused(lhifam + "--duration 1e6", "1 to 20000000 sampling periods");
+  expect_refused(lhifam + "--duration nan", "--duration: is nan s");
+  expect_refused(lhifam + "--set loop.delay=2 --duration 1", "no force would arrive");
+  expect_refused(lhifam + "--user-force step:5@3 --duration 1", "begins at 3 s only");
+  expect_refused(lhifam + "--user-force step:5,3", "step:N@S");
+  expect_refused(lhifam + "--user-force sine:5", "sine:N,HZ@S");
+  expect_refused(lhifam + "--user-force sine:5,0", "sine:N,HZ@S");
+  expect_refused(lhifam + "--user-force sine:0,3", "has no force");
+  expect_refused(lhifam + "--user-force ramp:1@-1", "ramp:N_PER_S@S");
+  expect_refused(lhifam + "--user-force missing.csv", "--user-force: missing.csv");
+  expect_refused(lhifam + "--lost-samples 1.5", "--lost-samples: is 1.5");
+  expect_refused(lhifam + "--jitter 1e-3", "below the sampling period");
+  expect_refused(lhifam + "--overrun 0.5", "--overrun");
+  expect_refused(lhifam + "--overrun 0.5,-1", "--overrun: is -1");
+  expect_refused(lhifam + "--overrun 0.5,1e9", "at most 10 s");
+  expect_refused(lhifam + "--wall-position inf", "--wall-position: is inf");
+  expect_refused(lhifam + "--divergence 0", "--divergence: is 0");
+  expect_refused(lhifam + "--every 2", "--every: is for --csv and --figure");
+  expect_refused(lhifam + "--figure a.jpg", "unknown extension; .svg, .png or .pdf");
+  expect_refused(lhifam + "--csv devices/lhifam.toml", "would overwrite the device file");
+  expect_refused(lhifam + "--duration 10000 --csv a.csv", "thin them with --every");
+  expect_refused("devices/lhifam.toml devices/lhifam.toml", "");
   EXPECT_FALSE(std::filesystem::exists(directory() / "a.csv"));
 }
 

@@ -1,8 +1,10 @@
 #include "cli/workspace.hpp"
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
@@ -42,6 +44,15 @@ Outcome Workspace::run(const std::string& command_line) const {
   const int raw = std::system(wrapped.c_str());
   const int status = WIFEXITED(raw) ? WEXITSTATUS(raw) : 128 + WTERMSIG(raw);
   return {status, contents_of(directory_ / ".output"), contents_of(directory_ / ".errors")};
+}
+
+void Workspace::expect_refusal(const std::string& command_line, const std::string& message) const {
+  const Outcome outcome = run(command_line);
+  EXPECT_EQ(outcome.status, 2) << command_line << "\n" << outcome.output;
+  EXPECT_THAT(outcome.output, ::testing::IsEmpty()) << command_line;
+  EXPECT_THAT(outcome.errors, ::testing::StartsWith("zwidth: ")) << command_line;
+  EXPECT_THAT(outcome.errors, ::testing::HasSubstr(message)) << command_line;
+  EXPECT_EQ(std::count(outcome.errors.begin(), outcome.errors.end(), '\n'), 1) << outcome.errors;
 }
 
 void Workspace::write(const std::string& name, std::string_view contents) const {

@@ -17,6 +17,7 @@
 #include "report/design_sweep_figure.hpp"
 #include "report/design_sweep_json.hpp"
 #include "report/design_text.hpp"
+#include "report/json_keys.hpp"
 #include "report/text_table.hpp"
 
 namespace zwidth::report {
@@ -43,15 +44,6 @@ DesignComparison both_sensors(const Operator& user) {
   const Device motor(test::lhifam_parameters());
   const Device handle(test::handle_sensed(test::lhifam_parameters()));
   return compare_designs("loop.sensed", {{"motor", motor}, {"handle", handle}}, user);
-}
-
-void collect_keys(const Json& value, std::set<std::string>& keys) {
-  if (value.is_object()) {
-    for (const auto& item : value.items()) keys.insert(item.key());
-  }
-  if (value.is_structured()) {
-    for (const auto& child : value) collect_keys(child, keys);
-  }
 }
 
 TEST(DesignJson, EveryKeyIsDocumented) {

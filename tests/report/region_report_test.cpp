@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "lhifam.hpp"
+#include "report/json_keys.hpp"
 #include "report/region_csv.hpp"
 #include "report/region_figure.hpp"
 #include "report/region_json.hpp"
@@ -33,15 +34,6 @@ DeviceRegion transfer_function_region() {
 /// Negative damping: unstable whatever the wall.
 DeviceRegion hopeless_region() {
   return device_region(Device(test::transfer_function_parameters({1.0}, {1.0, -8.0, 0.0}, 1.0)));
-}
-
-void collect_keys(const Json& value, std::set<std::string>& keys) {
-  if (value.is_object()) {
-    for (const auto& item : value.items()) keys.insert(item.key());
-  }
-  if (value.is_structured()) {
-    for (const auto& child : value) collect_keys(child, keys);
-  }
 }
 
 TEST(RegionJson, EveryKeyIsDocumented) {

@@ -82,23 +82,7 @@ TEST_P(FrictionLoop, MovesAsAnIndependentIntegrationSays) {
   const Case& given = GetParam();
   HybridLoop ours(Device(given.device), given.options);
   test::ReferenceLoop reference(given.device, given.options);
-  const std::size_t bodies = given.device.bodies.size();
-  std::vector<double> largest(2 * bodies, 0.0);
-  std::vector<double> worst(2 * bodies, 0.0);
-  for (int k = 0; k < 1000; ++k) {
-    ours.step();
-    reference.step();
-    for (std::size_t i = 0; i < bodies; ++i) {
-      largest[i] = std::max(largest[i], std::abs(reference.position(i)));
-      worst[i] = std::max(worst[i], std::abs(ours.position(i) - reference.position(i)));
-      largest[bodies + i] = std::max(largest[bodies + i], std::abs(reference.velocity(i)));
-      worst[bodies + i] = std::max(worst[bodies + i], std::abs(ours.velocity(i) - reference.velocity(i)));
-      EXPECT_EQ(ours.sticks(i), reference.sticks(i)) << "body " << i << " at sample " << k + 1;
-    }
-  }
-  for (std::size_t i = 0; i < worst.size(); ++i) {
-    EXPECT_LE(worst[i], relative_tolerance * largest[i]) << "state " << i;
-  }
+  test::expect_same_motion(ours, reference, given.device.bodies.size(), relative_tolerance);
   EXPECT_GT(reference.events(), 3U);
   EXPECT_EQ(ours.friction_events(), reference.events());
   EXPECT_EQ(ours.overloaded_steps(), 0U);

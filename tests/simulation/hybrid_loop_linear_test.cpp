@@ -107,23 +107,7 @@ TEST_P(LinearLoop, MovesAsAnIndependentIntegrationSays) {
   const Case& given = GetParam();
   HybridLoop ours(Device(given.device), given.options);
   test::ReferenceLoop reference(given.device, given.options);
-  const std::size_t bodies = given.device.bodies.size();
-  std::vector<double> largest(2 * bodies, 0.0);
-  std::vector<double> worst(2 * bodies, 0.0);
-  for (int k = 0; k < 1000; ++k) {
-    ours.step();
-    reference.step();
-    for (std::size_t i = 0; i < bodies; ++i) {
-      largest[i] = std::max(largest[i], std::abs(reference.position(i)));
-      worst[i] = std::max(worst[i], std::abs(ours.position(i) - reference.position(i)));
-      largest[bodies + i] = std::max(largest[bodies + i], std::abs(reference.velocity(i)));
-      worst[bodies + i] = std::max(worst[bodies + i], std::abs(ours.velocity(i) - reference.velocity(i)));
-    }
-  }
-  for (std::size_t i = 0; i < worst.size(); ++i) {
-    EXPECT_GT(largest[i], 0.0);
-    EXPECT_LE(worst[i], relative_tolerance * largest[i]) << "state " << i;
-  }
+  test::expect_same_motion(ours, reference, given.device.bodies.size(), relative_tolerance);
 }
 
 INSTANTIATE_TEST_SUITE_P(HybridLoop, LinearLoop, testing::ValuesIn(cases()),

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
 #include <cmath>
@@ -254,5 +256,27 @@ class ReferenceLoop {
 };
 
 #pragma GCC diagnostic pop
+
+/// Steps both 1000 times: every body's position and velocity within `tolerance` of its largest, sticking at the same
+/// samples.
+inline void expect_same_motion(HybridLoop& ours, ReferenceLoop& reference, std::size_t bodies, double tolerance) {
+  std::vector<double> largest(2 * bodies, 0.0);
+  std::vector<double> worst(2 * bodies, 0.0);
+  for (int k = 0; k < 1000; ++k) {
+    ours.step();
+    reference.step();
+    for (std::size_t i = 0; i < bodies; ++i) {
+      largest[i] = std::max(largest[i], std::abs(reference.position(i)));
+      worst[i] = std::max(worst[i], std::abs(ours.position(i) - reference.position(i)));
+      largest[bodies + i] = std::max(largest[bodies + i], std::abs(reference.velocity(i)));
+      worst[bodies + i] = std::max(worst[bodies + i], std::abs(ours.velocity(i) - reference.velocity(i)));
+      EXPECT_EQ(ours.sticks(i), reference.sticks(i)) << "body " << i << " at sample " << k + 1;
+    }
+  }
+  for (std::size_t i = 0; i < worst.size(); ++i) {
+    EXPECT_GT(largest[i], 0.0) << "state " << i;
+    EXPECT_LE(worst[i], tolerance * largest[i]) << "state " << i;
+  }
+}
 
 }  // namespace zwidth::test
