@@ -166,9 +166,9 @@ std::string users(const AnalysedDevice& analysed) {
 }
 
 std::string device_section(const AnalysedDevice& analysed, std::size_t index) {
-  return answer(analysed) + why(analysed) + users(analysed) + wall(analysed) + figures(analysed, index) + crossovers(analysed) +
-         modes(analysed) + element("h2", "What these numbers leave out") + list(caveats(analysed)) +
-         parameters(analysed);
+  return answer(analysed) + why(analysed) + users(analysed) + wall(analysed) + figures(analysed, index) +
+         crossovers(analysed) + modes(analysed) + element("h2", "What these numbers leave out") +
+         list(caveats(analysed)) + parameters(analysed);
 }
 
 constexpr std::string_view method =

@@ -28,8 +28,20 @@ class Crossing {
            const PhaseRun& above, MeetingLines meeting)
       : lines_(lines), verdicts_(verdicts), below_(below), above_(above), meeting_(meeting) {
     first_open_ = meeting.after;
+    for (std::size_t i = surest_line(below.first, meeting.before); i < meeting.after; ++i) {
+      if (is_open(i, below)) {
+        first_open_ = i;
+        break;
+      }
+    }
     while (first_open_ > below.first && verdicts[first_open_ - 1].sign != below.sign) --first_open_;
     end_open_ = meeting.after;
+    for (std::size_t i = surest_line(meeting.after, above.last) + 1; i-- > meeting.after;) {
+      if (is_open(i, above)) {
+        end_open_ = i + 1;
+        break;
+      }
+    }
     while (end_open_ <= above.last && verdicts[end_open_].sign != above.sign) ++end_open_;
     find_sags();
   }
@@ -53,6 +65,25 @@ class Crossing {
     double frequency = 0.0;
     double log_magnitude = 0.0;
   };
+
+  [[nodiscard]] bool is_open(std::size_t line, const PhaseRun& run) const {
+    return lines_[line].measured && verdicts_[line].sign != run.sign;
+  }
+
+  /// The line whose phase is the most standard deviations from -180 degrees. Between it and the crossing the outermost
+  /// open line ends the interval: of many lines, each proven with 95 %, some are so by chance, and the innermost of
+  /// them would be too near.
+  [[nodiscard]] std::size_t surest_line(std::size_t first, std::size_t last) const {
+    std::size_t surest = first;
+    double most = 0.0;
+    for (std::size_t i = first; i <= last; ++i) {
+      const Estimate& deviation = verdicts_[i].deviation;
+      if (!lines_[i].measured || std::abs(deviation.value) <= most * deviation.sigma) continue;
+      most = std::abs(deviation.value) / deviation.sigma;
+      surest = i;
+    }
+    return surest;
+  }
 
   /// Curvature of phase and ln |P| over the four lines around the meeting, where there are four.
   void find_sags() {

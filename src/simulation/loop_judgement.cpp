@@ -124,7 +124,9 @@ LoopJudgement judge_loop(std::span<const double> position, double sampling_perio
   }
   if (last_swing > rest_share * range) {
     judgement.growth_rate = trend.slope / (window_length * sampling_period);
-    const double period = (points.back() - points.front()) / static_cast<double>(cycles) * sampling_period;
+    // Samples show no oscillation above Nyquist's frequency, whatever the interpolation at the ends says.
+    const double samples = std::max(2.0, (points.back() - points.front()) / static_cast<double>(cycles));
+    const double period = samples * sampling_period;
     judgement.oscillation = Oscillation{2.0 * std::numbers::pi / period, last_swing};
   }
   return judgement;

@@ -26,7 +26,8 @@ class Workspace : public ::testing::Test {
   /// Runs one bash command line in the directory, with `zwidth` on the PATH.
   [[nodiscard]] Outcome run(const std::string& command_line) const;
 
-  /// The command must refuse: status 2, nothing on standard output, and one line that holds `message`.
+  /// The command must refuse: status 2, nothing on standard output, `message` among its errors, each of which is one
+  /// line.
   void expect_refusal(const std::string& command_line, const std::string& message) const;
 
   /// Writes a file into the directory.

@@ -231,23 +231,38 @@ TEST(MeasuredStiffness, NoiseThatHidesTheSofterCrossoverNeverMakesTheHarderOneTh
 
 TEST(MeasuredStiffness, DistortionsThatRepeatInEveryPeriodCountAsNoise) {
   // A nonlinear device's lines scatter far beyond their noise: one crossing, no false ones, and an interval that says
-  // so.
+  // so. The rigid body crosses at a slant, between many lines that scatter to both sides.
   const Device device(test::rigid_parameters());
-  const double truth = critical_stiffness(sampled_plant(device)).limit->frequency;
-  int held = 0;
-  constexpr int seeds = 40;
-  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
-    std::mt19937_64 generator(seed);
-    std::normal_distribution<double> normal(0.0, 0.01);
-    FrequencyResponse response = exact_response(device, 1.0, 100.0, 0.5);
-    for (ResponsePoint& point : response.points) {
-      point.value *= std::exp(std::complex<double>(normal(generator), normal(generator)));
+  const CriticalStiffness truth = critical_stiffness(sampled_plant(device));
+  constexpr int seeds = 200;
+  for (const double step_hz : {0.5, 0.1}) {
+    const FrequencyResponse exact = exact_response(device, 1.0, 100.0, step_hz);
+    int crossings = 0;
+    int frequencies_held = 0;
+    int stiffnesses_held = 0;
+    int unsafe = 0;
+    for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+      std::mt19937_64 generator(seed);
+      std::normal_distribution<double> normal(0.0, 0.01);
+      FrequencyResponse response = exact;
+      for (ResponsePoint& point : response.points) {
+        const double gain = normal(generator);
+        const double phase = normal(generator);
+        point.value *= std::exp(std::complex<double>(gain, phase));
+      }
+      const MeasuredStiffness measured = measured_stiffness(response);
+      ASSERT_FALSE(measured.crossovers.empty()) << "seed " << seed;
+      if (measured.crossovers.size() == 1) ++crossings;
+      const MeasuredCrossover& first = measured.crossovers.front();
+      if (holds(first.frequency_interval, truth.limit->frequency)) ++frequencies_held;
+      if (holds(first.stiffness_interval, truth.stiffness)) ++stiffnesses_held;
+      if (first.stiffness_interval.lower > truth.stiffness) ++unsafe;
     }
-    const MeasuredStiffness measured = measured_stiffness(response);
-    ASSERT_EQ(measured.crossovers.size(), 1U) << "seed " << seed;
-    if (holds(measured.crossovers[0].frequency_interval, truth)) ++held;
+    EXPECT_GE(crossings, seeds - 2) << step_hz;
+    EXPECT_GE(frequencies_held, 184) << step_hz;  // 190 are promised; 192 and 200 were counted
+    EXPECT_GE(stiffnesses_held, 184) << step_hz;
+    EXPECT_LE(unsafe, 12) << step_hz;
   }
-  EXPECT_GE(held, 36);  // of 40; 38 expected
 }
 
 TEST(MeasuredStiffness, SaysWhereNoLineIsExcited) {

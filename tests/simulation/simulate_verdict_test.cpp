@@ -374,5 +374,17 @@ TEST(Simulate, ProgressEndsTheRunByThrowing) {
                Stop);
 }
 
+TEST(Verdict, NoOscillationIsFasterThanNyquist) {
+  std::vector<double> alternating(400);
+  for (std::size_t k = 0; k < alternating.size(); ++k) {
+    alternating[k] = (k % 2 == 0 ? 1.0 : -1.0) * std::exp(0.02 * static_cast<double>(k));
+  }
+  const LoopJudgement judgement = judge_loop(alternating, 1e-3, 0.0);
+  EXPECT_EQ(judgement.verdict, LoopVerdict::unstable);
+  ASSERT_TRUE(judgement.oscillation.has_value());
+  EXPECT_LE(judgement.oscillation->frequency, pi / 1e-3);
+  EXPECT_NEAR(judgement.oscillation->frequency, pi / 1e-3, 0.01 * pi / 1e-3);
+}
+
 }  // namespace
 }  // namespace zwidth
