@@ -218,10 +218,9 @@ InputError no_time_axis_in(const MatTable& table, std::size_t size) {
 }
 
 /// The column of times: the one asked for, or one of the signals' size whose name says time, best beside the first
-/// signal in its struct.
+/// signal in its struct. Only where a rate is given there may be none.
 tl::expected<std::optional<std::size_t>, InputError> find_times(const MatTable& table, const RecordingOptions& options,
                                                                 const Signal& first) {
-  if (options.rate) return std::nullopt;
   if (options.time_column) {
     const auto found = find_signal(table, *options.time_column);
     if (!found) return Refusal(found.error());
@@ -235,7 +234,7 @@ tl::expected<std::optional<std::size_t>, InputError> find_times(const MatTable& 
     const bool beside = parent(signal.name) == parent(first.name);
     if (!best || (beside && parent(table.names[*best]) != parent(first.name))) best = i;
   }
-  if (!best) return Refusal(no_time_axis_in(table, first.size));
+  if (!best && !options.rate) return Refusal(no_time_axis_in(table, first.size));
   return best;
 }
 
@@ -284,8 +283,14 @@ tl::expected<Recording, InputError> read_mat_recording(const std::string& path, 
     times = std::move(columns.back());
     columns.pop_back();
   }
+  std::optional<Remark> contradicting;
+  if (options.rate && times && !times->values.empty()) {
+    contradicting = contradiction(
+        *options.rate, {times->name, times->values.front(), times->values.back(), times->values.size()}, options);
+  }
   auto recording = make_recording(std::move(columns), std::move(times), options);
   if (recording) {
+    if (contradicting) recording->remarks.push_back(*contradicting);
     auto skipped = remarks_on_skipped(table->file.contents.skipped);
     recording->remarks.insert(recording->remarks.end(), skipped.begin(), skipped.end());
   }

@@ -44,6 +44,7 @@ class RowLines {
 struct Selection {
   std::vector<std::size_t> asked;  ///< one per request
   std::optional<std::size_t> time;
+  std::optional<std::size_t> unused_time;  ///< a column of times beside a given rate
 };
 
 tl::expected<Selection, InputError> select_columns(const TextTable& table, const RecordingOptions& options) {
@@ -54,7 +55,6 @@ tl::expected<Selection, InputError> select_columns(const TextTable& table, const
     if (!column) return tl::unexpected(column.error());
     selection.asked.push_back(*column);
   }
-  if (options.rate) return selection;
   if (options.time_column) {
     const auto column = find_column(names, *options.time_column, table.source());
     if (!column) return tl::unexpected(column.error());
@@ -62,6 +62,10 @@ tl::expected<Selection, InputError> select_columns(const TextTable& table, const
     return selection;
   }
   const auto time = std::find_if(names.begin(), names.end(), names_a_time);
+  if (options.rate) {
+    if (time != names.end()) selection.unused_time = static_cast<std::size_t>(time - names.begin());
+    return selection;
+  }
   if (time == names.end()) {
     InputError refusal = no_time_axis(table.source());
     refusal.allowed += fmt::format("; the file has {}", listed_columns(names));
@@ -97,6 +101,8 @@ tl::expected<Recording, InputError> read_text_recording(TextLines lines, const R
     columns.back().values.reserve(table->likely_rows());
   }
 
+  std::optional<UnusedTimes> unused;
+  if (selection->unused_time) unused = UnusedTimes{names[*selection->unused_time]};
   const auto add_row = [&](const TextRow& row) -> tl::expected<void, InputError> {
     row_lines->add(columns.front().values.size(), row.line.number);
     for (std::size_t k = 0; k < indices.size(); ++k) {
@@ -106,6 +112,13 @@ tl::expected<Recording, InputError> read_text_recording(TextLines lines, const R
         return tl::unexpected(indices[k] == selection->time ? no_time(std::move(refusal)) : std::move(refusal));
       }
       columns[k].values.push_back(number.value);
+    }
+    if (unused) {
+      const NumberCell time = table->number(row.cells[*selection->unused_time]);
+      if (time.kind == NumberCell::Kind::number) {
+        if (unused->samples++ == 0) unused->first = time.value;
+        unused->last = time.value;
+      }
     }
     return {};
   };
@@ -119,6 +132,9 @@ tl::expected<Recording, InputError> read_text_recording(TextLines lines, const R
   auto recording = make_recording(std::move(columns), std::move(times), options);
   if (recording) {
     recording->remarks.insert(recording->remarks.begin(), table->remarks().begin(), table->remarks().end());
+    if (const auto remark = unused ? contradiction(*options.rate, *unused, options) : std::nullopt) {
+      recording->remarks.push_back(*remark);
+    }
   }
   return recording;
 }

@@ -289,4 +289,16 @@ TimeAxis axis_of_rate(double rate) {
   return {1.0 / rate, {}};
 }
 
+std::optional<Remark> contradiction(double rate, const UnusedTimes& times, const RecordingOptions& options) {
+  constexpr double most_difference = 0.01;
+  const double span = (times.last - times.first) * time_scale_of(times.column, options);
+  if (times.samples < 2 || !std::isfinite(span) || span <= 0.0) return std::nullopt;
+  const double stated = static_cast<double>(times.samples - 1) / span;
+  if (std::abs(rate - stated) <= most_difference * stated) return std::nullopt;
+  return Remark{Remark::Severity::warning,
+                fmt::format("the rate is given as {:.7g} Hz; the times in column {} say {:.7g} Hz", rate,
+                            shortened(times.column), stated),
+                "the given rate is used; leave it out to use the times"};
+}
+
 }  // namespace zwidth

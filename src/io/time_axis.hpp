@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+#include <string>
 #include <tl/expected.hpp>
 #include <vector>
 
@@ -31,5 +33,18 @@ struct TimeAxis {
 
 /// The axis of `options.rate` (Hz).
 [[nodiscard]] TimeAxis axis_of_rate(double rate);
+
+/// The ends of a column of times that is not used, since a rate is given.
+struct UnusedTimes {
+  std::string column;  ///< its name
+  double first = 0.0;  ///< in the column's unit
+  double last = 0.0;
+  std::size_t samples = 0;
+};
+
+/// A warning where those times say another rate (Hz) than the one given, by more than 1 %. None where they fall back:
+/// a timer that wraps says nothing.
+[[nodiscard]] std::optional<Remark> contradiction(double rate, const UnusedTimes& times,
+                                                  const RecordingOptions& options);
 
 }  // namespace zwidth

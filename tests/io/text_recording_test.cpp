@@ -182,6 +182,29 @@ TEST_F(TextRecording, ReadsTheTimeInTheUnitOfItsName) {
 }
 
 // A logger of a microcontroller: no header, semicolons, a 16-bit timer in microseconds, about 1012 us per row.
+TEST_F(TextRecording, SaysThatTheGivenRateContradictsTheTimes) {
+  const std::string text = "t [ms],x\n0,1\n1,2\n2,3\n3,4\n";
+  const auto with_rate = [&](double rate) {
+    RecordingOptions options = columns_named({"x"});
+    options.rate = rate;
+    return read(text, options);
+  };
+  const auto twice = with_rate(2000.0);
+  ASSERT_TRUE(twice.has_value());
+  EXPECT_EQ(twice->sampling_period, 0.5e-3);
+  EXPECT_EQ(warnings_in(twice->remarks), 1U);
+  EXPECT_TRUE(mentions(twice->remarks, "the rate is given as 2000 Hz; the times in column t [ms] say 1000 Hz"));
+  const auto right = with_rate(1005.0);
+  ASSERT_TRUE(right.has_value());
+  EXPECT_EQ(warnings_in(right->remarks), 0U);
+  // A timer that falls back says nothing.
+  RecordingOptions options = columns_named({"x"});
+  options.rate = 10.0;
+  const auto wrapped = read("t,x\n65534,1\n65535,2\n0,3\n", options);
+  ASSERT_TRUE(wrapped.has_value());
+  EXPECT_EQ(warnings_in(wrapped->remarks), 0U);
+}
+
 TEST_F(TextRecording, ReadsATimerThatWrapsByOptionsAlone) {
   std::string text;
   Samples force;
