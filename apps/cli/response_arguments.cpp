@@ -68,8 +68,7 @@ void add_table_options(CLI::App& command, ResponseArguments& arguments) {
     return command.add_option(name, value, what)->type_name(type)->needs(table)->group(table_group);
   };
   add("--frequency", arguments.table.frequency, "Column of frequencies; else found by its name", "COLUMN");
-  add("--frequency-unit", arguments.frequency_unit, "hz or rad_s", "UNIT")
-      ->capture_default_str()
+  add("--frequency-unit", arguments.frequency_unit, "hz or rad_s; else as the column's name says, or Hz", "UNIT")
       ->check(CLI::IsMember({"hz", "rad_s"}));
   add("--frequency-step", arguments.frequency_step_hz, "For values without frequencies, from 0 Hz on", "HZ");
   add("--magnitude", arguments.table.magnitude, "Column of magnitudes, position per force", "COLUMN");
@@ -77,8 +76,7 @@ void add_table_options(CLI::App& command, ResponseArguments& arguments) {
       ->needs(table)
       ->group(table_group);
   add("--phase", arguments.table.phase, "Column of phases", "COLUMN");
-  add("--phase-unit", arguments.phase_unit, "deg or rad", "UNIT")
-      ->capture_default_str()
+  add("--phase-unit", arguments.phase_unit, "deg or rad; else as the column's name says, or degrees", "UNIT")
       ->check(CLI::IsMember({"deg", "rad"}));
   add("--real", arguments.table.real, "Column of real parts, or of complex numbers; a UFF record's name", "COLUMN");
   add("--imaginary", arguments.table.imaginary, "Column of imaginary parts", "COLUMN");
@@ -157,8 +155,8 @@ MeasuredResponse from_table(const ResponseArguments& arguments) {
   check_table_options(*arguments.command);
   ResponseTableOptions options = arguments.table;
   options.file = recording_options(arguments.recording);
-  options.frequency_scale = arguments.frequency_unit == "hz" ? radians_per_turn : 1.0;
-  options.phase_in_degrees = arguments.phase_unit == "deg";
+  if (arguments.frequency_unit) options.frequency_scale = *arguments.frequency_unit == "hz" ? radians_per_turn : 1.0;
+  if (arguments.phase_unit) options.phase_in_degrees = *arguments.phase_unit == "deg";
   options.frequency_step = angular("--frequency-step", arguments.frequency_step_hz).value_or(0.0);
   if (!std::isfinite(options.scale) || options.scale == 0.0) {
     throw BadInput(fmt::format("--value-scale: is {}; a number but 0", options.scale));

@@ -28,8 +28,8 @@ struct ResponseArguments {
   std::optional<double> frequency_step_hz;
   std::string window = "hann";
   std::string estimator = "h1";
-  std::string frequency_unit = "hz";
-  std::string phase_unit = "deg";
+  std::optional<std::string> frequency_unit;
+  std::optional<std::string> phase_unit;
   const CLI::App* command = nullptr;  ///< whose options these are
 };
 

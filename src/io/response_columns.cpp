@@ -122,13 +122,12 @@ std::optional<std::size_t> Search::frequency_by_name() const {
   for (std::size_t i = 0; i < names_.size(); ++i) {
     const Meaning meaning = meaning_of(names_[i]);
     if (!is_one_of(meaning.word, frequency_words)) continue;
-    if (!found || rad_s_per(meaning.unit) == options_.frequency_scale) found = i;
+    if (!found || rad_s_per(meaning.unit) == options_.frequency_scale.value_or(hertz)) found = i;
   }
   return found;
 }
 
 tl::expected<void, InputError> Search::find_frequency() {
-  found_.frequency_scale = options_.frequency_scale;
   if (options_.frequency_step > 0.0) {
     if (options_.frequency.empty()) return {};
     return refused(shortened(options_.frequency), "a column of frequencies is asked for beside a step of frequency",
@@ -204,25 +203,26 @@ void Search::use_units_of_names() {
                               fmt::format("column {} is read in {}, as its name says", in_quotes(names_[column]), unit),
                               ""});
   };
-  if (found_.frequency && options_.frequency_scale == hertz) {  // the default: perhaps not meant
+  found_.frequency_scale = options_.frequency_scale.value_or(hertz);
+  if (found_.frequency && !options_.frequency_scale) {
     const std::string unit = meaning_of(names_[*found_.frequency]).unit;
     const double scale = rad_s_per(unit).value_or(hertz);
     if (scale != hertz) note(*found_.frequency, unit);
     found_.frequency_scale = scale;
   }
   found_.magnitude_in_db = options_.magnitude_in_db;
-  found_.phase_in_degrees = options_.phase_in_degrees;
+  found_.phase_in_degrees = options_.phase_in_degrees.value_or(true);
   if (found_.form != ResponseColumns::Form::magnitude_and_phase) return;
   if (!found_.magnitude_in_db && meaning_of(names_[found_.first]).unit == "db") {
     found_.magnitude_in_db = true;
     note(found_.first, "dB");
   }
+  if (options_.phase_in_degrees) return;
   const std::string phase_unit = meaning_of(names_[found_.second]).unit;
-  const bool says_degrees = is_one_of(phase_unit, {"deg", "degrees", "degree", "°"});
   const bool says_radians = is_one_of(phase_unit, {"rad", "radians"});
-  if ((says_degrees && !found_.phase_in_degrees) || (says_radians && found_.phase_in_degrees)) {
-    found_.phase_in_degrees = says_degrees;
-    note(found_.second, says_degrees ? "degrees" : "radians");
+  if (says_radians) {
+    found_.phase_in_degrees = false;
+    note(found_.second, "radians");
   }
 }
 

@@ -28,7 +28,7 @@ void check_options(const ResponseTableOptions& options) {
     if (!holds) throw Error(ErrorCode::invalid_argument, what);
   };
   require(std::isfinite(options.scale) && options.scale != 0.0, "the scale of a response must be finite and not 0");
-  require(std::isfinite(options.frequency_scale) && options.frequency_scale > 0.0,
+  require(!options.frequency_scale || (std::isfinite(*options.frequency_scale) && *options.frequency_scale > 0.0),
           "the scale of frequencies must be finite and above 0");
   require(std::isfinite(options.frequency_step) && options.frequency_step >= 0.0,
           "the step of frequency must be finite and not negative");

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <complex>
+#include <numbers>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -128,7 +129,7 @@ tl::expected<FrequencyResponse, InputError> read_uff_response(const std::string&
   std::vector<ResponseLine> lines(values->abscissa.size());
   const auto conversion = to_position(record);
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    lines[i].frequency = values->abscissa[i] * options.frequency_scale;
+    lines[i].frequency = values->abscissa[i] * options.frequency_scale.value_or(2.0 * std::numbers::pi);
     lines[i].value = {values->ordinate[i], values->imaginary[i]};
     const std::complex<double> s(0.0, lines[i].frequency);
     const bool at_rest = lines[i].frequency == 0.0;

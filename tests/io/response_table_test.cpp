@@ -78,6 +78,12 @@ INSTANTIATE_TEST_SUITE_P(
                               o.scale = 1e-3;
                               o.frequency_scale = 1e3 * turn;
                             })},
+                    Written{"UnitsGivenAgainstTheNames",
+                            "f [rad/s],mag,phase [deg]\n10,5,0.9272952180016122\n20,2,-1.5707963267948966\n",
+                            with([](ResponseTableOptions& o) {
+                              o.phase_in_degrees = false;
+                              o.frequency_scale = turn;
+                            })},
                     Written{"DecibelsAsked", "10 13.9794000867204 53.13010235415598\n20 6.020599913279624 -90\n",
                             with([](ResponseTableOptions& o) {
                               o.magnitude = "2";

@@ -76,16 +76,16 @@ struct RecordingContents {
                                                                          const RecordingOptions& options = {});
 
 /// Which column of a table is what. Names, or numbers from 1; the first set of three that is given counts. Where none
-/// is, columns whose names say what they are ("frequency_hz", "mag [dB]", "phase (rad)", "re"). A unit that such a name
-/// states counts before the one below, with a remark.
+/// is, columns whose names say what they are ("frequency_hz", "mag [dB]", "phase (rad)", "re"). Units that are not
+/// given are those that the names state, with a remark.
 struct ResponseTableOptions {
   RecordingOptions file;  ///< format, delimiter, decimal mark, header, comment; `columns` and time are not used
   std::string frequency;  ///< empty: a column named f, freq, frequency, ..., or the first (a UFF record has its own)
-  double frequency_scale = 6.283185307179586;  ///< rad/s per unit: Hz by default
-  std::string magnitude, phase;                ///< or
-  std::string real, imaginary;                 ///< or a column of complex numbers "(re+imj)", named by `real`
+  std::optional<double> frequency_scale;  ///< rad/s per unit; absent: as the name says, else Hz
+  std::string magnitude, phase;           ///< or
+  std::string real, imaginary;            ///< or a column of complex numbers "(re+imj)", named by `real`
   bool magnitude_in_db = false;
-  bool phase_in_degrees = true;
+  std::optional<bool> phase_in_degrees;   ///< absent: as the name says, else degrees
   double scale = 1.0;                     ///< of the value
   std::optional<std::string> coherence;   ///< a column, where there is one
   std::optional<double> sampling_period;  ///< the table is the sampled plant's response; absent: continuous
