@@ -47,7 +47,12 @@ void raster_100_by_100(benchmark::State& state, double delay) {
   }
 }
 
-void any_user(benchmark::State& state) {
+void any_user(benchmark::State& state, double delay) {
+  const Device device = two_mass(delay);
+  for (auto _ : state) benchmark::DoNotOptimize(any_user_limit(device));
+}
+
+void any_user_boundary(benchmark::State& state) {
   const Device device = two_mass(0.0);
   for (auto _ : state) {
     benchmark::DoNotOptimize(any_user_region(device, 0.0, 600.0));
@@ -60,6 +65,9 @@ BENCHMARK_CAPTURE(boundary, two_mass_delay_0_25_samples, 0.25e-3, 0.0)->Unit(ben
 BENCHMARK_CAPTURE(boundary, two_mass_delay_8_25_samples, 8.25e-3, 0.0)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(raster_100_by_100, two_mass, 0.0)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(raster_100_by_100, two_mass_delay_0_25_samples, 0.25e-3)->Unit(benchmark::kMicrosecond);
-BENCHMARK(any_user)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(any_user, two_mass, 0.0)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(any_user, two_mass_delay_0_25_samples, 0.25e-3)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(any_user, two_mass_delay_8_25_samples, 8.25e-3)->Unit(benchmark::kMicrosecond);
+BENCHMARK(any_user_boundary)->Unit(benchmark::kMillisecond);
 
 }  // namespace
