@@ -25,6 +25,9 @@ Device without_operator(const Device& device) {
   return Device(std::move(parameters));
 }
 
+/// |z| of a density, which is far from where squares overflow or vanish.
+double size_of(std::complex<double> z) { return std::sqrt(std::norm(z)); }
+
 }  // namespace
 
 UserDiscs::UserDiscs(const Device& device)
@@ -86,14 +89,15 @@ std::complex<double> UserDiscs::disc_density(double frequency) const {
     largest = std::max({largest, std::abs(q[i].real()), std::abs(q[i].imag())});
   }
   // Scaled by the largest, so that squares neither overflow nor vanish.
+  const double unit = 1.0 / largest;
   double dissipation = 0.0;
   for (const Damper& each : dampers_) {
     const std::complex<double> motion = each.second == each.first ? q[each.first] : q[each.first] - q[each.second];
-    dissipation += each.damping * std::norm(motion / largest);
+    dissipation += each.damping * std::norm(motion * unit);
   }
-  const std::complex<double> through =
-      (q[sensed_] / largest) * (q[actuated_] / largest) / std::complex<double>(1.0, lag_ * frequency);
-  return through / (2.0 * frequency * frequency * dissipation);
+  const std::complex<double> through = (q[sensed_] * unit) * (q[actuated_] * unit);
+  const std::complex<double> density = through / (2.0 * frequency * frequency * dissipation);
+  return lag_ > 0.0 ? density / std::complex<double>(1.0, lag_ * frequency) : density;
 }
 
 UserDiscs::Disc UserDiscs::at(double frequency) const {
@@ -167,17 +171,18 @@ UserDiscs::Disc UserDiscs::near_zero(double frequency) const {
 
 UserDiscs::Disc UserDiscs::summed(const AliasRule& rule, double frequency) const {
   const double spacing = 2.0 * pi / period_;
+  const std::complex<double> late = std::polar(1.0, -frequency * delay_);
   std::complex<double> shift = 0.0;
   double radius = 0.0;
   for (const AliasRule::Node& node : rule.nodes) {
     const double offset = node.number * spacing;
     const std::complex<double> above = disc_density(offset + frequency);
-    shift += node.turning * (above * std::polar(1.0, -frequency * delay_));
-    radius += node.still * std::abs(above);
+    shift += node.turning * above * late;
+    radius += node.still * size_of(above);
     if (node.number == 0.0) continue;
     const std::complex<double> below = disc_density(offset - frequency);
-    shift += std::conj(node.turning * (below * std::polar(1.0, frequency * delay_)));
-    radius += node.still * std::abs(below);
+    shift += std::conj(node.turning * below) * late;
+    radius += node.still * size_of(below);
   }
   // (1 - e^{-jwT}) / T
   const std::complex<double> hold =
