@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 namespace zwidth {
 namespace {
@@ -25,24 +26,13 @@ double sag(double y0, double y1, double y2, double y3) { return std::abs(y0 - y1
 class Crossing {
  public:
   Crossing(std::span<const PhaseLine> lines, std::span<const PhaseVerdict> verdicts, const PhaseRun& below,
-           const PhaseRun& above, MeetingLines meeting)
+           const PhaseRun& above, MeetingLines meeting, double line_correlation)
       : lines_(lines), verdicts_(verdicts), below_(below), above_(above), meeting_(meeting) {
     first_open_ = meeting.after;
-    for (std::size_t i = surest_line(below.first, meeting.before); i < meeting.after; ++i) {
-      if (is_open(i, below)) {
-        first_open_ = i;
-        break;
-      }
-    }
     while (first_open_ > below.first && verdicts[first_open_ - 1].sign != below.sign) --first_open_;
     end_open_ = meeting.after;
-    for (std::size_t i = surest_line(meeting.after, above.last) + 1; i-- > meeting.after;) {
-      if (is_open(i, above)) {
-        end_open_ = i + 1;
-        break;
-      }
-    }
     while (end_open_ <= above.last && verdicts[end_open_].sign != above.sign) ++end_open_;
+    fit_curve(line_correlation);
     find_sags();
   }
 
@@ -66,13 +56,7 @@ class Crossing {
     double log_magnitude = 0.0;
   };
 
-  [[nodiscard]] bool is_open(std::size_t line, const PhaseRun& run) const {
-    return lines_[line].measured && verdicts_[line].sign != run.sign;
-  }
-
-  /// The line whose phase is the most standard deviations from -180 degrees. Between it and the crossing the outermost
-  /// open line ends the interval: of many lines, each proven with 95 %, some are so by chance, and the innermost of
-  /// them would be too near.
+  /// The line whose phase is the most standard deviations from -180 degrees.
   [[nodiscard]] std::size_t surest_line(std::size_t first, std::size_t last) const {
     std::size_t surest = first;
     double most = 0.0;
@@ -83,6 +67,20 @@ class Crossing {
       surest = i;
     }
     return surest;
+  }
+
+  /// One curve through the phases around the crossing. Its bound passes -180 degrees at the interval's ends: of many
+  /// lines, each proven by a fit of its own with 95 %, some are so by chance, and the innermost of them is too near.
+  void fit_curve(double line_correlation) {
+    const bool is_before = std::abs(lines_[meeting_.before].deviation) < std::abs(lines_[meeting_.after].deviation);
+    const std::size_t centre = is_before ? meeting_.before : meeting_.after;
+    first_sample_ = centre;
+    while (first_sample_ > below_.first && !is_far(lines_[first_sample_ - 1])) --first_sample_;
+    std::vector<CurveSample> phases;
+    for (std::size_t i = first_sample_; i <= above_.last && !(i > centre && is_far(lines_[i])); ++i) {
+      phases.push_back(phase_sample(lines_[i]));
+    }
+    if (lines_[centre].measured) curve_ = local_curve(phases, centre - first_sample_, line_correlation);
   }
 
   /// Curvature of phase and ln |P| over the four lines around the meeting, where there are four.
@@ -144,26 +142,61 @@ class Crossing {
     return best;
   }
 
-  /// The bound of the smoothed phase towards -180 degrees and beyond, with the sign of its run: positive where proven.
-  [[nodiscard]] double bound(std::size_t line, int sign) const {
-    const Estimate& deviation = verdicts_[line].deviation;
+  /// The bound of a phase towards -180 degrees and beyond, with the sign of its run: positive where proven.
+  [[nodiscard]] double bound(const Estimate& deviation, int sign) const {
     return sign * deviation.value - two_sided_95 * deviation.sigma - phase_sag_;
   }
 
+  /// From the crossing outwards, to where the curve is proven to be on the run's side; nothing where it is not so
+  /// within its reach.
+  [[nodiscard]] std::optional<double> end_by_curve(const PhaseRun& run, bool downwards) const {
+    if (!curve_) return std::nullopt;
+    const std::size_t first = first_sample_ + curve_->first;
+    const std::size_t last = first_sample_ + curve_->last;
+    const auto bound_at = [&](std::size_t i) { return bound(curve_->at(std::log(lines_[i].frequency)), run.sign); };
+    std::size_t inner = downwards ? meeting_.after : meeting_.before;
+    for (std::size_t i = downwards ? meeting_.before : meeting_.after; i >= first && i <= last; downwards ? --i : ++i) {
+      if (bound_at(i) > 0.0) {
+        return between(lines_[i].frequency, lines_[inner].frequency, zero_between(bound_at(i), bound_at(inner)));
+      }
+      inner = i;
+    }
+    return std::nullopt;
+  }
+
+  /// Where no single curve tells: the outermost open line between the crossing and the surest line ends the interval.
   [[nodiscard]] double lower_end() const {
-    if (first_open_ == below_.first) return lines_[first_open_].frequency;
-    const std::size_t proven = first_open_ - 1;
-    if (!lines_[first_open_].measured) return lines_[proven].frequency;
-    return between(lines_[proven].frequency, lines_[first_open_].frequency,
-                   zero_between(bound(proven, below_.sign), bound(first_open_, below_.sign)));
+    if (const auto end = end_by_curve(below_, true)) return *end;
+    std::size_t open = first_open_;
+    for (std::size_t i = surest_line(below_.first, meeting_.before); i < open; ++i) {
+      if (is_open(i, below_)) open = i;
+    }
+    while (open > below_.first && verdicts_[open - 1].sign != below_.sign) --open;
+    if (open == below_.first) return lines_[open].frequency;
+    const std::size_t proven = open - 1;
+    if (!lines_[open].measured) return lines_[proven].frequency;
+    return between(
+        lines_[proven].frequency, lines_[open].frequency,
+        zero_between(bound(verdicts_[proven].deviation, below_.sign), bound(verdicts_[open].deviation, below_.sign)));
   }
 
   [[nodiscard]] double upper_end() const {
-    if (end_open_ > above_.last) return lines_[above_.last].frequency;
-    const std::size_t last = end_open_ - 1;
-    if (!lines_[last].measured) return lines_[end_open_].frequency;
-    return between(lines_[end_open_].frequency, lines_[last].frequency,
-                   zero_between(bound(end_open_, above_.sign), bound(last, above_.sign)));
+    if (const auto end = end_by_curve(above_, false)) return *end;
+    std::size_t end_open = end_open_;
+    for (std::size_t i = surest_line(meeting_.after, above_.last); i >= end_open; --i) {
+      if (is_open(i, above_)) end_open = i + 1;
+    }
+    while (end_open <= above_.last && verdicts_[end_open].sign != above_.sign) ++end_open;
+    if (end_open > above_.last) return lines_[above_.last].frequency;
+    const std::size_t last = end_open - 1;
+    if (!lines_[last].measured) return lines_[end_open].frequency;
+    return between(
+        lines_[end_open].frequency, lines_[last].frequency,
+        zero_between(bound(verdicts_[end_open].deviation, above_.sign), bound(verdicts_[last].deviation, above_.sign)));
+  }
+
+  [[nodiscard]] bool is_open(std::size_t line, const PhaseRun& run) const {
+    return lines_[line].measured && verdicts_[line].sign != run.sign;
   }
 
   /// ln |P|, smoothed, between the lines.
@@ -193,8 +226,10 @@ class Crossing {
     };
     include(log_magnitude_at(crossover.frequency_interval.lower).value);
     include(log_magnitude_at(crossover.frequency_interval.upper).value);
-    for (std::size_t i = first_open_; i < end_open_; ++i) {
-      if (lines_[i].measured) include(verdicts_[i].log_magnitude.value);
+    for (std::size_t i = below_.first; i <= above_.last; ++i) {
+      const bool is_within = lines_[i].frequency >= crossover.frequency_interval.lower &&
+                             lines_[i].frequency <= crossover.frequency_interval.upper;
+      if (is_within && lines_[i].measured) include(verdicts_[i].log_magnitude.value);
     }
     const double own = two_sided_95 * here.sigma + magnitude_sag_;
     return {std::min(crossover.stiffness, std::exp(-here.value - std::hypot(own, largest - here.value))),
@@ -208,6 +243,8 @@ class Crossing {
   MeetingLines meeting_;
   std::size_t first_open_ = 0;
   std::size_t end_open_ = 0;
+  std::size_t first_sample_ = 0;  // of the curve: its line
+  std::optional<LocalCurve> curve_;
   double phase_sag_ = 0.0;
   double magnitude_sag_ = 0.0;
 };
@@ -226,13 +263,13 @@ bool is_ambiguous_step(const PhaseLine& before, const PhaseLine& after) {
 }
 
 std::optional<FittedCrossing> fitted_crossing(std::span<const PhaseLine> lines, std::span<const PhaseVerdict> verdicts,
-                                              const PhaseRun& below, const PhaseRun& above) {
+                                              const PhaseRun& below, const PhaseRun& above, double line_correlation) {
   const MeetingLines meeting = meeting_lines(lines, below, above);
   const PhaseLine& before = lines[meeting.before];
   const PhaseLine& after = lines[meeting.after];
   const double end = before.deviation + turned(after.deviation - before.deviation);
   if (is_ambiguous_step(before, after) || (end > 0.0) == (before.deviation > 0.0)) return std::nullopt;
-  return Crossing(lines, verdicts, below, above, meeting).fitted();
+  return Crossing(lines, verdicts, below, above, meeting, line_correlation).fitted();
 }
 
 }  // namespace zwidth

@@ -21,13 +21,15 @@ struct FittedCrossing {
 /// Where the phase passes -180 degrees between two runs that meet, with its 95 % intervals.
 ///
 /// Place and stiffness by interpolation of phase and ln |P| between the two neighbouring lines; where the noise makes
-/// the phase pass several times near by, of the smoothed ones. The interval reaches on either side to the first line
-/// proven to be on its run's side, interpolated to where the 95 % bound of the smoothed phase leaves -180 degrees; a
-/// curvature of the phase between the two lines widens it.
+/// the phase pass several times near by, of the smoothed ones. The interval reaches on either side to where the 95 %
+/// bound of one curve through the phases around the crossing leaves -180 degrees (Fieller's interval); where it does
+/// not so within the curve's reach, to the outermost line that is not proven to be on its run's side. A curvature of
+/// the phase between the two lines widens it. `line_correlation`: see FrequencyResponse. Source: Fieller 1954.
 /// Nothing where the phase passes 0 instead of -180 degrees, or steps so far that it may have done either.
 [[nodiscard]] std::optional<FittedCrossing> fitted_crossing(std::span<const PhaseLine> lines,
                                                             std::span<const PhaseVerdict> verdicts,
-                                                            const PhaseRun& below, const PhaseRun& above);
+                                                            const PhaseRun& below, const PhaseRun& above,
+                                                            double line_correlation);
 
 /// The last measured line of one run and the first of the next.
 struct MeetingLines {

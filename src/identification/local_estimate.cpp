@@ -12,17 +12,16 @@ namespace {
 constexpr std::array<std::size_t, 12> reaches{1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64};
 /// A wider fit agrees with a narrower one within this many of the narrower one's standard deviations.
 constexpr double agreement = 2.0;
-/// The neighbourhood is chosen by the same data, which costs certainty: by this much, as simulated (the intervals of
-/// crossovers then hold the truth in 93 to 100 % of cases).
+/// The neighbourhood is chosen by the same data, which costs certainty: by this much, as simulated.
 constexpr double cost_of_choice = 1.2;
-/// So many reaches narrower than the widest that agrees is taken, half its width: what bend the widest hides in its
-/// noise is then eight times smaller.
-constexpr std::size_t narrower = 2;
+/// A curve is so many reaches narrower than the widest that agrees, a third of its width: what bend the widest hides in
+/// its noise is then some thirty times smaller, and the intervals of crossovers hold the truth in 93 to 99 % of cases.
+constexpr std::size_t narrower = 3;
 /// Standard deviations by which the misfit may exceed its expectation.
 constexpr double most_misfit = 2.0;
 
 struct Fit {
-  Estimate estimate;
+  LocalCurve curve;
   double misfit = 0.0;   ///< sum of squared residuals over variances
   double freedom = 0.0;  ///< samples less coefficients
 };
@@ -49,45 +48,76 @@ std::optional<Fit> polynomial_fit(std::span<const CurveSample> window, double mi
     right += weight * sample.y * p;
   }
   const Eigen::Matrix3d covariance = normal.inverse();
-  const Eigen::Vector3d solution = covariance * right;
   Fit fit;
+  fit.curve.middle = middle;
+  fit.curve.scale = scale;
+  fit.curve.coefficients = covariance * right;
   fit.freedom = static_cast<double>(count - coefficients);
   for (const CurveSample& sample : window) {
     if (!sample.counts) continue;
-    const double residual = (sample.y - powers(sample).dot(solution)) / sample.sigma;
+    const double residual = (sample.y - powers(sample).dot(fit.curve.coefficients)) / sample.sigma;
     fit.misfit += residual * residual;
   }
   const double inflation = std::min(static_cast<double>(count), correlation);
-  fit.estimate = {solution(0), std::sqrt(inflation * std::max(0.0, covariance(0, 0)))};
-  if (!std::isfinite(fit.estimate.value) || !std::isfinite(fit.estimate.sigma)) return std::nullopt;
+  fit.curve.covariance.topLeftCorner(coefficients, coefficients) =
+      inflation * covariance.topLeftCorner(coefficients, coefficients);
+  const Estimate middle_one = fit.curve.at(middle);
+  if (!std::isfinite(middle_one.value) || !std::isfinite(middle_one.sigma)) return std::nullopt;
   return fit;
 }
 
-}  // namespace
+/// The fits around a sample that agree with each other, by rising width.
+struct Accepted {
+  std::array<LocalCurve, reaches.size()> curves;
+  std::size_t count = 0;
+};
 
-Estimate local_estimate(std::span<const CurveSample> samples, std::size_t index, double correlation) {
-  const Estimate own{samples[index].y, samples[index].sigma};
-  double lowest = own.value - agreement * own.sigma;
-  double highest = own.value + agreement * own.sigma;
-  std::array<Estimate, reaches.size() + 1> accepted{own};
-  std::size_t count = 1;
+Accepted accepted_fits(std::span<const CurveSample> samples, std::size_t index, double correlation) {
+  Accepted accepted;
+  double lowest = samples[index].y - agreement * samples[index].sigma;
+  double highest = samples[index].y + agreement * samples[index].sigma;
   for (const std::size_t reach : reaches) {
     const std::size_t first = index - std::min(index, reach);
     const std::size_t last = std::min(samples.size() - 1, index + reach);
-    const auto fit = polynomial_fit(samples.subspan(first, last - first + 1), samples[index].x, correlation);
+    auto fit = polynomial_fit(samples.subspan(first, last - first + 1), samples[index].x, correlation);
     if (fit) {
-      const Estimate& wider = fit->estimate;
+      const Estimate wider = fit->curve.at(samples[index].x);
       const bool fits = fit->misfit <= fit->freedom + most_misfit * std::sqrt(2.0 * fit->freedom);
       if (!fits || wider.value < lowest || wider.value > highest) break;
-      accepted[count++] = wider;
+      fit->curve.first = first;
+      fit->curve.last = last;
+      accepted.curves[accepted.count++] = fit->curve;
       lowest = std::max(lowest, wider.value - agreement * wider.sigma);
       highest = std::min(highest, wider.value + agreement * wider.sigma);
     }
     if (first == 0 && last + 1 == samples.size()) break;
   }
+  return accepted;
+}
+
+}  // namespace
+
+Estimate LocalCurve::at(double x) const {
+  const double t = (x - middle) / scale;
+  const Eigen::Vector3d powers(1.0, t, t * t);
+  return {powers.dot(coefficients), std::sqrt(std::max(0.0, powers.dot(covariance * powers)))};
+}
+
+std::optional<LocalCurve> local_curve(std::span<const CurveSample> samples, std::size_t index, double correlation) {
+  const Accepted accepted = accepted_fits(samples, index, correlation);
+  if (accepted.count <= narrower) return std::nullopt;
+  LocalCurve curve = accepted.curves[accepted.count - 1 - narrower];
+  curve.covariance *= cost_of_choice * cost_of_choice;
+  return curve;
+}
+
+Estimate local_estimate(std::span<const CurveSample> samples, std::size_t index, double correlation) {
+  const Accepted accepted = accepted_fits(samples, index, correlation);
+  const Estimate own{samples[index].y, samples[index].sigma};
   Estimate best = own;
-  for (std::size_t k = 0; k + narrower < count; ++k) {
-    if (accepted[k].sigma < best.sigma) best = accepted[k];
+  for (std::size_t k = 0; k < accepted.count; ++k) {
+    const Estimate wider = accepted.curves[k].at(samples[index].x);
+    if (wider.sigma < best.sigma) best = wider;
   }
   if (best.sigma < own.sigma) best.sigma = std::min(cost_of_choice * best.sigma, own.sigma);
   return best;

@@ -108,7 +108,7 @@ void add_open_stretches(Findings& findings, std::span<const PhaseLine> lines, st
 }
 
 Findings find_crossings(std::span<const PhaseLine> lines, std::span<const PhaseVerdict> verdicts,
-                        std::vector<PhaseRun> runs) {
+                        std::vector<PhaseRun> runs, double line_correlation) {
   Findings findings;
   findings.runs = std::move(runs);
   findings.band = {lines.front().frequency, lines.back().frequency};
@@ -123,7 +123,7 @@ Findings find_crossings(std::span<const PhaseLine> lines, std::span<const PhaseV
     const PhaseRun& below = findings.runs[i - 1];
     const PhaseRun& above = findings.runs[i];
     const MeetingLines meeting = meeting_lines(lines, below, above);
-    if (const auto crossing = fitted_crossing(lines, verdicts, below, above)) {
+    if (const auto crossing = fitted_crossing(lines, verdicts, below, above, line_correlation)) {
       findings.crossovers.push_back(crossing->crossover);
       for (std::size_t j = crossing->first_open; j < crossing->end_open; ++j) accounted[j] = true;
     } else if (is_ambiguous_step(lines[meeting.before], lines[meeting.after])) {
@@ -256,7 +256,7 @@ MeasuredStiffness measured_stiffness(const FrequencyResponse& response) {
     return result;
   }
   Findings findings = find_crossings(lines, phase_verdicts(lines, response.line_correlation),
-                                     phase_runs(lines, response.line_correlation));
+                                     phase_runs(lines, response.line_correlation), response.line_correlation);
   result.measured_band = findings.band;
   result.crossovers = findings.crossovers;
   if (const auto crossing = nyquist_crossing(response, findings.runs)) result.crossovers.push_back(*crossing);

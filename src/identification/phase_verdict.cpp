@@ -15,8 +15,6 @@ constexpr double near = std::numbers::pi / 3.0;
 /// Exact data are given the rounding of doubles, so that weights stay finite.
 constexpr double rounding = 1e-14;
 
-bool is_far(const PhaseLine& line) { return line.measured && std::abs(line.deviation) >= near; }
-
 /// The stretch of lines around `index` without far ones.
 struct Stretch {
   std::size_t first = 0;
@@ -29,16 +27,25 @@ Stretch stretch_around(std::span<const PhaseLine> lines, std::size_t index) {
   return stretch;
 }
 
+double relative_sigma(const PhaseLine& line) {
+  return line.measured ? std::max(line.sigma / std::abs(line.value), rounding) : 1.0;
+}
+
 }  // namespace
+
+bool is_far(const PhaseLine& line) { return line.measured && std::abs(line.deviation) >= near; }
+
+CurveSample phase_sample(const PhaseLine& line) {
+  return {std::log(line.frequency), line.deviation, relative_sigma(line), line.measured};
+}
 
 std::vector<PhaseVerdict> phase_verdicts(std::span<const PhaseLine> lines, double line_correlation) {
   std::vector<CurveSample> phases;
   std::vector<CurveSample> magnitudes;
   for (const PhaseLine& line : lines) {
-    const double magnitude = std::abs(line.value);
-    const double relative = line.measured ? std::max(line.sigma / magnitude, rounding) : 1.0;
-    phases.push_back({line.frequency, line.deviation, relative, line.measured});
-    magnitudes.push_back({line.frequency, line.measured ? std::log(magnitude) : 0.0, relative, line.measured});
+    phases.push_back(phase_sample(line));
+    magnitudes.push_back(
+        {line.frequency, line.measured ? std::log(std::abs(line.value)) : 0.0, relative_sigma(line), line.measured});
   }
   std::vector<PhaseVerdict> verdicts(lines.size());
   Stretch stretch{1, 0};  // none yet
