@@ -291,10 +291,16 @@ TimeAxis axis_of_rate(double rate) {
 
 std::optional<Remark> contradiction(double rate, const UnusedTimes& times, const RecordingOptions& options) {
   constexpr double most_difference = 0.01;
+  const bool is_unit_known = options.time_scale || named_scale(times.column);
   const double span = (times.last - times.first) * time_scale_of(times.column, options);
   if (times.samples < 2 || !std::isfinite(span) || span <= 0.0) return std::nullopt;
   const double stated = static_cast<double>(times.samples - 1) / span;
-  if (std::abs(rate - stated) <= most_difference * stated) return std::nullopt;
+  // Times without a unit in their name may be in ms, us or ns.
+  const std::vector<double> units = is_unit_known ? std::vector{1.0} : std::vector{1.0, 1e3, 1e6, 1e9};
+  const bool agrees = std::any_of(units.begin(), units.end(), [&](double per_second) {
+    return std::abs(rate - stated * per_second) <= most_difference * rate;
+  });
+  if (agrees) return std::nullopt;
   return Remark{Remark::Severity::warning,
                 fmt::format("the rate is given as {:.7g} Hz; the times in column {} say {:.7g} Hz", rate,
                             shortened(times.column), stated),

@@ -42,8 +42,8 @@ struct UnusedTimes {
   std::size_t samples = 0;
 };
 
-/// A warning where those times say another rate (Hz) than the one given, by more than 1 %. None where they fall back:
-/// a timer that wraps says nothing.
+/// A warning where those times say another rate (Hz) than the one given, by more than 1 %. None where they fall back,
+/// as a timer that wraps, and where they agree in ms, us or ns and their unit is not known.
 [[nodiscard]] std::optional<Remark> contradiction(double rate, const UnusedTimes& times,
                                                   const RecordingOptions& options);
 

@@ -197,6 +197,12 @@ TEST_F(TextRecording, SaysThatTheGivenRateContradictsTheTimes) {
   const auto right = with_rate(1005.0);
   ASSERT_TRUE(right.has_value());
   EXPECT_EQ(warnings_in(right->remarks), 0U);
+  // A count of microseconds, not said to be one.
+  RecordingOptions in_microseconds = columns_named({"x"});
+  in_microseconds.rate = 2500.0;
+  const auto counted = read("time,x\n400,1\n800,2\n1200,3\n", in_microseconds);
+  ASSERT_TRUE(counted.has_value());
+  EXPECT_EQ(warnings_in(counted->remarks), 0U);
   // A timer that falls back says nothing.
   RecordingOptions options = columns_named({"x"});
   options.rate = 10.0;
