@@ -4,8 +4,8 @@
 #include <cmath>
 #include <string>
 
+#include "stability/any_user_search.hpp"
 #include "zwidth/error.hpp"
-#include "zwidth/stability/any_user.hpp"
 
 namespace zwidth {
 namespace {
@@ -18,10 +18,10 @@ constexpr int max_depth = 7;
 class Sampler {
  public:
   Sampler(const Device& device, double velocity_filter_hz, double deviation)
-      : device_(device), velocity_filter_hz_(velocity_filter_hz), deviation_(deviation) {}
+      : search_(device), velocity_filter_hz_(velocity_filter_hz), deviation_(deviation) {}
 
   [[nodiscard]] AnyUserPoint at(double damping) const {
-    const AnyUserLimit limit = any_user_limit(device_, {damping, velocity_filter_hz_});
+    const AnyUserLimit limit = search_.limit({damping, velocity_filter_hz_});
     return {damping, limit.stiffness, limit.frequency};
   }
 
@@ -54,7 +54,7 @@ class Sampler {
   double damping_extent = 0.0;
 
  private:
-  const Device& device_;
+  AnyUserSearch search_;
   double velocity_filter_hz_;
   double deviation_;
 };

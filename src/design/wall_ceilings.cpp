@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "stability/any_user_search.hpp"
 #include "zwidth/design/any_user_region.hpp"
 #include "zwidth/design/stable_region.hpp"
 #include "zwidth/error.hpp"
@@ -72,8 +73,9 @@ double any_user_damping(const Device& device, const AnyUserRegion& region, doubl
   const auto first_below = std::ranges::find_if(limit, [&](const AnyUserPoint& p) { return p.stiffness <= stiffness; });
   if (first_below == limit.begin()) return 0.0;
   if (first_below == limit.end()) return limit.back().damping;
+  const AnyUserSearch search(device);
   return last_that_holds(std::prev(first_below)->damping, first_below->damping, [&](double damping) {
-    return any_user_limit(device, {damping, filter}).stiffness > stiffness;
+    return search.limit({damping, filter}).stiffness > stiffness;
   });
 }
 

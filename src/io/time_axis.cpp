@@ -8,6 +8,7 @@
 #include <optional>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "io/column_names.hpp"
 #include "io/column_unit.hpp"
