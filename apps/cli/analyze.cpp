@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cli/device_arguments.hpp"
@@ -35,21 +36,26 @@ void check_that_it_can_be_held(const std::string& option, const std::string& fil
   }
 }
 
-/// What --worst-user and --users ask for.
-void answer_about_users(const AnalyzeOptions& options, std::vector<report::AnalysedDevice>& analysed) {
-  std::optional<UserRanges> ranges;
-  if (!options.users.empty()) ranges = user_ranges(options.users);
-  for (std::size_t i = 0; i < analysed.size(); ++i) {
+/// Whether --worst-user and --users can be answered for every device.
+void check_users(const AnalyzeOptions& options, const std::vector<Device>& devices) {
+  for (std::size_t i = 0; i < devices.size(); ++i) {
     const std::string& file = options.devices.files[i];
-    report::AnalysedDevice& each = analysed[i];
     if (options.worst_user) {
-      check_that_it_can_be_held("--worst-user", file, each.device);
-      if (!each.any_user) {
-        throw BadInput(fmt::format("--worst-user: {}: has {} bodies; at most {}", file, each.device.bodies().size(),
+      check_that_it_can_be_held("--worst-user", file, devices[i]);
+      if (devices[i].bodies().size() > report::most_bodies_for_any_user) {
+        throw BadInput(fmt::format("--worst-user: {}: has {} bodies; at most {}", file, devices[i].bodies().size(),
                                    report::most_bodies_for_any_user));
       }
     }
-    if (ranges) check_that_it_can_be_held("--users", file, each.device);
+    if (!options.users.empty()) check_that_it_can_be_held("--users", file, devices[i]);
+  }
+}
+
+/// What --worst-user and --users ask for.
+void answer_about_users(const AnalyzeOptions& options, const std::optional<UserRanges>& ranges,
+                        std::vector<report::AnalysedDevice>& analysed) {
+  for (std::size_t i = 0; i < analysed.size(); ++i) {
+    report::AnalysedDevice& each = analysed[i];
     try {
       if (options.worst_user) report::find_worst_user(each);
       if (ranges) {
@@ -57,15 +63,19 @@ void answer_about_users(const AnalyzeOptions& options, std::vector<report::Analy
         report::search_user_family(each, user_family(*ranges, each.device.parameters().user), line.progress());
       }
     } catch (const Error& error) {
-      throw WorkFailed(file + ": " + error.what());
+      throw WorkFailed(options.devices.files[i] + ": " + error.what());
     }
   }
 }
 
 void run_analyze(const AnalyzeOptions& options) {
   if (options.report) check_output_is_no_input(options.devices, "--report", *options.report);
-  std::vector<report::AnalysedDevice> analysed = analyze_devices(options.devices);
-  answer_about_users(options, analysed);
+  std::optional<UserRanges> ranges;
+  if (!options.users.empty()) ranges = user_ranges(options.users);
+  std::vector<Device> devices = read_devices(options.devices);
+  check_users(options, devices);
+  std::vector<report::AnalysedDevice> analysed = analyze_devices(options.devices, std::move(devices));
+  answer_about_users(options, ranges, analysed);
   if (options.report) report::write_whole(*options.report, report::html_report(analysed));
   if (options.json) {
     std::string lines;

@@ -57,9 +57,9 @@ void check_outputs_differ(const std::string& option, const std::string& output, 
   if (same) throw BadInput(option + ": " + output + ": is the file of " + other_option + "; name another");
 }
 
-std::vector<report::AnalysedDevice> analyze_devices(const DeviceArguments& arguments) {
+std::vector<report::AnalysedDevice> analyze_devices(const DeviceArguments& arguments, std::vector<Device> devices) {
   std::vector<report::AnalysedDevice> analysed;
-  for (Device& device : read_devices(arguments)) {
+  for (Device& device : devices) {
     try {
       analysed.push_back(report::analysed_device(std::move(device)));
     } catch (const Error& error) {
@@ -67,6 +67,10 @@ std::vector<report::AnalysedDevice> analyze_devices(const DeviceArguments& argum
     }
   }
   return analysed;
+}
+
+std::vector<report::AnalysedDevice> analyze_devices(const DeviceArguments& arguments) {
+  return analyze_devices(arguments, read_devices(arguments));
 }
 
 }  // namespace zwidth::cli

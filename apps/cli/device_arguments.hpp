@@ -31,7 +31,11 @@ void check_output_is_no_input(const DeviceArguments& arguments, const std::strin
 void check_outputs_differ(const std::string& option, const std::string& output, const std::string& other_option,
                           const std::string& other_output);
 
-/// read_devices(), then analyses each. Throws WorkFailed with the file's name where an analysis fails.
+/// Analyses the devices of the files, in order. Throws WorkFailed with the file's name where an analysis fails.
+[[nodiscard]] std::vector<report::AnalysedDevice> analyze_devices(const DeviceArguments& arguments,
+                                                                  std::vector<Device> devices);
+
+/// The same for read_devices().
 [[nodiscard]] std::vector<report::AnalysedDevice> analyze_devices(const DeviceArguments& arguments);
 
 }  // namespace zwidth::cli

@@ -40,8 +40,8 @@ void run_frf(const FrfArguments& arguments) {
         fmt::format("--output: {}: unknown extension; .svg, .png or .pdf (numbers: --csv)", arguments.output));
   }
   if (arguments.points && !arguments.json) throw BadInput("--points: is for JSON; add --json, or use --csv FILE");
-  check_output_is_no_input(recording, "--output", arguments.output);
-  check_output_is_no_input(recording, "--csv", arguments.csv);
+  check_output_is_no_input(recording.file, "--output", arguments.output);
+  check_output_is_no_input(recording.file, "--csv", arguments.csv);
   check_outputs_differ("--output", arguments.output, "--csv", arguments.csv);
 
   MeasuredResponse measured = measured_response(arguments.response);

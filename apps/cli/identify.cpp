@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "cli/device_arguments.hpp"
 #include "cli/identify_rigid_body.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/remark_lines.hpp"
@@ -41,7 +42,7 @@ struct IdentifyArguments {
 
 void check_output(const IdentifyArguments& arguments, const std::string& option, const std::string& output) {
   if (output.empty() || output == "-") return;
-  check_output_is_no_input(arguments.response.recording, option, output);
+  check_output_is_no_input(arguments.response.recording.file, option, output);
   std::error_code one_is_missing;
   if (std::filesystem::equivalent(arguments.structure.structure, output, one_is_missing)) {
     throw BadInput(option + ": " + output + ": would overwrite the structure; name another file");
@@ -59,6 +60,7 @@ void check_method(const CLI::App& command, const IdentifyArguments& arguments) {
 void check(const IdentifyArguments& arguments) {
   check_output(arguments, "--output-device", arguments.output_device);
   check_output(arguments, "--figure", arguments.figure);
+  check_outputs_differ("--figure", arguments.figure, "--output-device", arguments.output_device);
   if (!arguments.figure.empty() && !report::figure_format(arguments.figure)) {
     throw BadInput(fmt::format("--figure: {}: unknown extension; .svg, .png or .pdf", arguments.figure));
   }

@@ -8,6 +8,7 @@
 #include <system_error>
 #include <utility>
 
+#include "cli/number_text.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/subcommand.hpp"
 #include "report/remark_line.hpp"
@@ -95,6 +96,17 @@ RequestedMotion requested_motion(const RecordingArguments& arguments) {
   return *found;
 }
 
+/// A recording's names are compared: a request may be a number. Columns of one name are told apart by number alone.
+void check_that_columns_differ(const Recording& recording, const ColumnRequest& force, const ColumnRequest& motion) {
+  const std::string& name = recording.channels[0].name;
+  const auto force_number = number_in(force.name);
+  const auto motion_number = number_in(motion.name);
+  const bool numbers_differ = force_number && motion_number && *force_number != *motion_number;
+  if (name != recording.channels[1].name || numbers_differ) return;
+  throw BadInput(
+      fmt::format("{}: column '{}' is named as the force and as the motion; name two columns", recording.source, name));
+}
+
 }  // namespace
 
 void add_recording_arguments(CLI::App& command, RecordingArguments& arguments) {
@@ -176,6 +188,7 @@ RecordedMotion read_motion(const RecordingArguments& arguments) {
   ProgressLine line("reading " + arguments.file);
   auto recording = read_recording(arguments.file, options, line.progress());
   if (!recording) throw BadInput(recording.error().str());
+  check_that_columns_differ(*recording, arguments.force, motion.column);
   RecordedMotion recorded{*std::move(recording), motion.output};
   const auto check = [&recorded](std::size_t channel, SignalRole role) {
     for (Remark& remark :
@@ -204,10 +217,9 @@ std::string contents_text(const RecordingArguments& arguments) {
   return text;
 }
 
-void check_output_is_no_input(const RecordingArguments& arguments, const std::string& option,
-                              const std::string& output) {
+void check_output_is_no_input(const std::string& recording, const std::string& option, const std::string& output) {
   std::error_code one_is_missing;
-  if (std::filesystem::equivalent(arguments.file, output, one_is_missing)) {
+  if (std::filesystem::equivalent(recording, output, one_is_missing)) {
     throw BadInput(option + ": " + output + ": would overwrite the recording; name another file");
   }
 }

@@ -56,7 +56,6 @@ struct RecordedMotion {
 [[nodiscard]] std::string contents_text(const RecordingArguments& arguments);
 
 /// Throws BadInput when the file to write, given with `option`, is the recording.
-void check_output_is_no_input(const RecordingArguments& arguments, const std::string& option,
-                              const std::string& output);
+void check_output_is_no_input(const std::string& recording, const std::string& option, const std::string& output);
 
 }  // namespace zwidth::cli

@@ -32,7 +32,11 @@ report::DeviceRegion region_of(const DeviceArguments& arguments) {
   try {
     return report::device_region(std::move(devices.front()));
   } catch (const Error& error) {
-    throw WorkFailed(arguments.files.front() + ": " + error.what());
+    std::string message = arguments.files.front() + ": " + error.what();
+    if (error.code() == ErrorCode::did_not_converge) {
+      message += "; `zwidth analyze --set wall.damping=B` still gives the stable stiffnesses at one damping B";
+    }
+    throw WorkFailed(message);
   }
 }
 

@@ -150,8 +150,9 @@ void run_relay(const RelayArguments& arguments) {
   }
   for (const auto& [option, output] : {std::pair{"--figure", arguments.figure}, std::pair{"--csv", arguments.csv}}) {
     check_output_is_no_input(arguments.devices, option, output);
-    check_output_is_no_input(arguments.recording, option, output);
+    check_output_is_no_input(arguments.recording.file, option, output);
   }
+  check_outputs_differ("--figure", arguments.figure, "--csv", arguments.csv);
   check_numbers(arguments);
   std::optional<Device> device = delayed_device(arguments);
   report::RelayReport report = arguments.recording.file.empty() ? simulated(arguments, *std::move(device))

@@ -12,10 +12,10 @@ namespace zwidth::cli {
 namespace {
 
 void run_reproduce(const std::string& directory) {
-  // Everything is computed before anything is written.
+  report::make_directory(directory);  // first: the figures take seconds
+  // Everything is computed before any file is written.
   const std::vector<report::PaperFigure> figures = report::paper_figures();
   const std::string page = report::reproduction_page(figures);
-  report::make_directory(directory);
   const std::filesystem::path folder(directory);
   for (const report::PaperFigure& figure : figures) report::write_whole(folder / figure.file, figure.svg);
   const std::string index = folder / "index.html";

@@ -7,10 +7,12 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "cli/device_arguments.hpp"
 #include "cli/motion_arguments.hpp"
 #include "cli/progress_line.hpp"
+#include "cli/recording_arguments.hpp"
 #include "cli/remark_lines.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
@@ -174,14 +176,14 @@ SimulationOptions options_of(const SimulateArguments& arguments, const report::A
   options.loop.controller = controller_of(arguments, device);
   options.loop.faults = faults_of(arguments, device);
   apply(arguments.motion, device, options.loop);
-  if (is_empty(arguments.motion)) start_inside_the_wall(options.loop, arguments, device);
-  check_motion(options.loop, device);
   options.duration = duration_of(arguments, analysed, options.loop.user_force);
   if (!(std::isfinite(arguments.divergence) && arguments.divergence > 0.0)) {
     throw BadInput(fmt::format("--divergence: is {}; a number of m or rad above 0", arguments.divergence));
   }
   options.divergence = arguments.divergence;
   options.keep_every = kept_points(arguments, std::round(options.duration / device.loop().sampling_period));
+  if (is_empty(arguments.motion)) start_inside_the_wall(options.loop, arguments, device);
+  check_motion(options.loop, device);
   return options;
 }
 
@@ -200,8 +202,10 @@ void run_simulate(const SimulateArguments& arguments) {
   if (!arguments.figure.empty() && !format) {
     throw BadInput(fmt::format("--figure: {}: unknown extension; .svg, .png or .pdf", arguments.figure));
   }
-  check_output_is_no_input(arguments.device, "--csv", arguments.csv);
-  check_output_is_no_input(arguments.device, "--figure", arguments.figure);
+  for (const auto& [option, output] : {std::pair{"--csv", arguments.csv}, std::pair{"--figure", arguments.figure}}) {
+    check_output_is_no_input(arguments.device, option, output);
+    check_output_is_no_input(arguments.motion.user_force, option, output);
+  }
   check_outputs_differ("--figure", arguments.figure, "--csv", arguments.csv);
   const report::AnalysedDevice analysed = analyze_devices(arguments.device).front();
   const SimulationOptions options = options_of(arguments, analysed);

@@ -157,7 +157,10 @@ std::optional<std::string> interval_note(const AnalysedDevice& analysed) {
 }
 
 std::optional<std::string> any_user_note(const AnalysedDevice& analysed) {
-  if (!analysed.any_user) return std::nullopt;
+  if (!analysed.any_user) {
+    if (parameters_of(analysed).bodies.size() <= most_bodies_for_any_user) return std::nullopt;
+    return fmt::format("not computed above {} bodies", most_bodies_for_any_user);
+  }
   const AnyUserLimit& limit = *analysed.any_user;
   if (limit.stiffness == 0.0) return "none: some passive user destabilises every wall";
   if (!std::isfinite(limit.stiffness)) return "unbounded: no passive user destabilises a wall";
@@ -193,16 +196,24 @@ std::optional<std::string> user_family_note(const AnalysedDevice& analysed) {
   if (!analysed.user_family) return std::nullopt;
   const auto& [family, worst, free] = *analysed.user_family;
   const Units units = device_units(analysed);
-  if (std::isinf(worst.critical_stiffness)) return "unbounded: every wall is stable with each of them that was tried";
-  const std::string user =
-      fmt::format("mass {} {}, damping {} {}, stiffness {} {}", number(worst.user.mass), units.mass,
-                  number(worst.user.damping), units.damping, number(worst.user.stiffness), units.stiffness);
-  if (worst.critical_stiffness == 0.0) return "none: no wall is stable with " + user;
+  const auto described = [&units](const auto& user, const auto& text) {
+    return fmt::format("mass {} {}, damping {} {}, stiffness {} {}", text(user.mass), units.mass, text(user.damping),
+                       units.damping, text(user.stiffness), units.stiffness);
+  };
+  const std::string asked =
+      "; asked for: " + described(family, [](const ValueRange& range) {
+        return number(range.least) + (range.least < range.greatest ? " to " + number(range.greatest) : "");
+      });
+  if (std::isinf(worst.critical_stiffness)) {
+    return "unbounded: every wall is stable with each of them that was tried" + asked;
+  }
+  const std::string user = described(worst.user, number);
+  if (worst.critical_stiffness == 0.0) return "none: no wall is stable with " + user + asked;
   const std::string nobody = free.status == StiffnessStatus::none_stable ? "none"
                              : free.status == StiffnessStatus::unbounded ? "unbounded"
                                                                          : quantity(free.stiffness, units.stiffness);
-  return fmt::format("{}, least found, with {} (nobody: {})", quantity(worst.critical_stiffness, units.stiffness), user,
-                     nobody);
+  return fmt::format("{}, least found, with {} (nobody: {}){}", quantity(worst.critical_stiffness, units.stiffness),
+                     user, nobody, asked);
 }
 
 std::string meaning(const AnalysedDevice& analysed) {
@@ -267,6 +278,9 @@ std::optional<std::string> q_criterion_note(const AnalysedDevice& analysed) {
   const Loop& loop = parameters_of(analysed).loop;
   if (loop.sensed != loop.actuated) {
     return text + "It says nothing about this loop: it is meant for position sensed at the actuated body.";
+  }
+  if (parameters_of(analysed).wall.damping > 0.0) {
+    return text + "It is not compared with the rigid critical stiffness, which is with the damper.";
   }
   const auto& rigid = analysed.analysis.rigid;
   if (!criterion->mode_matters || !rigid) {
@@ -346,6 +360,8 @@ std::vector<std::string> caveats(const AnalysedDevice& analysed) {
   const Units units = device_units(analysed);
   std::vector<std::string> texts;
   const Operator& user = device.user;
+  const bool has_limit =
+      analysed.any_user && analysed.any_user->stiffness > 0.0 && std::isfinite(analysed.any_user->stiffness);
   const std::string held = device.bodies.empty() ? "" : device.bodies[device.loop.held].name;
   if (user.mass > 0.0 || user.damping > 0.0 || user.stiffness > 0.0) {
     texts.push_back(fmt::format("One user is included, at {}: {} {}, {} {}, {}. Another grasp gives another answer.",
@@ -354,13 +370,12 @@ std::vector<std::string> caveats(const AnalysedDevice& analysed) {
   } else if (device.bodies.empty()) {
     texts.emplace_back("The transfer function is taken as it is: a user who is not in it is left out.");
   } else if (device.bodies.size() == 1) {
-    texts.emplace_back(
-        "Nobody holds the device for the critical stiffness. A wall below the limit for any passive user is stable in "
-        "every hand.");
+    texts.emplace_back(std::string("Nobody holds the device for the critical stiffness.") +
+                       (has_limit ? " A wall below the limit for any passive user is stable in every hand." : ""));
   } else {
-    texts.emplace_back(
-        "Nobody holds the device for the critical stiffness. A flexible device that is stable alone can be made "
-        "unstable by a user's grasp: the limit for any passive user allows for all of them.");
+    texts.emplace_back(std::string("Nobody holds the device for the critical stiffness. A flexible device that is "
+                                   "stable alone can be made unstable by a user's grasp") +
+                       (has_limit ? ": the limit for any passive user allows for all of them." : "."));
   }
   std::vector<std::string> left_out;
   const bool coulomb =

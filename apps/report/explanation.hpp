@@ -27,15 +27,16 @@ namespace zwidth::report {
 /// "8.7 kN/m to 9.1 kN/m, ...": what the uncertainty of the parameters makes of it. Nothing without an uncertainty.
 [[nodiscard]] std::optional<std::string> interval_note(const AnalysedDevice& analysed);
 
-/// "5.776 kN/m, worst at 41.4 Hz": the limit over all passive users. Nothing where it was not computed.
+/// "5.776 kN/m, worst at 41.4 Hz": the limit over all passive users; or that there are too many bodies. Nothing for a
+/// transfer function.
 [[nodiscard]] std::optional<std::string> any_user_note(const AnalysedDevice& analysed);
 
 /// "a spring of 362.5 kN/m: unstable from 5.776 kN/m, 2.3 ppm above the limit": who proves that limit tight. Nothing
 /// where it was not asked for.
 [[nodiscard]] std::optional<std::string> worst_user_note(const AnalysedDevice& analysed);
 
-/// "8.829 kN/m, least with 0 kg, 0 N s/m, 1 kN/m ...": what the users of a family leave. Nothing where it was not asked
-/// for.
+/// "8.829 kN/m, least with 0 kg, 0 N s/m, 1 kN/m ...": what the users of a family leave, and the ranges that were
+/// asked for. Nothing where it was not asked for.
 [[nodiscard]] std::optional<std::string> user_family_note(const AnalysedDevice& analysed);
 
 /// What the critical stiffness means for a wall, and every stable interval where there is more than one.

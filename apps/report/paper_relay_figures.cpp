@@ -26,7 +26,7 @@ GainPoints gain_points(std::string name, const std::array<Table2Row, 9>& rows) {
 
 std::string setting_text(const Table2& table) {
   return fmt::format(
-      "Simulated with the inferred cable (set A), Coulomb friction of the handle of {:.2f} of the relay's force, the "
+      "Simulated with the inferred cable (set A), Coulomb friction of the handle of {:.3g} of the relay's force, the "
       "encoder of 3.14 µm and {} besides the stated delay.",
       table.friction_level, quantity(table.setting.inherent_delay, "s"));
 }

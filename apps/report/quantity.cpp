@@ -22,8 +22,8 @@ std::string number(double value) {
 }
 
 std::string quantity(double value, std::string_view unit) {
-  static constexpr std::array<std::string_view, 6> prefixes = {"µ", "m", "", "k", "M", "G"};
-  static constexpr int no_prefix = 2;
+  static constexpr std::array<std::string_view, 8> prefixes = {"p", "n", "µ", "m", "", "k", "M", "G"};
+  static constexpr int no_prefix = 4;
   if (value == 0.0 || !std::isfinite(value)) return fmt::format("{:.4g} {}", value, unit);
   // Rounded to four digits first, so that 999.96 becomes 1 k and not 1000.
   const double rounded = std::stod(fmt::format("{:.3e}", value));

@@ -113,7 +113,7 @@ nlohmann::ordered_json relay_json(const RelayReport& report) {
   document["mean"] = mean_json(report);
   document["predictions"] = prediction_json(report);
   document["explanation"] = relay_explanation(report);
-  document["remarks"] = to_json_array(report.remarks);
+  document["remarks"] = to_json_array(remarks_of(report));
   return document;
 }
 

@@ -45,6 +45,17 @@ std::vector<CycleBand> cycle_bands(const std::vector<LimitCycle>& cycles) {
 
 bool is_near(double frequency, double other) { return frequency <= near * other && other <= near * frequency; }
 
+std::vector<Remark> remarks_of(const RelayReport& report) {
+  std::vector<Remark> remarks = report.remarks;
+  if (!report.device) return remarks;
+  const Wall& wall = report.device->parameters().wall;
+  if (wall.damping > 0.0 || !wall.filters.empty()) {
+    remarks.push_back({Remark::Severity::note, "the wall's damper and filters are left out: a relay has no wall",
+                       "all numbers are of the device without them, not those of `zwidth analyze`, which closes them"});
+  }
+  return remarks;
+}
+
 double friction_level(const RelayReport& report) {
   double largest = 0.0;
   if (!report.device) return largest;

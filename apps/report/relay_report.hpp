@@ -53,6 +53,9 @@ struct CycleBand {
 /// its oscillation by 9 % against the crossover, the sampling by a little more.
 [[nodiscard]] bool is_near(double frequency, double other);
 
+/// Of the recording, and that the device's [wall] is left out where it has a damper or filters.
+[[nodiscard]] std::vector<Remark> remarks_of(const RelayReport& report);
+
 /// Largest friction of the device over the relay's force; 0 without.
 [[nodiscard]] double friction_level(const RelayReport& report);
 

@@ -159,7 +159,7 @@ std::vector<SharedRemark> shared_remarks(const std::vector<RelayTrial>& trials) 
 
 std::string remarks(const RelayReport& report) {
   std::string text;
-  for (const Remark& remark : report.remarks) text += bulleted(remark_line(remark));
+  for (const Remark& remark : remarks_of(report)) text += bulleted(remark_line(remark));
   for (const SharedRemark& remark : shared_remarks(report.trials)) {
     const bool is_of_all = remark.trials.size() == report.trials.size();
     text +=

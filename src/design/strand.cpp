@@ -106,7 +106,10 @@ std::vector<Strand> curve_strands(const BoundaryCurve& curve, const WallBounds& 
   std::vector<Strand> strands;
   double reached = -1.0;  // where the last strand ended
   for (std::size_t left = max_intervals_per_piece * pieces; !stack.empty(); --left) {
-    if (left == 0) throw Error(ErrorCode::did_not_converge, "the stability boundary could not be followed");
+    if (left == 0) {
+      throw Error(ErrorCode::did_not_converge,
+                  "the stability boundary could not be followed: boundaries of many bodies meet too closely");
+    }
     const auto [begin, end] = stack.back();
     stack.pop_back();
     const BoundaryCurve::Model model = curve.model(begin, end);

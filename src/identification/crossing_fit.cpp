@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
 #include <vector>
 
@@ -12,6 +13,15 @@ namespace {
 constexpr double two_sided_95 = 1.959963984540054;
 /// A step nearer than this to half a turn may have gone either way round.
 constexpr double ambiguity = std::numbers::pi / 6.0;
+
+/// A fall of the phase between neighbouring lines that hides a resonance's peak; where |P| changes twofold too, less is
+/// enough.
+constexpr double sparse_step = std::numbers::pi / 4.0;
+constexpr double sparse_step_on_flank = std::numbers::pi / 12.0;
+const double flank = std::log(2.0);
+constexpr double unsure_per_log_magnitude = 0.125;
+/// What a straight line in 1/P may then be off, relative: as simulated on modes with damping ratios of 0.002 to 0.05.
+constexpr double unsure_per_half_turn = 0.5;
 
 double turned(double angle) { return std::remainder(angle, 2.0 * std::numbers::pi); }
 
@@ -42,11 +52,24 @@ class Crossing {
     result.first_open = first_open_;
     result.end_open = end_open_;
     crossover.poles_leaving = below_.sign > 0 ? 2 : -2;
-    const auto [frequency, log_magnitude] = passes_once() ? interpolated() : smoothed();
+    const std::optional<Point> sparse = between_sparse_lines();
+    const auto [frequency, log_magnitude] = sparse ? *sparse : passes_once() ? interpolated() : smoothed();
     crossover.frequency = frequency;
     crossover.stiffness = std::exp(-log_magnitude);
     crossover.frequency_interval = {std::min(lower_end(), frequency), std::max(upper_end(), frequency)};
+    if (sparse) {
+      result.sparse_lines = {lines_[meeting_.before].frequency, lines_[meeting_.after].frequency};
+      crossover.frequency_interval.lower = std::min(crossover.frequency_interval.lower, result.sparse_lines->lower);
+      crossover.frequency_interval.upper = std::max(crossover.frequency_interval.upper, result.sparse_lines->upper);
+    }
     crossover.stiffness_interval = stiffness_interval(crossover);
+    if (sparse) {
+      const double unsure = std::max(unsure_per_half_turn * std::abs(step()) / std::numbers::pi,
+                                     std::min(unsure_per_half_turn, unsure_per_log_magnitude * std::abs(log_step())));
+      Interval& interval = crossover.stiffness_interval;
+      interval.lower = std::min(interval.lower, crossover.stiffness * (1.0 - unsure));
+      interval.upper = std::max(interval.upper, crossover.stiffness * (1.0 + unsure));
+    }
     return result;
   }
 
@@ -111,10 +134,34 @@ class Crossing {
     return changes <= 1;
   }
 
+  /// Of the phase, between the two lines that meet.
+  [[nodiscard]] double step() const {
+    return turned(lines_[meeting_.after].deviation - lines_[meeting_.before].deviation);
+  }
+
+  /// Of ln |P|.
+  [[nodiscard]] double log_step() const {
+    return std::log(std::abs(lines_[meeting_.after].value) / std::abs(lines_[meeting_.before].value));
+  }
+
+  /// Across a resonance between two lines, by a straight line in 1/P; absent where they are not that far apart.
+  [[nodiscard]] std::optional<Point> between_sparse_lines() const {
+    const PhaseLine& before = lines_[meeting_.before];
+    const PhaseLine& after = lines_[meeting_.after];
+    if (step() > (std::abs(log_step()) > flank ? -sparse_step_on_flank : -sparse_step)) return std::nullopt;
+    if (!before.measured || !after.measured) return std::nullopt;
+    const std::complex<double> one = 1.0 / before.value;
+    const std::complex<double> other = 1.0 / after.value;
+    const double share = zero_between(one.imag(), other.imag());
+    const double stiffness = -between(one.real(), other.real(), share);
+    if (!(stiffness > 0.0)) return std::nullopt;
+    return Point{between(before.frequency, after.frequency, share), -std::log(stiffness)};
+  }
+
   [[nodiscard]] Point interpolated() const {
     const PhaseLine& before = lines_[meeting_.before];
     const PhaseLine& after = lines_[meeting_.after];
-    const double end = before.deviation + turned(after.deviation - before.deviation);
+    const double end = before.deviation + step();
     const double share = zero_between(before.deviation, end);
     return {between(before.frequency, after.frequency, share),
             between(std::log(std::abs(before.value)), std::log(std::abs(after.value)), share)};

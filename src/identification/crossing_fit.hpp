@@ -16,6 +16,8 @@ struct FittedCrossing {
   MeasuredCrossover crossover;
   std::size_t first_open = 0;  ///< lines [first_open, end_open) are open, or contradict the run that they lie in
   std::size_t end_open = 0;
+  /// The neighbouring lines between which the phase makes so long a step that a resonance may peak unseen; else absent.
+  std::optional<Interval> sparse_lines;
 };
 
 /// Where the phase passes -180 degrees between two runs that meet, with its 95 % intervals.
@@ -25,6 +27,8 @@ struct FittedCrossing {
 /// bound of one curve through the phases around the crossing leaves -180 degrees (Fieller's interval); where it does
 /// not so within the curve's reach, to the outermost line that is not proven to be on its run's side. A curvature of
 /// the phase between the two lines widens it. `line_correlation`: see FrequencyResponse. Source: Fieller 1954.
+/// Where the phase falls far between the two lines, a resonance lies between them: there 1/P is nearly a straight line,
+/// and the interval holds both lines.
 /// Nothing where the phase passes 0 instead of -180 degrees, or steps so far that it may have done either.
 [[nodiscard]] std::optional<FittedCrossing> fitted_crossing(std::span<const PhaseLine> lines,
                                                             std::span<const PhaseVerdict> verdicts,

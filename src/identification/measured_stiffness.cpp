@@ -40,8 +40,12 @@ std::ptrdiff_t ragged_lines(Iterator begin, Iterator end) {
   return given_up;
 }
 
+std::size_t ragged_start(const std::vector<PhaseLine>& lines) {
+  return static_cast<std::size_t>(ragged_lines(lines.begin(), lines.end()));
+}
+
 std::vector<PhaseLine> without_ragged_ends(const std::vector<PhaseLine>& lines) {
-  const auto first = lines.begin() + ragged_lines(lines.begin(), lines.end());
+  const auto first = lines.begin() + static_cast<std::ptrdiff_t>(ragged_start(lines));
   const auto last = lines.end() - ragged_lines(lines.rbegin(), lines.rend());
   return first < last ? std::vector<PhaseLine>(first, last) : std::vector<PhaseLine>{};
 }
@@ -77,7 +81,8 @@ struct Findings {
   std::vector<PhaseRun> runs;
   std::vector<MeasuredCrossover> crossovers;
   std::vector<Doubt> doubts;
-  Interval band;  ///< in which the phase is known up to crossovers and doubts
+  std::vector<Interval> sparse_lines;  ///< see FittedCrossing
+  Interval band;                       ///< in which the phase is known up to crossovers and doubts
   /// Where the imaginary part is positive at first, the phase is past -180 degrees, and not a little above 0: a device
   /// on a spring starts from 0, on either side by the noise.
   bool starts_past_half_turn = false;
@@ -125,6 +130,7 @@ Findings find_crossings(std::span<const PhaseLine> lines, std::span<const PhaseV
     const MeetingLines meeting = meeting_lines(lines, below, above);
     if (const auto crossing = fitted_crossing(lines, verdicts, below, above, line_correlation)) {
       findings.crossovers.push_back(crossing->crossover);
+      if (crossing->sparse_lines) findings.sparse_lines.push_back(*crossing->sparse_lines);
       for (std::size_t j = crossing->first_open; j < crossing->end_open; ++j) accounted[j] = true;
     } else if (is_ambiguous_step(lines[meeting.before], lines[meeting.after])) {
       findings.doubts.push_back(doubt_over(lines, meeting.before, meeting.after));
@@ -185,6 +191,30 @@ std::optional<Doubt> doubtful_start(std::span<const PhaseLine> lines) {
   return doubt_over(lines, 0, std::min(open, lines.size() - 1));
 }
 
+/// Lines too noisy each by itself, together: the phase among them is nearer to 0 than to 180 degrees, with 95 %.
+bool leads_towards_zero(std::span<const PhaseLine> lines) {
+  constexpr double one_sided_95 = 1.645;
+  double sum = 0.0;
+  double count = 0.0;
+  for (const PhaseLine& line : lines) {
+    if (!(line.sigma > 0.0) || !std::isfinite(line.sigma)) continue;
+    sum += line.value.real() / line.sigma;
+    count += 1.0;
+  }
+  return count > 0.0 && sum > one_sided_95 * std::sqrt(count);
+}
+
+/// The excited lines that the noise drowns where the band begins. Past -180 degrees among them, the phase may have
+/// crossed below them all: how soft that crossing is, no line tells.
+std::optional<Doubt> drowned_start(const std::vector<PhaseLine>& lines) {
+  const std::size_t given_up = ragged_start(lines);
+  if (given_up == 0 || given_up >= lines.size()) return std::nullopt;
+  constexpr std::size_t lowest_lines = 16;  // above them there may be an antiresonance, and the phase be near 0 again
+  const auto drowned = std::span(lines).first(std::min(given_up, lowest_lines));
+  if (leads_towards_zero(drowned)) return std::nullopt;
+  return Doubt{{lines.front().frequency, lines[given_up].frequency}, 0.0};
+}
+
 void judge(MeasuredStiffness& result, const Findings& findings) {
   if (findings.runs.empty()) {
     result.status = MeasuredStiffnessStatus::undetermined;
@@ -217,6 +247,25 @@ void judge(MeasuredStiffness& result, const Findings& findings) {
                       : "the critical stiffness is unknown");
   }
   if (!result.doubtful_bands.empty()) result.status = MeasuredStiffnessStatus::undetermined;
+}
+
+/// Resonances that stand between lines too far apart to show them.
+void remark_sparse_lines(MeasuredStiffness& result, const Findings& findings) {
+  for (const Interval& lines : findings.sparse_lines) {
+    warn(result, "the phase falls far between the neighbouring lines " + band_text(lines),
+         "a resonance peaks there unseen: the stiffness of its crossover is a guess between the lines; longer periods "
+         "or "
+         "segments give closer lines");
+  }
+}
+
+/// Where the band begins the response is that of a spring.
+void remark_springlike_start(MeasuredStiffness& result, const PhaseLine& first) {
+  constexpr double springlike = std::numbers::pi / 3.0;
+  if (!result.limit || std::abs(std::arg(first.value)) > springlike) return;
+  warn(result, fmt::format("the device looks like a spring where the band begins, {:.4g} Hz", hertz(first.frequency)),
+       "right for one that is locked or tied to ground; a free one has a softer crossover below the band: excite lower "
+       "frequencies");
 }
 
 /// Wide holes between excited lines, in which nothing is known either.
@@ -263,8 +312,11 @@ MeasuredStiffness measured_stiffness(const FrequencyResponse& response) {
   // Last, so that a beginning past -180 degrees is judged by the lines that are known.
   const std::optional<Doubt> start = doubtful_start(all_lines);
   if (start && may_cross(std::span(all_lines).first(1))) findings.doubts.push_back(*start);
+  if (const auto drowned = drowned_start(all_lines)) findings.doubts.push_back(*drowned);
   judge(result, findings);
+  remark_springlike_start(result, lines.front());
   remark_gaps(result, lines);
+  remark_sparse_lines(result, findings);
   const bool noise_known =
       response.averages > 0.0 || std::any_of(response.points.begin(), response.points.end(),
                                              [](const ResponsePoint& point) { return point.variance > 0.0; });

@@ -36,10 +36,12 @@ RigidApproximation rigid_approximation(const Device& device, const CriticalStiff
 
 std::optional<QCriterion> q_criterion(const Device& device, const RigidApproximation& rigid) {
   const std::optional<TwoMass> two = as_two_mass(device);
-  if (!two) return std::nullopt;
+  const Wall& wall = device.parameters().wall;
+  if (!two || !wall.filters.empty()) return std::nullopt;
   const TwoMassFactors factors = two_mass_factors(*two);
   QCriterion criterion{two->motor_mass * factors.z_n * factors.omega_n, std::nullopt};  // eq. 24
-  if (device.loop().sensed == device.loop().actuated && rigid.critical.status == StiffnessStatus::finite) {
+  if (wall.damping == 0.0 && device.loop().sensed == device.loop().actuated &&
+      rigid.critical.status == StiffnessStatus::finite) {
     criterion.mode_matters = criterion.stiffness <= rigid.critical.stiffness;
   }
   return criterion;

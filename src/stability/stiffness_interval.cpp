@@ -107,8 +107,9 @@ StiffnessInterval stiffness_interval(const Device& device, std::size_t draws, st
   }
   std::ranges::sort(stiffness);
   const auto tail = static_cast<std::size_t>(0.025 * static_cast<double>(draws));
-  return {stiffness[tail], stiffness[draws - 1 - tail], static_cast<double>(others) / static_cast<double>(draws),
-          draws};
+  // A parameter at its bound is drawn to one side of it only: the device itself is within, all the same.
+  return {std::min(stiffness[tail], own.stiffness), std::max(stiffness[draws - 1 - tail], own.stiffness),
+          static_cast<double>(others) / static_cast<double>(draws), draws};
 }
 
 }  // namespace zwidth

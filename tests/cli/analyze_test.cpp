@@ -1,5 +1,6 @@
 // zwidth analyze on real input. Numbers: theory notes, section 2 (100-digit arithmetic), to 1e-9 relative.
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -16,6 +17,7 @@ namespace zwidth::cli {
 namespace {
 
 using nlohmann::json;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::StartsWith;
@@ -139,7 +141,8 @@ TEST_F(Analyze, SearchesAFamilyOfUsers) {
   const auto held = documents("zwidth analyze devices/lhifam.toml --json --set operator.stiffness=1000").front();
   EXPECT_EQ(family["critical_stiffness"], held["critical_stiffness"]);
   EXPECT_THAT(run("zwidth analyze devices/lhifam.toml" + users).output,
-              HasSubstr("\n  users as given      8.829 kN/m, least found, with mass 0 kg, damping 0 N s/m"));
+              AllOf(HasSubstr("\n  users as given      8.829 kN/m, least found, with mass 0 kg, damping 0 N s/m"),
+                    HasSubstr("asked for: mass 0 to 2 kg")));
 }
 
 TEST_F(Analyze, AFamilyKeepsTheOperatorsOwnValues) {
@@ -172,6 +175,19 @@ TEST_F(Analyze, RefusesImpossibleUsers) {
   for (const std::string option : {"--worst-user", "--users mass=0:1"}) {
     expect_refusal("zwidth analyze lag.toml " + option, "lag.toml: is a transfer function; it has no body to hold");
   }
+}
+
+TEST_F(Analyze, TooManyBodiesForTheWorstUserAreRefusedAtOnce) {
+  std::string chain = "[loop]\nsampling_period = 1e-3\nactuated = \"0\"\nsensed = \"0\"\nheld = \"0\"\n";
+  for (int i = 0; i < 100; ++i) {
+    chain += fmt::format("[[body]]\nname = \"{}\"\nmass = 0.1\ndamping = 0.1\n", i);
+    if (i > 0) {
+      chain += fmt::format("[[link]]\nbetween = [\"{}\", \"{}\"]\nstiffness = 1e4\ndamping = 1\n", i - 1, i);
+    }
+  }
+  write("chain.toml", chain);
+  expect_refusal("timeout 2 zwidth analyze chain.toml --users mass=0:1 --worst-user",
+                 "--worst-user: chain.toml: has 100 bodies; at most 20");
 }
 
 TEST_F(Analyze, ATransferFunctionHasNoBodies) {

@@ -215,7 +215,7 @@ TEST_F(Figures, ReproduceFillsAFolderAndLeavesTheRestAlone) {
 TEST_F(Figures, ReproduceRefusals) {
   expect_refusal("zwidth reproduce", 2, "OUTDIR");
   expect_refusal("echo x > file; zwidth reproduce file", 1, "file");
-  expect_refusal("echo x > file; zwidth reproduce file/below", 1, "cannot make the directory");
+  expect_refusal("echo x > file; timeout 2 zwidth reproduce file/below", 1, "cannot make the directory");
 }
 
 }  // namespace

@@ -126,6 +126,10 @@ TEST_F(Frf, RefusesInOneLineThatNamesThePlace) {
   expect_refusal("zwidth frf missing.csv --force 1 --position 2", "missing.csv");
   expect_refusal("zwidth frf recordings/locked_chirp.csv --force force --position angle", "time, force, position");
   expect_refusal(example + "--velocity time", "give one");
+  for (const std::string motion : {"--position force", "--velocity 2", "--acceleration Force"}) {
+    expect_refusal("zwidth frf recordings/locked_chirp.csv --force force " + motion,
+                   "locked_chirp.csv: column 'force' is named as the force and as the motion");
+  }
   expect_refusal(example + "--period 6000", "2 up to half the record");
   expect_refusal(example + "--period 1000 --skip-periods 9", "at least two must remain");
   expect_refusal(example + "--aperiodic --skip-periods 2", "is for a periodic force");

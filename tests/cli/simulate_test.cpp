@@ -210,9 +210,22 @@ TEST_F(Simulate, Refusals) {
   expect_refused(lhifam + "--every 2", "--every: is for --csv and --figure");
   expect_refused(lhifam + "--figure a.jpg", "unknown extension; .svg, .png or .pdf");
   expect_refused(lhifam + "--csv devices/lhifam.toml", "would overwrite the device file");
+  write("pushes.csv", "time,force\n0,1\n1e-3,1\n2e-3,1\n");
+  expect_refused(lhifam + "--user-force pushes.csv --csv ./pushes.csv", "would overwrite the recording");
+  write("pushes.svg", "time,force\n0,1\n1e-3,1\n2e-3,1\n");
+  expect_refused(lhifam + "--user-force pushes.svg --figure pushes.svg", "would overwrite the recording");
+  EXPECT_THAT(contents("pushes.csv"), StartsWith("time,force\n0,1\n"));
   expect_refused(lhifam + "--duration 10000 --csv a.csv", "thin them with --every");
   expect_refused("devices/lhifam.toml devices/lhifam.toml", "");
   EXPECT_FALSE(std::filesystem::exists(directory() / "a.csv"));
+}
+
+TEST_F(Simulate, ABadValueIsNamedBeforeWhatIsMissing) {
+  for (const std::string duration : {"nan", "-1", "1e9"}) {
+    expect_refused("devices/lhifam.toml --duration " + duration, "--duration: is " + duration.substr(0, 1));
+  }
+  expect_refused("devices/lhifam.toml --divergence 0", "--divergence: is 0");
+  expect_refused("devices/lhifam.toml", "nothing moves the device");
 }
 
 TEST_F(Simulate, AnOutputThatCannotBeWrittenIsAFailure) {

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <sstream>
+#include <string>
 #include <vector>
 
 #include "report/example_analyses.hpp"
@@ -98,7 +100,8 @@ TEST(AnalysisText, SaysWhyTheQCriterionIsSilent) {
   analysed.device = Device(parameters);
   EXPECT_THAT(unwrapped(text_of(analysed)), HasSubstr("It says nothing about this loop"));
   EXPECT_THAT(unwrapped(text_of(lhifam())), Not(HasSubstr("without the virtual damper")));
-  EXPECT_THAT(unwrapped(text_of(lhifam_with_wall())), HasSubstr("Q is of the device without the virtual damper."));
+  EXPECT_THAT(unwrapped(text_of(lhifam_with_wall())),
+              HasSubstr("Q is of the device without the virtual damper. It is not compared"));
 }
 
 TEST(AnalysisText, JudgesTheWall) {
@@ -159,6 +162,36 @@ TEST(AnalysisText, StatesWhatIsLeftOut) {
   EXPECT_THAT(unwrapped(text_of(analysed)), HasSubstr("One user is included, at handle: 0.5 kg, 6 N s/m, 135 N/m."));
   EXPECT_THAT(unwrapped(text_of(analysed)),
               HasSubstr("the encoder step of 3.14 µm and the force limit of 20 N are left out"));
+}
+
+TEST(AnalysisText, PromisesSafetyInEveryHandOnlyBelowALimit) {
+  DeviceParameters parameters = lhifam().device.parameters();
+  parameters.bodies.resize(1);
+  parameters.links.clear();
+  parameters.loop.held = 0;
+  AnalysedDevice analysed{Device(parameters), lhifam().analysis};
+  const auto promises = HasSubstr("is stable in every hand.");
+  EXPECT_THAT(unwrapped(text_of(analysed)), Not(promises));
+  for (const double none : {0.0, std::numeric_limits<double>::infinity()}) {
+    analysed.any_user = AnyUserLimit{none};
+    EXPECT_THAT(unwrapped(text_of(analysed)), Not(promises));
+  }
+  analysed.any_user = AnyUserLimit{5776.09, 259.9};
+  EXPECT_THAT(unwrapped(text_of(analysed)), promises);
+}
+
+TEST(AnalysisText, SaysThatTheLimitForAnyUserIsNotComputed) {
+  AnalysedDevice analysed = lhifam();
+  DeviceParameters parameters = analysed.device.parameters();
+  parameters.bodies.resize(most_bodies_for_any_user + 1, parameters.bodies.back());
+  for (std::size_t i = 2; i < parameters.bodies.size(); ++i) {
+    parameters.bodies[i].name = std::to_string(i);
+    parameters.links.push_back({i - 1, i, 79.5e3, 15.0});
+  }
+  analysed.device = Device(parameters);
+  const std::string text = text_of(analysed);
+  EXPECT_THAT(text, HasSubstr("\n  any passive user    not computed above 20 bodies\n"));
+  EXPECT_THAT(unwrapped(text), Not(HasSubstr("allows for all of them")));
 }
 
 TEST(AnalysisText, SeveralDevicesLeadWithATable) {

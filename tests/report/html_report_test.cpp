@@ -78,7 +78,8 @@ TEST(HtmlReport, SaysWhatUsersLeave) {
       UserFamilyAnswer{{{0.0, 2.0}, {0.0, 1.0}, {0.0, 1e3}}, {{0.0, 0.0, 1e3}, 8829.0}, analysed.analysis.critical};
   const std::string page = report_of({analysed});
   for (const char* text : {"With a user", "any passive user", "5.776 kN/m, worst at 41.36 Hz", "a mass of 1.25 kg",
-                           "users as given", "8.829 kN/m, least found, with mass 0 kg"}) {
+                           "users as given", "8.829 kN/m, least found, with mass 0 kg",
+                           "asked for: mass 0 to 2 kg, damping 0 to 1 N s/m, stiffness 0 to 1000 N/m"}) {
     EXPECT_THAT(page, HasSubstr(text));
   }
 }

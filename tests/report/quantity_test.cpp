@@ -26,7 +26,8 @@ TEST(Quantity, RoundingThatReachesTheNextPrefixTakesIt) {
 
 TEST(Quantity, BeyondThePrefixesItIsScientific) {
   EXPECT_EQ(quantity(1.5e21, "N/m"), "1.5e+12 GN/m");
-  EXPECT_EQ(quantity(1.5e-15, "s"), "1.5e-09 µs");
+  EXPECT_EQ(quantity(5e-13, "s"), "0.5 ps");
+  EXPECT_EQ(quantity(1.5e-21, "s"), "1.5e-09 ps");
 }
 
 TEST(Number, KeepsWholeDigitsAndAvoidsExponentsInTheUsualRange) {

@@ -107,6 +107,19 @@ TEST(RelayReport, TextHasTrialsPredictionsAndMeaning) {
   }
 }
 
+TEST(RelayReport, SaysThatTheWallIsLeftOut) {
+  EXPECT_THAT(relay_json(simulated(test::reduced_pretension_parameters(), 0.03, 1.0))["remarks"], IsEmpty());
+  DeviceParameters damped = test::reduced_pretension_parameters();
+  damped.wall.damping = 5.0;
+  DeviceParameters filtered = test::reduced_pretension_parameters();
+  filtered.wall.filters = {{WallFilter::Kind::low_pass, 300.0}};
+  for (const DeviceParameters& device : {damped, filtered}) {
+    const RelayReport report = simulated(device, 0.03, 1.0);
+    EXPECT_EQ(relay_json(report)["remarks"].size(), 1U);
+    EXPECT_THAT(relay_text(report), HasSubstr("the wall's damper and filters are left out"));
+  }
+}
+
 TEST(RelayReport, JsonHoldsTheSameAndNullWhereThereIsNone) {
   RelayReport report =
       simulated(with_friction(test::with_delay(test::reduced_pretension_parameters(), 6.25e-3), 0.4), 0.03);

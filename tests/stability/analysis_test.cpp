@@ -64,6 +64,19 @@ TEST(Analysis, QCriterionWithoutAVerdict) {
   EXPECT_FALSE(free.q_criterion->mode_matters.has_value());
 }
 
+// Q is of the bare device: nothing to compare with where the wall has a damper or filters.
+TEST(Analysis, QCriterionIsNotComparedWithAnotherWall) {
+  DeviceParameters device = test::lhifam_parameters();
+  device.wall.damping = 5.0;
+  const Analysis damped = analyze(Device(device));
+  ASSERT_TRUE(damped.q_criterion.has_value());
+  EXPECT_NEAR(damped.q_criterion->stiffness, 8468.9, 0.05);
+  EXPECT_FALSE(damped.q_criterion->mode_matters.has_value());
+  device.wall.damping = 0.0;
+  device.wall.filters = {{WallFilter::Kind::low_pass, 300.0}};
+  EXPECT_FALSE(analyze(Device(device)).q_criterion.has_value());
+}
+
 TEST(Analysis, ThreeBodiesHaveNoQ) {
   DeviceParameters device = test::lhifam_parameters();
   device.bodies.push_back({"carriage", 0.8, 0.4, 0.0, 0.0});

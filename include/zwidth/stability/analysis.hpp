@@ -24,7 +24,8 @@ struct RigidApproximation {
 /// theory, section 3.3). Q is about the least stiffness of the resonance branch over all delays. An approximation.
 struct QCriterion {
   double stiffness = 0.0;  ///< Q
-  /// Q <= rigid critical stiffness; absent unless the actuated body is sensed and that stiffness is finite.
+  /// Q <= rigid critical stiffness; absent unless the actuated body is sensed, that stiffness is finite and the
+  /// wall has no damper.
   std::optional<bool> mode_matters;
 };
 
@@ -34,7 +35,7 @@ struct Analysis {
   std::vector<Mode> modes;                    ///< vibration modes, by rising frequency
   std::optional<Mode> suspended_rigid_body;   ///< where springs tie the device to ground
   std::optional<RigidApproximation> rigid;    ///< absent for a transfer function
-  std::optional<QCriterion> q_criterion;      ///< absent unless as_two_mass() applies
+  std::optional<QCriterion> q_criterion;      ///< only where as_two_mass() applies, no wall filters
   std::optional<WallMargins> wall;            ///< absent without wall.stiffness
   std::optional<StiffnessInterval> interval;  ///< of the critical stiffness; absent without an uncertainty
 };
