@@ -259,10 +259,14 @@ void remark_sparse_lines(MeasuredStiffness& result, const Findings& findings) {
   }
 }
 
-/// Where the band begins the response is that of a spring.
+/// Where the band begins the response is that of a spring: of one to ground, or of the link between two free bodies,
+/// which acts so from their antiresonance to their resonance. A decade below the crossover the former is sure: the
+/// latter would need bodies of a hundredfold mass.
 void remark_springlike_start(MeasuredStiffness& result, const PhaseLine& first) {
   constexpr double springlike = std::numbers::pi / 3.0;
+  constexpr double surely_below = 0.1;
   if (!result.limit || std::abs(std::arg(first.value)) > springlike) return;
+  if (first.frequency <= surely_below * result.limit->frequency) return;
   warn(result, fmt::format("the device looks like a spring where the band begins, {:.4g} Hz", hertz(first.frequency)),
        "right for one that is locked or tied to ground; a free one has a softer crossover below the band: excite lower "
        "frequencies");
