@@ -6,6 +6,8 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "cli/device_arguments.hpp"
 #include "cli/identify_rigid_body.hpp"
@@ -19,10 +21,13 @@
 #include "report/identification_json.hpp"
 #include "report/identification_text.hpp"
 #include "report/output_file.hpp"
+#include "report/quantity.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/identification/measured_stiffness.hpp"
 #include "zwidth/identification/record_fit.hpp"
 #include "zwidth/io/device_file.hpp"
+#include "zwidth/sampling/sampled_plant.hpp"
+#include "zwidth/stability/critical_stiffness.hpp"
 
 namespace zwidth::cli {
 namespace {
@@ -90,40 +95,86 @@ RecordFit fitted(const IdentifyArguments& arguments, const Device& device, const
   }
 }
 
+bool is_locked(const IdentifyArguments& arguments, const std::string& body) {
+  return std::ranges::find(arguments.structure.locked, body) != arguments.structure.locked.end();
+}
+
+void warn_of_placeholder(const std::string& key, double value, report::IdentifiedDevice& identified) {
+  identified.remarks.push_back({Remark::Severity::warning,
+                                fmt::format("{} = {:.4g} is a placeholder: the data do not determine it", key, value),
+                                "give what is known with --set, or a device file as the structure"});
+}
+
 /// Numbers of a named structure that the data leave open are no one's.
 void warn_of_placeholders(const IdentifyArguments& arguments, report::IdentifiedDevice& identified) {
   if (!is_named_structure(arguments.structure)) return;
   for (const ParameterEstimate& estimate : identified.fit.estimates) {
-    if (estimate.identifiable) continue;
-    identified.remarks.push_back(
-        {Remark::Severity::warning,
-         fmt::format("{} = {:.4g} is a placeholder: the data do not determine it", estimate.key, estimate.value),
-         "give what is known with --set, or a device file as the structure"});
+    if (!estimate.identifiable) warn_of_placeholder(estimate.key, estimate.value, identified);
+  }
+  for (const Body& body : identified.fit.device.bodies()) {
+    if (!is_locked(arguments, body.name)) continue;
+    for (const std::string name : {"mass", "damping"}) {
+      const std::string key = fmt::format("body.{}.{}", body.name, name);
+      warn_of_placeholder(key, name == "mass" ? body.mass : body.damping, identified);
+    }
   }
 }
 
+/// The device of the experiment: its bodies locked as in the recording, without a wall's damper and filters.
+Device recorded_device(const IdentifyArguments& arguments, const Device& fitted) {
+  DeviceParameters parameters = fitted.parameters();
+  parameters.wall = {};
+  parameters.uncertainty.reset();
+  std::vector<std::size_t> locked;
+  for (std::size_t i = 0; i < parameters.bodies.size(); ++i) {
+    if (is_locked(arguments, parameters.bodies[i].name)) locked.push_back(i);
+  }
+  return locked.empty() ? Device(std::move(parameters)) : locked_device(Device(std::move(parameters)), locked);
+}
+
 /// A fit whose critical stiffness lies above the one that the same data show without a model is not to be trusted.
-void warn_of_unsafe_fit(report::IdentifiedDevice& identified) {
+void warn_of_unsafe_fit(const IdentifyArguments& arguments, report::IdentifiedDevice& identified) {
   constexpr double tolerated = 1.05;
   const Device& device = identified.fit.device;
   const auto& period = identified.response.sampling_period;
   const bool same_loop = period && std::abs(*period - device.loop().sampling_period) <= 1e-6 * *period;
-  if (!same_loop || device.parameters().wall.damping > 0.0 || identified.response.points.size() < 2) return;
+  if (!same_loop || identified.response.points.size() < 2) return;
   const MeasuredStiffness measured = measured_stiffness(identified.response);
   if (measured.crossovers.empty()) return;
   double proven = std::numeric_limits<double>::infinity();
   for (const MeasuredCrossover& each : measured.crossovers) {
     if (each.poles_leaving > 0) proven = std::min(proven, each.stiffness_interval.upper);
   }
-  const double fitted = identified.analysed.analysis.critical.stiffness;
+  const double fitted = critical_stiffness(sampled_plant(recorded_device(arguments, device))).stiffness;
   if (!(fitted > tolerated * proven)) return;
   identified.remarks.push_back(
       {Remark::Severity::warning,
-       fmt::format("UNSAFE: this device's critical stiffness, {:.4g}, lies above {:.4g}, where the same data show an "
-                   "oscillation without any model",
-                   fitted, proven),
+       fmt::format("UNSAFE: the critical stiffness of the recorded device as fitted, {:.4g} {}, lies above {:.4g}, "
+                   "where the same data show an oscillation without any model",
+                   fitted, report::units_of(device.parameters().motion).stiffness, proven),
        "use the one of zwidth frf; the structure lacks something: try --free all,loop.delay,actuator.time_constant, or "
        "name bodies that were --locked"});
+}
+
+/// Into the fitted device's [uncertainty], so that what reads its file says it too: a K_CR above the measured one, and
+/// parameters that the data do not determine, which count as exact.
+void keep_distrust(report::IdentifiedDevice& identified) {
+  DeviceParameters parameters = identified.fit.device.parameters();
+  if (!parameters.uncertainty) return;
+  std::string distrust;
+  const auto add = [&](const std::string& what) { distrust += (distrust.empty() ? "" : "; ") + what; };
+  for (const Remark& remark : identified.remarks) {
+    if (remark.what.starts_with("UNSAFE") || remark.what.find("is a placeholder") != std::string::npos)
+      add(remark.what);
+  }
+  std::vector<std::string> open;
+  for (const ParameterEstimate& estimate : identified.fit.estimates) {
+    if (!estimate.identifiable) open.push_back(estimate.key);
+  }
+  if (!open.empty()) add(fmt::format("the data do not determine {}: taken as they stand", fmt::join(open, ", ")));
+  parameters.uncertainty->warning = distrust;
+  identified.fit.device = Device(std::move(parameters));
+  identified.analysed.device = identified.fit.device;
 }
 
 report::IdentifiedDevice identified_device(const IdentifyArguments& arguments) {
@@ -141,7 +192,8 @@ report::IdentifiedDevice identified_device(const IdentifyArguments& arguments) {
                                       std::move(measured.remarks)};
   for (const Remark& remark : identified.fit.remarks) identified.remarks.push_back(remark);
   warn_of_placeholders(arguments, identified);
-  if (arguments.structure.locked.empty()) warn_of_unsafe_fit(identified);
+  warn_of_unsafe_fit(arguments, identified);
+  keep_distrust(identified);
   return identified;
 }
 

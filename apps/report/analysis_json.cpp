@@ -142,6 +142,8 @@ nlohmann::ordered_json analysis_json(const AnalysedDevice& analysed) {
   document["wall"] = to_json_or_null(analysis.wall);
   document["critical_stiffness_interval"] = to_json_or_null(analysis.interval);
   document["other_mechanism_share"] = analysis.interval ? Json(analysis.interval->other_mechanism) : Json(nullptr);
+  document["uncertainty_warning"] =
+      device.uncertainty && !device.uncertainty->warning.empty() ? Json(device.uncertainty->warning) : Json(nullptr);
   return document;
 }
 

@@ -153,7 +153,8 @@ std::optional<std::string> interval_note(const AnalysedDevice& analysed) {
     note += fmt::format("; in {:.2g} % of the devices that it allows another mechanism limits",
                         100.0 * interval->other_mechanism);
   }
-  return note;
+  const auto& uncertainty = parameters_of(analysed).uncertainty;
+  return uncertainty && !uncertainty->warning.empty() ? note + ". NOT TO BE TRUSTED: " + uncertainty->warning : note;
 }
 
 std::optional<std::string> any_user_note(const AnalysedDevice& analysed) {

@@ -170,7 +170,7 @@ class DeviceReader {
     if (!table) return;
     TableReader reader = table_reader(DeviceTable::uncertainty, *table);
     device_.uncertainty = {reader.required_texts("parameters", "an array of keys such as \"link.0.stiffness\""),
-                           reader.required_rows("covariance")};
+                           reader.required_rows("covariance"), reader.text("warning").value_or("")};
   }
 
   TableReader table_reader(DeviceTable kind, const toml::table& table) {

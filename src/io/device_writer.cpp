@@ -141,6 +141,7 @@ std::string write_device(const DeviceParameters& parameters) {
     out.header("[uncertainty]");
     out.value("parameters", text_array_value(device.uncertainty->parameters));
     out.value("covariance", rows_value(device.uncertainty->covariance));
+    if (!device.uncertainty->warning.empty()) out.value("warning", text_value(device.uncertainty->warning));
   }
   return std::move(out).text();
 }

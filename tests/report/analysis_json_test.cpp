@@ -44,7 +44,8 @@ TEST(AnalysisJson, KeysStandInTheirDocumentedOrder) {
                                              "wall_filters",
                                              "wall",
                                              "critical_stiffness_interval",
-                                             "other_mechanism_share"};
+                                             "other_mechanism_share",
+                                             "uncertainty_warning"};
   for (const auto& analysed : {lhifam(), lhifam_with_wall(), undamped_paddle(), unlimited_transfer_function()}) {
     EXPECT_EQ(keys_of(analysis_json(analysed)), expected) << analysed.device.name();
   }

@@ -36,6 +36,16 @@ TEST(IntervalReport, AnotherMechanismIsMentioned) {
   EXPECT_THAT(*interval_note(with_interval({8000.0, 9000.0, 0.0, 1000})), Not(HasSubstr("another mechanism")));
 }
 
+TEST(IntervalReport, AFitThatIsNotToBeTrustedSaysSo) {
+  AnalysedDevice analysed = with_interval({8000.0, 9000.0, 0.0, 1000});
+  EXPECT_TRUE(analysis_json(analysed)["uncertainty_warning"].is_null());
+  DeviceParameters parameters = analysed.device.parameters();
+  parameters.uncertainty = Uncertainty{{"link.0.stiffness"}, {{1.0}}, "the data do not determine body.handle.mass"};
+  analysed.device = Device(parameters);
+  EXPECT_THAT(*interval_note(analysed), HasSubstr("NOT TO BE TRUSTED: the data do not determine body.handle.mass"));
+  EXPECT_EQ(analysis_json(analysed)["uncertainty_warning"], "the data do not determine body.handle.mass");
+}
+
 TEST(IntervalReport, AnUnboundedEndIsNoNumber) {
   const AnalysedDevice analysed = with_interval({8000.0, std::numeric_limits<double>::infinity(), 0.0, 1000});
   EXPECT_THAT(*interval_note(analysed), HasSubstr("8 kN/m to unbounded"));
