@@ -26,6 +26,7 @@
 #include "zwidth/identification/measured_stiffness.hpp"
 #include "zwidth/identification/record_fit.hpp"
 #include "zwidth/io/device_file.hpp"
+#include "zwidth/model/parameter.hpp"
 #include "zwidth/sampling/sampled_plant.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
 
@@ -99,24 +100,28 @@ bool is_locked(const IdentifyArguments& arguments, const std::string& body) {
   return std::ranges::find(arguments.structure.locked, body) != arguments.structure.locked.end();
 }
 
-void warn_of_placeholder(const std::string& key, double value, report::IdentifiedDevice& identified) {
-  identified.remarks.push_back({Remark::Severity::warning,
-                                fmt::format("{} = {:.4g} is a placeholder: the data do not determine it", key, value),
-                                "give what is known with --set, or a device file as the structure"});
+/// Keys of the numbers that stand as they stood in the structure: those that the data leave open and, of a named
+/// structure, those of its locked bodies.
+std::vector<std::string> undetermined(const IdentifyArguments& arguments, const report::IdentifiedDevice& identified) {
+  std::vector<std::string> keys;
+  for (const ParameterEstimate& estimate : identified.fit.estimates) {
+    if (!estimate.identifiable) keys.push_back(estimate.key);
+  }
+  if (!is_named_structure(arguments.structure)) return keys;
+  for (const std::string& body : arguments.structure.locked) {
+    for (const char* number : {"mass", "damping"}) keys.push_back(fmt::format("body.{}.{}", body, number));
+  }
+  return keys;
 }
 
 /// Numbers of a named structure that the data leave open are no one's.
 void warn_of_placeholders(const IdentifyArguments& arguments, report::IdentifiedDevice& identified) {
   if (!is_named_structure(arguments.structure)) return;
-  for (const ParameterEstimate& estimate : identified.fit.estimates) {
-    if (!estimate.identifiable) warn_of_placeholder(estimate.key, estimate.value, identified);
-  }
-  for (const Body& body : identified.fit.device.bodies()) {
-    if (!is_locked(arguments, body.name)) continue;
-    for (const std::string name : {"mass", "damping"}) {
-      const std::string key = fmt::format("body.{}.{}", body.name, name);
-      warn_of_placeholder(key, name == "mass" ? body.mass : body.damping, identified);
-    }
+  for (const std::string& key : undetermined(arguments, identified)) {
+    identified.remarks.push_back({Remark::Severity::warning,
+                                  fmt::format("{} = {:.4g} is a placeholder: the data do not determine it", key,
+                                              parameter(identified.fit.device.parameters(), key).value_or(0.0)),
+                                  "give what is known with --set, or a device file as the structure"});
   }
 }
 
@@ -158,21 +163,19 @@ void warn_of_unsafe_fit(const IdentifyArguments& arguments, report::IdentifiedDe
 
 /// Into the fitted device's [uncertainty], so that what reads its file says it too: a K_CR above the measured one, and
 /// parameters that the data do not determine, which count as exact.
-void keep_distrust(report::IdentifiedDevice& identified) {
+void keep_distrust(const IdentifyArguments& arguments, report::IdentifiedDevice& identified) {
   DeviceParameters parameters = identified.fit.device.parameters();
   if (!parameters.uncertainty) return;
-  std::string distrust;
-  const auto add = [&](const std::string& what) { distrust += (distrust.empty() ? "" : "; ") + what; };
+  std::vector<std::string> distrust;
   for (const Remark& remark : identified.remarks) {
-    if (remark.what.starts_with("UNSAFE") || remark.what.find("is a placeholder") != std::string::npos)
-      add(remark.what);
+    if (remark.what.starts_with("UNSAFE")) distrust.push_back(remark.what);
   }
-  std::vector<std::string> open;
-  for (const ParameterEstimate& estimate : identified.fit.estimates) {
-    if (!estimate.identifiable) open.push_back(estimate.key);
+  const std::vector<std::string> keys = undetermined(arguments, identified);
+  if (!keys.empty()) {
+    distrust.push_back(
+        fmt::format("the data do not determine {}: taken as they stand in the structure", fmt::join(keys, ", ")));
   }
-  if (!open.empty()) add(fmt::format("the data do not determine {}: taken as they stand", fmt::join(open, ", ")));
-  parameters.uncertainty->warning = distrust;
+  parameters.uncertainty->warning = fmt::format("{}", fmt::join(distrust, "; "));
   identified.fit.device = Device(std::move(parameters));
   identified.analysed.device = identified.fit.device;
 }
@@ -193,7 +196,7 @@ report::IdentifiedDevice identified_device(const IdentifyArguments& arguments) {
   for (const Remark& remark : identified.fit.remarks) identified.remarks.push_back(remark);
   warn_of_placeholders(arguments, identified);
   warn_of_unsafe_fit(arguments, identified);
-  keep_distrust(identified);
+  keep_distrust(arguments, identified);
   return identified;
 }
 
