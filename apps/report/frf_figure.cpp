@@ -112,7 +112,7 @@ std::vector<std::string> list_of(const MeasuredFrf& frf) {
     const MeasuredCrossover& crossover = crossovers[i];
     list.push_back(fmt::format(
         "{}   K = {} ({} to {}) at {} Hz ({} to {}){}", i + 1, quantity(crossover.stiffness, unit),
-        number(crossover.stiffness_interval.lower), number(crossover.stiffness_interval.upper),
+        quantity(crossover.stiffness_interval.lower, unit), quantity(crossover.stiffness_interval.upper, unit),
         number(hertz(crossover.frequency)), number(hertz(crossover.frequency_interval.lower)),
         number(hertz(crossover.frequency_interval.upper)), is_critical(frf, crossover) ? ": critical" : ""));
   }

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -18,13 +16,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::StartsWith;
 
-class Design : public Workspace {
- protected:
-  [[nodiscard]] std::string contents(const std::string& name) const {
-    std::ifstream file(directory() / name, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
-};
+class Design : public Workspace {};
 
 // +0.01 % of each number, asked of analyze.
 TEST_F(Design, SlopesAreWhatAnalyzeGives) {

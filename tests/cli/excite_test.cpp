@@ -2,8 +2,6 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <sstream>
@@ -22,10 +20,6 @@ using ::testing::StartsWith;
 
 class Excite : public Workspace {
  protected:
-  [[nodiscard]] std::string contents(const std::string& name) const {
-    std::ifstream file(directory() / name, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
   void expect_refusal(const std::string& options, int status, const std::string& message) const {
     const Outcome outcome = run("zwidth excite " + options);
     EXPECT_EQ(outcome.status, status) << options;

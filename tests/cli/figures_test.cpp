@@ -2,8 +2,6 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <sstream>
@@ -24,10 +22,6 @@ using ::testing::StartsWith;
 
 class Figures : public Workspace {
  protected:
-  [[nodiscard]] std::string contents(const std::string& name) const {
-    std::ifstream file(directory() / name, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
   [[nodiscard]] bool exists(const std::string& name) const { return fs::exists(directory() / name); }
   void expect_refusal(const std::string& command, int status, const std::string& message) const {
     const Outcome outcome = run(command);

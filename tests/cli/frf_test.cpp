@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -26,10 +24,6 @@ class Frf : public Workspace {
     EXPECT_EQ(outcome.status, 0) << command << "\n" << outcome.errors;
     EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 1) << command;
     return json::parse(outcome.output, nullptr, false);
-  }
-  [[nodiscard]] std::string contents(const std::string& name) const {
-    std::ifstream file(directory() / name, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
   }
 };
 

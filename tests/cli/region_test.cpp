@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -17,13 +15,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::StartsWith;
 
-class Region : public Workspace {
- protected:
-  [[nodiscard]] std::string contents(const std::string& name) const {
-    std::ifstream file(directory() / name, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
-};
+class Region : public Workspace {};
 
 TEST_F(Region, AgreesWithAnalyzeAtZeroDamping) {
   const Outcome region = run("zwidth region devices/lhifam_rigid.toml --json");

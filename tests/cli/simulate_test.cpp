@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <sstream>
@@ -24,10 +22,6 @@ using ::testing::StartsWith;
 
 class Simulate : public Workspace {
  protected:
-  [[nodiscard]] std::string contents(const std::string& name) const {
-    std::ifstream file(directory() / name, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
   [[nodiscard]] nlohmann::json json_of(const std::string& arguments) const {
     const Outcome outcome = run("zwidth simulate " + arguments + " --json");
     EXPECT_EQ(outcome.status, 0) << arguments << "\n" << outcome.errors;

@@ -11,16 +11,8 @@
 #include <stdexcept>
 
 namespace zwidth::cli {
-namespace {
 
 namespace fs = std::filesystem;
-
-std::string contents_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-}  // namespace
 
 Workspace::Workspace() {
   std::string pattern = (fs::temp_directory_path() / "zwidth_cli_XXXXXX").string();
@@ -43,7 +35,7 @@ Outcome Workspace::run(const std::string& command_line) const {
       fmt::format("cd '{0}' && bash .command > .output 2> .errors < /dev/null", directory_.string());
   const int raw = std::system(wrapped.c_str());
   const int status = WIFEXITED(raw) ? WEXITSTATUS(raw) : 128 + WTERMSIG(raw);
-  return {status, contents_of(directory_ / ".output"), contents_of(directory_ / ".errors")};
+  return {status, contents(".output"), contents(".errors")};
 }
 
 void Workspace::expect_refusal(const std::string& command_line, const std::string& message) const {
@@ -54,6 +46,11 @@ void Workspace::expect_refusal(const std::string& command_line, const std::strin
   std::istringstream lines(outcome.errors);
   for (std::string line; std::getline(lines, line);)
     EXPECT_THAT(line, ::testing::StartsWith("zwidth: ")) << command_line;
+}
+
+std::string Workspace::contents(const std::string& name) const {
+  std::ifstream file(directory_ / name, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 void Workspace::write(const std::string& name, std::string_view contents) const {

@@ -33,6 +33,9 @@ class Workspace : public ::testing::Test {
   /// Writes a file into the directory.
   void write(const std::string& name, std::string_view contents) const;
 
+  /// The bytes of a file in the directory; empty where there is none.
+  [[nodiscard]] std::string contents(const std::string& name) const;
+
   [[nodiscard]] const std::filesystem::path& directory() const { return directory_; }
 
  private:
