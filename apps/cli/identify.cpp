@@ -138,38 +138,37 @@ Device recorded_device(const IdentifyArguments& arguments, const Device& fitted)
 }
 
 /// A fit whose critical stiffness lies above the one that the same data show without a model is not to be trusted.
-void warn_of_unsafe_fit(const IdentifyArguments& arguments, report::IdentifiedDevice& identified) {
+std::optional<Remark> unsafe_fit(const IdentifyArguments& arguments, const report::IdentifiedDevice& identified) {
   constexpr double tolerated = 1.05;
   const Device& device = identified.fit.device;
   const auto& period = identified.response.sampling_period;
   const bool same_loop = period && std::abs(*period - device.loop().sampling_period) <= 1e-6 * *period;
-  if (!same_loop || identified.response.points.size() < 2) return;
+  if (!same_loop || identified.response.points.size() < 2) return std::nullopt;
   const MeasuredStiffness measured = measured_stiffness(identified.response);
-  if (measured.crossovers.empty()) return;
+  if (measured.crossovers.empty()) return std::nullopt;
   double proven = std::numeric_limits<double>::infinity();
   for (const MeasuredCrossover& each : measured.crossovers) {
     if (each.poles_leaving > 0) proven = std::min(proven, each.stiffness_interval.upper);
   }
   const double fitted = critical_stiffness(sampled_plant(recorded_device(arguments, device))).stiffness;
-  if (!(fitted > tolerated * proven)) return;
-  identified.remarks.push_back(
-      {Remark::Severity::warning,
-       fmt::format("UNSAFE: the critical stiffness of the recorded device as fitted, {:.4g} {}, lies above {:.4g}, "
-                   "where the same data show an oscillation without any model",
-                   fitted, report::units_of(device.parameters().motion).stiffness, proven),
-       "use the one of zwidth frf; the structure lacks something: try --free all,loop.delay,actuator.time_constant, or "
-       "name bodies that were --locked"});
+  if (!(fitted > tolerated * proven)) return std::nullopt;
+  return Remark{
+      Remark::Severity::warning,
+      fmt::format("UNSAFE: the critical stiffness of the recorded device as fitted, {:.4g} {}, lies above {:.4g}, "
+                  "where the same data show an oscillation without any model",
+                  fitted, report::units_of(device.parameters().motion).stiffness, proven),
+      "use the one of zwidth frf; the structure lacks something: try --free all,loop.delay,actuator.time_constant, or "
+      "name bodies that were --locked"};
 }
 
 /// Into the fitted device's [uncertainty], so that what reads its file says it too: a K_CR above the measured one, and
 /// parameters that the data do not determine, which count as exact.
-void keep_distrust(const IdentifyArguments& arguments, report::IdentifiedDevice& identified) {
+void keep_distrust(const IdentifyArguments& arguments, const std::optional<Remark>& unsafe,
+                   report::IdentifiedDevice& identified) {
   DeviceParameters parameters = identified.fit.device.parameters();
   if (!parameters.uncertainty) return;
   std::vector<std::string> distrust;
-  for (const Remark& remark : identified.remarks) {
-    if (remark.what.starts_with("UNSAFE")) distrust.push_back(remark.what);
-  }
+  if (unsafe) distrust.push_back(unsafe->what);
   const std::vector<std::string> keys = undetermined(arguments, identified);
   if (!keys.empty()) {
     distrust.push_back(
@@ -195,8 +194,9 @@ report::IdentifiedDevice identified_device(const IdentifyArguments& arguments) {
                                       std::move(measured.remarks)};
   for (const Remark& remark : identified.fit.remarks) identified.remarks.push_back(remark);
   warn_of_placeholders(arguments, identified);
-  warn_of_unsafe_fit(arguments, identified);
-  keep_distrust(arguments, identified);
+  const std::optional<Remark> unsafe = unsafe_fit(arguments, identified);
+  if (unsafe) identified.remarks.push_back(*unsafe);
+  keep_distrust(arguments, unsafe, identified);
   return identified;
 }
 

@@ -124,5 +124,30 @@ TEST_F(Identify, FitsTheMotorBench) {
   EXPECT_TRUE(found["held_to_measured_critical_point"]);
 }
 
+// The example's position one sample late, fitted without a delay.
+TEST_F(Identify, AnUnsafeFitOfALockedDeviceSaysSoForGood) {
+  const Outcome fit =
+      run("awk -F, 'NR == 1 { print; next } NR > 2 { print $1 \",\" $2 \",\" late } { late = $3 }' "
+          "recordings/locked_chirp.csv "
+          "> late.csv && zwidth identify late.csv --force 2 --position 3 --structure devices/lhifam.toml "
+          "--free link.stiffness,link.damping --locked handle --output-device late.toml");
+  ASSERT_EQ(fit.status, 0) << fit.errors;
+  EXPECT_THAT(fit.output, HasSubstr("UNSAFE: the critical stiffness of the recorded device as fitted"));
+  const Outcome analysis = run("zwidth analyze late.toml");
+  EXPECT_EQ(analysis.status, 0) << analysis.errors;
+  EXPECT_THAT(analysis.output, HasSubstr("UNSAFE"));
+  EXPECT_THAT(document("zwidth analyze late.toml --json")["uncertainty_warning"].get<std::string>(),
+              HasSubstr("UNSAFE"));
+}
+
+TEST_F(Identify, WhatTheDataDoNotDetermineStaysInTheFile) {
+  const Outcome fit =
+      run("zwidth identify recordings/locked_chirp.csv --force force --position position --structure two-body "
+          "--locked handle --output-device guess.toml");
+  ASSERT_EQ(fit.status, 0) << fit.errors;
+  const std::string warning = document("zwidth analyze guess.toml --json")["uncertainty_warning"].get<std::string>();
+  for (const char* key : {"body.handle.mass", "body.handle.damping"}) EXPECT_THAT(warning, HasSubstr(key));
+}
+
 }  // namespace
 }  // namespace zwidth::cli
