@@ -13,10 +13,10 @@
 #include "cli/subcommand.hpp"
 #include "cli/users_argument.hpp"
 #include "report/analysed_device.hpp"
-#include "report/analysis_json.hpp"
-#include "report/analysis_text.hpp"
-#include "report/html_report.hpp"
 #include "report/output_file.hpp"
+#include "report/page/html_report.hpp"
+#include "report/text/analysis_text.hpp"
+#include "results/analysis_json.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth::cli {

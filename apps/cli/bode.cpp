@@ -9,12 +9,12 @@
 #include "cli/device_arguments.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
-#include "report/canvas.hpp"
 #include "report/device_bode.hpp"
-#include "report/explanation.hpp"
+#include "report/figure/canvas.hpp"
 #include "report/output_file.hpp"
-#include "report/quantity.hpp"
-#include "report/text_table.hpp"
+#include "report/text/explanation.hpp"
+#include "report/text/quantity.hpp"
+#include "report/text/text_table.hpp"
 
 namespace zwidth::cli {
 namespace {

@@ -12,11 +12,11 @@
 #include "cli/remark_lines.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
-#include "report/excitation_csv.hpp"
-#include "report/excitation_figure.hpp"
 #include "report/excitation_summary.hpp"
+#include "report/figure/excitation_figure.hpp"
 #include "report/output_file.hpp"
-#include "report/remark_line.hpp"
+#include "report/text/remark_line.hpp"
+#include "results/excitation_csv.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth::cli {

@@ -1,4 +1,4 @@
-#include "report/export.hpp"
+#include "export/export.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -14,8 +14,8 @@
 #include "cli/device_arguments.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
-#include "report/export_c.hpp"
-#include "report/export_chai3d.hpp"
+#include "export/export_c.hpp"
+#include "export/export_chai3d.hpp"
 #include "report/output_file.hpp"
 #include "zwidth/error.hpp"
 

@@ -10,13 +10,13 @@
 #include "cli/response_arguments.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
-#include "report/canvas.hpp"
-#include "report/frf_csv.hpp"
-#include "report/frf_figure.hpp"
-#include "report/frf_json.hpp"
-#include "report/frf_text.hpp"
+#include "report/figure/canvas.hpp"
+#include "report/figure/frf_figure.hpp"
 #include "report/measured_frf.hpp"
 #include "report/output_file.hpp"
+#include "report/text/frf_text.hpp"
+#include "results/frf_csv.hpp"
+#include "results/frf_json.hpp"
 
 namespace zwidth::cli {
 namespace {

@@ -17,11 +17,12 @@
 #include "cli/standard_output.hpp"
 #include "cli/structure_arguments.hpp"
 #include "cli/subcommand.hpp"
-#include "report/identification_figure.hpp"
-#include "report/identification_json.hpp"
-#include "report/identification_text.hpp"
+#include "report/figure/identification_figure.hpp"
 #include "report/output_file.hpp"
-#include "report/quantity.hpp"
+#include "report/text/identification_text.hpp"
+#include "report/text/quantity.hpp"
+#include "report/text/remark_line.hpp"
+#include "results/identification_json.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/identification/measured_stiffness.hpp"
 #include "zwidth/identification/record_fit.hpp"
@@ -205,7 +206,7 @@ std::string device_text(const report::IdentifiedDevice& identified) {
   std::string text;
   for (const Remark& remark : identified.remarks) {
     if (remark.severity != Remark::Severity::warning) continue;
-    std::string line = "WARNING: " + remark.what + (remark.meaning.empty() ? "" : "; " + remark.meaning);
+    std::string line = "WARNING: " + report::remark_line(remark);
     std::replace_if(
         line.begin(), line.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
     text += "# " + line + "\n";

@@ -11,8 +11,8 @@
 #include "cli/number_text.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/subcommand.hpp"
-#include "report/remark_line.hpp"
-#include "report/text_table.hpp"
+#include "report/text/remark_line.hpp"
+#include "report/text/text_table.hpp"
 
 namespace zwidth::cli {
 namespace {

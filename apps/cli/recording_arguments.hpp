@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "zwidth/identification/frequency_response.hpp"
-#include "zwidth/identification/recording.hpp"
 #include "zwidth/io/recording_file.hpp"
+#include "zwidth/signal/recording.hpp"
 
 namespace zwidth::cli {
 

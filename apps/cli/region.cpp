@@ -7,13 +7,13 @@
 #include "cli/device_arguments.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
-#include "report/canvas.hpp"
 #include "report/device_region.hpp"
+#include "report/figure/canvas.hpp"
+#include "report/figure/region_figure.hpp"
 #include "report/output_file.hpp"
-#include "report/region_csv.hpp"
-#include "report/region_figure.hpp"
-#include "report/region_json.hpp"
-#include "report/region_text.hpp"
+#include "report/text/region_text.hpp"
+#include "results/region_csv.hpp"
+#include "results/region_json.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth::cli {

@@ -11,13 +11,13 @@
 #include "cli/recording_arguments.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
-#include "report/canvas.hpp"
+#include "report/figure/canvas.hpp"
+#include "report/figure/relay_figure.hpp"
 #include "report/output_file.hpp"
-#include "report/relay_csv.hpp"
-#include "report/relay_figure.hpp"
-#include "report/relay_json.hpp"
 #include "report/relay_report.hpp"
-#include "report/relay_text.hpp"
+#include "report/text/relay_text.hpp"
+#include "results/relay_csv.hpp"
+#include "results/relay_json.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth::cli {

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "cli/standard_output.hpp"
-#include "report/remark_line.hpp"
+#include "report/text/remark_line.hpp"
 
 namespace zwidth::cli {
 

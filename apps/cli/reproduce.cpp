@@ -6,7 +6,7 @@
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
 #include "report/output_file.hpp"
-#include "report/reproduction.hpp"
+#include "reproduce/reproduction.hpp"
 
 namespace zwidth::cli {
 namespace {

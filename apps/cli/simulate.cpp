@@ -16,13 +16,13 @@
 #include "cli/remark_lines.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
-#include "report/canvas.hpp"
+#include "report/figure/canvas.hpp"
+#include "report/figure/simulation_figure.hpp"
 #include "report/output_file.hpp"
 #include "report/simulated_loop.hpp"
-#include "report/simulation_csv.hpp"
-#include "report/simulation_figure.hpp"
-#include "report/simulation_json.hpp"
-#include "report/simulation_text.hpp"
+#include "report/text/simulation_text.hpp"
+#include "results/simulation_csv.hpp"
+#include "results/simulation_json.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth::cli {

@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "cli/subcommand.hpp"
-#include "io/key_suggestion.hpp"
 #include "zwidth/identification/parameter_fit.hpp"
 #include "zwidth/io/device_file.hpp"
+#include "zwidth/io/message_words.hpp"
 #include "zwidth/model/parameter.hpp"
 
 namespace zwidth::cli {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cli/subcommand.hpp"
-#include "io/prose.hpp"
+#include "zwidth/io/message_words.hpp"
 
 namespace zwidth::cli {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "io/key_suggestion.hpp"
+#include "zwidth/io/message_words.hpp"
 
 namespace zwidth::cli {
 namespace {

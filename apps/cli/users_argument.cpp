@@ -8,7 +8,7 @@
 
 #include "cli/number_text.hpp"
 #include "cli/subcommand.hpp"
-#include "io/key_suggestion.hpp"
+#include "zwidth/io/message_words.hpp"
 
 namespace zwidth::cli {
 namespace {

@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "report/analysed_device.hpp"
-#include "report/explanation.hpp"
-#include "report/json_value.hpp"
-#include "report/quantity.hpp"
-#include "report/text_table.hpp"
+#include "report/text/explanation.hpp"
+#include "report/text/quantity.hpp"
+#include "report/text/text_table.hpp"
+#include "results/json_value.hpp"
 
 namespace zwidth::report {
 namespace {

@@ -8,9 +8,9 @@
 #include <optional>
 
 #include "report/designed_device.hpp"
-#include "report/explanation.hpp"
-#include "report/quantity.hpp"
-#include "report/text_table.hpp"
+#include "report/text/explanation.hpp"
+#include "report/text/quantity.hpp"
+#include "report/text/text_table.hpp"
 
 namespace zwidth::report {
 namespace {

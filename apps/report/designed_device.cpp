@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "report/quantity.hpp"
+#include "report/text/quantity.hpp"
 
 namespace zwidth::report {
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "report/analysed_device.hpp"
-#include "report/canvas.hpp"
+#include "report/figure/canvas.hpp"
 #include "zwidth/design/notch_design.hpp"
 
 namespace zwidth::report {

@@ -8,10 +8,10 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "report/analysis_json.hpp"
-#include "report/explanation.hpp"
-#include "report/quantity.hpp"
-#include "report/wall_filter_text.hpp"
+#include "report/text/explanation.hpp"
+#include "report/text/quantity.hpp"
+#include "report/text/wall_filter_text.hpp"
+#include "results/analysis_json.hpp"
 
 namespace zwidth::report {
 namespace {

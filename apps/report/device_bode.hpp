@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "report/analysed_device.hpp"
-#include "report/bode_figure.hpp"
 #include "report/bode_points.hpp"
+#include "report/figure/bode_figure.hpp"
 
 namespace zwidth::report {
 

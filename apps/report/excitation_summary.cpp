@@ -5,9 +5,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "report/frf_json.hpp"
-#include "report/quantity.hpp"
-#include "report/remark_line.hpp"
+#include "report/text/quantity.hpp"
+#include "report/text/remark_line.hpp"
+#include "results/frf_json.hpp"
 
 namespace zwidth::report {
 namespace {

@@ -1,6 +1,6 @@
 #include "report/identified_device.hpp"
 
-#include "report/quantity.hpp"
+#include "report/text/quantity.hpp"
 
 namespace zwidth::report {
 

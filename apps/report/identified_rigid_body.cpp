@@ -5,12 +5,12 @@
 #include <array>
 #include <utility>
 
-#include "report/frf_json.hpp"
-#include "report/frf_text.hpp"
-#include "report/identification_json.hpp"
-#include "report/identification_text.hpp"
-#include "report/quantity.hpp"
-#include "report/text_table.hpp"
+#include "report/text/frf_text.hpp"
+#include "report/text/identification_text.hpp"
+#include "report/text/quantity.hpp"
+#include "report/text/text_table.hpp"
+#include "results/frf_json.hpp"
+#include "results/identification_json.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth::report {

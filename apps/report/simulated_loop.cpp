@@ -9,8 +9,8 @@
 #include <optional>
 #include <utility>
 
-#include "report/explanation.hpp"
-#include "report/quantity.hpp"
+#include "report/text/explanation.hpp"
+#include "report/text/quantity.hpp"
 
 namespace zwidth::report {
 namespace {

@@ -4,15 +4,16 @@
 
 namespace zwidth {
 
-/// Something about a recording or a result that its user should know.
+/// Something about an input or a result that its user should know.
 struct Remark {
   enum class Severity {
     note,     ///< how the work was done ("segments of 4096 samples, Hann, half overlapping")
     warning,  ///< the result may be wrong or is less than asked for
   };
   Severity severity = Severity::note;
-  std::string what;     ///< one line: "force is constant from 3.2 s to 4.1 s"
-  std::string meaning;  ///< what it means for the result, or what to do; may be empty
+  std::string what;         ///< one line: "force is constant from 3.2 s to 4.1 s"
+  std::string consequence;  ///< what it means for the result; may be empty
+  std::string remedy = {};  ///< what to do about it; may be empty
 };
 
 }  // namespace zwidth

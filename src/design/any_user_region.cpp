@@ -8,6 +8,7 @@
 #include "zwidth/error.hpp"
 
 namespace zwidth {
+using namespace internal;
 namespace {
 
 constexpr double first_ratio = 1e-6;  // the least B > 0 sampled, as a share of the largest

@@ -10,6 +10,7 @@
 #include "zwidth/design/sensitivity.hpp"
 
 namespace zwidth {
+using namespace internal;
 namespace {
 
 using Complex = std::complex<double>;

@@ -10,7 +10,7 @@
 
 #include "stability/plant_fraction.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 using Node = BoundaryBranch::Node;
@@ -106,4 +106,4 @@ std::vector<BoundaryBranch> boundary_branches(const BoundaryCurve& curve, std::s
   return std::move(builder.branches);
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

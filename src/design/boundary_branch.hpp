@@ -7,7 +7,7 @@
 
 #include "design/strand.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 // A stretch of the curve, by rising angle, along which B only rises or only falls.
 class BoundaryBranch {
@@ -32,4 +32,4 @@ class BoundaryBranch {
 // The strands as branches, divided at the extrema of B.
 std::vector<BoundaryBranch> boundary_branches(const BoundaryCurve& curve, std::span<const Strand> strands);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

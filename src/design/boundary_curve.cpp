@@ -8,7 +8,7 @@
 #include "stability/delay_factor.hpp"
 #include "stability/plant_fraction.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 // The plant with its numerators added up. Bounds of a sum of terms that partly cancel are far too wide; those of one
@@ -75,4 +75,4 @@ double BoundaryCurve::nyquist_stiffness() const {
   return -1.0 / response(plant_, std::numbers::pi / plant_.period).real();
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

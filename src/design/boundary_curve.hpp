@@ -6,7 +6,7 @@
 #include "stability/bounded_jet.hpp"
 #include "zwidth/sampling/sampled_plant.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 // A wall (K, B).
 struct WallPoint {
@@ -67,4 +67,4 @@ class BoundaryCurve {
 inline double least(const BoundaryCurve::Jet& a) { return a.value - std::abs(a.slope) - 0.5 * a.bend; }
 inline double greatest(const BoundaryCurve::Jet& a) { return a.value + std::abs(a.slope) + 0.5 * a.bend; }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 using Complex = std::complex<double>;
@@ -209,4 +209,4 @@ DamperSlopes damper_slopes(const Device& device, double angle, std::span<const D
   return slopes;
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

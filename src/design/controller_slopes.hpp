@@ -7,7 +7,7 @@
 #include "design/design_parameter.hpp"
 #include "zwidth/model/device.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// The filters of the wall at z = e^{j angle}, F = F_1 F_2 ..., and the derivatives of log F.
 struct FilterSlopes {
@@ -32,4 +32,4 @@ struct DamperSlopes {
 [[nodiscard]] DamperSlopes damper_slopes(const Device& device, double angle,
                                          std::span<const DesignParameter> parameters);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -1,6 +1,6 @@
 #include "design/design_parameter.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 using Kind = DesignParameter::Kind;
@@ -49,4 +49,4 @@ std::vector<DesignParameter> design_parameters(const Device& device) {
   return parameters;
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

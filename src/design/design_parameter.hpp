@@ -6,7 +6,7 @@
 
 #include "zwidth/model/device.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// One of the numbers that a limit of the wall depends on.
 struct DesignParameter {
@@ -38,4 +38,4 @@ struct DesignParameter {
 /// In the order of the device file. A velocity filter of 0 Hz is none: no number that could grow.
 [[nodiscard]] std::vector<DesignParameter> design_parameters(const Device& device);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

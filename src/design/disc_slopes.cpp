@@ -9,7 +9,7 @@
 #include "design/plant_slopes.hpp"
 #include "model/device_matrices.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 using Complex = std::complex<double>;
@@ -213,4 +213,4 @@ DiscSlopes disc_slopes(const Device& free, const UserDiscs& discs, double angle,
   return slopes;
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -8,7 +8,7 @@
 #include "stability/user_discs.hpp"
 #include "zwidth/model/device.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// The disc of passive users at one angle, with the wall's filters, and its derivatives at a fixed angle.
 struct DiscSlopes {
@@ -30,4 +30,4 @@ struct DiscSlopes {
 [[nodiscard]] DiscSlopes disc_slopes(const Device& free, const UserDiscs& discs, double angle,
                                      std::span<const DesignParameter> parameters);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

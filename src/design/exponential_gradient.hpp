@@ -5,7 +5,7 @@
 #include <complex>
 #include <cstddef>
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// Matrices of one precision; `Most` bounds their size (Eigen::Dynamic: no bound).
 template <typename RealType, int Most>
@@ -83,4 +83,4 @@ class ExponentialGradient {
   int halvings_ = 0;
 };
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

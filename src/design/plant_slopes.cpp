@@ -12,7 +12,7 @@
 #include "sampling/sampling_instants.hpp"
 #include "zwidth/model/state_space.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 using Eigen::Index;
@@ -342,4 +342,4 @@ PlantSlopes plant_slopes(const Device& device, double angle, std::span<const Des
              : slopes_up_to<Eigen::Dynamic>(device, angle, parameters, reference);
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

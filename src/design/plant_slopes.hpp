@@ -8,7 +8,7 @@
 #include "design/design_parameter.hpp"
 #include "zwidth/model/device.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// P(e^{j angle}) of a device, without the filters of its wall, and its derivatives.
 struct PlantSlopes {
@@ -28,4 +28,4 @@ struct PlantSlopes {
 [[nodiscard]] PlantSlopes plant_slopes(const Device& device, double angle, std::span<const DesignParameter> parameters,
                                        std::optional<std::complex<double>> reference = std::nullopt);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

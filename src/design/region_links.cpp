@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 // Ends this close, as a share of the greatest |K| + |B|/T of the level, meet.
@@ -11,7 +11,7 @@ constexpr double same_place = 1e-7;
 
 }  // namespace
 
-RegionLinks::RegionLinks(const StableWalls::Structure& structure) : structure_(structure) {
+RegionLinks::RegionLinks(const RegionStructure& structure) : structure_(structure) {
   std::size_t cells = 0;
   for (const RegionSlab& slab : structure.slabs) {
     first_cell_.push_back(cells);
@@ -33,7 +33,7 @@ double RegionLinks::damping(const EdgeEnd& end) const {
   return end.top ? slab.upper : slab.lower;
 }
 
-StableWalls::Structure::EdgePoint RegionLinks::point(const EdgeEnd& end) const {
+RegionStructure::EdgePoint RegionLinks::point(const EdgeEnd& end) const {
   return structure_.edge_at(edge(end), damping(end));
 }
 
@@ -110,4 +110,4 @@ void RegionLinks::join(std::size_t upper_slab, double tolerance) {
   }
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -5,7 +5,7 @@
 
 #include "design/region_structure.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 // Where a side of a cell ends: at the bottom or the top of its slab.
 struct EdgeEnd {
@@ -19,7 +19,7 @@ struct EdgeEnd {
 // How the cells of neighbouring slabs join into rings and components. No cell may be unbounded.
 class RegionLinks {
  public:
-  explicit RegionLinks(const StableWalls::Structure& structure);
+  explicit RegionLinks(const RegionStructure& structure);
 
   // The end that the boundary goes on with.
   [[nodiscard]] const EdgeEnd& partner(const EdgeEnd& end) const { return partners_[index(end)]; }
@@ -28,7 +28,7 @@ class RegionLinks {
 
   [[nodiscard]] const RegionEdge& edge(const EdgeEnd& end) const;
   [[nodiscard]] double damping(const EdgeEnd& end) const;
-  [[nodiscard]] StableWalls::Structure::EdgePoint point(const EdgeEnd& end) const;
+  [[nodiscard]] RegionStructure::EdgePoint point(const EdgeEnd& end) const;
 
  private:
   struct Placed {
@@ -46,10 +46,10 @@ class RegionLinks {
   void join(std::size_t upper_slab, double tolerance);
   void pair(const EdgeEnd& a, const EdgeEnd& b);
 
-  const StableWalls::Structure& structure_;
+  const RegionStructure& structure_;
   std::vector<std::size_t> first_cell_;  // of each slab, counted through
   std::vector<EdgeEnd> partners_;
   std::vector<std::size_t> parents_;
 };
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

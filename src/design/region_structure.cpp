@@ -8,7 +8,7 @@
 #include "design/strand_crossings.hpp"
 #include "zwidth/error.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -41,7 +41,7 @@ std::optional<double> drift_stiffness(const BoundaryCurve& curve) {
 
 }  // namespace
 
-StableWalls::Structure::Structure(SampledPlant plant, double velocity_filter_hz)
+RegionStructure::RegionStructure(SampledPlant plant, double velocity_filter_hz)
     : curve(std::move(plant), velocity_filter_hz) {
   if (curve.plant().terms.empty()) {  // the wall does not see the device
     const RegionCell all{RegionEdge{BoundaryKind::no_stiffness, 0}, std::nullopt};
@@ -57,7 +57,7 @@ StableWalls::Structure::Structure(SampledPlant plant, double velocity_filter_hz)
   while (!slabs.empty() && slabs.back().cells.empty()) slabs.pop_back();
 }
 
-std::vector<Strand> StableWalls::Structure::straight_strands(double top) const {
+std::vector<Strand> RegionStructure::straight_strands(double top) const {
   std::vector<Strand> lines;
   if (nyquist) lines.push_back(line({*nyquist, 0.0}, {0.0, *nyquist / curve.velocity_at_nyquist()}));
   for (const Strand& each : lines) top = std::max(top, greatest(each.damping));
@@ -67,7 +67,7 @@ std::vector<Strand> StableWalls::Structure::straight_strands(double top) const {
 }
 
 // Every B at which the stable intervals of K may change, from 0.
-std::vector<double> StableWalls::Structure::levels(const std::vector<Strand>& strands) const {
+std::vector<double> RegionStructure::levels(const std::vector<Strand>& strands) const {
   std::vector<double> found;
   double top = 0.0;
   for (const Strand& strand : strands) top = std::max(top, greatest(strand.damping));
@@ -88,7 +88,7 @@ std::vector<double> StableWalls::Structure::levels(const std::vector<Strand>& st
   return found;
 }
 
-std::vector<RegionCell> StableWalls::Structure::cells_at(double damping) const {
+std::vector<RegionCell> RegionStructure::cells_at(double damping) const {
   const CriticalStiffness critical = critical_stiffness(curve.plant(), {damping, curve.velocity_filter_hz()});
   const double period = curve.plant().period;
   const auto edge = [&](double stiffness) -> RegionEdge {
@@ -117,7 +117,7 @@ std::vector<RegionCell> StableWalls::Structure::cells_at(double damping) const {
   return cells;
 }
 
-StableWalls::Structure::EdgePoint StableWalls::Structure::edge_at(const RegionEdge& edge, double damping) const {
+RegionStructure::EdgePoint RegionStructure::edge_at(const RegionEdge& edge, double damping) const {
   switch (edge.kind) {
     case BoundaryKind::nyquist:
       return {*nyquist - damping * curve.velocity_at_nyquist(), std::numbers::pi};
@@ -135,7 +135,7 @@ StableWalls::Structure::EdgePoint StableWalls::Structure::edge_at(const RegionEd
 }
 
 // Whether the cells are the stable intervals at this B.
-bool StableWalls::Structure::hold_at(const std::vector<RegionCell>& cells, double damping) const {
+bool RegionStructure::hold_at(const std::vector<RegionCell>& cells, double damping) const {
   const auto exact = critical_stiffness(curve.plant(), {damping, curve.velocity_filter_hz()}).stable_intervals;
   const auto agrees = [&](const RegionEdge& edge, double stiffness) {
     const double found = edge_at(edge, damping).stiffness;
@@ -149,7 +149,7 @@ bool StableWalls::Structure::hold_at(const std::vector<RegionCell>& cells, doubl
                     });
 }
 
-void StableWalls::Structure::add_slab(double lower, double upper) {
+void RegionStructure::add_slab(double lower, double upper) {
   const double height = upper - lower;
   const double middle = lower + 0.5 * height;
   std::vector<RegionCell> cells = cells_at(middle);
@@ -162,4 +162,4 @@ void StableWalls::Structure::add_slab(double lower, double upper) {
   slabs.push_back({lower, upper, std::move(cells)});
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

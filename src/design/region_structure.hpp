@@ -7,7 +7,7 @@
 #include "design/boundary_branch.hpp"
 #include "zwidth/design/stable_region.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 // One side of a stable interval of K while B varies.
 struct RegionEdge {
@@ -28,8 +28,8 @@ struct RegionSlab {
   std::vector<RegionCell> cells;  // by rising K
 };
 
-struct StableWalls::Structure {
-  Structure(SampledPlant plant, double velocity_filter_hz);
+struct RegionStructure {
+  RegionStructure(SampledPlant plant, double velocity_filter_hz);
 
   struct EdgePoint {
     double stiffness = 0.0;
@@ -51,4 +51,4 @@ struct StableWalls::Structure {
   void add_slab(double lower, double upper);
 };
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -6,7 +6,7 @@
 
 #include "stability/mechanism_at.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 using Node = BoundaryBranch::Node;
@@ -15,7 +15,7 @@ constexpr int max_depth = 16;
 
 class RingTracer {
  public:
-  RingTracer(const StableWalls::Structure& structure, double deviation)
+  RingTracer(const RegionStructure& structure, double deviation)
       : structure_(structure), links_(structure), deviation_(deviation) {
     for (const RegionSlab& slab : structure.slabs) {
       for (const RegionCell& cell : slab.cells) {
@@ -172,7 +172,7 @@ class RingTracer {
   static constexpr double spacing = 1e-3;
   static constexpr double rounding = 1e-14;
 
-  const StableWalls::Structure& structure_;
+  const RegionStructure& structure_;
   RegionLinks links_;
   double deviation_;
   double stiffness_extent_ = 0.0;
@@ -181,7 +181,7 @@ class RingTracer {
 
 }  // namespace
 
-std::vector<TracedRing> trace_rings(const StableWalls::Structure& structure, double deviation) {
+std::vector<TracedRing> trace_rings(const RegionStructure& structure, double deviation) {
   RingTracer tracer(structure, deviation);
   std::vector<std::vector<bool>> visited;
   for (const RegionSlab& slab : structure.slabs) visited.emplace_back(slab.cells.size(), false);
@@ -195,4 +195,4 @@ std::vector<TracedRing> trace_rings(const StableWalls::Structure& structure, dou
   return rings;
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -5,7 +5,7 @@
 #include "design/region_links.hpp"
 #include "zwidth/design/stable_region.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 // A closed boundary and the component it belongs to.
 struct TracedRing {
@@ -15,6 +15,6 @@ struct TracedRing {
 
 // Every closed boundary of the region, the region on its left, with points of the curve so dense that chords stay
 // within `deviation` of it (a share of the region's extent in K and in B).
-std::vector<TracedRing> trace_rings(const StableWalls::Structure& structure, double deviation);
+std::vector<TracedRing> trace_rings(const RegionStructure& structure, double deviation);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

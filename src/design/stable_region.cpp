@@ -14,6 +14,7 @@
 #include "zwidth/error.hpp"
 
 namespace zwidth {
+using namespace internal;
 namespace {
 
 constexpr std::uintmax_t max_steps = 100;
@@ -102,7 +103,7 @@ StableRegion stable_region(const StableWalls& walls, OutlineOptions options) {
     throw Error(ErrorCode::invalid_argument,
                 "the outline's deviation is " + std::to_string(options.deviation) + "; must be above 0 and below 1");
   }
-  const StableWalls::Structure& structure = walls.structure();
+  const RegionStructure& structure = walls.structure();
   StableRegion region;
   for (const RegionSlab& slab : structure.slabs) {
     for (const RegionCell& cell : slab.cells) region.bounded = region.bounded && cell.right.has_value();

@@ -9,6 +9,7 @@
 #include "zwidth/error.hpp"
 
 namespace zwidth {
+using namespace internal;
 namespace {
 
 SampledPlant checked(SampledPlant plant, double velocity_filter_hz) {
@@ -22,8 +23,8 @@ SampledPlant checked(SampledPlant plant, double velocity_filter_hz) {
 }  // namespace
 
 StableWalls::StableWalls(SampledPlant plant, double velocity_filter_hz)
-    : structure_(std::make_shared<const Structure>(checked(std::move(plant), velocity_filter_hz), velocity_filter_hz)) {
-}
+    : structure_(
+          std::make_shared<const RegionStructure>(checked(std::move(plant), velocity_filter_hz), velocity_filter_hz)) {}
 
 double StableWalls::velocity_filter_hz() const { return structure_->curve.velocity_filter_hz(); }
 

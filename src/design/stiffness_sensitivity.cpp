@@ -10,6 +10,7 @@
 #include "zwidth/sampling/sampled_plant.hpp"
 
 namespace zwidth {
+using namespace internal;
 namespace {
 
 using Complex = std::complex<double>;

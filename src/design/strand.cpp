@@ -8,7 +8,7 @@
 #include "stability/root_isolation.hpp"
 #include "zwidth/error.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 using Jet = BoundaryCurve::Jet;
@@ -129,4 +129,4 @@ std::vector<Strand> curve_strands(const BoundaryCurve& curve, const WallBounds& 
   return strands;
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -7,7 +7,7 @@
 #include "design/boundary_curve.hpp"
 #include "design/wall_bounds.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 // A piece of boundary with K and B as first-order Taylor models in u in [-1, 1]: of the curve, on an interval of
 // x = |z - 1|², or of a straight line.
@@ -48,4 +48,4 @@ std::optional<std::array<Strand, 2>> halves(const BoundaryCurve& curve, const St
 // Throws Error (did_not_converge) past a cap on their number.
 std::vector<Strand> curve_strands(const BoundaryCurve& curve, const WallBounds& bounds);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -8,7 +8,7 @@
 
 #include "zwidth/error.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 using Jet = BoundaryCurve::Jet;
@@ -168,4 +168,4 @@ std::vector<WallPoint> strand_crossings(const BoundaryCurve& curve, std::span<co
   return search.crossings;
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

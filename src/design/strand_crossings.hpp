@@ -5,7 +5,7 @@
 
 #include "design/strand.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 // Every wall with K >= 0, B >= 0 where two of the strands cross, and those that touch to finest_detail. Two strands
 // that follow one another do not cross at their common end. Complete: a pair is left only where models on both whole
@@ -13,4 +13,4 @@ namespace zwidth {
 // number of pairs.
 std::vector<WallPoint> strand_crossings(const BoundaryCurve& curve, std::span<const Strand> strands);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <optional>
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 using Complex = std::complex<double>;
@@ -143,4 +143,4 @@ WallBounds wall_bounds(const BoundaryCurve& curve) {
   return bounds;
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

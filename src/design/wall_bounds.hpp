@@ -2,7 +2,7 @@
 
 #include "design/boundary_curve.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 // A part of the (K, B) plane that holds every stable wall.
 struct WallBounds {
@@ -20,4 +20,4 @@ struct WallBounds {
 // Each bounds |K + B v| at some z, which is at least K and at least B |v|. Infinite where nothing follows.
 WallBounds wall_bounds(const BoundaryCurve& curve);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -13,6 +13,7 @@
 #include "zwidth/stability/any_user.hpp"
 
 namespace zwidth {
+using namespace internal;
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 /// First-order autocorrelation of each column.
@@ -64,4 +64,4 @@ Eigen::MatrixXd covariance_with_correlated_residuals(const Eigen::MatrixXd& regr
   return covariance;
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

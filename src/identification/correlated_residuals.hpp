@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// Covariance of a least-squares solution whose residuals may be correlated in time and vary in size.
 ///
@@ -15,4 +15,4 @@ namespace zwidth {
 [[nodiscard]] Eigen::MatrixXd covariance_with_correlated_residuals(const Eigen::MatrixXd& regressors,
                                                                    const Eigen::VectorXd& residuals);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

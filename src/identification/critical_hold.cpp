@@ -6,7 +6,7 @@
 #include "identification/fit_weights.hpp"
 #include "zwidth/identification/measured_stiffness.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 std::optional<CriticalPoint> measured_critical_point(const FrequencyResponse& response,
                                                      const ParameterFitOptions& options) {
@@ -45,4 +45,4 @@ std::optional<Solution> hold(const FitModel& model, const std::vector<ResponsePo
   return Solution{fit.x, std::max(error, free.model_error), free.pull};
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

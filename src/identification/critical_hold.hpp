@@ -5,7 +5,7 @@
 
 #include "identification/fit_solution.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// The measured critical point as a point of the fit.
 struct CriticalPoint {
@@ -24,4 +24,4 @@ struct CriticalPoint {
                                            const Solution& free, const CriticalPoint& critical,
                                            double robust_threshold);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 /// The 97.5 % point of the normal distribution.
@@ -319,4 +319,4 @@ std::optional<FittedCrossing> fitted_crossing(std::span<const PhaseLine> lines, 
   return Crossing(lines, verdicts, below, above, meeting, line_correlation).fitted();
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -9,7 +9,7 @@
 #include "identification/phase_verdict.hpp"
 #include "zwidth/identification/measured_stiffness.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// A proven crossing, and the lines between which it may lie.
 struct FittedCrossing {
@@ -46,4 +46,4 @@ struct MeetingLines {
 /// The phase steps by so much between these neighbours that it may have gone either way round.
 [[nodiscard]] bool is_ambiguous_step(const PhaseLine& before, const PhaseLine& after);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

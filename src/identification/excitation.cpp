@@ -10,6 +10,7 @@
 #include "zwidth/error.hpp"
 
 namespace zwidth {
+using namespace internal;
 namespace {
 
 void require(bool met, std::string_view what, double value, std::string_view allowed) {

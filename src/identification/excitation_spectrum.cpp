@@ -8,11 +8,11 @@
 #include <numbers>
 #include <random>
 
-#include "identification/fourier.hpp"
+#include "signal/fourier.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/identification/excitation.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 using Complex = std::complex<double>;
@@ -83,4 +83,4 @@ std::vector<double> band_limited_noise(std::size_t size, RelativeBand band, std:
   return signal_of(values, lines.first, size);
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// A band of frequencies as fractions of the rate: 0 < lowest <= highest <= 0.5.
 struct RelativeBand {
@@ -20,4 +20,4 @@ struct RelativeBand {
 /// Gaussian noise of constant power density in the band and none outside. Requires and throws as above.
 [[nodiscard]] std::vector<double> band_limited_noise(std::size_t size, RelativeBand band, std::uint64_t seed);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

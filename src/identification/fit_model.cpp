@@ -8,7 +8,7 @@
 #include "zwidth/model/parameter.hpp"
 #include "zwidth/sampling/sampled_plant.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 // Of a central difference: the response is known to some 1e-13, its curvature is felt from 1e-3 of a light damping on.
@@ -155,4 +155,4 @@ ResponseWithSlopes FitModel::slopes_at(const Eigen::VectorXd& x, const std::vect
   return result;
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

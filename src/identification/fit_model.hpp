@@ -8,7 +8,7 @@
 
 #include "zwidth/identification/parameter_fit.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// How a free parameter is a coordinate x of the search.
 struct Coordinate {
@@ -60,4 +60,4 @@ class FitModel {
   std::vector<Coordinate> coordinates_;
 };
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -10,7 +10,7 @@
 #include "identification/response_features.hpp"
 #include "zwidth/error.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 constexpr std::size_t points_for_starts = 40;
@@ -103,4 +103,4 @@ Solution solve(const FitModel& model, const std::vector<ResponsePoint>& points, 
   return best;
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -6,7 +6,7 @@
 #include "identification/fit_model.hpp"
 #include "identification/least_squares.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// Where a search begins, and where it is weakly drawn.
 struct Start {
@@ -37,4 +37,4 @@ struct Solution {
 [[nodiscard]] Solution solve(const FitModel& model, const std::vector<ResponsePoint>& points,
                              const std::vector<Start>& starts, double robust_threshold);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 // Even perfect data are not trusted beyond this share of the response: the plant's own rounding and differencing.
@@ -51,4 +51,4 @@ double model_error_of(const std::vector<ResponsePoint>& points, const Eigen::Vec
   return std::exp(high);
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

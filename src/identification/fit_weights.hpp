@@ -4,7 +4,7 @@
 
 #include "identification/least_squares.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// The points with deviations sqrt(variance + model_error^2 |P|^2).
 [[nodiscard]] FitData fit_data(const std::vector<ResponsePoint>& points, double model_error);
@@ -13,4 +13,4 @@ namespace zwidth {
 /// residuals of these variances. The median does not heed a few lines that friction or a missing mode spoils.
 [[nodiscard]] double model_error_of(const std::vector<ResponsePoint>& points, const Eigen::VectorXcd& fitted);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

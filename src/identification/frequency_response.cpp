@@ -13,6 +13,7 @@
 #include "zwidth/error.hpp"
 
 namespace zwidth {
+using namespace internal;
 namespace {
 
 using Excitation = FrequencyResponseOptions::Excitation;

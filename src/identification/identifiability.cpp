@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 // Slopes are differences, good to 1e-7; so an eigenvalue of their squares that is 0 comes out at 1e-13 or so.
@@ -158,4 +158,4 @@ Eigen::MatrixXd covariance(const ResponseWithSlopes& at_solution, const FitData&
   return full;
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

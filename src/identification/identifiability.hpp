@@ -6,7 +6,7 @@
 #include "identification/fit_model.hpp"
 #include "identification/least_squares.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// Which coordinates the data determine.
 struct Identifiability {
@@ -26,4 +26,4 @@ struct Identifiability {
 [[nodiscard]] Eigen::MatrixXd covariance(const ResponseWithSlopes& at_solution, const FitData& data,
                                          const std::vector<bool>& determined, double robust_threshold);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -8,7 +8,7 @@
 #include "zwidth/error.hpp"
 #include "zwidth/model/parameter.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 constexpr std::size_t most_candidates = 1200;
@@ -265,4 +265,4 @@ std::vector<Eigen::VectorXd> initial_positions(const FitModel& model, const std:
   return starts;
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -6,7 +6,7 @@
 #include "identification/fit_model.hpp"
 #include "identification/response_features.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// Positions from which a fit may find the global minimum, the most promising first; at least one.
 ///
@@ -18,4 +18,4 @@ namespace zwidth {
                                                              const std::vector<ResponsePoint>& points,
                                                              const ResponseFeatures& features);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -11,10 +11,11 @@
 
 #include "identification/correlated_residuals.hpp"
 #include "identification/motion_bandwidth.hpp"
-#include "identification/zero_phase_filter.hpp"
+#include "signal/zero_phase_filter.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth {
+using namespace internal;
 namespace {
 
 constexpr std::size_t least_samples = 100;

@@ -10,7 +10,7 @@
 
 #include "zwidth/error.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 // A coordinate that may be 0 starts no nearer to it: from 0 itself the search could not leave.
@@ -203,4 +203,4 @@ LeastSquares least_squares(const FitModel& model, const FitData& data, const Eig
   return {position.x(), summary.final_cost, summary.termination_type == ceres::CONVERGENCE};
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

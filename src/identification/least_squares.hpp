@@ -6,7 +6,7 @@
 
 #include "identification/fit_model.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// What a fit compares at each frequency.
 enum class Misfit {
@@ -45,4 +45,4 @@ struct LeastSquares {
 [[nodiscard]] LeastSquares least_squares(const FitModel& model, const FitData& data, const Eigen::VectorXd& start,
                                          const LeastSquaresOptions& options, const Pull& pull = {});
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

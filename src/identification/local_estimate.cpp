@@ -6,7 +6,7 @@
 #include <cmath>
 #include <optional>
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 constexpr std::array<std::size_t, 12> reaches{1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64};
@@ -123,4 +123,4 @@ Estimate local_estimate(std::span<const CurveSample> samples, std::size_t index,
   return best;
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

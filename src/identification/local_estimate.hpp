@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// A value with its standard deviation.
 struct Estimate {
@@ -45,4 +45,4 @@ struct LocalCurve {
 /// as many independent ones. The sample itself must count. Source: Lepski 1991; Fan & Gijbels 1996, ch. 3.
 [[nodiscard]] Estimate local_estimate(std::span<const CurveSample> samples, std::size_t index, double correlation);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -14,6 +14,7 @@
 #include "zwidth/error.hpp"
 
 namespace zwidth {
+using namespace internal;
 namespace {
 
 double hertz(double frequency) { return frequency / (2.0 * std::numbers::pi); }

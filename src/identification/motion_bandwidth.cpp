@@ -7,9 +7,9 @@
 #include <numeric>
 #include <vector>
 
-#include "identification/fourier.hpp"
+#include "signal/fourier.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 // Blocks of lines this much wider than the last one: narrow at slow motions, smooth at fast ones.
@@ -71,4 +71,4 @@ MotionBandwidth motion_bandwidth(std::span<const double> position) {
   return {frequency_of(0.5), frequency_of(0.99)};
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -2,7 +2,7 @@
 
 #include <span>
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// Frequencies below which these parts of the acceleration's power lie, as fractions of the rate, in (0, 0.5].
 struct MotionBandwidth {
@@ -14,4 +14,4 @@ struct MotionBandwidth {
 /// up to where the motion first sinks into that noise. Requires at least 100 finite samples that are not all equal.
 [[nodiscard]] MotionBandwidth motion_bandwidth(std::span<const double> position);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

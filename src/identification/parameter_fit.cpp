@@ -18,6 +18,7 @@
 #include "zwidth/stability/critical_stiffness.hpp"
 
 namespace zwidth {
+using namespace internal;
 namespace {
 
 // 97.5 % quantile of the normal distribution.

@@ -6,9 +6,9 @@
 #include <numeric>
 #include <vector>
 
-#include "identification/fourier.hpp"
+#include "signal/fourier.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 using Complex = std::complex<double>;
@@ -76,4 +76,4 @@ std::optional<std::size_t> detect_period(std::span<const double> signal) {
   return std::nullopt;
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

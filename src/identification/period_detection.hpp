@@ -4,7 +4,7 @@
 #include <optional>
 #include <span>
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// The least number of samples after which a signal repeats itself, if it does: at least 8, and at least twice in the
 /// record.
@@ -14,4 +14,4 @@ namespace zwidth {
 /// samples count, so that a longer period than half of that is not found.
 [[nodiscard]] std::optional<std::size_t> detect_period(std::span<const double> signal);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -9,9 +9,9 @@
 #include <numeric>
 #include <vector>
 
-#include "identification/fourier.hpp"
+#include "signal/fourier.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 using Complex = std::complex<double>;
@@ -227,4 +227,4 @@ FrequencyResponse periodic_response(std::span<const double> force, std::span<con
   return response;
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

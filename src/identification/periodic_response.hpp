@@ -5,7 +5,7 @@
 
 #include "zwidth/identification/frequency_response.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// The periods that a periodic record is averaged over.
 struct PeriodicRecord {
@@ -21,4 +21,4 @@ struct PeriodicRecord {
                                                   double sampling_period, const PeriodicRecord& record,
                                                   const FrequencyResponseOptions& options, const Progress& progress);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <span>
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 using Complex = std::complex<double>;
@@ -126,4 +126,4 @@ std::optional<ResponsePoint> nyquist_point(const FrequencyResponse& response) {
   return response.points.back();
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

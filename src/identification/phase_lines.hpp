@@ -7,7 +7,7 @@
 
 #include "zwidth/identification/frequency_response.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// What one line of a response says about its phase relative to -180 degrees.
 struct PhaseLine {
@@ -30,4 +30,4 @@ struct PhaseLine {
 /// The line at the Nyquist frequency, if it is there.
 [[nodiscard]] std::optional<ResponsePoint> nyquist_point(const FrequencyResponse& response);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

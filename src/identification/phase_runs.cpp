@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 /// Standard deviations of pure noise that a swing of the evidence must reach.
@@ -73,4 +73,4 @@ std::vector<PhaseRun> phase_runs(const std::vector<PhaseLine>& lines, double lin
   return runs;
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

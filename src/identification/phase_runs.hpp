@@ -5,7 +5,7 @@
 
 #include "identification/phase_lines.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// A run of lines on one side of -180 degrees (or of 0 degrees: where the imaginary part has one sign).
 struct PhaseRun {
@@ -22,4 +22,4 @@ struct PhaseRun {
 /// hundreds of lines bring no false one. `line_correlation`: see FrequencyResponse.
 [[nodiscard]] std::vector<PhaseRun> phase_runs(const std::vector<PhaseLine>& lines, double line_correlation);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

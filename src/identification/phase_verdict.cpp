@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 /// The 97.5 % point of the normal distribution.
@@ -73,4 +73,4 @@ std::vector<PhaseVerdict> phase_verdicts(std::span<const PhaseLine> lines, doubl
   return verdicts;
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

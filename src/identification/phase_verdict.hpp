@@ -6,7 +6,7 @@
 #include "identification/local_estimate.hpp"
 #include "identification/phase_lines.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// On which side of -180 degrees a line lies, judged together with its neighbours.
 struct PhaseVerdict {
@@ -25,4 +25,4 @@ struct PhaseVerdict {
 /// One verdict per line. A line that is not measured is open.
 [[nodiscard]] std::vector<PhaseVerdict> phase_verdicts(std::span<const PhaseLine> lines, double line_correlation);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -12,6 +12,7 @@
 #include "zwidth/sampling/sampled_plant.hpp"
 
 namespace zwidth {
+using namespace internal;
 namespace {
 
 using Excitation = FrequencyResponseOptions::Excitation;

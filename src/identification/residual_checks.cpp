@@ -9,7 +9,7 @@
 #include <numbers>
 #include <optional>
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 // A model error below this share of the response is not worth a remark.
@@ -205,4 +205,4 @@ std::vector<Remark> check_residuals(const ParameterFit& fit, const std::vector<R
   return remarks;
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -4,7 +4,7 @@
 
 #include "zwidth/identification/parameter_fit.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// What the residuals of a fit say about its structure: a mode that it lacks, or where it describes the data worst.
 ///
@@ -13,4 +13,4 @@ namespace zwidth {
 [[nodiscard]] std::vector<Remark> check_residuals(const ParameterFit& fit, const std::vector<ResponsePoint>& points,
                                                   const std::vector<double>& modes);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

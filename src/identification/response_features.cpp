@@ -5,7 +5,7 @@
 #include <numbers>
 #include <set>
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 double inertance(const ResponsePoint& point) { return std::abs(point.value) * point.frequency * point.frequency; }
@@ -119,4 +119,4 @@ std::vector<ResponsePoint> thinned(const std::vector<ResponsePoint>& points, con
   return result;
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -5,7 +5,7 @@
 
 #include "zwidth/identification/frequency_response.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// What can be read off a measured response without a model.
 struct ResponseFeatures {
@@ -25,4 +25,4 @@ struct ResponseFeatures {
 [[nodiscard]] std::vector<ResponsePoint> thinned(const std::vector<ResponsePoint>& points,
                                                  const ResponseFeatures& features, std::size_t most);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "zwidth/error.hpp"
-#include "zwidth/identification/recording.hpp"
+#include "zwidth/signal/recording.hpp"
 
 namespace zwidth {
 namespace {

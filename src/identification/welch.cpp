@@ -9,11 +9,11 @@
 #include <numbers>
 #include <vector>
 
-#include "identification/averaged_spectra.hpp"
-#include "identification/window_function.hpp"
+#include "signal/averaged_spectra.hpp"
+#include "signal/window_function.hpp"
 #include "zwidth/error.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 using Complex = std::complex<double>;
@@ -266,4 +266,4 @@ FrequencyResponse welch_response(std::span<const double> force, std::span<const 
   return response;
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

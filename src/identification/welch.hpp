@@ -4,7 +4,7 @@
 
 #include "zwidth/identification/frequency_response.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// frequency_response() by averaging over windowed segments, from force to `output` as it is (a velocity is not turned
 /// into a position). The arguments are valid and the force is not constant.
@@ -12,4 +12,4 @@ namespace zwidth {
                                                double sampling_period, const FrequencyResponseOptions& options,
                                                const Progress& progress);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

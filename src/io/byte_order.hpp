@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-namespace zwidth {
+namespace zwidth::internal {
 
 enum class ByteOrder { little, big };
 
@@ -27,4 +27,4 @@ template <class T>
   return numbers;
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

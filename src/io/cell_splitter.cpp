@@ -4,7 +4,7 @@
 
 #include "io/number_cell.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 /// Position of the quote that closes the one at the start of `text`; a doubled quote is a quote inside the cell.
@@ -61,4 +61,4 @@ void CellSplitter::add_cell(std::string_view& rest) {
   rest = end == std::string_view::npos ? std::string_view() : rest.substr(end + 1);
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// Cuts lines of a text table into cells.
 class CellSplitter {
@@ -24,4 +24,4 @@ class CellSplitter {
   std::vector<std::string_view> cells_;
 };
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -9,11 +9,11 @@
 #include <utility>
 #include <vector>
 
-#include "io/key_suggestion.hpp"
 #include "io/number_cell.hpp"
 #include "io/prose.hpp"
+#include "zwidth/io/message_words.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 std::string lower_case(std::string_view text) {
@@ -103,4 +103,4 @@ tl::expected<std::size_t, InputError> find_column(std::span<const std::string> c
   return tl::unexpected(unknown_column(columns, asked, source, shown));
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -8,7 +8,7 @@
 
 #include "zwidth/io/input_error.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// A column's name and the unit that follows it in brackets or parentheses: "F [N]" is F in N. No unit: empty.
 struct NameAndUnit {
@@ -28,4 +28,4 @@ struct NameAndUnit {
                                                                 const std::string& asked, const std::string& source,
                                                                 std::span<const std::string> shown = {});
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -6,7 +6,7 @@
 
 #include "io/number_cell.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 struct Unit {
@@ -101,4 +101,4 @@ std::optional<double> base_units_per(std::string_view unit) {
   return found == nullptr || found->scale == 1.0 ? std::nullopt : std::optional(found->scale);
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

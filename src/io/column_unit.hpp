@@ -3,7 +3,7 @@
 #include <optional>
 #include <string_view>
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// Whether a word is a unit of measurement as tables have it, in brackets or not: "s", "[mm]", "(N m)".
 [[nodiscard]] bool is_unit(std::string_view word);
@@ -15,4 +15,4 @@ namespace zwidth {
 /// or not known.
 [[nodiscard]] std::optional<double> base_units_per(std::string_view unit);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -10,12 +10,13 @@
 
 #include "io/device_overrides.hpp"
 #include "io/device_reading.hpp"
-#include "io/key_suggestion.hpp"
 #include "io/prose.hpp"
 #include "io/toml_text.hpp"
 #include "io/wall_filter_reading.hpp"
+#include "zwidth/io/message_words.hpp"
 
 namespace zwidth {
+using namespace internal;
 namespace {
 
 /// `mass`, or its alias `inertia` where the motion is rotary.

@@ -6,10 +6,10 @@
 #include <array>
 #include <vector>
 
-#include "io/key_suggestion.hpp"
 #include "io/prose.hpp"
+#include "zwidth/io/message_words.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 struct TableKeys {
@@ -76,4 +76,4 @@ std::string remedy_for_unknown_key(DeviceTable table, std::string_view key) {
   return fmt::format("the keys of {} are {}", header_of(table), listed(keys_of(table)));
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// The tables of a device file.
 enum class DeviceTable { root, body, link, loop, actuator, sensor, wall, filter, user, transfer_function, uncertainty };
@@ -28,4 +28,4 @@ enum class DeviceTable { root, body, link, loop, actuator, sensor, wall, filter,
 /// list of keys.
 [[nodiscard]] std::string remedy_for_unknown_key(DeviceTable table, std::string_view key);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -9,11 +9,11 @@
 
 #include "io/device_keys.hpp"
 #include "io/device_reading.hpp"
-#include "io/key_suggestion.hpp"
 #include "io/prose.hpp"
 #include "io/toml_text.hpp"
+#include "zwidth/io/message_words.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 InputError refusal(std::string_view key, std::string what, std::string allowed) {
@@ -195,4 +195,4 @@ std::optional<InputError> apply_override(toml::table& document, const std::strin
   return std::nullopt;
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -6,8 +6,9 @@
 #include <utility>
 
 #include "io/prose.hpp"
+#include "zwidth/io/message_words.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 std::string description(const toml::node& node) {
@@ -191,4 +192,4 @@ std::vector<const toml::table*> TableReader::tables(DeviceTable kind) {
   return result;
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

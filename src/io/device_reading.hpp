@@ -10,7 +10,7 @@
 #include "io/toml.hpp"
 #include "zwidth/io/device_file.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// Source of everything that comes from an override, as shown in errors and as path of its TOML nodes.
 inline constexpr std::string_view override_source = "--set";
@@ -78,4 +78,4 @@ class TableReader {
   std::string key_;
 };
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

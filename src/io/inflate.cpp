@@ -7,7 +7,7 @@
 
 #include "zwidth/error.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 constexpr std::size_t least_room = std::size_t{1} << 16;
@@ -59,4 +59,4 @@ tl::expected<std::vector<unsigned char>, std::string> inflate_all(std::span<cons
   return output;
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

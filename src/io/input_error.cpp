@@ -5,6 +5,7 @@
 #include "io/prose.hpp"
 
 namespace zwidth {
+using namespace internal;
 
 std::string InputError::str() const {
   std::string line_of_text = source;

@@ -8,7 +8,7 @@
 #include <system_error>
 #include <utility>
 
-namespace zwidth {
+namespace zwidth::internal {
 
 void InputFile::Close::operator()(std::FILE* file) const noexcept {
   if (file != stdin) std::fclose(file);
@@ -67,4 +67,4 @@ tl::expected<void, InputError> InputFile::seek(std::uintmax_t offset) {
   return {};
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

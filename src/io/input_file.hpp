@@ -9,7 +9,7 @@
 
 #include "zwidth/io/input_error.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// A file, a pipe or standard input, opened for reading.
 class InputFile {
@@ -42,4 +42,4 @@ class InputFile {
   std::unique_ptr<std::FILE, Close> file_;
 };
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -13,7 +13,7 @@
 #include "io/inflate.hpp"
 #include "io/mat5_matrix.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 using Bytes = std::vector<unsigned char>;
@@ -193,4 +193,4 @@ tl::expected<MatFile, InputError> open_mat5_file(InputFile file, const Progress&
   return MatFile{std::move(contents), [reader](std::size_t array) { return reader->values(array); }};
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -6,7 +6,7 @@
 #include "io/mat_contents.hpp"
 #include "zwidth/progress.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// Opens a MAT file of version 5: walks through all of its variables, of which one at a time is in memory, and checks
 /// them. A variable whose bytes contradict each other is skipped as damaged.
@@ -14,4 +14,4 @@ namespace zwidth {
 /// Own code rather than matio: that library (1.5.23) gives zeros for the samples that a file's end cuts off.
 [[nodiscard]] tl::expected<MatFile, InputError> open_mat5_file(InputFile file, const Progress& progress);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -10,7 +10,7 @@
 
 #include "io/number_cell.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 using Bytes = std::span<const unsigned char>;
@@ -295,4 +295,4 @@ std::vector<double> mat5_numbers(const Mat5Element& element, ByteOrder order) {
   }
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

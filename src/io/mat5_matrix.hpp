@@ -8,7 +8,7 @@
 #include "io/byte_order.hpp"
 #include "io/mat_contents.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// A data element of a MAT file of version 5: a tag and the bytes that it announces.
 struct Mat5Element {
@@ -39,4 +39,4 @@ struct Mat5Matrix {
 /// The numbers of an element that read_mat5_matrix() has found.
 [[nodiscard]] std::vector<double> mat5_numbers(const Mat5Element& element, ByteOrder order);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

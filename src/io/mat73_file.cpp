@@ -17,7 +17,7 @@
 #include "io/number_cell.hpp"
 #include "io/prose.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 using Kind = SkippedMatArray::Kind;
@@ -308,4 +308,4 @@ tl::expected<MatFile, InputError> open_mat73_file(const std::string& path) {
   return MatFile{std::move(walk.contents), values};
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -5,7 +5,7 @@
 
 #include "io/mat_contents.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// Opens a MAT file of version 7.3, an HDF5 file in which MATLAB keeps a dataset for each array and a group for each
 /// struct. `path` is also its name in errors. Refused: what HDF5 cannot open.
@@ -14,4 +14,4 @@ namespace zwidth {
 /// Not read: what lies in other files (external links and storage), so that a file cannot name a file of the user's.
 [[nodiscard]] tl::expected<MatFile, InputError> open_mat73_file(const std::string& path);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

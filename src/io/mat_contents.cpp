@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 /// A recording has no more signals; an array of more columns has its signals in rows, or is no recording.
@@ -39,4 +39,4 @@ std::string mat_field_name(const std::string& parent, std::size_t index, std::si
   return elements == 1 ? fmt::format("{}.{}", parent, field) : fmt::format("{}({}).{}", parent, index + 1, field);
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

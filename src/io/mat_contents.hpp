@@ -8,7 +8,7 @@
 
 #include "zwidth/io/input_error.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// A real numeric array of a MAT file, of one sample at least.
 struct MatArray {
@@ -51,4 +51,4 @@ struct MatFile {
 [[nodiscard]] std::string mat_field_name(const std::string& parent, std::size_t index, std::size_t elements,
                                          const std::string& field);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

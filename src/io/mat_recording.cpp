@@ -19,7 +19,7 @@
 #include "io/recording_channels.hpp"
 #include "io/time_axis.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 using Kind = SkippedMatArray::Kind;
@@ -319,4 +319,4 @@ tl::expected<RecordingContents, InputError> list_mat_recording(const std::string
   return contents;
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -5,7 +5,7 @@
 
 #include "zwidth/io/recording_file.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// Reads a recording from a MAT file, version 5 or 7.3.
 ///
@@ -23,4 +23,4 @@ namespace zwidth {
 [[nodiscard]] tl::expected<RecordingContents, InputError> list_mat_recording(const std::string& path,
                                                                              const RecordingOptions& options = {});
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -10,8 +10,9 @@
 #include <limits>
 
 #include "io/prose.hpp"
+#include "zwidth/io/message_words.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
@@ -175,4 +176,4 @@ std::string as_utf8(std::string_view text) {
   return converted;
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// What one cell of a text table holds.
 struct NumberCell {
@@ -34,4 +34,4 @@ struct NumberCell {
 /// hold.
 [[nodiscard]] std::string as_utf8(std::string_view text);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 constexpr std::size_t longest_shown = 60;
@@ -51,11 +51,9 @@ std::string without_controls(std::string_view text) {
   return plain;
 }
 
-std::string in_quotes(std::string_view text) { return fmt::format("\"{}\"", shortened(text)); }
-
 std::string listed(std::span<const std::string> words) {
   const auto shown = words.first(std::min(words.size(), most_listed));
   return fmt::format("{}{}", fmt::join(shown, ", "), shown.size() < words.size() ? ", ..." : "");
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

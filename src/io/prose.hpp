@@ -4,13 +4,10 @@
 #include <string>
 #include <string_view>
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// `text` cut to what fits in a message.
 [[nodiscard]] std::string shortened(std::string_view text);
-
-/// `text` in double quotes and shortened to what fits in a message.
-[[nodiscard]] std::string in_quotes(std::string_view text);
 
 /// `words` as a list in prose: a, b, c.
 [[nodiscard]] std::string listed(std::span<const std::string> words);
@@ -22,4 +19,4 @@ namespace zwidth {
 /// The text with the bytes of its control characters as \xHH.
 [[nodiscard]] std::string without_controls(std::string_view text);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

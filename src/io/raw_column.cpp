@@ -8,7 +8,7 @@
 
 #include "io/prose.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 /// More than this share of a column is not filled.
@@ -78,4 +78,4 @@ tl::expected<void, InputError> fill_missing(RawColumn& column, std::vector<Remar
   return {};
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -9,7 +9,7 @@
 #include "zwidth/io/input_error.hpp"
 #include "zwidth/remark.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// A column of a recording as its file holds it, before anything is checked.
 struct RawColumn {
@@ -31,4 +31,4 @@ struct RawColumn {
 /// column without a number.
 [[nodiscard]] tl::expected<void, InputError> fill_missing(RawColumn& column, std::vector<Remark>& remarks);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

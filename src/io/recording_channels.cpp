@@ -10,8 +10,9 @@
 #include "io/prose.hpp"
 #include "io/time_axis.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/io/message_words.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 /// A column in millimetres that is read as it stands makes newtons per millimetre: said, as only the user knows.
@@ -84,4 +85,4 @@ tl::expected<Recording, InputError> make_recording(std::vector<RawColumn> column
   return recording;
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -8,7 +8,7 @@
 #include "io/raw_column.hpp"
 #include "zwidth/io/recording_file.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// Makes the recording of the asked-for columns (one per request, in order) and the column of times, where one is used:
 /// fills what little is missing, scales, finds the sampling period, and adds remarks on all of it.
@@ -24,4 +24,4 @@ namespace zwidth {
 /// Checks what every reader needs: columns to read, finite scales other than 0. Throws Error (invalid_argument).
 void check_recording_options(const RecordingOptions& options);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -14,6 +14,7 @@
 #include "io/uff_recording.hpp"
 
 namespace zwidth {
+using namespace internal;
 namespace {
 
 /// A recording that is open, and what it is.

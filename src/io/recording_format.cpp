@@ -7,7 +7,7 @@
 
 #include "io/number_cell.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 using namespace std::string_view_literals;
@@ -65,4 +65,4 @@ RecordingFormat format_of(std::string_view first_bytes) {
   return is_uff(first_bytes) ? RecordingFormat::uff : RecordingFormat::text;
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

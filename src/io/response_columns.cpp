@@ -12,8 +12,9 @@
 
 #include "io/column_names.hpp"
 #include "io/prose.hpp"
+#include "zwidth/io/message_words.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 using Refusal = tl::unexpected<InputError>;
@@ -246,4 +247,4 @@ tl::expected<ResponseColumns, InputError> find_response_columns(std::span<const 
   return Search(names, options, source).columns();
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

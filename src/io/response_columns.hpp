@@ -9,7 +9,7 @@
 
 #include "zwidth/io/recording_file.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// Which columns of a table hold a frequency response, and their units.
 struct ResponseColumns {
@@ -33,4 +33,4 @@ struct ResponseColumns {
                                                                               const ResponseTableOptions& options,
                                                                               const std::string& source);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <utility>
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 using Refusal = tl::unexpected<InputError>;
@@ -99,4 +99,4 @@ tl::expected<FrequencyResponse, InputError> make_response(std::vector<ResponseLi
   return response;
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -9,7 +9,7 @@
 #include "zwidth/identification/frequency_response.hpp"
 #include "zwidth/io/recording_file.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// One line of a table of a frequency response, before anything is checked.
 struct ResponseLine {
@@ -26,4 +26,4 @@ struct ResponseLine {
                                                                         const ResponseTableOptions& options,
                                                                         const std::string& source);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

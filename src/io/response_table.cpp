@@ -16,9 +16,11 @@
 #include "io/text_table.hpp"
 #include "io/uff_response.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/io/message_words.hpp"
 #include "zwidth/io/recording_file.hpp"
 
 namespace zwidth {
+using namespace internal;
 namespace {
 
 using Refusal = tl::unexpected<InputError>;

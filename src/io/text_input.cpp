@@ -8,6 +8,7 @@
 #include "zwidth/io/device_file.hpp"
 
 namespace zwidth {
+using namespace internal;
 namespace {
 
 tl::expected<std::string, InputError> read_all(InputFile& file) {

@@ -11,8 +11,9 @@
 #include "io/column_unit.hpp"
 #include "io/number_cell.hpp"
 #include "io/prose.hpp"
+#include "zwidth/io/message_words.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 using Kind = NumberCell::Kind;
@@ -362,4 +363,4 @@ tl::expected<TextLayout, InputError> detect_layout(std::span<const TextLine> hea
   return layout;
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -11,7 +11,7 @@
 #include "io/text_lines.hpp"
 #include "zwidth/io/recording_file.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// How a text table is written.
 struct TextLayout {
@@ -34,4 +34,4 @@ struct TextLayout {
                                                                  const RecordingOptions& options,
                                                                  const std::string& source);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

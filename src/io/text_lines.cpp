@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 constexpr std::size_t block = std::size_t{1} << 20;
@@ -57,4 +57,4 @@ tl::expected<std::optional<TextLine>, InputError> TextLines::next(const Progress
   return TextLine{++line_, text};
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

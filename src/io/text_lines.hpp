@@ -9,7 +9,7 @@
 #include "io/input_file.hpp"
 #include "zwidth/progress.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// One line of a text and its number from 1.
 struct TextLine {
@@ -53,4 +53,4 @@ class TextLines {
   bool open_line_ = false;
 };
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -13,8 +13,9 @@
 #include "io/recording_channels.hpp"
 #include "io/text_table.hpp"
 #include "io/time_axis.hpp"
+#include "zwidth/io/message_words.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 /// The lines of rows, kept as the few places where comments or empty lines come between two rows.
@@ -160,4 +161,4 @@ tl::expected<RecordingContents, InputError> list_text_recording(TextLines lines,
   return contents;
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

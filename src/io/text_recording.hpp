@@ -5,7 +5,7 @@
 #include "io/text_lines.hpp"
 #include "zwidth/io/recording_file.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// Reads the asked-for columns of a text table, as read_recording() promises.
 [[nodiscard]] tl::expected<Recording, InputError> read_text_recording(TextLines lines, const RecordingOptions& options,
@@ -15,4 +15,4 @@ namespace zwidth {
 [[nodiscard]] tl::expected<RecordingContents, InputError> list_text_recording(TextLines lines,
                                                                               const RecordingOptions& options);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

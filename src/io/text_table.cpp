@@ -8,7 +8,7 @@
 #include "io/cell_splitter.hpp"
 #include "io/prose.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
@@ -185,4 +185,4 @@ InputError TextTable::wrong_cells(const TextLine& line, std::size_t cells) const
                       has_header() ? "the header has" : "most of the first lines have")};
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

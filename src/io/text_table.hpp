@@ -12,7 +12,7 @@
 #include "io/text_lines.hpp"
 #include "zwidth/io/recording_file.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// One row of a text table.
 struct TextRow {
@@ -63,4 +63,4 @@ class TextTable {
 /// The refusal of a text of which these are the first bytes; nothing where it may be a table.
 [[nodiscard]] std::optional<InputError> refused_as_text(std::string_view first_bytes, const std::string& source);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -14,8 +14,9 @@
 #include "io/column_unit.hpp"
 #include "io/prose.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/io/message_words.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 constexpr unsigned most_timer_bits = 52;         // whole numbers that a double holds exactly
@@ -308,4 +309,4 @@ std::optional<Remark> contradiction(double rate, const UnusedTimes& times, const
                 "the given rate is used; leave it out to use the times"};
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

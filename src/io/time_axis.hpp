@@ -8,7 +8,7 @@
 #include "io/raw_column.hpp"
 #include "zwidth/io/recording_file.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// The uniform time axis that a column of times stands for.
 struct TimeAxis {
@@ -47,4 +47,4 @@ struct UnusedTimes {
 [[nodiscard]] std::optional<Remark> contradiction(double rate, const UnusedTimes& times,
                                                   const RecordingOptions& options);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

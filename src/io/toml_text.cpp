@@ -10,7 +10,7 @@
 
 #include "io/device_reading.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 // Each dot of a key may open a table in a table, and their destructors recurse; a line of a device file has few.
@@ -78,4 +78,4 @@ toml::source_region override_region() {
   return {.begin = {}, .end = {}, .path = path};
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

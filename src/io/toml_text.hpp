@@ -6,7 +6,7 @@
 #include "io/toml.hpp"
 #include "zwidth/io/device_file.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// What is wrong where a number does not fit its type, and what fits everywhere in a device file.
 inline constexpr std::string_view number_out_of_range = "the number is out of range";
@@ -19,4 +19,4 @@ inline constexpr std::string_view number_range =
 /// The place of keys that an override adds.
 [[nodiscard]] toml::source_region override_region();
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -13,8 +13,9 @@
 #include "io/number_cell.hpp"
 #include "io/prose.hpp"
 #include "io/uff_number.hpp"
+#include "zwidth/io/message_words.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 using Refusal = tl::unexpected<InputError>;
@@ -363,4 +364,4 @@ std::string uff_function_name(int function_type) {
                                                     : fmt::format("function of type {}", function_type);
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

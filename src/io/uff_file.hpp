@@ -13,7 +13,7 @@
 #include "zwidth/progress.hpp"
 #include "zwidth/remark.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// Function types of a record (field 1 of its sixth line).
 inline constexpr int uff_unknown_function = 0;
@@ -85,4 +85,4 @@ struct UffFile {
 /// "time response", "frequency response function", ...
 [[nodiscard]] std::string uff_function_name(int function_type);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

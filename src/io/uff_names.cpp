@@ -10,7 +10,7 @@
 #include "io/column_names.hpp"
 #include "io/prose.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 /// Ways to name a record, the best first; the third ID line is a date.
@@ -85,4 +85,4 @@ tl::expected<std::size_t, InputError> find_uff_record(const UffFile& file, const
   return named;
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -9,7 +9,7 @@
 
 #include "io/uff_file.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// What each record of a file is called: the first of its first ID line, its entity's name, its response point and its
 /// other ID lines that no other record shares (else "record 3"), with its unit: "Mic 01 [Pa]".
@@ -25,4 +25,4 @@ namespace zwidth {
 /// name, its response point, or its number from 1. Refused: a name that no record or several have.
 [[nodiscard]] tl::expected<std::size_t, InputError> find_uff_record(const UffFile& file, const std::string& asked);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -7,7 +7,7 @@
 
 #include "io/number_cell.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -78,4 +78,4 @@ std::optional<double> take_fortran_number(std::string_view& rest) {
   return number.value;
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

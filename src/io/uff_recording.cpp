@@ -15,7 +15,7 @@
 #include "io/uff_names.hpp"
 #include "io/uff_values.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 using Refusal = tl::unexpected<InputError>;
@@ -162,4 +162,4 @@ tl::expected<RecordingContents, InputError> list_uff_recording(const std::string
   return contents;
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

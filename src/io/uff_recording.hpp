@@ -5,7 +5,7 @@
 
 #include "zwidth/io/recording_file.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// Reads time records (dataset 58 or 58b, function type 1) of a universal file as the channels of a recording.
 ///
@@ -20,4 +20,4 @@ namespace zwidth {
 [[nodiscard]] tl::expected<RecordingContents, InputError> list_uff_recording(const std::string& path,
                                                                              const RecordingOptions& options = {});
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

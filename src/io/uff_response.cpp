@@ -15,7 +15,7 @@
 #include "io/uff_names.hpp"
 #include "io/uff_values.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 using Refusal = tl::unexpected<InputError>;
@@ -149,4 +149,4 @@ tl::expected<FrequencyResponse, InputError> read_uff_response(const std::string&
   return response;
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -5,7 +5,7 @@
 
 #include "zwidth/io/recording_file.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// Reads a frequency response function (function type 4) of a universal file, as read_response_table() promises:
 /// `options.real` names the record (empty: the only one), `options.coherence` a record of function type 6.
@@ -15,4 +15,4 @@ namespace zwidth {
                                                                             const ResponseTableOptions& options,
                                                                             const Progress& progress);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -9,8 +9,9 @@
 #include "io/number_cell.hpp"
 #include "io/prose.hpp"
 #include "io/uff_number.hpp"
+#include "zwidth/io/message_words.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 using Refusal = tl::unexpected<InputError>;
@@ -100,4 +101,4 @@ tl::expected<UffValues, InputError> read_uff_values(const UffFile& file, const U
   return values;
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -5,7 +5,7 @@
 
 #include "io/uff_file.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// The numbers of a function, in its own units. NaN where the file has no number.
 struct UffValues {
@@ -19,4 +19,4 @@ struct UffValues {
 /// Refused, with the line: text that is no number, no point at all, and more numbers than the points take.
 [[nodiscard]] tl::expected<UffValues, InputError> read_uff_values(const UffFile& file, const UffRecord& record);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "io/key_suggestion.hpp"
 #include "io/prose.hpp"
+#include "zwidth/io/message_words.hpp"
 #include "zwidth/io/wall_filter_type.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 using enum WallFilter::Kind;
@@ -77,22 +77,6 @@ void read_low_pass(TableReader& reader, WallFilter& filter) {
 
 }  // namespace
 
-std::string_view wall_filter_type(WallFilter::Kind kind) {
-  switch (kind) {
-    case low_pass:
-      return "low_pass";
-    case notch:
-      return "notch";
-    case lead_lag:
-      return "lead_lag";
-    case biquad:
-      return "biquad";
-    case digital:
-      return "digital";
-  }
-  return "";
-}
-
 WallFilter read_wall_filter(TableReader& reader) {
   WallFilter filter;
   reader.refuse_keys_not_of(DeviceTable::filter);
@@ -122,6 +106,26 @@ WallFilter read_wall_filter(TableReader& reader) {
       break;
   }
   return filter;
+}
+
+}  // namespace zwidth::internal
+
+namespace zwidth {
+
+std::string_view wall_filter_type(WallFilter::Kind kind) {
+  switch (kind) {
+    case low_pass:
+      return "low_pass";
+    case notch:
+      return "notch";
+    case lead_lag:
+      return "lead_lag";
+    case biquad:
+      return "biquad";
+    case digital:
+      return "digital";
+  }
+  return "";
 }
 
 }  // namespace zwidth

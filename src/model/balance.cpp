@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace zwidth {
+namespace zwidth::internal {
 
 Eigen::VectorXd balancing_scales(const Eigen::MatrixXd& matrix) {
   constexpr int max_sweeps = 100;
@@ -28,4 +28,4 @@ Eigen::VectorXd balancing_scales(const Eigen::MatrixXd& matrix) {
   return scales;
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

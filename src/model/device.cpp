@@ -11,6 +11,7 @@
 #include "zwidth/error.hpp"
 
 namespace zwidth {
+using namespace internal;
 namespace {
 
 // Squares, and products and quotients of three such values, stay finite and normal in double precision.

@@ -8,7 +8,7 @@
 
 #include "zwidth/model/device.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 template <typename Real>
 struct DeviceMatrices {
@@ -44,4 +44,4 @@ DeviceMatrices<Real> device_matrices(const Device& device) {
   return matrices;
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

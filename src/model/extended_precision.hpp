@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace zwidth {
+namespace zwidth::internal {
 
 using Extended = dd_real;  // 106 bits
 
@@ -54,4 +54,4 @@ double magnitude(const Complex<Real>& a) {
   return std::sqrt(re * re + im * im);
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

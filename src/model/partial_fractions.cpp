@@ -1,6 +1,6 @@
 #include "model/partial_fractions.hpp"
 
-namespace zwidth::partial_fractions {
+namespace zwidth::internal::partial_fractions {
 namespace {
 
 PolynomialX times_root(const PolynomialX& p, const ComplexX& root) {
@@ -182,4 +182,4 @@ void finish(ModalForm& form, double lag) {
   }
 }
 
-}  // namespace zwidth::partial_fractions
+}  // namespace zwidth::internal::partial_fractions

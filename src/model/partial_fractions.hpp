@@ -18,7 +18,7 @@
 #include "zwidth/error.hpp"
 #include "zwidth/model/modal_form.hpp"
 
-namespace zwidth::partial_fractions {
+namespace zwidth::internal::partial_fractions {
 
 using ComplexX = Complex<Extended>;
 using PolynomialX = std::vector<ComplexX>;  // ascending powers
@@ -188,4 +188,4 @@ ModalForm expand(const Pencil& pencil, std::vector<ComplexX> poles, const PoleLa
   return form;
 }
 
-}  // namespace zwidth::partial_fractions
+}  // namespace zwidth::internal::partial_fractions

@@ -9,7 +9,7 @@
 
 #include "model/extended_precision.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 // Polynomials, ascending powers. p carries no root at zero any more.
 template <typename Real>
@@ -139,4 +139,4 @@ class BodyPencil {
   mutable std::vector<std::size_t> pivots_;
 };
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

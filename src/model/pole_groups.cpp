@@ -5,7 +5,7 @@
 
 #include "zwidth/error.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 using ComplexX = Complex<Extended>;
@@ -196,4 +196,4 @@ void add_lag_pole(std::vector<PoleGroup>& groups, const ComplexX& pole) {
   groups.push_back(std::move(own));
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

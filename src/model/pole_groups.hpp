@@ -8,7 +8,7 @@
 #include "model/extended_precision.hpp"
 #include "zwidth/model/modal_form.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 // What the grouping must know of the device beyond its poles.
 struct PoleLabels {
@@ -37,4 +37,4 @@ std::vector<PoleGroup> group_poles(std::vector<Complex<Extended>>& poles, std::s
 // Adds the pole of the actuator's lag as the last group, or to a real pole that it nearly coincides with.
 void add_lag_pole(std::vector<PoleGroup>& groups, const Complex<Extended>& pole);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -8,7 +8,7 @@
 
 #include "model/extended_precision.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 // Improves `roots` in place until every step is below `tolerance` relative, or `max_sweeps` is reached.
 // Returns the largest relative step of the last sweep.
@@ -47,4 +47,4 @@ double improve_roots(const Pencil& pencil, std::vector<Complex<Real>>& roots, do
   return largest;
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

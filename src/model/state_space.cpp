@@ -3,6 +3,7 @@
 #include "model/device_matrices.hpp"
 
 namespace zwidth {
+using namespace internal;
 namespace {
 
 // Appends the lag as a state: tau F' = F_commanded - F.

@@ -10,7 +10,7 @@
 
 #include "zwidth/model/parameter.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 // Squares of what a parameter may be.
@@ -105,4 +105,4 @@ std::optional<DeviceProblem> find_uncertainty_problem(const DeviceParameters& pa
   return std::nullopt;
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 // c[0] + c[1] s + ... times (delta + 2)^degree at s = rate delta / (delta + 2): coefficients of delta, degree + 1 of
@@ -71,4 +71,4 @@ SampledPlant bilinear_plant(const ModalForm& form) {
   return plant;
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

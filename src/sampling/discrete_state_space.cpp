@@ -8,6 +8,7 @@
 #include "sampling/sampling_instants.hpp"
 
 namespace zwidth {
+using namespace internal;
 
 DiscreteStateSpace sample(const ContinuousStateSpace& system, Sampling sampling) {
   const SamplingInstants instants = sampling_instants(sampling);

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 constexpr std::size_t max_size = ModalTerm::max_degree + 1;
@@ -169,4 +169,4 @@ std::vector<double> common_numerator(const std::vector<ExtendedTerm>& terms) {
   return rounded;
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -6,7 +6,7 @@
 #include "sampling/sampling_instants.hpp"
 #include "zwidth/sampling/sampled_plant.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 // A sampled term in double-double: polynomials in delta, ascending; the denominator with its leading 1.
 struct ExtendedTerm {
@@ -24,4 +24,4 @@ double response_at_nyquist(const std::vector<ExtendedTerm>& terms, std::size_t d
 // sum_k N_k prod_{j != k} D_j.
 std::vector<double> common_numerator(const std::vector<ExtendedTerm>& terms);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

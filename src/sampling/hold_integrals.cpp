@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 // Taylor series of g: (k+2)(k+1) y[k+2] = -c1 (k+1) y[k+1] - c0 y[k], y[2] = 1/2; terms fall like (|pole| t)^k / k!.
@@ -59,4 +59,4 @@ HoldIntegrals hold_integrals(double c1, double c0, double t) {
   return {h, (decay_integral(p1, t) - decay_integral(p2, t)) / (p2 - p1)};
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

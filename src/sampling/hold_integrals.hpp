@@ -1,6 +1,6 @@
 #pragma once
 
-namespace zwidth {
+namespace zwidth::internal {
 
 // Impulse and step response of 1/(s² + c1 s + c0) at time t: h(t) and g(t), the integral of h. They obey
 // h' + c1 h + c0 g = 1.
@@ -15,4 +15,4 @@ HoldIntegrals hold_integrals(double c1, double c0, double t);
 // (1 - e^{-p t}) / p, t at p = 0.
 double decay_integral(double p, double t);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

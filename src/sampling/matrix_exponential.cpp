@@ -4,7 +4,7 @@
 
 #include "model/balance.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 Eigen::MatrixXd exponential_minus_one(const Eigen::MatrixXd& matrix) {
   const Eigen::VectorXd scales = balancing_scales(matrix);
@@ -23,4 +23,4 @@ Eigen::MatrixXd exponential_minus_one(const Eigen::MatrixXd& matrix) {
   return scales.asDiagonal() * sum * scales.cwiseInverse().asDiagonal();
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

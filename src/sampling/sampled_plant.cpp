@@ -12,6 +12,7 @@
 #include "zwidth/error.hpp"
 
 namespace zwidth {
+using namespace internal;
 namespace {
 
 // n(s) = r, d(s) = s + d0: x[k+1] = q x + g1 u[k-l] + g2 u[k-l-1].
@@ -184,7 +185,7 @@ std::complex<double> response(const SampledTerm& term, double angle) {
   return {product.even * scale, product.odd * std::sin(angle) * scale};
 }
 
-double cancellation(const SampledPlant& plant, double angle) {
+double internal::cancellation(const SampledPlant& plant, double angle) {
   std::complex<double> sum = 0.0;
   double size = 0.0;
   for (const SampledTerm& term : plant.terms) {

@@ -6,7 +6,7 @@
 
 #include "zwidth/error.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 SamplingInstants sampling_instants(const Sampling& sampling) {
   const auto [period, delay] = sampling;
@@ -30,4 +30,4 @@ SamplingInstants sampling_instants(const Sampling& sampling) {
   return {static_cast<std::size_t>(whole), period - rest, rest};
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

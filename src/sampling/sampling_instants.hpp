@@ -4,7 +4,7 @@
 
 #include "zwidth/sampling/sampled_plant.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 // t_d = (l + f) T: within each period the device first feels u[k-l-1] for f T, then u[k-l] for (1 - f) T.
 struct SamplingInstants {
@@ -16,4 +16,4 @@ struct SamplingInstants {
 // Throws Error (invalid_argument) unless period > 0 and delay >= 0, both finite.
 SamplingInstants sampling_instants(const Sampling& sampling);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace zwidth {
+namespace zwidth::internal {
 
 template <typename Real>
 struct CirclePoint {
@@ -63,4 +63,4 @@ OnCircle<Real> polynomial(const double* c, std::size_t count, double leading, co
   return value;
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

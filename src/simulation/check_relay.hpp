@@ -6,7 +6,7 @@
 #include "zwidth/error.hpp"
 #include "zwidth/simulation/limit_cycle.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// Throws Error (invalid_argument) for a relay outside its domain.
 inline void check_relay(const Relay& relay) {
@@ -19,4 +19,4 @@ inline void check_relay(const Relay& relay) {
   }
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -11,6 +11,7 @@
 #include "zwidth/simulation/limit_cycle.hpp"
 
 namespace zwidth {
+using namespace internal;
 namespace {
 
 constexpr double pi = std::numbers::pi;

@@ -12,7 +12,7 @@
 #include "zwidth/error.hpp"
 #include "zwidth/model/state_space.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 /// |other forces| may exceed F_c by this relative amount before a body counts as broken away: rounding.
@@ -385,4 +385,4 @@ void ContinuousMotion::advance(double duration) noexcept {
   }
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -7,7 +7,7 @@
 #include "simulation/matrix_vector.hpp"
 #include "zwidth/model/device.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// A force from outside, at the held body, as the output w0 of w0' = rise w1, w1' = -fall w0: constant (w1 = 0), a ramp
 /// (rise 1, fall 0) or a sine (rise = fall = its angular frequency).
@@ -128,4 +128,4 @@ class ContinuousMotion {
   std::size_t overloaded_ = 0;
 };
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

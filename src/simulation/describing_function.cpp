@@ -14,6 +14,7 @@
 #include "zwidth/stability/critical_stiffness.hpp"
 
 namespace zwidth {
+using namespace internal;
 namespace {
 
 constexpr double pi = std::numbers::pi;

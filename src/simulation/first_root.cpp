@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <limits>
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 constexpr std::size_t max_coefficients = 32;
@@ -93,4 +93,4 @@ double first_turn_negative(std::span<const double> coefficients) noexcept {
   return search(coefficients, bernstein, 0.0, 1.0, 0);
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

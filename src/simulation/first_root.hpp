@@ -2,7 +2,7 @@
 
 #include <span>
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// The first s in [0, 1] where the polynomial sum_k coefficients[k] s^k, not negative at 0, turns negative; 2 where it
 /// never does. At most 32 coefficients.
@@ -11,4 +11,4 @@ namespace zwidth {
 /// (a root is polished where exactly one change of sign is left).
 [[nodiscard]] double first_turn_negative(std::span<const double> coefficients) noexcept;
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

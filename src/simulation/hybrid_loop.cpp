@@ -11,6 +11,7 @@
 #include "zwidth/error.hpp"
 
 namespace zwidth {
+using namespace internal;
 namespace {
 
 /// Motion between irregular instants is a series over parts of 1/rate: more of them per period would take for ever.

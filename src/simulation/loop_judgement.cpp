@@ -9,7 +9,7 @@
 
 #include "simulation/straight_line.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 constexpr std::size_t windows = 8;         // of the second half
@@ -132,4 +132,4 @@ LoopJudgement judge_loop(std::span<const double> position, double sampling_perio
   return judgement;
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

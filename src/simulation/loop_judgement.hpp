@@ -5,7 +5,7 @@
 
 #include "zwidth/simulation/trajectory.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 struct LoopJudgement {
   LoopVerdict verdict = LoopVerdict::undecided;
@@ -20,4 +20,4 @@ struct LoopJudgement {
 /// oscillation, however bent.
 [[nodiscard]] LoopJudgement judge_loop(std::span<const double> position, double sampling_period, double resolution);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -3,7 +3,7 @@
 #include <array>
 #include <utility>
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 constexpr std::size_t largest_unrolled = 12;
@@ -39,4 +39,4 @@ MatrixVector matrix_vector(std::size_t size) {
   return size >= 1 && size <= largest_unrolled ? unrolled[size - 1] : &multiply_any;
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace zwidth {
+namespace zwidth::internal {
 
 OscillationCycles oscillation_cycles(std::span<const double> signal, double threshold) {
   OscillationCycles cycles;
@@ -43,4 +43,4 @@ OscillationCycles oscillation_cycles(std::span<const double> signal, double thre
   return cycles;
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

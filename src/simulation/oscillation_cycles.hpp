@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <span>
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// The cycles of an oscillation about 0.
 struct OscillationCycles {
@@ -16,4 +16,4 @@ struct OscillationCycles {
 /// in between: smaller wiggles make no cycle of their own. The rises are interpolated between samples.
 [[nodiscard]] OscillationCycles oscillation_cycles(std::span<const double> signal, double threshold);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

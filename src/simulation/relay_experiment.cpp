@@ -13,6 +13,7 @@
 #include "zwidth/simulation/hybrid_loop.hpp"
 
 namespace zwidth {
+using namespace internal;
 namespace {
 
 constexpr std::size_t samples_per_report = 1 << 14;

@@ -7,6 +7,7 @@
 #include "simulation/check_relay.hpp"
 
 namespace zwidth {
+using namespace internal;
 namespace {
 
 constexpr double lowest_share = 0.2;           // of the lowest crossover's frequency

@@ -7,14 +7,15 @@
 #include <numbers>
 #include <set>
 
-#include "identification/averaged_spectra.hpp"
-#include "identification/window_function.hpp"
+#include "signal/averaged_spectra.hpp"
+#include "signal/window_function.hpp"
 #include "simulation/oscillation_cycles.hpp"
 #include "simulation/steady_part.hpp"
 #include "simulation/straight_line.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth {
+using namespace internal;
 namespace {
 
 constexpr std::size_t least_samples = 64;

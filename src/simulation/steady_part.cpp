@@ -6,7 +6,7 @@
 
 #include "simulation/straight_line.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 constexpr double scatters_allowed = 3.0;
@@ -42,4 +42,4 @@ SteadyPart steady_part(std::span<const double> position, std::size_t stretch, do
   return part;
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

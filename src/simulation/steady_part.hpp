@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <span>
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// The end of a record in which an oscillation no longer changes its swing.
 struct SteadyPart {
@@ -19,4 +19,4 @@ struct SteadyPart {
 /// out. Requires a stretch of at least 4 samples that fits four times into half the record.
 [[nodiscard]] SteadyPart steady_part(std::span<const double> position, std::size_t stretch, double tolerance);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-namespace zwidth {
+namespace zwidth::internal {
 
 StraightLine straight_line(std::span<const double> values) {
   const auto n = static_cast<double>(values.size());
@@ -25,4 +25,4 @@ std::vector<double> without_line(std::span<const double> values) {
   return rest;
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// A straight line through equally spaced values, by least squares.
 struct StraightLine {
@@ -17,4 +17,4 @@ struct StraightLine {
 /// The values less their straight line; requires at least two.
 [[nodiscard]] std::vector<double> without_line(std::span<const double> values);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -6,11 +6,12 @@
 #include <span>
 #include <string>
 
-#include "simulation/fitted_sine.hpp"
+#include "signal/fitted_sine.hpp"
 #include "simulation/loop_judgement.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth {
+using namespace internal;
 namespace {
 
 constexpr double settled_share = 0.02;   // of the largest excursion

@@ -8,7 +8,7 @@
 
 #include "stability/alias_tail.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 using std::numbers::pi;
@@ -122,4 +122,4 @@ AliasRule alias_rule_slope(std::size_t exact, double steady, double angle) {
   return rule;
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

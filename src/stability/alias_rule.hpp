@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// How to sum a function of the alias number over all of them: sum over k >= 0 of e^{-j angle k} f(k).
 struct AliasRule {
@@ -28,4 +28,4 @@ struct AliasRule {
 /// c, or faster.
 [[nodiscard]] AliasRule alias_rule_slope(std::size_t exact, double steady, double angle);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

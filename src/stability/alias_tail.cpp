@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 constexpr int node_count = 16;
@@ -52,4 +52,4 @@ double alias_tail_error(double first, double angle) {
   return std::max(2e-9, 0.05 * std::exp(-3.0 * first * std::abs(angle)));
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -2,7 +2,7 @@
 
 #include <complex>
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// sum over k >= first of e^{-j angle k} (k + x)^-power, power >= 2, first + x > 0.
 ///
@@ -15,4 +15,4 @@ namespace zwidth {
 /// |angle| <= pi: measured against direct sums for powers 2 and 4 (tests/stability/alias_tail_test.cpp).
 [[nodiscard]] double alias_tail_error(double first, double angle);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -12,7 +12,7 @@
 #include "stability/damper_response.hpp"
 #include "stability/disc_stiffness.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 using std::numbers::pi;
@@ -164,4 +164,4 @@ AnyUserLimit AnyUserSearch::limit(VirtualDamper damper) const {
   return limit;
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -5,7 +5,7 @@
 #include "stability/user_discs.hpp"
 #include "zwidth/stability/any_user.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// any_user_limit() of one device for many dampers: the discs do not depend on the damper and are summed once.
 class AnyUserSearch {
@@ -30,4 +30,4 @@ class AnyUserSearch {
   std::vector<UserDiscs::Disc> discs_at_;  // at those
 };
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -13,7 +13,7 @@
 
 #include "model/extended_precision.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 template <typename Scalar>
 struct BoundedJet {
@@ -61,4 +61,4 @@ struct BoundedJet {
   }
 };
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -9,6 +9,7 @@
 #include "model/balance.hpp"
 
 namespace zwidth {
+using namespace internal;
 
 std::vector<std::complex<double>> closed_loop_poles_minus_one(const DiscreteStateSpace& plant, const Wall& wall) {
   const DiscreteStateSpace device = with_delay_states(plant);

@@ -11,6 +11,7 @@
 #include "zwidth/error.hpp"
 
 namespace zwidth {
+using namespace internal;
 CriticalStiffness critical_stiffness(const SampledPlant& plant, VirtualDamper damper) {
   for (const double value : {damper.damping, damper.velocity_filter_hz}) {
     if (!(value >= 0.0) || !std::isfinite(value)) {

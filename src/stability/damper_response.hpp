@@ -6,7 +6,7 @@
 
 #include "zwidth/stability/critical_stiffness.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// B v(e^{jwT}).
 inline std::complex<double> damper_response(VirtualDamper damper, double period, double frequency) {
@@ -19,4 +19,4 @@ inline std::complex<double> damper_response(VirtualDamper damper, double period,
   return damper.damping / period * difference * (1.0 - filter) / (1.0 - filter * std::polar(1.0, -angle));
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -7,7 +7,7 @@
 
 #include "stability/plant_fraction.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 // u = sin(L angle) / sin(angle). Angles beyond pi/2 are given by their distance to pi: sin(L pi - y) = -cos(L pi) sin
@@ -89,4 +89,4 @@ OnCircle<BoundedJet<Scalar>> delay_factor(std::size_t delay_samples, double begi
 template OnCircle<BoundedJet<double>> delay_factor<double>(std::size_t, double, double);
 template OnCircle<BoundedJet<Extended>> delay_factor<Extended>(std::size_t, double, double);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -5,7 +5,7 @@
 #include "sampling/unit_circle.hpp"
 #include "stability/bounded_jet.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 // z^L for L whole samples of delay, at an angle in [0, pi].
 OnCircle<double> delay_factor(std::size_t delay_samples, double angle);
@@ -14,4 +14,4 @@ OnCircle<double> delay_factor(std::size_t delay_samples, double angle);
 template <typename Scalar>
 OnCircle<BoundedJet<Scalar>> delay_factor(std::size_t delay_samples, double begin, double end);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-namespace zwidth {
+namespace zwidth::internal {
 
 // With A = |c|² - r²:
 //
@@ -26,4 +26,4 @@ double even_parabola(double y1, double y2, double y3, double steps) {
   return y1 * (x - 4.0) * (x - 9.0) / 24.0 - y2 * (x - 1.0) * (x - 9.0) / 15.0 + y3 * (x - 1.0) * (x - 4.0) / 40.0;
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -4,7 +4,7 @@
 
 #include "stability/user_discs.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// The least K > 0 with |1 + (K + B v) c| = |K + B v| r, where `damper` is B v; infinity where there is none.
 [[nodiscard]] double least_stiffness(const UserDiscs::Disc& disc, std::complex<double> damper);
@@ -15,4 +15,4 @@ inline constexpr double smooth_enough = 1e-6;
 /// The value at `steps` of an even function's parabola through its values at 1, 2 and 3 steps.
 [[nodiscard]] double even_parabola(double y1, double y2, double y3, double steps);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -7,7 +7,7 @@
 #include "sampling/cancellation.hpp"
 #include "stability/root_isolation.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 // A root of the phase condition this close, relative, to an undamped pole is that pole, at kappa = 0.
@@ -77,4 +77,4 @@ GainCrossings stiffness_crossings(const SampledPlant& plant, const VirtualDamper
   return result;
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

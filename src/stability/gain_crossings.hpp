@@ -4,7 +4,7 @@
 
 #include "stability/gain_locus.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 // A gain kappa > 0 at which closed-loop poles lie on the unit circle.
 struct GainCrossing {
@@ -27,4 +27,4 @@ GainCrossings stiffness_crossings(const SampledPlant& plant, const VirtualDamper
 // Poles outside the circle at kappa = gain.
 int unstable_poles(const GainCrossings& crossings, double gain);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -8,7 +8,7 @@
 #include "stability/delay_factor.hpp"
 #include "stability/plant_fraction.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 // Close enough to z = 1 for a limit; the error is its square.
@@ -183,4 +183,4 @@ int GainLocus::initially_unstable(double phase_near_zero) const {
   return unstable;
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

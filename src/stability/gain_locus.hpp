@@ -22,7 +22,7 @@
 #include "stability/bounded_jet.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 class GainLocus {
  public:
@@ -71,4 +71,4 @@ class GainLocus {
   std::size_t nyquist_pairs_ = 0;  // of the filters' zeros at z = -1
 };
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

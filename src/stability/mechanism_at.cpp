@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <complex>
 
-namespace zwidth {
+namespace zwidth::internal {
 
 Mechanism mechanism_at(const SampledPlant& plant, double angle) {
   std::complex<double> lag = 0.0;
@@ -27,4 +27,4 @@ Mechanism mechanism_at(const SampledPlant& plant, double angle) {
   return mechanism;
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -3,9 +3,9 @@
 #include "zwidth/sampling/sampled_plant.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 // The modal term of largest magnitude at that angle, the lag's term shared out to the modes it stems from.
 Mechanism mechanism_at(const SampledPlant& plant, double angle);
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -11,7 +11,7 @@
 #include "stability/bounded_jet.hpp"
 #include "zwidth/sampling/sampled_plant.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 inline double value_of(double a) { return a; }
 template <typename Scalar>
@@ -123,4 +123,4 @@ PlantFraction<Real> plant_fraction(const SampledPlant& plant, const CirclePoint<
   return fraction;
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -16,7 +16,7 @@
 #include "stability/plant_fraction.hpp"
 #include "zwidth/error.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 struct CircleRoot {
   double angle = 0.0;
@@ -221,4 +221,4 @@ std::vector<CircleRoot> roots_on_circle(const Function& f, std::size_t pieces) {
   return roots;
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -4,7 +4,7 @@
 #include <complex>
 #include <numbers>
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 using Complex = std::complex<double>;
@@ -114,4 +114,4 @@ double spectral_radius_by_winding(const SampledPlant& plant, const Wall& wall) {
   return 0.5 * (low + high);
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

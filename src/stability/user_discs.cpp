@@ -9,7 +9,7 @@
 
 #include "zwidth/error.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 using std::numbers::pi;
@@ -217,4 +217,4 @@ UserDiscs::Alias UserDiscs::alias(double frequency, int k, double direction) con
           1.0 / (susceptance - conductance / std::tan(0.5 * turn))};
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

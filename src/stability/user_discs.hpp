@@ -9,7 +9,7 @@
 #include "zwidth/model/modal_form.hpp"
 #include "zwidth/sampling/sampled_plant.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 
 /// Above this angle, rad per sample, |c_T| - r_T keeps its digits by subtraction.
 inline constexpr double clear_angle = 3e-3;
@@ -80,4 +80,4 @@ class UserDiscs {
   double truncation_ = 0.0;
 };
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

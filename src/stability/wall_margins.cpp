@@ -15,6 +15,7 @@
 #include "zwidth/stability/closed_loop.hpp"
 
 namespace zwidth {
+using namespace internal;
 namespace {
 
 using std::numbers::pi;

@@ -16,6 +16,7 @@
 #include "zwidth/stability/closed_loop.hpp"
 
 namespace zwidth {
+using namespace internal;
 namespace {
 
 using Alias = UserDiscs::Alias;

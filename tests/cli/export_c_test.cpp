@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "cli/workspace.hpp"
+#include "zwidth/control/sampled_controller.hpp"
 #include "zwidth/io/device_file.hpp"
-#include "zwidth/simulation/sampled_controller.hpp"
 
 namespace zwidth::cli {
 namespace {

@@ -10,11 +10,12 @@
 #include <random>
 #include <span>
 
-#include "identification/fourier.hpp"
 #include "lhifam.hpp"
+#include "signal/fourier.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth {
+using namespace internal;
 namespace {
 
 constexpr std::array all_kinds{ExcitationKind::linear_chirp, ExcitationKind::logarithmic_chirp,

@@ -7,6 +7,7 @@
 #include <vector>
 
 namespace zwidth {
+using namespace internal;
 namespace {
 
 std::vector<CurveSample> noisy(std::size_t count, double sigma, unsigned seed, double (*curve)(double)) {

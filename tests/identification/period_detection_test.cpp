@@ -9,6 +9,7 @@
 #include "identification/synthetic_bench.hpp"
 
 namespace zwidth {
+using namespace internal;
 namespace {
 
 std::vector<double> with_noise(std::vector<double> signal, double deviation) {

@@ -11,8 +11,8 @@
 
 #include "zwidth/error.hpp"
 #include "zwidth/identification/excitation.hpp"
-#include "zwidth/identification/recording.hpp"
 #include "zwidth/io/recording_file.hpp"
+#include "zwidth/signal/recording.hpp"
 
 namespace zwidth {
 namespace {
@@ -24,7 +24,7 @@ constexpr double T = 1e-3;
 std::string check(const Samples& samples, SignalRole role) {
   std::string text;
   for (const Remark& remark : check_signal({"x", samples}, T, role)) {
-    text += remark.what + "; " + remark.meaning + "\n";
+    text += remark.what + "; " + remark.consequence + "\n";
   }
   return text;
 }
@@ -146,7 +146,7 @@ TEST(CheckSignal, FindsClipping) {
       ASSERT_EQ(remarks.size(), 1U) << &samples - signals.data();
       EXPECT_EQ(remarks[0].severity, Remark::Severity::warning);
       EXPECT_NE(remarks[0].what.find("is clipped at"), std::string::npos) << remarks[0].what;
-      EXPECT_NE(remarks[0].meaning.find("the motion beyond is lost"), std::string::npos);
+      EXPECT_NE(remarks[0].consequence.find("the motion beyond is lost"), std::string::npos);
     }
   }
   const Samples both = limited(sine(7.0, 8000, 1.0), -0.8, 0.8);

@@ -60,7 +60,8 @@ inline RecordingOptions at_1_khz(const std::vector<std::string>& names) {
 
 inline bool mentions(const std::vector<Remark>& remarks, std::string_view words) {
   for (const Remark& remark : remarks) {
-    if (remark.what.find(words) != std::string::npos || remark.meaning.find(words) != std::string::npos) return true;
+    if (remark.what.find(words) != std::string::npos || remark.consequence.find(words) != std::string::npos)
+      return true;
   }
   return false;
 }

@@ -5,6 +5,7 @@
 #include <string>
 
 namespace zwidth {
+using namespace internal;
 namespace {
 
 using namespace std::string_literals;

@@ -12,6 +12,7 @@
 #include "zwidth/error.hpp"
 
 namespace zwidth {
+using namespace internal;
 namespace {
 
 constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();

@@ -10,6 +10,7 @@
 #include "zwidth/io/recording_file.hpp"
 
 namespace zwidth {
+using namespace internal;
 namespace {
 
 using Samples = std::vector<double>;

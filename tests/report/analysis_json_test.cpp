@@ -1,4 +1,4 @@
-#include "report/analysis_json.hpp"
+#include "results/analysis_json.hpp"
 
 #include <gtest/gtest.h>
 

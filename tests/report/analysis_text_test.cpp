@@ -1,4 +1,4 @@
-#include "report/analysis_text.hpp"
+#include "report/text/analysis_text.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -12,13 +12,13 @@
 
 #include "lhifam.hpp"
 #include "report/design_comparison.hpp"
-#include "report/design_json.hpp"
 #include "report/design_sweep.hpp"
-#include "report/design_sweep_figure.hpp"
-#include "report/design_sweep_json.hpp"
-#include "report/design_text.hpp"
+#include "report/figure/design_sweep_figure.hpp"
 #include "report/json_keys.hpp"
-#include "report/text_table.hpp"
+#include "report/text/design_text.hpp"
+#include "report/text/text_table.hpp"
+#include "results/design_json.hpp"
+#include "results/design_sweep_json.hpp"
 
 namespace zwidth::report {
 namespace {

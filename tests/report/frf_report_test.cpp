@@ -6,11 +6,11 @@
 #include <numbers>
 #include <sstream>
 
-#include "report/frf_csv.hpp"
-#include "report/frf_figure.hpp"
-#include "report/frf_json.hpp"
-#include "report/frf_text.hpp"
+#include "report/figure/frf_figure.hpp"
 #include "report/measured_frf.hpp"
+#include "report/text/frf_text.hpp"
+#include "results/frf_csv.hpp"
+#include "results/frf_json.hpp"
 
 namespace zwidth::report {
 namespace {

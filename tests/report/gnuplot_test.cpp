@@ -1,4 +1,4 @@
-#include "report/gnuplot.hpp"
+#include "report/figure/gnuplot.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,9 +7,9 @@
 #include <cstdlib>
 #include <string>
 
-#include "report/canvas.hpp"
-#include "report/markup.hpp"
+#include "report/figure/canvas.hpp"
 #include "report/output_file.hpp"
+#include "report/text/markup.hpp"
 
 namespace zwidth::report {
 namespace {

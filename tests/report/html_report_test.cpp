@@ -1,4 +1,4 @@
-#include "report/html_report.hpp"
+#include "report/page/html_report.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "report/example_analyses.hpp"
-#include "report/stiffness_axis_figure.hpp"
+#include "report/figure/stiffness_axis_figure.hpp"
 
 namespace zwidth::report {
 namespace {

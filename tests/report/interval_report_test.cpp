@@ -4,10 +4,10 @@
 #include <limits>
 
 #include "lhifam.hpp"
-#include "report/analysis_json.hpp"
-#include "report/analysis_text.hpp"
-#include "report/explanation.hpp"
-#include "report/html_report.hpp"
+#include "report/page/html_report.hpp"
+#include "report/text/analysis_text.hpp"
+#include "report/text/explanation.hpp"
+#include "results/analysis_json.hpp"
 
 namespace zwidth::report {
 namespace {

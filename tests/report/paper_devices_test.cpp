@@ -1,4 +1,4 @@
-#include "report/paper_devices.hpp"
+#include "reproduce/paper_devices.hpp"
 
 #include <gtest/gtest.h>
 

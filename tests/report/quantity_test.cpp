@@ -1,8 +1,8 @@
-#include "report/quantity.hpp"
+#include "report/text/quantity.hpp"
 
 #include <gtest/gtest.h>
 
-#include "report/text_table.hpp"
+#include "report/text/text_table.hpp"
 
 namespace zwidth::report {
 namespace {

@@ -8,11 +8,11 @@
 #include <sstream>
 
 #include "lhifam.hpp"
+#include "report/figure/region_figure.hpp"
 #include "report/json_keys.hpp"
-#include "report/region_csv.hpp"
-#include "report/region_figure.hpp"
-#include "report/region_json.hpp"
-#include "report/region_text.hpp"
+#include "report/text/region_text.hpp"
+#include "results/region_csv.hpp"
+#include "results/region_json.hpp"
 
 namespace zwidth::report {
 namespace {

@@ -8,11 +8,11 @@
 #include <numbers>
 
 #include "lhifam.hpp"
-#include "report/relay_csv.hpp"
-#include "report/relay_explanation.hpp"
-#include "report/relay_figure.hpp"
-#include "report/relay_json.hpp"
-#include "report/relay_text.hpp"
+#include "report/figure/relay_figure.hpp"
+#include "report/text/relay_explanation.hpp"
+#include "report/text/relay_text.hpp"
+#include "results/relay_csv.hpp"
+#include "results/relay_json.hpp"
 
 namespace zwidth::report {
 namespace {

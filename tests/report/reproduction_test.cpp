@@ -1,4 +1,4 @@
-#include "report/reproduction.hpp"
+#include "reproduce/reproduction.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

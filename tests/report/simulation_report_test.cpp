@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "report/example_analyses.hpp"
+#include "report/figure/simulation_figure.hpp"
 #include "report/simulated_loop.hpp"
-#include "report/simulation_csv.hpp"
-#include "report/simulation_figure.hpp"
-#include "report/simulation_json.hpp"
-#include "report/simulation_text.hpp"
+#include "report/text/simulation_text.hpp"
+#include "results/simulation_csv.hpp"
+#include "results/simulation_json.hpp"
 
 namespace zwidth::report {
 namespace {

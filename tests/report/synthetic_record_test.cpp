@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "report/paper_devices.hpp"
+#include "reproduce/paper_devices.hpp"
 #include "zwidth/model/state_space.hpp"
 #include "zwidth/sampling/forced_response.hpp"
 

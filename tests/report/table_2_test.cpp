@@ -1,4 +1,4 @@
-#include "report/table_2.hpp"
+#include "reproduce/table_2.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "report/paper_relay_figures.hpp"
-#include "report/table_2_numbers.hpp"
+#include "reproduce/paper_relay_figures.hpp"
+#include "reproduce/table_2_numbers.hpp"
 
 namespace zwidth::report {
 namespace {

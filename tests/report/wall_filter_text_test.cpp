@@ -1,16 +1,16 @@
-#include "report/wall_filter_text.hpp"
+#include "report/text/wall_filter_text.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "report/analysis_text.hpp"
+#include "export/export_c.hpp"
 #include "report/device_bode.hpp"
 #include "report/device_region.hpp"
 #include "report/example_analyses.hpp"
-#include "report/explanation.hpp"
-#include "report/export_c.hpp"
-#include "report/html_report.hpp"
-#include "report/region_text.hpp"
+#include "report/page/html_report.hpp"
+#include "report/text/analysis_text.hpp"
+#include "report/text/explanation.hpp"
+#include "report/text/region_text.hpp"
 
 namespace zwidth::report {
 namespace {

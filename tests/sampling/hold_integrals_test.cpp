@@ -7,6 +7,7 @@
 #include "fifty_digits.hpp"
 
 namespace zwidth {
+using namespace internal;
 namespace {
 
 using test::Complex50;

@@ -9,6 +9,7 @@
 #include <vector>
 
 namespace zwidth {
+using namespace internal;
 namespace {
 
 using Real = boost::multiprecision::cpp_dec_float_50;

@@ -11,6 +11,7 @@
 #include "zwidth/simulation/trajectory.hpp"
 
 namespace zwidth {
+using namespace internal;
 namespace {
 
 using test::lhifam_parameters;

@@ -16,6 +16,7 @@
 #include "zwidth/stability/critical_stiffness.hpp"
 
 namespace zwidth {
+using namespace internal;
 namespace {
 
 using std::numbers::pi;

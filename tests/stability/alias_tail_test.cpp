@@ -5,6 +5,7 @@
 #include <cmath>
 
 namespace zwidth {
+using namespace internal;
 namespace {
 
 // The same sum term by term in long double; what is left beyond the last term by the midpoint rule (angle 0) or below

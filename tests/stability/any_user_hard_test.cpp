@@ -13,6 +13,7 @@
 #include "zwidth/stability/any_user.hpp"
 
 namespace zwidth {
+using namespace internal;
 namespace {
 
 VirtualDamper damper_of(const DeviceParameters& parameters) {

@@ -14,6 +14,7 @@
 #include "zwidth/stability/any_user.hpp"
 
 namespace zwidth {
+using namespace internal;
 namespace {
 
 constexpr double rounding = 3e-6;  // of the limit towards w = 0, and 1e-8 elsewhere

@@ -11,6 +11,7 @@
 #include "stability/plant_fraction.hpp"
 
 namespace zwidth {
+using namespace internal;
 namespace {
 
 using Jet = BoundedJet<double>;

@@ -7,6 +7,7 @@
 #include <vector>
 
 namespace zwidth {
+using namespace internal;
 namespace {
 
 // prod (x - root)^power, x = |z - 1|² = 4 sin²(angle/2), by known roots in x.

@@ -17,6 +17,7 @@
 #include "zwidth/stability/critical_stiffness.hpp"
 
 namespace zwidth {
+using namespace internal;
 namespace {
 
 using std::numbers::pi;

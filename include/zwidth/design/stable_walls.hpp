@@ -9,6 +9,9 @@
 #include "zwidth/stability/critical_stiffness.hpp"
 
 namespace zwidth {
+namespace internal {
+struct RegionStructure;
+}
 
 /// Every stable wall of a loop: the open set of (K, B), K > 0 and B >= 0, with 1 + (K + B v(z)) P(z) stable.
 ///
@@ -33,12 +36,11 @@ class StableWalls {
 
   [[nodiscard]] double velocity_filter_hz() const;
 
-  struct Structure;
   /// For the functions of this room.
-  [[nodiscard]] const Structure& structure() const { return *structure_; }
+  [[nodiscard]] const internal::RegionStructure& structure() const { return *structure_; }
 
  private:
-  std::shared_ptr<const Structure> structure_;  // never changed once built
+  std::shared_ptr<const internal::RegionStructure> structure_;  // never changed once built
 };
 
 /// Which of the walls on a grid are stable, 1 or 0; element i * stiffnesses.size() + j is (stiffnesses[j],

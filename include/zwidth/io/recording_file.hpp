@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "zwidth/identification/frequency_response.hpp"
-#include "zwidth/identification/recording.hpp"
 #include "zwidth/io/input_error.hpp"
 #include "zwidth/progress.hpp"
+#include "zwidth/signal/recording.hpp"
 
 namespace zwidth {
 

@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
+#include "zwidth/control/sampled_controller.hpp"
 #include "zwidth/model/device.hpp"
-#include "zwidth/simulation/sampled_controller.hpp"
 
 namespace zwidth {
 

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "report/analysed_device.hpp"
+#include "zwidth/control/sampled_controller.hpp"
+
+namespace zwidth::report {
+
+/// A wall to write as code.
+struct CodedWall {
+  AnalysedDevice analysed;  ///< with wall.stiffness
+  ControllerOptions::Contact contact = ControllerOptions::Contact::bilateral;
+  std::string stiffness_source;  ///< "wall.stiffness of the device file": where K comes from
+};
+
+/// A self-contained C99 file: the state of the wall, `<name>_wall_reset()` and `<name>_wall_force()`, the same
+/// arithmetic in the same order as SampledController, and the actuator's force limit behind it. Requires
+/// wall.stiffness; throws Error (invalid_argument) without.
+[[nodiscard]] std::string export_c(const CodedWall& wall);
+
+/// The device's name as the beginning of C identifiers: lower-case letters, digits and _, a letter first, at most 20
+/// characters, so that C99's 31 significant ones tell `<name>_wall_force` from `<name>_wall_reset`. "device" for a name
+/// without any letter or digit.
+[[nodiscard]] std::string c_identifier(std::string_view name);
+
+}  // namespace zwidth::report

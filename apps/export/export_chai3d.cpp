@@ -1,0 +1,63 @@
+#include "export/export_chai3d.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "report/text/explanation.hpp"
+#include "report/text/quantity.hpp"
+#include "report/text/wall_filter_text.hpp"
+
+namespace zwidth::report {
+namespace {
+
+constexpr double shown_digits = 4.0;
+constexpr double limit_error = 1e-9;  // relative, of the ceilings: 1.9999999999 is 2
+
+double rounded_down(double value) {
+  if (!(value > 0.0)) return 0.0;
+  const double unit = std::pow(10.0, std::floor(std::log10(value)) - shown_digits + 1.0);
+  return unit * std::floor(value / unit * (1.0 + limit_error));
+}
+
+/// As C++ of type double.
+std::string literal(double value) {
+  const std::string digits = fmt::format("{:.4g}", value);
+  return digits.find_first_of(".e") == std::string::npos ? digits + ".0" : digits;
+}
+
+std::string velocity_text(const Wall& wall, Units units) {
+  std::string text = fmt::format("Loop taken: damping on the backward difference of the position ({}/s)", units.length);
+  if (wall.velocity_filter_hz > 0.0) text += fmt::format(", low-passed at {}", quantity(wall.velocity_filter_hz, "Hz"));
+  if (const auto filters = wall_filters_text(wall)) text += "; force through " + *filters;
+  return text + ".";
+}
+
+}  // namespace
+
+std::string export_chai3d(const Device& device, const WallCeilings& ceilings, double safety_factor) {
+  const Units units = units_of(device.parameters().motion);
+  const char* kind = device.parameters().motion == Motion::rotary ? "Angular" : "Linear";
+  const bool any_user = ceilings.basis == WallCeilings::Basis::any_user;
+  return fmt::format(
+      "// {name}: ceilings by zwidth {version}, safety factor {factor}, loop at {rate} with a delay of {delay}\n"
+      "// Stiffness: {factor} of {limit:.4g} {stiffness_unit}, {basis}.\n"
+      "// Damping: {factor} of {damping_limit:.4g} {damping_unit}, the least that destabilises some wall up to that "
+      "stiffness.\n"
+      "// Every wall up to both is stable{whose}, each alone or both together.\n"
+      "// {velocity}\n"
+      "m_specifications.m_max{kind}Stiffness = {stiffness};  // [{stiffness_unit}]\n"
+      "m_specifications.m_max{kind}Damping = {damping};  // [{damping_unit}]\n",
+      fmt::arg("name", display_name(device)), fmt::arg("version", ZWIDTH_VERSION), fmt::arg("factor", safety_factor),
+      fmt::arg("rate", quantity(1.0 / device.loop().sampling_period, "Hz")),
+      fmt::arg("delay", quantity(device.loop().delay, "s")), fmt::arg("limit", ceilings.limit),
+      fmt::arg("stiffness_unit", units.stiffness), fmt::arg("damping_unit", units.damping),
+      fmt::arg("basis", any_user ? "the limit for any passive user"
+                                 : "the critical stiffness of the device as it is: there is no limit for any user"),
+      fmt::arg("damping_limit", ceilings.damping_limit), fmt::arg("whose", any_user ? " whoever holds the device" : ""),
+      fmt::arg("velocity", velocity_text(device.parameters().wall, units)), fmt::arg("kind", kind),
+      fmt::arg("stiffness", literal(rounded_down(ceilings.stiffness))),
+      fmt::arg("damping", literal(rounded_down(ceilings.damping))));
+}
+
+}  // namespace zwidth::report

@@ -1,0 +1,134 @@
+#include "report/figure/canvas.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <utility>
+
+#include "report/figure/gnuplot.hpp"
+#include "report/text/markup.hpp"
+
+namespace zwidth::report {
+namespace {
+
+std::string terminal(FigureFormat format, double width, double height) {
+  constexpr double px_per_inch = 96.0;
+  constexpr double sharp_on_paper = 2.0;
+  // Our font sizes are px; the Cairo terminals count in points.
+  constexpr double point_per_px = 0.75;
+  constexpr double pdf_font_scale = 0.56;  // as measured: pdfcairo scales once more
+  switch (format) {
+    case FigureFormat::svg:
+      return fmt::format("svg size {},{} dynamic noenhanced font 'Helvetica,13' background '#ffffff'", width, height);
+    case FigureFormat::png:
+      return fmt::format(
+          "pngcairo size {0},{1} noenhanced font 'Helvetica,13' fontscale {3} linewidth {2} pointscale {2} background "
+          "'#ffffff'",
+          sharp_on_paper * width, sharp_on_paper * height, sharp_on_paper, sharp_on_paper * point_per_px);
+    case FigureFormat::pdf:
+      return fmt::format(
+          "pdfcairo size {}in,{}in noenhanced font 'Helvetica,13' fontscale {} linewidth 1.5 background '#ffffff'",
+          width / px_per_inch, height / px_per_inch, pdf_font_scale);
+  }
+  return {};
+}
+
+void replace_all(std::string& text, std::string_view from, std::string_view to) {
+  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) {
+    text.replace(at, from.size(), to);
+  }
+}
+
+}  // namespace
+
+std::optional<FigureFormat> figure_format(std::string_view path) {
+  const std::size_t dot = path.rfind('.');
+  std::string extension(dot == std::string_view::npos ? "" : path.substr(dot + 1));
+  for (char& letter : extension) letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+  if (extension == "svg") return FigureFormat::svg;
+  if (extension == "png") return FigureFormat::png;
+  if (extension == "pdf") return FigureFormat::pdf;
+  return std::nullopt;
+}
+
+Canvas::Canvas(std::string title, double width, double height)
+    : title_(std::move(title)), width_(width), height_(height) {}
+
+std::string Canvas::position(double x, double y) const {
+  return fmt::format("screen {:.5f},{:.5f}", x / width_, 1.0 - y / height_);
+}
+
+void Canvas::text(double x, double y, std::string_view content, const TextStyle& style) {
+  const std::string_view anchor = style.anchor == Anchor::left     ? "left"
+                                  : style.anchor == Anchor::centre ? "center"
+                                                                   : "right";
+  commands(fmt::format("set label {} at {} {} front noenhanced font ',{}' textcolor rgb '{}'", gnuplot_string(content),
+                       position(x, y), anchor, style.size, style.colour));
+}
+
+void Canvas::line(double x1, double y1, double x2, double y2, const LineStyle& style) {
+  commands(
+      fmt::format("set arrow from {} to {} nohead back {}", position(x1, y1), position(x2, y2), gnuplot_line(style)));
+}
+
+void Canvas::point(double x, double y, std::string_view colour) {
+  marker(x, y, fmt::format("pt 6 ps 0.7 lw 1.3 lc rgb '{}'", colour));
+}
+
+void Canvas::marker(double x, double y, std::string_view style) {
+  commands(fmt::format("set label '' at {} front point {}", position(x, y), style));
+}
+
+void Canvas::rectangle(const Box& box, std::string_view colour) {
+  commands(fmt::format("set object rectangle from {} to {} back fillcolor rgb '{}' fillstyle solid noborder",
+                       position(box.left, box.bottom), position(box.right, box.top), colour));
+}
+
+void Canvas::commands(std::string_view text) {
+  script_ += text;
+  script_ += '\n';
+}
+
+void Canvas::plot(const Box& frame, std::string_view what) {
+  commands(fmt::format(
+      "set lmargin at screen {:.5f}\nset rmargin at screen {:.5f}\nset tmargin at screen {:.5f}\nset bmargin at screen "
+      "{:.5f}",
+      frame.left / width_, frame.right / width_, 1.0 - frame.top / height_, 1.0 - frame.bottom / height_));
+  commands(fmt::format("plot {}\nunset label\nunset arrow\nunset object", what));
+}
+
+std::string Canvas::draw(FigureFormat format) const {
+  std::string picture =
+      run_gnuplot(fmt::format("set encoding utf8\nset terminal {}\nunset key\nset multiplot\n{}unset multiplot\n",
+                              terminal(format, width_, height_), script_));
+  if (format == FigureFormat::svg) {
+    replace_all(picture, "<title>Gnuplot</title>", fmt::format("<title>{}</title>", escape_markup(title_)));
+    // Cells of a map have edges, which a viewer would blur.
+    replace_all(picture, "<image ", "<image style='image-rendering:pixelated' ");
+    replace_all(picture, "font-family=\"Helvetica\"", "font-family=\"Helvetica, Arial, sans-serif\"");
+  }
+  return picture;
+}
+
+double Canvas::text_width(std::string_view content, double size) {
+  // Continuation bytes of UTF-8 take no width. 0.62 em is the mean of DejaVu Sans, the widest face likely to be used.
+  const auto letters = std::count_if(content.begin(), content.end(), [](char c) { return (c & 0xc0) != 0x80; });
+  return 0.62 * size * static_cast<double>(letters);
+}
+
+std::string Canvas::fitted(std::string_view content, double size, double room) {
+  std::string shown(content);
+  if (text_width(shown, size) <= room) return shown;
+  while (!shown.empty() && text_width(shown + "…", size) > room) {
+    while (shown.size() > 1 && (shown.back() & 0xc0) == 0x80) shown.pop_back();
+    shown.pop_back();
+  }
+  return shown + "…";
+}
+
+std::string gnuplot_line(const LineStyle& style) {
+  return fmt::format("lc rgb '{}' lw {} dt {}", style.colour, style.width, style.dash);
+}
+
+}  // namespace zwidth::report

@@ -1,0 +1,347 @@
+#include "report/figure/design_sweep_figure.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "report/designed_device.hpp"
+#include "report/text/explanation.hpp"
+#include "report/text/quantity.hpp"
+
+namespace zwidth::report {
+namespace {
+
+constexpr double canvas_width = 900.0;
+constexpr double row_height = 20.0;
+constexpr double frame_height = 360.0;
+constexpr double same_branch = 0.3;  // of log frequency, between neighbouring points
+constexpr double room_above = 10.0;  // of the largest limit: branches higher up are left out
+constexpr double room_below = 1.4;
+constexpr double few_decades = 300.0;    // of an axis: powers of ten alone would be too few tics
+constexpr std::size_t most_cells = 240;  // of the map, each way
+
+constexpr LineStyle limit_style{"#1a1a1a", 3.4, "1"};  // in the legend; drawn in its mechanism's colour
+constexpr LineStyle jump_style{"#1a1a1a", 1.0, "(2,3)"};
+constexpr LineStyle any_user_style{"#15803d", 1.8, "(8,5)"};
+constexpr std::array<std::string_view, 6> colours = {"#0b4f9e", "#c2410c", "#7e22ce", "#0e7490", "#a16207", "#9d174d"};
+
+LineStyle branch_style(int mode) { return {colours.at(static_cast<std::size_t>(mode) % colours.size()), 1.3, "1"}; }
+
+std::string axis_title(const SweepAxis& axis, Motion motion) {
+  const std::string unit = parameter_unit(axis.key, motion);
+  return unit.empty() ? axis.key : fmt::format("{} ({})", axis.key, unit);
+}
+
+bool is_logarithmic(const SweepAxis& axis) { return axis.spacing == SweepAxis::Spacing::logarithmic; }
+
+class CurveFigure {
+ public:
+  explicit CurveFigure(const DesignSweep& design)
+      : sweep_(design.sweep),
+        values_(design.sweep.values[0]),
+        motion_(design.device.parameters().motion),
+        title_(fmt::format("Critical stiffness of {}", display_name(design.device))) {
+    for (const SweepPoint& point : sweep_.points) {
+      for (const Crossover& each : point.crossovers) modes_ = std::max(modes_, each.limited_by.mode);
+    }
+  }
+
+  [[nodiscard]] std::string draw(FigureFormat format) const {
+    const std::vector<Entry> entries = legend();
+    const double top = 44.0 + row_height * static_cast<double>((entries.size() + 1) / 2) + 18.0;
+    const Box frame{92.0, 876.0, top, top + frame_height};
+    Canvas canvas(title_, canvas_width, frame.bottom + 62.0);
+    canvas.text(frame.left, 18.0, Canvas::fitted(title_, 16.0, frame.right - frame.left), {Anchor::left, 16.0});
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+      const double left = frame.left + 400.0 * static_cast<double>(i % 2);
+      const double y = 46.0 + row_height * static_cast<double>(i / 2);
+      canvas.line(left, y, left + 46.0, y, entries[i].style);
+      canvas.text(left + 54.0, y, Canvas::fitted(entries[i].text, 12.0, 340.0), {Anchor::left, 12.0});
+    }
+    std::string what;
+    for (int mode = 0; mode <= modes_; ++mode) {
+      const LineStyle style = branch_style(mode);
+      add(canvas, what, fmt::format("branch{}", mode), branches(mode), style);
+      add(canvas, what, fmt::format("limit{}", mode), limits(mode), {style.colour, limit_style.width, "1"});
+    }
+    add(canvas, what, "jumps", jumps(), jump_style);
+    add(canvas, what, "any", any_user(), any_user_style);
+    const SweepAxis& axis = sweep_.axes[0];
+    const auto [low, high] = range();
+    const auto [first, last] = std::minmax(axis.first, axis.last);
+    canvas.commands(fmt::format(
+        "set tics font ',12' scale 0.6,0.3\nset border lw 0.8\nset grid xtics ytics lw 0.5 lc rgb '#c8c8c8' dt 1 back\n"
+        "set logscale y\n{}\nset xrange [{:.9g}:{:.9g}]\nset yrange [{:.9g}:{:.9g}]\n"
+        "set format y '%.0s %c'\nset format x '%.10g'\nset ylabel 'Stiffness K ({})' font ',12' offset 0.5,0",
+        is_logarithmic(axis) ? "set logscale x" : "unset logscale x", first, last, low, high,
+        units_of(motion_).stiffness));
+    if (high < few_decades * low) canvas.commands(fine_tics("y", low, high));
+    if (is_logarithmic(axis) && last < few_decades * first) canvas.commands(fine_tics("x", first, last));
+    canvas.text(0.5 * (frame.left + frame.right), frame.bottom + 42.0, axis_title(axis, motion_),
+                {Anchor::centre, 12.0});
+    canvas.plot(frame, what + "NaN notitle");
+    return canvas.draw(format);
+  }
+
+ private:
+  struct Entry {
+    std::string text;
+    LineStyle style;
+  };
+
+  static void add(Canvas& canvas, std::string& what, const std::string& name, const std::string& rows,
+                  const LineStyle& style) {
+    if (rows.empty()) return;
+    canvas.commands(fmt::format("${} << EOD\n{}EOD", name, rows));
+    what += fmt::format("${} with lines {} notitle, ", name, gnuplot_line(style));
+  }
+
+  static std::string fine_tics(std::string_view name, double low, double high) {
+    std::string tics = fmt::format("set {}tics (", name);
+    for (double power = std::pow(10.0, std::floor(std::log10(low))); power <= high; power *= 10.0) {
+      for (const double step : {1.0, 2.0, 5.0}) {
+        const double at = step * power;
+        if (at < low * (1.0 - 1e-9) || at > high * (1.0 + 1e-9)) continue;
+        std::string label = quantity(at, "");
+        label.erase(label.find_last_not_of(' ') + 1);
+        tics += fmt::format("{}'{}' {:g}", tics.ends_with('(') ? "" : ", ", label, at);
+      }
+    }
+    return tics + ")";
+  }
+
+  [[nodiscard]] std::vector<Entry> legend() const {
+    std::vector<Entry> entries{{"bold: K_CR, the crossover that limits", limit_style}};
+    if (!any_user().empty()) entries.push_back({"with any passive user", any_user_style});
+    for (int mode = 0; mode <= modes_; ++mode) {
+      if (branches(mode).empty()) continue;
+      entries.push_back({mode == 0 ? std::string("crossovers of the rigid body")
+                                   : fmt::format("crossovers of vibration mode {}", mode),
+                         branch_style(mode)});
+    }
+    return entries;
+  }
+
+  /// The limits, and a decade above the largest for the branches.
+  [[nodiscard]] std::pair<double, double> range() const {
+    double low = std::numeric_limits<double>::infinity();
+    double high = 0.0;
+    const auto hold = [&](double stiffness) {
+      if (!(stiffness > 0.0) || !std::isfinite(stiffness)) return;
+      low = std::min(low, stiffness);
+      high = std::max(high, stiffness);
+    };
+    for (const SweepPoint& point : sweep_.points) {
+      hold(point.stiffness);
+      if (point.any_user) hold(point.any_user->stiffness);
+    }
+    if (high == 0.0) {
+      for (const SweepPoint& point : sweep_.points) {
+        for (const Crossover& each : point.crossovers) hold(each.stiffness);
+      }
+    }
+    if (high == 0.0) return {1.0, 10.0};
+    return {low / room_below, high * room_above};
+  }
+
+  /// How far apart two crossovers at neighbouring points are; at Nyquist both or none.
+  [[nodiscard]] double distance(const Crossover& a, const Crossover& b) const {
+    if (a.frequency == b.frequency) return 0.0;
+    if (a.frequency == 0.0 || b.frequency == 0.0 || (a.poles_leaving > 0) != (b.poles_leaving > 0) ||
+        std::abs(a.poles_leaving) != std::abs(b.poles_leaving)) {
+      return std::numeric_limits<double>::infinity();
+    }
+    return std::abs(std::log(a.frequency / b.frequency)) + 0.1 * std::abs(std::log(a.stiffness / b.stiffness));
+  }
+
+  [[nodiscard]] const Crossover* nearest(const Crossover& to, const std::vector<Crossover>& among) const {
+    const Crossover* best = nullptr;
+    for (const Crossover& each : among) {
+      if (distance(to, each) < same_branch && (best == nullptr || distance(to, each) < distance(to, *best))) {
+        best = &each;
+      }
+    }
+    return best;
+  }
+
+  [[nodiscard]] std::string segment(std::size_t i, double from, double to) const {
+    return fmt::format("{:.9g} {:.9g}\n{:.9g} {:.9g}\n\n", values_[i], from, values_[i + 1], to);
+  }
+
+  /// Pieces between neighbouring points whose crossovers are each other's nearest.
+  [[nodiscard]] std::string branches(int mode) const {
+    std::string rows;
+    for (std::size_t i = 0; i + 1 < sweep_.points.size(); ++i) {
+      const std::vector<Crossover>& here = sweep_.points[i].crossovers;
+      const std::vector<Crossover>& next = sweep_.points[i + 1].crossovers;
+      for (const Crossover& each : here) {
+        if (each.limited_by.mode != mode) continue;
+        const Crossover* partner = nearest(each, next);
+        if (partner == nullptr || nearest(*partner, here) != &each) continue;
+        rows += segment(i, each.stiffness, partner->stiffness);
+      }
+    }
+    return rows;
+  }
+
+  /// Whether the limit at a point and the next is one branch.
+  [[nodiscard]] bool goes_on(std::size_t i) const {
+    const SweepPoint& here = sweep_.points[i];
+    const SweepPoint& next = sweep_.points[i + 1];
+    return here.limit && next.limit && distance(*here.limit, *next.limit) < same_branch;
+  }
+
+  [[nodiscard]] std::string limits(int mode) const {
+    std::string rows;
+    for (std::size_t i = 0; i + 1 < sweep_.points.size(); ++i) {
+      const SweepPoint& here = sweep_.points[i];
+      if (!goes_on(i) || here.limit->limited_by.mode != mode) continue;
+      rows += segment(i, here.stiffness, sweep_.points[i + 1].stiffness);
+    }
+    return rows;
+  }
+
+  /// Where another branch takes over.
+  [[nodiscard]] std::string jumps() const {
+    std::string rows;
+    for (std::size_t i = 0; i + 1 < sweep_.points.size(); ++i) {
+      const SweepPoint& here = sweep_.points[i];
+      const SweepPoint& next = sweep_.points[i + 1];
+      if (here.limit && next.limit && !goes_on(i)) rows += segment(i, here.stiffness, next.stiffness);
+    }
+    return rows;
+  }
+
+  [[nodiscard]] std::string any_user() const {
+    std::string rows;
+    for (std::size_t i = 0; i < sweep_.points.size(); ++i) {
+      const auto& limit = sweep_.points[i].any_user;
+      const bool drawn = limit && limit->stiffness > 0.0 && std::isfinite(limit->stiffness);
+      rows += drawn ? fmt::format("{:.9g} {:.9g}\n", values_[i], limit->stiffness) : std::string("\n");
+    }
+    return rows.find_first_not_of('\n') == std::string::npos ? "" : rows;
+  }
+
+  const ParameterSweep& sweep_;
+  const std::vector<double>& values_;
+  Motion motion_;
+  std::string title_;
+  int modes_ = 0;
+};
+
+class MapFigure {
+ public:
+  explicit MapFigure(const DesignSweep& design)
+      : sweep_(design.sweep),
+        motion_(design.device.parameters().motion),
+        title_(fmt::format("Critical stiffness of {}", display_name(design.device))) {}
+
+  [[nodiscard]] std::string draw(FigureFormat format) const {
+    const Box frame{92.0, 760.0, 48.0, 48.0 + frame_height};
+    Canvas canvas(title_, canvas_width, frame.bottom + 62.0);
+    canvas.text(frame.left, 18.0, Canvas::fitted(title_, 16.0, 784.0), {Anchor::left, 16.0});
+    double low = std::numeric_limits<double>::infinity();
+    double high = 0.0;
+    std::string rows;
+    const std::vector<std::size_t> first = thinned(sweep_.values[0].size());
+    const std::vector<std::size_t> second = thinned(sweep_.values[1].size());
+    for (const std::size_t j : second) {
+      for (const std::size_t i : first) {
+        const SweepPoint& point = sweep_.points[i * sweep_.values[1].size() + j];
+        const bool drawn = point.limit.has_value();
+        if (drawn) low = std::min(low, point.stiffness), high = std::max(high, point.stiffness);
+        fmt::format_to(std::back_inserter(rows), "{:.9g} {:.9g} {}\n", place(0, i), place(1, j),
+                       drawn ? fmt::format("{:.9g}", point.stiffness) : "NaN");
+      }
+      rows += "\n";
+    }
+    if (high == 0.0) low = 1.0, high = 10.0;
+    canvas.commands(fmt::format("$map << EOD\n{}EOD", rows));
+    canvas.commands(fmt::format(
+        "set tics font ',12' scale 0.6,0.3\nset border lw 0.8\nunset logscale\n{}{}"
+        "set xrange [{:.9g}:{:.9g}]\nset yrange [{:.9g}:{:.9g}]\nset ylabel {} font ',12' offset 0.5,0\n"
+        "set palette defined (0 '#30123b', 1 '#3e9bfe', 2 '#46f884', 3 '#e1dd37', 4 '#f05b12', 5 '#7a0403')\n"
+        "set colorbox user origin screen {:.5f},{:.5f} size screen 0.02,{:.5f}\n{}set cbrange [{:.9g}:{:.9g}]\n"
+        "set format cb '%.1s %c'",
+        tics("x", 0), tics("y", 1), edges(0).first, edges(0).second, edges(1).first, edges(1).second,
+        quoted(axis_title(sweep_.axes[1], motion_)), 780.0 / canvas_width, 62.0 / (frame.bottom + 62.0),
+        frame_height / (frame.bottom + 62.0), high > 10.0 * low ? "set logscale cb\n" : "", low,
+        high > low ? high : 1.001 * low));
+    canvas.text(0.5 * (frame.left + frame.right), frame.bottom + 42.0, axis_title(sweep_.axes[0], motion_),
+                {Anchor::centre, 12.0});
+    canvas.text(772.0, 38.0, fmt::format("K_CR ({})", units_of(motion_).stiffness), {Anchor::left, 12.0});
+    canvas.plot(frame, "$map using 1:2:3 with image notitle");
+    return canvas.draw(format);
+  }
+
+ private:
+  static std::string quoted(std::string text) {
+    std::erase(text, '\'');
+    return "'" + text + "'";
+  }
+
+  static std::vector<std::size_t> thinned(std::size_t count) {
+    const std::size_t shown = std::min(count, most_cells);
+    std::vector<std::size_t> indices;
+    for (std::size_t i = 0; i < shown; ++i) indices.push_back(i * (count - 1) / (shown - 1));
+    return indices;
+  }
+
+  /// Cells of an image are equal: logarithmic axes are drawn in decades.
+  [[nodiscard]] double place(std::size_t axis, std::size_t index) const {
+    const std::vector<double>& values = sweep_.values[axis];
+    const auto& ends = sweep_.axes[axis];
+    const std::size_t cells = std::min(values.size(), most_cells);
+    // Evenly, whatever thinning rounds.
+    const double share = std::round(static_cast<double>(index) * static_cast<double>(cells - 1) /
+                                    static_cast<double>(values.size() - 1)) /
+                         static_cast<double>(cells - 1);
+    return transformed(axis, ends.first) + share * (transformed(axis, ends.last) - transformed(axis, ends.first));
+  }
+
+  [[nodiscard]] double transformed(std::size_t axis, double value) const {
+    return is_logarithmic(sweep_.axes[axis]) ? std::log10(value) : value;
+  }
+
+  [[nodiscard]] std::pair<double, double> edges(std::size_t axis) const {
+    const double first = transformed(axis, sweep_.axes[axis].first);
+    const double last = transformed(axis, sweep_.axes[axis].last);
+    const auto cells = static_cast<double>(std::min(sweep_.values[axis].size(), most_cells));
+    const double half = 0.5 * std::abs(last - first) / (cells - 1.0);
+    return {std::min(first, last) - half, std::max(first, last) + half};
+  }
+
+  [[nodiscard]] std::string tics(std::string_view name, std::size_t axis) const {
+    if (!is_logarithmic(sweep_.axes[axis])) {
+      return fmt::format("set {0}tics autofreq\nset format {0} '%.10g'\n", name);
+    }
+    const auto [low, high] = edges(axis);
+    std::string list;
+    for (int decade = static_cast<int>(std::floor(low)); decade <= static_cast<int>(std::ceil(high)); ++decade) {
+      for (const double step : {1.0, 2.0, 5.0}) {
+        const double at = std::log10(step) + decade;
+        if (at < low || at > high || (step != 1.0 && high - low > 2.5)) continue;
+        list += fmt::format("{}'{:g}' {:.9g}", list.empty() ? "" : ", ", step * std::pow(10.0, decade), at);
+      }
+    }
+    return fmt::format("set {}tics ({})\n", name, list);
+  }
+
+  const ParameterSweep& sweep_;
+  Motion motion_;
+  std::string title_;
+};
+
+}  // namespace
+
+std::string draw_sweep(const DesignSweep& sweep, FigureFormat format) {
+  return sweep.sweep.axes.size() == 1 ? CurveFigure(sweep).draw(format) : MapFigure(sweep).draw(format);
+}
+
+}  // namespace zwidth::report

@@ -1,0 +1,124 @@
+#include "report/figure/excitation_figure.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "report/text/quantity.hpp"
+#include "zwidth/signal/power_density.hpp"
+
+namespace zwidth::report {
+namespace {
+
+constexpr LineStyle curve_style{"#0b4f9e", 1.2, "1"};
+constexpr std::size_t most_columns = 1500;
+constexpr double shown_decibels = 80.0;  // below the highest density
+
+/// $signal: every sample, or columns of time, least and greatest force.
+std::string add_signal(Canvas& canvas, const std::vector<double>& samples, double rate) {
+  canvas.commands("$signal << EOD");
+  const bool envelope = samples.size() > 2 * most_columns;
+  const std::size_t columns = envelope ? most_columns : samples.size();
+  for (std::size_t i = 0; i < columns; ++i) {
+    const std::size_t first = i * samples.size() / columns;
+    const auto begin = samples.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto end = samples.begin() + static_cast<std::ptrdiff_t>((i + 1) * samples.size() / columns);
+    const auto [least, greatest] = std::minmax_element(begin, end);
+    canvas.commands(fmt::format("{:.9g} {:.6g} {:.6g}", static_cast<double>(first) / rate, *least, *greatest));
+  }
+  canvas.commands("EOD");
+  return envelope ? fmt::format("$signal using 1:2:3 with filledcurves lc rgb '{}'", curve_style.colour)
+                  : fmt::format("$signal using 1:2 with steps {}", gnuplot_line(curve_style));
+}
+
+struct DensityPoint {
+  double frequency_hz = 0.0;
+  double decibels = 0.0;
+};
+
+/// Means over bands that grow with the frequency, as a logarithmic axis shows them.
+std::vector<DensityPoint> banded(const PowerDensity& density) {
+  constexpr double growth = 1.01;
+  std::vector<DensityPoint> points;
+  for (std::size_t first = 1; first < density.values.size();) {
+    const std::size_t end = std::min(
+        density.values.size(), std::max(first + 1, static_cast<std::size_t>(growth * static_cast<double>(first))));
+    double sum = 0.0;
+    for (std::size_t k = first; k < end; ++k) sum += density.values[k];
+    const double mean = sum / static_cast<double>(end - first);
+    const double centre = 0.5 * static_cast<double>(first + end - 1) * density.step_hz;
+    if (mean > 0.0) points.push_back({centre, 10.0 * std::log10(mean)});
+    first = end;
+  }
+  return points;
+}
+
+/// Every line.
+std::vector<DensityPoint> lines(const PowerDensity& density) {
+  std::vector<DensityPoint> points;
+  for (std::size_t k = 1; k < density.values.size(); ++k) {
+    const double power = density.values[k];
+    if (power > 0.0) points.push_back({static_cast<double>(k) * density.step_hz, 10.0 * std::log10(power)});
+  }
+  return points;
+}
+
+/// A whole period in the middle, away from fades; of an aperiodic signal, or one shorter than its period, nothing.
+std::span<const double> one_period(const Excitation& excitation) {
+  const std::size_t period = excitation.period;
+  if (period == 0 || excitation.samples.size() < period) return {};
+  const std::size_t whole = excitation.samples.size() / period;
+  return std::span(excitation.samples).subspan(whole / 2 * period, period);
+}
+
+}  // namespace
+
+std::string draw_excitation(const std::string& title, const Excitation& excitation, double rate, Motion motion,
+                            FigureFormat format) {
+  constexpr Box time_frame{84.0, 876.0, 50.0, 220.0};
+  constexpr Box density_frame{84.0, 876.0, 290.0, 500.0};
+  const std::string_view unit = motion == Motion::rotary ? "N m" : "N";
+  Canvas canvas(title, 900.0, 560.0);
+  canvas.text(time_frame.left, 18.0, Canvas::fitted(title, 16.0, time_frame.right - time_frame.left),
+              {Anchor::left, 16.0});
+  const std::string signal = add_signal(canvas, excitation.samples, rate);
+  const double centre = 0.5 * (time_frame.left + time_frame.right);
+  const double duration = static_cast<double>(excitation.samples.size()) / rate;
+  canvas.text(centre, time_frame.bottom + 40.0, "Time (s)", {Anchor::centre, 12.0});
+  canvas.commands(fmt::format(
+      "set tics font ',12' scale 0.6,0.3\nset border lw 0.8\nset grid xtics ytics lw 0.5 lc rgb '#c8c8c8' dt 1 back\n"
+      "set xrange [0:{:.9g}]\nset offsets 0, 0, graph 0.05, graph 0.05\nset ylabel 'Force ({})' font ',12' offset "
+      "0.5,0",
+      duration, unit));
+  canvas.plot(time_frame, signal + ", NaN notitle");
+
+  const std::span<const double> period = one_period(excitation);
+  const std::vector<DensityPoint> points =
+      period.empty() ? banded(power_density(excitation.samples, rate)) : lines(power_density(period, rate));
+  double highest = -300.0;
+  canvas.commands("$density << EOD");
+  for (const DensityPoint& point : points) {
+    highest = std::max(highest, point.decibels);
+    canvas.commands(fmt::format("{:.9g} {:.4f}", point.frequency_hz, point.decibels));
+  }
+  canvas.commands("EOD");
+  const double top = 10.0 * std::ceil((highest + 1.0) / 10.0);
+  canvas.text(centre, density_frame.bottom + 42.0,
+              period.empty() ? "Frequency (Hz)" : "Frequency (Hz), lines of one period", {Anchor::centre, 12.0});
+  canvas.commands(fmt::format(
+      "set logscale x\nset format x '%g'\nset mxtics 10\nset grid mxtics\nset offsets 0, 0, 0, 0\n"
+      "set xrange [{:.9g}:{:.9g}]\nset yrange [{:g}:{:g}]\nset ytics 20\nset ylabel 'Power density (dB re 1 {}/Hz)'",
+      std::max(points.empty() ? 0.001 * rate : (period.empty() ? 1.0 : 0.5) * points.front().frequency_hz, 1e-4 * rate),
+      0.5 * rate, top - shown_decibels, top, motion == Motion::rotary ? "(N m)²" : "N²"));
+  const double bottom = top - shown_decibels;
+  const std::string curve = fmt::format("$density with lines {}", gnuplot_line(curve_style));
+  const std::string stems = fmt::format("$density using 1:({0:g}):(0):($2>{0:g}?$2-{0:g}:0) with vectors nohead {1}",
+                                        bottom, gnuplot_line(curve_style));
+  canvas.plot(density_frame, (period.empty() ? curve : stems) + ", NaN notitle");
+  return canvas.draw(format);
+}
+
+}  // namespace zwidth::report

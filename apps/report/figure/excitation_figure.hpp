@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+#include "report/figure/canvas.hpp"
+#include "zwidth/identification/excitation.hpp"
+
+namespace zwidth::report {
+
+/// The excitation over time (of many samples: its envelope) above its power density over frequency.
+/// Throws OutputFailed as gnuplot does.
+[[nodiscard]] std::string draw_excitation(const std::string& title, const Excitation& excitation, double rate,
+                                          Motion motion, FigureFormat format);
+
+}  // namespace zwidth::report

@@ -1,0 +1,131 @@
+#include "report/figure/identification_figure.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <vector>
+
+#include "report/text/explanation.hpp"
+#include "report/text/quantity.hpp"
+
+namespace zwidth::report {
+namespace {
+
+constexpr double left = 84.0;
+constexpr double right = 876.0;
+constexpr Box magnitude_frame{left, right, 84.0, 374.0};
+constexpr Box phase_frame{left, right, 396.0, 586.0};
+constexpr LineStyle fit_style{"#c2410c", 1.8, "1"};
+constexpr std::string_view point_colour = "#0b4f9e";
+constexpr std::string_view band_colour = "#c7d7ee";
+constexpr double degrees = 180.0 / std::numbers::pi;
+
+/// One line of the figure's data.
+struct Row {
+  double hz = 0.0;
+  double magnitude = 0.0, magnitude_low = 0.0, magnitude_high = 0.0;  ///< dB
+  double phase = 0.0, phase_low = 0.0, phase_high = 0.0;              ///< degrees
+  double fitted_magnitude = 0.0;
+  double fitted_phase = 0.0;
+};
+
+/// The angle nearest to `near`, by whole turns.
+double unwrapped(double phase, double near) { return phase + 360.0 * std::round((near - phase) / 360.0); }
+
+std::vector<Row> rows(const IdentifiedDevice& identified) {
+  const ParameterFit& fit = identified.fit;
+  std::vector<Row> result;
+  double last = -180.0;
+  auto point = identified.response.points.begin();
+  for (std::size_t i = 0; i < fit.frequencies.size(); ++i) {
+    // The fit uses the points of its band, in their order.
+    while (point->frequency < fit.frequencies[i]) ++point;
+    const double size = std::abs(point->value);
+    const double radius = point->variance > 0.0 ? confidence_radius(*point, identified.response.averages) : 0.0;
+    const double part = std::min(radius / size, 0.999);  // a larger one leaves the magnitude's lower end open
+    Row row;
+    row.hz = hertz(point->frequency);
+    row.magnitude = decibels(size);
+    row.magnitude_low = decibels(size * (1.0 - part));
+    row.magnitude_high = std::isfinite(radius) ? decibels(size + radius) : row.magnitude;
+    row.fitted_magnitude = decibels(std::abs(fit.fitted[i]));
+    row.fitted_phase = unwrapped(degrees * std::arg(fit.fitted[i]), last);
+    last = row.fitted_phase;
+    row.phase = unwrapped(degrees * std::arg(point->value), row.fitted_phase);
+    row.phase_low = row.phase - degrees * std::asin(part);
+    row.phase_high = row.phase + degrees * std::asin(part);
+    result.push_back(row);
+  }
+  return result;
+}
+
+void add_legend(Canvas& canvas, const std::string& points) {
+  constexpr double y = 46.0;
+  canvas.point(left + 23.0, y, point_colour);
+  canvas.text(left + 54.0, y, Canvas::fitted(points, 12.0, 336.0), {Anchor::left, 12.0});
+  canvas.line(left + 400.0, y, left + 446.0, y, fit_style);
+  canvas.text(left + 454.0, y, "fitted device", {Anchor::left, 12.0});
+}
+
+/// Labels at 1, 2 and 5 of every decade: a measured band is often less than one.
+std::string frequency_ticks(double from, double to) {
+  std::string labels;
+  for (double decade = std::pow(10.0, std::floor(std::log10(from))); decade <= to; decade *= 10.0) {
+    for (const double step : {1.0, 2.0, 5.0})
+      labels += fmt::format("{}'{:.6g}' {:.6g}", labels.empty() ? "" : ", ", step * decade, step * decade);
+  }
+  return "set xtics (" + labels + ")";
+}
+
+std::string plots(int measured, int low, int high, int fitted) {
+  return fmt::format(
+      "$rows using 1:{}:{} with filledcurves lc rgb '{}', $rows using 1:{} with points pt 7 ps 0.25 lc rgb '{}', "
+      "$rows using 1:{} with lines {}",
+      low, high, band_colour, measured, point_colour, fitted, gnuplot_line(fit_style));
+}
+
+}  // namespace
+
+std::string draw_identification(const IdentifiedDevice& identified, FigureFormat format) {
+  IdentificationLabels labels;
+  labels.title = fmt::format("{}, identified from {}", display_name(identified.fit.device),
+                             std::filesystem::path(identified.source).filename().string());
+  return draw_identification(identified, labels, format);
+}
+
+std::string draw_identification(const IdentifiedDevice& identified, const IdentificationLabels& labels,
+                                FigureFormat format) {
+  const std::vector<Row> data = rows(identified);
+  Canvas canvas(labels.title, 900.0, 660.0);
+  canvas.text(left, 18.0, Canvas::fitted(labels.title, 16.0, right - left), {Anchor::left, 16.0});
+  add_legend(canvas, labels.points);
+  canvas.commands("$rows << EOD");
+  double lowest = data.front().magnitude;
+  double highest = lowest;
+  for (const Row& row : data) {
+    canvas.commands(fmt::format("{:.9g} {:.5f} {:.5f} {:.5f} {:.4f} {:.4f} {:.4f} {:.5f} {:.4f}", row.hz, row.magnitude,
+                                row.magnitude_low, row.magnitude_high, row.phase, row.phase_low, row.phase_high,
+                                row.fitted_magnitude, row.fitted_phase));
+    lowest = std::min({lowest, row.magnitude, row.fitted_magnitude});
+    highest = std::max({highest, row.magnitude, row.fitted_magnitude});
+  }
+  canvas.commands("EOD");
+  const std::string_view compliance = identified.fit.device.parameters().motion == Motion::rotary ? "rad/(N m)" : "m/N";
+  canvas.commands(fmt::format(
+      "set logscale x\nset xrange [{}:{}]\nset tics font ',12' scale 0.6,0.3\nset border lw 0.8\n"
+      "set grid xtics mxtics ytics lw 0.5 lc rgb '#c8c8c8' dt 1, lw 0.4 lc rgb '#e4e4e4' dt 1 back\nset format x ''\n"
+      "set yrange [{}:{}]\nset ylabel 'Magnitude (dB re 1 {})' offset 0.5,0 font ',12'",
+      data.front().hz, std::max(data.back().hz, 1.01 * data.front().hz), 10.0 * std::floor((lowest - 1.0) / 10.0),
+      10.0 * std::ceil((highest + 1.0) / 10.0), compliance));
+  canvas.plot(magnitude_frame, plots(2, 3, 4, 8));
+  canvas.text(0.5 * (left + right), phase_frame.bottom + 42.0, "Frequency (Hz)", {Anchor::centre, 12.0});
+  canvas.commands("set autoscale y\nset ytics 90\nset ylabel 'Phase (degrees)'");
+  canvas.commands(frequency_ticks(data.front().hz, data.back().hz));
+  canvas.plot(phase_frame, plots(5, 6, 7, 9));
+  return canvas.draw(format);
+}
+
+}  // namespace zwidth::report

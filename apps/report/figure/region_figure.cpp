@@ -1,0 +1,253 @@
+#include "report/figure/region_figure.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <vector>
+
+#include "report/text/explanation.hpp"
+#include "report/text/quantity.hpp"
+#include "report/text/wall_filter_text.hpp"
+
+namespace zwidth::report {
+namespace {
+
+using Formula = RegionApproximation::Formula;
+
+constexpr double canvas_width = 900.0;
+constexpr double frame_left = 84.0;
+constexpr double frame_right = 876.0;
+constexpr double row_height = 20.0;
+constexpr double frame_height = 360.0;
+
+constexpr std::string_view stable_colour = "#dbe7f6";
+constexpr std::string_view any_user_colour = "#bfe3c8";
+constexpr LineStyle boundary_style{"#0b4f9e", 2.0, "1"};
+constexpr LineStyle any_user_style{"#15803d", 1.6, "1"};
+
+LineStyle style_of(Formula formula) {
+  switch (formula) {
+    case Formula::colgate_schenkel:
+      return {"#c2410c", 1.6, "(10,5)"};
+    case Formula::gil_hulin:
+      return {"#7e22ce", 1.6, "(3,4)"};
+    case Formula::diolaiti:
+      break;
+  }
+  return {"#1a1a1a", 1.6, "1"};
+}
+
+/// The unit that K is drawn in.
+struct DrawnUnit {
+  double size = 1.0;  // in SI
+  std::string_view prefix;
+};
+
+DrawnUnit drawn_unit(double largest) {
+  static constexpr std::array<DrawnUnit, 6> units = {
+      {{1e9, "G"}, {1e6, "M"}, {1e3, "k"}, {1.0, ""}, {1e-3, "m"}, {1e-6, "µ"}}};
+  constexpr double least_shown = 3.0;
+  const auto fits = [largest](const DrawnUnit& unit) { return largest >= least_shown * unit.size; };
+  const auto* const found = std::find_if(units.begin(), units.end(), fits);
+  return found != units.end() ? *found : units.back();
+}
+
+/// What a panel shows: 0 to these.
+struct Extent {
+  double damping = 0.0;
+  double stiffness = 0.0;
+};
+
+class RegionFigure {
+ public:
+  explicit RegionFigure(const DeviceRegion& device)
+      : device_(device), units_(units_of(device.analysed.device.parameters().motion)), title_(title()) {}
+
+  [[nodiscard]] std::string draw(FigureFormat format) const {
+    const std::vector<Extent> panels = extents();
+    const std::vector<Entry> entries = legend();
+    const double top = 40.0 + row_height * static_cast<double>((entries.size() + 1) / 2) + 22.0;
+    Canvas canvas(title_, canvas_width, top + frame_height + 62.0);
+    canvas.text(frame_left, 18.0, Canvas::fitted(title_, 16.0, frame_right - frame_left), {Anchor::left, 16.0});
+    for (std::size_t i = 0; i < entries.size(); ++i) draw_entry(canvas, entries[i], i);
+    data(canvas);
+    const double gap = 100.0;
+    const double width =
+        (frame_right - frame_left - gap * static_cast<double>(panels.size() - 1)) / static_cast<double>(panels.size());
+    for (std::size_t i = 0; i < panels.size(); ++i) {
+      const double left = frame_left + static_cast<double>(i) * (width + gap);
+      draw_panel(canvas, {left, left + width, top, top + frame_height}, panels[i]);
+    }
+    return canvas.draw(format);
+  }
+
+ private:
+  struct Entry {
+    std::string text;
+    LineStyle style;
+    std::string_view fill;  // empty: none
+    bool is_point = false;
+  };
+
+  [[nodiscard]] std::string title() const {
+    const double filter = device_.walls.velocity_filter_hz();
+    const auto filters = wall_filters_text(device_.analysed.device.parameters().wall);
+    return fmt::format("Stable walls of {}{}{}", display_name(device_.analysed.device),
+                       filter > 0.0 ? fmt::format(", velocity filter {}", quantity(filter, "Hz")) : std::string(),
+                       filters ? ", through " + *filters : std::string());
+  }
+
+  [[nodiscard]] std::vector<Entry> legend() const {
+    std::vector<Entry> entries;
+    if (device_.region.stiffest) {
+      entries.push_back(
+          {fmt::format("stable: up to {} at {} {}", quantity(device_.region.stiffest->stiffness, units_.stiffness),
+                       number(device_.region.stiffest->damping), units_.damping),
+           boundary_style, stable_colour});
+    } else {
+      entries.push_back({device_.region.bounded ? "no wall is stable" : "every wall is stable", boundary_style, {}});
+    }
+    if (device_.any_user && device_.any_user->stiffest) {
+      entries.push_back({fmt::format("with any passive user: up to {}",
+                                     quantity(device_.any_user->stiffest->stiffness, units_.stiffness)),
+                         any_user_style, any_user_colour});
+    }
+    for (const ComparedApproximation& each : device_.approximations) {
+      const auto& ratio = each.error.ratio;
+      const std::string off = ratio ? fmt::format(" ({:+.1f} dB at B = 0)", decibels(*ratio)) : std::string();
+      entries.push_back({formula_name(each.formula.formula) + off,
+                         style_of(each.formula.formula),
+                         {},
+                         each.formula.largest_damping == 0.0});
+    }
+    return entries;
+  }
+
+  static void draw_entry(Canvas& canvas, const Entry& entry, std::size_t index) {
+    const double left = frame_left + 400.0 * static_cast<double>(index % 2);
+    const double y = 46.0 + row_height * static_cast<double>(index / 2);
+    if (!entry.fill.empty()) canvas.rectangle({left, left + 46.0, y - 7.0, y + 7.0}, entry.fill);
+    if (entry.is_point) {
+      canvas.point(left + 23.0, y, entry.style.colour);
+    } else {
+      canvas.line(left, y, left + 46.0, y, entry.style);
+    }
+    canvas.text(left + 54.0, y, Canvas::fitted(entry.text, 12.0, 340.0), {Anchor::left, 12.0});
+  }
+
+  /// The whole region, and the corner at the origin where the formulas and K_CR would be too small to see.
+  [[nodiscard]] std::vector<Extent> extents() const {
+    constexpr double margin = 1.06;
+    constexpr double too_small = 0.2;
+    const StableRegion& region = device_.region;
+    if (!region.stiffest) return {{1.0, 1.0}};
+    const Extent whole{margin * region.most_damped->damping, margin * region.stiffest->stiffness};
+    Extent corner{0.0, std::isfinite(region.critical_stiffness) ? region.critical_stiffness : 0.0};
+    for (const ComparedApproximation& each : device_.approximations) {
+      corner.stiffness = std::max(corner.stiffness, each.formula.at_zero_damping);
+      corner.damping = std::max(corner.damping, each.formula.largest_damping.value_or(0.0));
+    }
+    corner = {2.0 * corner.damping, 2.0 * corner.stiffness};
+    const bool shown = corner.damping > too_small * whole.damping && corner.stiffness > too_small * whole.stiffness;
+    if (shown || corner.damping == 0.0 || corner.stiffness == 0.0) return {whole};
+    return {whole, {std::min(corner.damping, whole.damping), std::min(corner.stiffness, whole.stiffness)}};
+  }
+
+  static void block(Canvas& canvas, const std::string& name, const std::string& rows) {
+    canvas.commands(fmt::format("${} << EOD\n{}EOD", name, rows));
+  }
+
+  static std::string row(double damping, double stiffness) {
+    return fmt::format("{:.9g} {:.9g}\n", damping, stiffness);
+  }
+
+  static std::string ring_rows(const BoundaryRing& ring) {
+    std::string rows;
+    for (const BoundaryArc& arc : ring.arcs) {
+      for (const BoundaryPoint& point : arc.points) rows += row(point.damping, point.stiffness);
+    }
+    return rows;
+  }
+
+  /// Data blocks: rings as closed outlines, `edges` as the boundary without the axes.
+  void data(Canvas& canvas) const {
+    const StableRegion& region = device_.region;
+    std::string outlines;
+    std::string edges;
+    for (const StableComponent& component : region.components) {
+      outlines += ring_rows(component.outline) + "\n";
+      for (const BoundaryArc& arc : component.outline.arcs) {
+        if (arc.kind == BoundaryKind::no_stiffness || arc.kind == BoundaryKind::no_damping) continue;
+        edges += ring_rows({{arc}}) + "\n";
+      }
+    }
+    block(canvas, "outlines", outlines);
+    block(canvas, "edges", edges);
+    std::string limits;
+    if (device_.any_user) {
+      for (const auto& range : device_.any_user->ranges) {
+        limits += row(range.front().damping, 0.0);
+        for (const AnyUserPoint& point : range) limits += row(point.damping, point.stiffness);
+        limits += row(range.back().damping, 0.0) + "\n";
+      }
+    }
+    block(canvas, "limits", limits);
+    for (const ComparedApproximation& each : device_.approximations) {
+      block(canvas, formula_key(each.formula.formula), formula_rows(each.formula));
+    }
+  }
+
+  [[nodiscard]] std::string formula_rows(const RegionApproximation& formula) const {
+    const double end = formula.largest_damping.value_or(2.0 * device_.region.most_damped->damping);
+    const std::string first = row(0.0, formula.at_zero_damping);
+    return end > 0.0 ? first + row(end, formula.at_zero_damping + formula.slope * end) : first;
+  }
+
+  void draw_panel(Canvas& canvas, const Box& frame, const Extent& extent) const {
+    const DrawnUnit unit = drawn_unit(extent.stiffness);
+    const std::string columns = fmt::format("using 1:($2/{:g})", unit.size);
+    canvas.commands(fmt::format(
+        "set xrange [0:{:.9g}]\nset yrange [0:{:.9g}]\nset tics font ',12' scale 0.6,0.3\nset border lw 0.8\n"
+        "set grid xtics ytics lw 0.5 lc rgb '#c8c8c8' dt 1 front\n"
+        "set ylabel 'Stiffness K ({}{})' font ',12' offset 0.5,0\nset xtics autofreq\nset ytics autofreq",
+        extent.damping, extent.stiffness / unit.size, unit.prefix, units_.stiffness));
+    canvas.text(0.5 * (frame.left + frame.right), frame.bottom + 42.0,
+                fmt::format("Virtual damping B ({})", units_.damping), {Anchor::centre, 12.0});
+    std::string what;
+    if (!device_.region.components.empty()) {
+      what += fmt::format("$outlines {} with filledcurves closed fc rgb '{}' fs solid noborder notitle, ", columns,
+                          stable_colour);
+    }
+    if (device_.any_user && device_.any_user->stiffest) {
+      what += fmt::format(
+          "$limits {0} with filledcurves closed fc rgb '{1}' fs solid noborder notitle, $limits {0} with lines {2} "
+          "notitle, ",
+          columns, any_user_colour, gnuplot_line(any_user_style));
+    }
+    if (!device_.region.components.empty()) {
+      what += fmt::format("$edges {} with lines {} notitle, ", columns, gnuplot_line(boundary_style));
+    }
+    for (const ComparedApproximation& each : device_.approximations) {
+      const Formula formula = each.formula.formula;
+      const LineStyle style = style_of(formula);
+      what += each.formula.largest_damping == 0.0
+                  ? fmt::format("${} {} with points pt 6 ps 0.9 lw 1.6 lc rgb '{}' notitle, ", formula_key(formula),
+                                columns, style.colour)
+                  : fmt::format("${} {} with lines {} notitle, ", formula_key(formula), columns, gnuplot_line(style));
+    }
+    canvas.plot(frame, what + "NaN notitle");
+  }
+
+  const DeviceRegion& device_;
+  Units units_;
+  std::string title_;
+};
+
+}  // namespace
+
+std::string draw_region(const DeviceRegion& device, FigureFormat format) { return RegionFigure(device).draw(format); }
+
+}  // namespace zwidth::report

@@ -1,0 +1,165 @@
+#include "report/figure/simulation_figure.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <sstream>
+#include <vector>
+
+#include "report/text/explanation.hpp"
+#include "report/text/quantity.hpp"
+#include "report/text/text_table.hpp"
+
+namespace zwidth::report {
+namespace {
+
+constexpr double canvas_width = 900.0;
+constexpr Box positions{84.0, 876.0, 64.0, 284.0};
+constexpr Box forces{84.0, 876.0, 336.0, 516.0};
+constexpr double row_height = 20.0;
+constexpr double text_size = 12.0;
+constexpr double head_room = 0.06;  // of the axis
+constexpr std::string_view wall_colour = "#e8e8e8";
+/// Points drawn per curve: lowest and highest of each of so many stretches of time.
+constexpr std::size_t stretches = 1200;
+constexpr std::array<LineStyle, 2> styles = {LineStyle{"#0b4f9e", 1.6, "1"}, LineStyle{"#c2410c", 1.4, "(10,5)"}};
+
+struct Curve {
+  std::string name;
+  const std::vector<double>* values = nullptr;
+};
+
+struct Axis {
+  double low = 0.0;
+  double high = 0.0;
+};
+
+Axis axis_of(const std::vector<Curve>& curves) {
+  Axis axis{curves.front().values->front(), curves.front().values->front()};
+  for (const Curve& curve : curves) {
+    const auto [low, high] = std::minmax_element(curve.values->begin(), curve.values->end());
+    axis = {std::min(axis.low, *low), std::max(axis.high, *high)};
+  }
+  const double span = axis.high - axis.low;
+  const double margin = span > 0.0 ? head_room * span : std::max(std::abs(axis.high), 1e-9);
+  return {axis.low - margin, axis.high + margin};
+}
+
+/// Lowest and highest value of each stretch, in their order: no peak is lost.
+std::vector<std::size_t> drawn_points(const std::vector<double>& values) {
+  std::vector<std::size_t> points;
+  const std::size_t length = std::max<std::size_t>(1, values.size() / stretches);
+  for (std::size_t from = 0; from < values.size(); from += length) {
+    const auto begin = values.begin() + static_cast<std::ptrdiff_t>(from);
+    const auto end = values.begin() + static_cast<std::ptrdiff_t>(std::min(from + length, values.size()));
+    const auto [low, high] = std::minmax_element(begin, end);
+    const auto first = static_cast<std::size_t>(std::min(low, high) - values.begin());
+    const auto second = static_cast<std::size_t>(std::max(low, high) - values.begin());
+    points.push_back(first);
+    if (second != first) points.push_back(second);
+  }
+  return points;
+}
+
+/// What engineering prefix suits an axis: its factor and name.
+struct Prefix {
+  double factor = 1.0;
+  std::string_view name;
+};
+
+Prefix prefix_of(const Axis& axis) {
+  static constexpr std::array<Prefix, 4> prefixes = {Prefix{1.0, ""}, Prefix{1e3, "m"}, Prefix{1e6, "µ"},
+                                                     Prefix{1e9, "n"}};
+  const double largest = std::max(std::abs(axis.low), std::abs(axis.high));
+  for (const Prefix& each : prefixes) {
+    if (largest * each.factor >= 0.1) return each;
+  }
+  return prefixes.back();
+}
+
+void draw_legend(Canvas& canvas, const Box& frame, const std::vector<Curve>& curves) {
+  double left = frame.left;
+  const double y = frame.top - 14.0;
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    canvas.line(left, y, left + 36.0, y, styles[i]);
+    const std::string name = Canvas::fitted(curves[i].name, text_size, 300.0);
+    canvas.text(left + 42.0, y, name, {Anchor::left, text_size});
+    left += 42.0 + Canvas::text_width(name, text_size) + 28.0;
+  }
+}
+
+void draw_frame(Canvas& canvas, const Box& frame, const std::vector<Curve>& curves, const std::vector<double>& time,
+                std::string_view quantity_name, std::string_view unit) {
+  const Axis axis = axis_of(curves);
+  const Prefix prefix = prefix_of(axis);
+  std::string what;
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    const std::string name = fmt::format("${}{}", quantity_name, i);
+    canvas.commands(name + " << EOD");
+    std::string rows;
+    for (const std::size_t k : drawn_points(*curves[i].values)) {
+      rows += fmt::format("{:.9g} {:.9g}\n", time[k], prefix.factor * (*curves[i].values)[k]);
+    }
+    canvas.commands(rows + "EOD");
+    what += fmt::format("{} with lines {}, ", name, gnuplot_line(styles[i]));
+  }
+  draw_legend(canvas, frame, curves);
+  canvas.commands(
+      fmt::format("set xrange [{}:{}]\nset yrange [{}:{}]\nset ytics autofreq\nset ylabel '{} ({}{})' font ',12'",
+                  time.front(), std::max(time.back(), time.front() + 1e-12), prefix.factor * axis.low,
+                  prefix.factor * axis.high, quantity_name, prefix.name, unit));
+  canvas.plot(frame, what + "NaN notitle");
+}
+
+void shade_wall(Canvas& canvas, const SimulatedLoop& loop, const Axis& axis) {
+  const ControllerOptions& wall = loop.options.loop.controller;
+  if (wall.kind != ControllerOptions::Kind::wall || wall.position >= axis.high) return;
+  const double part = std::max(0.0, (wall.position - axis.low) / (axis.high - axis.low));
+  const double surface = positions.bottom - part * (positions.bottom - positions.top);
+  canvas.rectangle({positions.left, positions.right, positions.top, surface}, wall_colour);
+  canvas.text(positions.right - 6.0, positions.top - 14.0, "shaded: inside the wall",
+              {Anchor::right, text_size, "#555555"});
+}
+
+std::vector<Curve> position_curves(const SimulatedLoop& loop) {
+  const Device& device = loop.analysed.device;
+  const Trajectory& kept = loop.result.trajectory;
+  if (!device.has_bodies()) return {{"position", &kept.position[0]}};
+  const auto [sensed, held] = std::pair(device.loop().sensed, device.loop().held);
+  std::vector<Curve> curves{{device.bodies()[sensed].name + " (sensed)", &kept.position[sensed]}};
+  if (held != sensed) curves.push_back({device.bodies()[held].name + " (held by the user)", &kept.position[held]});
+  return curves;
+}
+
+}  // namespace
+
+std::string draw_simulation_figure(const SimulatedLoop& loop, FigureFormat format) {
+  const Trajectory& kept = loop.result.trajectory;
+  const Units units = units_of(loop.analysed.device.parameters().motion);
+  std::vector<std::string> lines;
+  std::istringstream sentence(wrap(verdict_sentence(loop), 115, 0));
+  for (std::string line; std::getline(sentence, line);) lines.push_back(line);
+  const double list_top = forces.bottom + 64.0;
+  Canvas canvas("Simulation", canvas_width, list_top + row_height * static_cast<double>(lines.size()));
+  canvas.text(positions.left, 18.0,
+              Canvas::fitted(display_name(loop.analysed.device), 16.0, positions.right - positions.left),
+              {Anchor::left, 16.0});
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    canvas.text(positions.left, list_top + row_height * static_cast<double>(i), lines[i], {Anchor::left, text_size});
+  }
+  canvas.commands(
+      "set tics font ',12' scale 0.6,0.3\nset border lw 0.8\n"
+      "set grid xtics ytics lw 0.5 lc rgb '#c8c8c8' dt 1 back");
+  const std::vector<Curve> moved = position_curves(loop);
+  shade_wall(canvas, loop, axis_of(moved));
+  draw_frame(canvas, positions, moved, kept.time, "Position", units.length);
+  std::vector<Curve> pushed{{"commanded force", &kept.command}};
+  if (loop.options.loop.user_force.kind != UserForce::Kind::none) pushed.push_back({"user's force", &kept.user_force});
+  canvas.text(0.5 * (forces.left + forces.right), forces.bottom + 40.0, "Time (s)", {Anchor::centre, text_size});
+  draw_frame(canvas, forces, pushed, kept.time, "Force", units.force);
+  return canvas.draw(format);
+}
+
+}  // namespace zwidth::report

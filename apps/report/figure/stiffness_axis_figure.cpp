@@ -1,0 +1,155 @@
+#include "report/figure/stiffness_axis_figure.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "report/text/quantity.hpp"
+
+namespace zwidth::report {
+namespace {
+
+constexpr double canvas_width = 900.0;
+constexpr Box bar_sides{40.0, 860.0, 0.0, 0.0};
+constexpr double bar_height = 40.0;
+constexpr double row_height = 20.0;
+constexpr double text_size = 12.0;
+constexpr double text_gap = 5.0;
+constexpr std::string_view stable_colour = "#bfe3c5";
+constexpr std::string_view unstable_colour = "#f6d5d0";
+constexpr LineStyle leader{"#555555", 0.8, "1"};
+constexpr LineStyle reference_leader{"#0b4f9e", 1.0, "(4,3)"};
+constexpr LineStyle critical_leader{"#b91c1c", 1.4, "1"};
+/// More crossovers than these stand without a number, as in the Bode figure.
+constexpr std::size_t most_numbered = 12;
+
+struct Label {
+  double stiffness = 0.0;
+  std::string text;
+  LineStyle style;
+  double x = 0.0;       ///< of the leader
+  std::size_t row = 0;  ///< from the bar upwards
+};
+
+std::vector<Label> labels_of(const AnalysedDevice& analysed) {
+  const Analysis& analysis = analysed.analysis;
+  const std::string_view unit = units_of(analysed.device.parameters().motion).stiffness;
+  const CriticalStiffness& critical = analysis.critical;
+  std::vector<Label> labels;
+  for (std::size_t i = 0; i < critical.crossovers.size(); ++i) {
+    const Crossover& crossover = critical.crossovers[i];
+    const std::string name = i < most_numbered ? std::to_string(i + 1) : "";
+    if (critical.limit && critical.limit->frequency == crossover.frequency) {
+      labels.push_back({crossover.stiffness,
+                        fmt::format("{}: critical, {}", name.empty() ? "K" : name, quantity(crossover.stiffness, unit)),
+                        critical_leader});
+    } else {
+      labels.push_back({crossover.stiffness, name, leader});
+    }
+  }
+  if (analysis.rigid && analysis.rigid->critical.status == StiffnessStatus::finite &&
+      analysed.device.bodies().size() > 1) {
+    const double stiffness = analysis.rigid->critical.stiffness;
+    labels.push_back({stiffness, "rigid model, " + quantity(stiffness, unit), reference_leader});
+  }
+  if (analysis.q_criterion && analysis.q_criterion->stiffness > 0.0) {
+    const double stiffness = analysis.q_criterion->stiffness;
+    labels.push_back({stiffness, "Q, " + quantity(stiffness, unit), reference_leader});
+  }
+  if (analysis.wall && analysis.wall->stiffness > 0.0) {
+    labels.push_back({analysis.wall->stiffness, "the wall, " + quantity(analysis.wall->stiffness, unit),
+                      LineStyle{"#15803d", 1.4, "1"}});
+  }
+  return labels;
+}
+
+struct Axis {
+  double low = 1.0;
+  double high = 1e6;
+  [[nodiscard]] double x(double stiffness) const {
+    const double part = std::log(stiffness / low) / std::log(high / low);
+    return bar_sides.left + std::clamp(part, 0.0, 1.0) * (bar_sides.right - bar_sides.left);
+  }
+};
+
+Axis axis_of(const std::vector<Label>& labels) {
+  if (labels.empty()) return {};
+  const auto [least, most] = std::minmax_element(
+      labels.begin(), labels.end(), [](const Label& a, const Label& b) { return a.stiffness < b.stiffness; });
+  return {std::pow(10.0, std::floor(std::log10(least->stiffness) - 0.7)),
+          std::pow(10.0, std::ceil(std::log10(most->stiffness) + 0.3))};
+}
+
+/// Each text stands left of its leader, like a flag, in the lowest row above every leader that it passes: so no leader
+/// crosses a text. Returns whether all texts keep inside the canvas.
+bool place(std::vector<Label>& labels, const Axis& axis) {
+  std::sort(labels.begin(), labels.end(), [](const Label& a, const Label& b) { return a.stiffness < b.stiffness; });
+  bool inside = true;
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    Label& label = labels[i];
+    label.x = axis.x(label.stiffness);
+    label.row = 0;
+    const double left = label.x - text_gap - Canvas::text_width(label.text, text_size);
+    for (std::size_t j = 0; j < i; ++j) {
+      if (labels[j].x > left - text_gap) label.row = std::max(label.row, labels[j].row + 1);
+    }
+    inside = inside && left > text_gap;
+  }
+  return inside;
+}
+
+/// Lowers the axis until the leftmost texts have room.
+Axis place_with_room(std::vector<Label>& labels) {
+  constexpr int most_decades = 4;
+  Axis axis = axis_of(labels);
+  for (int i = 0; i < most_decades && !place(labels, axis); ++i) axis.low /= 10.0;
+  return axis;
+}
+
+}  // namespace
+
+std::string draw_stiffness_axis(const AnalysedDevice& analysed, FigureFormat format) {
+  std::vector<Label> labels = labels_of(analysed);
+  const Axis axis = place_with_room(labels);
+  std::size_t rows = 0;
+  for (const Label& label : labels) rows = std::max(rows, label.row + 1);
+  const double bar_top = 48.0 + row_height * static_cast<double>(rows);
+  const Box bar{bar_sides.left, bar_sides.right, bar_top, bar_top + bar_height};
+  Canvas canvas("Stable wall stiffness", canvas_width, bar.bottom + 66.0);
+  canvas.text(bar.left, 16.0, "Wall stiffness K: where the sampled loop is stable", {Anchor::left, 15.0});
+
+  canvas.rectangle(bar, unstable_colour);
+  double unstable_from = bar.left;
+  const auto name_segment = [&](double left, double right, std::string_view name) {
+    if (right - left < Canvas::text_width(name, text_size) + 8.0) return;
+    canvas.text(0.5 * (left + right), 0.5 * (bar.top + bar.bottom), name, {Anchor::centre, text_size});
+  };
+  for (const StableInterval& interval : analysed.analysis.critical.stable_intervals) {
+    const double left = interval.lower > 0.0 ? axis.x(interval.lower) : bar.left;
+    const double right = interval.upper ? axis.x(*interval.upper) : bar.right;
+    canvas.rectangle({left, right, bar.top, bar.bottom}, stable_colour);
+    name_segment(unstable_from, left, "unstable");
+    name_segment(left, right, "stable");
+    unstable_from = right;
+  }
+  name_segment(unstable_from, bar.right, "unstable");
+
+  for (const Label& label : labels) {
+    const double text_y = bar.top - 16.0 - row_height * static_cast<double>(label.row);
+    canvas.line(label.x, text_y - 6.0, label.x, bar.top + 8.0, label.style);
+    canvas.text(label.x - text_gap, text_y, label.text, {Anchor::right, text_size, label.style.colour});
+  }
+  canvas.text(0.5 * (bar.left + bar.right), bar.bottom + 48.0,
+              fmt::format("K ({}), from 0 on the left", units_of(analysed.device.parameters().motion).stiffness),
+              {Anchor::centre, text_size});
+  canvas.commands(fmt::format(
+      "set logscale x\nset xrange [{}:{}]\nset yrange [0:1]\nunset ytics\nset xtics 10 nomirror out font ',12'\nset "
+      "format x '%.0s%c'\nset border lw 0.8",
+      axis.low, axis.high));
+  canvas.plot(bar, "NaN notitle");
+  return canvas.draw(format);
+}
+
+}  // namespace zwidth::report

@@ -1,0 +1,71 @@
+#include "report/page/html_page.hpp"
+
+#include <fmt/format.h>
+
+#include "report/text/markup.hpp"
+
+namespace zwidth::report {
+namespace {
+
+constexpr std::string_view style = R"(
+:root { color-scheme: light; }
+body { font: 16px/1.5 system-ui, -apple-system, "Segoe UI", Roboto, Helvetica, Arial, sans-serif; color: #1a1a1a;
+  background: #fff; max-width: 1000px; margin: 0 auto; padding: 1.5rem 1rem 3rem; overflow-wrap: break-word; }
+h1 { font-size: 1.7rem; line-height: 1.25; margin: 0 0 1rem; }
+h2 { font-size: 1.25rem; margin: 2rem 0 .5rem; }
+h3 { font-size: 1.05rem; margin: 1.5rem 0 .5rem; }
+p, ul { margin: .5rem 0; }
+.answer { border: 1px solid #d4d4d4; border-left: 6px solid #b91c1c; border-radius: 4px; padding: .8rem 1.2rem;
+  margin: 1rem 0; }
+.answer .value { font-size: 1.6rem; font-weight: 600; margin: 0; }
+.answer p { margin: .2rem 0; }
+.wide { overflow-x: auto; }
+table { border-collapse: collapse; margin: .6rem 0; font-size: .93rem; }
+th, td { padding: .3rem .7rem; border-bottom: 1px solid #ddd; text-align: left; vertical-align: top; }
+th { border-bottom: 2px solid #888; font-weight: 600; }
+.n { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
+th.n { white-space: normal; }
+.reasons td:last-child { min-width: 17rem; }
+figure { margin: 1.2rem 0; }
+figure svg { width: 100%; height: auto; display: block; }
+figcaption { font-size: .9rem; color: #444; margin-top: .3rem; }
+.device { border-top: 1px solid #bbb; margin-top: 2.5rem; padding-top: 1rem; }
+footer { margin-top: 2.5rem; padding-top: .6rem; border-top: 1px solid #ddd; font-size: .85rem; color: #555; }
+@media print { body { max-width: none; padding: 0; font-size: 11pt; } figure, table, .answer { break-inside: avoid; }
+  h2, h3 { break-after: avoid; } .device { break-before: page; border: 0; } .wide { overflow: visible; } }
+@page { margin: 18mm; }
+)";
+
+}  // namespace
+
+std::string html_page(std::string_view title, std::string_view body) {
+  return fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
+      "content=\"width=device-width, initial-scale=1\">\n<title>{}</title>\n<style>{}</style>\n</head>\n<body>\n{}\n"
+      "</body>\n</html>\n",
+      escape_markup(title), style, body);
+}
+
+std::string html_table(const TextTable& table) {
+  std::string text = "<div class=\"wide\"><table>\n";
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    const std::string_view cell = i == 0 ? "th" : "td";
+    text += i == 0 ? "<thead><tr>" : "<tr>";
+    for (std::size_t j = 0; j < table.rows[i].size(); ++j) {
+      const std::string_view alignment = table.alignment.at(j) == TextTable::Align::right ? " class=\"n\"" : "";
+      text += fmt::format("<{0}{1}>{2}</{0}>", cell, alignment, escape_markup(table.rows[i][j]));
+    }
+    text += i == 0 ? "</tr></thead>\n<tbody>\n" : "</tr>\n";
+  }
+  return text + "</tbody></table></div>\n";
+}
+
+std::string element(std::string_view tag, std::string_view text) {
+  return fmt::format("<{0}>{1}</{0}>\n", tag, escape_markup(text));
+}
+
+std::string html_figure(std::string_view svg, std::string_view name, std::string_view caption) {
+  return fmt::format("<figure>{}{}</figure>\n", inline_svg(svg, name), element("figcaption", caption));
+}
+
+}  // namespace zwidth::report

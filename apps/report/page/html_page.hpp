@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "report/text/text_table.hpp"
+
+namespace zwidth::report {
+
+/// A whole HTML file: self-contained, light, and made to print. `body` is markup; `title` is text.
+[[nodiscard]] std::string html_page(std::string_view title, std::string_view body);
+
+/// The table as HTML, its texts escaped.
+[[nodiscard]] std::string html_table(const TextTable& table);
+
+/// "<TAG>text</TAG>", with the text escaped.
+[[nodiscard]] std::string element(std::string_view tag, std::string_view text);
+
+/// A figure element around an SVG file, ids kept apart by `name`; `caption` is text.
+[[nodiscard]] std::string html_figure(std::string_view svg, std::string_view name, std::string_view caption);
+
+}  // namespace zwidth::report

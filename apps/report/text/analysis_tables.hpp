@@ -1,0 +1,21 @@
+#pragma once
+
+#include <span>
+
+#include "report/analysed_device.hpp"
+#include "report/text/text_table.hpp"
+
+namespace zwidth::report {
+
+// The tables of an answer, shared by the text and the HTML report. Only headings where there is nothing to list.
+
+/// Every phase crossover, by rising frequency.
+[[nodiscard]] TextTable crossover_table(const AnalysedDevice& analysed);
+
+/// The rigid body where springs tie it to ground, and the vibration modes.
+[[nodiscard]] TextTable mode_table(const AnalysedDevice& analysed);
+
+/// One row per device; names are cut to `name_width` characters.
+[[nodiscard]] TextTable comparison_table(std::span<const AnalysedDevice> devices, std::size_t name_width);
+
+}  // namespace zwidth::report

@@ -1,0 +1,155 @@
+#include "report/text/design_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "report/text/explanation.hpp"
+#include "report/text/quantity.hpp"
+#include "report/text/text_table.hpp"
+
+namespace zwidth::report {
+namespace {
+
+using Align = TextTable::Align;
+
+constexpr std::size_t width = 100;
+constexpr double change = 10.0;      // %
+constexpr double negligible = 5e-6;  // relative slope: shown as 0.0000 %
+constexpr double nothing = 1e-14;    // of K_CR per unit: rounding
+constexpr std::size_t key_width = 40;
+
+std::string labelled(std::string_view label, std::string_view text, std::size_t indent = 22) {
+  return wrap(text, width, indent).replace(0, label.size(), label);
+}
+
+class Writer {
+ public:
+  explicit Writer(const DesignedDevice& designed)
+      : designed_(designed), device_(designed.analysed.device), motion_(device_.parameters().motion) {}
+
+  [[nodiscard]] std::string text() const {
+    const CriticalStiffness& critical = designed_.analysed.analysis.critical;
+    std::string text = shortened(display_name(device_), width) + "\n" +
+                       labelled("  critical stiffness", critical_stiffness_text(critical, motion_));
+    if (const auto limit = what_limits(designed_.analysed)) text += labelled("  limited by", *limit);
+    if (const auto limit = any_user_note(designed_.analysed)) text += labelled("  any passive user", *limit);
+    text += "\n";
+    if (designed_.sensitivities.empty() && designed_.any_user.empty()) {
+      return text + "No sensitivities: there is no limit that a parameter could move.\n";
+    }
+    text += relative_table();
+    text += unit_table();
+    return text + switch_notes() + "\n" +
+           wrap(
+               "Slopes at the device as it is: a change of 10 % follows them nearly, a larger one less and less. What "
+               "it "
+               "really gives: zwidth design FILE --sweep KEY=FIRST:LAST:COUNT",
+               width, 0);
+  }
+
+ private:
+  static std::string percent(const Sensitivity* sensitivity) {
+    if (sensitivity == nullptr || !sensitivity->relative) return "-";
+    const double value = change * *sensitivity->relative;
+    return std::abs(*sensitivity->relative) < negligible ? "0 %" : fmt::format("{:+.3g} %", value);
+  }
+
+  /// Keys of both lists, in the order of the file.
+  [[nodiscard]] std::vector<const Sensitivity*> all() const {
+    std::vector<const Sensitivity*> result;
+    for (const Sensitivity& each : designed_.sensitivities) result.push_back(&each);
+    for (const Sensitivity& each : designed_.any_user) {
+      if (find_sensitivity(designed_.sensitivities, each.key) == nullptr) result.push_back(&each);
+    }
+    return result;
+  }
+
+  [[nodiscard]] std::string relative_table() const {
+    std::vector<const Sensitivity*> rows = all();
+    std::erase_if(rows, [](const Sensitivity* each) { return !each->relative; });
+    std::ranges::stable_sort(rows, [](const Sensitivity* a, const Sensitivity* b) {
+      return std::abs(*a->relative) > std::abs(*b->relative);
+    });
+    TextTable table{{Align::left, Align::right, Align::right, Align::right},
+                    {{fmt::format("+{:.0f} % of", change), "now", "critical stiffness", "any passive user"}}};
+    for (const Sensitivity* each : rows) {
+      table.rows.push_back({shortened(each->key, key_width), parameter_text(each->key, each->value, motion_),
+                            percent(find_sensitivity(designed_.sensitivities, each->key)),
+                            percent(find_sensitivity(designed_.any_user, each->key))});
+    }
+    if (designed_.any_user.empty()) drop_last_column(table);
+    return fmt::format("What +{:.0f} % of each number gives, the strongest first\n", change) + layout(table);
+  }
+
+  [[nodiscard]] std::string unit_table() const {
+    const std::string_view stiffness = units_of(motion_).stiffness;
+    TextTable table{{Align::left, Align::right, Align::right, Align::left},
+                    {{"now 0; its first", "critical stiffness", "any passive user", ""}}};
+    const auto cell = [&](const Sensitivity* each) {
+      if (each == nullptr) return std::string("-");
+      return std::abs(each->slope) <= nothing * designed_.analysed.analysis.critical.stiffness
+                 ? "0"
+                 : fmt::format("{:+.3g}", each->slope);
+    };
+    for (const Sensitivity* each : all()) {
+      if (each->relative) continue;
+      const std::string unit = parameter_unit(each->key, motion_);
+      table.rows.push_back({shortened(each->key, key_width), cell(find_sensitivity(designed_.sensitivities, each->key)),
+                            cell(find_sensitivity(designed_.any_user, each->key)),
+                            fmt::format("{} per {}", stiffness, unit.empty() ? "1" : unit)});
+    }
+    if (table.rows.size() < 2) return {};
+    return "\nNumbers that are 0 now, per unit\n" + layout(table);
+  }
+
+  static void drop_last_column(TextTable& table) {
+    table.alignment.pop_back();
+    for (auto& row : table.rows) row.pop_back();
+  }
+
+  [[nodiscard]] std::string mechanism(const Crossover& crossover) const {
+    const std::string name = crossover.limited_by.kind == Mechanism::Kind::rigid_body
+                                 ? std::string("the rigid body")
+                                 : fmt::format("vibration mode {}", crossover.limited_by.mode);
+    return fmt::format("{} at {}", name, quantity(hertz(crossover.frequency), "Hz"));
+  }
+
+  [[nodiscard]] std::string switch_note(const BranchSwitch& each) const {
+    const Sensitivity* sensitivity = find_sensitivity(designed_.sensitivities, each.key);
+    const bool grows = sensitivity == nullptr || each.value > sensitivity->value;
+    std::string note =
+        fmt::format("{} {} {}: ", each.key, grows ? "above" : "below", parameter_text(each.key, each.value, motion_));
+    if (!each.beyond) {
+      return note + (each.stiffness_beyond > 0.0 ? "every wall is stable" : "no wall is stable from K = 0");
+    }
+    note += fmt::format("limited by {}, before by {}; ", mechanism(*each.beyond), mechanism(each.before));
+    const std::string_view unit = units_of(motion_).stiffness;
+    const bool jumps = std::abs(each.stiffness_beyond - each.stiffness) > 1e-4 * each.stiffness;
+    return note + (jumps ? fmt::format("K_CR jumps from {} to {}", quantity(each.stiffness, unit),
+                                       quantity(each.stiffness_beyond, unit))
+                         : fmt::format("K_CR is {} there", quantity(each.stiffness, unit)));
+  }
+
+  [[nodiscard]] std::string switch_notes() const {
+    if (!designed_.branch_switches) {
+      return fmt::format("\nWhere another crossover takes over is not searched with more than {} bodies\n",
+                         most_bodies_for_branch_switches);
+    }
+    if (designed_.branch_switches->empty()) return {};
+    std::string text = "\nWhere another crossover takes over, and the slope above ends\n";
+    for (const BranchSwitch& each : *designed_.branch_switches) text += labelled("  - ", switch_note(each), 4);
+    return text;
+  }
+
+  const DesignedDevice& designed_;
+  const Device& device_;
+  Motion motion_;
+};
+
+}  // namespace
+
+std::string design_text(const DesignedDevice& designed) { return Writer(designed).text(); }
+
+}  // namespace zwidth::report

@@ -1,0 +1,397 @@
+#include "report/text/explanation.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "report/text/quantity.hpp"
+#include "zwidth/sampling/filter_section.hpp"
+
+namespace zwidth::report {
+namespace {
+
+/// Above this ratio Q is far from the rigid critical stiffness; below, the two are similar (6 dB).
+constexpr double q_similar_ratio = 2.0;
+
+/// Growth in percent per sample that cannot be told from none.
+constexpr double growth_of_rounding = 1e-9;
+
+const DeviceParameters& parameters_of(const AnalysedDevice& analysed) { return analysed.device.parameters(); }
+
+Units device_units(const AnalysedDevice& analysed) { return units_of(parameters_of(analysed).motion); }
+
+std::string stiffness_text(const AnalysedDevice& analysed, double stiffness) {
+  return quantity(stiffness, device_units(analysed).stiffness);
+}
+
+std::string interval_text(const AnalysedDevice& analysed, const StableInterval& interval) {
+  const std::string lower = stiffness_text(analysed, interval.lower);
+  if (!interval.upper) return "above " + lower;
+  return fmt::format("from {} to {}", lower, stiffness_text(analysed, *interval.upper));
+}
+
+/// The intervals that do not begin at K = 0.
+std::vector<std::string> higher_intervals(const AnalysedDevice& analysed) {
+  std::vector<std::string> texts;
+  for (const StableInterval& interval : analysed.analysis.critical.stable_intervals) {
+    if (interval.lower > 0.0) texts.push_back(interval_text(analysed, interval));
+  }
+  return texts;
+}
+
+std::string virtual_damper_text(const AnalysedDevice& analysed) {
+  const Wall& wall = parameters_of(analysed).wall;
+  if (wall.damping <= 0.0) return {};
+  std::string text = fmt::format("the virtual damper of {} {}", number(wall.damping), device_units(analysed).damping);
+  if (wall.velocity_filter_hz > 0.0) {
+    text += fmt::format(" (velocity low-pass at {})", quantity(wall.velocity_filter_hz, "Hz"));
+  }
+  return text;
+}
+
+/// Neither damper nor spring ties any body to ground.
+bool is_undamped_against_ground(const DeviceParameters& device) {
+  const auto loose = [](const Body& body) { return body.damping == 0.0 && body.stiffness == 0.0; };
+  return !device.bodies.empty() && device.user.damping == 0.0 && device.wall.damping == 0.0 &&
+         std::all_of(device.bodies.begin(), device.bodies.end(), loose);
+}
+
+std::string percent(double fraction) { return number(std::round(1000.0 * fraction) / 10.0) + " %"; }
+
+std::string other_intervals(const AnalysedDevice& analysed) {
+  const auto higher = higher_intervals(analysed);
+  if (higher.empty()) return {};
+  return fmt::format(" Stiffnesses {} are stable too, with an unstable range below.", fmt::join(higher, ", and "));
+}
+
+/// What the device does just above a crossover.
+std::string onset_text(const AnalysedDevice& analysed, double frequency) {
+  if (frequency == 0.0) return "drifts away without oscillating: " + crossover_frequency_text(frequency);
+  const double nyquist = std::numbers::pi / parameters_of(analysed).loop.sampling_period;
+  return fmt::format("oscillates by itself at about {}{}", quantity(hertz(frequency), "Hz"),
+                     frequency < nyquist ? "" : ", the Nyquist frequency: the force alternates at every sample");
+}
+
+/// Degrees by which the filters of the wall turn the phase back at w; below 0 where they lead.
+double lag_of_filters(const DeviceParameters& device, double w) {
+  double phase = 0.0;
+  for (const WallFilter& filter : device.wall.filters) {
+    phase += std::arg(response(filter_section(filter, device.loop.sampling_period), w * device.loop.sampling_period));
+  }
+  return -phase * 180.0 / std::numbers::pi;
+}
+
+}  // namespace
+
+std::string display_name(const Device& device) { return device.name().empty() ? "(unnamed device)" : device.name(); }
+
+std::string mechanism_name(const Analysis& analysis, const Mechanism& mechanism) {
+  if (mechanism.kind == Mechanism::Kind::rigid_body) {
+    if (!analysis.suspended_rigid_body) return "the rigid body";
+    return fmt::format("the rigid body on its springs ({})",
+                       quantity(hertz(analysis.suspended_rigid_body->frequency), "Hz"));
+  }
+  const auto index = static_cast<std::size_t>(mechanism.mode) - 1;
+  if (index >= analysis.modes.size()) return fmt::format("vibration mode {}", mechanism.mode);
+  const Mode& mode = analysis.modes[index];
+  return fmt::format("vibration mode {} ({}, damping ratio {})", mechanism.mode, quantity(hertz(mode.frequency), "Hz"),
+                     number(mode.damping_ratio));
+}
+
+std::optional<std::string> what_limits(const AnalysedDevice& analysed) {
+  const auto& limit = analysed.analysis.critical.limit;
+  if (!limit) return std::nullopt;
+  if (limit->frequency == 0.0) {
+    return mechanism_name(analysed.analysis, limit->limited_by) +
+           ": a constant force moves the sensed position the other way, and a stiffer wall overcomes what holds it";
+  }
+  const DeviceParameters& device = parameters_of(analysed);
+  std::vector<std::string> causes = {
+      fmt::format("the sampling delay of T/2 = {}", quantity(device.loop.sampling_period / 2.0, "s"))};
+  if (device.loop.delay > 0.0) causes.push_back(fmt::format("the added delay of {}", quantity(device.loop.delay, "s")));
+  if (device.actuator.time_constant > 0.0) {
+    causes.push_back(fmt::format("the actuator's lag of {}", quantity(device.actuator.time_constant, "s")));
+  }
+  if (const double lag = lag_of_filters(device, limit->frequency); lag > 0.0) {
+    causes.push_back(fmt::format("the wall's filters, {:.3g}° behind there", lag));
+  }
+  const std::string last = causes.back();
+  causes.pop_back();
+  causes.insert(causes.begin(), mechanism_name(analysed.analysis, limit->limited_by));
+  return fmt::format("{} and {}", fmt::join(causes, ", "), last);
+}
+
+std::string critical_stiffness_text(const CriticalStiffness& critical, Motion motion) {
+  switch (critical.status) {
+    case StiffnessStatus::finite: {
+      const auto unit = units_of(motion).stiffness;
+      return fmt::format("{} ({:.2f} dB re 1 {})", quantity(critical.stiffness, unit), decibels(critical.stiffness),
+                         unit);
+    }
+    case StiffnessStatus::none_stable:
+      return "none: no wall is stable, however soft";
+    case StiffnessStatus::unbounded:
+      break;
+  }
+  return "unbounded: every wall is stable";
+}
+
+std::optional<std::string> interval_note(const AnalysedDevice& analysed) {
+  const auto& interval = analysed.analysis.interval;
+  if (!interval) return std::nullopt;
+  const std::string_view unit = units_of(analysed.device.parameters().motion).stiffness;
+  const auto end = [&](double stiffness) {
+    return std::isfinite(stiffness) ? quantity(stiffness, unit) : std::string("unbounded");
+  };
+  std::string note = fmt::format("{} to {}, from the uncertainty of the parameters in the file alone",
+                                 end(interval->lower), end(interval->upper));
+  if (interval->other_mechanism > 0.0) {
+    note += fmt::format("; in {:.2g} % of the devices that it allows another mechanism limits",
+                        100.0 * interval->other_mechanism);
+  }
+  const auto& uncertainty = parameters_of(analysed).uncertainty;
+  return uncertainty && !uncertainty->warning.empty() ? note + ". NOT TO BE TRUSTED: " + uncertainty->warning : note;
+}
+
+std::optional<std::string> any_user_note(const AnalysedDevice& analysed) {
+  if (!analysed.any_user) {
+    if (parameters_of(analysed).bodies.size() <= most_bodies_for_any_user) return std::nullopt;
+    return fmt::format("not computed above {} bodies", most_bodies_for_any_user);
+  }
+  const AnyUserLimit& limit = *analysed.any_user;
+  if (limit.stiffness == 0.0) return "none: some passive user destabilises every wall";
+  if (!std::isfinite(limit.stiffness)) return "unbounded: no passive user destabilises a wall";
+  const std::string stiffness = quantity(limit.stiffness, device_units(analysed).stiffness);
+  if (limit.frequency == 0.0) return stiffness + ", approached by ever heavier users";
+  return fmt::format("{}, worst at {}", stiffness, quantity(hertz(limit.frequency), "Hz"));
+}
+
+std::optional<std::string> worst_user_note(const AnalysedDevice& analysed) {
+  if (!analysed.worst_user) return std::nullopt;
+  const UserNetwork& user = analysed.worst_user->user;
+  const Units units = device_units(analysed);
+  std::vector<std::string> parts;
+  if (user.mass > 0.0) parts.push_back(fmt::format("a mass of {} {}", number(user.mass), units.mass));
+  if (user.stiffness > 0.0) parts.push_back("a spring of " + quantity(user.stiffness, units.stiffness));
+  constexpr std::size_t most_named = 3;
+  if (user.absorbers.size() > most_named) {
+    parts.push_back(fmt::format("{} bodies on springs (--json lists them)", user.absorbers.size()));
+  } else {
+    for (const auto& [mass, stiffness] : user.absorbers) {
+      parts.push_back(
+          fmt::format("{} {} on a spring of {}", number(mass), units.mass, quantity(stiffness, units.stiffness)));
+    }
+  }
+  if (parts.empty()) parts.emplace_back("nobody");
+  const double above = analysed.worst_user->critical_stiffness / analysed.any_user->stiffness - 1.0;
+  return fmt::format("{}: {}, {} % above that limit", fmt::join(parts, ", "),
+                     quantity(analysed.worst_user->critical_stiffness, units.stiffness),
+                     number(100.0 * std::max(above, 0.0)));
+}
+
+std::optional<std::string> user_family_note(const AnalysedDevice& analysed) {
+  if (!analysed.user_family) return std::nullopt;
+  const auto& [family, worst, free] = *analysed.user_family;
+  const Units units = device_units(analysed);
+  const auto described = [&units](const auto& user, const auto& text) {
+    return fmt::format("mass {} {}, damping {} {}, stiffness {} {}", text(user.mass), units.mass, text(user.damping),
+                       units.damping, text(user.stiffness), units.stiffness);
+  };
+  const std::string asked =
+      "; asked for: " + described(family, [](const ValueRange& range) {
+        return number(range.least) + (range.least < range.greatest ? " to " + number(range.greatest) : "");
+      });
+  if (std::isinf(worst.critical_stiffness)) {
+    return "unbounded: every wall is stable with each of them that was tried" + asked;
+  }
+  const std::string user = described(worst.user, number);
+  if (worst.critical_stiffness == 0.0) return "none: no wall is stable with " + user + asked;
+  const std::string nobody = free.status == StiffnessStatus::none_stable ? "none"
+                             : free.status == StiffnessStatus::unbounded ? "unbounded"
+                                                                         : quantity(free.stiffness, units.stiffness);
+  return fmt::format("{}, least found, with {} (nobody: {}){}", quantity(worst.critical_stiffness, units.stiffness),
+                     user, nobody, asked);
+}
+
+std::string meaning(const AnalysedDevice& analysed) {
+  const CriticalStiffness& critical = analysed.analysis.critical;
+  const std::string damper = virtual_damper_text(analysed);
+  const std::string condition = damper.empty() ? "" : fmt::format("With {} closed, ", damper);
+  if (critical.status == StiffnessStatus::unbounded) {
+    return condition + (condition.empty() ? "No" : "no") +
+           " wall stiffness makes the loop unstable; it has no phase crossover up to the Nyquist frequency. No real "
+           "device does this: check the file for something left out.";
+  }
+  if (critical.status == StiffnessStatus::none_stable || !critical.limit) {
+    std::string text =
+        condition + (condition.empty() ? "The" : "the") + " loop is unstable for an arbitrarily small wall stiffness.";
+    if (is_undamped_against_ground(parameters_of(analysed))) {
+      text +=
+          " Nothing damps the device against ground, so the delay of sampling alone drives it: give the bodies "
+          "their damping, or the wall a virtual damper.";
+    }
+    return text + other_intervals(analysed);
+  }
+  return fmt::format("{}{} wall softer than {} is stable. Just above, the device {}.", condition,
+                     condition.empty() ? "Every" : "every", stiffness_text(analysed, critical.stiffness),
+                     onset_text(analysed, critical.limit->frequency)) +
+         other_intervals(analysed);
+}
+
+std::optional<std::string> rigid_model_note(const AnalysedDevice& analysed) {
+  const auto& rigid = analysed.analysis.rigid;
+  if (!rigid || analysed.device.bodies().size() < 2) return std::nullopt;
+  const Units units = device_units(analysed);
+  const std::string ground =
+      rigid->stiffness > 0.0 ? fmt::format(", {} to ground", quantity(rigid->stiffness, units.stiffness)) : "";
+  const std::string model = fmt::format("With rigid links ({} {}, {} {}{}) the critical stiffness would be ",
+                                        number(rigid->mass), units.mass, number(rigid->damping), units.damping, ground);
+  const CriticalStiffness& exact = analysed.analysis.critical;
+  const double rigid_value = rigid->critical.stiffness;
+  if (rigid->critical.status != StiffnessStatus::finite || exact.status != StiffnessStatus::finite) {
+    const bool unsafe = rigid_value > exact.stiffness;
+    const std::string value = rigid->critical.status == StiffnessStatus::finite ? stiffness_text(analysed, rigid_value)
+                              : rigid_value == 0.0                              ? "zero"
+                                                                                : "unbounded";
+    return fmt::format("{}{}{}.", model, value, unsafe ? ": UNSAFE, the links make it lower" : "");
+  }
+  const double excess = rigid_value / exact.stiffness - 1.0;
+  const std::string off = fmt::format("{}{} ({:+.2f} dB), ", model, stiffness_text(analysed, rigid_value),
+                                      decibels(rigid_value / exact.stiffness));
+  if (std::abs(excess) < 5e-4) return off + "the same within 0.05 %.";
+  if (excess < 0.0) return off + percent(-excess) + " too low: the safe side, but stiffness is given away.";
+  return off + percent(excess) + " too high: UNSAFE, a wall designed with the rigid model can oscillate.";
+}
+
+std::optional<std::string> q_criterion_note(const AnalysedDevice& analysed) {
+  const auto& criterion = analysed.analysis.q_criterion;
+  if (!criterion || !(criterion->stiffness > 0.0)) return std::nullopt;
+  const auto unit = device_units(analysed).stiffness;
+  std::string text = fmt::format(
+      "Q criterion (an approximation; the crossovers decide): Q = {} ({:.2f} dB re 1 {}), "
+      "about the least stiffness at which the resonance can go unstable, over all delays. ",
+      quantity(criterion->stiffness, unit), decibels(criterion->stiffness), unit);
+  if (parameters_of(analysed).wall.damping > 0.0) text += "Q is of the device without the virtual damper. ";
+  const Loop& loop = parameters_of(analysed).loop;
+  if (loop.sensed != loop.actuated) {
+    return text + "It says nothing about this loop: it is meant for position sensed at the actuated body.";
+  }
+  if (parameters_of(analysed).wall.damping > 0.0) {
+    return text + "It is not compared with the rigid critical stiffness, which is with the damper.";
+  }
+  const auto& rigid = analysed.analysis.rigid;
+  if (!criterion->mode_matters || !rigid) {
+    return text + "The device with rigid links has no finite critical stiffness to compare it with.";
+  }
+  const std::string rigid_value = stiffness_text(analysed, rigid->critical.stiffness);
+  if (*criterion->mode_matters) {
+    return text +
+           fmt::format("It is not above the rigid critical stiffness of {}: the vibration mode matters.", rigid_value);
+  }
+  if (criterion->stiffness < q_similar_ratio * rigid->critical.stiffness) {
+    return text + fmt::format(
+                      "It is above the rigid critical stiffness of {}, but similar: the rigid body limits, the "
+                      "mode shifts the limit.",
+                      rigid_value);
+  }
+  return text +
+         fmt::format("It is far above the rigid critical stiffness of {}: the mode hardly matters.", rigid_value);
+}
+
+std::string wall_verdict(const Analysis& analysis) {
+  if (!analysis.wall) return "-";
+  return analysis.wall->stable ? "stable" : "UNSTABLE";
+}
+
+std::optional<std::string> wall_note(const AnalysedDevice& analysed) {
+  const auto& wall = analysed.analysis.wall;
+  if (!wall) return std::nullopt;
+  const Units units = device_units(analysed);
+  const CriticalStiffness& critical = analysed.analysis.critical;
+  const std::string share =
+      critical.status == StiffnessStatus::finite
+          ? fmt::format(" ({} of the critical stiffness)", percent(wall->stiffness / critical.stiffness))
+          : "";
+  const std::string damper = wall->damping > 0.0 ? fmt::format(" and {} {}", number(wall->damping), units.damping) : "";
+  const std::string text = fmt::format("The wall of {}{}{} is {}", quantity(wall->stiffness, units.stiffness), damper,
+                                       share, wall_verdict(analysed.analysis));
+  const double growth = 100.0 * (wall->spectral_radius - 1.0);
+  if (!wall->stable && growth < growth_of_rounding) {
+    return text + ", just: what is set in motion neither grows nor comes to rest.";
+  }
+  if (!wall->stable) return fmt::format("{}: an oscillation grows by {} % per sample.", text, number(growth));
+  return fmt::format("{}: what oscillates longest decays by {} % per sample.", text, number(-growth));
+}
+
+std::vector<std::string> wall_margin_notes(const Analysis& analysis) {
+  const auto& wall = analysis.wall;
+  if (!wall || !wall->stable) return {};
+  std::vector<std::string> margins;
+  if (wall->gain_margin) {
+    margins.push_back(fmt::format("gain margin {:.2f} dB: unstable when {} {} times", decibels(*wall->gain_margin),
+                                  wall->damping > 0.0 ? "stiffness and damping grow" : "the stiffness grows",
+                                  number(*wall->gain_margin)));
+  } else {
+    margins.emplace_back("gain margin without limit: no larger gain destabilises it");
+  }
+  if (wall->lower_gain_margin) {
+    margins.push_back(fmt::format(
+        "lower gain margin {:.2f} dB: unstable when {} scaled down to {} times", decibels(*wall->lower_gain_margin),
+        wall->damping > 0.0 ? "both are" : "the stiffness is", number(*wall->lower_gain_margin)));
+  }
+  if (wall->phase_margin) {
+    margins.push_back(fmt::format("phase margin {} rad ({}°)", number(*wall->phase_margin),
+                                  number(*wall->phase_margin * 180.0 / std::numbers::pi)));
+  }
+  if (wall->delay_margin) {
+    margins.push_back(fmt::format(
+        "delay margin about {} (exact for whole samples of delay; for fractions off by some per mille, near "
+        "the Nyquist frequency by some per cent)",
+        quantity(*wall->delay_margin, "s")));
+  }
+  return margins;
+}
+
+std::vector<std::string> caveats(const AnalysedDevice& analysed) {
+  const DeviceParameters& device = parameters_of(analysed);
+  const Units units = device_units(analysed);
+  std::vector<std::string> texts;
+  const Operator& user = device.user;
+  const bool has_limit =
+      analysed.any_user && analysed.any_user->stiffness > 0.0 && std::isfinite(analysed.any_user->stiffness);
+  const std::string held = device.bodies.empty() ? "" : device.bodies[device.loop.held].name;
+  if (user.mass > 0.0 || user.damping > 0.0 || user.stiffness > 0.0) {
+    texts.push_back(fmt::format("One user is included, at {}: {} {}, {} {}, {}. Another grasp gives another answer.",
+                                held, number(user.mass), units.mass, number(user.damping), units.damping,
+                                quantity(user.stiffness, units.stiffness)));
+  } else if (device.bodies.empty()) {
+    texts.emplace_back("The transfer function is taken as it is: a user who is not in it is left out.");
+  } else if (device.bodies.size() == 1) {
+    texts.emplace_back(std::string("Nobody holds the device for the critical stiffness.") +
+                       (has_limit ? " A wall below the limit for any passive user is stable in every hand." : ""));
+  } else {
+    texts.emplace_back(std::string("Nobody holds the device for the critical stiffness. A flexible device that is "
+                                   "stable alone can be made unstable by a user's grasp") +
+                       (has_limit ? ": the limit for any passive user allows for all of them." : "."));
+  }
+  std::vector<std::string> left_out;
+  const bool coulomb =
+      std::any_of(device.bodies.begin(), device.bodies.end(), [](const Body& body) { return body.coulomb > 0.0; });
+  if (coulomb) left_out.emplace_back("the Coulomb friction in the file");
+  if (device.sensor.resolution > 0.0) {
+    left_out.push_back(fmt::format("the encoder step of {}", quantity(device.sensor.resolution, units.length)));
+  }
+  if (device.actuator.force_limit) {
+    left_out.push_back(fmt::format("the force limit of {}", quantity(*device.actuator.force_limit, units.force)));
+  }
+  texts.push_back(left_out.empty() ? "The analysis is linear: friction, encoder steps and force limits are left out."
+                                   : fmt::format("The analysis is linear: {} {} left out.",
+                                                 fmt::join(left_out, " and "), left_out.size() == 1 ? "is" : "are"));
+  return texts;
+}
+
+}  // namespace zwidth::report

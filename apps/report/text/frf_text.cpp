@@ -1,0 +1,97 @@
+#include "report/text/frf_text.hpp"
+
+#include <fmt/format.h>
+
+#include "report/text/quantity.hpp"
+#include "report/text/remark_line.hpp"
+#include "report/text/text_table.hpp"
+
+namespace zwidth::report {
+namespace {
+
+constexpr std::size_t width = 100;
+constexpr std::size_t indent = 22;
+
+std::string labelled(std::string_view label, std::string_view text) {
+  return wrap(text, width, indent).replace(0, label.size(), label);
+}
+
+std::string between(const Interval& interval, const std::string& unit) {
+  return fmt::format("95 % between {} and {}", quantity(interval.lower, unit), quantity(interval.upper, unit));
+}
+
+std::string in_hertz(const Interval& interval) {
+  return fmt::format("{} to {} Hz", number(hertz(interval.lower)), number(hertz(interval.upper)));
+}
+
+std::string found(const MeasuredStiffness& stiffness, const std::string& unit) {
+  const MeasuredCrossover& limit = *stiffness.limit;
+  return labelled("  critical stiffness",
+                  fmt::format("{} ({:.2f} dB re 1 {}), {}", quantity(limit.stiffness, unit), decibels(limit.stiffness),
+                              unit, between(*stiffness_interval(stiffness), unit))) +
+         labelled("  oscillates at", fmt::format("{}, 95 %: {}", crossover_frequency_text(limit.frequency),
+                                                 in_hertz(limit.frequency_interval)));
+}
+
+std::string answer(const MeasuredFrf& frf) {
+  const std::string unit = frf.units.stiffness();
+  if (!frf.stiffness) return labelled("  critical stiffness", "not to be had from this response");
+  const MeasuredStiffness& stiffness = *frf.stiffness;
+  switch (stiffness.status) {
+    case MeasuredStiffnessStatus::found:
+      return found(stiffness, unit);
+    case MeasuredStiffnessStatus::not_in_band:
+      return labelled("  critical stiffness", "unknown: the crossover that limits is not in the measured band");
+    case MeasuredStiffnessStatus::undetermined:
+      break;
+  }
+  return labelled("  critical stiffness", stiffness.limit
+                                              ? fmt::format("unknown, at most {}: noise may hide a softer crossover",
+                                                            quantity(stiffness.limit->stiffness_interval.upper, unit))
+                                              : "unknown: noise hides the phase");
+}
+
+std::string crossovers(const MeasuredFrf& frf) {
+  if (!frf.stiffness || frf.stiffness->crossovers.empty()) return "";
+  const MeasuredStiffness& stiffness = *frf.stiffness;
+  using Align = TextTable::Align;
+  TextTable table{{Align::right, Align::right, Align::right, Align::right, Align::left},
+                  {{"Hz", "95 %", fmt::format("K ({})", frf.units.stiffness()), "95 %", "as K rises"}}};
+  for (const MeasuredCrossover& crossover : stiffness.crossovers) {
+    const bool limits = stiffness.status == MeasuredStiffnessStatus::found && stiffness.limit &&
+                        stiffness.limit->frequency == crossover.frequency;
+    table.rows.push_back({number(hertz(crossover.frequency)), in_hertz(crossover.frequency_interval),
+                          number(crossover.stiffness),
+                          fmt::format("{} to {}", number(crossover.stiffness_interval.lower),
+                                      number(crossover.stiffness_interval.upper)),
+                          std::string(crossover.poles_leaving > 0 ? "an oscillation sets in" : "an oscillation ends") +
+                              (limits ? "  <- critical" : "")});
+  }
+  return "Phase crossovers that the data prove\n" + layout(table) + "\n";
+}
+
+}  // namespace
+
+std::string remarks_text(std::span<const Remark> remarks) {
+  constexpr std::size_t bullet = 4;
+  std::string lines;
+  for (const Remark::Severity severity : {Remark::Severity::warning, Remark::Severity::note}) {
+    for (const Remark& remark : remarks) {
+      if (remark.severity != severity) continue;
+      lines += wrap(remark_line(remark), width, bullet)
+                   .replace(0, bullet, severity == Remark::Severity::warning ? "  ! " : "  - ");
+    }
+  }
+  return lines;
+}
+
+std::string frf_text(const MeasuredFrf& frf) {
+  const FrequencyResponse& response = frf.response;
+  std::string measured = fmt::format("{} lines, {}", response.points.size(),
+                                     in_hertz({response.points.front().frequency, response.points.back().frequency}));
+  if (response.sampling_period) measured += fmt::format(", T = {}", quantity(*response.sampling_period, "s"));
+  return shortened(frf.recording, width) + "\n" + answer(frf) + labelled("  measured", measured) + "\n" +
+         crossovers(frf) + "Remarks\n" + remarks_text(frf.remarks);
+}
+
+}  // namespace zwidth::report

@@ -1,0 +1,135 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "report/designed_notch.hpp"
+#include "report/text/explanation.hpp"
+#include "report/text/quantity.hpp"
+#include "report/text/text_table.hpp"
+
+namespace zwidth::report {
+namespace {
+
+constexpr std::size_t width = 100;
+constexpr std::size_t drifts_shown = 9;
+
+class Writer {
+ public:
+  explicit Writer(const DesignedNotch& notch)
+      : notch_(notch), design_(notch.design), units_(units_of(notch.without.device.parameters().motion)) {}
+
+  [[nodiscard]] std::string text() const {
+    std::string text = shortened(display_name(notch_.without.device), width) + "\n";
+    if (!std::isfinite(design_.without)) {
+      return text + wrap("Every wall is stable without a notch: there is nothing to gain.", width, 0);
+    }
+    if (!design_.notch) return text + wrap(no_notch(), width, 0);
+    const WallFilter& notch = *design_.notch;
+    text += fmt::format("  notch               {:.4g} Hz, damping ratio {:.3g}, depth {:.3g} ({:.3g} dB)\n",
+                        notch.frequency_hz, notch.damping_ratio, notch.depth, decibels(notch.depth));
+    const std::string without = design_.without > 0.0
+                                    ? fmt::format("{} without ({:+.3g} %)", quantity(design_.without, units_.stiffness),
+                                                  100.0 * (design_.with / design_.without - 1.0))
+                                    : std::string("none without");
+    text += fmt::format("  stiffest wall       {} with it, {}\n", quantity(design_.with, units_.stiffness), without);
+    text += fmt::format("  that is             {}\n\n", what_is_promised());
+    text += "For the device file\n" + for_the_file() + "\n";
+    if (design_.over_drift.size() > 1) text += over_drift() + "\n";
+    text += costs() + "\n";
+    return text + wrap(fmt::format("Below its centre the notch delays the force by {}: a wall of {} feels {} {} less "
+                                   "damped. Found by search: a local optimum, verified over the whole drift.",
+                                   quantity(design_.low_frequency_delay, "s"), quantity(design_.with, units_.stiffness),
+                                   number(design_.with * design_.low_frequency_delay), units_.damping),
+                       width, 0);
+  }
+
+ private:
+  [[nodiscard]] const char* goal() const {
+    return notch_.options.goal == StiffnessGoal::any_user_limit ? "limit with any passive user" : "critical stiffness";
+  }
+
+  [[nodiscard]] std::string what_is_promised() const {
+    std::string text = fmt::format("the least {}", goal());
+    if (notch_.options.drift > 0.0) {
+      text += fmt::format(" while the modes drift by up to {:.3g} %", 100.0 * notch_.options.drift);
+    }
+    if (notch_.options.gain_margin > 1.0) text += fmt::format(", over {:.3g}", notch_.options.gain_margin);
+    if (notch_.options.phase_margin > 0.0) {
+      text += fmt::format(", {:.3g} degrees of phase left", notch_.options.phase_margin * 180.0 / std::numbers::pi);
+    }
+    return text;
+  }
+
+  [[nodiscard]] std::string no_notch() const {
+    if (design_.without == 0.0) {
+      return fmt::format("No wall keeps what is asked for ({}), and no notch was found that changes that.",
+                         what_is_promised());
+    }
+    const auto cause = what_limits(notch_.without);
+    return fmt::format("No notch was found that makes the worst wall stiffer than {} without one: {}.{}",
+                       quantity(design_.without, units_.stiffness), what_is_promised(),
+                       cause ? " The device as it is is limited by " + *cause + "." : std::string());
+  }
+
+  [[nodiscard]] std::string for_the_file() const {
+    const WallFilter& notch = *design_.notch;
+    return fmt::format(
+        "  [[wall.filter]]\n  type = \"notch\"\n  frequency_hz = {}\n  damping_ratio = {}\n  depth = {}\n",
+        notch.frequency_hz, notch.damping_ratio, notch.depth);
+  }
+
+  [[nodiscard]] std::string over_drift() const {
+    using Align = TextTable::Align;
+    TextTable table{{Align::right, Align::right, Align::right}, {{"modes", "without", "with the notch"}}};
+    const std::size_t step = (design_.over_drift.size() - 1) / (drifts_shown - 1);
+    for (std::size_t i = 0; i < design_.over_drift.size(); i += step) {
+      const NotchAtDrift& each = design_.over_drift[i];
+      table.rows.push_back({fmt::format("{:+.3g} %", 100.0 * each.drift), quantity(each.without, units_.stiffness),
+                            quantity(each.with, units_.stiffness)});
+    }
+    return "Stiffest wall over the drift\n" + layout(table);
+  }
+
+  [[nodiscard]] static std::string margins(const Analysis& analysis) {
+    const WallMargins& wall = *analysis.wall;
+    if (!wall.stable) return "UNSTABLE";
+    return fmt::format("{}, {}",
+                       wall.gain_margin ? fmt::format("{:.3g} dB", decibels(*wall.gain_margin)) : std::string("none"),
+                       wall.phase_margin ? fmt::format("{:.3g} deg", *wall.phase_margin * 180.0 / std::numbers::pi)
+                                         : std::string("none"));
+  }
+
+  [[nodiscard]] std::vector<std::string> column(const AnalysedDevice& device) const {
+    const CriticalStiffness& critical = device.analysis.critical;
+    std::vector<std::string> cells{quantity(critical.stiffness, units_.stiffness)};
+    cells.push_back(critical.limit ? mechanism_name(device.analysis, critical.limit->limited_by) : "-");
+    cells.push_back(critical.limit ? quantity(hertz(critical.limit->frequency), "Hz") : "-");
+    cells.push_back(device.any_user ? quantity(device.any_user->stiffness, units_.stiffness) : "-");
+    cells.push_back(device.analysis.wall ? margins(device.analysis) : "-");
+    return cells;
+  }
+
+  [[nodiscard]] std::string costs() const {
+    using Align = TextTable::Align;
+    const std::vector<std::string> names{
+        "critical stiffness", "limited by", "at", "any passive user",
+        fmt::format("margins of a wall of {}", quantity(design_.with, units_.stiffness))};
+    const std::vector<std::string> without = column(notch_.without);
+    const std::vector<std::string> with = column(*notch_.with);
+    TextTable table{{Align::left, Align::left, Align::left}, {{"", "without", "with the notch"}}};
+    for (std::size_t i = 0; i < names.size(); ++i) table.rows.push_back({names[i], without[i], with[i]});
+    return "What it changes on the device as it is\n" + layout(table);
+  }
+
+  const DesignedNotch& notch_;
+  const NotchDesign& design_;
+  Units units_;
+};
+
+}  // namespace
+
+std::string notch_text(const DesignedNotch& notch) { return Writer(notch).text(); }
+
+}  // namespace zwidth::report

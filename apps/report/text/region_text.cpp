@@ -1,0 +1,140 @@
+#include "report/text/region_text.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "report/text/explanation.hpp"
+#include "report/text/quantity.hpp"
+#include "report/text/text_table.hpp"
+#include "report/text/wall_filter_text.hpp"
+
+namespace zwidth::report {
+namespace {
+
+constexpr std::size_t width = 100;
+constexpr std::size_t label_width = 22;
+
+class Writer {
+ public:
+  explicit Writer(const DeviceRegion& device)
+      : device_(device), units_(units_of(device.analysed.device.parameters().motion)) {}
+
+  [[nodiscard]] std::string text() const {
+    std::string text = shortened(display_name(device_.analysed.device), width) + "\n";
+    const StableRegion& region = device_.region;
+    if (!region.bounded) {
+      return text + wrap("Every wall is stable: the force does not move what the wall senses.", width, 0) + "\n";
+    }
+    if (!region.stiffest) return text + wrap("No wall is stable, with or without a virtual damper.", width, 0) + "\n";
+    text += answer_lines() + "\n" + meaning() + "\n";
+    if (device_.any_user) text += any_user_paragraph() + "\n";
+    if (!device_.approximations.empty()) text += approximations() + "\n";
+    return text + wrap(
+                      "Linear and sampled: friction, encoder steps and the force limit are left out. The area is one "
+                      "number for the Z-width: of all stable walls in the plane of K and B.",
+                      width, 0);
+  }
+
+ private:
+  [[nodiscard]] std::string line(std::string_view label, std::string_view content) const {
+    std::string lines = wrap(content, width, label_width);
+    return lines.replace(0, 2 + label.size(), fmt::format("  {}", label));
+  }
+
+  [[nodiscard]] std::string stiffness(double value) const { return quantity(value, units_.stiffness); }
+  [[nodiscard]] std::string damping(double value) const { return fmt::format("{} {}", number(value), units_.damping); }
+
+  [[nodiscard]] std::string where(const BoundaryPoint& point) const {
+    if (!point.limited_by) return {};
+    return fmt::format("; beyond it oscillates at {}, limited by {}", crossover_frequency_text(*point.frequency),
+                       mechanism_name(device_.analysed.analysis, *point.limited_by));
+  }
+
+  [[nodiscard]] std::string answer_lines() const {
+    const StableRegion& region = device_.region;
+    std::string lines =
+        line("largest K", fmt::format("{} with a virtual damper of {}{}", stiffness(region.stiffest->stiffness),
+                                      damping(region.stiffest->damping), where(*region.stiffest)));
+    lines += line("without a damper", region.critical_stiffness > 0.0
+                                          ? fmt::format("{} (K_CR at B = 0)", stiffness(region.critical_stiffness))
+                                          : std::string("no wall is stable from K = 0"));
+    lines += line("largest B", fmt::format("{} at K = {}", damping(region.most_damped->damping),
+                                           stiffness(region.most_damped->stiffness)));
+    lines += line("Z-width (area)", fmt::format("{:.4g} {} x {}", region.area, units_.stiffness, units_.damping));
+    const double filter = device_.walls.velocity_filter_hz();
+    lines += line("velocity filter", filter > 0.0 ? quantity(filter, "Hz") : std::string("none"));
+    if (const auto filters = wall_filters_text(device_.analysed.device.parameters().wall)) {
+      lines += line("filters in the wall", *filters);
+    }
+    return lines;
+  }
+
+  [[nodiscard]] std::string meaning() const {
+    const StableRegion& region = device_.region;
+    std::string text;
+    if (region.critical_stiffness > 0.0 && region.stiffest->damping > 0.0) {
+      text = fmt::format(
+          "The right virtual damper makes the stiffest wall {} times as stiff as none. The boundary is exact: every "
+          "wall inside is stable, every wall just outside is not.",
+          number(region.stiffest->stiffness / region.critical_stiffness));
+    } else {
+      text = "The boundary is exact: every wall inside is stable, every wall just outside is not.";
+    }
+    if (region.components.size() > 1) {
+      text += fmt::format(" The stable walls come in {} separate parts (see --json or a figure).",
+                          region.components.size());
+    }
+    return wrap(text, width, 0);
+  }
+
+  [[nodiscard]] std::string any_user_paragraph() const {
+    const AnyUserRegion& region = *device_.any_user;
+    if (!region.stiffest) return wrap("Some passive user destabilises any wall.", width, 0);
+    const auto& first = region.ranges.front().front();
+    const std::string undamped =
+        first.damping == 0.0 ? fmt::format("; {} without a damper", stiffness(first.stiffness)) : std::string();
+    return wrap(fmt::format("Stable with every passive user: up to {} with a damper of {}{}, and up to a damper of {}. "
+                            "Its area is {:.3g} % of the one above.",
+                            stiffness(region.stiffest->stiffness), damping(region.stiffest->damping), undamped,
+                            damping(region.most_damped->damping), 100.0 * region.area / device_.region.area),
+                width, 0);
+  }
+
+  [[nodiscard]] std::string approximations() const {
+    using Align = TextTable::Align;
+    TextTable table{{Align::left, Align::left, Align::right, Align::right, Align::left, Align::left}, {}};
+    table.rows.push_back(
+        {"formula", "", fmt::format("K ({})", units_.stiffness), "exact", "off at B = 0", "over all B"});
+    std::string notes;
+    for (const ComparedApproximation& each : device_.approximations) {
+      const RegionApproximation& formula = each.formula;
+      const ApproximationError& error = each.error;
+      const std::string off = error.ratio ? fmt::format("{:+.2f} dB{}", decibels(*error.ratio),
+                                                        *error.ratio > 1.0 + negligible ? ", UNSAFE" : "")
+                                          : std::string("-");
+      const std::string shares = formula.largest_damping == 0.0
+                                     ? std::string("B = 0 only")
+                                     : fmt::format("{:.3g} % of it unsafe, {:.3g} % missed", 100.0 * error.unsafe_share,
+                                                   100.0 * error.missed_share);
+      table.rows.push_back({formula_name(formula.formula), formula.any_user ? "any user" : "this device",
+                            number(formula.at_zero_damping), number(error.at_zero_damping), off, shares});
+      const auto unmet = unmet_assumptions(formula.formula, device_.analysed.device);
+      notes += wrap(fmt::format("{}: {}. For a {}{}.", formula_source(formula.formula), formula_text(formula.formula),
+                                formula_validity(formula.formula),
+                                unmet.empty() ? "" : fmt::format("; this device has {}", fmt::join(unmet, ", "))),
+                    width, 2);
+    }
+    return "Formulas of the literature beside it, K at B = 0 (b: damping of all bodies)\n" + layout(table) + notes;
+  }
+
+  static constexpr double negligible = 1e-6;
+
+  const DeviceRegion& device_;
+  Units units_;
+};
+
+}  // namespace
+
+std::string region_text(const DeviceRegion& device) { return Writer(device).text(); }
+
+}  // namespace zwidth::report

@@ -1,0 +1,185 @@
+#include "report/text/relay_text.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+#include "report/text/explanation.hpp"
+#include "report/text/quantity.hpp"
+#include "report/text/relay_explanation.hpp"
+#include "report/text/remark_line.hpp"
+#include "report/text/text_table.hpp"
+
+namespace zwidth::report {
+namespace {
+
+using Align = TextTable::Align;
+constexpr std::size_t width = 100;
+constexpr std::size_t bullet = 4;
+
+std::string bulleted(std::string_view text) { return wrap(text, width, bullet).replace(0, bullet, "  - "); }
+
+std::string heading(const RelayReport& report) {
+  const Units units = units_of(report.motion);
+  const std::string relay = fmt::format("relay of {}", quantity(report.relay.amplitude, units.force));
+  std::string text;
+  if (report.source == RelayReport::Source::recording) {
+    text = fmt::format("Recorded relay experiment: {}\n  {}, {} Hz sampling\n", shortened(report.recording, width - 28),
+                       relay, number(1.0 / report.sampling_period));
+  } else {
+    text = fmt::format("Simulated relay experiment: {}\n  {}{}, delay {}\n",
+                       shortened(display_name(*report.device), width - 28), relay,
+                       report.relay.hysteresis > 0.0
+                           ? fmt::format(", hysteresis {}", quantity(report.relay.hysteresis, units.length))
+                           : "",
+                       quantity(report.device->loop().delay, "s"));
+  }
+  return text + "\n";
+}
+
+std::string trial_table(const RelayReport& report) {
+  const Units units = units_of(report.motion);
+  TextTable table{{Align::right, Align::right, Align::right, Align::right, Align::right, Align::right, Align::right},
+                  {{"trial", "Hz", fmt::format("K ({})", units.stiffness), "K (dB)",
+                    fmt::format("amplitude ({})", units.length), "steady from (s)", "by cycles (Hz)"}}};
+  std::string failures;
+  for (std::size_t i = 0; i < report.trials.size(); ++i) {
+    const RelayTrial& trial = report.trials[i];
+    const std::string name = std::to_string(i + 1);
+    if (!trial.result) {
+      table.rows.push_back({name, "-", "-", "-", "-", "-", "-"});
+      failures += bulleted(fmt::format("trial {}: no oscillation: {}", name, trial.result.error().reason));
+      continue;
+    }
+    const RelayResult& result = *trial.result;
+    table.rows.push_back({name, fmt::format("{:.4f}", hertz(result.frequency)), number(result.stiffness),
+                          fmt::format("{:.2f}", decibels(result.stiffness)), number(result.amplitude),
+                          fmt::format("{:.2f}", static_cast<double>(result.steady_from) * report.sampling_period),
+                          result.cycle_frequency ? fmt::format("{:.4f}", hertz(*result.cycle_frequency)) : "-"});
+  }
+  if (const auto mean = mean_of(report.trials); mean && mean->trials > 1) {
+    table.rows.push_back({"mean", fmt::format("{:.4f}", hertz(mean->frequency)), number(mean->stiffness),
+                          fmt::format("{:.2f}", decibels(mean->stiffness)), number(mean->amplitude), "", ""});
+  }
+  return layout(table) + failures;
+}
+
+std::string spectra_note(const RelayReport& report) {
+  for (const RelayTrial& trial : report.trials) {
+    if (!trial.result) continue;
+    return wrap(fmt::format("Frequencies are lines of the spectra, {} Hz apart; \"by cycles\" counts the position's "
+                            "cycles instead.",
+                            number(hertz(trial.result->line_spacing))),
+                width, 2);
+  }
+  return "";
+}
+
+/// `none`: what stands where there are no cycles.
+void add_cycles(TextTable& table, const std::string& name, const std::vector<LimitCycle>& cycles,
+                const std::string& none) {
+  const std::vector<CycleBand> bands = cycle_bands(cycles);
+  if (bands.empty()) table.rows.push_back({name, none, "", ""});
+  for (std::size_t i = 0; i < bands.size(); ++i) {
+    const auto& [count, low, high] = bands[i];
+    const std::string label = i == 0 ? name : "";
+    if (count == 1) {
+      table.rows.push_back(
+          {label, number(hertz(low.frequency)), fmt::format("{:.2f}", decibels(low.stiffness)), number(low.amplitude)});
+    } else {
+      table.rows.push_back({label, fmt::format("{} to {}", number(hertz(low.frequency)), number(hertz(high.frequency))),
+                            fmt::format("{:.2f} to {:.2f}", decibels(low.stiffness), decibels(high.stiffness)),
+                            fmt::format("{} to {}", number(low.amplitude), number(high.amplitude))});
+    }
+  }
+}
+
+/// The critical one and the lowest; a long delay has thousands.
+void add_crossovers(TextTable& table, const CriticalStiffness& linear) {
+  static constexpr std::size_t most = 12;
+  std::string label = "linear crossovers";
+  std::size_t shown = 0;
+  std::size_t left_out = 0;
+  for (const Crossover& crossover : linear.crossovers) {
+    if (crossover.frequency <= 0.0) continue;
+    const bool limits = linear.limit && linear.limit->frequency == crossover.frequency;
+    if (shown >= most && !limits) {
+      ++left_out;
+      continue;
+    }
+    ++shown;
+    table.rows.push_back({label, number(hertz(crossover.frequency)),
+                          fmt::format("{:.2f}", decibels(crossover.stiffness)), limits ? "<- critical" : ""});
+    label.clear();
+  }
+  if (shown == 0) table.rows.push_back({label, "none", "", ""});
+  if (left_out > 0) table.rows.push_back({"", fmt::format("and {} more", left_out), "", ""});
+}
+
+std::string prediction_table(const RelayReport& report) {
+  if (!report.prediction) return "";
+  const RelayPrediction& prediction = *report.prediction;
+  TextTable table{{Align::left, Align::right, Align::right, Align::right},
+                  {{"", "Hz", "K (dB)", fmt::format("amplitude ({})", units_of(report.motion).length)}}};
+  add_crossovers(table, prediction.linear);
+  add_cycles(table, friction_level(report) > 0.0 ? "first harmonics, with friction" : "first harmonics",
+             prediction.describing_function, "none");
+  const std::string none = fmt::format("none above {}", number(hertz(prediction.lowest_frequency)));
+  add_cycles(table, "sampled relay, exact", prediction.sampled_relay, none);
+  add_cycles(table, "continuous relay, exact", prediction.continuous_relay, none);
+  return "What theory expects\n" + layout(table) +
+         wrap(
+             "First harmonics are an approximation. The exact oscillations have neither friction nor encoder nor force "
+             "limit; stable or not, all are listed. The continuous relay acts t_d + T/2 late.",
+             width, 2);
+}
+
+/// A remark of some trials.
+struct SharedRemark {
+  std::string text;
+  std::vector<std::size_t> trials;  // from 1
+};
+
+std::vector<SharedRemark> shared_remarks(const std::vector<RelayTrial>& trials) {
+  std::vector<SharedRemark> shared;
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    if (!trials[i].result) continue;
+    for (const Remark& remark : trials[i].result->remarks) {
+      const std::string text = remark_line(remark);
+      auto same = std::find_if(shared.begin(), shared.end(), [&](const auto& each) { return each.text == text; });
+      if (same == shared.end()) same = shared.insert(shared.end(), {text, {}});
+      same->trials.push_back(i + 1);
+    }
+  }
+  return shared;
+}
+
+std::string remarks(const RelayReport& report) {
+  std::string text;
+  for (const Remark& remark : remarks_of(report)) text += bulleted(remark_line(remark));
+  for (const SharedRemark& remark : shared_remarks(report.trials)) {
+    const bool is_of_all = remark.trials.size() == report.trials.size();
+    text +=
+        bulleted(is_of_all ? remark.text : fmt::format("trial {}: {}", fmt::join(remark.trials, ", "), remark.text));
+  }
+  if (report.trials.size() > 1 && friction_level(report) == 0.0 && report.trials.front().start_offset == 0.0) {
+    text += bulleted("all trials are alike: without a start offset and friction nothing varies");
+  }
+  return text.empty() ? "" : "\nTo know\n" + text;
+}
+
+}  // namespace
+
+std::string relay_text(const RelayReport& report) {
+  std::string text = heading(report) + trial_table(report) + spectra_note(report);
+  if (report.prediction) text += "\n" + prediction_table(report);
+  const std::vector<std::string> sentences = relay_explanation(report);
+  if (!sentences.empty()) text += "\nWhat it means\n";
+  for (const std::string& sentence : sentences) text += bulleted(sentence);
+  return text + remarks(report);
+}
+
+}  // namespace zwidth::report

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace zwidth {
+
+/// How far a number that states a limit may be relied on. Decided by the library, repeated by everything downstream.
+struct Trust {
+  enum class Verdict {
+    sound,     ///< the data and the model carry the number
+    doubtful,  ///< the number stands, but something does not carry it (extrapolation, misfit, a model outside its
+               ///< domain)
+    refused,   ///< no number is given
+  };
+  Verdict verdict = Verdict::sound;
+  std::vector<std::string> reasons = {};  ///< why, each with its remedy; empty only when sound
+
+  [[nodiscard]] bool sound() const { return verdict == Verdict::sound; }
+  [[nodiscard]] bool refused() const { return verdict == Verdict::refused; }
+
+  /// At least doubtful, for this reason.
+  void doubt(std::string reason);
+  /// Refused, for this reason.
+  void refuse(std::string reason);
+  /// What is computed from `source` is trusted no more than it: the worse verdict of both, the reasons of both, each
+  /// once.
+  void inherit(const Trust& source);
+
+  [[nodiscard]] bool operator==(const Trust&) const = default;
+};
+
+}  // namespace zwidth
