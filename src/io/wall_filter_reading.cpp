@@ -113,6 +113,7 @@ WallFilter read_wall_filter(TableReader& reader) {
 namespace zwidth {
 
 std::string_view wall_filter_type(WallFilter::Kind kind) {
+  using enum WallFilter::Kind;
   switch (kind) {
     case low_pass:
       return "low_pass";
