@@ -31,6 +31,7 @@
 #include "zwidth/model/two_mass.hpp"
 #include "zwidth/model/uncertainty.hpp"
 #include "zwidth/model/wall_filter.hpp"
+#include "zwidth/option_problem.hpp"
 #include "zwidth/progress.hpp"
 #include "zwidth/remark.hpp"
 #include "zwidth/sampling/discrete_state_space.hpp"
