@@ -33,6 +33,7 @@
 #include "zwidth/model/wall_filter.hpp"
 #include "zwidth/option_problem.hpp"
 #include "zwidth/progress.hpp"
+#include "zwidth/quantity.hpp"
 #include "zwidth/remark.hpp"
 #include "zwidth/sampling/discrete_state_space.hpp"
 #include "zwidth/sampling/filter_section.hpp"

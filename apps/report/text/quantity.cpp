@@ -2,40 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <numbers>
-
 namespace zwidth::report {
-
-Units units_of(Motion motion) {
-  if (motion == Motion::rotary) return {"N m/rad", "N m s/rad", "kg m²", "N m", "rad"};
-  return {"N/m", "N s/m", "kg", "N", "m"};
-}
-
-std::string number(double value) {
-  const double magnitude = std::abs(value);
-  if (magnitude != 0.0 && (magnitude < 1e-3 || magnitude >= 1e6)) return fmt::format("{:.4g}", value);
-  if (magnitude >= 1e3) return fmt::format("{:.0f}", value);
-  return fmt::format("{:.4g}", value);
-}
-
-std::string quantity(double value, std::string_view unit) {
-  static constexpr std::array<std::string_view, 8> prefixes = {"p", "n", "µ", "m", "", "k", "M", "G"};
-  static constexpr int no_prefix = 4;
-  if (value == 0.0 || !std::isfinite(value)) return fmt::format("{:.4g} {}", value, unit);
-  // Rounded to four digits first, so that 999.96 becomes 1 k and not 1000.
-  const double rounded = std::stod(fmt::format("{:.3e}", value));
-  const int thousands = static_cast<int>(std::floor(std::log10(std::abs(rounded)) / 3.0 + 1e-9));
-  const int prefix = std::clamp(thousands + no_prefix, 0, static_cast<int>(prefixes.size()) - 1);
-  const double scaled = rounded / std::pow(1000.0, prefix - no_prefix);
-  return fmt::format("{} {}{}", number(scaled), prefixes[static_cast<std::size_t>(prefix)], unit);
-}
-
-double decibels(double value) { return 20.0 * std::log10(value); }
-
-double hertz(double frequency) { return frequency / (2.0 * std::numbers::pi); }
 
 std::string crossover_frequency_text(double frequency) {
   if (frequency == 0.0) return "0 Hz (a real pole at rest)";

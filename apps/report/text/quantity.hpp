@@ -1,33 +1,17 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 
-#include "zwidth/model/device.hpp"
+#include "zwidth/quantity.hpp"
 
 namespace zwidth::report {
 
-/// Names of the units of a device's quantities, by its motion.
-struct Units {
-  std::string_view stiffness;  ///< "N/m" or "N m/rad"
-  std::string_view damping;    ///< "N s/m" or "N m s/rad"
-  std::string_view mass;       ///< "kg" or "kg m²"
-  std::string_view force;      ///< "N" or "N m"
-  std::string_view length;     ///< "m" or "rad"
-};
-[[nodiscard]] Units units_of(Motion motion);
-
-/// Four significant digits without trailing zeros: "38.6", "31416", "1.2e-07".
-[[nodiscard]] std::string number(double value);
-
-/// A number with an engineering prefix, µ to G: quantity(8848.7, "N/m") is "8.849 kN/m".
-[[nodiscard]] std::string quantity(double value, std::string_view unit);
-
-/// 20 log10 of a ratio or of a value in SI units; value > 0.
-[[nodiscard]] double decibels(double value);
-
-/// w / (2 pi): rad/s to Hz.
-[[nodiscard]] double hertz(double frequency);
+using zwidth::decibels;
+using zwidth::hertz;
+using zwidth::number;
+using zwidth::quantity;
+using zwidth::Units;
+using zwidth::units_of;
 
 /// Where a pole leaves the unit circle, from rad/s: "6.143 Hz (38.6 rad/s)", or "0 Hz (a real pole at rest)".
 [[nodiscard]] std::string crossover_frequency_text(double frequency);

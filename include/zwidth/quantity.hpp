@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "zwidth/model/device.hpp"
+
+namespace zwidth {
+
+/// Names of the units of a device's quantities, by its motion.
+struct Units {
+  std::string_view stiffness;  ///< "N/m" or "N m/rad"
+  std::string_view damping;    ///< "N s/m" or "N m s/rad"
+  std::string_view mass;       ///< "kg" or "kg m²"
+  std::string_view force;      ///< "N" or "N m"
+  std::string_view length;     ///< "m" or "rad"
+};
+[[nodiscard]] Units units_of(Motion motion);
+
+/// Four significant digits without trailing zeros: "38.6", "31416", "1.2e-07".
+[[nodiscard]] std::string number(double value);
+
+/// A number with an engineering prefix, p to G: quantity(8848.7, "N/m") is "8.849 kN/m". For remarks and reports.
+[[nodiscard]] std::string quantity(double value, std::string_view unit);
+
+/// 20 log10 of a ratio or of a value in SI units; value > 0.
+[[nodiscard]] double decibels(double value);
+
+/// w / (2 pi): rad/s to Hz.
+[[nodiscard]] double hertz(double frequency);
+
+}  // namespace zwidth
