@@ -79,7 +79,7 @@ void run_analyze(const AnalyzeOptions& options) {
   if (options.report) report::write_whole(*options.report, report::html_report(analysed));
   if (options.json) {
     std::string lines;
-    for (const report::AnalysedDevice& each : analysed) lines += report::analysis_json(each).dump() + "\n";
+    for (const report::AnalysedDevice& each : analysed) lines += results::line(results::analysis_json(each));
     write_standard_output(lines);
   } else {
     write_standard_output(report::analysis_text(analysed));

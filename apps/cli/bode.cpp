@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <nlohmann/json.hpp>
+#include "results/json.hpp"
 #include <numbers>
 
 #include "cli/device_arguments.hpp"

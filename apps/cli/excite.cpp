@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <nlohmann/json.hpp>
+#include "results/json.hpp"
 #include <optional>
 #include <system_error>
 

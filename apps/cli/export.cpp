@@ -5,7 +5,7 @@
 
 #include <cmath>
 #include <memory>
-#include <nlohmann/json.hpp>
+#include "results/json.hpp"
 #include <optional>
 #include <string>
 #include <utility>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
+#include "results/json.hpp"
 #include <string>
 
 #include "report/analysed_device.hpp"
@@ -24,7 +24,7 @@ struct ExportedModel {
 
 /// The model and its wall as a JSON document, schema "zwidth.model/1". Matrices are arrays of rows; polynomials ascend.
 /// "with_delay_states" is null where the delay exceeds most_delay_states samples: the matrix would be mostly zeros.
-[[nodiscard]] nlohmann::ordered_json export_json(const ExportedModel& model);
+[[nodiscard]] results::Json export_json(const ExportedModel& model);
 inline constexpr std::size_t most_delay_states = 200;
 
 /// A script for GNU Octave with its control package, that runs as it is: `sysc`, `sysd`,

@@ -15,7 +15,7 @@
 namespace zwidth::report {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = results::Json;
 using Align = TextTable::Align;
 
 constexpr std::size_t width = 100;
@@ -173,7 +173,7 @@ std::string comparison_text(const DesignComparison& comparison) {
   return text;
 }
 
-nlohmann::ordered_json comparison_json(const DesignComparison& comparison) {
+results::Json comparison_json(const DesignComparison& comparison) {
   const DeviceParameters& device = comparison.designs.front().device.parameters();
   const Columns columns = columns_of(comparison);
   const bool held = comparison.designs.front().held.has_value();

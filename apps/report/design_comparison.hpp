@@ -1,6 +1,6 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include "results/json.hpp"
 #include <optional>
 #include <string>
 #include <vector>
@@ -41,6 +41,6 @@ struct Variant {
 [[nodiscard]] std::string comparison_text(const DesignComparison& comparison);
 
 /// The answer of `design --compare --json`, schema zwidth.design_comparison/1 (docs/design.md).
-[[nodiscard]] nlohmann::ordered_json comparison_json(const DesignComparison& comparison);
+[[nodiscard]] results::Json comparison_json(const DesignComparison& comparison);
 
 }  // namespace zwidth::report

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include "results/json.hpp"
 #include <optional>
 #include <string>
 
@@ -26,7 +26,7 @@ struct DesignedNotch {
 [[nodiscard]] std::string notch_text(const DesignedNotch& notch);
 
 /// The same as a document of schema zwidth.notch/1.
-[[nodiscard]] nlohmann::ordered_json notch_json(const DesignedNotch& notch);
+[[nodiscard]] results::Json notch_json(const DesignedNotch& notch);
 
 /// The stiffest wall over the drift, with and without; and the gain of the notch. Throws OutputFailed.
 [[nodiscard]] std::string draw_notch(const DesignedNotch& notch, FigureFormat format);

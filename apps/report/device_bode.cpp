@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <nlohmann/json.hpp>
+#include "results/json.hpp"
 #include <numbers>
 
 #include "report/text/explanation.hpp"
@@ -160,7 +160,7 @@ std::string bode_csv(const AnalysedDevice& analysed, const BodeOptions& options)
   return rows;
 }
 
-nlohmann::ordered_json bode_json(const AnalysedDevice& analysed, const BodeOptions& options) {
+results::Json bode_json(const AnalysedDevice& analysed, const BodeOptions& options) {
   const DeviceBode bode = device_bode(analysed, bode_range({&analysed, 1}, options), options.points);
   const auto column = [](const std::vector<BodePoint>& points, double BodePoint::*member) {
     std::vector<double> values;
@@ -168,7 +168,7 @@ nlohmann::ordered_json bode_json(const AnalysedDevice& analysed, const BodeOptio
     return values;
   };
   const auto response = [&](const std::vector<BodePoint>& points) {
-    return nlohmann::ordered_json{{"frequency_rad_s", column(points, &BodePoint::frequency)},
+    return results::Json{{"frequency_rad_s", column(points, &BodePoint::frequency)},
                                   {"magnitude_db", column(points, &BodePoint::magnitude_db)},
                                   {"phase_deg", column(points, &BodePoint::phase_deg)}};
   };
@@ -179,7 +179,7 @@ nlohmann::ordered_json bode_json(const AnalysedDevice& analysed, const BodeOptio
           {"nyquist_rad_s", nyquist(analysed.device)},
           {"sampled", response(bode.sampled)},
           {"continuous", response(bode.continuous)},
-          {"crossovers", analysis_json(analysed).at("crossovers")}};
+          {"crossovers", results::analysis_json(analysed).at("crossovers")}};
 }
 
 }  // namespace zwidth::report

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <cstddef>
-#include <nlohmann/json_fwd.hpp>
+#include "results/json.hpp"
 #include <optional>
 #include <span>
 #include <string>
@@ -38,6 +38,6 @@ struct DeviceBode {
 [[nodiscard]] std::string bode_csv(const AnalysedDevice& analysed, const BodeOptions& options);
 
 /// The same numbers with every crossover, schema "zwidth.bode/1".
-[[nodiscard]] nlohmann::ordered_json bode_json(const AnalysedDevice& analysed, const BodeOptions& options);
+[[nodiscard]] results::Json bode_json(const AnalysedDevice& analysed, const BodeOptions& options);
 
 }  // namespace zwidth::report

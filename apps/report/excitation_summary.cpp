@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
+#include "results/json.hpp"
 
 #include "report/text/quantity.hpp"
 #include "report/text/remark_line.hpp"
@@ -12,7 +12,7 @@
 namespace zwidth::report {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = results::Json;
 
 struct KindName {
   std::string_view word;  ///< as on the command line
@@ -87,7 +87,7 @@ std::string excitation_text(const CheckedExcitation& checked) {
   return text;
 }
 
-nlohmann::ordered_json excitation_json(const CheckedExcitation& checked) {
+results::Json excitation_json(const CheckedExcitation& checked) {
   const CrestFactor crest = crest_factor(checked.excitation.samples);
   const bool relay = checked.options.kind == ExcitationKind::relay;
   Json json;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
+#include "results/json.hpp"
 #include <optional>
 #include <string>
 
@@ -24,6 +24,6 @@ struct CheckedExcitation {
 [[nodiscard]] std::string excitation_text(const CheckedExcitation& checked);
 
 /// Schema zwidth.excitation/1.
-[[nodiscard]] nlohmann::ordered_json excitation_json(const CheckedExcitation& checked);
+[[nodiscard]] results::Json excitation_json(const CheckedExcitation& checked);
 
 }  // namespace zwidth::report

@@ -98,13 +98,13 @@ std::string rigid_body_text(const IdentifiedRigidBody& identified) {
   return text;
 }
 
-nlohmann::ordered_json rigid_body_json(const IdentifiedRigidBody& identified) {
+results::Json rigid_body_json(const IdentifiedRigidBody& identified) {
   const RigidBodyFit& fit = identified.fit;
   const Motion motion = identified.device.parameters().motion;
-  nlohmann::ordered_json document;
+  results::Json document;
   document["schema"] = "zwidth.inverse_dynamics/1";
   document["source"] = identified.source;
-  document["parameters"] = nlohmann::ordered_json::array();
+  document["parameters"] = results::Json::array();
   for (const ParameterEstimate& estimate : estimates_of(fit)) {
     document["parameters"].push_back(estimate_json(estimate, motion));
   }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include "results/json.hpp"
 #include <string>
 #include <vector>
 
@@ -29,6 +29,6 @@ struct IdentifiedRigidBody {
 [[nodiscard]] std::string rigid_body_text(const IdentifiedRigidBody& identified);
 
 /// Schema zwidth.inverse_dynamics/1: see docs/inverse_dynamics.md.
-[[nodiscard]] nlohmann::ordered_json rigid_body_json(const IdentifiedRigidBody& identified);
+[[nodiscard]] results::Json rigid_body_json(const IdentifiedRigidBody& identified);
 
 }  // namespace zwidth::report

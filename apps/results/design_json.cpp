@@ -6,7 +6,7 @@
 namespace zwidth::report {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = results::Json;
 
 Json slope_or_null(const Sensitivity* sensitivity) {
   return sensitivity != nullptr ? number_or_null(sensitivity->slope) : Json(nullptr);
@@ -41,7 +41,7 @@ Json to_json(const BranchSwitch& each) {
 
 }  // namespace
 
-nlohmann::ordered_json design_json(const DesignedDevice& designed) {
+results::Json design_json(const DesignedDevice& designed) {
   const DeviceParameters& device = designed.analysed.device.parameters();
   const CriticalStiffness& critical = designed.analysed.analysis.critical;
   const auto& any_user = designed.analysed.any_user;

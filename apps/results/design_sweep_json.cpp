@@ -7,7 +7,7 @@
 namespace zwidth::report {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = results::Json;
 
 Json to_json(const SweepPoint& point) {
   Json json{{"status", status_name(point.status)},
@@ -20,7 +20,7 @@ Json to_json(const SweepPoint& point) {
 
 }  // namespace
 
-nlohmann::ordered_json sweep_json(const DesignSweep& design) {
+results::Json sweep_json(const DesignSweep& design) {
   const DeviceParameters& device = design.device.parameters();
   Json document;
   document["schema"] = "zwidth.design_sweep/1";

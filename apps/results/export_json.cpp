@@ -1,4 +1,4 @@
-#include <nlohmann/json.hpp>
+#include "results/json.hpp"
 #include <vector>
 
 #include "export/export.hpp"
@@ -10,7 +10,7 @@
 namespace zwidth::report {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = results::Json;
 
 Json rows(const Eigen::MatrixXd& matrix) {
   Json rows = Json::array();
@@ -82,7 +82,7 @@ Json wall_json(const Device& device) {
           {"damping", wall.damping},
           {"velocity_filter_hz", wall.velocity_filter_hz},
           {"a", velocity_filter_pole(wall, period)},
-          {"filters", wall_filters_json(wall, period)}};
+          {"filters", results::wall_filters_json(wall, period)}};
 }
 
 }  // namespace
@@ -100,7 +100,7 @@ Json export_json(const ExportedModel& model) {
   const Device& device = model.analysed.device;
   const DiscreteStateSpace& discrete = model.discrete;
   const Units units = units_of(device.parameters().motion);
-  const Json analysis = analysis_json(model.analysed);
+  const Json analysis = results::analysis_json(model.analysed);
   return {{"schema", "zwidth.model/1"},
           {"device", device.name()},
           {"units", {{"force", units.force}, {"position", units.length}, {"time", "s"}}},

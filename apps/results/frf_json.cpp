@@ -9,7 +9,7 @@
 namespace zwidth::report {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = results::Json;
 
 /// A number, or null where there is none: JSON has no infinity.
 Json number_or_null(std::optional<double> value) {
@@ -70,7 +70,7 @@ const char* name_of(MeasuredStiffnessStatus status) {
   return "undetermined";
 }
 
-nlohmann::ordered_json remarks_json(const std::vector<Remark>& remarks) {
+results::Json remarks_json(const std::vector<Remark>& remarks) {
   Json array = Json::array();
   for (const Remark& remark : remarks) {
     array.push_back({{"severity", remark.severity == Remark::Severity::warning ? "warning" : "note"},
@@ -80,7 +80,7 @@ nlohmann::ordered_json remarks_json(const std::vector<Remark>& remarks) {
   return array;
 }
 
-nlohmann::ordered_json frf_json(const MeasuredFrf& frf, FrfContent content) {
+results::Json frf_json(const MeasuredFrf& frf, FrfContent content) {
   const FrequencyResponse& response = frf.response;
   Json document;
   document["schema"] = "zwidth.frf/1";

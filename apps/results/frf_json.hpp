@@ -1,6 +1,6 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include "results/json.hpp"
 
 #include "report/measured_frf.hpp"
 
@@ -12,12 +12,12 @@ enum class FrfContent {
 };
 
 /// The measured response as a JSON document, schema "zwidth.frf/1": see docs/frf_json.md.
-[[nodiscard]] nlohmann::ordered_json frf_json(const MeasuredFrf& frf, FrfContent content);
+[[nodiscard]] results::Json frf_json(const MeasuredFrf& frf, FrfContent content);
 
 /// "found", "not_in_band", "undetermined".
 [[nodiscard]] const char* name_of(MeasuredStiffnessStatus status);
 
 /// [{"severity": "note" | "warning", "what": ..., "meaning": ...}, ...]
-[[nodiscard]] nlohmann::ordered_json remarks_json(const std::vector<Remark>& remarks);
+[[nodiscard]] results::Json remarks_json(const std::vector<Remark>& remarks);
 
 }  // namespace zwidth::report

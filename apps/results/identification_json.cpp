@@ -9,7 +9,7 @@
 namespace zwidth::report {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = results::Json;
 
 Json number_or_null(std::optional<double> value) {
   return value && std::isfinite(*value) ? Json(*value) : Json(nullptr);
@@ -37,7 +37,7 @@ Json points_json(const IdentifiedDevice& identified) {
 
 }  // namespace
 
-nlohmann::ordered_json estimate_json(const ParameterEstimate& estimate, Motion motion) {
+results::Json estimate_json(const ParameterEstimate& estimate, Motion motion) {
   const Json interval = estimate.lower ? Json::array({*estimate.lower, *estimate.upper}) : Json(nullptr);
   return {{"key", estimate.key},
           {"value", estimate.value},
@@ -47,10 +47,10 @@ nlohmann::ordered_json estimate_json(const ParameterEstimate& estimate, Motion m
           {"interval", interval}};
 }
 
-nlohmann::ordered_json identification_json(const IdentifiedDevice& identified, PointsInJson points) {
+results::Json identification_json(const IdentifiedDevice& identified, PointsInJson points) {
   const ParameterFit& fit = identified.fit;
   const Motion motion = fit.device.parameters().motion;
-  const Json analysis = analysis_json(identified.analysed);
+  const Json analysis = results::analysis_json(identified.analysed);
   Json document;
   document["schema"] = "zwidth.identification/1";
   document["source"] = identified.source;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include "results/json.hpp"
 
 #include "report/identified_device.hpp"
 
@@ -9,9 +9,9 @@ namespace zwidth::report {
 enum class PointsInJson { left_out, included };
 
 /// {"key", "value", "unit", "identifiable", "standard_deviation", "interval"}; null for what does not exist.
-[[nodiscard]] nlohmann::ordered_json estimate_json(const ParameterEstimate& estimate, Motion motion);
+[[nodiscard]] results::Json estimate_json(const ParameterEstimate& estimate, Motion motion);
 
 /// The document of `identify --json`, schema zwidth.identification/1 (docs/identification.md).
-[[nodiscard]] nlohmann::ordered_json identification_json(const IdentifiedDevice& identified, PointsInJson points);
+[[nodiscard]] results::Json identification_json(const IdentifiedDevice& identified, PointsInJson points);
 
 }  // namespace zwidth::report

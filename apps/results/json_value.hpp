@@ -1,35 +1,16 @@
 #pragma once
 
-#include <cmath>
-#include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
 
-#include "zwidth/stability/critical_stiffness.hpp"
+#include "results/json.hpp"
+#include "results/stability_json.hpp"
 
 namespace zwidth::report {
 
-/// A number, or null where there is none: JSON has no infinity.
-[[nodiscard]] inline nlohmann::ordered_json number_or_null(std::optional<double> value) {
-  return value && std::isfinite(*value) ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
-}
-
-/// {"kind":"rigid_body"} or {"kind":"vibration_mode","mode":1}.
-[[nodiscard]] inline nlohmann::ordered_json mechanism_json(const Mechanism& mechanism) {
-  if (mechanism.kind == Mechanism::Kind::rigid_body) return {{"kind", "rigid_body"}};
-  return {{"kind", "vibration_mode"}, {"mode", mechanism.mode}};
-}
-
-/// "finite", "none_stable" or "unbounded".
-[[nodiscard]] inline const char* status_name(StiffnessStatus status) {
-  switch (status) {
-    case StiffnessStatus::finite:
-      return "finite";
-    case StiffnessStatus::none_stable:
-      return "none_stable";
-    case StiffnessStatus::unbounded:
-      break;
-  }
-  return "unbounded";
-}
+// Until every result converts itself through results/json.hpp: the old names for what its serializers do.
+[[nodiscard]] inline results::Json number_or_null(std::optional<double> value) { return value; }
+[[nodiscard]] inline results::Json mechanism_json(const Mechanism& mechanism) { return mechanism; }
+[[nodiscard]] inline std::string status_name(StiffnessStatus status) { return results::name_of(status); }
 
 }  // namespace zwidth::report

@@ -5,7 +5,7 @@
 namespace zwidth::report {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = results::Json;
 
 Json state_json(const AnalysedDevice& device) {
   const CriticalStiffness& critical = device.analysis.critical;

@@ -7,7 +7,7 @@
 namespace zwidth::report {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = results::Json;
 
 Json to_json(const BoundaryArc& arc);
 Json to_json(const BoundaryRing& ring);
@@ -87,7 +87,7 @@ const char* status_of(const StableRegion& region) {
 
 }  // namespace
 
-nlohmann::ordered_json region_json(const DeviceRegion& device) {
+results::Json region_json(const DeviceRegion& device) {
   const DeviceParameters& parameters = device.analysed.device.parameters();
   const Units units = units_of(parameters.motion);
   const StableRegion& region = device.region;
@@ -96,7 +96,7 @@ nlohmann::ordered_json region_json(const DeviceRegion& device) {
   document["device"] = parameters.name;
   document["units"] = {{"stiffness", units.stiffness}, {"damping", units.damping}};
   document["velocity_filter_hz"] = device.walls.velocity_filter_hz();
-  document["wall_filters"] = wall_filters_json(parameters.wall, parameters.loop.sampling_period);
+  document["wall_filters"] = results::wall_filters_json(parameters.wall, parameters.loop.sampling_period);
   document["status"] = status_of(region);
   document["critical_stiffness"] = number_or_null(region.critical_stiffness);
   document["stiffest"] = or_null(region.stiffest);

@@ -6,7 +6,7 @@
 namespace zwidth::report {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = results::Json;
 
 Json to_json(const Remark& remark) {
   return {{"severity", remark.severity == Remark::Severity::warning ? "warning" : "note"},
@@ -95,7 +95,7 @@ Json prediction_json(const RelayReport& report) {
 
 }  // namespace
 
-nlohmann::ordered_json relay_json(const RelayReport& report) {
+results::Json relay_json(const RelayReport& report) {
   const Units units = units_of(report.motion);
   const bool is_simulated = report.source == RelayReport::Source::simulation;
   Json document;

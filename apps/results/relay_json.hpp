@@ -1,12 +1,12 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include "results/json.hpp"
 
 #include "report/relay_report.hpp"
 
 namespace zwidth::report {
 
 /// Schema "zwidth.relay/1": trials, their mean, predictions, remarks. Numbers that do not exist are null.
-[[nodiscard]] nlohmann::ordered_json relay_json(const RelayReport& report);
+[[nodiscard]] results::Json relay_json(const RelayReport& report);
 
 }  // namespace zwidth::report

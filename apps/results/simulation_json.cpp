@@ -10,7 +10,7 @@
 namespace zwidth::report {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = results::Json;
 
 Json wall_json(const SimulatedLoop& loop) {
   const ControllerOptions& wall = loop.options.loop.controller;
@@ -19,7 +19,7 @@ Json wall_json(const SimulatedLoop& loop) {
   return {{"stiffness", wall.stiffness},
           {"damping", wall.damping},
           {"velocity_filter_hz", wall.velocity_filter_hz},
-          {"filters", wall_filters_json(device.wall, device.loop.sampling_period)},
+          {"filters", results::wall_filters_json(device.wall, device.loop.sampling_period)},
           {"position", wall.position},
           {"contact", wall.contact == ControllerOptions::Contact::unilateral ? "unilateral" : "bilateral"}};
 }
@@ -73,7 +73,7 @@ Json oscillation_json(const std::optional<Oscillation>& oscillation) {
 }
 
 Json linear_json(const AnalysedDevice& analysed) {
-  const Json analysis = analysis_json(analysed);
+  const Json analysis = results::analysis_json(analysed);
   const std::optional<WallMargins>& wall = analysed.analysis.wall;
   const bool finite = analysed.analysis.critical.status == StiffnessStatus::finite;
   return {{"status", analysis.at("status")},
@@ -86,7 +86,7 @@ Json linear_json(const AnalysedDevice& analysed) {
 
 }  // namespace
 
-nlohmann::ordered_json simulation_json(const SimulatedLoop& loop) {
+results::Json simulation_json(const SimulatedLoop& loop) {
   const Simulation& result = loop.result;
   const Device& device = loop.analysed.device;
   const Units units = units_of(device.parameters().motion);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include "results/json.hpp"
 
 #include "report/simulated_loop.hpp"
 
@@ -8,6 +8,6 @@ namespace zwidth::report {
 
 /// The document of `simulate --json`, schema zwidth.simulation/1, keys in their documented order. What does not exist
 /// is null; NaN and infinities never appear.
-[[nodiscard]] nlohmann::ordered_json simulation_json(const SimulatedLoop& loop);
+[[nodiscard]] results::Json simulation_json(const SimulatedLoop& loop);
 
 }  // namespace zwidth::report

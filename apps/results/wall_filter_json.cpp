@@ -1,20 +1,16 @@
 #include "results/wall_filter_json.hpp"
 
-#include <nlohmann/json.hpp>
-
 #include "export/filter_coefficients.hpp"
 #include "zwidth/io/wall_filter_type.hpp"
 
-namespace zwidth::report {
+namespace zwidth::results {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-Json to_json(const FilterCoefficients& coefficients) {
+Json coefficients_json(const report::FilterCoefficients& coefficients) {
   return {{"numerator", coefficients.numerator}, {"denominator", coefficients.denominator}};
 }
 
-Json to_json(const WallFilter& filter, double sampling_period) {
+Json filter_json(const WallFilter& filter, double sampling_period) {
   using enum WallFilter::Kind;
   Json json{{"type", wall_filter_type(filter.kind)}};
   if (filter.frequency_hz > 0.0) json["frequency_hz"] = filter.frequency_hz;
@@ -29,8 +25,8 @@ Json to_json(const WallFilter& filter, double sampling_period) {
     json["denominator"] = filter.denominator;
   }
   const FilterSection section = filter_section(filter, sampling_period);
-  json["z"] = to_json(in_z(section));
-  json["delta"] = to_json(in_delta(section));
+  json["z"] = coefficients_json(report::in_z(section));
+  json["delta"] = coefficients_json(report::in_delta(section));
   return json;
 }
 
@@ -38,8 +34,8 @@ Json to_json(const WallFilter& filter, double sampling_period) {
 
 Json wall_filters_json(const Wall& wall, double sampling_period) {
   Json filters = Json::array();
-  for (const WallFilter& filter : wall.filters) filters.push_back(to_json(filter, sampling_period));
+  for (const WallFilter& filter : wall.filters) filters.push_back(filter_json(filter, sampling_period));
   return filters;
 }
 
-}  // namespace zwidth::report
+}  // namespace zwidth::results

@@ -1,13 +1,12 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
-
+#include "results/json.hpp"
 #include "zwidth/model/device.hpp"
 
-namespace zwidth::report {
+namespace zwidth::results {
 
 /// The filters of the wall as an array: the keys of [[wall.filter]], and the section as it runs: `z` (numerator,
 /// denominator by falling powers of z) and `delta` (by rising powers of z - 1).
-[[nodiscard]] nlohmann::ordered_json wall_filters_json(const Wall& wall, double sampling_period);
+[[nodiscard]] Json wall_filters_json(const Wall& wall, double sampling_period);
 
-}  // namespace zwidth::report
+}  // namespace zwidth::results

@@ -26,7 +26,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
-using Json = nlohmann::ordered_json;
+using Json = results::Json;
 
 const DesignedDevice& designed_lhifam() {
   static const DesignedDevice designed = designed_device(Device(test::lhifam_parameters()));

@@ -1,13 +1,13 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include "results/json.hpp"
 #include <set>
 #include <string>
 
 namespace zwidth::report {
 
 /// Every key of a document, however deep.
-inline void collect_keys(const nlohmann::ordered_json& value, std::set<std::string>& keys) {
+inline void collect_keys(const results::Json& value, std::set<std::string>& keys) {
   if (value.is_object()) {
     for (const auto& item : value.items()) keys.insert(item.key());
   }

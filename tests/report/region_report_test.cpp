@@ -20,7 +20,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
-using Json = nlohmann::ordered_json;
+using Json = results::Json;
 
 const DeviceRegion& lhifam_region() {
   static const DeviceRegion region = device_region(Device(test::lhifam_parameters()));

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "results/json.hpp"
+#include "zwidth/model/modal_form.hpp"
+#include "zwidth/stability/analysis.hpp"
+#include "zwidth/stability/any_user.hpp"
+#include "zwidth/stability/worst_user.hpp"
+
+namespace zwidth::results {
+
+NLOHMANN_JSON_SERIALIZE_ENUM(StiffnessStatus, {{StiffnessStatus::finite, "finite"},
+                                               {StiffnessStatus::none_stable, "none_stable"},
+                                               {StiffnessStatus::unbounded, "unbounded"}})
+NLOHMANN_JSON_SERIALIZE_ENUM(Mechanism::Kind, {{Mechanism::Kind::rigid_body, "rigid_body"},
+                                               {Mechanism::Kind::vibration_mode, "vibration_mode"}})
+
+/// {"kind": "rigid_body"} or {"kind": "vibration_mode", "mode": 1}
+void to_json(Json& json, const Mechanism& mechanism);
+
+/// "frequency_rad_s", "frequency_hz", "stiffness", "stiffness_db", "limited_by", "poles_leaving"
+void to_json(Json& json, const Crossover& crossover);
+
+/// [lower, upper]; an unbounded end is null.
+void to_json(Json& json, const StableInterval& interval);
+void to_json(Json& json, const StiffnessInterval& interval);
+
+/// "frequency_rad_s", "frequency_hz", "damping_ratio"
+void to_json(Json& json, const Mode& mode);
+
+void to_json(Json& json, const RigidApproximation& rigid);
+void to_json(Json& json, const QCriterion& criterion);
+void to_json(Json& json, const WallMargins& wall);
+void to_json(Json& json, const WorstUser& worst);
+
+/// "status", "critical_stiffness", "critical_stiffness_db", "critical_frequency_rad_s", "critical_frequency_hz",
+/// "limited_by": the keys with which a document states a critical stiffness.
+void add_critical(Json& document, const CriticalStiffness& critical);
+
+}  // namespace zwidth::results

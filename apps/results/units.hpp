@@ -1,0 +1,21 @@
+#pragma once
+
+#include <optional>
+
+#include "results/json.hpp"
+#include "zwidth/quantity.hpp"
+
+namespace zwidth::results {
+
+using zwidth::decibels;
+using zwidth::hertz;
+
+/// 20 log10 of a ratio or of a value in SI units; absent where there is none or it is not positive.
+[[nodiscard]] std::optional<double> decibels(std::optional<double> value);
+
+[[nodiscard]] std::optional<double> hertz(std::optional<double> frequency);
+
+/// {"stiffness": "N/m", "damping": "N s/m"}: the units of a document about walls.
+[[nodiscard]] Json wall_units(Motion motion);
+
+}  // namespace zwidth::results
