@@ -1,10 +1,10 @@
 #pragma once
 
-#include "results/json.hpp"
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "results/json.hpp"
 #include "zwidth/model/device.hpp"
 #include "zwidth/stability/any_user.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"

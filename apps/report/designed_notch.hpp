@@ -1,11 +1,11 @@
 #pragma once
 
-#include "results/json.hpp"
 #include <optional>
 #include <string>
 
 #include "report/analysed_device.hpp"
 #include "report/figure/canvas.hpp"
+#include "results/json.hpp"
 #include "zwidth/design/notch_design.hpp"
 
 namespace zwidth::report {

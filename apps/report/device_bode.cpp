@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include "results/json.hpp"
 #include <numbers>
 
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
 #include "report/text/wall_filter_text.hpp"
 #include "results/analysis_json.hpp"
+#include "results/json.hpp"
 
 namespace zwidth::report {
 namespace {
@@ -169,8 +169,8 @@ results::Json bode_json(const AnalysedDevice& analysed, const BodeOptions& optio
   };
   const auto response = [&](const std::vector<BodePoint>& points) {
     return results::Json{{"frequency_rad_s", column(points, &BodePoint::frequency)},
-                                  {"magnitude_db", column(points, &BodePoint::magnitude_db)},
-                                  {"phase_deg", column(points, &BodePoint::phase_deg)}};
+                         {"magnitude_db", column(points, &BodePoint::magnitude_db)},
+                         {"phase_deg", column(points, &BodePoint::phase_deg)}};
   };
   return {{"schema", "zwidth.bode/1"},
           {"device", analysed.device.name()},

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include "results/json.hpp"
 #include <optional>
 #include <span>
 #include <string>
@@ -10,6 +9,7 @@
 #include "report/analysed_device.hpp"
 #include "report/bode_points.hpp"
 #include "report/figure/bode_figure.hpp"
+#include "results/json.hpp"
 
 namespace zwidth::report {
 

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include "results/json.hpp"
 
 #include "report/text/quantity.hpp"
 #include "report/text/remark_line.hpp"
 #include "results/frf_json.hpp"
+#include "results/json.hpp"
 
 namespace zwidth::report {
 namespace {

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "results/json.hpp"
 #include <optional>
 #include <string>
 
+#include "results/json.hpp"
 #include "zwidth/identification/excitation.hpp"
 
 namespace zwidth::report {

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "results/json.hpp"
 #include <string>
 #include <vector>
 
+#include "results/json.hpp"
 #include "zwidth/identification/inverse_dynamics.hpp"
 #include "zwidth/model/device.hpp"
 

@@ -1,8 +1,7 @@
 #pragma once
 
-#include "results/json.hpp"
-
 #include "report/designed_device.hpp"
+#include "results/json.hpp"
 
 namespace zwidth::report {
 

@@ -1,10 +1,10 @@
-#include "results/json.hpp"
 #include <vector>
 
 #include "export/export.hpp"
 #include "export/filter_coefficients.hpp"
 #include "report/text/quantity.hpp"
 #include "results/analysis_json.hpp"
+#include "results/json.hpp"
 #include "results/wall_filter_json.hpp"
 
 namespace zwidth::report {

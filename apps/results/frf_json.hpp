@@ -1,8 +1,7 @@
 #pragma once
 
-#include "results/json.hpp"
-
 #include "report/measured_frf.hpp"
+#include "results/json.hpp"
 
 namespace zwidth::report {
 

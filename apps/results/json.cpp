@@ -2,9 +2,7 @@
 
 namespace zwidth::results {
 
-std::string line(const Json& document) {
-  return document.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
-}
+std::string line(const Json& document) { return document.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
 void to_json(Json& json, const Remark& remark) {
   const bool both = !remark.consequence.empty() && !remark.remedy.empty();

@@ -1,8 +1,7 @@
 #pragma once
 
-#include "results/json.hpp"
-
 #include "report/device_region.hpp"
+#include "results/json.hpp"
 
 namespace zwidth::report {
 

@@ -1,8 +1,7 @@
 #pragma once
 
-#include "results/json.hpp"
-
 #include "report/relay_report.hpp"
+#include "results/json.hpp"
 
 namespace zwidth::report {
 

@@ -10,12 +10,9 @@ void to_json(Json& json, const Mechanism& mechanism) {
 }
 
 void to_json(Json& json, const Crossover& crossover) {
-  json = {{"frequency_rad_s", crossover.frequency},
-          {"frequency_hz", hertz(crossover.frequency)},
-          {"stiffness", crossover.stiffness},
-          {"stiffness_db", decibels(std::optional(crossover.stiffness))},
-          {"limited_by", crossover.limited_by},
-          {"poles_leaving", crossover.poles_leaving}};
+  json = {{"frequency_rad_s", crossover.frequency}, {"frequency_hz", hertz(crossover.frequency)},
+          {"stiffness", crossover.stiffness},       {"stiffness_db", decibels(std::optional(crossover.stiffness))},
+          {"limited_by", crossover.limited_by},     {"poles_leaving", crossover.poles_leaving}};
 }
 
 void to_json(Json& json, const StableInterval& interval) { json = Json::array({interval.lower, interval.upper}); }
