@@ -35,7 +35,7 @@ struct ExciteArguments {
   bool json = false;
 };
 
-const std::map<std::string, ExcitationKind>& kinds() {
+const std::map<std::string, ExcitationKind>& excitation_kinds() {
   static const std::map<std::string, ExcitationKind> names{{"linear-chirp", ExcitationKind::linear_chirp},
                                                            {"log-chirp", ExcitationKind::logarithmic_chirp},
                                                            {"multisine", ExcitationKind::multisine},
@@ -58,7 +58,7 @@ report::CheckedExcitation checked_excitation(const ExciteArguments& arguments) {
   const std::optional<Device> device = read_device(arguments);
   report::CheckedExcitation checked;
   checked.options = arguments.excitation;
-  checked.options.kind = kinds().at(arguments.kind);
+  checked.options.kind = excitation_kinds().at(arguments.kind);
   if (arguments.rate) {
     checked.options.rate = *arguments.rate;
   } else if (device) {

@@ -16,7 +16,7 @@
 namespace zwidth::cli {
 namespace {
 
-constexpr const char* group = "Motion";
+constexpr const char* motion_group = "Motion";
 
 std::vector<double> motion_of_bodies(const std::vector<std::string>& texts, const Device& device,
                                      const std::string& option, std::string_view unit) {
@@ -81,7 +81,7 @@ struct ForceKind {
   std::string_view form;
 };
 
-constexpr ForceKind kinds[] = {
+constexpr ForceKind force_kinds[] = {
     {"step:", UserForce::Kind::step, false, "step:N@S (force in N or N m, start in s)"},
     {"ramp:", UserForce::Kind::ramp, false, "ramp:N_PER_S@S (rate in N/s or N m/s, start in s)"},
     {"sine:", UserForce::Kind::sine, true, "sine:N,HZ@S (amplitude, frequency in Hz, start in s)"}};
@@ -103,7 +103,7 @@ UserForce recorded_force(const MotionArguments& arguments) {
 
 UserForce user_force(const MotionArguments& arguments) {
   const std::string& text = arguments.user_force;
-  for (const ForceKind& each : kinds) {
+  for (const ForceKind& each : force_kinds) {
     if (!text.starts_with(each.prefix)) continue;
     const auto parsed = force_text(std::string_view(text).substr(each.prefix.size()));
     if (!parsed || parsed->frequency.has_value() != each.has_frequency) {
@@ -124,7 +124,7 @@ UserForce user_force(const MotionArguments& arguments) {
 
 void add_motion_arguments(CLI::App& command, MotionArguments& arguments) {
   const auto add_bodies = [&](const std::string& name, std::vector<std::string>& target, const std::string& what) {
-    command.add_option(name, target, what)->type_name("BODY=X")->allow_extra_args(false)->group(group);
+    command.add_option(name, target, what)->type_name("BODY=X")->allow_extra_args(false)->group(motion_group);
   };
   add_bodies("--start", arguments.starts, "Where a body starts, m or rad; a number alone: all bodies");
   add_bodies("--start-velocity", arguments.velocities, "How fast it starts, m/s or rad/s");
@@ -133,23 +133,23 @@ void add_motion_arguments(CLI::App& command, MotionArguments& arguments) {
           "--user-force", arguments.user_force,
           "Force on the held body: step:N@S, ramp:N_PER_S@S, sine:N,HZ@S\n(each from S seconds on), or a recording")
       ->type_name("FORCE|FILE")
-      ->group(group);
+      ->group(motion_group);
   command.add_option("--user-force-column", arguments.force_column, "Column of the recording")
       ->type_name("COLUMN")
       ->capture_default_str()
-      ->group(group);
+      ->group(motion_group);
   command
       .add_option("--user-force-scale", arguments.force_scale, "What its samples are multiplied by, to get N or N m")
       ->type_name("X")
       ->capture_default_str()
-      ->group(group);
+      ->group(motion_group);
   command.add_option("--user-force-rate", arguments.force_rate, "Samples per second, where no column holds the time")
       ->type_name("HZ")
-      ->group(group);
+      ->group(motion_group);
   command.add_option("--user-force-start", arguments.force_start, "When the recording begins to act, s")
       ->type_name("S")
       ->capture_default_str()
-      ->group(group);
+      ->group(motion_group);
 }
 
 bool is_empty(const MotionArguments& arguments) {

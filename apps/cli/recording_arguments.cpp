@@ -17,14 +17,12 @@
 namespace zwidth::cli {
 namespace {
 
-constexpr const char* group = recording_group;
-
 void add_column(CLI::App& command, const std::string& name, ColumnRequest& column, const std::string& what) {
-  command.add_option("--" + name, column.name, what)->type_name("COLUMN")->group(group);
+  command.add_option("--" + name, column.name, what)->type_name("COLUMN")->group(recording_group);
   command.add_option("--" + name + "-scale", column.scale, "What its samples are multiplied by, to get SI units")
       ->type_name("X")
       ->capture_default_str()
-      ->group(group);
+      ->group(recording_group);
 }
 
 void check_scale(const std::string& option, double scale) {
@@ -117,46 +115,48 @@ void add_recording_arguments(CLI::App& command, RecordingArguments& arguments) {
 }
 
 void add_recording_options(CLI::App& command, RecordingArguments& arguments) {
-  command.add_flag("--list", arguments.list, "Print what the file holds, and do nothing else")->group(group);
+  command.add_flag("--list", arguments.list, "Print what the file holds, and do nothing else")->group(recording_group);
   add_column(command, "force", arguments.force, "Commanded force: a column's name, or its number from 1");
   add_column(command, "position", arguments.position, "Sensed position");
   add_column(command, "velocity", arguments.velocity, "Sensed velocity, where no position is recorded");
   add_column(command, "acceleration", arguments.acceleration, "Sensed acceleration, where no position is recorded");
   command.add_option("--rate", arguments.options.rate, "Samples per second, where no column holds the time")
       ->type_name("HZ")
-      ->group(group);
-  command.add_option("--time", arguments.options.time_column, "Column of times")->type_name("COLUMN")->group(group);
+      ->group(recording_group);
+  command.add_option("--time", arguments.options.time_column, "Column of times")
+      ->type_name("COLUMN")
+      ->group(recording_group);
   command
       .add_option("--time-scale", arguments.options.time_scale,
                   "Seconds per unit of that column; else by the unit in its name, or 1")
       ->type_name("S")
-      ->group(group);
+      ->group(recording_group);
   command.add_option("--timer-bits", arguments.options.timer_bits, "The time column counts up and wraps at 2^BITS")
       ->type_name("BITS")
       ->check(CLI::Range(1, 64))
-      ->group(group);
+      ->group(recording_group);
   command.add_option("--format", arguments.format, "auto, text, mat or uff")
       ->type_name("FORMAT")
       ->capture_default_str()
       ->check(CLI::IsMember({"auto", "text", "mat", "uff"}))
-      ->group(group);
+      ->group(recording_group);
   command.add_option("--delimiter", arguments.delimiter, "Of a text: comma, semicolon, tab or space; else detected")
       ->type_name("NAME")
-      ->group(group);
+      ->group(recording_group);
   command.add_option("--decimal", arguments.decimal_mark, "Of a text: point or comma; else detected")
       ->type_name("NAME")
-      ->group(group);
+      ->group(recording_group);
   CLI::Option* header =
       command.add_flag("--header", arguments.header, "The first line of a text names the columns; else detected");
-  header->group(group);
+  header->group(recording_group);
   command.add_flag("--no-header", arguments.no_header, "A text has no such line: columns are numbers from 1")
       ->excludes(header)
-      ->group(group);
+      ->group(recording_group);
   command
       .add_option("--comment", arguments.options.comment, "Lines of a text that begin with one of these are skipped")
       ->type_name("CHARACTERS")
       ->capture_default_str()
-      ->group(group);
+      ->group(recording_group);
 }
 
 RecordingOptions recording_options(const RecordingArguments& arguments) {

@@ -15,7 +15,7 @@
 namespace zwidth::cli {
 namespace {
 
-constexpr const char* group = "Structure";
+constexpr const char* structure_group = "Structure";
 
 /// The bodies of a named structure, from the motor to the user; empty for a file.
 std::vector<std::string> bodies_of(const std::string& structure) {
@@ -39,7 +39,7 @@ std::string device_text(const std::string& name, const std::string& motion, doub
   return write_device(device);
 }
 
-std::string did_you_mean(const std::string& word, const std::vector<std::string>& known) {
+std::string nearest_or_all(const std::string& word, const std::vector<std::string>& known) {
   const std::string nearest = nearest_word(word, known);
   return nearest.empty() ? fmt::format("; one of {}", fmt::join(known, ", "))
                          : fmt::format("; did you mean {}?", nearest);
@@ -77,30 +77,30 @@ void add_structure_arguments(CLI::App& command, StructureArguments& arguments) {
   command.add_option("--structure", arguments.structure, "Device file to fit, or rigid, two-body or three-body")
       ->type_name("DEVICE")
       ->required()
-      ->group(group);
+      ->group(structure_group);
   command.add_option("--free", arguments.free, "Keys to fit; all (the default): masses, dampings, stiffnesses")
       ->type_name("KEYS")
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->group(group);
+      ->group(structure_group);
   command.add_option("--locked", arguments.locked, "Bodies held still in the experiment")
       ->type_name("BODIES")
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->group(group);
+      ->group(structure_group);
   command.add_option("--set", arguments.overrides, "Override a key of the structure; may be repeated")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false)
-      ->group(group);
+      ->group(structure_group);
   command.add_option("--motion", arguments.motion, "Of a named structure: linear (the default) or rotary")
       ->type_name("KIND")
       ->check(CLI::IsMember({"linear", "rotary"}))
-      ->group(group);
+      ->group(structure_group);
   command
       .add_option("--sampling-period", arguments.sampling_period,
                   "Of the loop to judge, in s; else the structure's or record's")
       ->type_name("S")
-      ->group(group);
+      ->group(structure_group);
 }
 
 bool is_named_structure(const StructureArguments& arguments) { return !bodies_of(arguments.structure).empty(); }
@@ -115,7 +115,7 @@ Device structure(const StructureArguments& arguments, std::optional<double> reco
   for (const Body& body : device.bodies()) names.push_back(body.name);
   for (const std::string& name : arguments.locked) {
     if (std::ranges::count(names, name) == 0) {
-      throw BadInput(fmt::format("--locked: there is no body {}{}", name, did_you_mean(name, names)));
+      throw BadInput(fmt::format("--locked: there is no body {}{}", name, nearest_or_all(name, names)));
     }
   }
   return device;
@@ -139,7 +139,7 @@ std::vector<std::string> free_parameters(const StructureArguments& arguments, co
     }
     const std::string key = full_parameter_key(structure.parameters(), given);
     if (std::ranges::count(known, key) == 0) {
-      throw BadInput(fmt::format("--free: no parameter is called {}{}", given, did_you_mean(given, known)));
+      throw BadInput(fmt::format("--free: no parameter is called {}{}", given, nearest_or_all(given, known)));
     }
     add(key);
   }

@@ -6,8 +6,8 @@
 #include <tl/expected.hpp>
 #include <vector>
 
-#include "zwidth/identification/frequency_response.hpp"
 #include "zwidth/io/recording_file.hpp"
+#include "zwidth/signal/frequency_response.hpp"
 
 namespace zwidth::internal {
 

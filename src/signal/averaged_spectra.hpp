@@ -4,7 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "zwidth/identification/frequency_response.hpp"
+#include "zwidth/progress.hpp"
+#include "zwidth/signal/window.hpp"
 
 namespace zwidth::internal {
 

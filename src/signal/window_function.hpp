@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "zwidth/identification/frequency_response.hpp"
+#include "zwidth/signal/window.hpp"
 
 namespace zwidth::internal {
 

@@ -40,9 +40,11 @@ struct Excitation {
 ///
 ///     linear chirp        p = f1 t + (f2 - f1) t^2 / (2 D)
 ///     logarithmic chirp   p = f1 D (r^(t/D) - 1) / ln r,  r = f2 / f1
-///     multisine           sum over the n lines k/period in the band of cos(2 pi k t/period - i (i - 1) pi / n), i
-///     = 1..n noise               Gaussian, of constant power density in the band and none outside (sharp, over its
-///     whole length) relay               +, - in turn, each for a whole number of samples
+///     multisine           sum over the n lines k/period in the band of cos(2 pi k t/period - i (i - 1) pi / n),
+///                         i = 1..n
+///     noise               Gaussian, of constant power density in the band and none outside (sharp, over its whole
+///                         length)
+///     relay               +, - in turn, each for a whole number of samples
 ///
 /// Chirp and relay have the amplitude as their own; multisine and noise are scaled so that their largest sample is it.
 /// The same options give the same noise everywhere. Requires finite amplitude, duration and rate > 0; 0 < lowest <=

@@ -5,9 +5,9 @@
 #include <tl/expected.hpp>
 #include <vector>
 
-#include "zwidth/identification/frequency_response.hpp"
 #include "zwidth/io/input_error.hpp"
 #include "zwidth/progress.hpp"
+#include "zwidth/signal/frequency_response.hpp"
 #include "zwidth/signal/recording.hpp"
 
 namespace zwidth {

@@ -14,9 +14,8 @@ namespace zwidth {
 ///     low_pass, order 1    1 / (s/w + 1)
 ///     low_pass, order 2    1 / ((s/w)² + 2 z s/w + 1)
 ///     notch                ((s/w)² + 2 z depth s/w + 1) / ((s/w)² + 2 z s/w + 1)      gain `depth` at w
-///     lead_lag             (s sqrt(ratio)/w + 1) / (s/(w sqrt(ratio)) + 1)            a lead for ratio > 1; phase
-///                                                                                     asin((ratio - 1)/(ratio + 1)) at
-///                                                                                     w
+///     lead_lag             (s sqrt(ratio)/w + 1) / (s/(w sqrt(ratio)) + 1)            a lead for ratio > 1; at w of phase
+///                                                                                     asin((ratio - 1)/(ratio + 1))
 ///     biquad               numerator / denominator, descending powers of s
 ///     digital              numerator / denominator, descending powers of z, run as they stand
 ///

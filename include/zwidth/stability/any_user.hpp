@@ -10,8 +10,8 @@ struct AnyUserLimit {
   /// The wall is stable with every passive user for every stiffness below; 0 where some user destabilises any wall,
   /// infinity where none destabilises one.
   double stiffness = 0.0;
-  double frequency =
-      0.0;  ///< rad/s in (0, pi/T], where the worst user destabilises it; 0 where the limit is 0 or infinite
+  /// rad/s in (0, pi/T], where the worst user destabilises it; 0 where the limit is 0 or infinite
+  double frequency = 0.0;
   /// Relative error that the truncated sums over aliases may leave in `stiffness`.
   double truncation = 0.0;
   /// The free device itself reaches it: no user makes the wall less stable than nobody.
@@ -23,9 +23,9 @@ struct AnyUserLimit {
 /// A passive user is any F_h = -Z(s) s x_h with Re Z >= 0. At one frequency the plant then runs over a disc of centre
 /// G_sa - D and radius |D|,
 ///
-///     D(jw) = jw G_sh G_ha / (2 Re Y),   Y = jw G_hh,   Re Y = w² q^H Dmp q   (q: positions per force at the held
-///     body,
-///                                                                              Dmp: damping matrix; no cancellation)
+///     D(jw) = jw G_sh G_ha / (2 Re Y),   Y = jw G_hh,   Re Y = w² q^H Dmp q
+///
+/// (q: positions per force at the held body; Dmp: damping matrix; nothing cancels),
 ///
 /// and the sampled plant over the sum of the discs of its aliases w + 2 pi k/T. The loop is stable with every passive
 /// user iff it is stable with one and |1 + C c_T| > |C| r_T at all 0 < w <= pi/T. The least K that violates it at one
