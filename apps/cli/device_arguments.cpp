@@ -5,6 +5,7 @@
 #include <system_error>
 #include <utility>
 
+#include "cli/input_problem.hpp"
 #include "cli/subcommand.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/io/device_file.hpp"
@@ -31,7 +32,7 @@ std::vector<Device> read_devices(const DeviceArguments& arguments) {
     if (auto device = read_device_file(file, arguments.overrides)) {
       devices.push_back(*std::move(device));
     } else {
-      problems += (problems.empty() ? "" : "\n") + device.error().str();
+      problems += (problems.empty() ? "" : "\n") + input_problem(device.error());
     }
   }
   if (!problems.empty()) throw BadInput(problems);

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
@@ -6,7 +7,9 @@
 #include <exception>
 #include <new>
 #include <string>
+#include <vector>
 
+#include "cli/commit.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
 #include "cli/usage_error.hpp"
@@ -24,9 +27,24 @@ void report_problem(std::string message) {
   write_standard_error("zwidth: " + message + "\n");
 }
 
+/// What `zwidth` alone says: where to begin, and the commands in one line.
+std::string short_help(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  return fmt::format(
+      "{}\n\n"
+      "  zwidth analyze devices/lhifam.toml                  the stiffest wall of a device, and why\n"
+      "  zwidth identify RECORDING --structure DEVICE ...    a device from measurements\n"
+      "  zwidth design devices/lhifam.toml                   what to change\n\n"
+      "Commands: {}.\n"
+      "'zwidth --help' tells what each does, 'zwidth COMMAND --help' how.\n",
+      app.get_description(), fmt::join(names, ", "));
+}
+
 int run(int argument_count, char** arguments) {
   CLI::App app("The stiffest virtual wall that a haptic device renders stably.", "zwidth");
-  app.set_version_flag("--version", "zwidth " ZWIDTH_VERSION, "Print the version and exit");
+  app.set_version_flag("--version", fmt::format("zwidth {} ({})", ZWIDTH_VERSION, commit),
+                       "Print the version and the commit, and exit");
   app.set_help_flag("-h,--help", "Print this help and exit");
   app.require_subcommand(1);
   app.footer(
@@ -51,7 +69,7 @@ int run(int argument_count, char** arguments) {
   app.get_formatter()->label("SUBCOMMAND", "COMMAND");
   app.get_formatter()->label("REQUIRED", "");
   if (argument_count < 2) {
-    write_standard_error(app.help());
+    write_standard_error(short_help(app));
     return bad_input;
   }
   try {

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string_view>
 
+#include "cli/input_problem.hpp"
 #include "cli/number_text.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/subcommand.hpp"
@@ -92,7 +93,7 @@ UserForce recorded_force(const MotionArguments& arguments) {
   options.rate = arguments.force_rate;
   ProgressLine line("reading " + arguments.user_force);
   const auto recording = read_recording(arguments.user_force, options, line.progress());
-  if (!recording) throw BadInput("--user-force: " + recording.error().str());
+  if (!recording) throw BadInput("--user-force: " + input_problem(recording.error()));
   UserForce force;
   force.kind = UserForce::Kind::recorded;
   force.start = arguments.force_start;

@@ -8,6 +8,7 @@
 #include <system_error>
 #include <utility>
 
+#include "cli/input_problem.hpp"
 #include "cli/number_text.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/subcommand.hpp"
@@ -60,7 +61,7 @@ RecordingFormat format_of(const std::string& text) {
 std::string columns_of(const RecordingArguments& arguments) {
   if (arguments.file == "-") return "";
   const auto contents = list_recording(arguments.file, recording_options(arguments));
-  if (!contents) throw BadInput(contents.error().str());
+  if (!contents) throw BadInput(input_problem(contents.error()));
   constexpr std::size_t most = 30;
   std::string names;
   for (std::size_t i = 0; i < std::min(most, contents->columns.size()); ++i) {
@@ -187,7 +188,7 @@ RecordedMotion read_motion(const RecordingArguments& arguments) {
   options.columns = {arguments.force, motion.column};
   ProgressLine line("reading " + arguments.file);
   auto recording = read_recording(arguments.file, options, line.progress());
-  if (!recording) throw BadInput(recording.error().str());
+  if (!recording) throw BadInput(input_problem(recording.error()));
   check_that_columns_differ(*recording, arguments.force, motion.column);
   RecordedMotion recorded{*std::move(recording), motion.output};
   const auto check = [&recorded](std::size_t channel, SignalRole role) {
@@ -203,7 +204,7 @@ RecordedMotion read_motion(const RecordingArguments& arguments) {
 
 std::string contents_text(const RecordingArguments& arguments) {
   const auto contents = list_recording(arguments.file, recording_options(arguments));
-  if (!contents) throw BadInput(contents.error().str());
+  if (!contents) throw BadInput(input_problem(contents.error()));
   using Align = report::TextTable::Align;
   report::TextTable table{{Align::right, Align::left, Align::right, Align::left}, {{"", "column", "samples", ""}}};
   for (std::size_t i = 0; i < contents->columns.size(); ++i) {

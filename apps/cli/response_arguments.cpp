@@ -9,6 +9,7 @@
 #include <numbers>
 #include <utility>
 
+#include "cli/input_problem.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/subcommand.hpp"
 #include "zwidth/error.hpp"
@@ -165,7 +166,7 @@ MeasuredResponse from_table(const ResponseArguments& arguments) {
   const Band band = band_of(arguments);
   ProgressLine line("reading " + arguments.recording.file);
   auto response = read_response_table(arguments.recording.file, options, line.progress());
-  if (!response) throw BadInput(response.error().str());
+  if (!response) throw BadInput(input_problem(response.error()));
   std::erase_if(response->points, [&](const ResponsePoint& point) {
     return (band.lowest && point.frequency < *band.lowest) || (band.highest && point.frequency > *band.highest);
   });

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cli/input_problem.hpp"
 #include "cli/subcommand.hpp"
 #include "zwidth/identification/parameter_fit.hpp"
 #include "zwidth/io/device_file.hpp"
@@ -52,7 +53,7 @@ Device named_structure(const StructureArguments& arguments, std::optional<double
   const std::string text = device_text(arguments.structure, arguments.motion,
                                        arguments.sampling_period.value_or(record_period.value_or(0.0)));
   auto device = parse_device(text, "--structure " + arguments.structure, arguments.overrides);
-  if (!device) throw BadInput(device.error().str());
+  if (!device) throw BadInput(input_problem(device.error()));
   return *std::move(device);
 }
 
@@ -64,7 +65,7 @@ Device structure_from_file(const StructureArguments& arguments) {
   if (arguments.sampling_period)
     overrides.push_back(fmt::format("loop.sampling_period={}", *arguments.sampling_period));
   auto device = read_device_file(arguments.structure, overrides);
-  if (!device) throw BadInput(device.error().str());
+  if (!device) throw BadInput(input_problem(device.error()));
   if (!device->has_bodies()) {
     throw BadInput(fmt::format("--structure: {}: is a transfer function; a device of bodies", arguments.structure));
   }

@@ -28,7 +28,7 @@ std::optional<DeviceProblem> find_axis_problem(const DeviceParameters& parameter
   const std::vector<std::string> keys = parameter_keys(parameters);
   if (std::ranges::find(keys, key) == keys.end()) {
     return DeviceProblem{axis.key, "is no number of the device",
-                         "must be a key as in --set, body.NAME.mass for instance"};
+                         "must be a key of the device file, body.NAME.mass for instance"};
   }
   if (is_for_simulation(key)) {
     return DeviceProblem{key, "does not change the critical stiffness", "sweep a number that does"};

@@ -12,9 +12,6 @@
 
 namespace zwidth::internal {
 
-/// Source of everything that comes from an override, as shown in errors and as path of its TOML nodes.
-inline constexpr std::string_view override_source = "--set";
-
 /// One reading of a device file: the first thing wrong with it, and where each of its keys stands.
 ///
 /// Reading goes on after a refusal (its result is thrown away), so that readers need no error path of their own.
@@ -40,7 +37,7 @@ class DeviceReading {
 /// Typed access to the keys of one table; what is not as it must be is refused in the reading.
 class TableReader {
  public:
-  /// `key` is the table's own key, as in --set.
+  /// `key` is the table's own key, as in an override.
   TableReader(DeviceReading& reading, const toml::table& table, std::string key);
 
   /// Refuses every key that does not belong in a table of this kind.

@@ -30,7 +30,7 @@ struct NumberCell {
 /// `text` without the blanks (spaces and tabs) at its ends.
 [[nodiscard]] std::string_view trimmed(std::string_view text);
 
-/// `text` itself where it is UTF-8, else its bytes read as Latin-1 and written as UTF-8: what a message or JSON may
+/// `text` itself where it is UTF-8, else its bytes read as Latin-1 and written as UTF-8: what a message or a document may
 /// hold.
 [[nodiscard]] std::string as_utf8(std::string_view text);
 

@@ -56,7 +56,7 @@ InputError no_time_axis(const std::string& source) {
           0,
           "",
           "has no column whose name says time",
-          "state the rate in Hz (--rate) or the column of times (--time)"};
+          "state the rate in Hz (`rate`) or the column of times (`time_column`)"};
 }
 
 void check_recording_options(const RecordingOptions& options) {

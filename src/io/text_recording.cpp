@@ -78,7 +78,7 @@ tl::expected<Selection, InputError> select_columns(const TextTable& table, const
 
 /// A time that is no number has its own remedy.
 InputError no_time(InputError refusal) {
-  refusal.allowed = "times must be numbers, such as seconds from the start; or state the rate instead (--rate)";
+  refusal.allowed = "times must be numbers, such as seconds from the start; or state the rate instead (`rate`)";
   return refusal;
 }
 

@@ -135,15 +135,15 @@ tl::expected<void, InputError> refuse_times_that_do_not_rise(const RawColumn& ti
       }
       return Refusal(refused_sample(
           times, i, fmt::format("the time stands still at {:.12g}, {} times in the record", t[i], still),
-          "times must rise: where they have too few digits or are repeated, state the rate instead (--rate)"));
+          "times must rise: where they have too few digits or are repeated, state the rate instead (`rate`)"));
     }
     const double period = std::max(i >= 2 ? t[i - 1] - t[i - 2] : 0.0, i + 1 < t.size() ? t[i + 1] - t[i] : 0.0);
     const unsigned bits = bits_of_wrap(t[i - 1], t[i], period);
     return Refusal(refused_sample(times, i, fmt::format("the time falls from {:.12g} to {:.12g}", t[i - 1], t[i]),
                                   bits > 0 ? fmt::format("times must rise: this looks like a timer of {} bits that "
-                                                         "wraps (--timer-bits {})",
+                                                         "wraps (`timer_bits` {})",
                                                          bits, bits)
-                                           : "times must rise, or state the rate instead (--rate)"));
+                                           : "times must rise, or state the rate instead (`rate`)"));
   }
   return {};
 }
@@ -225,7 +225,7 @@ std::vector<Remark> axis_remarks(const RawColumn& times, const Irregularity& fou
                      ""});
   if (period > slowest_likely_period || period < fastest_likely_period) {
     remarks.push_back({Remark::Severity::warning, fmt::format("a sampling period of {} is unusual", in_seconds(period)),
-                       "if the times are not in the unit above, state the unit (--time-scale; milliseconds: 1e-3)"});
+                       "if the times are not in the unit above, state the unit (`time_scale`; milliseconds: 1e-3)"});
   }
   if (found.gaps > 0) remarks.push_back(gap_remark(times, found, period));
   if (std::abs(found.worst_period - period) > largest_jitter * period) {

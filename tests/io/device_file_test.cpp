@@ -100,7 +100,7 @@ TEST(DeviceFile, AnyTomlSpellingDoes) {
 TEST(InputError, IsOneLineWhateverTheFileSays) {
   const InputError error{"a\nb.toml", 3, 7, "body.\x1b[31m.mass", "is -1\r", "must be > 0"};
   EXPECT_EQ(error.str(), "a\\x0Ab.toml:3:7: body.\\x1B[31m.mass: is -1\\x0D; must be > 0");
-  EXPECT_EQ((InputError{"--set", 0, 0, "", "is wrong", ""}).str(), "--set: is wrong");
+  EXPECT_EQ((InputError{"an override", 0, 0, "", "is wrong", ""}).str(), "an override: is wrong");
 }
 
 }  // namespace

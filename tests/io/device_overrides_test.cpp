@@ -89,32 +89,36 @@ TEST_P(RefusedOverride, IsNamed) {
 const std::string must_be_value = "must be a TOML value such as 0.25e-3, \"handle\" or [1, 2]";
 
 const BadOverride overrides[] = {
-    {"no_equals", "loop.delay", "--set: \"loop.delay\" is not KEY=VALUE; write for instance loop.delay=0.25e-3"},
-    {"no_key", "=3", "--set: \"=3\" is not KEY=VALUE; write for instance loop.delay=0.25e-3"},
-    {"no_value", "loop.delay=", "--set: loop.delay: cannot read the value \"\"; " + must_be_value},
-    {"two_values", "loop.delay=1 2", "--set: loop.delay: cannot read the value \"1 2\"; " + must_be_value},
+    {"no_equals", "loop.delay", "an override: \"loop.delay\" is not KEY=VALUE; write for instance loop.delay=0.25e-3"},
+    {"no_key", "=3", "an override: \"=3\" is not KEY=VALUE; write for instance loop.delay=0.25e-3"},
+    {"no_value", "loop.delay=", "an override: loop.delay: cannot read the value \"\"; " + must_be_value},
+    {"two_values", "loop.delay=1 2", "an override: loop.delay: cannot read the value \"1 2\"; " + must_be_value},
     {"two_lines", "loop.delay=1\nname=\"x\"",
-     "--set: loop.delay: cannot read the value \"1\\x0Aname=\"x\"\"; " + must_be_value},
+     "an override: loop.delay: cannot read the value \"1\\x0Aname=\"x\"\"; " + must_be_value},
     {"zero_byte", std::string("name=a\0b", 8),
-     std::string("--set: name: cannot read the value \"a\\x00b\"; ") + must_be_value},
-    {"half_number", "loop.delay=.5", "--set: loop.delay: cannot read the value \".5\"; " + must_be_value},
-    {"unknown_table", "lop.delay=1", "--set: lop.delay: unknown key \"lop\"; did you mean \"loop\"?"},
-    {"unknown_key", "loop.dely=1", "--set: loop.dely: unknown key \"dely\"; did you mean \"delay\"?"},
-    {"unknown_body_key", "body.motor.mas=1", "--set: body.motor.mas: unknown key \"mas\"; did you mean \"mass\"?"},
-    {"key_without_table", "delay=1", "--set: delay: unknown key \"delay\"; it belongs in [loop]"},
-    {"key_of_a_value", "motion.x=1", "--set: motion.x: \"motion\" is one value, not a table; write motion=VALUE"},
+     std::string("an override: name: cannot read the value \"a\\x00b\"; ") + must_be_value},
+    {"half_number", "loop.delay=.5", "an override: loop.delay: cannot read the value \".5\"; " + must_be_value},
+    {"unknown_table", "lop.delay=1", "an override: lop.delay: unknown key \"lop\"; did you mean \"loop\"?"},
+    {"unknown_key", "loop.dely=1", "an override: loop.dely: unknown key \"dely\"; did you mean \"delay\"?"},
+    {"unknown_body_key", "body.motor.mas=1",
+     "an override: body.motor.mas: unknown key \"mas\"; did you mean \"mass\"?"},
+    {"key_without_table", "delay=1", "an override: delay: unknown key \"delay\"; it belongs in [loop]"},
+    {"key_of_a_value", "motion.x=1", "an override: motion.x: \"motion\" is one value, not a table; write motion=VALUE"},
     {"misspelt_body", "body.hanle.mass=1",
-     "--set: body.hanle.mass: there is no body \"hanle\"; did you mean \"handle\"?"},
-    {"no_such_body", "body.5.mass=1", "--set: body.5.mass: there is no body \"5\"; the bodies are motor, handle"},
-    {"which_body", "body.mass=1", "--set: body.mass: could be in any of 2 [[body]]; write for instance body.0.mass"},
-    {"no_such_link", "link.1.damping=1", "--set: link.1.damping: there is no link \"1\"; must be link.0 to link.0"},
-    {"text_for_number", "body.handle.mass=abc", "--set: body.handle.mass: is the text \"abc\"; must be a number"},
-    {"impossible_value", "body.motor.mass=-3", "--set: body.motor.mass: is -3; must be a finite number > 0"},
-    {"impossible_link", "link.stiffness=-1", "--set: link.0.stiffness: is -1; must be a finite number >= 0"},
-    {"value_for_table", "wall=3", "--set: wall: is the number 3; must be a table, [wall]"},
-    {"body_of_loop", "loop.sensed=handel", "--set: loop.sensed: there is no body \"handel\"; did you mean \"handle\"?"},
+     "an override: body.hanle.mass: there is no body \"hanle\"; did you mean \"handle\"?"},
+    {"no_such_body", "body.5.mass=1", "an override: body.5.mass: there is no body \"5\"; the bodies are motor, handle"},
+    {"which_body", "body.mass=1",
+     "an override: body.mass: could be in any of 2 [[body]]; write for instance body.0.mass"},
+    {"no_such_link", "link.1.damping=1",
+     "an override: link.1.damping: there is no link \"1\"; must be link.0 to link.0"},
+    {"text_for_number", "body.handle.mass=abc", "an override: body.handle.mass: is the text \"abc\"; must be a number"},
+    {"impossible_value", "body.motor.mass=-3", "an override: body.motor.mass: is -3; must be a finite number > 0"},
+    {"impossible_link", "link.stiffness=-1", "an override: link.0.stiffness: is -1; must be a finite number >= 0"},
+    {"value_for_table", "wall=3", "an override: wall: is the number 3; must be a table, [wall]"},
+    {"body_of_loop", "loop.sensed=handel",
+     "an override: loop.sensed: there is no body \"handel\"; did you mean \"handle\"?"},
     {"linear_inertia", "operator.inertia=1",
-     "--set: operator.inertia: is for rotary motion; must be \"mass\", or set motion = \"rotary\""},
+     "an override: operator.inertia: is for rotary motion; must be \"mass\", or set motion = \"rotary\""},
 };
 
 INSTANTIATE_TEST_SUITE_P(Overrides, RefusedOverride, testing::ValuesIn(overrides),
@@ -124,9 +128,10 @@ TEST(Overrides, AddNoBodyOrLink) {
   const std::vector<std::string> assignment{"link.stiffness=3"};
   const auto device = parse_device(small_device_text, "f.toml", assignment);
   ASSERT_FALSE(device.has_value());
-  EXPECT_EQ(device.error().str(),
-            "--set: link.stiffness: the device has no [[link]]; an override changes what the file has; it adds no body "
-            "or link");
+  EXPECT_EQ(
+      device.error().str(),
+      "an override: link.stiffness: the device has no [[link]]; an override changes what the file has; it adds no body "
+      "or link");
 }
 
 TEST(Overrides, LeaveErrorsOfTheFileToTheFile) {

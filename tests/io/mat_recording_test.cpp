@@ -147,8 +147,8 @@ TEST_P(MatRecording, NamesTheRateButDoesNotUseItUnasked) {
   write_mat(MatWriter::column("fs", {2500.0}), MatWriter::column("force", {5.0, 6.0}),
             MatWriter::column("gain", {2.0}));
   EXPECT_EQ(refusal(columns_named({"force"})),
-            "has no column of 2 samples whose name says time; state the rate in Hz (--rate) or the column of times "
-            "(--time); the file has fs = 2500");
+            "has no column of 2 samples whose name says time; state the rate in Hz (`rate`) or the column of times "
+            "(`time_column`); the file has fs = 2500");
   EXPECT_EQ(refusal(at_1_khz({"fs"})), "fs: is a single number; must be a signal");
 }
 

@@ -48,15 +48,16 @@ TEST_F(TextRecording, NamesTheColumnsWhereOneIsMissing) {
   EXPECT_EQ(refusal("0,1\n1,2\n", at_1_khz({"3"})), " 3: no such column; the file has 2 columns: 1, 2");
   EXPECT_EQ(refusal("F,F\n0,1\n1,2\n", at_1_khz({"F"})),
             " F: 2 columns have this name; must be one of their numbers: 1, 2");
-  EXPECT_EQ(refusal("a,b\n0,1\n1,2\n", columns_named({"a"})),
-            " has no column whose name says time; state the rate in Hz (--rate) or the column of times (--time); the "
-            "file has 2 columns: a, b");
+  EXPECT_EQ(
+      refusal("a,b\n0,1\n1,2\n", columns_named({"a"})),
+      " has no column whose name says time; state the rate in Hz (`rate`) or the column of times (`time_column`); the "
+      "file has 2 columns: a, b");
 }
 
 TEST_F(TextRecording, RefusesATimeOfDay) {
   EXPECT_EQ(refusal("time,F\n12:30:01,1\n12:30:02,2\n", columns_named({"F"})),
             "2:1: time: \"12:30:01\" is a time of day; times must be numbers, such as seconds from the start; or state "
-            "the rate instead (--rate)");
+            "the rate instead (`rate`)");
   EXPECT_TRUE(read("time,F\n12:30:01,1\n12:30:02,2\n", at_1_khz({"F"})).has_value());
 }
 

@@ -225,7 +225,7 @@ TEST_F(TextRecording, ReadsATimerThatWrapsByOptionsAlone) {
   options.time_scale = 1e-6;
   EXPECT_EQ(refusal(text, options),
             "27:1: 1: the time falls from 65304 to 778; times must rise: this looks like a timer of 16 bits that wraps "
-            "(--timer-bits 16)");
+            "(`timer_bits` 16)");
   options.timer_bits = 16;
   const auto recording = read(text, options);
   ASSERT_TRUE(recording.has_value()) << recording.error().str();

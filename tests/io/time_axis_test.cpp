@@ -53,13 +53,13 @@ TEST(TimeAxis, RefusesTimesThatFallBack) {
   times[40] = 0.005;
   EXPECT_EQ(refusal(times),
             "a.mat: t: sample 41: the time falls from 0.039 to 0.005; times must rise, or state the "
-            "rate instead (--rate)");
+            "rate instead (`rate`)");
 }
 
 TEST(TimeAxis, RefusesTimesThatStandStill) {
   EXPECT_EQ(refusal({0.0, 0.001, 0.001, 0.001, 0.002}),
             "a.mat: t: sample 3: the time stands still at 0.001, 2 times in the record; times must rise: where they "
-            "have too few digits or are repeated, state the rate instead (--rate)");
+            "have too few digits or are repeated, state the rate instead (`rate`)");
 }
 
 TEST(TimeAxis, RecognisesATimerThatWraps) {
@@ -68,7 +68,7 @@ TEST(TimeAxis, RecognisesATimerThatWraps) {
     const double turn = std::ldexp(1.0, static_cast<int>(bits));
     const double step = bits == 8 ? 10.0 : 1012.0;
     for (int i = 0; i < 300; ++i) counts.push_back(std::fmod(turn - 100.0 + step * i, turn));
-    EXPECT_NE(refusal(counts).find("--timer-bits " + std::to_string(bits)), std::string::npos) << refusal(counts);
+    EXPECT_NE(refusal(counts).find("`timer_bits` " + std::to_string(bits)), std::string::npos) << refusal(counts);
     RecordingOptions options;
     options.time_scale = 1e-6;
     options.timer_bits = bits;

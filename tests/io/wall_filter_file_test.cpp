@@ -144,23 +144,25 @@ TEST(WallFilterFile, AtMostTwenty) {
 }
 
 TEST(WallFilterFile, BadOverridesAreNamed) {
-  EXPECT_EQ(refusal(five_filters, {"wall.filter.depth=1"}),
-            "--set: wall.filter.depth: could be in any of 5 [[wall.filter]]; write for instance wall.filter.0.depth");
-  EXPECT_EQ(refusal(five_filters, {"wall.filter.5.depth=1"}),
-            "--set: wall.filter.5.depth: there is no wall.filter \"5\"; must be wall.filter.0 to wall.filter.4");
-  EXPECT_EQ(refusal(five_filters, {"wall.filter.1.dept=1"}),
-            "--set: wall.filter.1.dept: unknown key \"dept\"; did you mean \"depth\"?");
-  EXPECT_EQ(refusal(five_filters, {"wall.filter.0.depth=1"}),
-            "--set: wall.filter.0.depth: is no key of a filter of type \"low_pass\"; its keys are type, frequency_hz, "
-            "order, damping_ratio");
   EXPECT_EQ(
-      refusal(five_filters, {"wall.filter.1.frequency_hz=600"}),
-      "--set: wall.filter.1.frequency_hz: is 600; must be at least 1e-30 and below the Nyquist frequency, 500 Hz");
+      refusal(five_filters, {"wall.filter.depth=1"}),
+      "an override: wall.filter.depth: could be in any of 5 [[wall.filter]]; write for instance wall.filter.0.depth");
+  EXPECT_EQ(refusal(five_filters, {"wall.filter.5.depth=1"}),
+            "an override: wall.filter.5.depth: there is no wall.filter \"5\"; must be wall.filter.0 to wall.filter.4");
+  EXPECT_EQ(refusal(five_filters, {"wall.filter.1.dept=1"}),
+            "an override: wall.filter.1.dept: unknown key \"dept\"; did you mean \"depth\"?");
+  EXPECT_EQ(
+      refusal(five_filters, {"wall.filter.0.depth=1"}),
+      "an override: wall.filter.0.depth: is no key of a filter of type \"low_pass\"; its keys are type, frequency_hz, "
+      "order, damping_ratio");
+  EXPECT_EQ(refusal(five_filters, {"wall.filter.1.frequency_hz=600"}),
+            "an override: wall.filter.1.frequency_hz: is 600; must be at least 1e-30 and below the Nyquist frequency, "
+            "500 Hz");
   EXPECT_EQ(refusal(small_device_text, {"wall.filter.0.depth=1"}),
-            "--set: wall.filter.0.depth: the device has no [[wall.filter]]; to add one write "
+            "an override: wall.filter.0.depth: the device has no [[wall.filter]]; to add one write "
             "wall.filter=[{type=\"low_pass\", frequency_hz=60}]");
   EXPECT_EQ(refusal(small_device_text, {"wall.fliter.0.depth=1"}),
-            "--set: wall.fliter.0.depth: unknown key \"fliter\"; did you mean \"filter\"?");
+            "an override: wall.fliter.0.depth: unknown key \"fliter\"; did you mean \"filter\"?");
   EXPECT_EQ(refusal("wall = 3\n" + small_device_text, {"wall.filter.0.depth=1"}),
             "f.toml:1:8: wall: is the number 3; must be a table, [wall]");
 }

@@ -13,7 +13,7 @@ namespace zwidth {
 
 /// Reads a device from TOML text.
 ///
-/// `overrides` are "KEY=VALUE" as given to --set, applied in order after the text: loop.delay=0.25e-3,
+/// `overrides` are "KEY=VALUE", applied in order after the text: loop.delay=0.25e-3,
 /// body.motor.damping=0.2, link.0.stiffness=..., link.stiffness=... where there is one link. VALUE is a TOML value; a
 /// bare word is taken as a string (loop.sensed=handle). A key that the file left out may be set.
 ///
