@@ -6,10 +6,10 @@
 #include <numbers>
 
 #include "report/bode_points.hpp"
-#include "report/figure/friction_scan_figure.hpp"
 #include "report/figure/relay_figure.hpp"
 #include "report/figure/response_points_figure.hpp"
 #include "report/text/quantity.hpp"
+#include "reproduce/friction_scan_figure.hpp"
 #include "reproduce/paper_devices.hpp"
 #include "reproduce/table_2.hpp"
 

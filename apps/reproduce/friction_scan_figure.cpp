@@ -1,4 +1,4 @@
-#include "report/figure/friction_scan_figure.hpp"
+#include "reproduce/friction_scan_figure.hpp"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,138 @@
+#!/usr/bin/python3
+"""Holds the sources to the rules of CONTRIBUTING.md.
+
+usage: check_rules.py ROOT RULE      RULE: flow, words, sizes or names
+Prints every line that breaks the rule, and exits with 1 where there is one.
+"""
+
+import re
+import sys
+from pathlib import Path
+
+# Room: the rooms that its files may include, besides itself and the public headers that stand in no room.
+LIBRARY = {
+    "model": [],
+    "signal": [],
+    "sampling": ["model"],
+    "control": ["model", "sampling"],
+    "stability": ["model", "sampling"],
+    "io": ["model", "signal"],
+    "simulation": ["model", "signal", "sampling", "control", "stability"],
+    "identification": ["model", "signal", "sampling", "stability"],
+    "design": ["model", "sampling", "stability"],
+}
+APPS = {
+    "results": [],
+    "report": ["results"],
+    "export": ["results", "report"],
+    "reproduce": ["results", "report"],
+    "cli": ["results", "report", "export", "reproduce"],
+}
+# Documents of aggregates that report/ still puts together: to go as the library's own results take their place.
+AGGREGATES = {"results": ["report", "export"]}
+MOST_LINES = 400
+INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"')
+STRING = re.compile(r'"(?:[^"\\]|\\.)*"')
+
+
+def files(root, *folders):
+    for folder in folders:
+        yield from sorted(path for path in (root / folder).rglob("*") if path.suffix in (".cpp", ".hpp"))
+
+
+def lines(path):
+    return enumerate(path.read_text(encoding="utf-8").splitlines(), 1)
+
+
+def includes(path):
+    for number, line in lines(path):
+        if match := INCLUDE.match(line):
+            yield number, match[1]
+
+
+def room_of_library(path):
+    """"zwidth/model/device.hpp" and "model/balance.hpp" -> "model"; nothing for a header in no room."""
+    parts = path.removeprefix("zwidth/").split("/")
+    return parts[0] if len(parts) > 1 else None
+
+
+def flow(root):
+    """Includes go where the flow of the house goes; the program and its reports see public headers alone."""
+    for base in ("include/zwidth", "src"):
+        for path in files(root, base):
+            own = room_of_library(str(path.relative_to(root / base)))
+            for number, included in includes(path):
+                room = room_of_library(included)
+                if own is None and base == "include/zwidth":
+                    continue  # zwidth.hpp
+                if room is not None and room != own and room not in LIBRARY.get(own, []):
+                    yield path, number, f"{own} may not include {included}"
+                if base == "include/zwidth" and not included.startswith("zwidth/"):
+                    yield path, number, f"a public header includes the private {included}"
+    for path in files(root, "apps"):
+        own = path.relative_to(root / "apps").parts[0]
+        for number, included in includes(path):
+            first = included.split("/")[0]
+            if first == "zwidth":
+                if not (root / "include" / included).exists():
+                    yield path, number, f"{included} is no public header"
+            elif first not in APPS:
+                yield path, number, f"{included} is neither public nor a part of apps/"
+            elif first != own and first not in APPS.get(own, []) + AGGREGATES.get(own, []):
+                yield path, number, f"{own} may not include {included}"
+
+
+def words(root):
+    """The library knows neither the command line nor documents nor drawing programs."""
+    for path in files(root, "include", "src"):
+        for number, line in lines(path):
+            for word in ("json", "gnuplot"):
+                if word in line.lower():
+                    yield path, number, f"names {word}"
+            for text in STRING.findall(line):
+                if re.search(r"(^|[^-\w])--[a-z]", text.strip('"')):
+                    yield path, number, f"names an option of the command line: {text}"
+
+
+def sizes(root):
+    """One concept per file."""
+    for path in files(root, "include", "src", "apps", "tests", "benchmarks", "fuzz"):
+        count = len(path.read_text(encoding="utf-8").splitlines())
+        if count > MOST_LINES:
+            yield path, count, f"has more than {MOST_LINES} lines"
+    users = {}
+    for path in files(root, "src", "apps"):
+        for _, included in includes(path):
+            users.setdefault(included, set()).add(path)
+    for base in ("src", "apps"):
+        for path in files(root, base):
+            name = str(path.relative_to(root / base))
+            mine = path.with_suffix(".cpp")
+            others = users.get(name, set()) - {mine}
+            if path.suffix == ".hpp" and len(others) == 1 and not mine.exists():
+                count = len(path.read_text(encoding="utf-8").splitlines())
+                if count < 40:
+                    print(f"warning: {path.relative_to(root)}: {count} lines, for {next(iter(others)).name} alone")
+
+
+def names(root):
+    """Private headers keep their names to the library."""
+    for path in files(root, "src"):
+        text = path.read_text(encoding="utf-8")
+        if path.suffix == ".hpp" and re.search(r"^(struct|class|enum|inline|constexpr|\[\[nodiscard|template)", text, re.M):
+            if "namespace zwidth::internal" not in text:
+                yield path, 1, "a private header declares outside of namespace zwidth::internal"
+
+
+def main():
+    root = Path(sys.argv[1]).resolve()
+    rule = {"flow": flow, "words": words, "sizes": sizes, "names": names}[sys.argv[2]]
+    broken = list(rule(root))
+    for path, number, what in broken:
+        print(f"{path.relative_to(root)}:{number}: {what}")
+    print(f"{len(broken)} broken")
+    return 1 if broken else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

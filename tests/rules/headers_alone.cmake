@@ -1,0 +1,12 @@
+# Compiles each header under include_dir on its own, without code.
+list(TRANSFORM system_dirs PREPEND -isystem)
+file(GLOB_RECURSE headers RELATIVE ${include_dir} ${include_dir}/*.hpp)
+foreach(header ${headers})
+  execute_process(COMMAND ${compiler} -std=c++20 -fsyntax-only -I${include_dir} ${system_dirs} -x c++ ${include_dir}/${header}
+    RESULT_VARIABLE result ERROR_VARIABLE error)
+  if(NOT result EQUAL 0)
+    message(SEND_ERROR "${header} does not compile alone:\n${error}")
+  endif()
+endforeach()
+list(LENGTH headers count)
+message("${count} headers")
