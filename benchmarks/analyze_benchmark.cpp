@@ -28,7 +28,7 @@ DeviceParameters with_virtual_damper(DeviceParameters device) {
 void analyze(benchmark::State& state, const DeviceParameters& parameters) {
   const Device device(parameters);
   for (auto _ : state) {
-    benchmark::DoNotOptimize(zwidth::analyze(device));
+    benchmark::DoNotOptimize(zwidth::analyze(device, zwidth::limit_and_wall_only()));
   }
 }
 

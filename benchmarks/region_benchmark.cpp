@@ -32,7 +32,7 @@ Grid grid_over(const zwidth::StableRegion& region) {
 void boundary(benchmark::State& state, double delay, double velocity_filter_hz) {
   const Device device = two_mass(delay);
   for (auto _ : state) {
-    const StableWalls walls(sampled_plant(device), velocity_filter_hz);
+    const StableWalls walls(filtered_plant(device), velocity_filter_hz);
     benchmark::DoNotOptimize(stable_region(walls));
   }
 }
@@ -40,9 +40,9 @@ void boundary(benchmark::State& state, double delay, double velocity_filter_hz) 
 // From the device to the map.
 void raster_100_by_100(benchmark::State& state, double delay) {
   const Device device = two_mass(delay);
-  const Grid grid = grid_over(stable_region(StableWalls(sampled_plant(device))));
+  const Grid grid = grid_over(stable_region(StableWalls(filtered_plant(device))));
   for (auto _ : state) {
-    const StableWalls walls(sampled_plant(device));
+    const StableWalls walls(filtered_plant(device));
     benchmark::DoNotOptimize(stable_on_grid(walls, grid.stiffnesses, grid.dampings));
   }
 }

@@ -124,7 +124,7 @@ void require_sound(const zwidth::Analysis& analysis, double period) {
 
 void analyze_soundly(const zwidth::Device& device) {
   try {
-    require_sound(zwidth::analyze(device), device.loop().sampling_period);
+    require_sound(zwidth::analyze(device, {.any_user = false}), device.loop().sampling_period);
   } catch (const zwidth::Error& error) {
     // A capped iteration may give up, saying so; nothing else is to be expected of a valid device.
     if (error.code() != zwidth::ErrorCode::did_not_converge) throw Unsound{error.what()};

@@ -16,6 +16,7 @@
 #include "report/output_file.hpp"
 #include "report/page/html_report.hpp"
 #include "report/text/analysis_text.hpp"
+#include "report/text/trust_text.hpp"
 #include "results/analysis_json.hpp"
 #include "zwidth/error.hpp"
 
@@ -27,64 +28,81 @@ struct AnalyzeOptions {
   bool json = false;
   std::optional<std::string> report;
   bool worst_user = false;
+  bool require_stable = false;
   std::string users;
 };
 
-void check_that_it_can_be_held(const std::string& option, const std::string& file, const Device& device) {
-  if (!device.has_bodies()) {
-    throw BadInput(fmt::format("{}: {}: is a transfer function; it has no body to hold", option, file));
+/// The library's member as the option that sets it.
+std::string option_of(const std::string& member) { return member == "worst_user" ? "--worst-user" : "--users"; }
+
+/// What is asked of one device. Throws BadInput where it cannot be answered.
+AnalysisOptions options_for(const AnalyzeOptions& options, const std::optional<UserRanges>& ranges,
+                            const std::string& file, const Device& device) {
+  AnalysisOptions asked{.worst_user = options.worst_user};
+  if (ranges) asked.family = user_family(*ranges, device.parameters().user);
+  if (const auto problem = find_problem(asked, device)) {
+    throw BadInput(fmt::format("{}: {}: {}; {}", option_of(problem->member), file, problem->what, problem->allowed));
   }
+  return asked;
 }
 
-/// Whether --worst-user and --users can be answered for every device.
-void check_users(const AnalyzeOptions& options, const std::vector<Device>& devices) {
+std::vector<report::AnalysedDevice> analysed_devices(const AnalyzeOptions& options) {
+  std::optional<UserRanges> ranges;
+  if (!options.users.empty()) ranges = user_ranges(options.users);
+  std::vector<Device> devices = read_devices(options.devices);
+  std::vector<AnalysisOptions> asked;
   for (std::size_t i = 0; i < devices.size(); ++i) {
-    const std::string& file = options.devices.files[i];
-    if (options.worst_user) {
-      check_that_it_can_be_held("--worst-user", file, devices[i]);
-      if (devices[i].bodies().size() > report::most_bodies_for_any_user) {
-        throw BadInput(fmt::format("--worst-user: {}: has {} bodies; at most {}", file, devices[i].bodies().size(),
-                                   report::most_bodies_for_any_user));
-      }
-    }
-    if (!options.users.empty()) check_that_it_can_be_held("--users", file, devices[i]);
+    asked.push_back(options_for(options, ranges, options.devices.files[i], devices[i]));
   }
-}
-
-/// What --worst-user and --users ask for.
-void answer_about_users(const AnalyzeOptions& options, const std::optional<UserRanges>& ranges,
-                        std::vector<report::AnalysedDevice>& analysed) {
-  for (std::size_t i = 0; i < analysed.size(); ++i) {
-    report::AnalysedDevice& each = analysed[i];
+  std::vector<report::AnalysedDevice> analysed;
+  for (std::size_t i = 0; i < devices.size(); ++i) {
+    std::optional<ProgressLine> line;
+    if (ranges) {
+      line.emplace("searching the users");
+      asked[i].progress = line->progress();
+    }
     try {
-      if (options.worst_user) report::find_worst_user(each);
-      if (ranges) {
-        ProgressLine line("searching the users");
-        report::search_user_family(each, user_family(*ranges, each.device.parameters().user), line.progress());
-      }
+      analysed.push_back(report::analysed_device(std::move(devices[i]), asked[i]));
     } catch (const Error& error) {
       throw WorkFailed(options.devices.files[i] + ": " + error.what());
     }
+  }
+  return analysed;
+}
+
+/// For scripts: every wall given stands, and its verdict with it.
+void require_stable(const AnalyzeOptions& options, const std::vector<report::AnalysedDevice>& analysed) {
+  for (std::size_t i = 0; i < analysed.size(); ++i) {
+    const Analysis& analysis = analysed[i].analysis;
+    const std::string place = "--require-stable: " + options.devices.files[i] + ": ";
+    if (!analysis.trust.sound()) throw WorkFailed(place + "the answer is " + report::verdict_text(analysis.trust));
+    if (!analysis.wall->stable) throw WorkFailed(place + "the wall is unstable");
+  }
+}
+
+void check_walls(const AnalyzeOptions& options, const std::vector<report::AnalysedDevice>& analysed) {
+  for (std::size_t i = 0; i < analysed.size(); ++i) {
+    if (analysed[i].device.parameters().wall.stiffness) continue;
+    throw BadInput("--require-stable: " + options.devices.files[i] +
+                   ": wall.stiffness: is missing: there is no wall to judge; set it");
   }
 }
 
 void run_analyze(const AnalyzeOptions& options) {
   if (options.report) check_output_is_no_input(options.devices, "--report", *options.report);
-  std::optional<UserRanges> ranges;
-  if (!options.users.empty()) ranges = user_ranges(options.users);
-  std::vector<Device> devices = read_devices(options.devices);
-  check_users(options, devices);
-  std::vector<report::AnalysedDevice> analysed = analyze_devices(options.devices, std::move(devices));
-  answer_about_users(options, ranges, analysed);
+  const std::vector<report::AnalysedDevice> analysed = analysed_devices(options);
+  if (options.require_stable) check_walls(options, analysed);
   if (options.report) report::write_whole(*options.report, report::html_report(analysed));
   if (options.json) {
     std::string lines;
-    for (const report::AnalysedDevice& each : analysed) lines += results::line(results::analysis_json(each));
+    for (const report::AnalysedDevice& each : analysed)
+      lines += results::line(results::analysis_json(each.device, each.analysis));
     write_standard_output(lines);
   } else {
     write_standard_output(report::analysis_text(analysed));
     if (options.report) write_standard_output("\nThe report is in " + *options.report + "\n");
   }
+  if (options.require_stable) require_stable(options, analysed);
 }
 
 }  // namespace
@@ -101,12 +119,15 @@ void add_analyze(CLI::App& app) {
   command->add_option("--users", options->users, "Also search a family of users: ranges of mass, damping, stiffness")
       ->type_name("RANGES")
       ->check([](const std::string& text) { return text.empty() ? "is empty" : ""; });
+  command->add_flag("--require-stable", options->require_stable,
+                    "Fail (exit status 1) where a wall is not stable, or the answer is not sound");
   command->footer(
       "Examples:\n"
       "  zwidth analyze devices/lhifam.toml\n"
       "  zwidth analyze devices/lhifam.toml --set wall.stiffness=5000 --set wall.damping=5\n"
       "  zwidth analyze devices/lhifam.toml devices/lhifam_rigid.toml --json\n"
       "  zwidth analyze devices/lhifam.toml --worst-user --users mass=0:2,damping=0:30,stiffness=0:1000\n"
+      "  zwidth analyze devices/lhifam.toml --set wall.stiffness=5000 --require-stable\n"
       "  zwidth analyze devices/lhifam.toml --report lhifam.html");
   command->callback([options] { run_analyze(*options); });
 }

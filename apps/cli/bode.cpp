@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include "results/json.hpp"
 #include <numbers>
 
 #include "cli/device_arguments.hpp"
@@ -15,6 +14,7 @@
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
 #include "report/text/text_table.hpp"
+#include "results/json.hpp"
 
 namespace zwidth::cli {
 namespace {
@@ -105,7 +105,7 @@ void run_bode(const BodeArguments& arguments) {
     throw BadInput(fmt::format("--output: {}: unknown extension; .svg, .png, .pdf or .csv", arguments.output));
   }
   check_output_is_no_input(arguments.devices, "--output", arguments.output);
-  const std::vector<AnalysedDevice> devices = analyze_devices(arguments.devices);
+  const std::vector<AnalysedDevice> devices = analyze_devices(arguments.devices, limit_and_wall_only());
   check(arguments, devices);
   if (!arguments.output.empty()) write_output(arguments, devices);
   if (arguments.json) {

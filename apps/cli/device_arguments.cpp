@@ -58,11 +58,12 @@ void check_outputs_differ(const std::string& option, const std::string& output, 
   if (same) throw BadInput(option + ": " + output + ": is the file of " + other_option + "; name another");
 }
 
-std::vector<report::AnalysedDevice> analyze_devices(const DeviceArguments& arguments, std::vector<Device> devices) {
+std::vector<report::AnalysedDevice> analyze_devices(const DeviceArguments& arguments, std::vector<Device> devices,
+                                                    const AnalysisOptions& options) {
   std::vector<report::AnalysedDevice> analysed;
   for (Device& device : devices) {
     try {
-      analysed.push_back(report::analysed_device(std::move(device)));
+      analysed.push_back(report::analysed_device(std::move(device), options));
     } catch (const Error& error) {
       throw WorkFailed(arguments.files[analysed.size()] + ": " + error.what());
     }
@@ -70,8 +71,8 @@ std::vector<report::AnalysedDevice> analyze_devices(const DeviceArguments& argum
   return analysed;
 }
 
-std::vector<report::AnalysedDevice> analyze_devices(const DeviceArguments& arguments) {
-  return analyze_devices(arguments, read_devices(arguments));
+std::vector<report::AnalysedDevice> analyze_devices(const DeviceArguments& arguments, const AnalysisOptions& options) {
+  return analyze_devices(arguments, read_devices(arguments), options);
 }
 
 }  // namespace zwidth::cli

@@ -33,9 +33,11 @@ void check_outputs_differ(const std::string& option, const std::string& output, 
 
 /// Analyses the devices of the files, in order. Throws WorkFailed with the file's name where an analysis fails.
 [[nodiscard]] std::vector<report::AnalysedDevice> analyze_devices(const DeviceArguments& arguments,
-                                                                  std::vector<Device> devices);
+                                                                  std::vector<Device> devices,
+                                                                  const AnalysisOptions& options = {});
 
 /// The same for read_devices().
-[[nodiscard]] std::vector<report::AnalysedDevice> analyze_devices(const DeviceArguments& arguments);
+[[nodiscard]] std::vector<report::AnalysedDevice> analyze_devices(const DeviceArguments& arguments,
+                                                                  const AnalysisOptions& options = {});
 
 }  // namespace zwidth::cli

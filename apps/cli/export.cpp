@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <memory>
-#include "results/json.hpp"
 #include <optional>
 #include <string>
 #include <utility>
@@ -17,6 +16,8 @@
 #include "export/export_c.hpp"
 #include "export/export_chai3d.hpp"
 #include "report/output_file.hpp"
+#include "report/text/trust_text.hpp"
+#include "results/json.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth::cli {
@@ -61,7 +62,7 @@ report::AnalysedDevice with_stiffness(const report::AnalysedDevice& analysed, do
   if (const auto problem = find_problem(parameters)) {
     throw BadInput(fmt::format("{} {}; {}", problem->key, problem->what, problem->allowed));
   }
-  return report::analysed_device(Device(std::move(parameters)));
+  return report::analysed_device(Device(std::move(parameters)), {.draws = 0});
 }
 
 /// The stiffest wall of the file's damper and filters that no user destabilises; where there is none, K_CR.
@@ -73,16 +74,21 @@ report::CodedWall scaled_wall(const report::AnalysedDevice& analysed, double saf
                                    ? "every wall is stable, there is no limit to take a share of"
                                    : "no wall is stable, there is no limit to take a share of"));
   }
-  const bool any_user =
-      analysed.any_user && analysed.any_user->stiffness > 0.0 && std::isfinite(analysed.any_user->stiffness);
-  const double limit = any_user ? analysed.any_user->stiffness : critical.stiffness;
+  const bool any_user = analysed.analysis.any_user && analysed.analysis.any_user->stiffness > 0.0 &&
+                        std::isfinite(analysed.analysis.any_user->stiffness);
+  const double limit = any_user ? analysed.analysis.any_user->stiffness : critical.stiffness;
   return {with_stiffness(analysed, safety_factor * limit),
           {},
           fmt::format("{} of the {}", safety_factor, any_user ? "limit for any user" : "critical stiffness")};
 }
 
+void check_it_is_not_refused(const ExportArguments& arguments, const Trust& trust) {
+  if (trust.refused()) throw WorkFailed(arguments.devices.files.front() + ": " + report::verdict_text(trust));
+}
+
 report::CodedWall coded_wall(const ExportArguments& arguments) {
-  report::AnalysedDevice analysed = std::move(analyze_devices(arguments.devices).front());
+  report::AnalysedDevice analysed = std::move(analyze_devices(arguments.devices, {.draws = 0}).front());
+  check_it_is_not_refused(arguments, analysed.analysis.trust);
   report::CodedWall wall = [&]() -> report::CodedWall {
     if (arguments.stiffness) return {with_stiffness(analysed, *arguments.stiffness), {}, "--stiffness"};
     if (arguments.safety_factor) return scaled_wall(analysed, *arguments.safety_factor);
@@ -93,6 +99,7 @@ report::CodedWall coded_wall(const ExportArguments& arguments) {
     }
     return {std::move(analysed), {}, "wall.stiffness"};
   }();
+  check_it_is_not_refused(arguments, wall.analysed.analysis.trust);
   if (arguments.contact == "unilateral") wall.contact = ControllerOptions::Contact::unilateral;
   return wall;
 }
@@ -125,7 +132,7 @@ std::string exported_chai3d(const ExportArguments& arguments) {
 std::string exported(const ExportArguments& arguments) {
   if (arguments.format == "c") return exported_c(arguments);
   if (arguments.format == "chai3d") return exported_chai3d(arguments);
-  const auto devices = analyze_devices(arguments.devices);
+  const auto devices = analyze_devices(arguments.devices, limit_and_wall_only());
   const report::ExportedModel model = report::exported_model(devices.front());
   if (arguments.format == "octave") return export_octave(model);
   if (arguments.format == "python") return export_python(model);

@@ -151,7 +151,8 @@ std::optional<Remark> unsafe_fit(const IdentifyArguments& arguments, const repor
   for (const MeasuredCrossover& each : measured.crossovers) {
     if (each.poles_leaving > 0) proven = std::min(proven, each.stiffness_interval.upper);
   }
-  const double fitted = critical_stiffness(sampled_plant(recorded_device(arguments, device))).stiffness;
+  const double fitted =
+      critical_stiffness(filtered_plant(sampled_plant(recorded_device(arguments, device)), {})).stiffness;
   if (!(fitted > tolerated * proven)) return std::nullopt;
   return Remark{
       Remark::Severity::warning,

@@ -207,7 +207,7 @@ void run_simulate(const SimulateArguments& arguments) {
     check_output_is_no_input(arguments.motion.user_force, option, output);
   }
   check_outputs_differ("--figure", arguments.figure, "--csv", arguments.csv);
-  const report::AnalysedDevice analysed = analyze_devices(arguments.device).front();
+  const report::AnalysedDevice analysed = analyze_devices(arguments.device, limit_and_wall_only()).front();
   const SimulationOptions options = options_of(arguments, analysed);
   const report::SimulatedLoop loop = simulated(analysed, options, arguments.device.files.front());
   if (!arguments.csv.empty()) report::write_whole(arguments.csv, report::simulation_csv(loop));

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "zwidth/design/user_family.hpp"
+#include "zwidth/stability/user_family.hpp"
 
 namespace zwidth::cli {
 

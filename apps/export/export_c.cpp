@@ -35,8 +35,8 @@ std::string in_comment(std::string text) {
 }
 
 std::string any_user_text(const AnalysedDevice& analysed, std::string_view unit) {
-  if (!analysed.any_user) return "not computed";
-  const double limit = analysed.any_user->stiffness;
+  if (!analysed.analysis.any_user) return "not computed";
+  const double limit = analysed.analysis.any_user->stiffness;
   if (std::isinf(limit)) return "none: no user destabilises it";
   return limit > 0.0 ? fmt::format("{:.6g} {}", limit, unit) : "0: some user destabilises every wall";
 }

@@ -57,7 +57,7 @@ DrawnResponse drawn_response(ModalForm form, double delay) {
   return {[form = std::move(form)](double frequency) { return response(form, frequency); }, delay, 0.0};
 }
 
-DrawnResponse drawn_response(SampledPlant plant, VirtualDamper damper) {
+DrawnResponse drawn_response(FilteredPlant plant, VirtualDamper damper) {
   const double delay = static_cast<double>(plant.delay_samples) * plant.period;
   plant.delay_samples = 0;
   return {[plant = std::move(plant), damper, delay](double frequency) {

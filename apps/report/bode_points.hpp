@@ -26,7 +26,7 @@ struct DrawnResponse {
 /// The sampled response P with the virtual damper closed around it, P / (1 + B v P); valid up to pi/T.
 ///
 /// Its negative-real values are those at which -1/K lies on it: the crossovers of critical_stiffness().
-[[nodiscard]] DrawnResponse drawn_response(SampledPlant plant, VirtualDamper damper = {});
+[[nodiscard]] DrawnResponse drawn_response(FilteredPlant plant, VirtualDamper damper = {});
 
 struct FrequencyRange {
   double from = 0.0;  ///< rad/s, > 0

@@ -22,6 +22,8 @@ constexpr std::size_t most_rows = 25;
 
 std::string status_text(const SweepPoint& point, std::string_view unit) {
   switch (point.status) {
+    case StiffnessStatus::refused:
+      return "refused";
     case StiffnessStatus::none_stable:
       return "none stable";
     case StiffnessStatus::unbounded:

@@ -10,11 +10,12 @@
 namespace zwidth::report {
 
 DesignedDevice designed_device(Device device) {
-  AnalysedDevice analysed = analysed_device(std::move(device));
+  AnalysedDevice analysed = analysed_device(std::move(device), {.draws = 0});
   DesignedDevice designed{std::move(analysed), {}, {}, std::nullopt};
   const Device& own = designed.analysed.device;
   designed.sensitivities = stiffness_sensitivities(own, designed.analysed.analysis.critical);
-  if (designed.analysed.any_user) designed.any_user = any_user_sensitivities(own, *designed.analysed.any_user);
+  if (designed.analysed.analysis.any_user)
+    designed.any_user = any_user_sensitivities(own, *designed.analysed.analysis.any_user);
   if (own.bodies().size() <= most_bodies_for_branch_switches) designed.branch_switches = branch_switches(own);
   return designed;
 }

@@ -179,7 +179,7 @@ results::Json bode_json(const AnalysedDevice& analysed, const BodeOptions& optio
           {"nyquist_rad_s", nyquist(analysed.device)},
           {"sampled", response(bode.sampled)},
           {"continuous", response(bode.continuous)},
-          {"crossovers", results::analysis_json(analysed).at("crossovers")}};
+          {"crossovers", results::analysis_json(analysed.device, analysed.analysis).at("crossovers")}};
 }
 
 }  // namespace zwidth::report

@@ -24,7 +24,7 @@ std::vector<ComparedApproximation> compared(const Device& device, const StableWa
 }  // namespace
 
 DeviceRegion device_region(Device device) {
-  Analysis analysis = analyze(device);
+  Analysis analysis = analyze(device, limit_and_wall_only());
   StableWalls walls(filtered_plant(device), device.parameters().wall.velocity_filter_hz);
   StableRegion region = stable_region(walls);
   std::optional<AnyUserRegion> any_user;
@@ -32,7 +32,7 @@ DeviceRegion device_region(Device device) {
     any_user = any_user_region(device, walls.velocity_filter_hz(), region.most_damped->damping);
   }
   std::vector<ComparedApproximation> approximations = compared(device, walls, region, any_user);
-  return {{std::move(device), std::move(analysis), std::nullopt},
+  return {{std::move(device), std::move(analysis)},
           std::move(walls),
           std::move(region),
           std::move(any_user),

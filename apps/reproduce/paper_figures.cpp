@@ -130,7 +130,7 @@ DelaySeries critical_stiffness_series(std::string name, const DeviceParameters& 
   DelaySeries series{std::move(name), DelaySeries::Kind::curve, {}};
   for (int i = 0; i <= steps; ++i) {
     const double delay = longest * i / steps;
-    const CriticalStiffness critical = critical_stiffness(sampled_plant(Device(with_delay(device, delay))));
+    const CriticalStiffness critical = critical_stiffness(filtered_plant(Device(with_delay(device, delay))));
     if (critical.limit) series.points.push_back({delay, decibels(critical.stiffness)});
   }
   return series;

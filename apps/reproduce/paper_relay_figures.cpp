@@ -47,7 +47,7 @@ PaperFigure figure_11() {
 PaperFigure figure_12() {
   const Table2& table = table_2();
   const Device device(paper_lhifam_reduced_pretension());
-  const std::array responses{drawn_response(sampled_plant(device))};
+  const std::array responses{drawn_response(filtered_plant(device))};
   constexpr FrequencyRange range{2.0 * std::numbers::pi, 2.0 * std::numbers::pi * 100.0};
   const std::vector<double> frequencies = bode_frequencies(responses, range, modal_form(device).modes, 1e-3, 400);
   GainPoints printed{"Table II, printed (36 trials)", {}};

@@ -21,7 +21,7 @@ std::string hertz_and_decibels(const Table2Row& row) {
 
 /// "2.51 Hz, 62.95 dB": the critical crossover of linear theory.
 std::string linear_limit(const Table2& table, double delay) {
-  const CriticalStiffness critical = critical_stiffness(sampled_plant(table_2_device(table.setting, 0.0, delay)));
+  const CriticalStiffness critical = critical_stiffness(filtered_plant(table_2_device(table.setting, 0.0, delay)));
   return fmt::format("{:.2f} Hz, {:.2f} dB", hertz(critical.limit->frequency), decibels(critical.stiffness));
 }
 

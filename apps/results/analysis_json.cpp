@@ -10,21 +10,21 @@
 namespace zwidth::results {
 namespace {
 
-Json any_user_json(const report::AnalysedDevice& analysed) {
-  if (!analysed.any_user) return nullptr;
-  const AnyUserLimit& limit = *analysed.any_user;
+Json any_user_json(const Analysis& analysis) {
+  if (!analysis.any_user) return nullptr;
+  const AnyUserLimit& limit = *analysis.any_user;
   const bool has_frequency = limit.stiffness > 0.0 && std::isfinite(limit.stiffness);
   return {{"critical_stiffness", limit.stiffness},
           {"frequency_rad_s", has_frequency ? std::optional(limit.frequency) : std::nullopt},
           {"truncation", limit.truncation},
-          {"worst_user", analysed.worst_user}};
+          {"worst_user", analysis.worst_user}};
 }
 
 Json range_json(const ValueRange& range) { return Json::array({range.least, range.greatest}); }
 
-Json user_family_json(const report::AnalysedDevice& analysed) {
-  if (!analysed.user_family) return nullptr;
-  const report::UserFamilyAnswer& answer = *analysed.user_family;
+Json user_family_json(const Analysis& analysis) {
+  if (!analysis.user_family) return nullptr;
+  const UserFamilyAnswer& answer = *analysis.user_family;
   const Operator& user = answer.worst.user;
   return {{"mass", range_json(answer.family.mass)},
           {"damping", range_json(answer.family.damping)},
@@ -46,9 +46,8 @@ std::optional<std::string> uncertainty_warning(const DeviceParameters& device) {
 
 }  // namespace
 
-Json analysis_json(const report::AnalysedDevice& analysed) {
-  const DeviceParameters& device = analysed.device.parameters();
-  const Analysis& analysis = analysed.analysis;
+Json analysis_json(const Device& analysed, const Analysis& analysis) {
+  const DeviceParameters& device = analysed.parameters();
 
   Json json = document("zwidth.analysis/1");
   json["device"] = device.name;
@@ -60,14 +59,16 @@ Json analysis_json(const report::AnalysedDevice& analysed) {
   json["suspended_rigid_body"] = analysis.suspended_rigid_body;
   json["rigid_approximation"] = analysis.rigid;
   json["q_criterion"] = analysis.q_criterion;
-  json["any_user"] = any_user_json(analysed);
-  json["user_family"] = user_family_json(analysed);
+  json["any_user"] = any_user_json(analysis);
+  json["user_family"] = user_family_json(analysis);
   json["virtual_damper"] = virtual_damper_json(device.wall);
   json["wall_filters"] = wall_filters_json(device.wall, device.loop.sampling_period);
   json["wall"] = analysis.wall;
   json["critical_stiffness_interval"] = analysis.interval;
   json["other_mechanism_share"] = analysis.interval ? Json(analysis.interval->other_mechanism) : Json(nullptr);
   json["uncertainty_warning"] = uncertainty_warning(device);
+  json["trust"] = analysis.trust;
+  json["remarks"] = analysis.remarks;
   return json;
 }
 

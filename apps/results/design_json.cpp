@@ -44,7 +44,7 @@ Json to_json(const BranchSwitch& each) {
 results::Json design_json(const DesignedDevice& designed) {
   const DeviceParameters& device = designed.analysed.device.parameters();
   const CriticalStiffness& critical = designed.analysed.analysis.critical;
-  const auto& any_user = designed.analysed.any_user;
+  const auto& any_user = designed.analysed.analysis.any_user;
   Json document;
   document["schema"] = "zwidth.design/1";
   document["device"] = device.name;

@@ -12,7 +12,8 @@ Json state_json(const AnalysedDevice& device) {
   Json state{{"critical_stiffness", number_or_null(critical.stiffness)},
              {"critical_frequency_rad_s", critical.limit ? Json(critical.limit->frequency) : Json(nullptr)},
              {"limited_by", critical.limit ? mechanism_json(critical.limit->limited_by) : Json(nullptr)},
-             {"any_user_stiffness", device.any_user ? number_or_null(device.any_user->stiffness) : Json(nullptr)},
+             {"any_user_stiffness",
+              device.analysis.any_user ? number_or_null(device.analysis.any_user->stiffness) : Json(nullptr)},
              {"wall", nullptr}};
   if (const auto& wall = device.analysis.wall) {
     const Json gain_db = wall->gain_margin ? Json(decibels(*wall->gain_margin)) : Json(nullptr);

@@ -47,7 +47,8 @@ void to_json(Json& json, const WallMargins& wall) {
           {"phase_margin_rad", wall.phase_margin},
           {"delay_margin_s", wall.delay_margin},
           {"spectral_radius", wall.spectral_radius},
-          {"lower_gain_margin_db", decibels(wall.lower_gain_margin)}};
+          {"lower_gain_margin_db", decibels(wall.lower_gain_margin)},
+          {"stiffness_margin_db", decibels(wall.stiffness_margin)}};
 }
 
 void to_json(Json& json, const WorstUser& worst) {

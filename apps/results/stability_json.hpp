@@ -10,7 +10,8 @@ namespace zwidth::results {
 
 NLOHMANN_JSON_SERIALIZE_ENUM(StiffnessStatus, {{StiffnessStatus::finite, "finite"},
                                                {StiffnessStatus::none_stable, "none_stable"},
-                                               {StiffnessStatus::unbounded, "unbounded"}})
+                                               {StiffnessStatus::unbounded, "unbounded"},
+                                               {StiffnessStatus::refused, "refused"}})
 NLOHMANN_JSON_SERIALIZE_ENUM(Mechanism::Kind, {{Mechanism::Kind::rigid_body, "rigid_body"},
                                                {Mechanism::Kind::vibration_mode, "vibration_mode"}})
 

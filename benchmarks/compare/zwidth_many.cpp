@@ -18,7 +18,7 @@ double median_seconds(const zwidth::Device& device) {
   std::array<double, repetitions> seconds{};
   for (double& time : seconds) {
     const auto start = std::chrono::steady_clock::now();
-    [[maybe_unused]] const zwidth::Analysis analysis = zwidth::analyze(device);
+    [[maybe_unused]] const zwidth::Analysis analysis = zwidth::analyze(device, zwidth::limit_and_wall_only());
     time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
   std::nth_element(seconds.begin(), seconds.begin() + repetitions / 2, seconds.end());
@@ -34,6 +34,7 @@ int main(int argc, char** argv) {
       fmt::print(stderr, "{}\n", device.error().str());
       return 2;
     }
-    fmt::print("{} {}\n", zwidth::analyze(*device).critical.stiffness, median_seconds(*device));
+    fmt::print("{} {}\n", zwidth::analyze(*device, zwidth::limit_and_wall_only()).critical.stiffness,
+               median_seconds(*device));
   }
 }

@@ -33,7 +33,7 @@ int main(int argc, char** argv) {
   std::vector<std::uint8_t> map;
   for (int i = 0; i < std::atoi(argv[5]); ++i) {
     const auto start = std::chrono::steady_clock::now();
-    const zwidth::StableWalls walls(sampled_plant(*device));
+    const zwidth::StableWalls walls(filtered_plant(*device));
     map = stable_on_grid(walls, stiffnesses, dampings);
     fmt::print("{}\n", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   }

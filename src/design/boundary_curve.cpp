@@ -13,7 +13,7 @@ namespace {
 
 // The plant with its numerators added up. Bounds of a sum of terms that partly cancel are far too wide; those of one
 // polynomial are not.
-SampledPlant with_one_numerator(SampledPlant plant) {
+FilteredPlant with_one_numerator(FilteredPlant plant) {
   if (!plant.numerator.empty() || plant.terms.size() < 2) return plant;
   std::vector<ExtendedTerm> terms;
   for (const SampledTerm& term : plant.terms) {
@@ -29,7 +29,7 @@ SampledPlant with_one_numerator(SampledPlant plant) {
 
 }  // namespace
 
-BoundaryCurve::BoundaryCurve(SampledPlant plant, double velocity_filter_hz)
+BoundaryCurve::BoundaryCurve(FilteredPlant plant, double velocity_filter_hz)
     : plant_(std::move(plant)),
       bounded_plant_(with_one_numerator(plant_)),
       velocity_filter_hz_(velocity_filter_hz),

@@ -23,7 +23,7 @@ class BoundaryCurve {
  public:
   using Jet = BoundedJet<double>;
 
-  BoundaryCurve(SampledPlant plant, double velocity_filter_hz);
+  BoundaryCurve(FilteredPlant plant, double velocity_filter_hz);
 
   // angle in [0, pi]; at 0 and pi the limits. Infinite or NaN where P vanishes.
   [[nodiscard]] WallPoint at(double angle) const;
@@ -37,9 +37,9 @@ class BoundaryCurve {
   };
   [[nodiscard]] Model model(double begin, double end) const;
 
-  [[nodiscard]] const SampledPlant& plant() const { return plant_; }
+  [[nodiscard]] const FilteredPlant& plant() const { return plant_; }
   // The same with one numerator, where there is more than one term.
-  [[nodiscard]] const SampledPlant& added_up() const { return bounded_plant_; }
+  [[nodiscard]] const FilteredPlant& added_up() const { return bounded_plant_; }
   [[nodiscard]] double velocity_filter_hz() const { return velocity_filter_hz_; }
   // v(e^{j angle}); |v| grows with the angle, and Re v >= 0.
   [[nodiscard]] std::complex<double> velocity(double angle) const;
@@ -58,8 +58,8 @@ class BoundaryCurve {
   template <typename Real>
   [[nodiscard]] Numerators<Real> numerators(const Real& x, const Real& even, const Real& odd) const;
 
-  SampledPlant plant_;
-  SampledPlant bounded_plant_;
+  FilteredPlant plant_;
+  FilteredPlant bounded_plant_;
   double velocity_filter_hz_;
   double c_;
 };

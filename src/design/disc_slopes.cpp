@@ -166,9 +166,8 @@ DiscSlopes disc_slopes(const Device& free, const UserDiscs& discs, double angle,
                        std::span<const DesignParameter> parameters) {
   const double period = free.loop().sampling_period;
   const double spacing = 2.0 * pi / period;
-  SampledPlant bare = discs.free_plant();
-  bare.filters.clear();
-  const Complex reference = response(bare, angle / period);
+  const SampledPlant& unfiltered = discs.free_plant();
+  const Complex reference = response(unfiltered, angle / period);
   const PlantSlopes plant = plant_slopes(free, angle, parameters);
   const FilterSlopes filters = filter_slopes(free, angle, parameters);
   const Sums sums = sums_over_aliases(free, discs, angle, parameters);

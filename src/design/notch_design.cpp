@@ -50,7 +50,7 @@ constexpr int most_steps_down = 400;
 // One device of the drift and its plant, sampled once.
 struct Scenario {
   Device device;
-  SampledPlant plant;  // through the filters that the wall has
+  FilteredPlant plant;  // through the filters that the wall has
 };
 
 Scenario scenario_of(const Device& device) { return {device, filtered_plant(device)}; }
@@ -59,14 +59,14 @@ VirtualDamper damper_of(const Device& device) {
   return {device.parameters().wall.damping, device.parameters().wall.velocity_filter_hz};
 }
 
-bool has_phase_margin(const SampledPlant& plant, Wall wall, double stiffness, double phase_margin) {
+bool has_phase_margin(const FilteredPlant& plant, Wall wall, double stiffness, double phase_margin) {
   wall.stiffness = stiffness;
   const LoopMargins margins = loop_margins(plant, wall);
   return margins.stable && margins.phase_margin.value_or(pi) >= phase_margin;
 }
 
 // The stiffest found going down from `top`; 0 once it is below `enough`.
-double with_phase_margin(const SampledPlant& plant, const Wall& wall, double top, double phase_margin, double enough) {
+double with_phase_margin(const FilteredPlant& plant, const Wall& wall, double top, double phase_margin, double enough) {
   double above = top;
   for (int i = 0; i <= levels_per_decade * most_decades; ++i) {
     double low = top * std::pow(10.0, -static_cast<double>(i) / levels_per_decade);

@@ -41,7 +41,7 @@ std::optional<double> drift_stiffness(const BoundaryCurve& curve) {
 
 }  // namespace
 
-RegionStructure::RegionStructure(SampledPlant plant, double velocity_filter_hz)
+RegionStructure::RegionStructure(FilteredPlant plant, double velocity_filter_hz)
     : curve(std::move(plant), velocity_filter_hz) {
   if (curve.plant().terms.empty()) {  // the wall does not see the device
     const RegionCell all{RegionEdge{BoundaryKind::no_stiffness, 0}, std::nullopt};

@@ -29,7 +29,7 @@ struct RegionSlab {
 };
 
 struct RegionStructure {
-  RegionStructure(SampledPlant plant, double velocity_filter_hz);
+  RegionStructure(FilteredPlant plant, double velocity_filter_hz);
 
   struct EdgePoint {
     double stiffness = 0.0;

@@ -60,7 +60,7 @@ class RingTracer {
   }
 
   [[nodiscard]] BoundaryPoint at_angle(const WallPoint& wall, double angle) const {
-    const SampledPlant& plant = structure_.curve.plant();
+    const FilteredPlant& plant = structure_.curve.plant();
     const double frequency = angle >= std::numbers::pi ? std::numbers::pi / plant.period : angle / plant.period;
     // K = 0 and B = 0 are met to rounding of the extent.
     const auto cleared = [](double value, double extent) { return value > rounding * extent ? value : 0.0; };

@@ -12,7 +12,7 @@ namespace zwidth {
 using namespace internal;
 namespace {
 
-SampledPlant checked(SampledPlant plant, double velocity_filter_hz) {
+FilteredPlant checked(FilteredPlant plant, double velocity_filter_hz) {
   if (!(velocity_filter_hz >= 0.0) || !std::isfinite(velocity_filter_hz)) {
     throw Error(ErrorCode::invalid_argument,
                 "the velocity filter has " + std::to_string(velocity_filter_hz) + " Hz; must be finite and >= 0");
@@ -22,7 +22,7 @@ SampledPlant checked(SampledPlant plant, double velocity_filter_hz) {
 
 }  // namespace
 
-StableWalls::StableWalls(SampledPlant plant, double velocity_filter_hz)
+StableWalls::StableWalls(FilteredPlant plant, double velocity_filter_hz)
     : structure_(
           std::make_shared<const RegionStructure>(checked(std::move(plant), velocity_filter_hz), velocity_filter_hz)) {}
 

@@ -51,7 +51,7 @@ OpenLoop open_loop(const BoundaryCurve& curve, double angle) {
   const Complex z = 1.0 + delta;
   const Complex jz = Complex(0.0, 1.0) * z;
   const double c = curve.filter();
-  const SampledPlant& plant = curve.added_up();
+  const FilteredPlant& plant = curve.added_up();
   const auto delay = static_cast<double>(plant.delay_samples);
   OpenLoop open;
   open.degree = delay + 1.0;

@@ -170,8 +170,26 @@ class DeviceReader {
     const toml::table* table = root_.table(DeviceTable::uncertainty);
     if (!table) return;
     TableReader reader = table_reader(DeviceTable::uncertainty, *table);
-    device_.uncertainty = {reader.required_texts("parameters", "an array of keys such as \"link.0.stiffness\""),
-                           reader.required_rows("covariance"), reader.text("warning").value_or("")};
+    Uncertainty& uncertainty = device_.uncertainty.emplace();
+    uncertainty.warning = reader.text("warning").value_or("");
+    if (reader.has("reasons")) uncertainty.reasons = reader.required_texts("reasons", "an array of texts");
+    uncertainty.verdict = read_verdict(reader);
+    const bool only_says_why = !reader.has("parameters") && !reader.has("covariance") &&
+                               (reader.has("warning") || reader.has("reasons") || reader.has("verdict"));
+    if (only_says_why) return;
+    uncertainty.parameters = reader.required_texts("parameters", "an array of keys such as \"link.0.stiffness\"");
+    uncertainty.covariance = reader.required_rows("covariance");
+  }
+
+  static Trust::Verdict read_verdict(TableReader& reader) {
+    const std::optional<std::string> text = reader.text("verdict");
+    if (!text || *text == "sound") return Trust::Verdict::sound;
+    if (*text == "doubtful") return Trust::Verdict::doubtful;
+    if (*text != "refused") {
+      reader.refuse("verdict", fmt::format("is {}", in_quotes(*text)),
+                    "must be \"sound\", \"doubtful\" or \"refused\"");
+    }
+    return Trust::Verdict::refused;
   }
 
   TableReader table_reader(DeviceTable kind, const toml::table& table) {

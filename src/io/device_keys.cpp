@@ -32,7 +32,7 @@ const std::array<TableKeys, 11>& all_tables() {
       {"filter", {"type", "frequency_hz", "order", "damping_ratio", "depth", "ratio", "numerator", "denominator"}},
       {"operator", {"mass", "inertia", "damping", "stiffness"}},
       {"transfer_function", {"numerator", "denominator"}},
-      {"uncertainty", {"parameters", "covariance", "warning"}},
+      {"uncertainty", {"parameters", "covariance", "verdict", "warning", "reasons"}},
   }};
   return tables;
 }

@@ -139,9 +139,16 @@ std::string write_device(const DeviceParameters& parameters) {
   }
   if (device.uncertainty) {
     out.header("[uncertainty]");
-    out.value("parameters", text_array_value(device.uncertainty->parameters));
-    out.value("covariance", rows_value(device.uncertainty->covariance));
-    if (!device.uncertainty->warning.empty()) out.value("warning", text_value(device.uncertainty->warning));
+    const Uncertainty& uncertainty = *device.uncertainty;
+    if (!uncertainty.parameters.empty()) {
+      out.value("parameters", text_array_value(uncertainty.parameters));
+      out.value("covariance", rows_value(uncertainty.covariance));
+    }
+    if (uncertainty.verdict != Trust::Verdict::sound) {
+      out.value("verdict", uncertainty.verdict == Trust::Verdict::refused ? "\"refused\"" : "\"doubtful\"");
+    }
+    if (!uncertainty.warning.empty()) out.value("warning", text_value(uncertainty.warning));
+    if (!uncertainty.reasons.empty()) out.value("reasons", text_array_value(uncertainty.reasons));
   }
   return std::move(out).text();
 }

@@ -27,9 +27,16 @@ DeviceProblem covariance_problem(std::string what, std::string allowed) {
   return {"uncertainty.covariance", std::move(what), std::move(allowed)};
 }
 
+// Beside the parameters: without them, why the table is there at all.
+bool says_anything(const Uncertainty& uncertainty) {
+  return !uncertainty.warning.empty() || !uncertainty.reasons.empty() || uncertainty.verdict != Trust::Verdict::sound;
+}
+
 std::optional<DeviceProblem> find_key_problem(const DeviceParameters& parameters) {
   const std::vector<std::string>& uncertain = parameters.uncertainty->parameters;
-  if (uncertain.empty()) return parameters_problem("is empty", "must be one or more keys; or leave out [uncertainty]");
+  if (uncertain.empty() && !says_anything(*parameters.uncertainty)) {
+    return parameters_problem("is empty", "must be one or more keys; or leave out [uncertainty]");
+  }
   if (uncertain.size() > max_uncertain_parameters) {
     return parameters_problem(fmt::format("has {} keys", uncertain.size()),
                               fmt::format("must be at most {} keys", max_uncertain_parameters));

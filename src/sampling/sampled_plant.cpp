@@ -161,16 +161,20 @@ SampledPlant sampled_plant(const Device& device) {
   return sample(modal_form(device), {device.loop().sampling_period, device.loop().delay});
 }
 
-SampledPlant filtered_plant(SampledPlant plant, const std::vector<WallFilter>& filters) {
+FilteredPlant filtered_plant(SampledPlant plant, const std::vector<WallFilter>& filters) {
+  return filtered_plant(FilteredPlant(std::move(plant)), filters);
+}
+
+FilteredPlant filtered_plant(FilteredPlant plant, const std::vector<WallFilter>& filters) {
   for (const WallFilter& filter : filters) plant.filters.push_back(filter_section(filter, plant.period));
   return plant;
 }
 
-SampledPlant filtered_plant(const Device& device) {
+FilteredPlant filtered_plant(const Device& device) {
   return filtered_plant(sampled_plant(device), device.parameters().wall.filters);
 }
 
-std::complex<double> filter_response(const SampledPlant& plant, double angle) {
+std::complex<double> filter_response(const FilteredPlant& plant, double angle) {
   std::complex<double> product = 1.0;
   for (const FilterSection& section : plant.filters) product *= response(section, angle);
   return product;
@@ -198,8 +202,7 @@ double internal::cancellation(const SampledPlant& plant, double angle) {
 
 std::complex<double> response(const SampledPlant& plant, double frequency) {
   const double angle = frequency * plant.period;
-  const std::complex<double> filters = filter_response(plant, angle);
-  if (plant.at_nyquist && angle >= std::numbers::pi) return *plant.at_nyquist * filters;
+  if (plant.at_nyquist && angle >= std::numbers::pi) return *plant.at_nyquist;
   std::complex<double> sum = 0.0;
   if (plant.numerator.empty()) {
     for (const SampledTerm& term : plant.terms) sum += response(term, angle);
@@ -213,7 +216,12 @@ std::complex<double> response(const SampledPlant& plant, double frequency) {
       sum /= std::complex<double>(denominator.even, denominator.odd * std::sin(angle));
     }
   }
-  return sum * filters * std::polar(1.0, -static_cast<double>(plant.delay_samples) * angle);
+  return sum * std::polar(1.0, -static_cast<double>(plant.delay_samples) * angle);
+}
+
+std::complex<double> response(const FilteredPlant& plant, double frequency) {
+  const SampledPlant& unfiltered = plant;
+  return response(unfiltered, frequency) * filter_response(plant, frequency * plant.period);
 }
 
 }  // namespace zwidth

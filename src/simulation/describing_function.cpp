@@ -203,7 +203,7 @@ std::vector<LimitCycle> with_hysteresis(const SampledPlant& plant, const Relay& 
 
 std::vector<LimitCycle> without_hysteresis(const SampledPlant& plant, const Relay& relay) {
   std::vector<LimitCycle> cycles;
-  for (const Crossover& each : critical_stiffness(plant).crossovers) {
+  for (const Crossover& each : critical_stiffness(filtered_plant(plant, {})).crossovers) {
     if (each.frequency > 0.0) cycles.push_back(cycle_at(each.frequency, each.stiffness, relay));
   }
   return cycles;

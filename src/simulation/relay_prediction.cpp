@@ -32,7 +32,7 @@ RelayPrediction relay_prediction(const Device& device, const Relay& relay) {
   const double delay = device.loop().delay;
   const ContinuousStateSpace system = state_space(device);
   RelayPrediction prediction;
-  prediction.linear = critical_stiffness(sampled_plant(device));
+  prediction.linear = critical_stiffness(filtered_plant(sampled_plant(device), {}));
   const double states = static_cast<double>(system.A.rows());
   const double longest =
       std::max(2.0, std::min(half_period_samples(prediction.linear, period), most_work / std::pow(states, 3)));

@@ -1,15 +1,18 @@
 #include "zwidth/stability/analysis.hpp"
 
-#include <algorithm>
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "stability/guarded_stiffness.hpp"
+#include "zwidth/error.hpp"
 #include "zwidth/model/two_mass.hpp"
 
 namespace zwidth {
+using namespace internal;
 namespace {
-
-VirtualDamper damper_of(const Device& device) {
-  return {device.parameters().wall.damping, device.parameters().wall.velocity_filter_hz};
-}
 
 RigidApproximation rigid_approximation(const Device& device, const CriticalStiffness& of_device) {
   const Operator& user = device.parameters().user;
@@ -30,7 +33,11 @@ RigidApproximation rigid_approximation(const Device& device, const CriticalStiff
   parameters.loop.delay = device.loop().delay;
   parameters.actuator = device.parameters().actuator;
   parameters.wall.filters = device.parameters().wall.filters;
-  rigid.critical = critical_stiffness(filtered_plant(Device(std::move(parameters))), damper_of(device));
+  parameters.wall.damping = device.parameters().wall.damping;
+  parameters.wall.velocity_filter_hz = device.parameters().wall.velocity_filter_hz;
+  rigid.critical = critical_stiffness(Device(std::move(parameters)));
+  rigid.critical.trust.inherit(of_device.trust);
+  if (rigid.critical.trust.refused()) withdraw(rigid.critical);
   return rigid;
 }
 
@@ -47,22 +54,130 @@ std::optional<QCriterion> q_criterion(const Device& device, const RigidApproxima
   return criterion;
 }
 
+/// The delay margin by the second route: stable with hardly less delay, unstable with hardly more.
+void confirm_delay_margin(const Device& device, Analysis& analysis) {
+  constexpr double closeness = 1e-6;
+  for (const bool stable : {true, false}) {
+    DeviceParameters delayed = device.parameters();
+    delayed.uncertainty.reset();  // its covariance was checked before
+    delayed.loop.delay += *analysis.wall->delay_margin * (stable ? 1.0 - closeness : 1.0 + closeness);
+    if (find_problem(delayed)) return;  // more samples of delay than a device may have
+    const Device later(std::move(delayed));
+    if (agreement(PoleCount(later), analysis.wall->stiffness, stable) != Agreement::contradicts) continue;
+    analysis.wall->delay_margin.reset();
+    analysis.trust.doubt(
+        "the delay margin is left out: two computations contradict each other on it; raise the delay of the loop in "
+        "steps and analyze each");
+    return;
+  }
+}
+
+/// The wall given, and whether the second route agrees on it. Within rounding of a crossover there is nothing to agree
+/// on.
+void judge_wall(const Device& device, const PoleCount& poles, Analysis& analysis) {
+  analysis.wall = wall_margins(device);
+  const double stiffness = analysis.wall->stiffness;
+  constexpr double on_crossover = 1e-6;
+  const auto near = [&](const Crossover& each) { return std::abs(each.stiffness / stiffness - 1.0) <= on_crossover; };
+  if (stiffness == 0.0 || std::ranges::any_of(analysis.critical.crossovers, near)) return;
+  distrust(agreement(poles, stiffness, analysis.wall->stable), stiffness, analysis.trust);
+  if (!analysis.trust.refused()) {
+    if (analysis.wall->delay_margin) confirm_delay_margin(device, analysis);
+    return;
+  }
+  analysis.wall.reset();
+  analysis.critical.trust.inherit(analysis.trust);
+  withdraw(analysis.critical);
+  if (!analysis.rigid) return;
+  analysis.rigid->critical.trust.inherit(analysis.trust);
+  withdraw(analysis.rigid->critical);
+}
+
+/// The worst user, the family and the limit over all users: what is asked for and can be answered.
+void answer_about_users(const Device& device, const AnalysisOptions& options, Analysis& analysis) {
+  const VirtualDamper damper = virtual_damper(device);
+  if (options.any_user && device.has_bodies()) {
+    if (device.bodies().size() <= most_bodies_for_any_user) {
+      analysis.any_user = any_user_limit(device, damper);
+      if (options.worst_user) analysis.worst_user = worst_user(device, *analysis.any_user, damper);
+    } else {
+      analysis.remarks.push_back(
+          {Remark::Severity::note,
+           fmt::format("the limit over all passive users is not computed for {} bodies; at most {}",
+                       device.bodies().size(), most_bodies_for_any_user),
+           "a user may leave less than the critical stiffness given here", "merge bodies whose links hardly give"});
+    }
+  }
+  if (!options.family) return;
+  DeviceParameters free = device.parameters();
+  free.uncertainty.reset();  // it may be of the operator that is taken away
+  free.user = {};
+  analysis.user_family =
+      UserFamilyAnswer{*options.family, worst_of_family(device, *options.family, damper, options.progress),
+                       critical_stiffness(Device(std::move(free)))};
+  analysis.trust.inherit(analysis.user_family->free.trust);
+}
+
+std::optional<OptionProblem> find_problem(const ValueRange& range, const char* member) {
+  if (range.least >= 0.0 && range.greatest >= range.least && std::isfinite(range.greatest)) return std::nullopt;
+  return OptionProblem{member, fmt::format("is from {} to {}", range.least, range.greatest),
+                       "must be finite, >= 0 and not reversed"};
+}
+
 }  // namespace
 
-Analysis analyze(const Device& device) {
+std::optional<OptionProblem> find_problem(const AnalysisOptions& options) {
+  if (options.worst_user && !options.any_user) {
+    return OptionProblem{"worst_user", "is asked for without any_user", "needs the limit that it proves"};
+  }
+  if (options.family) {
+    if (auto problem = find_problem(options.family->mass, "family.mass")) return problem;
+    if (auto problem = find_problem(options.family->damping, "family.damping")) return problem;
+    if (auto problem = find_problem(options.family->stiffness, "family.stiffness")) return problem;
+  }
+  return std::nullopt;
+}
+
+std::optional<OptionProblem> find_problem(const AnalysisOptions& options, const Device& device) {
+  if (auto problem = find_problem(options)) return problem;
+  const char* asked = options.worst_user ? "worst_user" : options.family ? "family" : nullptr;
+  if (asked == nullptr) return std::nullopt;
+  if (!device.has_bodies()) {
+    return OptionProblem{asked, "is a transfer function", "it has no body to hold"};
+  }
+  if (options.worst_user && device.bodies().size() > most_bodies_for_any_user) {
+    return OptionProblem{"worst_user", fmt::format("has {} bodies", device.bodies().size()),
+                         fmt::format("at most {}", most_bodies_for_any_user)};
+  }
+  return std::nullopt;
+}
+
+Analysis analyze(const Device& device, const AnalysisOptions& options) {
+  if (const auto problem = find_problem(options, device)) {
+    throw Error(ErrorCode::invalid_argument,
+                fmt::format("{} {}; {}", problem->member, problem->what, problem->allowed));
+  }
   ModalForm form = modal_form(device);
-  const SampledPlant plant = filtered_plant(sample(form, {device.loop().sampling_period, device.loop().delay}),
-                                            device.parameters().wall.filters);
+  const FilteredPlant plant = filtered_plant(sample(form, {device.loop().sampling_period, device.loop().delay}),
+                                             device.parameters().wall.filters);
   Analysis analysis;
-  analysis.critical = critical_stiffness(plant, damper_of(device));
+  const PoleCount poles(device);
+  analysis.critical = guarded_stiffness(device, plant, poles);
+  analysis.trust = analysis.critical.trust;
   analysis.modes = std::move(form.modes);
   analysis.suspended_rigid_body = form.suspended_rigid_body;
   if (device.has_bodies()) {
     analysis.rigid = rigid_approximation(device, analysis.critical);
     analysis.q_criterion = q_criterion(device, *analysis.rigid);
   }
-  if (device.parameters().wall.stiffness) analysis.wall = wall_margins(device);
-  if (device.parameters().uncertainty) analysis.interval = stiffness_interval(device);
+  if (analysis.trust.refused()) return analysis;
+  if (device.parameters().wall.stiffness) judge_wall(device, poles, analysis);
+  if (analysis.trust.refused()) return analysis;
+  const std::optional<Uncertainty>& uncertainty = device.parameters().uncertainty;
+  if (uncertainty && !uncertainty->parameters.empty() && options.draws > 0) {
+    analysis.interval = stiffness_interval(device, options.draws);
+  }
+  answer_about_users(device, options, analysis);
   return analysis;
 }
 

@@ -7,12 +7,22 @@
 #include <string>
 
 #include "stability/gain_crossings.hpp"
+#include "stability/guarded_stiffness.hpp"
 #include "stability/mechanism_at.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth {
 using namespace internal;
-CriticalStiffness critical_stiffness(const SampledPlant& plant, VirtualDamper damper) {
+
+VirtualDamper virtual_damper(const Device& device) {
+  return {device.parameters().wall.damping, device.parameters().wall.velocity_filter_hz};
+}
+
+CriticalStiffness critical_stiffness(const Device& device) {
+  return guarded_stiffness(device, filtered_plant(device), PoleCount(device));
+}
+
+CriticalStiffness critical_stiffness(const FilteredPlant& plant, VirtualDamper damper) {
   for (const double value : {damper.damping, damper.velocity_filter_hz}) {
     if (!(value >= 0.0) || !std::isfinite(value)) {
       throw Error(ErrorCode::invalid_argument,

@@ -25,7 +25,7 @@ bool vanishes(const SampledPlant& plant, double angle) { return cancellation(pla
 
 }  // namespace
 
-GainCrossings gain_crossings(const SampledPlant& plant, const GainLocus& locus) {
+GainCrossings gain_crossings(const FilteredPlant& plant, const GainLocus& locus) {
   GainCrossings result;
   const std::vector<CircleRoot> roots = roots_on_circle(locus, std::max<std::size_t>(1, plant.delay_samples));
   result.initially_unstable = locus.initially_unstable(locus.value(roots.empty() ? 1.0 : 0.5 * roots.front().angle));
@@ -64,7 +64,7 @@ int unstable_poles(const GainCrossings& crossings, double gain) {
   return unstable;
 }
 
-GainCrossings stiffness_crossings(const SampledPlant& plant, const VirtualDamper& damper) {
+GainCrossings stiffness_crossings(const FilteredPlant& plant, const VirtualDamper& damper) {
   GainCrossings result = gain_crossings(plant, GainLocus(plant, GainLocus::Gain::stiffness, 0.0, damper));
   if (damper.damping > 0.0) {
     // The poles at K = 0 are those of the damper alone: the locus of B. The one that the damper leaves at z = 1 is

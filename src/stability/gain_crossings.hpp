@@ -19,10 +19,10 @@ struct GainCrossings {
 };
 
 // Every crossing of the locus.
-GainCrossings gain_crossings(const SampledPlant& plant, const GainLocus& locus);
+GainCrossings gain_crossings(const FilteredPlant& plant, const GainLocus& locus);
 
 // Every stiffness crossing with the damper closed, and the poles outside for arbitrarily small K > 0.
-GainCrossings stiffness_crossings(const SampledPlant& plant, const VirtualDamper& damper);
+GainCrossings stiffness_crossings(const FilteredPlant& plant, const VirtualDamper& damper);
 
 // Poles outside the circle at kappa = gain.
 int unstable_poles(const GainCrossings& crossings, double gain);

@@ -26,7 +26,7 @@ OnCircle<Real> reduced_integrators(int power, const CirclePoint<Real>& point) {
 
 }  // namespace
 
-GainLocus::GainLocus(const SampledPlant& plant, Gain gain, double stiffness, VirtualDamper damper)
+GainLocus::GainLocus(const FilteredPlant& plant, Gain gain, double stiffness, VirtualDamper damper)
     : plant_(plant),
       gain_(gain),
       stiffness_(stiffness),

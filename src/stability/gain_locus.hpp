@@ -29,7 +29,7 @@ class GainLocus {
   enum class Gain { stiffness, damping, wall };
 
   // `stiffness` matters for Gain::wall alone. The plant must outlive the locus.
-  GainLocus(const SampledPlant& plant, Gain gain, double stiffness, VirtualDamper damper);
+  GainLocus(const FilteredPlant& plant, Gain gain, double stiffness, VirtualDamper damper);
 
   // f at an angle in [0, pi], and its first-order Taylor model on an interval of x = |z - 1|², 0 <= begin < end <= 4.
   [[nodiscard]] double value(double angle) const;
@@ -61,7 +61,7 @@ class GainLocus {
   template <typename Real>
   Real assemble(const CirclePoint<Real>& point, const OnCircle<Real>& delay) const;
 
-  const SampledPlant& plant_;
+  const FilteredPlant& plant_;
   Gain gain_;
   double stiffness_;
   double damping_;

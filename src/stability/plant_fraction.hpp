@@ -50,7 +50,7 @@ struct PlantFraction {
 };
 
 // Zeros of the filters at z = -1 in all.
-inline std::size_t nyquist_zeros(const SampledPlant& plant) {
+inline std::size_t nyquist_zeros(const FilteredPlant& plant) {
   std::size_t zeros = 0;
   for (const FilterSection& section : plant.filters) zeros += section.nyquist_zeros;
   return zeros;
@@ -59,7 +59,7 @@ inline std::size_t nyquist_zeros(const SampledPlant& plant) {
 // The filters' numerators over denominators times S/D, over the size of the denominators. Of the zeros at z = -1 the
 // last `left_out` are not multiplied in.
 template <typename Real>
-void multiply_filters(const SampledPlant& plant, const CirclePoint<Real>& point, std::size_t left_out,
+void multiply_filters(const FilteredPlant& plant, const CirclePoint<Real>& point, std::size_t left_out,
                       PlantFraction<Real>& fraction) {
   const double sine = std::sqrt(std::max(value_of(point.sine_squared), 0.0));
   for (const FilterSection& section : plant.filters) {
@@ -81,7 +81,7 @@ void multiply_filters(const SampledPlant& plant, const CirclePoint<Real>& point,
 // number. `integrators`: takes the place of delta^n of the term with n integrators, in D alone. `zeros_left_out`: of
 // the filters' zeros at z = -1.
 template <typename Real>
-PlantFraction<Real> plant_fraction(const SampledPlant& plant, const CirclePoint<Real>& point,
+PlantFraction<Real> plant_fraction(const FilteredPlant& plant, const CirclePoint<Real>& point,
                                    const OnCircle<Real>* integrators = nullptr, std::size_t zeros_left_out = 0) {
   const double sine = std::sqrt(std::max(value_of(point.sine_squared), 0.0));
   OnCircle<Real> s{Real(0.0), Real(0.0)};

@@ -4,6 +4,8 @@
 #include <complex>
 #include <numbers>
 
+#include "stability/winding_number.hpp"
+
 namespace zwidth::internal {
 namespace {
 
@@ -13,7 +15,7 @@ using std::numbers::pi;
 // The characteristic polynomial, over positive numbers, and over z^L.
 class Characteristic {
  public:
-  Characteristic(const SampledPlant& plant, const Wall& wall) : plant_(plant) {
+  Characteristic(const FilteredPlant& plant, const Wall& wall) : plant_(plant) {
     c_ = wall.velocity_filter_hz > 0.0 ? -std::expm1(-2.0 * pi * wall.velocity_filter_hz * plant.period) : 1.0;
     stiffness_ = *wall.stiffness;
     rate_ = wall.damping * c_ / plant.period;
@@ -57,48 +59,22 @@ class Characteristic {
     return value;
   }
 
-  const SampledPlant& plant_;
+  const FilteredPlant& plant_;
   double c_;
   double stiffness_;
   double rate_;
   std::size_t order_ = 0;
 };
 
-// Change of the phase of p / z^L between two angles, halving the step until it is unambiguous.
-double turn(const Characteristic& p, double radius, double begin, Complex at_begin, double end, Complex at_end,
-            int halvings) {
-  const double change = std::arg(at_end / at_begin);
-  if (halvings == 0) return change;
-  const double middle = 0.5 * (begin + end);
-  const Complex at_middle = p(radius, middle);
-  const double first = std::arg(at_middle / at_begin);
-  const double second = std::arg(at_end / at_middle);
-  if (std::abs(first) + std::abs(second) < pi / 3.0) return first + second;
-  return turn(p, radius, begin, at_begin, middle, at_middle, halvings - 1) +
-         turn(p, radius, middle, at_middle, end, at_end, halvings - 1);
-}
-
 bool holds_all_poles(const Characteristic& p, double radius, std::size_t delay_samples) {
-  constexpr int max_halvings = 40;
-  const std::size_t steps = 8 * p.order();
-  double total = 0.0;
-  double begin = 0.0;
-  Complex at_begin = p(radius, 0.0);
-  for (std::size_t i = 1; i <= steps; ++i) {
-    const double end = pi * static_cast<double>(i) / static_cast<double>(steps);
-    const Complex at_end = p(radius, end);
-    total += turn(p, radius, begin, at_begin, end, at_end, max_halvings);
-    begin = end;
-    at_begin = at_end;
-  }
+  const double turns = winding_number([&](double angle) { return p(radius, angle); }, 8 * p.order());
   // Half the circle turns p by pi per zero inside; p / z^L by L less.
-  const double inside = total / pi + static_cast<double>(delay_samples);
-  return std::lround(inside) >= static_cast<long>(p.order());
+  return std::lround(turns + static_cast<double>(delay_samples)) >= static_cast<long>(p.order());
 }
 
 }  // namespace
 
-double spectral_radius_by_winding(const SampledPlant& plant, const Wall& wall) {
+double spectral_radius_by_winding(const FilteredPlant& plant, const Wall& wall) {
   constexpr int max_steps = 60;
   const Characteristic p(plant, wall);
   double low = 0.0;

@@ -66,8 +66,7 @@ Eigen::MatrixXd square_root(const std::vector<std::vector<double>>& covariance) 
 }
 
 CriticalStiffness critical_stiffness_of(const Device& device) {
-  const Wall& wall = device.parameters().wall;
-  return critical_stiffness(filtered_plant(device), {wall.damping, wall.velocity_filter_hz});
+  return critical_stiffness(filtered_plant(device), virtual_damper(device));
 }
 
 bool same_mechanism(const CriticalStiffness& a, const CriticalStiffness& b) {
@@ -80,7 +79,8 @@ bool same_mechanism(const CriticalStiffness& a, const CriticalStiffness& b) {
 
 StiffnessInterval stiffness_interval(const Device& device, std::size_t draws, std::uint64_t seed) {
   const std::optional<Uncertainty>& uncertainty = device.parameters().uncertainty;
-  if (!uncertainty) throw Error(ErrorCode::invalid_argument, "the device has no uncertainty");
+  if (!uncertainty || uncertainty->parameters.empty())
+    throw Error(ErrorCode::invalid_argument, "the device has no uncertainty");
   if (draws == 0) throw Error(ErrorCode::invalid_argument, "draws is 0; must be at least 1");
   const Eigen::MatrixXd root = square_root(uncertainty->covariance);
   const CriticalStiffness own = critical_stiffness_of(device);

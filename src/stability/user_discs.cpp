@@ -36,10 +36,10 @@ UserDiscs::UserDiscs(const Device& device)
       held_(device.loop().held),
       lag_(device.parameters().actuator.time_constant),
       period_(device.loop().sampling_period),
-      delay_(device.loop().delay) {
+      delay_(device.loop().delay),
+      plant_(filtered_plant(without_operator(device))) {
   if (!device.has_bodies()) throw Error(ErrorCode::needs_bodies, "a transfer function has no body for a user to hold");
   const Device free = without_operator(device);
-  plant_ = filtered_plant(free);
   for (std::size_t i = 0; i < free.bodies().size(); ++i) {
     positions_.push_back(modal_form(free, {held_, i}, ActuatorLag::left_out));
     if (free.bodies()[i].damping > 0.0) dampers_.push_back({i, i, free.bodies()[i].damping});

@@ -39,7 +39,7 @@ class UserDiscs {
   /// each alias on its boundary in the same direction, the sampled plant is on its own. Not for an undamped device.
   [[nodiscard]] Alias alias(double frequency, int k, double direction) const;
 
-  [[nodiscard]] const SampledPlant& free_plant() const noexcept { return plant_; }
+  [[nodiscard]] const FilteredPlant& free_plant() const noexcept { return plant_; }
   [[nodiscard]] const ModalForm& held_form() const noexcept { return positions_[held_]; }
   /// Relative error that the sums over aliases may leave, from a second, finer rule.
   [[nodiscard]] double truncation() const noexcept { return truncation_; }
@@ -62,7 +62,6 @@ class UserDiscs {
   [[nodiscard]] std::complex<double> centre_density(double frequency) const;
   [[nodiscard]] double own_power(double frequency) const;
 
-  SampledPlant plant_;                // of the free device
   std::vector<ModalForm> positions_;  // of every body, for a force at the held body
   ModalForm through_;                 // actuated -> sensed, the lag left out
   DeviceMatrices<double> matrices_;
@@ -73,6 +72,7 @@ class UserDiscs {
   double lag_ = 0.0;
   double period_ = 0.0;
   double delay_ = 0.0;
+  FilteredPlant plant_;  // of the free device
   bool undamped_ = false;
   AliasRule rule_;
   std::size_t exact_aliases_ = 0;  // of the rule

@@ -7,10 +7,10 @@
 #include <string>
 
 #include "sampling/bilinear_plant.hpp"
+#include "stability/delay_margin.hpp"
 #include "stability/gain_crossings.hpp"
-#include "stability/plant_fraction.hpp"
-#include "stability/root_isolation.hpp"
 #include "stability/spectral_radius.hpp"
+#include "stability/unit_gain.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/stability/closed_loop.hpp"
 
@@ -20,45 +20,6 @@ namespace {
 
 using std::numbers::pi;
 
-// |C_num S|² - |(delta + c) D|², zero where |C P| = 1; C = K + B (c/T) delta / (delta + c). Without a spring the
-// damper's delta cancels one of the plant's integrators: both sides are divided by |delta|² then.
-class UnitGain {
- public:
-  UnitGain(const SampledPlant& plant, double stiffness, double rate, double c)
-      : plant_(plant), stiffness_(stiffness), rate_(rate), c_(c) {
-    if (stiffness > 0.0) return;
-    for (const SampledTerm& term : plant.terms) integrators_ += term.integrators;
-  }
-
-  [[nodiscard]] double value(double angle) const { return evaluate(circle_point(angle)); }
-  template <typename Scalar>
-  [[nodiscard]] BoundedJet<Scalar> model(double begin, double end) const {
-    return evaluate(circle_interval<Scalar>(begin, end));
-  }
-
- private:
-  template <typename Real>
-  Real evaluate(const CirclePoint<Real>& point) const {
-    const Real& x = point.chord_squared;
-    OnCircle<Real> kept{Real(1.0), Real(0.0)};  // delta^(integrators - 1)
-    for (int i = 1; i < integrators_; ++i) kept = multiply(kept, {-0.5 * x, Real(1.0)}, point);
-    const bool cancel = integrators_ > 0;
-    const PlantFraction<Real> plant = plant_fraction(plant_, point, cancel ? &kept : nullptr);
-    const Real filter = (1.0 - c_) * x + c_ * c_;  // |delta + c|²
-    // |(K + B c/T) delta + K c|² = (K + r)² x + (K c)² - (K + r) K c x
-    const double lead = stiffness_ + rate_;
-    const double constant = stiffness_ * c_;
-    const Real wall = cancel ? Real(rate_ * rate_) : (lead * (lead - constant)) * x + constant * constant;
-    return wall * squared_magnitude(plant.numerator, point) - filter * squared_magnitude(plant.denominator, point);
-  }
-
-  const SampledPlant& plant_;
-  double stiffness_;
-  double rate_;  // B c / T
-  double c_;
-  int integrators_ = 0;  // of the plant, where one cancels
-};
-
 void check(const Wall& wall) {
   for (const double value : {wall.stiffness.value_or(-1.0), wall.damping, wall.velocity_filter_hz}) {
     if (!(value >= 0.0) || !std::isfinite(value)) {
@@ -66,6 +27,16 @@ void check(const Wall& wall) {
                   "the wall has " + std::to_string(value) + "; stiffness, damping and filter must be finite and >= 0");
     }
   }
+}
+
+// The least factor above 1 on K alone.
+std::optional<double> stiffness_margin(const GainCrossings& by_stiffness, double stiffness) {
+  std::optional<double> least;
+  for (const GainCrossing& crossing : by_stiffness.crossings) {
+    const double factor = crossing.gain / stiffness;
+    if (factor > 1.0) least = std::min(least.value_or(factor), factor);
+  }
+  return least;
 }
 
 // Gain margins: the crossings of the locus of one factor on the whole wall, on both sides of 1.
@@ -79,38 +50,28 @@ void find_gain_margins(const GainCrossings& crossings, double factor_at_wall, Lo
 
 // Smallest phase and delay that take any gain crossover to -1. `to_frequency` maps the angle to rad/s.
 template <typename ToFrequency>
-void find_phase_margins(const SampledPlant& plant, double stiffness, double rate, double c, ToFrequency to_frequency,
-                        LoopMargins& margins) {
-  if (stiffness == 0.0 && rate == 0.0) return;
-  for (const CircleRoot& root : roots_on_circle(UnitGain(plant, stiffness, rate, c), 1)) {
-    const double half = std::sin(root.angle / 2.0);
-    const std::complex<double> delta(-2.0 * half * half, std::sin(root.angle));
-    const std::complex<double> loop =
-        (stiffness + rate * delta / (delta + c)) * response(plant, root.angle / plant.period);
-    const double margin = std::arg(-loop);  // angle of L plus pi
-    const double frequency = to_frequency(root.angle);
-    margins.gain_crossovers.push_back({frequency, margin});
+void find_phase_margins(const FilteredPlant& plant, const Wall& wall, ToFrequency to_frequency, LoopMargins& margins) {
+  for (const UnitGainPoint& point : unit_gain_points(plant, wall)) {
+    const double frequency = to_frequency(point.angle);
+    margins.gain_crossovers.push_back({frequency, point.phase});
     if (!margins.stable) continue;
-    const double delay = (margin >= 0.0 ? margin : margin + 2.0 * pi) / frequency;
-    margins.phase_margin = std::min(margins.phase_margin.value_or(pi), std::abs(margin));
+    const double delay = lag_to_instability(point) / frequency;
+    margins.phase_margin = std::min(margins.phase_margin.value_or(pi), std::abs(point.phase));
     margins.delay_margin = std::min(margins.delay_margin.value_or(delay), delay);
   }
 }
 
 // Without a spring: the pole at z = 1 of a free device stays, and without a damper those of undamped modes.
-bool keeps_pole_on_circle(const SampledPlant& plant, const Wall& wall) {
+bool keeps_pole_on_circle(const FilteredPlant& plant, const Wall& wall) {
   return std::any_of(plant.terms.begin(), plant.terms.end(), [&wall](const SampledTerm& term) {
     return term.integrators > 0 || (term.undamped_pairs > 0 && wall.damping == 0.0);
   });
 }
 
 template <typename ToFrequency>
-LoopMargins margins_of(const SampledPlant& plant, const Wall& wall, ToFrequency to_frequency) {
+LoopMargins margins_of(const FilteredPlant& plant, const Wall& wall, ToFrequency to_frequency) {
   const double stiffness = *wall.stiffness;
   const VirtualDamper damper{wall.damping, wall.velocity_filter_hz};
-  const double c =
-      wall.velocity_filter_hz > 0.0 ? -std::expm1(-2.0 * pi * wall.velocity_filter_hz * plant.period) : 1.0;
-  const double rate = wall.damping * c / plant.period;
   LoopMargins margins;
   if (stiffness == 0.0) {  // a free device keeps its pole at z = 1: not asymptotically stable
     const GainCrossings by_damping = gain_crossings(plant, GainLocus(plant, GainLocus::Gain::damping, 0.0, damper));
@@ -121,6 +82,7 @@ LoopMargins margins_of(const SampledPlant& plant, const Wall& wall, ToFrequency 
     const bool on_crossing = std::any_of(by_stiffness.crossings.begin(), by_stiffness.crossings.end(),
                                          [&](const GainCrossing& crossing) { return crossing.gain == stiffness; });
     margins.stable = !on_crossing && unstable_poles(by_stiffness, stiffness) == 0;
+    if (margins.stable) margins.stiffness_margin = stiffness_margin(by_stiffness, stiffness);
     if (margins.stable && wall.damping == 0.0) {
       find_gain_margins(by_stiffness, stiffness, margins);
     } else if (margins.stable) {
@@ -128,7 +90,7 @@ LoopMargins margins_of(const SampledPlant& plant, const Wall& wall, ToFrequency 
                         margins);
     }
   }
-  find_phase_margins(plant, stiffness, rate, c, to_frequency, margins);
+  find_phase_margins(plant, wall, to_frequency, margins);
   return margins;
 }
 
@@ -145,7 +107,7 @@ bool is_lossless(const ModalForm& form) {
 
 }  // namespace
 
-LoopMargins loop_margins(const SampledPlant& plant, const Wall& wall) {
+LoopMargins loop_margins(const FilteredPlant& plant, const Wall& wall) {
   check(wall);
   return margins_of(plant, wall, [&plant](double angle) { return angle / plant.period; });
 }
@@ -157,7 +119,7 @@ LoopMargins continuous_margins(const TransferFunction& loop) {
   parameters.loop.sampling_period = 1.0;  // not used: the bilinear map takes the place of sampling
   const ModalForm form = modal_form(Device(std::move(parameters)));
   if (is_lossless(form)) return {};
-  const SampledPlant plant = bilinear_plant(form);
+  const FilteredPlant plant = filtered_plant(bilinear_plant(form), {});
   const double rate = 2.0 / plant.period;
   return margins_of(plant, {1.0, 0.0, 0.0}, [rate](double angle) { return rate * std::tan(angle / 2.0); });
 }
@@ -165,7 +127,7 @@ LoopMargins continuous_margins(const TransferFunction& loop) {
 WallMargins wall_margins(const Device& device) {
   constexpr std::size_t most_samples_for_eigenvalues = 100;
   const Wall& wall = device.parameters().wall;
-  const SampledPlant plant = filtered_plant(device);
+  const FilteredPlant plant = filtered_plant(device);
   WallMargins margins{loop_margins(plant, wall), *wall.stiffness, wall.damping, 0.0};
   if (plant.delay_samples > most_samples_for_eigenvalues) {
     margins.spectral_radius = spectral_radius_by_winding(plant, wall);
@@ -173,6 +135,7 @@ WallMargins wall_margins(const Device& device) {
     const Sampling sampling{device.loop().sampling_period, device.loop().delay};
     margins.spectral_radius = 1.0 + stability_excess(sample(state_space(device), sampling), wall);
   }
+  if (margins.stable) margins.delay_margin = exact_delay_margin(device);
   return margins;
 }
 

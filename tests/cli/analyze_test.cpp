@@ -41,6 +41,43 @@ void expect_relative(const json& value, double expected) {
   EXPECT_NEAR(value.get<double>() / expected, 1.0, 1e-9);
 }
 
+// The answer to a device whose numbers nothing carries is "refused", which is an answer: exit status 0, and no number.
+TEST_F(Analyze, ARefusedDeviceHasNoNumber) {
+  const std::string refused = contents("devices/lhifam.toml") +
+                              "\n[uncertainty]\nverdict = \"refused\"\nwarning = \"the record excites nothing; excite "
+                              "up to 40 Hz\"\n";
+  write("refused.toml", refused);
+  const auto all = documents("zwidth analyze refused.toml --set wall.stiffness=100 --json");
+  ASSERT_EQ(all.size(), 1U);
+  const json& document = all.front();
+  EXPECT_EQ(document["trust"]["verdict"], "refused");
+  EXPECT_THAT(document["trust"]["reasons"][0].get<std::string>(), HasSubstr("excite up to 40 Hz"));
+  EXPECT_EQ(document["status"], "refused");
+  for (const char* key : {"critical_stiffness", "critical_stiffness_db", "critical_frequency_rad_s", "limited_by",
+                          "any_user", "wall", "critical_stiffness_interval"}) {
+    EXPECT_TRUE(document[key].is_null()) << key;
+  }
+  EXPECT_TRUE(document["rigid_approximation"]["critical_stiffness"].is_null());
+  EXPECT_THAT(document["crossovers"], IsEmpty());
+  const Outcome text = run("zwidth analyze refused.toml");
+  EXPECT_EQ(text.status, 0);
+  EXPECT_THAT(text.output.substr(0, 300), HasSubstr("REFUSED, no number is given: the record excites nothing"));
+  EXPECT_THAT(text.output, ::testing::Not(HasSubstr("kN/m")));
+}
+
+TEST_F(Analyze, RequireStableFailsWhereTheWallIsNotStableOrTheAnswerNotSound) {
+  const std::string stable = "zwidth analyze devices/lhifam.toml --set wall.stiffness=5000 --require-stable";
+  EXPECT_EQ(run(stable).status, 0);
+  const Outcome unstable = run("zwidth analyze devices/lhifam.toml --set wall.stiffness=9000 --require-stable");
+  EXPECT_EQ(unstable.status, 1);
+  EXPECT_THAT(unstable.errors, HasSubstr("devices/lhifam.toml: the wall is unstable"));
+  EXPECT_THAT(unstable.output, HasSubstr("UNSTABLE"));
+  const Outcome doubtful = run(stable + " --set 'uncertainty.warning=\"misfit\"'");
+  EXPECT_EQ(doubtful.status, 1) << doubtful.output;
+  EXPECT_THAT(doubtful.errors, HasSubstr("DOUBTFUL: misfit"));
+  EXPECT_EQ(run("zwidth analyze devices/lhifam.toml --require-stable").status, 2);
+}
+
 TEST_F(Analyze, LhifamHasItsPublishedAnswer) {
   const auto all = documents("zwidth analyze devices/lhifam.toml --json");
   ASSERT_EQ(all.size(), 1U);

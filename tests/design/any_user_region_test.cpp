@@ -36,7 +36,7 @@ TEST(AnyUserRegion, BeginsAtTheLimitWithoutADamper) {
 
 TEST(AnyUserRegion, LiesWithinTheStableWalls) {
   const Device device(test::with_delay(test::lhifam_parameters(), 0.25e-3));
-  const StableWalls walls(sampled_plant(device));
+  const StableWalls walls(filtered_plant(device));
   const AnyUserRegion region = any_user_region(device, 0.0, 400.0);
   ASSERT_FALSE(region.ranges.empty());
   for (const auto& range : region.ranges) {

@@ -14,7 +14,7 @@ namespace {
 
 CriticalStiffness critical_at(DeviceParameters device, const std::string& key, double value) {
   set_parameter(device, key, value);
-  return critical_stiffness(sampled_plant(Device(device)), {device.wall.damping, device.wall.velocity_filter_hz});
+  return critical_stiffness(filtered_plant(Device(device)), {device.wall.damping, device.wall.velocity_filter_hz});
 }
 
 // On either side of a switch another crossover limits, and both have the K that it says.

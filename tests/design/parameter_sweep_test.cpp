@@ -35,7 +35,7 @@ TEST(ParameterSweep, EveryPointIsTheCriticalStiffnessOfItsDevice) {
       DeviceParameters moved = parameters;
       moved.links[0].stiffness = sweep.values[0][i];
       moved.loop.delay = sweep.values[1][j];
-      const CriticalStiffness expected = critical_stiffness(sampled_plant(Device(moved)));
+      const CriticalStiffness expected = critical_stiffness(filtered_plant(Device(moved)));
       EXPECT_EQ(sweep.points[i * 11 + j].stiffness, expected.stiffness);
       EXPECT_TRUE(sweep.points[i * 11 + j].crossovers.empty());
     }

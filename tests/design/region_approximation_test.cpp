@@ -57,7 +57,7 @@ TEST(ApproximationError, SharesAreAreas) {
 // Table I: the rigid formulas are unsafe by 7000 / 5776.09 for any user, safe by 7000 / 8848.71 for the device alone.
 TEST(ApproximationError, OfTableI) {
   const Device device(test::lhifam_parameters());
-  const StableWalls walls(sampled_plant(device));
+  const StableWalls walls(filtered_plant(device));
   const AnyUserRegion any_user = any_user_region(device, 0.0, 600.0);
   const auto formulas = region_approximations(device, 0.0);
   EXPECT_NEAR(*approximation_error(formulas[0], any_user).ratio, 7000.0 / 5776.09, 1e-4);

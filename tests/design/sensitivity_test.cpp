@@ -161,7 +161,7 @@ TEST(Sensitivity, IsEmptyWithoutALimit) {
 }
 
 TEST(Sensitivity, RefusesAnotherDevicesAnswer) {
-  const CriticalStiffness other = critical_stiffness(sampled_plant(Device(test::rigid_parameters())));
+  const CriticalStiffness other = critical_stiffness(filtered_plant(Device(test::rigid_parameters())));
   EXPECT_THROW((void)stiffness_sensitivities(Device(test::lhifam_parameters()), other), Error);
 }
 

@@ -156,7 +156,7 @@ TEST_P(StableRegionProperty, EigenvaluesOfADenseRasterAgree) {
 TEST_P(StableRegionProperty, IntervalsAreThoseOfTheCriticalStiffness) {
   for (std::size_t seed = 0; seed < cases_per_kind(); ++seed) {
     const RandomCase random = random_case(GetParam(), seed);
-    const SampledPlant plant = filtered_plant(random.device);
+    const FilteredPlant plant = filtered_plant(random.device);
     const double largest = random.region.most_damped ? random.region.most_damped->damping : 10.0;
     for (const double share : {0.0, 1e-5, 0.003, 0.03, 0.123, 0.31, 0.57, 0.83, 0.97, 1.1, 7.0}) {
       const double damping = share * largest;

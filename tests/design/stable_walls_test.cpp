@@ -14,7 +14,7 @@ namespace zwidth {
 namespace {
 
 StableWalls walls_of(const DeviceParameters& device, double velocity_filter_hz = 0.0) {
-  return StableWalls(sampled_plant(Device(device)), velocity_filter_hz);
+  return StableWalls(filtered_plant(Device(device)), velocity_filter_hz);
 }
 
 DeviceParameters undamped_mass(double mass, double period) {
@@ -106,7 +106,7 @@ TEST(StableRegion, AreaConvergesWithTheOutline) {
 
 // With 300 samples of delay the curve turns 150 times; all but the stable corner is ruled out beforehand.
 TEST(StableWalls, OfALoopWithALongDelayAreFoundAsFast) {
-  const SampledPlant plant = sampled_plant(Device(test::with_delay(test::lhifam_parameters(), 0.3)));
+  const FilteredPlant plant = filtered_plant(Device(test::with_delay(test::lhifam_parameters(), 0.3)));
   const StableWalls walls(plant);
   const StableRegion region = stable_region(walls);
   ASSERT_EQ(region.components.size(), 1U);
@@ -124,7 +124,7 @@ TEST(StableWalls, OfALoopWithALongDelayAreFoundAsFast) {
 TEST(StableWalls, OfAPlantThatIsNotSeenAreAll) {
   SampledPlant nothing;
   nothing.period = 1e-3;
-  const StableWalls walls(nothing);
+  const StableWalls walls(filtered_plant(nothing, {}));
   const auto intervals = walls.stable_stiffnesses(3.0);
   ASSERT_EQ(intervals.size(), 1U);
   EXPECT_FALSE(intervals[0].upper.has_value());
@@ -179,7 +179,7 @@ TEST(StableOnGrid, IsTheIntervalsOfEachRow) {
 }
 
 TEST(StableWalls, RefuseWhatIsNoWall) {
-  const SampledPlant plant = sampled_plant(Device(test::lhifam_parameters()));
+  const FilteredPlant plant = filtered_plant(Device(test::lhifam_parameters()));
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(StableWalls(plant, -1.0), Error);
   EXPECT_THROW(StableWalls(plant, nan), Error);

@@ -49,7 +49,7 @@ TEST(MeasuredStiffness, FindsEveryCrossoverOfAnExactResponse) {
         test::with_delay(test::lhifam_parameters(), 0.25e-3), test::with_delay(test::lhifam_parameters(), 3.4e-3),
         test::handle_sensed(test::lhifam_parameters())}) {
     const Device device(parameters);
-    const CriticalStiffness exact = critical_stiffness(sampled_plant(device));
+    const CriticalStiffness exact = critical_stiffness(filtered_plant(device));
     const MeasuredStiffness measured = measured_stiffness(exact_response(device, 1.0, 450.0, 0.05));
     EXPECT_EQ(measured.status, Status::found) << parameters.name;
     std::vector<Crossover> within = exact.crossovers;
@@ -67,7 +67,7 @@ TEST(MeasuredStiffness, FindsEveryCrossoverOfAnExactResponse) {
 
 TEST(MeasuredStiffness, IntervalsAllowForTheDistanceBetweenLines) {
   const Device device(test::lhifam_parameters());
-  const CriticalStiffness exact = critical_stiffness(sampled_plant(device));
+  const CriticalStiffness exact = critical_stiffness(filtered_plant(device));
   for (const double step : {0.1, 0.25, 0.5}) {
     const MeasuredStiffness measured = measured_stiffness(exact_response(device, 1.0, 450.0, step));
     ASSERT_EQ(measured.crossovers.size(), 3U) << step;
@@ -157,7 +157,7 @@ TEST(MeasuredStiffness, NoiseIsNotTakenForAnAnswer) {
 TEST(MeasuredStiffness, IntervalsHoldTheCriticalStiffnessOfAVibrationMode) {
   // The locked motor on its cable: 84 Hz, damping ratio 0.05.
   const Device device(test::locked_lhifam_parameters());
-  const double truth = critical_stiffness(sampled_plant(device)).stiffness;
+  const double truth = critical_stiffness(filtered_plant(device)).stiffness;
   int held = 0;
   constexpr int seeds = 40;
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
@@ -174,7 +174,7 @@ TEST(MeasuredStiffness, IntervalsHoldTheCriticalStiffnessOfAVibrationMode) {
 
 TEST(MeasuredStiffness, IntervalsHoldTheCriticalStiffnessOfARigidBody) {
   const Device device(test::rigid_parameters());
-  const double truth = critical_stiffness(sampled_plant(device)).stiffness;
+  const double truth = critical_stiffness(filtered_plant(device)).stiffness;
   int held = 0;
   constexpr int seeds = 40;
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
@@ -191,7 +191,7 @@ TEST(MeasuredStiffness, IntervalsHoldTheCriticalStiffnessOfARigidBody) {
 
 TEST(MeasuredStiffness, AWelchEstimateOfAFreeDeviceFindsItsThreeCrossovers) {
   const Device device(test::lhifam_parameters());
-  const CriticalStiffness exact = critical_stiffness(sampled_plant(device));
+  const CriticalStiffness exact = critical_stiffness(filtered_plant(device));
   int held = 0;
   constexpr int seeds = 6;
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
@@ -210,7 +210,7 @@ TEST(MeasuredStiffness, NoiseThatHidesTheSofterCrossoverNeverMakesTheHarderOneTh
   // From 6.1 to 15.8 Hz LHIfAM's phase is 1 to 4 degrees past -180: noise hides that easily, and the next crossover, at
   // 98 Hz, is four times as stiff.
   const Device device(test::lhifam_parameters());
-  const double truth = critical_stiffness(sampled_plant(device)).stiffness;
+  const double truth = critical_stiffness(filtered_plant(device)).stiffness;
   int undetermined = 0;
   for (const Noise& noise :
        {Noise{3e-6, 0.0, 0.0}, Noise{1e-5, 0.0, 0.0}, Noise{3e-5, 0.0, 0.0}, Noise{0.0, 0.2, 0.0}}) {
@@ -233,7 +233,7 @@ TEST(MeasuredStiffness, DistortionsThatRepeatInEveryPeriodCountAsNoise) {
   // A nonlinear device's lines scatter far beyond their noise: one crossing, no false ones, and an interval that says
   // so. The rigid body crosses at a slant, between many lines that scatter to both sides.
   const Device device(test::rigid_parameters());
-  const CriticalStiffness truth = critical_stiffness(sampled_plant(device));
+  const CriticalStiffness truth = critical_stiffness(filtered_plant(device));
   constexpr int seeds = 200;
   for (const double step_hz : {0.5, 0.1}) {
     const FrequencyResponse exact = exact_response(device, 1.0, 100.0, step_hz);
@@ -270,7 +270,7 @@ TEST(MeasuredStiffness, AResonanceBetweenSparseLinesIsSaidAndItsIntervalHolds) {
   DeviceParameters parameters = test::locked_lhifam_parameters();
   parameters.bodies[0].damping *= 0.2;
   const Device device(parameters);
-  const double truth = critical_stiffness(sampled_plant(device)).stiffness;
+  const double truth = critical_stiffness(filtered_plant(device)).stiffness;
   int said = 0;
   for (const double step_hz : {2.0, 4.0, 8.0}) {
     for (double offset = 0.0; offset < 0.95; offset += 0.1) {

@@ -60,7 +60,7 @@ TEST_P(FreeDevice, IsRecoveredWithoutNoiseAndWithoutAGuess) {
   if (device.actuator.time_constant > 0.0) structure.actuator.time_constant = 1e-3;
   const ParameterFit fit = fit_parameters(Device(structure), synthetic_response(Device(device), 1.0, 400.0, 400, {}));
   expect_recovered(fit, device, 1e-5);
-  EXPECT_NEAR(analyze(fit.device).critical.stiffness / analyze(Device(device)).critical.stiffness, 1.0, 1e-4);
+  EXPECT_NEAR(critical_stiffness(fit.device).stiffness / critical_stiffness(Device(device)).stiffness, 1.0, 1e-4);
 }
 
 // With noise every parameter lies within 4.5 of its own standard deviations (1 in 70 000 per parameter).

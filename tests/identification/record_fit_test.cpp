@@ -53,7 +53,7 @@ TEST(RecordFit, FindsTheCableOfTheLockedDevice) {
   EXPECT_NEAR(found.fit.estimates.at(1).value, 15.0, 0.05 * 15.0);
   // The device is free again in the result.
   EXPECT_EQ(found.fit.device.bodies().size(), 2U);
-  EXPECT_NEAR(analyze(found.fit.device).critical.stiffness, 8848.709, 5.0);
+  EXPECT_NEAR(critical_stiffness(found.fit.device).stiffness, 8848.709, 5.0);
 }
 
 // 200 trials: 95 % +- 2.8 (of sigma 1.54 %) is 90 to 99 %.
@@ -204,7 +204,7 @@ TEST_F(MotorBench, AdmitsThatTheStructureIsNotTheWholeStory) {
   ASSERT_TRUE(held.stiffness_without_hold.has_value());
   const ParameterFit free = fitted(ParameterFitOptions::CriticalPoint::free).fit;
   EXPECT_FALSE(free.stiffness_without_hold.has_value());
-  EXPECT_NEAR(analyze(free.device).critical.stiffness, *held.stiffness_without_hold,
+  EXPECT_NEAR(critical_stiffness(free.device).stiffness, *held.stiffness_without_hold,
               1e-6 * *held.stiffness_without_hold);
   EXPECT_TRUE(std::ranges::any_of(held.remarks, [](const Remark& remark) {
     return remark.severity == Remark::Severity::warning && remark.what.find("unexplained") != std::string::npos;

@@ -39,6 +39,33 @@ TEST(DeviceUncertainty, IsAbsentUnlessGiven) {
   EXPECT_EQ(write_device(device->parameters()).find("uncertainty"), std::string::npos);
 }
 
+// What identify could not carry stays in the file: with parameters or without.
+TEST(DeviceUncertainty, AVerdictSurvivesTheFile) {
+  const auto original = parse_device(two_body_text, "f.toml");
+  ASSERT_TRUE(original.has_value());
+  const std::vector<std::string> reasons{"the band ends below the crossover; excite up to 40 Hz", "\"quoted\""};
+  for (const Uncertainty& uncertainty :
+       {Uncertainty{{}, {}, "nothing is determined", Trust::Verdict::refused, reasons},
+        Uncertainty{{"link.stiffness"}, {{4e4}}, "", Trust::Verdict::doubtful, reasons},
+        Uncertainty{{"link.stiffness"}, {{4e4}}, "misfit", Trust::Verdict::sound, {}},
+        Uncertainty{{}, {}, "", Trust::Verdict::refused, {}}}) {
+    DeviceParameters device = original->parameters();
+    device.uncertainty = uncertainty;
+    const auto again = parse_device(write_device(device), "f.toml");
+    ASSERT_TRUE(again.has_value()) << again.error().str();
+    ASSERT_TRUE(again->parameters().uncertainty.has_value());
+    EXPECT_EQ(again->parameters().uncertainty->parameters, uncertainty.parameters);
+    EXPECT_EQ(again->parameters().uncertainty->warning, uncertainty.warning);
+    EXPECT_EQ(again->parameters().uncertainty->verdict, uncertainty.verdict);
+    EXPECT_EQ(again->parameters().uncertainty->reasons, uncertainty.reasons);
+  }
+}
+
+TEST(DeviceUncertainty, AnUnknownVerdictIsRefused) {
+  EXPECT_EQ(message_of(two_body_text + "[uncertainty]\nverdict = \"fine\"\nwarning = \"x\"\n"),
+            "f.toml:13:11: uncertainty.verdict: is \"fine\"; must be \"sound\", \"doubtful\" or \"refused\"");
+}
+
 // Random covariances A A^T of all sizes and units come back to the last digit.
 TEST(DeviceUncertainty, SurvivesTheFile) {
   const std::vector<std::string> keys{"body.motor.mass", "body.handle.mass", "link.0.stiffness",

@@ -27,7 +27,8 @@ TEST(CriticalStiffnessReference, EveryCrossoverOfEveryDevice) {
     const Device device = test::device_from_json(expected.at("device"));
     SCOPED_TRACE("case " + std::to_string(i) + ", " + device.name());
     const Wall& wall = device.parameters().wall;
-    const CriticalStiffness result = critical_stiffness(sampled_plant(device), {wall.damping, wall.velocity_filter_hz});
+    const CriticalStiffness result =
+        critical_stiffness(filtered_plant(device), {wall.damping, wall.velocity_filter_hz});
 
     const auto& crossovers = expected.at("crossovers");
     ASSERT_EQ(result.crossovers.size(), crossovers.size());

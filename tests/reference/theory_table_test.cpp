@@ -28,7 +28,7 @@ using test::with_delay;
 constexpr double tolerance = 1e-9;
 
 CriticalStiffness critical(DeviceParameters parameters) {
-  return critical_stiffness(sampled_plant(Device(std::move(parameters))));
+  return critical_stiffness(filtered_plant(Device(std::move(parameters))));
 }
 
 double decibels(double stiffness) { return 20.0 * std::log10(stiffness); }

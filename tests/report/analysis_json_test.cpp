@@ -45,16 +45,18 @@ TEST(AnalysisJson, KeysStandInTheirDocumentedOrder) {
                                              "wall",
                                              "critical_stiffness_interval",
                                              "other_mechanism_share",
-                                             "uncertainty_warning"};
+                                             "uncertainty_warning",
+                                             "trust",
+                                             "remarks"};
   for (const auto& analysed : {lhifam(), lhifam_with_wall(), undamped_paddle(), unlimited_transfer_function()}) {
-    EXPECT_EQ(keys_of(results::analysis_json(analysed)), expected) << analysed.device.name();
+    EXPECT_EQ(keys_of(document_of(analysed)), expected) << analysed.device.name();
   }
 }
 
 TEST(AnalysisJson, EveryKeyIsDocumented) {
   std::ifstream file(ZWIDTH_SOURCE_DIR "/docs/analysis_json.md");
   const std::string text{std::istreambuf_iterator<char>(file), {}};
-  const Json document = results::analysis_json(lhifam_with_wall());
+  const Json document = document_of(lhifam_with_wall());
   for (const Json* object : {&document, &document["wall"], &document["crossovers"][0], &document["modes"][0],
                              &document["rigid_approximation"], &document["q_criterion"], &document["virtual_damper"]}) {
     for (const std::string& key : keys_of(*object)) {
@@ -64,7 +66,7 @@ TEST(AnalysisJson, EveryKeyIsDocumented) {
 }
 
 TEST(AnalysisJson, GivesTheNumbersOfAFiniteAnswerWithoutLoss) {
-  const Json document = Json::parse(results::analysis_json(lhifam()).dump());
+  const Json document = Json::parse(document_of(lhifam()).dump());
   EXPECT_EQ(document["schema"], "zwidth.analysis/1");
   EXPECT_EQ(document["status"], "finite");
   EXPECT_EQ(document["units"], (Json{{"stiffness", "N/m"}, {"damping", "N s/m"}}));
@@ -92,35 +94,36 @@ TEST(AnalysisJson, GivesTheNumbersOfAFiniteAnswerWithoutLoss) {
 
 TEST(AnalysisJson, AnyUserLimitHasNullsWhereThereIsNone) {
   AnalysedDevice analysed = lhifam();
-  analysed.any_user = AnyUserLimit{5776.09, 259.9, 1e-12};
+  analysed.analysis.any_user = AnyUserLimit{5776.09, 259.9, 1e-12};
   const auto expected = [](const Json& stiffness, const Json& frequency, double truncation) {
     return Json{{"critical_stiffness", stiffness},
                 {"frequency_rad_s", frequency},
                 {"truncation", truncation},
                 {"worst_user", nullptr}};
   };
-  EXPECT_EQ(results::analysis_json(analysed)["any_user"], expected(5776.09, 259.9, 1e-12));
-  analysed.any_user = AnyUserLimit{0.0, 0.0, 0.0};
-  EXPECT_EQ(results::analysis_json(analysed)["any_user"], expected(0.0, nullptr, 0.0));
-  analysed.any_user->stiffness = std::numeric_limits<double>::infinity();
-  EXPECT_EQ(results::analysis_json(analysed)["any_user"], expected(nullptr, nullptr, 0.0));
+  EXPECT_EQ(document_of(analysed)["any_user"], expected(5776.09, 259.9, 1e-12));
+  analysed.analysis.any_user = AnyUserLimit{0.0, 0.0, 0.0};
+  EXPECT_EQ(document_of(analysed)["any_user"], expected(0.0, nullptr, 0.0));
+  analysed.analysis.any_user->stiffness = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(document_of(analysed)["any_user"], expected(nullptr, nullptr, 0.0));
 }
 
 TEST(AnalysisJson, UsersAreWrittenAsTheyAre) {
   AnalysedDevice analysed = lhifam();
-  analysed.any_user = AnyUserLimit{5776.09, 259.9, 0.0};
-  analysed.worst_user = WorstUser{{0.0, 362e3, {{0.1, 5e6}}}, 5776.1, 259.9};
-  EXPECT_EQ(results::analysis_json(analysed)["any_user"]["worst_user"],
+  analysed.analysis.any_user = AnyUserLimit{5776.09, 259.9, 0.0};
+  analysed.analysis.worst_user = WorstUser{{0.0, 362e3, {{0.1, 5e6}}}, 5776.1, 259.9};
+  EXPECT_EQ(document_of(analysed)["any_user"]["worst_user"],
             (Json{{"mass", 0.0},
                   {"damping", 0.0},
                   {"stiffness", 362e3},
                   {"absorbers", Json::array({Json{{"mass", 0.1}, {"stiffness", 5e6}}})},
                   {"critical_stiffness", 5776.1},
                   {"frequency_rad_s", 259.9}}));
-  EXPECT_TRUE(results::analysis_json(analysed)["user_family"].is_null());
-  analysed.user_family = UserFamilyAnswer{{{0.0, 2.0}, {1.0, 1.0}, {0.0, 1e3}}, {{0.5, 1.0, 20.0}, 8000.0}, {}};
-  analysed.user_family->free.stiffness = std::numeric_limits<double>::infinity();
-  EXPECT_EQ(results::analysis_json(analysed)["user_family"],
+  EXPECT_TRUE(document_of(analysed)["user_family"].is_null());
+  analysed.analysis.user_family =
+      UserFamilyAnswer{{{0.0, 2.0}, {1.0, 1.0}, {0.0, 1e3}}, {{0.5, 1.0, 20.0}, 8000.0}, {}};
+  analysed.analysis.user_family->free.stiffness = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(document_of(analysed)["user_family"],
             (Json{{"mass", {0.0, 2.0}},
                   {"damping", {1.0, 1.0}},
                   {"stiffness", {0.0, 1e3}},
@@ -130,7 +133,7 @@ TEST(AnalysisJson, UsersAreWrittenAsTheyAre) {
 }
 
 TEST(AnalysisJson, WallMarginsAreInTheirUnits) {
-  const Json wall = results::analysis_json(lhifam_with_wall())["wall"];
+  const Json wall = document_of(lhifam_with_wall())["wall"];
   EXPECT_EQ(wall["stiffness"], 5000.0);
   EXPECT_EQ(wall["damping"], 5.0);
   EXPECT_EQ(wall["stable"], true);
@@ -148,7 +151,7 @@ TEST(AnalysisJson, FiltersHaveTheirKeysAndTheirSections) {
       {.kind = WallFilter::Kind::notch, .frequency_hz = 60.0},
       {.kind = WallFilter::Kind::digital, .numerator = {1.0, 0.5}, .denominator = {2.0, -1.0, 0.25}}};
   analysed.device = Device(parameters);
-  const Json filters = results::analysis_json(analysed)["wall_filters"];
+  const Json filters = document_of(analysed)["wall_filters"];
   ASSERT_EQ(filters.size(), 2U);
   EXPECT_EQ(keys_of(filters[0]),
             (std::vector<std::string>{"type", "frequency_hz", "damping_ratio", "depth", "z", "delta"}));
@@ -158,7 +161,7 @@ TEST(AnalysisJson, FiltersHaveTheirKeysAndTheirSections) {
 }
 
 TEST(AnalysisJson, NoneStableIsZeroWithoutFrequencyOrLimit) {
-  const Json document = results::analysis_json(undamped_paddle());
+  const Json document = document_of(undamped_paddle());
   EXPECT_EQ(document["status"], "none_stable");
   EXPECT_EQ(document["units"], (Json{{"stiffness", "N m/rad"}, {"damping", "N m s/rad"}}));
   EXPECT_EQ(document["critical_stiffness"].get<double>(), 0.0);
@@ -172,7 +175,7 @@ TEST(AnalysisJson, NoneStableIsZeroWithoutFrequencyOrLimit) {
 }
 
 TEST(AnalysisJson, UnboundedIsNullNeverInfinity) {
-  const Json document = results::analysis_json(unlimited_transfer_function());
+  const Json document = document_of(unlimited_transfer_function());
   EXPECT_EQ(document["status"], "unbounded");
   EXPECT_TRUE(document["critical_stiffness"].is_null());
   EXPECT_TRUE(document["critical_stiffness_db"].is_null());
@@ -184,7 +187,7 @@ TEST(AnalysisJson, UnboundedIsNullNeverInfinity) {
 TEST(AnalysisJson, AnUndecidedQCriterionIsNull) {
   AnalysedDevice analysed = lhifam();
   analysed.analysis.q_criterion = QCriterion{0.0, std::nullopt};
-  const Json criterion = results::analysis_json(analysed)["q_criterion"];
+  const Json criterion = document_of(analysed)["q_criterion"];
   EXPECT_TRUE(criterion["mode_matters"].is_null());
   EXPECT_TRUE(criterion["db"].is_null());
 }

@@ -173,10 +173,10 @@ TEST(AnalysisText, PromisesSafetyInEveryHandOnlyBelowALimit) {
   const auto promises = HasSubstr("is stable in every hand.");
   EXPECT_THAT(unwrapped(text_of(analysed)), Not(promises));
   for (const double none : {0.0, std::numeric_limits<double>::infinity()}) {
-    analysed.any_user = AnyUserLimit{none};
+    analysed.analysis.any_user = AnyUserLimit{none};
     EXPECT_THAT(unwrapped(text_of(analysed)), Not(promises));
   }
-  analysed.any_user = AnyUserLimit{5776.09, 259.9};
+  analysed.analysis.any_user = AnyUserLimit{5776.09, 259.9};
   EXPECT_THAT(unwrapped(text_of(analysed)), promises);
 }
 

@@ -5,8 +5,13 @@
 #include <numbers>
 
 #include "report/analysed_device.hpp"
+#include "results/analysis_json.hpp"
 
 namespace zwidth::report {
+
+inline results::Json document_of(const AnalysedDevice& analysed) {
+  return results::analysis_json(analysed.device, analysed.analysis);
+}
 
 /// LHIfAM's Table I with its published answer entered by hand (theory notes, section 2), so that the reports are tested
 /// apart from the mathematics.

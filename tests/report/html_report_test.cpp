@@ -72,9 +72,9 @@ TEST(HtmlReport, JudgesTheWall) {
 TEST(HtmlReport, SaysWhatUsersLeave) {
   AnalysedDevice analysed = lhifam();
   EXPECT_THAT(report_of({analysed}), Not(HasSubstr("With a user")));
-  analysed.any_user = AnyUserLimit{5776.09, 259.9, 0.0};
-  analysed.worst_user = WorstUser{{1.25, 0.0, {}}, 5776.5, 259.9};
-  analysed.user_family =
+  analysed.analysis.any_user = AnyUserLimit{5776.09, 259.9, 0.0};
+  analysed.analysis.worst_user = WorstUser{{1.25, 0.0, {}}, 5776.5, 259.9};
+  analysed.analysis.user_family =
       UserFamilyAnswer{{{0.0, 2.0}, {0.0, 1.0}, {0.0, 1e3}}, {{0.0, 0.0, 1e3}, 8829.0}, analysed.analysis.critical};
   const std::string page = report_of({analysed});
   for (const char* text : {"With a user", "any passive user", "5.776 kN/m, worst at 41.36 Hz", "a mass of 1.25 kg",

@@ -117,7 +117,7 @@ TEST(Verdict, AnEncoderMakesALimitCycleOfItsOwnSize) {
   DeviceParameters device = test::rigid_parameters();
   device.bodies[0].damping = 2.0;
   device.loop.delay = 2e-3;
-  EXPECT_GT(critical_stiffness(sampled_plant(Device(device))).stiffness, 700.0);
+  EXPECT_GT(critical_stiffness(filtered_plant(Device(device))).stiffness, 700.0);
   EXPECT_EQ(run(device, starting_at(spring_wall(700.0), {1.3e-4}), 60.0).verdict, LoopVerdict::settles);
   std::vector<double> amplitudes;  // in steps
   for (const double resolution : {1e-4, 1e-6}) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "lhifam.hpp"
+#include "zwidth/error.hpp"
 
 namespace zwidth {
 namespace {
@@ -128,6 +129,68 @@ TEST(Analysis, OneBodyIsItsOwnRigidApproximation) {
   EXPECT_EQ(analysis.rigid->critical.stiffness, analysis.critical.stiffness);
   EXPECT_TRUE(analysis.modes.empty());
   EXPECT_FALSE(analysis.q_criterion.has_value());
+}
+
+// What is not asked for is not computed; what cannot be answered is said.
+TEST(Analysis, HoldsWhatItsOptionsAskFor) {
+  DeviceParameters parameters = test::lhifam_parameters();
+  parameters.uncertainty = Uncertainty{{"link.0.stiffness"}, {{1e4}}};
+  const Device device(parameters);
+  const Analysis bare = analyze(device, limit_and_wall_only());
+  EXPECT_FALSE(bare.any_user || bare.worst_user || bare.user_family || bare.interval);
+  const Analysis whole = analyze(device, {.worst_user = true, .family = UserFamily{{0.0, 1.0}, {}, {}}, .draws = 50});
+  ASSERT_TRUE(whole.any_user && whole.worst_user && whole.user_family && whole.interval);
+  EXPECT_NEAR(whole.any_user->stiffness, 5776.09, 0.01);
+  EXPECT_EQ(whole.interval->draws, 50U);
+  EXPECT_EQ(whole.user_family->free.stiffness, whole.critical.stiffness);
+  EXPECT_EQ(whole.critical.stiffness, bare.critical.stiffness);
+  EXPECT_TRUE(whole.trust.sound());
+}
+
+TEST(Analysis, OptionsHaveTheirProblemsNamed) {
+  const Device lag(test::transfer_function_parameters({1.0}, {1.0, 2.0, 0.0}, 1e-2));
+  EXPECT_FALSE(find_problem(AnalysisOptions{}, lag).has_value());
+  EXPECT_EQ(find_problem(AnalysisOptions{.any_user = false, .worst_user = true})->member, "worst_user");
+  EXPECT_EQ(find_problem(AnalysisOptions{.worst_user = true}, lag)->member, "worst_user");
+  AnalysisOptions reversed;
+  reversed.family = UserFamily{{0.0, 1.0}, {3.0, 2.0}, {}};
+  EXPECT_EQ(find_problem(reversed)->member, "family.damping");
+  EXPECT_EQ(find_problem(AnalysisOptions{.family = UserFamily{}}, lag)->member, "family");
+  try {
+    (void)analyze(lag, {.worst_user = true});
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::invalid_argument);
+  }
+}
+
+TEST(Analysis, DoubtTravelsAndARefusedDeviceHasNoNumber) {
+  DeviceParameters parameters = test::lhifam_parameters();
+  parameters.wall.stiffness = 100.0;
+  parameters.uncertainty = Uncertainty{{}, {}, "the band ends below the crossover"};
+  const Analysis doubtful = analyze(Device(parameters));
+  EXPECT_EQ(doubtful.trust.verdict, Trust::Verdict::doubtful);
+  EXPECT_EQ(doubtful.critical.trust, doubtful.trust);
+  EXPECT_EQ(doubtful.critical.status, StiffnessStatus::finite);
+  EXPECT_FALSE(doubtful.interval.has_value());
+  parameters.uncertainty->verdict = Trust::Verdict::refused;
+  const Analysis refused = analyze(Device(parameters), {.worst_user = true});
+  EXPECT_TRUE(refused.trust.refused());
+  EXPECT_EQ(refused.critical.status, StiffnessStatus::refused);
+  EXPECT_TRUE(std::isnan(refused.critical.stiffness));
+  EXPECT_TRUE(refused.critical.crossovers.empty() && refused.critical.stable_intervals.empty());
+  EXPECT_FALSE(refused.critical.limit || refused.wall || refused.any_user || refused.worst_user || refused.interval);
+  EXPECT_EQ(refused.rigid->critical.status, StiffnessStatus::refused);
+}
+
+// With a damper closed the gain margin is of the whole wall, the stiffness margin of K alone.
+TEST(Analysis, StiffnessMarginIsOfTheStiffnessAlone) {
+  DeviceParameters parameters = test::lhifam_parameters();
+  parameters.wall = {2000.0, 5.0, 0.0};
+  const Analysis analysis = analyze(Device(parameters), limit_and_wall_only());
+  ASSERT_TRUE(analysis.wall->stable);
+  EXPECT_NEAR(*analysis.wall->stiffness_margin * 2000.0 / analysis.critical.stiffness, 1.0, 1e-12);
+  EXPECT_LT(*analysis.wall->gain_margin, *analysis.wall->stiffness_margin);
 }
 
 }  // namespace

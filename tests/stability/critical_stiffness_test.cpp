@@ -23,7 +23,7 @@ using std::numbers::pi;
 CriticalStiffness critical(const DeviceParameters& parameters) {
   const Device device(parameters);
   const Wall& wall = device.parameters().wall;
-  return critical_stiffness(sampled_plant(device), {wall.damping, wall.velocity_filter_hz});
+  return critical_stiffness(filtered_plant(device), {wall.damping, wall.velocity_filter_hz});
 }
 
 double excess(const DeviceParameters& parameters, double stiffness) {
@@ -166,7 +166,7 @@ TEST(CriticalStiffness, UnboundedWhereNoPoleLeaves) {
   term.numerator[1] = 0.5;
   term.denominator[0] = 0.5;
   plant.terms.push_back(term);
-  const CriticalStiffness result = critical_stiffness(plant);
+  const CriticalStiffness result = critical_stiffness(filtered_plant(plant, {}));
   EXPECT_EQ(result.status, StiffnessStatus::unbounded);
   EXPECT_EQ(result.stiffness, std::numeric_limits<double>::infinity());
   EXPECT_FALSE(result.limit.has_value());
@@ -244,7 +244,7 @@ TEST(CriticalStiffness, CrossoversSolveTheCharacteristicEquation) {
 }
 
 TEST(CriticalStiffness, InvalidDamperThrows) {
-  const SampledPlant plant = sampled_plant(Device(test::rigid_parameters()));
+  const FilteredPlant plant = filtered_plant(Device(test::rigid_parameters()));
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const VirtualDamper damper : {VirtualDamper{-1.0, 0.0}, VirtualDamper{1.0, -5.0}, VirtualDamper{nan, 0.0},
                                      VirtualDamper{1.0, std::numeric_limits<double>::infinity()}}) {

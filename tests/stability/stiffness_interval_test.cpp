@@ -23,7 +23,7 @@ DeviceParameters with_uncertainty(DeviceParameters device, std::vector<std::stri
 
 double critical(DeviceParameters device) {
   device.uncertainty.reset();
-  return analyze(Device(std::move(device))).critical.stiffness;
+  return critical_stiffness(Device(std::move(device))).stiffness;
 }
 
 double slope(const DeviceParameters& device, const std::string& key) {
@@ -78,7 +78,7 @@ TEST(StiffnessInterval, HoldsWhereTheLimitingBranchSwitches) {
   DeviceParameters device = test::lhifam_parameters();
   const auto limited_by_mode = [&](double damping) {
     device.links[0].damping = damping;
-    return analyze(Device(device)).critical.limit->limited_by.kind == Mechanism::Kind::vibration_mode;
+    return critical_stiffness(Device(device)).limit->limited_by.kind == Mechanism::Kind::vibration_mode;
   };
   double low = 0.1;  // limited by the mode
   double high = 15.0;

@@ -54,7 +54,7 @@ TEST(WallFilters, CriticalStiffnessIsWhereTheEigenvaluesLeave) {
   for (const WallFilter& filter : {low_pass_filter(30.0, 1), low_pass_filter(150.0, 2), notch_filter, lead,
                                    digital_filter({0.5, 0.5}, {1.0, 0.0})}) {
     const Device device = with_filter(filter);
-    const double critical = analyze(device).critical.stiffness;
+    const double critical = critical_stiffness(device).stiffness;
     ASSERT_GT(critical, 0.0);
     EXPECT_LT(excess(device, critical * (1.0 - 1e-7)), 0.0);
     EXPECT_GT(excess(device, critical * (1.0 + 1e-7)), 0.0);
@@ -63,7 +63,7 @@ TEST(WallFilters, CriticalStiffnessIsWhereTheEigenvaluesLeave) {
 
 // A mean of the last two samples: F = cos(wT/2) e^{-jwT/2}.
 TEST(WallFilters, MeanOfTwoSamplesIsHalfASampleOfDelayAndACosine) {
-  const CriticalStiffness critical = analyze(with_filter(digital_filter({0.5, 0.5}, {1.0, 0.0}))).critical;
+  const CriticalStiffness critical = critical_stiffness(with_filter(digital_filter({0.5, 0.5}, {1.0, 0.0})));
   ASSERT_TRUE(critical.limit);
   const SampledPlant plain = sampled_plant(Device(test::lhifam_parameters()));
   const double half = 0.5 * critical.limit->frequency * plain.period;
@@ -74,7 +74,7 @@ TEST(WallFilters, MeanOfTwoSamplesIsHalfASampleOfDelayAndACosine) {
 
 TEST(WallFilters, ALowPassLeavesNoCrossoverAtNyquist) {
   for (const int order : {1, 2}) {
-    for (const Crossover& crossover : analyze(with_filter(low_pass_filter(150.0, order))).critical.crossovers) {
+    for (const Crossover& crossover : critical_stiffness(with_filter(low_pass_filter(150.0, order))).crossovers) {
       EXPECT_LT(crossover.frequency, 0.999999 * pi / 1e-3);
     }
   }
@@ -89,7 +89,7 @@ TEST(WallFilters, AFactorOfOneHalfDoublesTheAnyUserLimit) {
 TEST(WallFilters, MarginsAreThoseOfTheFilteredLoop) {
   DeviceParameters parameters = test::lhifam_parameters();
   parameters.wall.filters = {low_pass_filter(30.0, 1)};
-  const double critical = analyze(Device(parameters)).critical.stiffness;
+  const double critical = critical_stiffness(Device(parameters)).stiffness;
   parameters.wall.stiffness = 0.5 * critical;
   const Analysis analysis = analyze(Device(parameters));
   ASSERT_TRUE(analysis.wall && analysis.wall->gain_margin);
@@ -105,7 +105,7 @@ TEST(WallFilters, RegionStartsAtTheCriticalStiffness) {
   for (const int order : {1, 2}) {
     const Device device = with_filter(low_pass_filter(200.0, order));
     const StableRegion region = stable_region(StableWalls(filtered_plant(device)));
-    EXPECT_NEAR(region.critical_stiffness / analyze(device).critical.stiffness, 1.0, 1e-9);
+    EXPECT_NEAR(region.critical_stiffness / critical_stiffness(device).stiffness, 1.0, 1e-9);
   }
 }
 

@@ -112,7 +112,7 @@ TEST(WallMargins, GainMarginsAreEdges) {
 
 TEST(WallMargins, WithoutDamperGainMarginLandsOnACrossover) {
   const Device device(with_wall(test::lhifam_parameters(), {2500.0, 0.0, 0.0}));
-  const CriticalStiffness critical = critical_stiffness(sampled_plant(device));
+  const CriticalStiffness critical = critical_stiffness(filtered_plant(device));
   const WallMargins margins = wall_margins(device);
   ASSERT_TRUE(margins.stable);
   EXPECT_NEAR(*margins.gain_margin * 2500.0 / critical.stiffness, 1.0, 1e-13);
@@ -132,7 +132,7 @@ std::complex<double> loop_of(const SampledPlant& plant, const Wall& wall, double
 // At every gain crossover |L| = 1; between them, and on a fine grid, |L| - 1 keeps its sign: none is missed.
 TEST(WallMargins, GainCrossoversAreComplete) {
   for_every_wall([&](const DeviceParameters& device, const Wall& wall) {
-    const SampledPlant plant = sampled_plant(Device(device));
+    const FilteredPlant plant = filtered_plant(Device(device));
     const LoopMargins margins = loop_margins(plant, wall);
     std::vector<double> edges{0.0};
     for (const GainCrossover& crossover : margins.gain_crossovers) {
@@ -159,7 +159,7 @@ TEST(WallMargins, GainCrossoversAreComplete) {
 TEST(WallMargins, PhaseAndDelayMarginsAreTheLeast) {
   int seen = 0;
   for_every_wall([&](const DeviceParameters& device, const Wall& wall) {
-    const LoopMargins margins = loop_margins(sampled_plant(Device(device)), wall);
+    const LoopMargins margins = loop_margins(filtered_plant(Device(device)), wall);
     if (!margins.stable || margins.gain_crossovers.empty()) return;
     ++seen;
     double phase = 10.0;
@@ -180,7 +180,7 @@ TEST(WallMargins, DelayMarginIsTheEdge) {
   for (const DeviceParameters& base : {test::rigid_parameters(), test::lhifam_parameters()}) {
     for (const double stiffness : {100.0, 300.0, 1000.0}) {
       const Wall wall{stiffness, 1.0, 0.0};
-      const LoopMargins margins = loop_margins(sampled_plant(Device(base)), wall);
+      const LoopMargins margins = loop_margins(filtered_plant(Device(base)), wall);
       ASSERT_TRUE(margins.stable);
       ASSERT_TRUE(margins.delay_margin.has_value());
       const double samples = *margins.delay_margin / 1e-3;
@@ -191,18 +191,18 @@ TEST(WallMargins, DelayMarginIsTheEdge) {
   }
   // A stiffness whose margin is exactly two samples: the critical stiffness at a delay of 2 T.
   const double k =
-      critical_stiffness(sampled_plant(Device(test::with_delay(test::lhifam_parameters(), 2e-3)))).stiffness;
-  const LoopMargins margins = loop_margins(sampled_plant(Device(test::lhifam_parameters())), {k, 0.0, 0.0});
+      critical_stiffness(filtered_plant(Device(test::with_delay(test::lhifam_parameters(), 2e-3)))).stiffness;
+  const LoopMargins margins = loop_margins(filtered_plant(Device(test::lhifam_parameters())), {k, 0.0, 0.0});
   EXPECT_NEAR(margins.delay_margin.value(), 2e-3, 2e-12);
 }
 
 TEST(WallMargins, NoWallStiffnessAndNoDamping) {
-  const LoopMargins free = loop_margins(sampled_plant(Device(test::lhifam_parameters())), {0.0, 0.0, 0.0});
+  const LoopMargins free = loop_margins(filtered_plant(Device(test::lhifam_parameters())), {0.0, 0.0, 0.0});
   EXPECT_FALSE(free.stable);
   EXPECT_TRUE(free.gain_crossovers.empty());
   DeviceParameters grounded = test::lhifam_parameters();
   grounded.bodies[1].stiffness = 500.0;
-  const LoopMargins held = loop_margins(sampled_plant(Device(grounded)), {0.0, 0.0, 0.0});
+  const LoopMargins held = loop_margins(filtered_plant(Device(grounded)), {0.0, 0.0, 0.0});
   EXPECT_TRUE(held.stable);
   EXPECT_TRUE(held.gain_crossovers.empty());
   EXPECT_FALSE(held.gain_margin.has_value());
@@ -210,7 +210,7 @@ TEST(WallMargins, NoWallStiffnessAndNoDamping) {
 }
 
 TEST(WallMargins, BadWallsThrow) {
-  const SampledPlant plant = sampled_plant(Device(test::rigid_parameters()));
+  const FilteredPlant plant = filtered_plant(Device(test::rigid_parameters()));
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const Wall& wall : {Wall{}, Wall{-1.0, 0.0, 0.0}, Wall{nan, 0.0, 0.0}, Wall{1.0, -1.0, 0.0}, Wall{1.0, nan, 0.0},
                            Wall{1.0, 1.0, -1.0}, Wall{std::numeric_limits<double>::infinity(), 0.0, 0.0}}) {
@@ -227,12 +227,12 @@ TEST(WallMargins, BadWallsThrow) {
 // The winding number's route, used beyond 100 samples of delay, against eigenvalues where both can.
 TEST(SpectralRadius, ByWindingAgreesWithEigenvalues) {
   for_every_wall([&](const DeviceParameters& device, const Wall& wall) {
-    EXPECT_NEAR(spectral_radius_by_winding(sampled_plant(Device(device)), wall) - 1.0, excess(device, wall), 1e-9);
+    EXPECT_NEAR(spectral_radius_by_winding(filtered_plant(Device(device)), wall) - 1.0, excess(device, wall), 1e-9);
   });
   for (const double samples : {20.0, 60.5, 100.0}) {
     const DeviceParameters device = test::with_delay(test::lhifam_parameters(), samples * 1e-3);
     for (const Wall& wall : {Wall{20.0, 0.0, 0.0}, Wall{300.0, 2.0, 0.0}, Wall{300.0, 2.0, 30.0}}) {
-      EXPECT_NEAR(spectral_radius_by_winding(sampled_plant(Device(device)), wall) - 1.0, excess(device, wall), 1e-9)
+      EXPECT_NEAR(spectral_radius_by_winding(filtered_plant(Device(device)), wall) - 1.0, excess(device, wall), 1e-9)
           << samples << " samples, K " << *wall.stiffness;
     }
   }

@@ -13,6 +13,7 @@
 #include "report/text/explanation.hpp"
 #include "report/text/markup.hpp"
 #include "report/text/quantity.hpp"
+#include "report/text/trust_text.hpp"
 #include "report/text/wall_filter_text.hpp"
 
 namespace zwidth::report {
@@ -32,13 +33,17 @@ std::string list(const std::vector<std::string>& texts) {
 
 std::string answer(const AnalysedDevice& analysed) {
   const CriticalStiffness& critical = analysed.analysis.critical;
-  std::string text = "<div class=\"answer\">\n<p>Critical stiffness, the stiffest stable wall</p>\n";
+  std::string text = "<div class=\"answer\">\n";
+  if (const auto trust = trust_note(analysed.analysis.trust)) text += element("p", *trust);
+  text += "<p>Critical stiffness, the stiffest stable wall</p>\n";
   text += fmt::format("<p class=\"value\">{}</p>\n",
                       escape_markup(critical_stiffness_text(critical, analysed.device.parameters().motion)));
   if (critical.limit) {
     text += element("p", fmt::format("{} at {}.", critical.limit->frequency > 0.0 ? "Oscillates" : "Drifts away",
                                      crossover_frequency_text(critical.limit->frequency)));
   }
+  if (const auto limit = any_user_note(analysed))
+    text += element("p", fmt::format("With any passive user: {}.", *limit));
   if (const auto interval = interval_note(analysed)) text += element("p", "95 % interval: " + *interval + ".");
   if (const auto limit = what_limits(analysed)) text += element("p", fmt::format("Limited by {}.", *limit));
   return text + "</div>\n";

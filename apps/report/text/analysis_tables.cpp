@@ -29,6 +29,7 @@ std::string rigid_cell(const AnalysedDevice& analysed) {
   const auto& rigid = analysed.analysis.rigid;
   if (!rigid) return "-";
   const CriticalStiffness& exact = analysed.analysis.critical;
+  if (rigid->critical.status == StiffnessStatus::refused) return "-";
   if (rigid->critical.status == StiffnessStatus::none_stable) return "none";
   if (rigid->critical.status == StiffnessStatus::unbounded) return "unbounded";
   if (exact.status != StiffnessStatus::finite) {
@@ -86,7 +87,10 @@ TextTable comparison_table(std::span<const AnalysedDevice> devices, std::size_t 
                              fmt::format("{:.2f}", decibels(critical.stiffness)),
                              quantity(hertz(critical.limit->frequency), "Hz"), short_name(critical.limit->limited_by)});
     } else {
-      row.insert(row.end(), {critical.status == StiffnessStatus::none_stable ? "none" : "unbounded", "-", "-", "-"});
+      row.insert(row.end(), {critical.status == StiffnessStatus::refused       ? "refused"
+                             : critical.status == StiffnessStatus::none_stable ? "none"
+                                                                               : "unbounded",
+                             "-", "-", "-"});
     }
     row.insert(row.end(), {rigid_cell(each), wall_verdict(each.analysis)});
     table.rows.push_back(std::move(row));

@@ -11,6 +11,7 @@
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
 #include "report/text/text_table.hpp"
+#include "report/text/trust_text.hpp"
 #include "report/text/wall_filter_text.hpp"
 
 namespace zwidth::report {
@@ -56,16 +57,17 @@ std::string modes(const AnalysedDevice& analysed) {
 
 std::string answer_lines(const AnalysedDevice& analysed) {
   const CriticalStiffness& critical = analysed.analysis.critical;
+  const auto trust = trust_note(analysed.analysis.trust);
   std::string text =
-      shortened(display_name(analysed.device), width - 8) + "\n" +
+      shortened(display_name(analysed.device), width - 8) + "\n" + (trust ? labelled("  trust", *trust) : "") +
       labelled("  critical stiffness", critical_stiffness_text(critical, analysed.device.parameters().motion));
+  if (const auto limit = any_user_note(analysed)) text += labelled("  any passive user", *limit);
   if (critical.limit) {
     text += labelled(critical.limit->frequency > 0.0 ? "  oscillates at" : "  drifts away at",
                      crossover_frequency_text(critical.limit->frequency));
   }
   if (const auto interval = interval_note(analysed)) text += labelled("  95 % interval", *interval);
   if (const auto limit = what_limits(analysed)) text += labelled("  limited by", *limit);
-  if (const auto limit = any_user_note(analysed)) text += labelled("  any passive user", *limit);
   if (const auto worst = worst_user_note(analysed)) text += labelled("  the worst one", *worst);
   if (const auto family = user_family_note(analysed)) text += labelled("  users as given", *family);
   return text + "\n";

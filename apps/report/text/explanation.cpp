@@ -134,6 +134,8 @@ std::string critical_stiffness_text(const CriticalStiffness& critical, Motion mo
     }
     case StiffnessStatus::none_stable:
       return "none: no wall is stable, however soft";
+    case StiffnessStatus::refused:
+      return "refused: no number is given";
     case StiffnessStatus::unbounded:
       break;
   }
@@ -158,11 +160,11 @@ std::optional<std::string> interval_note(const AnalysedDevice& analysed) {
 }
 
 std::optional<std::string> any_user_note(const AnalysedDevice& analysed) {
-  if (!analysed.any_user) {
+  if (!analysed.analysis.any_user) {
     if (parameters_of(analysed).bodies.size() <= most_bodies_for_any_user) return std::nullopt;
     return fmt::format("not computed above {} bodies", most_bodies_for_any_user);
   }
-  const AnyUserLimit& limit = *analysed.any_user;
+  const AnyUserLimit& limit = *analysed.analysis.any_user;
   if (limit.stiffness == 0.0) return "none: some passive user destabilises every wall";
   if (!std::isfinite(limit.stiffness)) return "unbounded: no passive user destabilises a wall";
   const std::string stiffness = quantity(limit.stiffness, device_units(analysed).stiffness);
@@ -171,8 +173,8 @@ std::optional<std::string> any_user_note(const AnalysedDevice& analysed) {
 }
 
 std::optional<std::string> worst_user_note(const AnalysedDevice& analysed) {
-  if (!analysed.worst_user) return std::nullopt;
-  const UserNetwork& user = analysed.worst_user->user;
+  if (!analysed.analysis.worst_user) return std::nullopt;
+  const UserNetwork& user = analysed.analysis.worst_user->user;
   const Units units = device_units(analysed);
   std::vector<std::string> parts;
   if (user.mass > 0.0) parts.push_back(fmt::format("a mass of {} {}", number(user.mass), units.mass));
@@ -187,15 +189,15 @@ std::optional<std::string> worst_user_note(const AnalysedDevice& analysed) {
     }
   }
   if (parts.empty()) parts.emplace_back("nobody");
-  const double above = analysed.worst_user->critical_stiffness / analysed.any_user->stiffness - 1.0;
+  const double above = analysed.analysis.worst_user->critical_stiffness / analysed.analysis.any_user->stiffness - 1.0;
   return fmt::format("{}: {}, {} % above that limit", fmt::join(parts, ", "),
-                     quantity(analysed.worst_user->critical_stiffness, units.stiffness),
+                     quantity(analysed.analysis.worst_user->critical_stiffness, units.stiffness),
                      number(100.0 * std::max(above, 0.0)));
 }
 
 std::optional<std::string> user_family_note(const AnalysedDevice& analysed) {
-  if (!analysed.user_family) return std::nullopt;
-  const auto& [family, worst, free] = *analysed.user_family;
+  if (!analysed.analysis.user_family) return std::nullopt;
+  const auto& [family, worst, free] = *analysed.analysis.user_family;
   const Units units = device_units(analysed);
   const auto described = [&units](const auto& user, const auto& text) {
     return fmt::format("mass {} {}, damping {} {}, stiffness {} {}", text(user.mass), units.mass, text(user.damping),
@@ -226,6 +228,8 @@ std::string meaning(const AnalysedDevice& analysed) {
            " wall stiffness makes the loop unstable; it has no phase crossover up to the Nyquist frequency. No real "
            "device does this: check the file for something left out.";
   }
+  if (critical.status == StiffnessStatus::refused)
+    return "No limit and no verdict on a wall is given: see the first lines.";
   if (critical.status == StiffnessStatus::none_stable || !critical.limit) {
     std::string text =
         condition + (condition.empty() ? "The" : "the") + " loop is unstable for an arbitrarily small wall stiffness.";
@@ -245,6 +249,7 @@ std::string meaning(const AnalysedDevice& analysed) {
 std::optional<std::string> rigid_model_note(const AnalysedDevice& analysed) {
   const auto& rigid = analysed.analysis.rigid;
   if (!rigid || analysed.device.bodies().size() < 2) return std::nullopt;
+  if (rigid->critical.status == StiffnessStatus::refused) return std::nullopt;
   const Units units = device_units(analysed);
   const std::string ground =
       rigid->stiffness > 0.0 ? fmt::format(", {} to ground", quantity(rigid->stiffness, units.stiffness)) : "";
@@ -269,7 +274,7 @@ std::optional<std::string> rigid_model_note(const AnalysedDevice& analysed) {
 
 std::optional<std::string> q_criterion_note(const AnalysedDevice& analysed) {
   const auto& criterion = analysed.analysis.q_criterion;
-  if (!criterion || !(criterion->stiffness > 0.0)) return std::nullopt;
+  if (!criterion || !(criterion->stiffness > 0.0) || analysed.analysis.trust.refused()) return std::nullopt;
   const auto unit = device_units(analysed).stiffness;
   std::string text = fmt::format(
       "Q criterion (an approximation; the crossovers decide): Q = {} ({:.2f} dB re 1 {}), "
@@ -343,15 +348,17 @@ std::vector<std::string> wall_margin_notes(const Analysis& analysis) {
         "lower gain margin {:.2f} dB: unstable when {} scaled down to {} times", decibels(*wall->lower_gain_margin),
         wall->damping > 0.0 ? "both are" : "the stiffness is", number(*wall->lower_gain_margin)));
   }
+  if (wall->damping > 0.0 && wall->stiffness_margin) {
+    margins.push_back(fmt::format("stiffness margin {:.2f} dB: unstable when the stiffness alone grows {} times",
+                                  decibels(*wall->stiffness_margin), number(*wall->stiffness_margin)));
+  }
   if (wall->phase_margin) {
-    margins.push_back(fmt::format("phase margin {} rad ({}°)", number(*wall->phase_margin),
-                                  number(*wall->phase_margin * 180.0 / std::numbers::pi)));
+    margins.push_back(fmt::format("phase margin {}° ({} rad)", number(*wall->phase_margin * 180.0 / std::numbers::pi),
+                                  number(*wall->phase_margin)));
   }
   if (wall->delay_margin) {
-    margins.push_back(fmt::format(
-        "delay margin about {} (exact for whole samples of delay; for fractions off by some per mille, near "
-        "the Nyquist frequency by some per cent)",
-        quantity(*wall->delay_margin, "s")));
+    margins.push_back(
+        fmt::format("delay margin {}: unstable with that much more delay", quantity(*wall->delay_margin, "s")));
   }
   return margins;
 }
@@ -361,8 +368,8 @@ std::vector<std::string> caveats(const AnalysedDevice& analysed) {
   const Units units = device_units(analysed);
   std::vector<std::string> texts;
   const Operator& user = device.user;
-  const bool has_limit =
-      analysed.any_user && analysed.any_user->stiffness > 0.0 && std::isfinite(analysed.any_user->stiffness);
+  const bool has_limit = analysed.analysis.any_user && analysed.analysis.any_user->stiffness > 0.0 &&
+                         std::isfinite(analysed.analysis.any_user->stiffness);
   const std::string held = device.bodies.empty() ? "" : device.bodies[device.loop.held].name;
   if (user.mass > 0.0 || user.damping > 0.0 || user.stiffness > 0.0) {
     texts.push_back(fmt::format("One user is included, at {}: {} {}, {} {}, {}. Another grasp gives another answer.",

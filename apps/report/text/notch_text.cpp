@@ -106,7 +106,7 @@ class Writer {
     std::vector<std::string> cells{quantity(critical.stiffness, units_.stiffness)};
     cells.push_back(critical.limit ? mechanism_name(device.analysis, critical.limit->limited_by) : "-");
     cells.push_back(critical.limit ? quantity(hertz(critical.limit->frequency), "Hz") : "-");
-    cells.push_back(device.any_user ? quantity(device.any_user->stiffness, units_.stiffness) : "-");
+    cells.push_back(device.analysis.any_user ? quantity(device.analysis.any_user->stiffness, units_.stiffness) : "-");
     cells.push_back(device.analysis.wall ? margins(device.analysis) : "-");
     return cells;
   }

@@ -4,17 +4,24 @@
 #include <string>
 #include <vector>
 
+#include "zwidth/trust.hpp"
+
 namespace zwidth {
 
-/// How well some parameters of a device are known: their joint normal distribution around the device's values.
+/// How well some parameters of a device are known: their joint normal distribution around the device's values, and
+/// whether the values are to be trusted at all.
 ///
 /// In the device file:  [uncertainty]  parameters = ["link.0.stiffness", ...]  covariance = [[...], ...]
-///                     warning = "..."  (optional)
+///                     verdict = "doubtful" | "refused"   warning = "..."   reasons = ["...", ...]
+/// Parameters and covariance may be left out where there is a warning, reasons or a verdict.
 struct Uncertainty {
   std::vector<std::string> parameters;  ///< keys as in model/parameter.hpp, each once
   /// Symmetric positive semidefinite, in the products of the parameters' units; row by row.
   std::vector<std::vector<double>> covariance;
   std::string warning{};  ///< why the values or their covariance are not to be trusted; empty: nothing is known
+  /// What the warning and the reasons amount to; with either of them `sound` counts as `doubtful`.
+  Trust::Verdict verdict = Trust::Verdict::sound;
+  std::vector<std::string> reasons{};  ///< further ones, each with its remedy
 };
 
 }  // namespace zwidth

@@ -3,6 +3,7 @@
 #include <complex>
 #include <cstddef>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "zwidth/model/modal_form.hpp"
@@ -41,8 +42,18 @@ struct SampledPlant {
   std::vector<double> numerator;
   /// P(-1) without the filters, where the terms' numerators nearly vanish at Nyquist; computed in double-double.
   std::optional<double> at_nyquist;
-  /// Further factors of P: the filters of the wall, where the plant is seen through them.
-  std::vector<FilterSection> filters = {};
+};
+
+/// The plant as a wall of K + B v(z) sees it, through the wall's filters: F P, since 1 + F (K + B v) P = 0 either way.
+///
+/// Only filtered_plant() makes one: a limit or a margin with the wall's filters forgotten does not compile.
+class FilteredPlant : public SampledPlant {
+ public:
+  std::vector<FilterSection> filters;  ///< F, in the order in which they run
+
+ private:
+  explicit FilteredPlant(SampledPlant plant) : SampledPlant(std::move(plant)) {}
+  friend FilteredPlant filtered_plant(SampledPlant plant, const std::vector<WallFilter>& filters);
 };
 
 /// Samples exactly behind a zero-order hold with any real delay (modified z-transform; no Padé, no rounding to
@@ -59,19 +70,26 @@ struct SampledPlant {
 /// modal_form() and sample() of a device with its own period and delay.
 [[nodiscard]] SampledPlant sampled_plant(const Device& device);
 
-/// The plant as a wall of K + B v(z) sees it through the wall's filters: F P, since 1 + F (K + B v) P = 0 either way.
-[[nodiscard]] SampledPlant filtered_plant(SampledPlant plant, const std::vector<WallFilter>& filters);
+/// The plant seen through these filters of a wall; none is a statement too: {}.
+/// Throws Error (invalid_argument) where a filter has a problem.
+[[nodiscard]] FilteredPlant filtered_plant(SampledPlant plant, const std::vector<WallFilter>& filters);
+
+/// The same behind further filters.
+[[nodiscard]] FilteredPlant filtered_plant(FilteredPlant plant, const std::vector<WallFilter>& filters);
 
 /// filtered_plant() of sampled_plant() with the device's own wall.filters: what critical_stiffness() needs for a wall.
-[[nodiscard]] SampledPlant filtered_plant(const Device& device);
+[[nodiscard]] FilteredPlant filtered_plant(const Device& device);
 
 /// The product of the plant's filters at z = e^{j angle}; 1 without filters.
-[[nodiscard]] std::complex<double> filter_response(const SampledPlant& plant, double angle);
+[[nodiscard]] std::complex<double> filter_response(const FilteredPlant& plant, double angle);
 
 /// One term at z = e^{j angle}, without the whole samples of delay; 0 < angle <= pi.
 [[nodiscard]] std::complex<double> response(const SampledTerm& term, double angle);
 
 /// The sampled response at e^{jwT}; 0 < w <= pi/T, rad/s.
 [[nodiscard]] std::complex<double> response(const SampledPlant& plant, double frequency);
+
+/// The same through the filters.
+[[nodiscard]] std::complex<double> response(const FilteredPlant& plant, double frequency);
 
 }  // namespace zwidth

@@ -1,12 +1,20 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
 #include "zwidth/model/device.hpp"
+#include "zwidth/option_problem.hpp"
+#include "zwidth/progress.hpp"
+#include "zwidth/remark.hpp"
+#include "zwidth/stability/any_user.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
 #include "zwidth/stability/stiffness_interval.hpp"
+#include "zwidth/stability/user_family.hpp"
 #include "zwidth/stability/wall_margins.hpp"
+#include "zwidth/stability/worst_user.hpp"
+#include "zwidth/trust.hpp"
 
 namespace zwidth {
 
@@ -29,19 +37,49 @@ struct QCriterion {
   std::optional<bool> mode_matters;
 };
 
-/// The whole answer for one device.
-struct Analysis {
-  CriticalStiffness critical;
-  std::vector<Mode> modes;                    ///< vibration modes, by rising frequency
-  std::optional<Mode> suspended_rigid_body;   ///< where springs tie the device to ground
-  std::optional<RigidApproximation> rigid;    ///< absent for a transfer function
-  std::optional<QCriterion> q_criterion;      ///< only where as_two_mass() applies, no wall filters
-  std::optional<WallMargins> wall;            ///< absent without wall.stiffness
-  std::optional<StiffnessInterval> interval;  ///< of the critical stiffness; absent without an uncertainty
+/// Each body costs a modal form: beyond, the limit over all users would take longer than the rest by far.
+inline constexpr std::size_t most_bodies_for_any_user = 20;
+
+/// What an analysis computes beside the critical stiffness; what is not asked for costs nothing.
+struct AnalysisOptions {
+  bool any_user = true;                   ///< any_user_limit(), where the device has a body to hold and not too many
+  bool worst_user = false;                ///< the user who proves that limit; needs any_user
+  std::optional<UserFamily> family = {};  ///< worst_of_family() of these users
+  std::size_t draws = 1000;               ///< of the uncertainty, for the interval; 0: no interval
+  Progress progress = {};                 ///< of the search in the family
 };
 
-/// Analyses a device: critical stiffness (with the wall's damper closed), modes, rigid approximation, Q, margins.
-/// Throws Error (did_not_converge) as its parts do.
-[[nodiscard]] Analysis analyze(const Device& device);
+/// The critical stiffness, the modes and the margins of a given wall alone: for who prints nothing more.
+[[nodiscard]] inline AnalysisOptions limit_and_wall_only() { return {.any_user = false, .draws = 0}; }
+
+/// Checks: worst_user only with any_user; the family's ranges finite, >= 0 and not reversed.
+[[nodiscard]] std::optional<OptionProblem> find_problem(const AnalysisOptions& options);
+
+/// The same, and what depends on the device: a worst user or a family needs a body to hold, a worst user at most
+/// most_bodies_for_any_user bodies.
+[[nodiscard]] std::optional<OptionProblem> find_problem(const AnalysisOptions& options, const Device& device);
+
+/// The whole answer for one device. Where it is refused (trust), no stiffness, margin or interval is held.
+struct Analysis {
+  CriticalStiffness critical;
+  std::vector<Mode> modes;                      ///< vibration modes, by rising frequency
+  std::optional<Mode> suspended_rigid_body;     ///< where springs tie the device to ground
+  std::optional<RigidApproximation> rigid;      ///< absent for a transfer function
+  std::optional<QCriterion> q_criterion;        ///< only where as_two_mass() applies, no wall filters
+  std::optional<WallMargins> wall;              ///< absent without wall.stiffness
+  std::optional<StiffnessInterval> interval;    ///< of the critical stiffness; absent without uncertain parameters
+  std::optional<AnyUserLimit> any_user;         ///< absent unless asked for, and where there is none (see options)
+  std::optional<WorstUser> worst_user;          ///< absent unless asked for, and where any_user is 0 or infinite
+  std::optional<UserFamilyAnswer> user_family;  ///< absent unless asked for
+  Trust trust;                                  ///< of everything here: the device's, and what the guards found
+  std::vector<Remark> remarks;                  ///< what was left out, and why
+};
+
+/// Analyses a device: critical stiffness (with the wall's damper closed), modes, rigid approximation, Q, margins,
+/// users.
+///
+/// critical_stiffness() and the wall are checked by a second route; see there.
+/// Throws Error (invalid_argument) where find_problem(options, device) finds one, (did_not_converge) as its parts do.
+[[nodiscard]] Analysis analyze(const Device& device, const AnalysisOptions& options = {});
 
 }  // namespace zwidth

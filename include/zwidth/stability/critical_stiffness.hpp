@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "zwidth/sampling/sampled_plant.hpp"
+#include "zwidth/trust.hpp"
 
 namespace zwidth {
 
@@ -35,15 +36,17 @@ enum class StiffnessStatus {
   finite,       ///< stable for 0 < K < stiffness
   none_stable,  ///< unstable for arbitrarily small K > 0; stable intervals may exist further up
   unbounded,    ///< stable for every K > 0
+  refused,      ///< no number is given: CriticalStiffness::trust says why
 };
 
 /// The stiffest stable virtual wall, with everything that decides it.
 struct CriticalStiffness {
   StiffnessStatus status = StiffnessStatus::finite;
-  double stiffness = 0.0;                        ///< K_CR; 0 when none_stable, infinity when unbounded
-  std::optional<Crossover> limit;                ///< the crossover at K_CR; absent unless finite
-  std::vector<Crossover> crossovers;             ///< all, by rising frequency
+  double stiffness = 0.0;             ///< K_CR; 0 when none_stable, infinity when unbounded, NaN when refused
+  std::optional<Crossover> limit;     ///< the crossover at K_CR; absent unless finite
+  std::vector<Crossover> crossovers;  ///< all, by rising frequency
   std::vector<StableInterval> stable_intervals;  ///< all, by rising K
+  Trust trust = {};  ///< of the device and of the computation; where refused, all above is empty
 };
 
 /// The virtual damper that stays closed while K varies: B v(z) as in Wall.
@@ -52,13 +55,26 @@ struct VirtualDamper {
   double velocity_filter_hz = 0.0;  ///< f_c >= 0; 0: none
 };
 
+/// That of the device's own wall.
+[[nodiscard]] VirtualDamper virtual_damper(const Device& device);
+
+/// The critical stiffness of a device with its own wall's damper and filters closed: the entry point.
+///
+/// Computed by the function below, then checked by a second route that shares nothing with it (matrix exponential,
+/// closed-loop poles): the number of poles outside the unit circle just below and just above K_CR. Where the two
+/// contradict, or where the device's own numbers are refused (trust_of()), the answer is `refused` and holds no number;
+/// what is doubtful stays so.
+/// Throws Error (did_not_converge) as modal_form() and the function below do.
+[[nodiscard]] CriticalStiffness critical_stiffness(const Device& device);
+
 /// Finds every K > 0 at which 1 + (K + B v(z)) P(z) = 0 has a root on the unit circle, and from them K_CR.
 ///
 /// Complete: the phase condition is isolated by interval subdivision of 0..Nyquist with bounds on its second derivative
 /// (see docs/completeness.md); no grid is involved. Each root is polished to rounding. The number of unstable poles
 /// between crossovers follows from the direction of every crossing.
+/// The trust stays sound: this route is not checked by another, nor does a plant know where its numbers come from.
 /// Throws Error (invalid_argument) for negative or non-finite B or f_c, (did_not_converge) when subdivision hits its
 /// cap. Source: eqs. 21-23, 27-28 of Díaz & Gil; theory, section 1.
-[[nodiscard]] CriticalStiffness critical_stiffness(const SampledPlant& plant, VirtualDamper damper = {});
+[[nodiscard]] CriticalStiffness critical_stiffness(const FilteredPlant& plant, VirtualDamper damper = {});
 
 }  // namespace zwidth

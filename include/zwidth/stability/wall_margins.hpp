@@ -19,7 +19,9 @@ struct LoopMargins {
   bool stable = false;
   std::optional<double> gain_margin;        ///< least factor > 1 on L that destabilises; absent: none does
   std::optional<double> lower_gain_margin;  ///< largest factor in (0, 1) that destabilises; absent: none does
-  std::optional<double> phase_margin;       ///< rad > 0; least phase, either way, over all gain crossovers
+  std::optional<double>
+      stiffness_margin;                ///< least factor > 1 on K alone, B held, that destabilises; absent: none does
+  std::optional<double> phase_margin;  ///< rad > 0; least phase, either way, over all gain crossovers
   std::optional<double> delay_margin;  ///< s; min over all gain crossovers of phase lag to -180 degrees / frequency
   std::vector<GainCrossover> gain_crossovers;  ///< all, by rising frequency
 };
@@ -34,13 +36,16 @@ struct WallMargins : LoopMargins {
 /// Margins of L(z) = C(z) P(z), C(z) = K + B v(z) as in Wall; every gain and phase crossover is found as in
 /// critical_stiffness().
 ///
-/// The delay margin treats the added delay as e^{-jw tau} on the sampled loop: exact for whole samples; for fractions
-/// the device's response above Nyquist is neglected (relative error of order (w T / 2 pi)²).
+/// The delay margin treats the added delay as e^{-jw tau} on the sampled loop: exact for whole samples; a fraction of a
+/// sample changes the response itself, which only wall_margins() of the device can follow.
 /// Stable means all closed-loop poles strictly inside the unit circle: a free device with K = 0 is not.
 /// Throws Error (invalid_argument) when wall.stiffness is absent or a value is outside its domain.
-[[nodiscard]] LoopMargins loop_margins(const SampledPlant& plant, const Wall& wall);
+[[nodiscard]] LoopMargins loop_margins(const FilteredPlant& plant, const Wall& wall);
 
 /// Margins of the device's own wall, and the closed loop's spectral radius by eigenvalues.
+///
+/// The delay margin is exact for any real delay: the least added delay at which a closed-loop pole of the plant sampled
+/// with that delay (modified z-transform) lies on the unit circle, over all crossovers.
 /// Throws Error (invalid_argument) when the device has no wall stiffness.
 [[nodiscard]] WallMargins wall_margins(const Device& device);
 

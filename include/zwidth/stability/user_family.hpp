@@ -25,6 +25,13 @@ struct WorstOfFamily {
   double critical_stiffness = 0.0;  ///< K_CR held by that user; 0: no wall is stable; infinity: all are, for every user
 };
 
+/// What a family of users makes of a device.
+struct UserFamilyAnswer {
+  UserFamily family;
+  WorstOfFamily worst;
+  CriticalStiffness free;  ///< of the device that nobody holds
+};
+
 /// Searches a family for the user with whom the critical stiffness is least.
 ///
 /// What is certain: `critical_stiffness` is exact for `user`, so the least over the family is no higher; and by

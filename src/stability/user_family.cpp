@@ -1,4 +1,4 @@
-#include "zwidth/design/user_family.hpp"
+#include "zwidth/stability/user_family.hpp"
 
 #include <algorithm>
 #include <array>

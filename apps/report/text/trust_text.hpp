@@ -1,0 +1,16 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "zwidth/trust.hpp"
+
+namespace zwidth::report {
+
+/// "DOUBTFUL: why; and why", "REFUSED, no number is given: why"; "sound".
+[[nodiscard]] std::string verdict_text(const Trust& trust);
+
+/// verdict_text() where there is something to say.
+[[nodiscard]] std::optional<std::string> trust_note(const Trust& trust);
+
+}  // namespace zwidth::report

@@ -1,0 +1,103 @@
+#include "stability/guarded_stiffness.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "zwidth/model/device_trust.hpp"
+
+namespace zwidth::internal {
+namespace {
+
+// The limit must hold as closely as this, relative: the poles are counted so far below and above it.
+constexpr double closeness = 1e-6;
+// Where there is no crossover to count beside: gains of the loop at mid band.
+constexpr double loop_gains[] = {1e-3, 1.0, 1e3};
+
+// Poles outside as crossovers say it, from a stable start.
+int expected_above(const CriticalStiffness& critical, double stiffness) {
+  int outside = 0;
+  for (const Crossover& each : critical.crossovers) {
+    if (each.stiffness < stiffness) outside += each.poles_leaving;
+  }
+  return outside;
+}
+
+// Stiffnesses at which to count, each with whether the loop is said to be stable there.
+struct Claim {
+  double stiffness = 0.0;
+  bool stable = true;
+};
+
+std::vector<Claim> claims_of(const CriticalStiffness& critical, const FilteredPlant& plant) {
+  std::vector<Claim> claims;
+  if (critical.status == StiffnessStatus::finite) {
+    const double above = critical.stiffness * (1.0 + closeness);
+    claims.push_back({0.5 * critical.stiffness, true});
+    claims.push_back({critical.stiffness * (1.0 - closeness), true});
+    claims.push_back({above, expected_above(critical, above) == 0});
+    return claims;
+  }
+  const bool stable = critical.status == StiffnessStatus::unbounded;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Crossover& each : critical.crossovers) least = std::min(least, each.stiffness);
+  const double gain = std::abs(response(plant, 0.5 * std::numbers::pi / plant.period));
+  for (const double loop_gain : loop_gains) {
+    const double stiffness = std::isfinite(least) ? 0.5 * least : loop_gain / gain;
+    if (stiffness > 0.0 && std::isfinite(stiffness)) claims.push_back({stiffness, stable});
+    if (std::isfinite(least)) break;
+  }
+  return claims;
+}
+
+}  // namespace
+
+Agreement agreement(const PoleCount& poles, double stiffness, bool stable) {
+  const std::optional<int> quick = poles.in_double(stiffness);
+  if (quick && (*quick == 0) == stable) return Agreement::agrees;
+  const std::optional<int> sure = poles.in_digits(stiffness);
+  if (!sure) return Agreement::undecided;
+  return (*sure == 0) == stable ? Agreement::agrees : Agreement::contradicts;
+}
+
+void distrust(Agreement agreement, double stiffness, Trust& trust) {
+  if (agreement == Agreement::contradicts) {
+    trust.refuse(fmt::format(
+        "two computations contradict each other on whether the loop is stable at {:.6g}: poles lie too close together "
+        "for either to be sure; part them (drop a lag that hardly matters, merge bodies that move alike)",
+        stiffness));
+  }
+  if (agreement == Agreement::undecided) {
+    trust.doubt(fmt::format(
+        "no second computation confirms the answer at {:.6g}: the loop has too many states, or a pole too near the "
+        "unit circle; shorten the delay or merge bodies that hardly move against each other",
+        stiffness));
+  }
+}
+
+void withdraw(CriticalStiffness& critical) {
+  Trust trust = std::move(critical.trust);
+  critical = {};
+  critical.status = StiffnessStatus::refused;
+  critical.stiffness = std::numeric_limits<double>::quiet_NaN();
+  critical.trust = std::move(trust);
+}
+
+CriticalStiffness guarded_stiffness(const Device& device, const FilteredPlant& plant, const PoleCount& poles) {
+  CriticalStiffness critical = critical_stiffness(plant, virtual_damper(device));
+  critical.trust = trust_of(device);
+  for (const Claim& claim : claims_of(critical, plant)) {
+    if (critical.trust.refused()) break;
+    distrust(agreement(poles, claim.stiffness, claim.stable), claim.stiffness, critical.trust);
+  }
+  if (critical.trust.refused()) withdraw(critical);
+  return critical;
+}
+
+}  // namespace zwidth::internal

@@ -1,0 +1,124 @@
+#include "stability/pole_count.hpp"
+
+#include <Eigen/LU>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <vector>
+
+#include "model/balance.hpp"
+#include "stability/winding_number.hpp"
+#include "zwidth/model/state_space.hpp"
+#include "zwidth/sampling/filter_section.hpp"
+#include "zwidth/stability/closed_loop.hpp"
+
+namespace zwidth::internal {
+namespace {
+
+using Complex = std::complex<double>;
+
+// A pole this close to the circle, over |z - 1|, may be on either side: its eigenvalue is rounded.
+constexpr double rounding = 1e-12;
+
+// Eigenvalues cost the cube of the states, the winding number their product with the angles.
+constexpr std::size_t most_states_for_eigenvalues = 40;
+constexpr std::size_t steps_per_state = 8;
+
+// Just outside the circle, so that a mode that nothing damps and nothing moves lies inside.
+constexpr double radius = 1.0 + 1e-13;
+
+// det(delta I - Phi + (Gamma1 + Gamma2 / z) z^-l C(z) c) at z = radius e^{j angle}: zero where a closed-loop pole is.
+class ReturnDifference {
+ public:
+  ReturnDifference(const DiscreteStateSpace& plant, const Wall& wall, double stiffness)
+      : delay_samples_(static_cast<double>(plant.delay_samples)), stiffness_(stiffness) {
+    const Eigen::VectorXd scales = balancing_scales(plant.Phi);
+    phi_ = scales.cwiseInverse().asDiagonal() * plant.Phi * scales.asDiagonal();
+    gamma1_ = scales.cwiseInverse().asDiagonal() * plant.Gamma1;
+    gamma2_ = scales.cwiseInverse().asDiagonal() * plant.Gamma2;
+    output_ = plant.C * scales.asDiagonal();
+    pole_ = wall.velocity_filter_hz > 0.0 ? std::exp(-2.0 * std::numbers::pi * wall.velocity_filter_hz * plant.period)
+                                          : 0.0;
+    rate_ = wall.damping * (1.0 - pole_) / plant.period;
+    for (const WallFilter& filter : wall.filters) filters_.push_back(filter_section(filter, plant.period));
+  }
+
+  [[nodiscard]] Complex operator()(double angle) const {
+    const double half = std::sin(0.5 * angle);
+    const Complex circle(-2.0 * half * half, std::sin(angle));  // e^{j angle} - 1
+    const Complex delta = circle + (radius - 1.0) * (1.0 + circle);
+    const Complex z = 1.0 + delta;
+    Complex wall = stiffness_ + rate_ * delta / (z - pole_);
+    for (const FilterSection& filter : filters_) wall *= response_of(filter, delta);
+    wall *= std::polar(std::exp(-delay_samples_ * std::log(radius)), -delay_samples_ * angle);
+    Eigen::MatrixXcd matrix = -phi_.cast<Complex>();
+    matrix.diagonal().array() += delta;
+    matrix += (wall * gamma1_ + (wall / z) * gamma2_) * output_;
+    return matrix.partialPivLu().determinant();
+  }
+
+ private:
+  static Complex response_of(const FilterSection& filter, Complex delta) {
+    const std::array<double, 3> numerator = whole_numerator(filter);
+    Complex n = 0.0;
+    Complex d = 1.0;
+    for (std::size_t i = filter.degree + 1; i-- > 0;) n = n * delta + numerator[i];
+    for (std::size_t i = filter.degree; i-- > 0;) d = d * delta + filter.denominator[i];
+    return n / d;
+  }
+
+  Eigen::MatrixXd phi_;
+  Eigen::VectorXcd gamma1_;
+  Eigen::VectorXcd gamma2_;
+  Eigen::RowVectorXcd output_;
+  std::vector<FilterSection> filters_;
+  double delay_samples_;
+  double stiffness_;
+  double pole_ = 0.0;  // of the velocity's low-pass
+  double rate_ = 0.0;  // B (1 - a) / T
+};
+
+}  // namespace
+
+PoleCount::PoleCount(const Device& device)
+    : device_(device), plant_(sample(state_space(device), {device.loop().sampling_period, device.loop().delay})) {
+  const Wall& wall = device.parameters().wall;
+  states_ = static_cast<std::size_t>(plant_.Phi.rows()) + plant_.delay_samples + (plant_.Gamma2.isZero(0.0) ? 0 : 1) +
+            (wall.damping > 0.0 ? 1 : 0);
+  for (const WallFilter& filter : wall.filters) states_ += filter_section(filter, plant_.period).degree;
+}
+
+std::optional<int> PoleCount::in_double(double stiffness) const {
+  if (!plant_.Phi.allFinite() || !plant_.Gamma1.allFinite() || !plant_.Gamma2.allFinite()) return std::nullopt;
+  return states_ <= most_states_for_eigenvalues ? by_eigenvalues(stiffness) : by_winding(stiffness);
+}
+
+std::optional<int> PoleCount::in_digits(double stiffness) const {
+  return states_ <= most_states_for_digits ? unstable_poles_in_digits(device_, stiffness) : std::nullopt;
+}
+
+std::optional<int> PoleCount::by_eigenvalues(double stiffness) const {
+  Wall wall = device_.parameters().wall;
+  wall.stiffness = stiffness;
+  int outside = 0;
+  for (const Complex& delta : closed_loop_poles_minus_one(plant_, wall)) {
+    // |1 + d| - 1 = (2 Re d + |d|²) / (|1 + d| + 1)
+    const double excess = (2.0 * delta.real() + std::norm(delta)) / (std::abs(1.0 + delta) + 1.0);
+    if (!(std::abs(excess) > rounding * std::abs(delta))) return std::nullopt;
+    if (excess > 0.0) ++outside;
+  }
+  return outside;
+}
+
+std::optional<int> PoleCount::by_winding(double stiffness) const {
+  const ReturnDifference f(plant_, device_.parameters().wall, stiffness);
+  const double turns = winding_number(f, steps_per_state * states_);
+  // All poles of f lie inside: the delays, the velocity's low-pass, the filters; f ~ delta^n far outside.
+  const double outside = static_cast<double>(plant_.Phi.rows()) - turns;
+  constexpr double whole = 0.1;  // turns are whole but for rounding
+  if (!(std::abs(outside - std::round(outside)) < whole)) return std::nullopt;
+  return static_cast<int>(std::lround(outside));
+}
+
+}  // namespace zwidth::internal

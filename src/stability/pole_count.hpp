@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "zwidth/model/device.hpp"
+#include "zwidth/sampling/discrete_state_space.hpp"
+
+namespace zwidth::internal {
+
+// How many poles of the closed loop lie outside the unit circle, at any stiffness of the device's wall: the routes that
+// check critical_stiffness(). They share nothing with it: no modal form, no partial fractions, no frequency response
+// and no root isolation, only the continuous state space and its exponential.
+class PoleCount {
+ public:
+  explicit PoleCount(const Device& device);
+
+  // In double precision: eigenvalues of the loop's state matrix, or for long delays the winding number of
+  //     det((z - 1) I - Phi + (Gamma1 + Gamma2 z^-1) z^-l C(z) c)
+  // on the unit circle. Nothing where a pole is too near the circle to tell.
+  [[nodiscard]] std::optional<int> in_double(double stiffness) const;
+
+  // With a hundred digits: the characteristic polynomial and Routh's count of its roots. Slow, and only for loops of up
+  // to most_states_for_digits states, delays included; nothing beyond.
+  [[nodiscard]] std::optional<int> in_digits(double stiffness) const;
+
+  static constexpr std::size_t most_states_for_digits = 40;
+
+ private:
+  [[nodiscard]] std::optional<int> by_eigenvalues(double stiffness) const;
+  [[nodiscard]] std::optional<int> by_winding(double stiffness) const;
+
+  const Device& device_;
+  DiscreteStateSpace plant_;
+  std::size_t states_ = 0;  // of the loop
+};
+
+// in_digits() without the class: the device at this stiffness.
+[[nodiscard]] std::optional<int> unstable_poles_in_digits(const Device& device, double stiffness);
+
+}  // namespace zwidth::internal

@@ -1,0 +1,280 @@
+// The closed loop's characteristic polynomial with a hundred digits, and Routh's count of its roots outside the unit
+// circle: decides where double precision cannot.
+
+#include <algorithm>
+#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "model/device_matrices.hpp"
+#include "sampling/sampling_instants.hpp"
+#include "stability/pole_count.hpp"
+#include "zwidth/sampling/filter_section.hpp"
+
+namespace zwidth::internal {
+namespace {
+
+namespace mp = boost::multiprecision;
+using Digits = mp::number<mp::cpp_bin_float<100>, mp::et_off>;
+using Polynomial = std::vector<Digits>;  // ascending powers
+
+class Matrix {
+ public:
+  explicit Matrix(std::size_t n) : n_(n), values_(n * n) {}
+
+  [[nodiscard]] std::size_t size() const { return n_; }
+  Digits& operator()(std::size_t i, std::size_t j) { return values_[i * n_ + j]; }
+  const Digits& operator()(std::size_t i, std::size_t j) const { return values_[i * n_ + j]; }
+
+  Matrix& operator+=(const Matrix& other) {
+    for (std::size_t i = 0; i < values_.size(); ++i) values_[i] += other.values_[i];
+    return *this;
+  }
+  Matrix& operator*=(const Digits& factor) {
+    for (Digits& value : values_) value *= factor;
+    return *this;
+  }
+  friend Matrix operator*(const Matrix& a, const Matrix& b) {
+    Matrix product(a.n_);
+    for (std::size_t i = 0; i < a.n_; ++i) {
+      for (std::size_t k = 0; k < a.n_; ++k) {
+        if (a(i, k).is_zero()) continue;
+        for (std::size_t j = 0; j < a.n_; ++j) product(i, j) += a(i, k) * b(k, j);
+      }
+    }
+    return product;
+  }
+
+ private:
+  std::size_t n_;
+  std::vector<Digits> values_;
+};
+
+// x' = A x + b u, y = c x, and the input as one more state that stays: the generator [[A, b], [0, 0]].
+struct Continuous {
+  Matrix generator;
+  std::vector<Digits> output;
+};
+
+Continuous of_bodies(const Device& device, bool lag) {
+  const DeviceMatrices<Digits> matrices = device_matrices<Digits>(device);
+  const std::size_t n = matrices.mass.size();
+  const std::size_t states = 2 * n + (lag ? 1 : 0);
+  Continuous system{Matrix(states + 1), std::vector<Digits>(states)};
+  for (std::size_t i = 0; i < n; ++i) {
+    system.generator(i, n + i) = 1.0;
+    for (std::size_t j = 0; j < n; ++j) {
+      system.generator(n + i, j) = -matrices.stiffness[i * n + j] / matrices.mass[i];
+      system.generator(n + i, n + j) = -matrices.damping[i * n + j] / matrices.mass[i];
+    }
+  }
+  const std::size_t actuated = device.loop().actuated;
+  system.generator(n + actuated, 2 * n) = Digits(1.0) / matrices.mass[actuated];  // of the lag, or of the input
+  system.output[device.loop().sensed] = 1.0;
+  return system;
+}
+
+Continuous of_transfer_function(const TransferFunction& function, bool lag) {
+  const std::size_t n = function.denominator.size() - 1;
+  const std::size_t states = n + (lag ? 1 : 0);
+  Continuous system{Matrix(states + 1), std::vector<Digits>(states)};
+  const Digits leading_coefficient = function.denominator[0];
+  for (std::size_t i = 0; i + 1 < n; ++i) system.generator(i, i + 1) = 1.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    system.generator(n - 1, i) = -Digits(function.denominator[n - i]) / leading_coefficient;
+  }
+  system.generator(n - 1, n) = 1.0;
+  for (std::size_t i = 0; i < function.numerator.size() && i < n; ++i) {
+    system.output[i] = Digits(function.numerator[function.numerator.size() - 1 - i]) / leading_coefficient;
+  }
+  return system;
+}
+
+Continuous continuous(const Device& device) {
+  const double tau = device.parameters().actuator.time_constant;
+  const bool lag = tau > 0.0;
+  Continuous system =
+      device.has_bodies() ? of_bodies(device, lag) : of_transfer_function(*device.parameters().transfer_function, lag);
+  if (lag) {
+    const std::size_t last = system.output.size() - 1;
+    system.generator(last, last) = Digits(-1.0) / tau;
+    system.generator(last, last + 1) = Digits(1.0) / tau;
+  }
+  return system;
+}
+
+// e^{M t} - I by Taylor's series of the scaled matrix and doubling.
+Matrix exponential_minus_one(Matrix m, const Digits& time) {
+  constexpr int terms = 40;  // 2^-8 each: below 1e-100
+  constexpr double scaled_norm = 0x1p-8;
+  m *= time;
+  Digits norm = 0.0;
+  for (std::size_t i = 0; i < m.size(); ++i) {
+    Digits row = 0.0;
+    for (std::size_t j = 0; j < m.size(); ++j) row += abs(m(i, j));
+    norm = std::max(norm, row);
+  }
+  const int halvings =
+      norm > scaled_norm ? static_cast<int>(std::ceil(log2(norm / scaled_norm).convert_to<double>())) : 0;
+  m *= ldexp(Digits(1.0), -halvings);
+  Matrix sum = m;
+  Matrix power = m;
+  for (int k = 2; k <= terms; ++k) {
+    power = power * m;
+    power *= Digits(1.0) / k;
+    sum += power;
+  }
+  for (int i = 0; i < halvings; ++i) {
+    Matrix square = sum * sum;
+    sum *= 2.0;
+    sum += square;
+  }
+  return sum;
+}
+
+// det(delta I - Phi) and c adj(delta I - Phi) Gamma of both inputs, by Faddeev's and Leverrier's recursion:
+//   M_1 = I, d_{n-k} = -tr(Phi M_k)/k, M_{k+1} = Phi M_k + d_{n-k} I, adj = sum M_k delta^{n-k}
+struct Sampled {
+  Polynomial denominator;
+  Polynomial with_new;
+  Polynomial with_old;
+};
+
+Sampled sampled(const Device& device, const SamplingInstants& instants) {
+  const Continuous system = continuous(device);
+  const std::size_t n = system.output.size();
+  const Matrix early = exponential_minus_one(system.generator, instants.with_new);
+  const Matrix late = exponential_minus_one(system.generator, instants.with_old);
+  // e^{A T} - I of both parts of the period; Gamma2 = e^{A (1-f) T} int_0^{fT} e^{As} b ds.
+  Matrix product = early * late;
+  product += early;
+  product += late;
+  Matrix phi(n);
+  std::vector<Digits> gamma1(n);
+  std::vector<Digits> gamma2(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j < n; ++j) phi(i, j) = product(i, j);
+    gamma1[i] = early(i, n);
+    gamma2[i] = late(i, n);
+    for (std::size_t j = 0; j < n; ++j) gamma2[i] += early(i, j) * late(j, n);
+  }
+  Sampled plant{Polynomial(n + 1), Polynomial(n), Polynomial(n)};
+  plant.denominator[n] = 1.0;
+  Matrix m(n);
+  for (std::size_t i = 0; i < n; ++i) m(i, i) = 1.0;
+  for (std::size_t k = 1; k <= n; ++k) {
+    for (std::size_t i = 0; i < n; ++i) {
+      if (system.output[i].is_zero()) continue;
+      for (std::size_t j = 0; j < n; ++j) {
+        plant.with_new[n - k] += system.output[i] * m(i, j) * gamma1[j];
+        plant.with_old[n - k] += system.output[i] * m(i, j) * gamma2[j];
+      }
+    }
+    m = phi * m;
+    Digits trace = 0.0;
+    for (std::size_t i = 0; i < n; ++i) trace += m(i, i);
+    const Digits coefficient = -trace / static_cast<double>(k);
+    plant.denominator[n - k] = coefficient;
+    for (std::size_t i = 0; i < n; ++i) m(i, i) += coefficient;
+  }
+  return plant;
+}
+
+Polynomial operator*(const Polynomial& a, const Polynomial& b) {
+  Polynomial product(a.size() + b.size() - 1);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    for (std::size_t j = 0; j < b.size(); ++j) product[i + j] += a[i] * b[j];
+  }
+  return product;
+}
+
+Polynomial operator+(Polynomial a, const Polynomial& b) {
+  if (a.size() < b.size()) a.resize(b.size());
+  for (std::size_t i = 0; i < b.size(); ++i) a[i] += b[i];
+  return a;
+}
+
+// Of the loop in delta: D (z - a) z^(l+1) d_F + (K (z - a) + B (1 - a)/T delta) n_F (N1 z + N2).
+Polynomial characteristic(const Device& device, double stiffness) {
+  const Wall& wall = device.parameters().wall;
+  const double period = device.loop().sampling_period;
+  const SamplingInstants instants = sampling_instants({period, device.loop().delay});
+  const Sampled plant = sampled(device, instants);
+  const Polynomial z{1.0, 1.0};
+  Polynomial closed = plant.denominator;
+  const bool fractional = instants.with_old > 0.0;
+  Polynomial input = fractional ? plant.with_new * z + plant.with_old : plant.with_new;
+  for (std::size_t i = 0; i < instants.whole_samples + (fractional ? 1 : 0); ++i) closed = closed * z;
+  if (wall.damping > 0.0) {
+    const double rest =  // 1 - a
+        wall.velocity_filter_hz > 0.0 ? -std::expm1(-2.0 * std::numbers::pi * wall.velocity_filter_hz * period) : 1.0;
+    const Polynomial low_pass{Digits(rest), 1.0};
+    closed = closed * low_pass;
+    const Digits rate = Digits(wall.damping) * rest / period;
+    input = input * Polynomial{Digits(stiffness) * rest, Digits(stiffness) + rate};
+  } else {
+    input = input * Polynomial{Digits(stiffness)};
+  }
+  for (const WallFilter& filter : wall.filters) {
+    const FilterSection section = filter_section(filter, period);
+    const auto numerator = whole_numerator(section);
+    Polynomial n(section.degree + 1);
+    Polynomial d(section.degree + 1);
+    for (std::size_t i = 0; i <= section.degree; ++i) n[i] = numerator[i];
+    for (std::size_t i = 0; i < section.degree; ++i) d[i] = section.denominator[i];
+    d[section.degree] = 1.0;
+    input = input * n;
+    closed = closed * d;
+  }
+  return closed + input;
+}
+
+// Roots of positive real part, by Routh's array; nothing where a pivot vanishes to rounding.
+std::optional<int> roots_on_the_right(const Polynomial& p) {
+  const Digits tiny = ldexp(Digits(1.0), -200);  // of 332 bits
+  Polynomial upper;
+  Polynomial lower;
+  for (std::size_t i = p.size(); i-- > 0;) ((p.size() - 1 - i) % 2 == 0 ? upper : lower).push_back(p[i]);
+  int changes = 0;
+  while (!lower.empty()) {
+    Digits size = 0.0;
+    for (const Digits& each : lower) size = std::max<Digits>(size, abs(each));
+    if (upper[0].is_zero() || !(abs(lower[0]) > tiny * size)) return std::nullopt;
+    if ((upper[0] < 0.0) != (lower[0] < 0.0)) ++changes;
+    const Digits ratio = upper[0] / lower[0];
+    Polynomial next;
+    for (std::size_t i = 1; i < upper.size(); ++i) {
+      next.push_back(i < lower.size() ? upper[i] - ratio * lower[i] : upper[i]);
+    }
+    upper = std::move(lower);
+    lower = std::move(next);
+  }
+  return changes;
+}
+
+// Roots with |1 + delta| > radius: (1 + delta)/radius = (1 + w)/(1 - w) maps them to the right of w = 0. With
+// g = radius - 1:  delta = (g + (radius + 1) w)/(1 - w).
+std::optional<int> roots_outside(const Polynomial& p, const Digits& g) {
+  const Polynomial up{g, g + 2.0};
+  const Polynomial down{1.0, -1.0};
+  Polynomial sum{p.back()};  // Horner: sum_k p_k up^k down^(n-k)
+  Polynomial powers{1.0};
+  for (std::size_t i = p.size() - 1; i-- > 0;) {
+    powers = powers * down;
+    sum = sum * up + powers * Polynomial{p[i]};
+  }
+  return roots_on_the_right(sum);
+}
+
+}  // namespace
+
+std::optional<int> unstable_poles_in_digits(const Device& device, double stiffness) {
+  // Just outside the circle, so that a mode that nothing damps and nothing moves lies inside.
+  const Digits beside = ldexp(Digits(1.0), -80);
+  return roots_outside(characteristic(device, stiffness), beside);
+}
+
+}  // namespace zwidth::internal

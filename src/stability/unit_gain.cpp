@@ -1,0 +1,77 @@
+#include "stability/unit_gain.hpp"
+
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "stability/plant_fraction.hpp"
+#include "stability/root_isolation.hpp"
+
+namespace zwidth::internal {
+namespace {
+
+using std::numbers::pi;
+
+// |C_num S|² - |(delta + c) D|², zero where |C P| = 1; C = K + B (c/T) delta / (delta + c). Without a spring the
+// damper's delta cancels one of the plant's integrators: both sides are divided by |delta|² then.
+class UnitGain {
+ public:
+  UnitGain(const FilteredPlant& plant, double stiffness, double rate, double c)
+      : plant_(plant), stiffness_(stiffness), rate_(rate), c_(c) {
+    if (stiffness > 0.0) return;
+    for (const SampledTerm& term : plant.terms) integrators_ += term.integrators;
+  }
+
+  [[nodiscard]] double value(double angle) const { return evaluate(circle_point(angle)); }
+  template <typename Scalar>
+  [[nodiscard]] BoundedJet<Scalar> model(double begin, double end) const {
+    return evaluate(circle_interval<Scalar>(begin, end));
+  }
+
+ private:
+  template <typename Real>
+  Real evaluate(const CirclePoint<Real>& point) const {
+    const Real& x = point.chord_squared;
+    OnCircle<Real> kept{Real(1.0), Real(0.0)};  // delta^(integrators - 1)
+    for (int i = 1; i < integrators_; ++i) kept = multiply(kept, {-0.5 * x, Real(1.0)}, point);
+    const bool cancel = integrators_ > 0;
+    const PlantFraction<Real> plant = plant_fraction(plant_, point, cancel ? &kept : nullptr);
+    const Real filter = (1.0 - c_) * x + c_ * c_;  // |delta + c|²
+    // |(K + B c/T) delta + K c|² = (K + r)² x + (K c)² - (K + r) K c x
+    const double lead = stiffness_ + rate_;
+    const double constant = stiffness_ * c_;
+    const Real wall = cancel ? Real(rate_ * rate_) : (lead * (lead - constant)) * x + constant * constant;
+    return wall * squared_magnitude(plant.numerator, point) - filter * squared_magnitude(plant.denominator, point);
+  }
+
+  const FilteredPlant& plant_;
+  double stiffness_;
+  double rate_;  // B c / T
+  double c_;
+  int integrators_ = 0;  // of the plant, where one cancels
+};
+
+}  // namespace
+
+std::vector<UnitGainPoint> unit_gain_points(const FilteredPlant& plant, const Wall& wall) {
+  const double stiffness = *wall.stiffness;
+  const double c =
+      wall.velocity_filter_hz > 0.0 ? -std::expm1(-2.0 * pi * wall.velocity_filter_hz * plant.period) : 1.0;
+  const double rate = wall.damping * c / plant.period;
+  std::vector<UnitGainPoint> points;
+  if (stiffness == 0.0 && rate == 0.0) return points;
+  for (const CircleRoot& root : roots_on_circle(UnitGain(plant, stiffness, rate, c), 1)) {
+    const double half = std::sin(root.angle / 2.0);
+    const std::complex<double> delta(-2.0 * half * half, std::sin(root.angle));
+    const std::complex<double> loop =
+        (stiffness + rate * delta / (delta + c)) * response(plant, root.angle / plant.period);
+    points.push_back({root.angle, std::arg(-loop)});
+  }
+  return points;
+}
+
+double lag_to_instability(const UnitGainPoint& point) {
+  return point.phase >= 0.0 ? point.phase : point.phase + 2.0 * pi;
+}
+
+}  // namespace zwidth::internal
