@@ -228,8 +228,7 @@ std::string meaning(const AnalysedDevice& analysed) {
            " wall stiffness makes the loop unstable; it has no phase crossover up to the Nyquist frequency. No real "
            "device does this: check the file for something left out.";
   }
-  if (critical.status == StiffnessStatus::refused)
-    return "No limit and no verdict on a wall is given: see the first lines.";
+  if (critical.status == StiffnessStatus::refused) return "Neither a limit nor a verdict on a wall is given.";
   if (critical.status == StiffnessStatus::none_stable || !critical.limit) {
     std::string text =
         condition + (condition.empty() ? "The" : "the") + " loop is unstable for an arbitrarily small wall stiffness.";
@@ -248,8 +247,7 @@ std::string meaning(const AnalysedDevice& analysed) {
 
 std::optional<std::string> rigid_model_note(const AnalysedDevice& analysed) {
   const auto& rigid = analysed.analysis.rigid;
-  if (!rigid || analysed.device.bodies().size() < 2) return std::nullopt;
-  if (rigid->critical.status == StiffnessStatus::refused) return std::nullopt;
+  if (!rigid || analysed.device.bodies().size() < 2 || analysed.analysis.trust.refused()) return std::nullopt;
   const Units units = device_units(analysed);
   const std::string ground =
       rigid->stiffness > 0.0 ? fmt::format(", {} to ground", quantity(rigid->stiffness, units.stiffness)) : "";
@@ -356,10 +354,7 @@ std::vector<std::string> wall_margin_notes(const Analysis& analysis) {
     margins.push_back(fmt::format("phase margin {}° ({} rad)", number(*wall->phase_margin * 180.0 / std::numbers::pi),
                                   number(*wall->phase_margin)));
   }
-  if (wall->delay_margin) {
-    margins.push_back(
-        fmt::format("delay margin {}: unstable with that much more delay", quantity(*wall->delay_margin, "s")));
-  }
+  if (wall->delay_margin) margins.push_back("delay margin " + quantity(*wall->delay_margin, "s") + " of further delay");
   return margins;
 }
 
