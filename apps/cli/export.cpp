@@ -87,7 +87,7 @@ void check_it_is_not_refused(const ExportArguments& arguments, const Trust& trus
 }
 
 report::CodedWall coded_wall(const ExportArguments& arguments) {
-  report::AnalysedDevice analysed = std::move(analyze_devices(arguments.devices, {.draws = 0}).front());
+  report::AnalysedDevice analysed = std::move(analyze_devices(arguments.devices, AnalysisOptions{.draws = 0}).front());
   check_it_is_not_refused(arguments, analysed.analysis.trust);
   report::CodedWall wall = [&]() -> report::CodedWall {
     if (arguments.stiffness) return {with_stiffness(analysed, *arguments.stiffness), {}, "--stiffness"};
