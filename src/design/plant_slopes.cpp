@@ -327,7 +327,8 @@ PlantSlopes slopes_up_to(const Device& device, double angle, std::span<const Des
     if (is_clear && std::abs(slopes.value() - *reference) <= agreement * std::abs(*reference))
       return all_of(slopes, parameters);
   }
-  Slopes<Precision<long double, Most>> finer(device, angle);
+  // One size for all: this is the rare way, and a second one takes a compiler 15 s.
+  Slopes<Precision<long double, Eigen::Dynamic>> finer(device, angle);
   return all_of(finer, parameters);
 }
 

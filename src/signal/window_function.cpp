@@ -61,7 +61,7 @@ double independent_segments(const std::vector<double>& window, std::size_t segme
   const std::span<const double> w(window);
   double energy = 0.0;
   for (const double value : w) energy += value * value;
-  const double count = static_cast<double>(segments);
+  const auto count = static_cast<double>(segments);
   double sum = 1.0;
   for (std::size_t j = 1; j < segments && j * step < w.size(); ++j) {
     double product = 0.0;
