@@ -36,15 +36,15 @@ class BranchBuilder {
  public:
   explicit BranchBuilder(const BoundaryCurve& curve) : curve_(curve) {}
 
-  void add(const Strand& strand) {
-    if (!strand.follows) {
+  void add(const BoundarySegment& segment) {
+    if (!segment.follows) {
       finish();
-      nodes_ = {node_at(curve_, strand.begin)};
+      nodes_ = {node_at(curve_, segment.begin)};
     }
-    end_ = strand.end;
-    const int sign = strand.damping_sign();
+    end_ = segment.end;
+    const int sign = segment.damping_sign();
     if (sign == 0) return;
-    const Node begin = node_at(curve_, strand.begin);
+    const Node begin = node_at(curve_, segment.begin);
     if (direction_ == -sign) {
       const Node turn = extremum(curve_, nodes_.back().angle, begin.angle, direction_);
       nodes_.push_back(turn);
@@ -53,7 +53,7 @@ class BranchBuilder {
     }
     direction_ = sign;
     if (nodes_.back().angle < begin.angle) nodes_.push_back(begin);
-    nodes_.push_back(node_at(curve_, strand.end));
+    nodes_.push_back(node_at(curve_, segment.end));
   }
 
   void finish() {
@@ -71,7 +71,7 @@ class BranchBuilder {
  private:
   const BoundaryCurve& curve_;
   std::vector<Node> nodes_;
-  double end_ = 0.0;   // x where the last strand ended
+  double end_ = 0.0;   // x where the last segment ended
   int direction_ = 0;  // of B
 };
 
@@ -99,9 +99,9 @@ BoundaryBranch::Node BoundaryBranch::at_damping(const BoundaryCurve& curve, doub
   return {angle, curve.at(angle)};
 }
 
-std::vector<BoundaryBranch> boundary_branches(const BoundaryCurve& curve, std::span<const Strand> strands) {
+std::vector<BoundaryBranch> boundary_branches(const BoundaryCurve& curve, std::span<const BoundarySegment> segments) {
   BranchBuilder builder(curve);
-  for (const Strand& strand : strands) builder.add(strand);
+  for (const BoundarySegment& segment : segments) builder.add(segment);
   builder.finish();
   return std::move(builder.branches);
 }

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "design/strand.hpp"
+#include "design/boundary_segment.hpp"
 
 namespace zwidth::internal {
 
@@ -29,7 +29,7 @@ class BoundaryBranch {
   std::vector<Node> nodes_;
 };
 
-// The strands as branches, divided at the extrema of B.
-std::vector<BoundaryBranch> boundary_branches(const BoundaryCurve& curve, std::span<const Strand> strands);
+// The segments as branches, divided at the extrema of B.
+std::vector<BoundaryBranch> boundary_branches(const BoundaryCurve& curve, std::span<const BoundarySegment> segments);
 
 }  // namespace zwidth::internal

@@ -6,8 +6,10 @@
 namespace zwidth::internal {
 namespace {
 
-// Ends this close, as a share of the greatest |K| + |B|/T of the level, meet.
-constexpr double same_place = 1e-7;
+// Ends this close, as a share of the greatest |K| + |B|/T of the level, meet. The least that leaves every place with an
+// even number of open ends: beside a pole that is hardly damped K is known to fewer digits.
+constexpr double same_place[] = {1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4};
+constexpr double usual_place = 1e-7;  // where none does: a boundary runs along the level
 
 }  // namespace
 
@@ -47,7 +49,7 @@ void RegionLinks::pair(const EdgeEnd& a, const EdgeEnd& b) {
   partners_[index(b)] = a;
 }
 
-// The ends at one level by rising K: of the slab that begins there and of the one that ends there.
+// The ends at one level: of the slab that begins there and of the one that ends there.
 std::vector<RegionLinks::Placed> RegionLinks::ends_at_bottom_of(std::size_t slab) const {
   std::vector<Placed> ends;
   const auto add = [&](std::size_t of, bool top) {
@@ -60,38 +62,73 @@ std::vector<RegionLinks::Placed> RegionLinks::ends_at_bottom_of(std::size_t slab
   };
   if (slab > 0) add(slab - 1, true);
   if (slab < structure_.slabs.size()) add(slab, false);
-  std::sort(ends.begin(), ends.end(), [](const Placed& a, const Placed& b) { return a.stiffness < b.stiffness; });
   return ends;
 }
 
-// By continuity the cells below and those above cover the same K at their common level. So an end is in the same place
-// as its neighbour by rising K. Where more than two meet, a cell that is born or dies there closes on itself, and of
-// the rest right sides go on as right sides.
-void RegionLinks::link_bottom_of(std::size_t slab) {
-  std::vector<Placed> ends = ends_at_bottom_of(slab);
-  if (ends.empty()) return;
-  const double damping = this->damping(ends.front().end);
-  const double tolerance = same_place * (ends.back().stiffness + damping / structure_.curve.plant().period);
+// Numbers ends that are in the same place, which `ends` by rising K is sorted into, right sides first; answers those
+// that stay open where a cell that is born or dies in one place closes on itself.
+std::vector<RegionLinks::Placed> RegionLinks::open_ends(std::vector<Placed>& ends, double tolerance) {
+  std::sort(ends.begin(), ends.end(), [](const Placed& a, const Placed& b) { return a.stiffness < b.stiffness; });
   for (std::size_t i = 1; i < ends.size(); ++i) {
     ends[i].cluster = ends[i - 1].cluster + (ends[i].stiffness - ends[i - 1].stiffness > tolerance ? 1 : 0);
   }
-  std::sort(ends.begin(), ends.end(), [](const Placed& a, const Placed& b) {
+  std::stable_sort(ends.begin(), ends.end(), [](const Placed& a, const Placed& b) {
     if (a.cluster != b.cluster) return a.cluster < b.cluster;
     return a.end.right > b.end.right;
   });
-  std::vector<EdgeEnd> open;
+  std::vector<Placed> open;
   for (const Placed& each : ends) {
     EdgeEnd other = each.end;
     other.right = !other.right;
     const auto same_cell =
         std::find_if(ends.begin(), ends.end(), [&](const Placed& placed) { return placed.end == other; });
-    if (same_cell->cluster == each.cluster) {
-      pair(each.end, other);
-    } else {
-      open.push_back(each.end);
+    if (same_cell->cluster != each.cluster) open.push_back(each);
+  }
+  return open;
+}
+
+// By continuity the cells below and those above cover the same K at their common level. So an end is in the same place
+// as its neighbour by rising K. Where more than two meet, a cell that is born or dies there closes on itself, and of
+// the others right sides go on as right sides. Where a boundary runs along the level its ends are left over: they are
+// joined along it.
+void RegionLinks::link_bottom_of(std::size_t slab) {
+  std::vector<Placed> ends = ends_at_bottom_of(slab);
+  if (ends.empty()) return;
+  const double damping = this->damping(ends.front().end);
+  double greatest = 0.0;
+  for (const Placed& each : ends) greatest = std::max(greatest, each.stiffness);
+  const double extent = greatest + damping / structure_.curve.plant().period;
+  const auto is_even = [](const std::vector<Placed>& open) {
+    if (open.size() % 2 != 0) return false;
+    for (std::size_t i = 0; i < open.size(); i += 2) {
+      if (open[i].cluster != open[i + 1].cluster) return false;
+    }
+    return true;
+  };
+  double tolerance = usual_place * extent;
+  if (damping > 0.0) {
+    for (const double place : same_place) {
+      if (!is_even(open_ends(ends, place * extent))) continue;
+      tolerance = place * extent;
+      break;
     }
   }
-  for (std::size_t i = 0; i + 1 < open.size(); i += 2) pair(open[i], open[i + 1]);
+  const std::vector<Placed> open = open_ends(ends, tolerance);
+  for (const Placed& each : ends) {  // those that close on themselves
+    EdgeEnd other = each.end;
+    other.right = !other.right;
+    pair(each.end, other);
+  }
+  std::vector<EdgeEnd> left_over;
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    if (i + 1 < open.size() && open[i].cluster == open[i + 1].cluster) {
+      pair(open[i].end, open[i + 1].end);
+      ++i;
+    } else {
+      left_over.push_back(open[i].end);
+    }
+  }
+  for (std::size_t i = 0; i + 1 < left_over.size(); i += 2) pair(left_over[i], left_over[i + 1]);
   if (slab > 0 && slab < structure_.slabs.size()) join(slab, tolerance);
 }
 

@@ -42,6 +42,7 @@ class RegionLinks {
   }
   [[nodiscard]] std::size_t root(std::size_t cell) const;
   [[nodiscard]] std::vector<Placed> ends_at_bottom_of(std::size_t slab) const;
+  [[nodiscard]] static std::vector<Placed> open_ends(std::vector<Placed>& ends, double tolerance);
   void link_bottom_of(std::size_t slab);
   void join(std::size_t upper_slab, double tolerance);
   void pair(const EdgeEnd& a, const EdgeEnd& b);

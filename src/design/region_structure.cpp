@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "design/strand_crossings.hpp"
+#include "design/boundary_crossings.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth::internal {
@@ -15,16 +15,21 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Levels of B closer than this, relative, are one.
 constexpr double same_level = 1e-11;
-// A slab is checked this share of its height from either end, and divided where it does not hold there, down to this
-// height relative to B.
+// A slab is checked this share of its height from either end, and by this ratio of B between down to this share of its
+// top; it is divided where it does not hold there, down to this height relative to B.
 constexpr double guard_share = 1e-3;
+constexpr double check_ratio = 4.0;
+constexpr double lowest_share = 1e-6;
 constexpr double least_height = 1e-9;
+// The lowest slab is divided by this ratio, as far down as this share of the highest B.
+constexpr double first_division = 32.0;
+constexpr double least_level = 1e-12;
 // Two routes to one K agree to this share of |K| + |B|/T.
 constexpr double same_stiffness = 1e-6;
 // An angle this far, relative, outside a branch is on its end.
 constexpr double same_angle = 1e-6;
 
-Strand line(const WallPoint& from, const WallPoint& to) {
+BoundarySegment line(const WallPoint& from, const WallPoint& to) {
   const auto jet = [](double a, double b) { return BoundaryCurve::Jet{0.5 * (a + b), 0.5 * (b - a), 0.0, 0.0}; };
   return {jet(from.stiffness, to.stiffness), jet(from.damping, to.damping), 0.0, 1.0, true};
 }
@@ -50,30 +55,30 @@ RegionStructure::RegionStructure(FilteredPlant plant, double velocity_filter_hz)
   }
   nyquist = if_positive(curve.nyquist_stiffness());
   drift = drift_stiffness(curve);
-  const std::vector<Strand> strands = curve_strands(curve, wall_bounds(curve));
-  branches = boundary_branches(curve, strands);
-  const std::vector<double> found = levels(strands);
-  for (std::size_t i = 0; i + 1 < found.size(); ++i) add_slab(found[i], found[i + 1]);
+  const std::vector<BoundarySegment> segments = curve_segments(curve, wall_bounds(curve));
+  branches = boundary_branches(curve, segments);
+  const std::vector<double> found = levels(segments);
+  for (std::size_t i = 0; i + 1 < found.size(); ++i) add_slabs(found[i], found[i + 1]);
   while (!slabs.empty() && slabs.back().cells.empty()) slabs.pop_back();
 }
 
-std::vector<Strand> RegionStructure::straight_strands(double top) const {
-  std::vector<Strand> lines;
+std::vector<BoundarySegment> RegionStructure::straight_segments(double top) const {
+  std::vector<BoundarySegment> lines;
   if (nyquist) lines.push_back(line({*nyquist, 0.0}, {0.0, *nyquist / curve.velocity_at_nyquist()}));
-  for (const Strand& each : lines) top = std::max(top, greatest(each.damping));
+  for (const BoundarySegment& each : lines) top = std::max(top, greatest(each.damping));
   lines.push_back(line({0.0, 0.0}, {0.0, top}));
   if (drift) lines.push_back(line({*drift, 0.0}, {*drift, top}));
   return lines;
 }
 
 // Every B at which the stable intervals of K may change, from 0.
-std::vector<double> RegionStructure::levels(const std::vector<Strand>& strands) const {
+std::vector<double> RegionStructure::levels(const std::vector<BoundarySegment>& segments) const {
   std::vector<double> found;
   double top = 0.0;
-  for (const Strand& strand : strands) top = std::max(top, greatest(strand.damping));
-  std::vector<Strand> all = strands;
-  for (const Strand& each : straight_strands(top)) all.push_back(each);
-  for (const WallPoint& wall : strand_crossings(curve, all)) found.push_back(wall.damping);
+  for (const BoundarySegment& segment : segments) top = std::max(top, greatest(segment.damping));
+  std::vector<BoundarySegment> all = segments;
+  for (const BoundarySegment& each : straight_segments(top)) all.push_back(each);
+  for (const WallPoint& wall : boundary_crossings(curve, all)) found.push_back(wall.damping);
   for (const BoundaryBranch& branch : branches) {
     for (const BoundaryBranch::Node* end : {&branch.nodes().front(), &branch.nodes().back()}) {
       if (end->wall.stiffness >= 0.0) found.push_back(end->wall.damping);
@@ -134,32 +139,72 @@ RegionStructure::EdgePoint RegionStructure::edge_at(const RegionEdge& edge, doub
   return {0.0, 0.0};
 }
 
-// Whether the cells are the stable intervals at this B.
-bool RegionStructure::hold_at(const std::vector<RegionCell>& cells, double damping) const {
-  const auto exact = critical_stiffness(curve.plant(), {damping, curve.velocity_filter_hz()}).stable_intervals;
-  const auto agrees = [&](const RegionEdge& edge, double stiffness) {
-    const double found = edge_at(edge, damping).stiffness;
-    return std::abs(found - stiffness) <= same_stiffness * (stiffness + damping / curve.plant().period);
+// Whether the cells are the stable intervals at this B: between the same pieces of boundary, or to rounding at the same
+// K.
+bool RegionStructure::agree_at(const std::vector<RegionCell>& cells, double damping) const {
+  const std::vector<RegionCell> exact = cells_at(damping);
+  const auto agree = [&](const RegionEdge& a, const RegionEdge& b) {
+    if (a == b) return true;
+    const double here = edge_at(a, damping).stiffness;
+    const double there = edge_at(b, damping).stiffness;
+    return std::abs(here - there) <= same_stiffness * (std::abs(there) + damping / curve.plant().period);
   };
   return std::equal(cells.begin(), cells.end(), exact.begin(), exact.end(),
-                    [&](const RegionCell& cell, const StableInterval& interval) {
-                      return agrees(cell.left, interval.lower) &&
-                             cell.right.has_value() == interval.upper.has_value() &&
-                             (!cell.right || agrees(*cell.right, *interval.upper));
+                    [&](const RegionCell& a, const RegionCell& b) {
+                      return agree(a.left, b.left) && a.right.has_value() == b.right.has_value() &&
+                             (!a.right || agree(*a.right, *b.right));
                     });
 }
 
-void RegionStructure::add_slab(double lower, double upper) {
-  const double height = upper - lower;
-  const double middle = lower + 0.5 * height;
-  std::vector<RegionCell> cells = cells_at(middle);
-  const double guard = guard_share * height;
-  if (height > least_height * upper && !(hold_at(cells, lower + guard) && hold_at(cells, upper - guard))) {
-    add_slab(lower, middle);
-    add_slab(middle, upper);
-    return;
+// Near both ends; and where it spans orders of magnitude at several places between.
+bool RegionStructure::agree_within(const std::vector<RegionCell>& cells, double lower, double upper) const {
+  const double guard = guard_share * (upper - lower);
+  if (!agree_at(cells, lower + guard) || !agree_at(cells, upper - guard)) return false;
+  const double lowest = std::max(lower, lowest_share * upper);
+  for (double damping = upper / check_ratio; damping > lowest; damping /= check_ratio) {
+    if (!agree_at(cells, damping)) return false;
   }
-  slabs.push_back({lower, upper, std::move(cells)});
+  return true;
+}
+
+// Goes on with the last slab where the cells are the same.
+void RegionStructure::add(double lower, double upper, std::vector<RegionCell> cells) {
+  if (!slabs.empty() && slabs.back().cells == cells) {
+    slabs.back().upper = upper;
+  } else {
+    slabs.push_back({lower, upper, std::move(cells)});
+  }
+}
+
+void RegionStructure::add_slabs(double bottom, double top) {
+  struct Range {
+    double lower;
+    double upper;
+  };
+  std::vector<Range> ranges{{bottom, top}};  // the lowest last
+  while (!ranges.empty()) {
+    const auto [lower, upper] = ranges.back();
+    ranges.pop_back();
+    if (divisions_left_-- == 0) {
+      throw Error(ErrorCode::did_not_converge,
+                  "the stable stiffnesses change too often as the virtual damper varies for their region to be told");
+    }
+    const double height = upper - lower;
+    std::vector<RegionCell> cells = cells_at(lower + 0.5 * height);
+    if (height <= least_height * upper || agree_within(cells, lower, upper)) {
+      add(lower, upper, std::move(cells));
+      continue;
+    }
+    const double division = lower == 0.0          ? upper / first_division
+                            : upper > 4.0 * lower ? std::sqrt(lower * upper)
+                                                  : lower + 0.5 * height;
+    if (division <= least_level * top) {
+      add(lower, upper, std::move(cells));
+      continue;
+    }
+    ranges.push_back({division, upper});
+    ranges.push_back({lower, division});
+  }
 }
 
 }  // namespace zwidth::internal

@@ -13,12 +13,14 @@ namespace zwidth::internal {
 struct RegionEdge {
   BoundaryKind kind = BoundaryKind::oscillation;
   std::size_t branch = 0;  // of an oscillation
+  friend bool operator==(const RegionEdge&, const RegionEdge&) = default;
 };
 
 // A stable interval of K while B varies: between two edges.
 struct RegionCell {
   RegionEdge left;
   std::optional<RegionEdge> right;  // absent: unbounded
+  friend bool operator==(const RegionCell&, const RegionCell&) = default;
 };
 
 // A range of B over which the same cells lie side by side.
@@ -29,6 +31,10 @@ struct RegionSlab {
 };
 
 struct RegionStructure {
+  // Of ranges of B into slabs.
+  static constexpr std::size_t max_divisions = 4000;
+
+  // Throws Error (did_not_converge) at the cap, and as boundary_segments() and critical_stiffness() do.
   RegionStructure(FilteredPlant plant, double velocity_filter_hz);
 
   struct EdgePoint {
@@ -44,11 +50,15 @@ struct RegionStructure {
   std::vector<RegionSlab> slabs;  // by rising B, one on the other from B = 0; nothing is stable above the last
 
  private:
-  [[nodiscard]] std::vector<Strand> straight_strands(double top) const;
-  [[nodiscard]] std::vector<double> levels(const std::vector<Strand>& strands) const;
+  [[nodiscard]] std::vector<BoundarySegment> straight_segments(double top) const;
+  [[nodiscard]] std::vector<double> levels(const std::vector<BoundarySegment>& segments) const;
   [[nodiscard]] std::vector<RegionCell> cells_at(double damping) const;
-  [[nodiscard]] bool hold_at(const std::vector<RegionCell>& cells, double damping) const;
-  void add_slab(double lower, double upper);
+  [[nodiscard]] bool agree_at(const std::vector<RegionCell>& cells, double damping) const;
+  [[nodiscard]] bool agree_within(const std::vector<RegionCell>& cells, double lower, double upper) const;
+  void add(double lower, double upper, std::vector<RegionCell> cells);
+  void add_slabs(double bottom, double top);
+
+  std::size_t divisions_left_ = max_divisions;
 };
 
 }  // namespace zwidth::internal

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "stability/mechanism_at.hpp"
+#include "zwidth/error.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -19,6 +21,7 @@ class RingTracer {
       : structure_(structure), links_(structure), deviation_(deviation) {
     for (const RegionSlab& slab : structure.slabs) {
       for (const RegionCell& cell : slab.cells) {
+        steps_left_ += 2;
         for (const RegionEdge& edge : {cell.left, *cell.right}) measure(edge, slab);
       }
     }
@@ -36,8 +39,10 @@ class RingTracer {
       from = links_.partner(to);
       if (links_.damping(to) == 0.0) {
         add(traced.ring, BoundaryKind::no_damping, {plain(to), plain(from)});
+      } else if (apart(place(to), place(from)) > joint) {
+        add(traced.ring, BoundaryKind::oscillation, level_points(to, from));
       }
-    } while (!(from == start));
+    } while (!(from == start) && steps_left_-- > 0);
     close(traced.ring);
     return traced;
   }
@@ -55,8 +60,10 @@ class RingTracer {
     }
   }
 
+  [[nodiscard]] WallPoint place(const EdgeEnd& end) const { return {links_.point(end).stiffness, links_.damping(end)}; }
+
   [[nodiscard]] BoundaryPoint plain(const EdgeEnd& end) const {
-    return {links_.point(end).stiffness, links_.damping(end), std::nullopt, std::nullopt};
+    return {std::max(links_.point(end).stiffness, 0.0), links_.damping(end), std::nullopt, std::nullopt};
   }
 
   [[nodiscard]] BoundaryPoint at_angle(const WallPoint& wall, double angle) const {
@@ -122,6 +129,33 @@ class RingTracer {
     return points;
   }
 
+  // From one end to the other along a branch of constant B: the product of the loop's poles is 1 there.
+  [[nodiscard]] std::vector<BoundaryPoint> level_points(const EdgeEnd& from, const EdgeEnd& to) const {
+    const double level = links_.damping(from);
+    for (const BoundaryBranch& branch : structure_.branches) {
+      const auto on_level = [&](const Node& node) { return std::abs(node.wall.damping - level) <= same_level * level; };
+      const std::vector<Node>& nodes = branch.nodes();
+      if (!std::all_of(nodes.begin(), nodes.end(), on_level)) continue;
+      const Node first = at_stiffness(nodes.front(), nodes.back(), links_.point(from).stiffness);
+      const Node last = at_stiffness(nodes.front(), nodes.back(), links_.point(to).stiffness);
+      if (apart(first.wall, place(from)) > joint || apart(last.wall, place(to)) > joint) continue;
+      return {at_angle(first.wall, first.angle), at_angle(last.wall, last.angle)};
+    }
+    throw Error(ErrorCode::did_not_converge, "the outline of the stable walls does not close");
+  }
+
+  // Where the curve between two nodes has this K, by halving.
+  [[nodiscard]] Node at_stiffness(Node a, Node b, double stiffness) const {
+    if (std::abs(a.wall.stiffness - stiffness) <= same_level * stiffness) return a;
+    for (int i = 0; i < max_halvings; ++i) {
+      const double angle = 0.5 * (a.angle + b.angle);
+      const Node middle{angle, structure_.curve.at(angle)};
+      const bool beyond = (middle.wall.stiffness > stiffness) == (b.wall.stiffness > stiffness);
+      (beyond ? b : a) = middle;
+    }
+    return b;
+  }
+
   void add_edge(BoundaryRing& ring, const EdgeEnd& from, const EdgeEnd& to) const {
     const BoundaryKind kind = links_.edge(from).kind;
     if (kind == BoundaryKind::oscillation) {
@@ -137,22 +171,34 @@ class RingTracer {
     }
   }
 
+  static WallPoint wall(const BoundaryPoint& point) { return {point.stiffness, point.damping}; }
+
+  // Two routes to the same vertex differ by rounding.
+  void join(BoundaryPoint& moved, const BoundaryPoint& fixed) const {
+    if (apart(wall(moved), wall(fixed)) > joint) {
+      throw Error(ErrorCode::did_not_converge, "the outline of the stable walls does not close");
+    }
+    moved.stiffness = fixed.stiffness;
+    moved.damping = fixed.damping;
+  }
+
   // Goes on with the last arc where the kind and the place are the same.
-  void add(BoundaryRing& ring, BoundaryKind kind, const std::vector<BoundaryPoint>& points) const {
-    const auto wall = [](const BoundaryPoint& point) { return WallPoint{point.stiffness, point.damping}; };
+  void add(BoundaryRing& ring, BoundaryKind kind, std::vector<BoundaryPoint> points) const {
+    if (!ring.arcs.empty()) join(points.front(), ring.arcs.back().points.back());
     if (points.size() == 2 && apart(wall(points[0]), wall(points[1])) == 0.0) return;
     if (!ring.arcs.empty() && continues(ring.arcs.back(), kind, points.front())) {
       auto& last = ring.arcs.back().points;
       if (kind != BoundaryKind::oscillation) last.pop_back();
       last.insert(last.end(), points.begin() + 1, points.end());
     } else {
-      ring.arcs.push_back({kind, points});
+      ring.arcs.push_back({kind, std::move(points)});
     }
   }
 
   // The last arc may be the start of the first.
   void close(BoundaryRing& ring) const {
     if (ring.arcs.size() < 2) return;
+    join(ring.arcs.back().points.back(), ring.arcs.front().points.front());
     BoundaryArc& first = ring.arcs.front();
     BoundaryArc& last = ring.arcs.back();
     if (!continues(last, first.kind, first.points.front())) return;
@@ -169,6 +215,9 @@ class RingTracer {
            std::abs(*end.frequency - *point.frequency) <= same_frequency * *point.frequency;
   }
 
+  static constexpr double joint = 1e-4;  // of the extent: ends this far apart are one vertex
+  static constexpr double same_level = 1e-9;
+  static constexpr int max_halvings = 60;
   static constexpr double spacing = 1e-3;
   static constexpr double rounding = 1e-14;
 
@@ -177,6 +226,7 @@ class RingTracer {
   double deviation_;
   double stiffness_extent_ = 0.0;
   double damping_extent_ = 0.0;
+  std::size_t steps_left_ = 0;  // of tracing: every side once
 };
 
 }  // namespace

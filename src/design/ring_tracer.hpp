@@ -15,6 +15,7 @@ struct TracedRing {
 
 // Every closed boundary of the region, the region on its left, with points of the curve so dense that chords stay
 // within `deviation` of it (a share of the region's extent in K and in B).
+// Throws Error (did_not_converge) where a boundary does not close.
 std::vector<TracedRing> trace_rings(const RegionStructure& structure, double deviation);
 
 }  // namespace zwidth::internal

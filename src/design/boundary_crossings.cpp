@@ -1,8 +1,9 @@
-#include "design/strand_crossings.hpp"
+#include "design/boundary_crossings.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numeric>
 #include <optional>
 
@@ -15,17 +16,20 @@ using Jet = BoundaryCurve::Jet;
 
 constexpr std::size_t max_pairs = 20'000'000;
 constexpr int max_newton_steps = 60;
-constexpr double newton_tolerance = 1e-13;  // of a strand's half length, or of |K| + |B|/T
-constexpr double end_tolerance = 1e-6;      // the same: a crossing this far outside still counts
+constexpr double newton_tolerance = 1e-13;  // of a segment's half length, or of |K| + |B|/T
+// Steps this small, as a share of the half length, that do not halve any more move within rounding: along a segment
+// that is steep beside a pole the curve is not known any better.
+constexpr double rounding_steps = 1e-6;
+constexpr double end_tolerance = 1e-6;  // the same: a crossing this far outside still counts
 constexpr double greatest_uncertainty = 0.4;
 
 bool are_apart(const Jet& a, const Jet& b) { return greatest(a) < least(b) || greatest(b) < least(a); }
 
 // Apart along the normal of a.
-bool are_apart_across(const Strand& a, const Strand& b) {
+bool are_apart_across(const BoundarySegment& a, const BoundarySegment& b) {
   const double offset = (b.stiffness.value - a.stiffness.value) * a.damping.slope -
                         (b.damping.value - a.damping.value) * a.stiffness.slope;
-  const auto reach = [&](const Strand& s) {
+  const auto reach = [&](const BoundarySegment& s) {
     return std::abs(s.stiffness.slope * a.damping.slope - s.damping.slope * a.stiffness.slope) +
            0.5 * (s.stiffness.bend * std::abs(a.damping.slope) + s.damping.bend * std::abs(a.stiffness.slope));
   };
@@ -34,17 +38,17 @@ bool are_apart_across(const Strand& a, const Strand& b) {
 
 bool run_alike(int a, int b) { return a != 0 && a == b; }
 
-// Strands that follow one another and both rise (or fall) in one quantity meet at their common end alone.
-bool part_for_good(const Strand& a, const Strand& b) {
+// Segments that follow one another and both rise (or fall) in one quantity meet at their common end alone.
+bool part_for_good(const BoundarySegment& a, const BoundarySegment& b) {
   return run_alike(a.damping_sign(), b.damping_sign()) || run_alike(a.stiffness_sign(), b.stiffness_sign());
 }
 
-double cross_product(const Strand& a, const Strand& b) {
+double cross_product(const BoundarySegment& a, const BoundarySegment& b) {
   return a.stiffness.slope * b.damping.slope - a.damping.slope * b.stiffness.slope;
 }
 
 // Directions of a and b differ everywhere: at most one crossing, which simplified Newton steps reach.
-bool are_transversal(const Strand& a, const Strand& b) {
+bool are_transversal(const BoundarySegment& a, const BoundarySegment& b) {
   const double uncertainty =
       a.stiffness.bend * (std::abs(b.damping.slope) + b.damping.bend) + std::abs(a.stiffness.slope) * b.damping.bend +
       a.damping.bend * (std::abs(b.stiffness.slope) + b.stiffness.bend) + std::abs(a.damping.slope) * b.stiffness.bend;
@@ -55,7 +59,7 @@ class CrossingSearch {
  public:
   explicit CrossingSearch(const BoundaryCurve& curve) : curve_(curve), period_(curve.plant().period) {}
 
-  void compare(const Strand& a, const Strand& b, bool adjacent) {
+  void compare(const BoundarySegment& a, const BoundarySegment& b, bool adjacent) {
     if (pairs_left_-- == 0) throw Error(ErrorCode::did_not_converge, "the stability boundary crosses itself too often");
     if (are_apart(a.damping, b.damping) || are_apart(a.stiffness, b.stiffness)) return;
     if (adjacent ? part_for_good(a, b) : are_apart_across(a, b) || are_apart_across(b, a)) return;
@@ -66,14 +70,14 @@ class CrossingSearch {
     }
     const bool a_is_point = is_point(a, period_);
     if (a_is_point && is_point(b, period_)) {
-      if (!adjacent) add({a.stiffness.value, a.damping.value});
+      if (!adjacent) add(centre_of(a, b));
       return;
     }
     // The longer one is divided; a straight line only where the other is a point.
     const bool divide_a = !a_is_point && (is_point(b, period_) || size(a) >= size(b));
     const auto parts = halves(curve_, divide_a ? a : b);
     if (!parts) {
-      add({a.stiffness.value, a.damping.value});
+      add(centre_of(a, b));
       return;
     }
     if (divide_a) {
@@ -98,15 +102,22 @@ class CrossingSearch {
     if (wall.damping >= 0.0 && wall.stiffness >= -finest_detail * wall.damping / period_) crossings.push_back(wall);
   }
 
-  [[nodiscard]] double size(const Strand& s) const {
+  // Of two segments that touch; a straight one is known best.
+  [[nodiscard]] static WallPoint centre_of(const BoundarySegment& a, const BoundarySegment& b) {
+    const BoundarySegment& known = b.straight ? b : a;
+    return {known.stiffness.value, known.damping.value};
+  }
+
+  [[nodiscard]] double size(const BoundarySegment& s) const {
     return std::abs(s.stiffness.slope) * period_ + std::abs(s.damping.slope);
   }
 
   // Solves a(s) = b(t) with the slopes at the centres.
-  [[nodiscard]] Meeting meet(const Strand& a, const Strand& b) const {
+  [[nodiscard]] Meeting meet(const BoundarySegment& a, const BoundarySegment& b) const {
     const double determinant = cross_product(b, a);
     double s = 0.0;
     double t = 0.0;
+    double last_step = std::numeric_limits<double>::infinity();
     for (int step = 0; step < max_newton_steps; ++step) {
       const WallPoint at_a = point_of(curve_, a, s);
       const WallPoint at_b = point_of(curve_, b, t);
@@ -120,9 +131,12 @@ class CrossingSearch {
       if (!(reached < 3.0)) return {true, false, {}};
       const double rounding = newton_tolerance * (std::abs(at_a.stiffness) * period_ + std::abs(at_a.damping));
       const bool meets = std::abs(stiffness) * period_ + std::abs(damping) <= rounding;
-      if (meets || (std::abs(ds) <= newton_tolerance && std::abs(dt) <= newton_tolerance)) {
-        return {true, reached <= 1.0 + end_tolerance, at_a};
+      const double this_step = std::max(std::abs(ds), std::abs(dt));
+      const bool rounded = this_step <= rounding_steps && this_step > 0.5 * last_step;
+      if (meets || rounded || this_step <= newton_tolerance) {
+        return {true, reached <= 1.0 + end_tolerance, b.straight ? at_b : at_a};
       }
+      last_step = this_step;
     }
     return {};
   }
@@ -132,14 +146,15 @@ class CrossingSearch {
   std::size_t pairs_left_ = max_pairs;
 };
 
-// Numbers runs of strands that follow one another and all rise, or all fall, in one quantity; 0 outside such runs.
-std::vector<std::size_t> monotone_runs(std::span<const Strand> strands, int (Strand::*sign)() const) {
-  std::vector<std::size_t> runs(strands.size(), 0);
+// Numbers runs of segments that follow one another and all rise, or all fall, in one quantity; 0 outside such runs.
+std::vector<std::size_t> monotone_runs(std::span<const BoundarySegment> segments,
+                                       int (BoundarySegment::*sign)() const) {
+  std::vector<std::size_t> runs(segments.size(), 0);
   std::size_t run = 0;
-  for (std::size_t i = 0; i < strands.size(); ++i) {
-    const int here = (strands[i].*sign)();
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    const int here = (segments[i].*sign)();
     if (here == 0) continue;
-    const bool goes_on = i > 0 && strands[i].follows && (strands[i - 1].*sign)() == here;
+    const bool goes_on = i > 0 && segments[i].follows && (segments[i - 1].*sign)() == here;
     if (!goes_on) ++run;
     runs[i] = run;
   }
@@ -148,21 +163,21 @@ std::vector<std::size_t> monotone_runs(std::span<const Strand> strands, int (Str
 
 }  // namespace
 
-std::vector<WallPoint> strand_crossings(const BoundaryCurve& curve, std::span<const Strand> strands) {
-  const std::vector<std::size_t> by_damping = monotone_runs(strands, &Strand::damping_sign);
-  const std::vector<std::size_t> by_stiffness = monotone_runs(strands, &Strand::stiffness_sign);
-  std::vector<std::size_t> order(strands.size());
+std::vector<WallPoint> boundary_crossings(const BoundaryCurve& curve, std::span<const BoundarySegment> segments) {
+  const std::vector<std::size_t> by_damping = monotone_runs(segments, &BoundarySegment::damping_sign);
+  const std::vector<std::size_t> by_stiffness = monotone_runs(segments, &BoundarySegment::stiffness_sign);
+  std::vector<std::size_t> order(segments.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(),
-            [&](std::size_t i, std::size_t j) { return least(strands[i].damping) < least(strands[j].damping); });
+            [&](std::size_t i, std::size_t j) { return least(segments[i].damping) < least(segments[j].damping); });
   CrossingSearch search(curve);
   for (std::size_t k = 0; k < order.size(); ++k) {
-    const double top = greatest(strands[order[k]].damping);
-    for (std::size_t l = k + 1; l < order.size() && least(strands[order[l]].damping) <= top; ++l) {
+    const double top = greatest(segments[order[k]].damping);
+    for (std::size_t l = k + 1; l < order.size() && least(segments[order[l]].damping) <= top; ++l) {
       const auto [i, j] = std::minmax(order[k], order[l]);
       if (by_damping[i] != 0 && by_damping[i] == by_damping[j]) continue;
       if (by_stiffness[i] != 0 && by_stiffness[i] == by_stiffness[j]) continue;
-      search.compare(strands[i], strands[j], j == i + 1 && strands[j].follows);
+      search.compare(segments[i], segments[j], j == i + 1 && segments[j].follows);
     }
   }
   return search.crossings;

@@ -11,13 +11,13 @@ namespace zwidth::internal {
 
 // A piece of boundary with K and B as first-order Taylor models in u in [-1, 1]: of the curve, on an interval of
 // x = |z - 1|², or of a straight line.
-struct Strand {
+struct BoundarySegment {
   BoundaryCurve::Jet stiffness;
   BoundaryCurve::Jet damping;
   double begin = 0.0;
   double end = 0.0;
   bool straight = false;
-  bool follows = false;  // the strand before it in the list ends where it begins
+  bool follows = false;  // the segment before it in the list ends where it begins
 
   // +1 or -1 where the quantity certainly rises or falls from begin to end, else 0.
   [[nodiscard]] int damping_sign() const { return sign(damping); }
@@ -33,19 +33,19 @@ struct Strand {
 inline constexpr double finest_detail = 1e-10;
 
 // Smaller than finest_detail in K and B, or too narrow to be divided.
-bool is_point(const Strand& strand, double period);
+bool is_point(const BoundarySegment& segment, double period);
 
 // K and B as quotients; nothing where P may vanish on the interval.
-std::optional<Strand> curve_strand(const BoundaryCurve& curve, double begin, double end);
+std::optional<BoundarySegment> curve_segment(const BoundaryCurve& curve, double begin, double end);
 
-WallPoint point_of(const BoundaryCurve& curve, const Strand& strand, double u);
+WallPoint point_of(const BoundaryCurve& curve, const BoundarySegment& segment, double u);
 
 // Both halves; nothing where a model fails.
-std::optional<std::array<Strand, 2>> halves(const BoundaryCurve& curve, const Strand& strand);
+std::optional<std::array<BoundarySegment, 2>> halves(const BoundaryCurve& curve, const BoundarySegment& segment);
 
-// The curve within K >= 0, B >= 0 and the bounds (and somewhat beyond), by rising x, in strands on each of which B
+// The curve within K >= 0, B >= 0 and the bounds (and somewhat beyond), by rising x, in segments on each of which B
 // certainly rises or falls, or K does and B changes by less than finest_detail of itself.
 // Throws Error (did_not_converge) past a cap on their number.
-std::vector<Strand> curve_strands(const BoundaryCurve& curve, const WallBounds& bounds);
+std::vector<BoundarySegment> curve_segments(const BoundaryCurve& curve, const WallBounds& bounds);
 
 }  // namespace zwidth::internal

@@ -1,4 +1,4 @@
-#include "design/strand.hpp"
+#include "design/boundary_segment.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -35,61 +35,61 @@ bool is_outside(const BoundaryCurve::Model& model, const WallBounds& bounds, dou
          least(model.stiffness) > bounds.stiffness * seen;
 }
 
-std::optional<Strand> quotient(const BoundaryCurve::Model& model, double begin, double end) {
+std::optional<BoundarySegment> quotient(const BoundaryCurve::Model& model, double begin, double end) {
   const double least_seen = least(model.seen);
   if (!(least_seen > 0.0)) return std::nullopt;
   const Jet inverse = reciprocal(model.seen, least_seen);
-  return Strand{model.stiffness * inverse, model.damping * inverse, begin, end};
+  return BoundarySegment{model.stiffness * inverse, model.damping * inverse, begin, end};
 }
 
-bool is_settled(const Strand& strand, double period) {
-  if (std::abs(strand.damping.slope) >= 2.0 * strand.damping.bend) return true;
-  const double damping = std::abs(strand.damping.value) + period * std::abs(strand.stiffness.value);
-  return std::abs(strand.stiffness.slope) >= 2.0 * strand.stiffness.bend &&
-         std::abs(strand.damping.slope) + strand.damping.bend <= finest_detail * damping;
+bool is_settled(const BoundarySegment& segment, double period) {
+  if (std::abs(segment.damping.slope) >= 2.0 * segment.damping.bend) return true;
+  const double damping = std::abs(segment.damping.value) + period * std::abs(segment.stiffness.value);
+  return std::abs(segment.stiffness.slope) >= 2.0 * segment.stiffness.bend &&
+         std::abs(segment.damping.slope) + segment.damping.bend <= finest_detail * damping;
 }
 
 }  // namespace
 
-bool is_point(const Strand& strand, double period) {
-  if (!strand.straight && is_narrow(strand.begin, strand.end)) return true;
+bool is_point(const BoundarySegment& segment, double period) {
+  if (!segment.straight && is_narrow(segment.begin, segment.end)) return true;
   const auto size = [](const Jet& a) { return std::abs(a.slope) + a.bend; };
-  const double stiffness = std::abs(strand.stiffness.value);
-  const double damping = std::abs(strand.damping.value);
-  return size(strand.stiffness) <= finest_detail * (stiffness + damping / period) &&
-         size(strand.damping) <= finest_detail * (damping + period * stiffness);
+  const double stiffness = std::abs(segment.stiffness.value);
+  const double damping = std::abs(segment.damping.value);
+  return size(segment.stiffness) <= finest_detail * (stiffness + damping / period) &&
+         size(segment.damping) <= finest_detail * (damping + period * stiffness);
 }
 
-std::optional<Strand> curve_strand(const BoundaryCurve& curve, double begin, double end) {
+std::optional<BoundarySegment> curve_segment(const BoundaryCurve& curve, double begin, double end) {
   return quotient(curve.model(begin, end), begin, end);
 }
 
-WallPoint point_of(const BoundaryCurve& curve, const Strand& strand, double u) {
-  if (strand.straight) {
-    return {strand.stiffness.value + u * strand.stiffness.slope, strand.damping.value + u * strand.damping.slope};
+WallPoint point_of(const BoundaryCurve& curve, const BoundarySegment& segment, double u) {
+  if (segment.straight) {
+    return {segment.stiffness.value + u * segment.stiffness.slope, segment.damping.value + u * segment.damping.slope};
   }
-  const double x = 0.5 * (strand.begin + strand.end) + 0.5 * u * (strand.end - strand.begin);
+  const double x = 0.5 * (segment.begin + segment.end) + 0.5 * u * (segment.end - segment.begin);
   return curve.at(angle_of(std::clamp(x, 0.0, 4.0)));
 }
 
-std::optional<std::array<Strand, 2>> halves(const BoundaryCurve& curve, const Strand& strand) {
-  if (strand.straight) {
+std::optional<std::array<BoundarySegment, 2>> halves(const BoundaryCurve& curve, const BoundarySegment& segment) {
+  if (segment.straight) {
     const auto part = [](const Jet& a, double centre) {
       return Jet{a.value + centre * a.slope, 0.5 * a.slope, 0.0, 0.0};
     };
-    const double middle = 0.5 * (strand.begin + strand.end);
-    return std::array<Strand, 2>{
-        Strand{part(strand.stiffness, -0.5), part(strand.damping, -0.5), strand.begin, middle, true},
-        Strand{part(strand.stiffness, 0.5), part(strand.damping, 0.5), middle, strand.end, true}};
+    const double middle = 0.5 * (segment.begin + segment.end);
+    return std::array<BoundarySegment, 2>{
+        BoundarySegment{part(segment.stiffness, -0.5), part(segment.damping, -0.5), segment.begin, middle, true},
+        BoundarySegment{part(segment.stiffness, 0.5), part(segment.damping, 0.5), middle, segment.end, true}};
   }
-  const double middle = root_isolation::division(strand.begin, strand.end);
-  const auto first = curve_strand(curve, strand.begin, middle);
-  const auto second = curve_strand(curve, middle, strand.end);
+  const double middle = root_isolation::division(segment.begin, segment.end);
+  const auto first = curve_segment(curve, segment.begin, middle);
+  const auto second = curve_segment(curve, middle, segment.end);
   if (!first || !second) return std::nullopt;
-  return std::array<Strand, 2>{*first, *second};
+  return std::array<BoundarySegment, 2>{*first, *second};
 }
 
-std::vector<Strand> curve_strands(const BoundaryCurve& curve, const WallBounds& bounds) {
+std::vector<BoundarySegment> curve_segments(const BoundaryCurve& curve, const WallBounds& bounds) {
   struct Interval {
     double begin;
     double end;
@@ -103,8 +103,8 @@ std::vector<Strand> curve_strands(const BoundaryCurve& curve, const WallBounds& 
     stack.push_back({4.0 * half_sine * half_sine, right});
     right = stack.back().begin;
   }
-  std::vector<Strand> strands;
-  double reached = -1.0;  // where the last strand ended
+  std::vector<BoundarySegment> segments;
+  double reached = -1.0;  // where the last segment ended
   for (std::size_t left = max_intervals_per_piece * pieces; !stack.empty(); --left) {
     if (left == 0) {
       throw Error(ErrorCode::did_not_converge,
@@ -114,11 +114,11 @@ std::vector<Strand> curve_strands(const BoundaryCurve& curve, const WallBounds& 
     stack.pop_back();
     const BoundaryCurve::Model model = curve.model(begin, end);
     if (is_outside(model, bounds, largest_wall)) continue;
-    std::optional<Strand> strand = quotient(model, begin, end);
+    std::optional<BoundarySegment> segment = quotient(model, begin, end);
     const bool narrow = is_narrow(begin, end);
-    if (strand && (narrow || is_settled(*strand, curve.plant().period))) {
-      strand->follows = begin == reached;
-      strands.push_back(*strand);
+    if (segment && (narrow || is_settled(*segment, curve.plant().period))) {
+      segment->follows = begin == reached;
+      segments.push_back(*segment);
       reached = end;
     } else if (!narrow) {  // where P vanishes on a narrow interval the curve passes through infinity
       const double middle = root_isolation::division(begin, end);
@@ -126,7 +126,7 @@ std::vector<Strand> curve_strands(const BoundaryCurve& curve, const WallBounds& 
       stack.push_back({begin, middle});
     }
   }
-  return strands;
+  return segments;
 }
 
 }  // namespace zwidth::internal
