@@ -17,7 +17,8 @@ struct BoundarySegment {
   double begin = 0.0;
   double end = 0.0;
   bool straight = false;
-  bool follows = false;  // the segment before it in the list ends where it begins
+  bool estimated = false;  // the bends are estimates from samples, not bounds
+  bool follows = false;    // the segment before it in the list ends where it begins
 
   // +1 or -1 where the quantity certainly rises or falls from begin to end, else 0.
   [[nodiscard]] int damping_sign() const { return sign(damping); }
@@ -38,6 +39,9 @@ bool is_point(const BoundarySegment& segment, double period);
 // K and B as quotients; nothing where P may vanish on the interval.
 std::optional<BoundarySegment> curve_segment(const BoundaryCurve& curve, double begin, double end);
 
+// The same with bends estimated from samples; nothing where one is not finite.
+std::optional<BoundarySegment> estimated_segment(const BoundaryCurve& curve, double begin, double end);
+
 WallPoint point_of(const BoundaryCurve& curve, const BoundarySegment& segment, double u);
 
 // Both halves; nothing where a model fails.
@@ -45,7 +49,15 @@ std::optional<std::array<BoundarySegment, 2>> halves(const BoundaryCurve& curve,
 
 // The curve within K >= 0, B >= 0 and the bounds (and somewhat beyond), by rising x, in segments on each of which B
 // certainly rises or falls, or K does and B changes by less than finest_detail of itself.
-// Throws Error (did_not_converge) past a cap on their number.
-std::vector<BoundarySegment> curve_segments(const BoundaryCurve& curve, const WallBounds& bounds);
+//
+// Bounds of the products of many factors are wide, those of a device that is hardly damped are lost in rounding. Where
+// they would take more than a cap of intervals, second derivatives are estimated instead, from samples that gather
+// around every pole; whoever relies on such segments must check what follows.
+// Throws Error (did_not_converge) past a cap on the number of those.
+struct CurveSegments {
+  std::vector<BoundarySegment> segments;
+  bool proven = true;  // no estimates
+};
+CurveSegments curve_segments(const BoundaryCurve& curve, const WallBounds& bounds);
 
 }  // namespace zwidth::internal

@@ -18,20 +18,33 @@ constexpr double same_level = 1e-11;
 // A slab is checked this share of its height from either end, and by this ratio of B between down to this share of its
 // top; it is divided where it does not hold there, down to this height relative to B.
 constexpr double guard_share = 1e-3;
-constexpr double check_ratio = 4.0;
-constexpr double lowest_share = 1e-6;
+constexpr double check_ratio = 8.0;
+constexpr double lowest_share = 1e-15;
 constexpr double least_height = 1e-9;
 // The lowest slab is divided by this ratio, as far down as this share of the highest B.
 constexpr double first_division = 32.0;
-constexpr double least_level = 1e-12;
+constexpr double least_level = 1e-16;
+// Pieces of a straight line beyond its lowest, and the ratio of their ends.
+constexpr int line_pieces = 30;
+constexpr double line_ratio = 4.0;
 // Two routes to one K agree to this share of |K| + |B|/T.
 constexpr double same_stiffness = 1e-6;
 // An angle this far, relative, outside a branch is on its end.
 constexpr double same_angle = 1e-6;
 
-BoundarySegment line(const WallPoint& from, const WallPoint& to) {
-  const auto jet = [](double a, double b) { return BoundaryCurve::Jet{0.5 * (a + b), 0.5 * (b - a), 0.0, 0.0}; };
-  return {jet(from.stiffness, to.stiffness), jet(from.damping, to.damping), 0.0, 1.0, true};
+// K = stiffness + slope B for 0 <= B <= top, in pieces by ratios of B: each knows B to rounding of itself.
+void add_line(std::vector<BoundarySegment>& lines, double stiffness, double slope, double top) {
+  double lower = 0.0;
+  for (int i = line_pieces; i >= 0; --i) {
+    const double upper = top * std::pow(line_ratio, -i);
+    const double middle = 0.5 * (lower + upper);
+    const double half = 0.5 * (upper - lower);
+    BoundarySegment piece{{stiffness + slope * middle, slope * half, 0.0, 0.0}, {middle, half, 0.0, 0.0}, lower, upper};
+    piece.straight = true;
+    piece.follows = i < line_pieces;
+    lines.push_back(piece);
+    lower = upper;
+  }
 }
 
 std::optional<double> if_positive(double value) {
@@ -55,7 +68,8 @@ RegionStructure::RegionStructure(FilteredPlant plant, double velocity_filter_hz)
   }
   nyquist = if_positive(curve.nyquist_stiffness());
   drift = drift_stiffness(curve);
-  const std::vector<BoundarySegment> segments = curve_segments(curve, wall_bounds(curve));
+  const auto [segments, all_proven] = curve_segments(curve, wall_bounds(curve));
+  proven = all_proven;
   branches = boundary_branches(curve, segments);
   const std::vector<double> found = levels(segments);
   for (std::size_t i = 0; i + 1 < found.size(); ++i) add_slabs(found[i], found[i + 1]);
@@ -64,10 +78,13 @@ RegionStructure::RegionStructure(FilteredPlant plant, double velocity_filter_hz)
 
 std::vector<BoundarySegment> RegionStructure::straight_segments(double top) const {
   std::vector<BoundarySegment> lines;
-  if (nyquist) lines.push_back(line({*nyquist, 0.0}, {0.0, *nyquist / curve.velocity_at_nyquist()}));
-  for (const BoundarySegment& each : lines) top = std::max(top, greatest(each.damping));
-  lines.push_back(line({0.0, 0.0}, {0.0, top}));
-  if (drift) lines.push_back(line({*drift, 0.0}, {*drift, top}));
+  if (nyquist) {
+    const double velocity = curve.velocity_at_nyquist();
+    top = std::max(top, *nyquist / velocity);
+    add_line(lines, *nyquist, -velocity, *nyquist / velocity);
+  }
+  add_line(lines, 0.0, 0.0, top);
+  if (drift) add_line(lines, *drift, 0.0, top);
   return lines;
 }
 

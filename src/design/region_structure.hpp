@@ -44,6 +44,7 @@ struct RegionStructure {
   [[nodiscard]] EdgePoint edge_at(const RegionEdge& edge, double damping) const;
 
   BoundaryCurve curve;
+  bool proven = true;  // bounds, not estimates, say that no piece of boundary is missed
   std::vector<BoundaryBranch> branches;
   std::optional<double> nyquist;  // K of the Nyquist line at B = 0, where > 0
   std::optional<double> drift;    // K at which a pole passes z = 1, where > 0
