@@ -6,15 +6,16 @@
 #include <limits>
 #include <numeric>
 #include <optional>
-
-#include "zwidth/error.hpp"
+#include <utility>
 
 namespace zwidth::internal {
 namespace {
 
 using Jet = BoundaryCurve::Jet;
 
-constexpr std::size_t max_pairs = 20'000'000;
+// Pairs of parts looked at for two segments, and in all.
+constexpr std::size_t max_parts = 4000;
+constexpr std::size_t max_pairs = 1'000'000;
 constexpr int max_newton_steps = 60;
 constexpr double newton_tolerance = 1e-13;  // of a segment's half length, or of |K| + |B|/T
 // Steps this small, as a share of the half length, that do not halve any more move within rounding: along a segment
@@ -60,7 +61,22 @@ class CrossingSearch {
   explicit CrossingSearch(const BoundaryCurve& curve) : curve_(curve), period_(curve.plant().period) {}
 
   void compare(const BoundarySegment& a, const BoundarySegment& b, bool adjacent) {
-    if (pairs_left_-- == 0) throw Error(ErrorCode::did_not_converge, "the stability boundary crosses itself too often");
+    parts_left_ = std::min(max_parts, pairs_left_);
+    const std::size_t before = parts_left_;
+    divide(a, b, adjacent);
+    pairs_left_ -= before - parts_left_;
+  }
+
+  std::vector<WallPoint> crossings;
+  bool complete = true;
+
+ private:
+  void divide(const BoundarySegment& a, const BoundarySegment& b, bool adjacent) {
+    if (parts_left_ == 0) {
+      complete = false;
+      return;
+    }
+    --parts_left_;
     if (are_apart(a.damping, b.damping) || are_apart(a.stiffness, b.stiffness)) return;
     if (adjacent ? part_for_good(a, b) : are_apart_across(a, b) || are_apart_across(b, a)) return;
     if (!adjacent && are_transversal(a, b)) {
@@ -81,17 +97,14 @@ class CrossingSearch {
       return;
     }
     if (divide_a) {
-      compare((*parts)[0], b, false);
-      compare((*parts)[1], b, adjacent);
+      divide((*parts)[0], b, false);
+      divide((*parts)[1], b, adjacent);
     } else {
-      compare(a, (*parts)[0], adjacent);
-      compare(a, (*parts)[1], false);
+      divide(a, (*parts)[0], adjacent);
+      divide(a, (*parts)[1], false);
     }
   }
 
-  std::vector<WallPoint> crossings;
-
- private:
   struct Meeting {
     bool converged = false;
     bool found = false;
@@ -144,6 +157,7 @@ class CrossingSearch {
   const BoundaryCurve& curve_;
   double period_;
   std::size_t pairs_left_ = max_pairs;
+  std::size_t parts_left_ = 0;  // of the two segments compared
 };
 
 // Numbers runs of segments that follow one another and all rise, or all fall, in one quantity; 0 outside such runs.
@@ -163,7 +177,7 @@ std::vector<std::size_t> monotone_runs(std::span<const BoundarySegment> segments
 
 }  // namespace
 
-std::vector<WallPoint> boundary_crossings(const BoundaryCurve& curve, std::span<const BoundarySegment> segments) {
+BoundaryCrossings boundary_crossings(const BoundaryCurve& curve, std::span<const BoundarySegment> segments) {
   const std::vector<std::size_t> by_damping = monotone_runs(segments, &BoundarySegment::damping_sign);
   const std::vector<std::size_t> by_stiffness = monotone_runs(segments, &BoundarySegment::stiffness_sign);
   std::vector<std::size_t> order(segments.size());
@@ -180,7 +194,7 @@ std::vector<WallPoint> boundary_crossings(const BoundaryCurve& curve, std::span<
       search.compare(segments[i], segments[j], j == i + 1 && segments[j].follows);
     }
   }
-  return search.crossings;
+  return {std::move(search.crossings), search.complete};
 }
 
 }  // namespace zwidth::internal

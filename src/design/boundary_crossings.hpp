@@ -8,9 +8,13 @@
 namespace zwidth::internal {
 
 // Every wall with K >= 0, B >= 0 where two of the segments cross, and those that touch to finest_detail. Two segments
-// that follow one another do not cross at their common end. Complete: a pair is left only where models on both whole
-// segments prove that it does not cross, or crosses at most once. Throws Error (did_not_converge) past a cap on the
-// number of pairs.
-std::vector<WallPoint> boundary_crossings(const BoundaryCurve& curve, std::span<const BoundarySegment> segments);
+// that follow one another do not cross at their common end.
+struct BoundaryCrossings {
+  std::vector<WallPoint> walls;
+  // A pair was left only where models on both whole segments prove that it does not cross, or crosses at most once;
+  // false where a cap on the number of pairs was hit, or the models are estimates.
+  bool complete = true;
+};
+BoundaryCrossings boundary_crossings(const BoundaryCurve& curve, std::span<const BoundarySegment> segments);
 
 }  // namespace zwidth::internal

@@ -224,6 +224,16 @@ bool is_outside(const BoundarySegment& segment, const WallBounds& bounds) {
          segment.damping.value - reach(segment.damping) > bounds.damping;
 }
 
+// Both ends of an interval that cannot be divided are outside: P vanishes between.
+bool leaves_through_infinity(const BoundaryCurve& curve, double begin, double end, const WallBounds& bounds) {
+  const auto outside = [&](double x) {
+    const WallPoint wall = curve.at(angle_of(x));
+    return !(wall.stiffness >= 0.0 && wall.stiffness <= bounds.stiffness && wall.damping >= 0.0 &&
+             wall.damping <= bounds.damping);
+  };
+  return outside(begin) && outside(end);
+}
+
 std::vector<BoundarySegment> estimated_segments(const BoundaryCurve& curve, const WallBounds& bounds) {
   const std::vector<double> divisions = first_divisions(curve);
   std::vector<Interval> stack;
@@ -239,6 +249,7 @@ std::vector<BoundarySegment> estimated_segments(const BoundaryCurve& curve, cons
     const std::optional<BoundarySegment> segment = estimated_segment(curve, begin, end);
     if (segment && is_outside(*segment, bounds)) continue;
     const bool narrow = is_narrow(begin, end, true);
+    if (narrow && leaves_through_infinity(curve, begin, end, bounds)) continue;
     if (segment && (narrow || is_settled(*segment, curve.plant().period))) {
       list.add(*segment);
     } else if (!narrow) {

@@ -72,8 +72,13 @@ RegionStructure::RegionStructure(FilteredPlant plant, double velocity_filter_hz)
   proven = all_proven;
   branches = boundary_branches(curve, segments);
   const std::vector<double> found = levels(segments);
-  for (std::size_t i = 0; i + 1 < found.size(); ++i) add_slabs(found[i], found[i + 1]);
-  while (!slabs.empty() && slabs.back().cells.empty()) slabs.pop_back();
+  for (std::size_t i = found.size() - 1; i > 0; --i) {
+    // Where everything meets at K = B = 0 rounding moves levels: what is below is not resolved.
+    const double unresolved = slabs.empty() ? 0.0 : finest_detail * slabs.front().upper;
+    add_slabs(found[i] > unresolved ? found[i - 1] : 0.0, found[i]);
+    if (found[i] <= unresolved) break;
+  }
+  std::reverse(slabs.begin(), slabs.end());
 }
 
 std::vector<BoundarySegment> RegionStructure::straight_segments(double top) const {
@@ -89,13 +94,15 @@ std::vector<BoundarySegment> RegionStructure::straight_segments(double top) cons
 }
 
 // Every B at which the stable intervals of K may change, from 0.
-std::vector<double> RegionStructure::levels(const std::vector<BoundarySegment>& segments) const {
+std::vector<double> RegionStructure::levels(const std::vector<BoundarySegment>& segments) {
   std::vector<double> found;
   double top = 0.0;
   for (const BoundarySegment& segment : segments) top = std::max(top, greatest(segment.damping));
   std::vector<BoundarySegment> all = segments;
   for (const BoundarySegment& each : straight_segments(top)) all.push_back(each);
-  for (const WallPoint& wall : boundary_crossings(curve, all)) found.push_back(wall.damping);
+  const BoundaryCrossings crossings = boundary_crossings(curve, all);
+  proven = proven && crossings.complete;
+  for (const WallPoint& wall : crossings.walls) found.push_back(wall.damping);
   for (const BoundaryBranch& branch : branches) {
     for (const BoundaryBranch::Node* end : {&branch.nodes().front(), &branch.nodes().back()}) {
       if (end->wall.stiffness >= 0.0) found.push_back(end->wall.damping);
@@ -184,10 +191,11 @@ bool RegionStructure::agree_within(const std::vector<RegionCell>& cells, double 
   return true;
 }
 
-// Goes on with the last slab where the cells are the same.
-void RegionStructure::add(double lower, double upper, std::vector<RegionCell> cells) {
+// Below the last slab, or as part of it where the cells are the same. Nothing stable above the first one.
+void RegionStructure::add_below(double lower, double upper, std::vector<RegionCell> cells) {
+  if (slabs.empty() && cells.empty()) return;
   if (!slabs.empty() && slabs.back().cells == cells) {
-    slabs.back().upper = upper;
+    slabs.back().lower = lower;
   } else {
     slabs.push_back({lower, upper, std::move(cells)});
   }
@@ -198,7 +206,7 @@ void RegionStructure::add_slabs(double bottom, double top) {
     double lower;
     double upper;
   };
-  std::vector<Range> ranges{{bottom, top}};  // the lowest last
+  std::vector<Range> ranges{{bottom, top}};  // the highest last
   while (!ranges.empty()) {
     const auto [lower, upper] = ranges.back();
     ranges.pop_back();
@@ -208,19 +216,16 @@ void RegionStructure::add_slabs(double bottom, double top) {
     }
     const double height = upper - lower;
     std::vector<RegionCell> cells = cells_at(lower + 0.5 * height);
-    if (height <= least_height * upper || agree_within(cells, lower, upper)) {
-      add(lower, upper, std::move(cells));
+    const double unresolved = slabs.empty() ? least_level * top : finest_detail * slabs.front().upper;
+    if (height <= least_height * upper || upper <= unresolved || agree_within(cells, lower, upper)) {
+      add_below(lower, upper, std::move(cells));
       continue;
     }
     const double division = lower == 0.0          ? upper / first_division
                             : upper > 4.0 * lower ? std::sqrt(lower * upper)
                                                   : lower + 0.5 * height;
-    if (division <= least_level * top) {
-      add(lower, upper, std::move(cells));
-      continue;
-    }
-    ranges.push_back({division, upper});
     ranges.push_back({lower, division});
+    ranges.push_back({division, upper});
   }
 }
 

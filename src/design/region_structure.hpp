@@ -32,7 +32,7 @@ struct RegionSlab {
 
 struct RegionStructure {
   // Of ranges of B into slabs.
-  static constexpr std::size_t max_divisions = 4000;
+  static constexpr std::size_t max_divisions = 600;
 
   // Throws Error (did_not_converge) at the cap, and as boundary_segments() and critical_stiffness() do.
   RegionStructure(FilteredPlant plant, double velocity_filter_hz);
@@ -52,11 +52,11 @@ struct RegionStructure {
 
  private:
   [[nodiscard]] std::vector<BoundarySegment> straight_segments(double top) const;
-  [[nodiscard]] std::vector<double> levels(const std::vector<BoundarySegment>& segments) const;
+  [[nodiscard]] std::vector<double> levels(const std::vector<BoundarySegment>& segments);
   [[nodiscard]] std::vector<RegionCell> cells_at(double damping) const;
   [[nodiscard]] bool agree_at(const std::vector<RegionCell>& cells, double damping) const;
   [[nodiscard]] bool agree_within(const std::vector<RegionCell>& cells, double lower, double upper) const;
-  void add(double lower, double upper, std::vector<RegionCell> cells);
+  void add_below(double lower, double upper, std::vector<RegionCell> cells);
   void add_slabs(double bottom, double top);
 
   std::size_t divisions_left_ = max_divisions;
