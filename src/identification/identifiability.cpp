@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/symmetric_eigen.hpp"
+
 namespace zwidth::internal {
 namespace {
 
@@ -79,9 +81,9 @@ Eigen::MatrixXd scores_covariance(const Eigen::MatrixXcd& slopes, const Eigen::V
   const Eigen::MatrixXd lower = root.matrixL();
   const Eigen::MatrixXd inverse =
       lower.triangularView<Eigen::Lower>().solve(Eigen::MatrixXd::Identity(lower.rows(), lower.cols()));
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(inverse * covariance * inverse.transpose());
-  return lower * eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(1.0).asDiagonal() *
-         eigen.eigenvectors().transpose() * lower.transpose();
+  const SymmetricEigen eigen = symmetric_eigen(inverse * covariance * inverse.transpose());
+  return lower * eigen.vectors * eigen.values.cwiseMax(1.0).asDiagonal() * eigen.vectors.transpose() *
+         lower.transpose();
 }
 
 }  // namespace
@@ -104,10 +106,10 @@ Identifiability identifiability(const ResponseWithSlopes& at_solution, const Fit
   if (shown.empty()) return result;
   const Eigen::MatrixXcd of_shown = slopes(Eigen::all, shown);
   const Eigen::MatrixXd correlation = (of_shown.adjoint() * of_shown).real();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(correlation);
-  const Eigen::Index vanishing = (eigen.eigenvalues().array() < least_eigenvalue).count();
+  const SymmetricEigen eigen = symmetric_eigen(correlation);
+  const Eigen::Index vanishing = (eigen.values.array() < least_eigenvalue).count();
   if (vanishing == 0) return result;
-  const Eigen::MatrixXd basis = sparse_basis(eigen.eigenvectors().leftCols(vanishing));
+  const Eigen::MatrixXd basis = sparse_basis(eigen.vectors.leftCols(vanishing));
   for (Eigen::Index column = 0; column < vanishing; ++column) {
     std::vector<std::size_t> parts;
     for (Eigen::Index i = 0; i < basis.rows(); ++i) {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <array>
 #include <boost/math/distributions/students_t.hpp>
@@ -11,6 +10,7 @@
 
 #include "identification/correlated_residuals.hpp"
 #include "identification/motion_bandwidth.hpp"
+#include "model/symmetric_eigen.hpp"
 #include "signal/zero_phase_filter.hpp"
 #include "zwidth/error.hpp"
 
@@ -185,7 +185,7 @@ bool independent(const Eigen::MatrixXd& regressors) {
   const Eigen::RowVectorXd lengths = regressors.colwise().norm();
   if (lengths.minCoeff() == 0.0) return false;
   const Eigen::MatrixXd scaled = regressors * lengths.cwiseInverse().asDiagonal();
-  return Eigen::JacobiSVD<Eigen::MatrixXd>(scaled.transpose() * scaled).singularValues().minCoeff() > least * least;
+  return symmetric_eigenvalues(scaled.transpose() * scaled).minCoeff() > least * least;
 }
 
 /// L[F](t - tau) ~ L[F](t - tau_0) - (tau - tau_0) L[F]'(t - tau_0): the last column finds the step of the delay.

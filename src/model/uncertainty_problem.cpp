@@ -2,12 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <set>
 #include <string>
 
+#include "model/symmetric_eigen.hpp"
 #include "zwidth/model/parameter.hpp"
 
 namespace zwidth::internal {
@@ -103,8 +104,7 @@ std::optional<DeviceProblem> find_uncertainty_problem(const DeviceParameters& pa
       if (scale > 0.0) correlation(row, column) = correlation(column, row) = covariance[i][j] / scale;
     }
   }
-  const double least =
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(correlation, Eigen::EigenvaluesOnly).eigenvalues().minCoeff();
+  const double least = symmetric_eigenvalues(correlation).minCoeff();
   if (least < -rounding * static_cast<double>(n)) {
     return covariance_problem("is no covariance: some combination of the parameters would have a negative variance",
                               "must be positive semidefinite");

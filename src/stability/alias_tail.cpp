@@ -1,9 +1,11 @@
 #include "stability/alias_tail.hpp"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
+
+#include "model/symmetric_eigen.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -22,11 +24,11 @@ LaguerreRule make_rule() {
     matrix(i, i) = 2.0 * i + 1.0;
     if (i > 0) matrix(i, i - 1) = matrix(i - 1, i) = i;
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(matrix);
+  const SymmetricEigen eigen = symmetric_eigen(matrix);
   LaguerreRule rule;
   for (int i = 0; i < node_count; ++i) {
-    rule.node[static_cast<std::size_t>(i)] = solver.eigenvalues()[i];
-    rule.weight[static_cast<std::size_t>(i)] = solver.eigenvectors()(0, i) * solver.eigenvectors()(0, i);
+    rule.node[static_cast<std::size_t>(i)] = eigen.values[i];
+    rule.weight[static_cast<std::size_t>(i)] = eigen.vectors(0, i) * eigen.vectors(0, i);
   }
   return rule;
 }

@@ -1,6 +1,6 @@
 #include "zwidth/stability/stiffness_interval.hpp"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "model/symmetric_eigen.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/parameter.hpp"
 
@@ -61,8 +62,8 @@ Eigen::MatrixXd square_root(const std::vector<std::vector<double>>& covariance) 
       matrix(i, j) = scale > 0.0 ? matrix(i, j) / scale : 0.0;
     }
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(matrix);
-  return deviation.asDiagonal() * eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+  const internal::SymmetricEigen eigen = internal::symmetric_eigen(matrix);
+  return deviation.asDiagonal() * eigen.vectors * eigen.values.cwiseMax(0.0).cwiseSqrt().asDiagonal();
 }
 
 CriticalStiffness critical_stiffness_of(const Device& device) {
