@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 #include <utility>
 
 #include "stability/guarded_stiffness.hpp"
@@ -93,13 +94,41 @@ void judge_wall(const Device& device, const PoleCount& poles, Analysis& analysis
   withdraw(analysis.rigid->critical);
 }
 
+bool is_held(const Device& device) {
+  const Operator& user = device.parameters().user;
+  return user.mass > 0.0 || user.damping > 0.0 || user.stiffness > 0.0;
+}
+
+Device with_user(const Device& device, const Operator& user) {
+  DeviceParameters parameters = device.parameters();
+  parameters.uncertainty.reset();  // it may be of the operator that is taken away
+  parameters.user = user;
+  return Device(std::move(parameters));
+}
+
+/// Whether a limit that rests on this one can be given; where not, the analysis says what is left out.
+bool stands(const CriticalStiffness& limit, std::string_view what, Analysis& analysis) {
+  if (!limit.trust.refused()) {
+    analysis.trust.inherit(limit.trust);
+    return true;
+  }
+  for (const std::string& reason : limit.trust.reasons) {
+    analysis.trust.doubt(fmt::format("{} is left out: {}", what, reason));
+  }
+  return false;
+}
+
 /// The worst user, the family and the limit over all users: what is asked for and can be answered.
 void answer_about_users(const Device& device, const AnalysisOptions& options, Analysis& analysis) {
   const VirtualDamper damper = virtual_damper(device);
   if (options.any_user && device.has_bodies()) {
     if (device.bodies().size() <= most_bodies_for_any_user) {
       analysis.any_user = any_user_limit(device, damper);
-      if (options.worst_user) analysis.worst_user = worst_user(device, *analysis.any_user, damper);
+      // That limit rests on the critical stiffness of the device that nobody holds.
+      if (is_held(device) && !stands(critical_stiffness(with_user(device, {})), "the limit over all users", analysis)) {
+        analysis.any_user.reset();
+      }
+      if (options.worst_user && analysis.any_user) analysis.worst_user = worst_user(device, *analysis.any_user, damper);
     } else {
       analysis.remarks.push_back(
           {Remark::Severity::note,
@@ -109,13 +138,12 @@ void answer_about_users(const Device& device, const AnalysisOptions& options, An
     }
   }
   if (!options.family) return;
-  DeviceParameters free = device.parameters();
-  free.uncertainty.reset();  // it may be of the operator that is taken away
-  free.user = {};
-  analysis.user_family =
-      UserFamilyAnswer{*options.family, worst_of_family(device, *options.family, damper, options.progress),
-                       critical_stiffness(Device(std::move(free)))};
-  analysis.trust.inherit(analysis.user_family->free.trust);
+  UserFamilyAnswer answer{*options.family, worst_of_family(device, *options.family, damper, options.progress),
+                          critical_stiffness(with_user(device, {}))};
+  if (stands(answer.free, "the family of users", analysis) &&
+      stands(critical_stiffness(with_user(device, answer.worst.user)), "the family of users", analysis)) {
+    analysis.user_family = std::move(answer);
+  }
 }
 
 std::optional<OptionProblem> find_problem(const ValueRange& range, const char* member) {

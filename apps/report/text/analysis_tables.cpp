@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <numbers>
 
@@ -36,6 +37,14 @@ std::string rigid_cell(const AnalysedDevice& analysed) {
     return quantity(rigid->critical.stiffness, units_of(analysed.device.parameters().motion).stiffness);
   }
   return fmt::format("{:+.2f} dB", decibels(rigid->critical.stiffness / exact.stiffness));
+}
+
+std::string any_user_cell(const AnalysedDevice& analysed) {
+  const auto& limit = analysed.analysis.any_user;
+  if (!limit) return "-";
+  if (limit->stiffness == 0.0) return "none";
+  if (!std::isfinite(limit->stiffness)) return "unbounded";
+  return quantity(limit->stiffness, units_of(analysed.device.parameters().motion).stiffness);
 }
 
 }  // namespace
@@ -75,9 +84,9 @@ TextTable mode_table(const AnalysedDevice& analysed) {
 }
 
 TextTable comparison_table(std::span<const AnalysedDevice> devices, std::size_t name_width) {
-  TextTable table{
-      {Align::right, Align::left, Align::right, Align::right, Align::right, Align::left, Align::right, Align::left},
-      {{"", "device", "K_CR", "dB", "frequency", "limited by", "rigid model", "wall"}}};
+  TextTable table{{Align::right, Align::left, Align::right, Align::right, Align::right, Align::right, Align::left,
+                   Align::right, Align::left},
+                  {{"", "device", "K_CR", "any user", "dB", "frequency", "limited by", "rigid model", "wall"}}};
   for (const AnalysedDevice& each : devices) {
     const CriticalStiffness& critical = each.analysis.critical;
     std::vector<std::string> row = {std::to_string(table.rows.size()),
@@ -92,6 +101,7 @@ TextTable comparison_table(std::span<const AnalysedDevice> devices, std::size_t 
                                                                                : "unbounded",
                              "-", "-", "-"});
     }
+    row.insert(row.begin() + 3, any_user_cell(each));
     row.insert(row.end(), {rigid_cell(each), wall_verdict(each.analysis)});
     table.rows.push_back(std::move(row));
   }
