@@ -87,6 +87,10 @@ DeviceParameters device_from(FuzzedDataProvider& bytes) {
 }
 
 void require_sound(const zwidth::CriticalStiffness& critical, double period) {
+  if (critical.status == zwidth::StiffnessStatus::refused) {
+    require(!critical.trust.reasons.empty(), "a refusal without a reason");
+    return;
+  }
   require(!std::isnan(critical.stiffness) && critical.stiffness >= 0.0, "critical stiffness");
   require(critical.limit.has_value() == (critical.status == zwidth::StiffnessStatus::finite), "limit without status");
   double last = 0.0;
