@@ -74,6 +74,7 @@ std::optional<DeviceProblem> find_uncertainty_problem(const DeviceParameters& pa
     return covariance_problem(fmt::format("has {} rows", covariance.size()),
                               fmt::format("must have a row for each of the {} parameters", n));
   }
+  if (n == 0) return std::nullopt;
   for (std::size_t i = 0; i < n; ++i) {
     if (covariance[i].size() != n) {
       return covariance_problem(fmt::format("row {} has {} numbers", i + 1, covariance[i].size()),
