@@ -207,7 +207,7 @@ std::vector<std::string> header_names(const Reading& reading) {
     if (columns.back().empty()) columns.back() = std::to_string(c + 1);
     if (!reading.units()) continue;
     const std::string unit = name_of(reading.lines()[*reading.units()].cells[c]);
-    if (!unit.empty()) columns.back() += " " + in_brackets(unit);
+    if (!unit.empty()) columns.back().append(" ").append(in_brackets(unit));
   }
   return columns;
 }
