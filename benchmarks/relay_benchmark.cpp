@@ -4,7 +4,7 @@
 
 #include "lhifam.hpp"
 #include "zwidth/model/device.hpp"
-#include "zwidth/simulation/relay_experiment.hpp"
+#include "zwidth/simulation/relay_trials.hpp"
 #include "zwidth/simulation/relay_prediction.hpp"
 
 namespace {
@@ -21,13 +21,13 @@ Device device_at(double delay) {
 }
 
 void table_2(benchmark::State& state) {
-  zwidth::RelayExperimentOptions options;
+  zwidth::RelayOptions options;
   options.relay.amplitude = 5.0;
   options.start_offset = 0.03;
   options.threads = static_cast<std::size_t>(state.range(0));
   for (auto _ : state) {
     for (int milliseconds = 0; milliseconds <= 8; ++milliseconds) {
-      benchmark::DoNotOptimize(relay_experiment(device_at(1e-3 * milliseconds), options));
+      benchmark::DoNotOptimize(relay_trials(device_at(1e-3 * milliseconds), options));
     }
   }
   state.SetItemsProcessed(state.iterations() * 36 * 20000);

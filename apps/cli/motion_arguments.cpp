@@ -153,11 +153,7 @@ void add_motion_arguments(CLI::App& command, MotionArguments& arguments) {
       ->group(motion_group);
 }
 
-bool is_empty(const MotionArguments& arguments) {
-  return arguments.starts.empty() && arguments.velocities.empty() && arguments.user_force.empty();
-}
-
-void apply(const MotionArguments& arguments, const Device& device, HybridLoopOptions& options) {
+void apply(const MotionArguments& arguments, const Device& device, SimulationOptions& options) {
   if (!(std::isfinite(arguments.force_scale) && arguments.force_scale != 0.0)) {
     throw BadInput(fmt::format("--user-force-scale: is {}; a number but 0", arguments.force_scale));
   }

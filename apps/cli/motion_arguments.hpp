@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "zwidth/model/device.hpp"
-#include "zwidth/simulation/hybrid_loop.hpp"
+#include "zwidth/simulation/simulate.hpp"
 
 namespace zwidth::cli {
 
@@ -23,11 +23,8 @@ struct MotionArguments {
 /// Declares the options; `arguments` must outlive the parsing.
 void add_motion_arguments(CLI::App& command, MotionArguments& arguments);
 
-/// True where the command line says nothing about motion.
-[[nodiscard]] bool is_empty(const MotionArguments& arguments);
-
 /// Sets initial motion and user force. Throws BadInput: a body that the device does not have, a value that is no
 /// number, a recording that is refused.
-void apply(const MotionArguments& arguments, const Device& device, HybridLoopOptions& options);
+void apply(const MotionArguments& arguments, const Device& device, SimulationOptions& options);
 
 }  // namespace zwidth::cli

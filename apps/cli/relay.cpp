@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "cli/device_arguments.hpp"
+#include "cli/option_refusal.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/recording_arguments.hpp"
 #include "cli/standard_output.hpp"
@@ -14,11 +17,10 @@
 #include "report/figure/canvas.hpp"
 #include "report/figure/relay_figure.hpp"
 #include "report/output_file.hpp"
-#include "report/relay_report.hpp"
 #include "report/text/relay_text.hpp"
 #include "results/relay_csv.hpp"
 #include "results/relay_json.hpp"
-#include "zwidth/error.hpp"
+#include "zwidth/simulation/relay.hpp"
 
 namespace zwidth::cli {
 namespace {
@@ -26,7 +28,7 @@ namespace {
 struct RelayArguments {
   DeviceArguments devices;
   RecordingArguments recording;
-  RelayExperimentOptions experiment;  ///< what needs no translation is parsed straight into it
+  RelayOptions experiment;  ///< what needs no translation is parsed straight into it
   double delay = 0.0;                 ///< s, added to the device's
   std::string motion = "linear";
   std::string csv;
@@ -36,50 +38,25 @@ struct RelayArguments {
 
 constexpr const char* simulation_group = "Simulation";
 
-bool is_at_least_zero(double value) { return std::isfinite(value) && value >= 0.0; }
-
-void check(std::string_view option, bool holds, double value, std::string_view allowed) {
-  if (!holds) throw BadInput(fmt::format("{}: is {}; {}", option, value, allowed));
-}
-
-void check_numbers(const RelayArguments& arguments) {
-  const RelayExperimentOptions& experiment = arguments.experiment;
-  check("--hysteresis", is_at_least_zero(experiment.relay.hysteresis), experiment.relay.hysteresis,
-        "a position in m or rad, 0 or more");
-  check("--delay", is_at_least_zero(arguments.delay), arguments.delay, "seconds, 0 or more");
-  const double tolerance = experiment.analysis.steady_tolerance;
-  check("--steady", tolerance > 0.0 && tolerance < 1.0, tolerance, "a relative difference above 0, below 1");
-}
-
-void check_simulation(const RelayArguments& arguments, const Device& device) {
-  const RelayExperimentOptions& experiment = arguments.experiment;
-  const double amplitude = experiment.relay.amplitude;
-  check("--amplitude", std::isfinite(amplitude) && amplitude > 0.0, amplitude, "a force in N or N m above 0");
-  const auto limit = device.parameters().actuator.force_limit;
-  check("--amplitude", !limit || amplitude <= *limit, amplitude,
-        fmt::format("at most the device's actuator.force_limit, {}", limit.value_or(0.0)));
-  check("--start", std::isfinite(experiment.start_offset), experiment.start_offset, "a position in m or rad");
-  check("--start", device.has_bodies() || experiment.start_offset == 0.0, experiment.start_offset,
-        "a transfer function starts at rest at 0");
-  check("--variation", experiment.variation >= 0.0 && experiment.variation < 1.0, experiment.variation,
-        "a relative variation, 0 up to, but not including, 1");
-  check("--duration", std::isfinite(experiment.duration) && experiment.duration > 0.0, experiment.duration,
-        "seconds above 0");
-  const double samples = std::round(experiment.duration / device.loop().sampling_period);
-  if (samples < least_relay_samples || samples * static_cast<double>(experiment.trials) > most_relay_samples) {
-    throw BadInput(fmt::format("--duration: {} trials of {} s are {:.6g} samples each; at least {}, at most {} in all",
-                               experiment.trials, experiment.duration, samples, least_relay_samples,
-                               most_relay_samples));
-  }
-  if (device.loop().delay >= experiment.duration) {
-    throw BadInput(fmt::format("--duration: {} s is no longer than the loop's delay of {} s; a longer run",
-                               experiment.duration, device.loop().delay));
-  }
-}
+/// Options by the member of RelayOptions and of RelayRecordOptions that they set.
+constexpr std::pair<std::string_view, std::string_view> options_of_members[] = {
+    {"relay.amplitude", "--amplitude"},
+    {"relay.hysteresis", "--hysteresis"},
+    {"hysteresis", "--hysteresis"},
+    {"start_offset", "--start"},
+    {"variation", "--variation"},
+    {"trials", "--trials"},
+    {"duration", "--duration"},
+    {"analysis.segment_length", "--segment"},
+    {"analysis.steady_tolerance", "--steady"},
+};
 
 /// The device with the delay added; nothing where no file is given.
 std::optional<Device> delayed_device(const RelayArguments& arguments) {
   if (arguments.devices.files.empty()) return std::nullopt;
+  if (!(std::isfinite(arguments.delay) && arguments.delay >= 0.0)) {
+    throw BadInput(fmt::format("--delay: is {}; seconds, 0 or more", arguments.delay));
+  }
   DeviceParameters parameters = read_devices(arguments.devices).front().parameters();
   parameters.loop.delay += arguments.delay;
   if (const auto problem = find_problem(parameters)) {
@@ -88,59 +65,41 @@ std::optional<Device> delayed_device(const RelayArguments& arguments) {
   return Device(std::move(parameters));
 }
 
-report::RelayReport simulated(const RelayArguments& arguments, Device device) {
-  check_simulation(arguments, device);
-  report::RelayReport report;
-  report.motion = device.parameters().motion;
-  report.sampling_period = device.loop().sampling_period;
-  report.relay = arguments.experiment.relay;
+RelayResult simulated(const RelayArguments& arguments, const Device& device) {
+  if (const auto problem = find_problem(arguments.experiment, device)) refuse(*problem, options_of_members);
   ProgressLine line("simulating");
-  report.trials = relay_experiment(device, arguments.experiment, line.progress());
-  report.device = std::move(device);
-  return report;
+  return relay(device, arguments.experiment, line.progress());
 }
 
-report::RelayReport recorded(const RelayArguments& arguments, std::optional<Device> device) {
+RelayResult recorded(const RelayArguments& arguments, std::optional<Device> device) {
   RecordedMotion motion = read_motion(arguments.recording);
   if (motion.output != OutputQuantity::position) {
     throw BadInput("--velocity, --acceleration: a relay acts on the position; name its column with --position");
   }
-  report::RelayReport report;
-  report.source = report::RelayReport::Source::recording;
-  report.recording = motion.recording.source;
-  report.motion =
-      device ? device->parameters().motion : (arguments.motion == "rotary" ? Motion::rotary : Motion::linear);
-  report.sampling_period = motion.recording.sampling_period;
-  if (device) {
-    const double expected = device->loop().sampling_period;
-    if (std::abs(report.sampling_period / expected - 1.0) > 0.01) {
-      throw BadInput(fmt::format("{}: loop.sampling_period: is {} s, the recording's is {:.6g} s; they must agree",
-                                 arguments.devices.files.front(), expected, report.sampling_period));
-    }
+  RelayRecordOptions options;
+  options.device = std::move(device);
+  options.motion = arguments.motion == "rotary" ? Motion::rotary : Motion::linear;
+  options.hysteresis = arguments.experiment.relay.hysteresis;
+  options.analysis = arguments.experiment.analysis;
+  if (const auto problem = find_problem(options, motion.recording.sampling_period)) {
+    if (problem->member != "device") refuse(*problem, options_of_members);
+    throw BadInput(fmt::format("{}: {}; {}", arguments.devices.files.front(), problem->what, problem->allowed));
   }
-  RelayTrial trial;
-  trial.force = motion.force();
-  trial.position = motion.motion();
-  trial.result =
-      analyse_relay_record(trial.force, trial.position, report.sampling_period, arguments.experiment.analysis);
-  const auto [lowest, highest] = std::minmax_element(trial.force.begin(), trial.force.end());
-  report.relay = {0.5 * (*highest - *lowest), arguments.experiment.relay.hysteresis};
-  report.trials.push_back(std::move(trial));
-  report.remarks = std::move(motion.recording.remarks);
-  report.device = std::move(device);
-  return report;
+  return relay(RelayRecord{motion.recording.source, motion.force(), motion.motion(), motion.recording.sampling_period,
+                           motion.recording.remarks},
+               options);
 }
 
-void write_figure(const RelayArguments& arguments, const report::RelayReport& report, report::FigureFormat format) {
+void write_figure(const RelayArguments& arguments, const RelayResult& result, report::FigureFormat format) {
   const auto oscillates = [](const RelayTrial& trial) { return trial.result.has_value(); };
-  auto shown = std::find_if(report.trials.begin(), report.trials.end(), oscillates);
-  if (shown == report.trials.end()) shown = report.trials.begin();
-  const std::string name = report.device ? report.device->name() : report.recording;
-  const std::string title = report.trials.size() == 1 ? fmt::format("Relay experiment: {}", name)
+  auto shown = std::find_if(result.trials.begin(), result.trials.end(), oscillates);
+  if (shown == result.trials.end()) shown = result.trials.begin();
+  const std::string name = result.device ? result.device->name() : result.recording;
+  const std::string title = result.trials.size() == 1 ? fmt::format("Relay experiment: {}", name)
                                                       : fmt::format("Relay experiment, trial {}: {}",
-                                                                    shown - report.trials.begin() + 1, name);
+                                                                    shown - result.trials.begin() + 1, name);
   report::write_whole(arguments.figure,
-                      draw_relay_record(title, *shown, report.sampling_period, report.motion, format));
+                      draw_relay_record(title, *shown, result.sampling_period, result.motion, format));
 }
 
 void run_relay(const RelayArguments& arguments) {
@@ -153,16 +112,12 @@ void run_relay(const RelayArguments& arguments) {
     check_output_is_no_input(arguments.recording.file, option, output);
   }
   check_outputs_differ("--figure", arguments.figure, "--csv", arguments.csv);
-  check_numbers(arguments);
   std::optional<Device> device = delayed_device(arguments);
-  report::RelayReport report = arguments.recording.file.empty() ? simulated(arguments, *std::move(device))
-                                                                : recorded(arguments, std::move(device));
-  if (report.device && report.relay.amplitude > 0.0) {
-    report.prediction = relay_prediction(*report.device, report.relay);
-  }
-  if (!arguments.csv.empty()) report::write_whole(arguments.csv, relay_csv(report));
-  if (format) write_figure(arguments, report, *format);
-  write_standard_output(arguments.json ? relay_json(report).dump() + "\n" : relay_text(report));
+  const RelayResult result =
+      arguments.recording.file.empty() ? simulated(arguments, *device) : recorded(arguments, std::move(device));
+  if (!arguments.csv.empty()) report::write_whole(arguments.csv, results::relay_csv(result));
+  if (format) write_figure(arguments, result, *format);
+  write_standard_output(arguments.json ? results::line(results::relay_json(result)) : report::relay_text(result));
 }
 
 /// Options of what is not done would be ignored: refused instead.
@@ -191,7 +146,7 @@ void check_options(const CLI::App& command, const RelayArguments& arguments) {
 }
 
 void add_simulation_options(CLI::App& command, RelayArguments& arguments) {
-  RelayExperimentOptions& experiment = arguments.experiment;
+  RelayOptions& experiment = arguments.experiment;
   command.add_option("--amplitude", experiment.relay.amplitude, "Force of the relay, N or N m; needed")
       ->type_name("N")
       ->group(simulation_group);

@@ -1,16 +1,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "cli/device_arguments.hpp"
 #include "cli/motion_arguments.hpp"
+#include "cli/option_refusal.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/recording_arguments.hpp"
 #include "cli/remark_lines.hpp"
@@ -19,19 +19,15 @@
 #include "report/figure/canvas.hpp"
 #include "report/figure/simulation_figure.hpp"
 #include "report/output_file.hpp"
-#include "report/simulated_loop.hpp"
 #include "report/text/simulation_text.hpp"
 #include "results/simulation_csv.hpp"
 #include "results/simulation_json.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/simulation/simulate.hpp"
 
 namespace zwidth::cli {
 namespace {
 
-constexpr double default_offset = 1e-3;    // m or rad, of a device that nothing else moves
-constexpr double least_duration = 1.0;     // s
-constexpr double default_periods = 40.0;   // of the critical oscillation
-constexpr double default_samples = 1e6;    // at most
 constexpr double most_rows = 5e6;          // of a CSV file
 constexpr double most_drawn_points = 1e6;  // kept for a figure alone
 
@@ -52,111 +48,21 @@ struct SimulateArguments {
   bool json = false;
 };
 
-void check_at_least_zero(std::string_view option, double value, std::string_view unit) {
-  if (!(std::isfinite(value) && value >= 0.0)) {
-    throw BadInput(fmt::format("{}: is {}; a number of {} >= 0", option, value, unit));
-  }
-}
-
-void check_probability(std::string_view option, double value) {
-  if (!(value >= 0.0 && value <= 1.0)) throw BadInput(fmt::format("{}: is {}; a share from 0 to 1", option, value));
-}
-
-Faults faults_of(const SimulateArguments& arguments, const Device& device) {
-  const double period = device.loop().sampling_period;
-  check_probability("--lost-samples", arguments.lost_samples);
-  check_at_least_zero("--jitter", arguments.jitter, "s");
-  if (arguments.jitter >= period) {
-    throw BadInput(fmt::format("--jitter: is {} s; below the sampling period, {} s", arguments.jitter, period));
-  }
-  Faults faults;
-  faults.lost_sample_probability = arguments.lost_samples;
-  faults.sampling_jitter = arguments.jitter;
-  faults.seed = arguments.seed;
-  if (!arguments.overrun.empty()) {
-    check_probability("--overrun", arguments.overrun[0]);
-    check_at_least_zero("--overrun", arguments.overrun[1], "s");
-    if (arguments.overrun[1] > max_delay_samples * period) {
-      throw BadInput(fmt::format("--overrun: {} s late; at most {} s, {} sampling periods", arguments.overrun[1],
-                                 max_delay_samples * period, max_delay_samples));
-    }
-    faults.overrun_probability = arguments.overrun[0];
-    faults.overrun_delay = arguments.overrun[1];
-  }
-  return faults;
-}
-
-ControllerOptions controller_of(const SimulateArguments& arguments, const Device& device) {
-  const Wall& wall = device.parameters().wall;
-  ControllerOptions controller = wall_controller(wall);
-  if (!wall.stiffness && wall.damping == 0.0) controller.kind = ControllerOptions::Kind::none;
-  controller.position = arguments.wall_position.value_or(0.0);
-  if (!std::isfinite(controller.position)) {
-    throw BadInput(fmt::format("--wall-position: is {}; a number of m or rad", controller.position));
-  }
-  if (arguments.contact == "unilateral") controller.contact = ControllerOptions::Contact::unilateral;
-  return controller;
-}
-
-/// Sets a device in motion that nothing else moves: 1 mm (1 mrad) inside the wall.
-void start_inside_the_wall(HybridLoopOptions& options, const SimulateArguments& arguments, const Device& device) {
-  if (options.controller.stiffness == 0.0) {
-    throw BadInput(
-        "nothing moves the device: add a wall (--set wall.stiffness=5000), --start, --start-velocity or --user-force");
-  }
-  if (options.controller.contact == ControllerOptions::Contact::unilateral) {
-    throw BadInput(
-        "--contact unilateral: nothing presses the device against the wall; add --user-force step:5, --start or "
-        "--start-velocity");
-  }
-  if (device.has_bodies()) {
-    options.initial_position.assign(device.bodies().size(), options.controller.position + default_offset);
-  } else if (!arguments.wall_position) {
-    options.controller.position = -default_offset;
-  }
-}
-
-void check_motion(const HybridLoopOptions& options, const Device& device) {
-  const auto is_zero = [](const std::vector<double>& values) {
-    return std::all_of(values.begin(), values.end(), [](double value) { return value == 0.0; });
-  };
-  const bool pushed =
-      options.controller.kind == ControllerOptions::Kind::wall && options.controller.position != 0.0 &&
-      (options.controller.contact == ControllerOptions::Contact::bilateral || options.controller.position < 0.0);
-  if (!pushed && options.user_force.kind == UserForce::Kind::none && is_zero(options.initial_position) &&
-      is_zero(options.initial_velocity)) {
-    throw BadInput(device.has_bodies()
-                       ? "--start: every body starts at rest at 0, where nothing moves it; a number but 0"
-                       : "--wall-position: is 0, where nothing moves the device; a number but 0");
-  }
-}
-
-double duration_of(const SimulateArguments& arguments, const report::AnalysedDevice& analysed, const UserForce& force) {
-  const Loop& loop = analysed.device.loop();
-  if (!arguments.duration) {
-    double duration = std::max(least_duration, 4.0 * loop.delay);
-    const auto& limit = analysed.analysis.critical.limit;
-    if (limit && limit->frequency > 0.0) {
-      duration = std::max(duration, default_periods * 2.0 * std::numbers::pi / limit->frequency);
-    }
-    return std::min(duration, default_samples * loop.sampling_period) + force.start;
-  }
-  const double duration = *arguments.duration;
-  const double samples = std::round(duration / loop.sampling_period);
-  if (!(samples >= 1.0 && samples <= max_simulated_samples)) {
-    throw BadInput(fmt::format("--duration: is {} s; {} s to {} s, 1 to {} sampling periods", duration,
-                               loop.sampling_period, max_simulated_samples * loop.sampling_period,
-                               max_simulated_samples));
-  }
-  if (loop.delay >= duration) {
-    throw BadInput(fmt::format("--duration: is {} s, not longer than the loop's delay of {} s: no force would arrive",
-                               duration, loop.delay));
-  }
-  if (force.start >= duration) {
-    throw BadInput(fmt::format("--duration: is {} s; the user's force begins at {} s only", duration, force.start));
-  }
-  return duration;
-}
+/// Options by the member of SimulationOptions that they set.
+constexpr std::pair<std::string_view, std::string_view> options_of_members[] = {
+    {"wall_position", "--wall-position"},
+    {"contact", "--contact"},
+    {"duration", "--duration"},
+    {"divergence", "--divergence"},
+    {"initial_position", "--start"},
+    {"initial_velocity", "--start-velocity"},
+    {"user_force", "--user-force"},
+    {"user_force.start", "--user-force"},
+    {"faults.lost_sample_probability", "--lost-samples"},
+    {"faults.sampling_jitter", "--jitter"},
+    {"faults.overrun_probability", "--overrun"},
+    {"faults.overrun_delay", "--overrun"},
+};
 
 std::size_t kept_points(const SimulateArguments& arguments, double samples) {
   if (!arguments.csv.empty()) {
@@ -166,35 +72,29 @@ std::size_t kept_points(const SimulateArguments& arguments, double samples) {
     }
     return arguments.every;
   }
-  if (arguments.figure.empty()) return 0;
   return std::max(arguments.every, static_cast<std::size_t>(std::ceil(samples / most_drawn_points)));
 }
 
-SimulationOptions options_of(const SimulateArguments& arguments, const report::AnalysedDevice& analysed) {
-  const Device& device = analysed.device;
+SimulationOptions options_of(const SimulateArguments& arguments, const Device& device) {
   SimulationOptions options;
-  options.loop.controller = controller_of(arguments, device);
-  options.loop.faults = faults_of(arguments, device);
-  apply(arguments.motion, device, options.loop);
-  options.duration = duration_of(arguments, analysed, options.loop.user_force);
-  if (!(std::isfinite(arguments.divergence) && arguments.divergence > 0.0)) {
-    throw BadInput(fmt::format("--divergence: is {}; a number of m or rad above 0", arguments.divergence));
+  if (arguments.contact == "unilateral") options.contact = ControllerOptions::Contact::unilateral;
+  options.wall_position = arguments.wall_position;
+  options.faults = {arguments.lost_samples, arguments.jitter, 0.0, 0.0, arguments.seed};
+  if (!arguments.overrun.empty()) {
+    options.faults.overrun_probability = arguments.overrun[0];
+    options.faults.overrun_delay = arguments.overrun[1];
   }
+  apply(arguments.motion, device, options);
+  options.duration = arguments.duration;
   options.divergence = arguments.divergence;
-  options.keep_every = kept_points(arguments, std::round(options.duration / device.loop().sampling_period));
-  if (is_empty(arguments.motion)) start_inside_the_wall(options.loop, arguments, device);
-  check_motion(options.loop, device);
-  return options;
-}
-
-report::SimulatedLoop simulated(const report::AnalysedDevice& analysed, const SimulationOptions& options,
-                                const std::string& file) {
-  ProgressLine line("simulating " + file);
-  try {
-    return report::simulated_loop(analysed, options, line.progress());
-  } catch (const Error& error) {
-    throw BadInput(file + ": " + error.what());
+  if (const auto problem = find_problem(options, device)) refuse(*problem, options_of_members);
+  if (arguments.csv.empty() && arguments.figure.empty()) {
+    options.keep_every = 0;
+  } else {
+    if (!options.duration) options.duration = default_duration(device, options);
+    options.keep_every = kept_points(arguments, std::round(*options.duration / device.loop().sampling_period));
   }
+  return options;
 }
 
 void run_simulate(const SimulateArguments& arguments) {
@@ -207,16 +107,24 @@ void run_simulate(const SimulateArguments& arguments) {
     check_output_is_no_input(arguments.motion.user_force, option, output);
   }
   check_outputs_differ("--figure", arguments.figure, "--csv", arguments.csv);
-  const report::AnalysedDevice analysed = analyze_devices(arguments.device, limit_and_wall_only()).front();
-  const SimulationOptions options = options_of(arguments, analysed);
-  const report::SimulatedLoop loop = simulated(analysed, options, arguments.device.files.front());
-  if (!arguments.csv.empty()) report::write_whole(arguments.csv, report::simulation_csv(loop));
-  if (format) report::write_whole(arguments.figure, report::draw_simulation_figure(loop, *format));
+  const Device device = read_devices(arguments.device).front();
+  const std::string& file = arguments.device.files.front();
+  Simulation result;
+  try {
+    const SimulationOptions options = options_of(arguments, device);
+    ProgressLine line("simulating " + file);
+    result = simulate(device, options, line.progress());
+  } catch (const Error& error) {
+    if (error.code() == ErrorCode::did_not_converge) throw WorkFailed(file + ": " + error.what());
+    throw BadInput(file + ": " + error.what());
+  }
+  if (!arguments.csv.empty()) report::write_whole(arguments.csv, results::simulation_csv(device, result));
+  if (format) report::write_whole(arguments.figure, report::draw_simulation_figure(device, result, *format));
   if (arguments.json) {
-    write_warnings(loop.remarks);
-    write_standard_output(report::simulation_json(loop).dump() + "\n");
+    write_warnings(result.remarks);
+    write_standard_output(results::line(results::simulation_json(device, result)));
   } else {
-    write_standard_output(report::simulation_text(loop));
+    write_standard_output(report::simulation_text(device, result));
   }
 }
 
@@ -274,7 +182,8 @@ void add_simulate(CLI::App& app) {
   add_motion_arguments(*command, arguments->motion);
   add_fault_options(*command, *arguments);
   command->footer(
-      "Without any motion every body starts at rest 1 mm (1 mrad) inside the wall.\n"
+      "Without any motion every body starts at rest 1 mm (1 mrad) inside the wall, further in where friction or the\n"
+      "encoder would hide that.\n"
       "\n"
       "Examples:\n"
       "  zwidth simulate devices/lhifam.toml --set wall.stiffness=5000\n"

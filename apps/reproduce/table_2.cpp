@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
-#include "report/relay_report.hpp"
 #include "report/text/quantity.hpp"
 #include "reproduce/paper_devices.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/simulation/relay.hpp"
 
 namespace zwidth::report {
 namespace {
@@ -18,14 +18,14 @@ constexpr int levels = 17;
 constexpr double compared_from = 1.5e-3;  // s: the rows of 2 ms and more
 
 std::vector<RelayTrial> trials_of(const Table2Setting& setting, const Device& device, double start) {
-  RelayExperimentOptions options;
+  RelayOptions options;
   options.relay.amplitude = setting.relay_force;
   options.duration = setting.duration;
   options.trials = trials_per_delay;
   options.start_offset = start;
   options.variation = setting.variation;
   options.seed = static_cast<std::uint64_t>(std::llround(1e6 * device.loop().delay));  // each row its own
-  return relay_experiment(device, options);
+  return relay_trials(device, options);
 }
 
 /// The rigid device of eq. 2 with the friction of the handle.
@@ -36,7 +36,7 @@ Device rigid_device(const Table2Setting& setting, double level, double delay) {
 }
 
 Table2Row row_of(const std::vector<RelayTrial>& trials, double delay) {
-  const auto mean = mean_of(trials);
+  const auto mean = relay_mean(trials);
   if (!mean || mean->trials != trials.size()) {
     throw Error(ErrorCode::did_not_converge, "a relay trial of Table II does not oscillate");
   }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "zwidth/model/device.hpp"
-#include "zwidth/simulation/relay_experiment.hpp"
+#include "zwidth/simulation/relay_trials.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
 
 namespace zwidth::report {

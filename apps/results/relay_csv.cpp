@@ -2,24 +2,28 @@
 
 #include <fmt/format.h>
 
-#include <iterator>
+#include "results/csv.hpp"
 
-namespace zwidth::report {
+namespace zwidth::results {
 
-std::string relay_csv(const RelayReport& report) {
-  std::string rows = "time_s";
-  for (std::size_t i = 1; i <= report.trials.size(); ++i) rows += fmt::format(",force_{0},position_{0}", i);
-  rows += '\n';
-  const std::size_t samples = report.trials.empty() ? 0 : report.trials.front().force.size();
-  for (std::size_t k = 0; k < samples; ++k) {
-    auto out = std::back_inserter(rows);
-    fmt::format_to(out, "{:.12g}", static_cast<double>(k) * report.sampling_period);
-    for (const RelayTrial& trial : report.trials) {
-      fmt::format_to(out, ",{:.17g},{:.17g}", trial.force[k], trial.position[k]);
-    }
-    rows += '\n';
+std::string relay_csv(const RelayResult& result) {
+  Csv rows;
+  rows.cell("time_s");
+  for (std::size_t i = 1; i <= result.trials.size(); ++i) {
+    rows.cell(fmt::format("force_{}", i));
+    rows.cell(fmt::format("position_{}", i));
   }
-  return rows;
+  rows.end_row();
+  const std::size_t samples = result.trials.empty() ? 0 : result.trials.front().force.size();
+  for (std::size_t k = 0; k < samples; ++k) {
+    rows.cell(Rounded{static_cast<double>(k) * result.sampling_period, 12});
+    for (const RelayTrial& trial : result.trials) {
+      rows.cell(trial.force[k]);
+      rows.cell(trial.position[k]);
+    }
+    rows.end_row();
+  }
+  return rows.text();
 }
 
-}  // namespace zwidth::report
+}  // namespace zwidth::results

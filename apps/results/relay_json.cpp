@@ -1,120 +1,89 @@
 #include "results/relay_json.hpp"
 
-#include "report/text/quantity.hpp"
-#include "report/text/relay_explanation.hpp"
+#include <optional>
 
-namespace zwidth::report {
-namespace {
+#include "results/stability_json.hpp"
+#include "results/units.hpp"
 
-using Json = results::Json;
+namespace zwidth::results {
 
-Json to_json(const Remark& remark) {
-  return {{"severity", remark.severity == Remark::Severity::warning ? "warning" : "note"},
-          {"what", remark.what},
-          {"meaning", remark.consequence}};
-}
-
-Json to_json(const LimitCycle& cycle) {
-  return {{"frequency_rad_s", cycle.frequency},
+static void to_json(Json& json, const LimitCycle& cycle) {
+  json = {{"frequency_rad_s", cycle.frequency},
           {"frequency_hz", hertz(cycle.frequency)},
           {"stiffness", cycle.stiffness},
-          {"stiffness_db", decibels(cycle.stiffness)},
+          {"stiffness_db", decibels(std::optional(cycle.stiffness))},
           {"amplitude", cycle.amplitude}};
 }
 
-Json to_json(const Crossover& crossover) {
-  const bool is_rigid = crossover.limited_by.kind == Mechanism::Kind::rigid_body;
-  Json limited_by = {{"kind", is_rigid ? "rigid_body" : "vibration_mode"}};
-  if (!is_rigid) limited_by["mode"] = crossover.limited_by.mode;
-  return {{"frequency_rad_s", crossover.frequency},
-          {"frequency_hz", hertz(crossover.frequency)},
-          {"stiffness", crossover.stiffness},
-          {"stiffness_db", decibels(crossover.stiffness)},
-          {"limited_by", std::move(limited_by)}};
+static void to_json(Json& json, const RelayMean& mean) {
+  json = {{"trials", mean.trials},
+          {"frequency_rad_s", mean.frequency},
+          {"frequency_hz", hertz(mean.frequency)},
+          {"stiffness", mean.stiffness},
+          {"stiffness_db", decibels(std::optional(mean.stiffness))},
+          {"amplitude", mean.amplitude}};
 }
 
-template <typename T>
-Json to_json_array(const std::vector<T>& values) {
-  Json array = Json::array();
-  for (const T& value : values) array.push_back(to_json(value));
-  return array;
-}
-
-Json to_json(const RelayResult& result, double period) {
-  return {{"frequency_rad_s", result.frequency},
-          {"frequency_hz", hertz(result.frequency)},
-          {"cycle_frequency_hz", result.cycle_frequency ? Json(hertz(*result.cycle_frequency)) : Json(nullptr)},
-          {"line_spacing_hz", hertz(result.line_spacing)},
-          {"stiffness", result.stiffness},
-          {"stiffness_db", decibels(result.stiffness)},
-          {"amplitude", result.amplitude},
-          {"scatter", result.scatter},
-          {"steady_from_s", static_cast<double>(result.steady_from) * period},
-          {"steady_samples", result.steady_samples},
-          {"segments", result.segments}};
-}
-
-Json trials_json(const RelayReport& report) {
-  Json trials = Json::array();
-  for (const RelayTrial& trial : report.trials) {
-    Json each;
-    each["oscillates"] = trial.result.has_value();
-    each["reason"] = trial.result ? Json(nullptr) : Json(trial.result.error().reason);
-    const bool is_simulated = report.source == RelayReport::Source::simulation;
-    each["start_offset"] = is_simulated ? Json(trial.start_offset) : Json(nullptr);
-    each["friction_factor"] = is_simulated ? Json(trial.friction_factor) : Json(nullptr);
-    each["result"] = trial.result ? to_json(*trial.result, report.sampling_period) : Json(nullptr);
-    each["remarks"] = trial.result ? to_json_array(trial.result->remarks) : Json::array();
-    trials.push_back(std::move(each));
-  }
-  return trials;
-}
-
-Json mean_json(const RelayReport& report) {
-  const auto mean = mean_of(report.trials);
-  if (!mean) return nullptr;
-  return {{"trials", mean->trials},
-          {"frequency_rad_s", mean->frequency},
-          {"frequency_hz", hertz(mean->frequency)},
-          {"stiffness", mean->stiffness},
-          {"stiffness_db", decibels(mean->stiffness)},
-          {"amplitude", mean->amplitude}};
-}
-
-Json prediction_json(const RelayReport& report) {
-  if (!report.prediction) return nullptr;
-  const RelayPrediction& prediction = *report.prediction;
-  const auto& limit = prediction.linear.limit;
-  return {{"critical", limit ? to_json(*limit) : Json(nullptr)},
-          {"crossovers", to_json_array(prediction.linear.crossovers)},
-          {"describing_function", to_json_array(prediction.describing_function)},
+static void to_json(Json& json, const RelayPrediction& prediction) {
+  json = {{"critical", prediction.linear.limit},
+          {"crossovers", prediction.linear.crossovers},
+          {"describing_function", prediction.describing_function},
           {"exact_searched_above_rad_s", prediction.lowest_frequency},
-          {"sampled_relay", to_json_array(prediction.sampled_relay)},
-          {"continuous_relay", to_json_array(prediction.continuous_relay)}};
+          {"sampled_relay", prediction.sampled_relay},
+          {"continuous_relay", prediction.continuous_relay}};
+}
+
+namespace {
+
+Json reading_json(const RelayReading& reading, double period) {
+  return {{"frequency_rad_s", reading.frequency},
+          {"frequency_hz", hertz(reading.frequency)},
+          {"cycle_frequency_hz", hertz(reading.cycle_frequency)},
+          {"line_spacing_hz", hertz(reading.line_spacing)},
+          {"stiffness", reading.stiffness},
+          {"stiffness_db", decibels(std::optional(reading.stiffness))},
+          {"amplitude", reading.amplitude},
+          {"scatter", reading.scatter},
+          {"steady_from_s", static_cast<double>(reading.steady_from) * period},
+          {"steady_samples", reading.steady_samples},
+          {"segments", reading.segments}};
+}
+
+Json trial_json(const RelayTrial& trial, const RelayResult& result) {
+  const bool is_simulated = result.source == RelayResult::Source::simulation;
+  const auto& reading = trial.result;
+  return {{"oscillates", reading.has_value()},
+          {"reason", reading ? Json(nullptr) : Json(reading.error().reason)},
+          {"start_offset", is_simulated ? Json(trial.start_offset) : Json(nullptr)},
+          {"friction_factor", is_simulated ? Json(trial.friction_factor) : Json(nullptr)},
+          {"result", reading ? reading_json(*reading, result.sampling_period) : Json(nullptr)},
+          {"remarks", reading ? Json(reading->remarks) : Json::array()}};
 }
 
 }  // namespace
 
-results::Json relay_json(const RelayReport& report) {
-  const Units units = units_of(report.motion);
-  const bool is_simulated = report.source == RelayReport::Source::simulation;
-  Json document;
-  document["schema"] = "zwidth.relay/1";
-  document["source"] = is_simulated ? "simulation" : "recording";
-  document["recording"] = is_simulated ? Json(nullptr) : Json(report.recording);
-  document["device"] = report.device ? Json(report.device->name()) : Json(nullptr);
-  document["units"] = {{"stiffness", units.stiffness}, {"force", units.force}, {"length", units.length}};
-  document["sampling_period_s"] = report.sampling_period;
-  document["delay_s"] = report.device ? Json(report.device->loop().delay) : Json(nullptr);
-  document["relay"] = {{"amplitude", report.relay.amplitude},
-                       {"hysteresis", is_simulated ? Json(report.relay.hysteresis) : Json(nullptr)}};
-  document["friction_level"] = report.device ? Json(friction_level(report)) : Json(nullptr);
-  document["trials"] = trials_json(report);
-  document["mean"] = mean_json(report);
-  document["predictions"] = prediction_json(report);
-  document["explanation"] = relay_explanation(report);
-  document["remarks"] = to_json_array(remarks_of(report));
-  return document;
+Json relay_json(const RelayResult& result) {
+  const Units units = units_of(result.motion);
+  const bool is_simulated = result.source == RelayResult::Source::simulation;
+  Json json = document("zwidth.relay/1");
+  json["source"] = result.source;
+  json["recording"] = is_simulated ? Json(nullptr) : Json(result.recording);
+  json["device"] = result.device ? Json(result.device->name()) : Json(nullptr);
+  json["units"] = {{"stiffness", units.stiffness}, {"force", units.force}, {"length", units.length}};
+  json["sampling_period_s"] = result.sampling_period;
+  json["delay_s"] = result.device ? Json(result.device->loop().delay) : Json(nullptr);
+  json["relay"] = {{"amplitude", result.relay.amplitude},
+                   {"hysteresis", is_simulated ? Json(result.relay.hysteresis) : Json(nullptr)}};
+  json["friction_level"] = result.friction_level;
+  json["trials"] = Json::array();
+  for (const RelayTrial& trial : result.trials) json["trials"].push_back(trial_json(trial, result));
+  json["mean"] = result.mean;
+  json["predictions"] = result.prediction;
+  json["explanation"] = result.explanation;
+  json["limit_reading"] = result.limit_reading;
+  json["trust"] = result.trust;
+  json["remarks"] = result.remarks;
+  return json;
 }
 
-}  // namespace zwidth::report
+}  // namespace zwidth::results

@@ -1,11 +1,20 @@
 #pragma once
 
-#include "report/relay_report.hpp"
 #include "results/json.hpp"
+#include "zwidth/simulation/relay.hpp"
 
-namespace zwidth::report {
+namespace zwidth::results {
 
-/// Schema "zwidth.relay/1": trials, their mean, predictions, remarks. Numbers that do not exist are null.
-[[nodiscard]] results::Json relay_json(const RelayReport& report);
+NLOHMANN_JSON_SERIALIZE_ENUM(LimitReading, {{LimitReading::none, "none"},
+                                            {LimitReading::confirms, "confirms"},
+                                            {LimitReading::coincides, "coincides"},
+                                            {LimitReading::unsafe, "unsafe"},
+                                            {LimitReading::too_cautious, "too_cautious"}})
+NLOHMANN_JSON_SERIALIZE_ENUM(RelayResult::Source, {{RelayResult::Source::simulation, "simulation"},
+                                                   {RelayResult::Source::recording, "recording"}})
 
-}  // namespace zwidth::report
+/// The document of `relay --json`, schema zwidth.relay/1: trials, their mean, predictions, explanation, trust, remarks.
+/// What does not exist is null.
+[[nodiscard]] Json relay_json(const RelayResult& result);
+
+}  // namespace zwidth::results

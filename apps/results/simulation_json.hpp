@@ -1,12 +1,26 @@
 #pragma once
 
-#include "report/simulated_loop.hpp"
 #include "results/json.hpp"
+#include "zwidth/simulation/simulate.hpp"
 
-namespace zwidth::report {
+namespace zwidth::results {
+
+NLOHMANN_JSON_SERIALIZE_ENUM(LoopVerdict, {{LoopVerdict::undecided, "undecided"},
+                                           {LoopVerdict::settles, "settles"},
+                                           {LoopVerdict::limit_cycle, "limit_cycle"},
+                                           {LoopVerdict::forced, "forced"},
+                                           {LoopVerdict::unstable, "unstable"},
+                                           {LoopVerdict::drifts, "drifts"}})
+NLOHMANN_JSON_SERIALIZE_ENUM(NonlinearPart, {{NonlinearPart::coulomb_friction, "coulomb_friction"},
+                                             {NonlinearPart::encoder_step, "encoder_step"},
+                                             {NonlinearPart::force_limit, "force_limit"},
+                                             {NonlinearPart::leaving_wall, "leaving_wall"},
+                                             {NonlinearPart::lost_samples, "lost_samples"},
+                                             {NonlinearPart::sampling_jitter, "sampling_jitter"},
+                                             {NonlinearPart::late_forces, "late_forces"}})
 
 /// The document of `simulate --json`, schema zwidth.simulation/1, keys in their documented order. What does not exist
 /// is null; NaN and infinities never appear.
-[[nodiscard]] results::Json simulation_json(const SimulatedLoop& loop);
+[[nodiscard]] Json simulation_json(const Device& device, const Simulation& result);
 
-}  // namespace zwidth::report
+}  // namespace zwidth::results

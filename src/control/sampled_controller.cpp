@@ -1,21 +1,23 @@
 #include "zwidth/control/sampled_controller.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-#include <string>
 
 #include "zwidth/error.hpp"
 
 namespace zwidth {
 namespace {
 
-void require(bool holds, const char* what, double value) {
-  if (!holds) throw Error(ErrorCode::invalid_argument, std::string(what) + " is " + std::to_string(value));
-}
+bool is_at_least_zero(double value) { return std::isfinite(value) && value >= 0.0; }
 
-void require_at_least_zero(const char* what, double value) {
-  require(std::isfinite(value) && value >= 0.0, what, value);
+const ControllerOptions& checked(const ControllerOptions& options, double sampling_period) {
+  if (const auto problem = find_problem(options, sampling_period)) {
+    throw Error(ErrorCode::invalid_argument,
+                fmt::format("controller {} {}; {}", problem->member, problem->what, problem->allowed));
+  }
+  return options;
 }
 
 }  // namespace
@@ -30,61 +32,75 @@ ControllerOptions wall_controller(const Wall& wall) {
   return options;
 }
 
-SampledController::SampledController(const ControllerOptions& options, double sampling_period)
-    : options_(options), rate_(1.0 / sampling_period) {
-  require(std::isfinite(sampling_period) && sampling_period > 0.0, "sampling period", sampling_period);
-  require(std::isfinite(options.position), "controller position", options.position);
-  require_at_least_zero("wall stiffness", options.stiffness);
-  require_at_least_zero("wall damping", options.damping);
-  require_at_least_zero("velocity filter", options.velocity_filter_hz);
-  require_at_least_zero("relay hysteresis", options.hysteresis);
-  require_at_least_zero("relay amplitude", options.amplitude);
-  require(options.kind != ControllerOptions::Kind::relay || options.amplitude > 0.0, "relay amplitude",
-          options.amplitude);
-  if (options.velocity_filter_hz > 0.0) {
-    filter_ = std::exp(-2.0 * std::numbers::pi * options.velocity_filter_hz * sampling_period);
+std::optional<OptionProblem> find_problem(const ControllerOptions& options, double sampling_period) {
+  const auto problem = [](const char* member, double value, const char* allowed) {
+    return OptionProblem{member, fmt::format("is {}", value), allowed};
+  };
+  if (!std::isfinite(options.position)) return problem("position", options.position, "a number of m or rad");
+  if (!is_at_least_zero(options.stiffness)) return problem("stiffness", options.stiffness, "a number >= 0");
+  if (!is_at_least_zero(options.damping)) return problem("damping", options.damping, "a number >= 0");
+  if (!is_at_least_zero(options.velocity_filter_hz)) {
+    return problem("velocity_filter_hz", options.velocity_filter_hz, "a number of Hz >= 0");
   }
-  require(options.filters.size() <= max_wall_filters, "number of wall filters",
-          static_cast<double>(options.filters.size()));
+  if (!is_at_least_zero(options.hysteresis)) {
+    return problem("hysteresis", options.hysteresis, "a position in m or rad, 0 or more");
+  }
+  const bool is_relay = options.kind == ControllerOptions::Kind::relay;
+  if (!is_at_least_zero(options.amplitude) || (is_relay && options.amplitude == 0.0)) {
+    return problem("amplitude", options.amplitude, "a force in N or N m above 0");
+  }
+  if (options.filters.size() > max_wall_filters) {
+    return OptionProblem{"filters", fmt::format("are {}", options.filters.size()),
+                         fmt::format("at most {}", max_wall_filters)};
+  }
+  for (const WallFilter& filter : options.filters) {
+    if (const auto wrong = find_problem(filter, sampling_period)) {
+      return OptionProblem{"filters", wrong->what, wrong->allowed};
+    }
+  }
+  return std::nullopt;
+}
+
+SampledController::SampledController(const ControllerOptions& options, double sampling_period)
+    : options_(checked(options, sampling_period)), velocity_(options.velocity_filter_hz, sampling_period) {
   for (const WallFilter& filter : options.filters) {
     filters_[filter_count_++] = RunningFilter(filter_section(filter, sampling_period));
   }
 }
 
 void SampledController::reset() noexcept {
-  started_ = false;
-  velocity_ = 0.0;
+  velocity_.reset();
   relay_force_ = 0.0;
   for (std::size_t i = 0; i < filter_count_; ++i) filters_[i].reset();
 }
 
 double SampledController::wall_force(double measured) noexcept {
   const double beyond = measured - options_.position;
-  if (!started_) previous_ = measured;
-  started_ = true;
-  velocity_ = filter_ * velocity_ + (1.0 - filter_) * rate_ * (measured - previous_);
-  previous_ = measured;
   const bool one_sided = options_.contact == ControllerOptions::Contact::unilateral;
-  double force = -(options_.stiffness * beyond + options_.damping * velocity_);
+  double force = -(options_.stiffness * beyond + options_.damping * velocity_.update(measured));
   if (one_sided && !(beyond > 0.0 && force < 0.0)) force = 0.0;
   for (std::size_t i = 0; i < filter_count_; ++i) force = filters_[i].update(force);
   return one_sided ? std::min(force, 0.0) : force;
 }
 
-double SampledController::update(double measured) noexcept {
+double SampledController::relay_force(double measured) noexcept {
   const double beyond = measured - options_.position;
+  if (beyond > options_.hysteresis) {
+    relay_force_ = -options_.amplitude;
+  } else if (beyond < -options_.hysteresis || relay_force_ == 0.0) {
+    relay_force_ = options_.amplitude;
+  }
+  return relay_force_;
+}
+
+double SampledController::update(double measured) noexcept {
   switch (options_.kind) {
     case ControllerOptions::Kind::none:
       return 0.0;
     case ControllerOptions::Kind::wall:
       return wall_force(measured);
     case ControllerOptions::Kind::relay:
-      if (beyond > options_.hysteresis) {
-        relay_force_ = -options_.amplitude;
-      } else if (beyond < -options_.hysteresis || relay_force_ == 0.0) {
-        relay_force_ = options_.amplitude;
-      }
-      return relay_force_;
+      return relay_force(measured);
   }
   return 0.0;
 }

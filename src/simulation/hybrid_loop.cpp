@@ -1,8 +1,11 @@
 #include "zwidth/simulation/hybrid_loop.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <random>
 #include <string>
 
@@ -40,32 +43,74 @@ OutsideForce outside_force(const UserForce& force) {
   return {};
 }
 
+bool is_finite(double value) { return std::isfinite(value); }
+
+std::optional<OptionProblem> user_force_problem(const UserForce& force) {
+  if (!is_finite(force.amplitude)) {
+    return OptionProblem{"user_force.amplitude", fmt::format("is {}", force.amplitude), "a finite force"};
+  }
+  if (!is_duration(force.start)) {
+    return OptionProblem{"user_force.start", fmt::format("is {} s", force.start), "a number of s >= 0"};
+  }
+  if (force.kind == UserForce::Kind::sine && !(is_finite(force.frequency) && force.frequency > 0.0)) {
+    return OptionProblem{"user_force.frequency", fmt::format("is {} rad/s", force.frequency), "a number of rad/s > 0"};
+  }
+  if (force.kind != UserForce::Kind::recorded) return std::nullopt;
+  if (!(is_finite(force.period) && force.period > 0.0)) {
+    return OptionProblem{"user_force.period", fmt::format("is {} s", force.period), "a number of s > 0"};
+  }
+  if (force.samples.empty()) return OptionProblem{"user_force.samples", "are none", "at least one"};
+  if (!std::all_of(force.samples.begin(), force.samples.end(), is_finite)) {
+    return OptionProblem{"user_force.samples", "are not all finite", "finite forces"};
+  }
+  return std::nullopt;
+}
+
+std::optional<OptionProblem> faults_problem(const Faults& faults, double period) {
+  constexpr const char* share = "a share from 0 to 1";
+  if (!is_probability(faults.lost_sample_probability)) {
+    return OptionProblem{"faults.lost_sample_probability", fmt::format("is {}", faults.lost_sample_probability), share};
+  }
+  if (!is_duration(faults.sampling_jitter)) {
+    return OptionProblem{"faults.sampling_jitter", fmt::format("is {}", faults.sampling_jitter), "a number of s >= 0"};
+  }
+  if (faults.sampling_jitter >= period) {
+    return OptionProblem{"faults.sampling_jitter", fmt::format("is {} s", faults.sampling_jitter),
+                         fmt::format("below the sampling period, {} s", period)};
+  }
+  if (!is_probability(faults.overrun_probability)) {
+    return OptionProblem{"faults.overrun_probability", fmt::format("is {}", faults.overrun_probability), share};
+  }
+  if (!is_duration(faults.overrun_delay)) {
+    return OptionProblem{"faults.overrun_delay", fmt::format("is {}", faults.overrun_delay), "a number of s >= 0"};
+  }
+  if (faults.overrun_delay > max_delay_samples * period) {
+    return OptionProblem{
+        "faults.overrun_delay", fmt::format("is {} s", faults.overrun_delay),
+        fmt::format("at most {} s, {} sampling periods", max_delay_samples * period, max_delay_samples)};
+  }
+  return std::nullopt;
+}
+
+std::optional<OptionProblem> motion_problem(const char* member, const std::vector<double>& values, const Device& device) {
+  if (values.empty()) return std::nullopt;
+  if (values.size() != device.bodies().size()) {
+    return OptionProblem{member, fmt::format("has {} values", values.size()),
+                         fmt::format("one for each of {} bodies, or none", device.bodies().size())};
+  }
+  if (std::all_of(values.begin(), values.end(), is_finite)) return std::nullopt;
+  return OptionProblem{member, "is not finite", "a finite number for every body"};
+}
+
 void check(const Device& device, const HybridLoopOptions& options) {
-  const UserForce& force = options.user_force;
-  if (!device.has_bodies()) {
-    if (force.kind != UserForce::Kind::none || !options.initial_position.empty() || !options.initial_velocity.empty()) {
-      throw Error(ErrorCode::needs_bodies, "a transfer function has no body to hold or to start from");
-    }
+  const bool moves_a_body = options.user_force.kind != UserForce::Kind::none || !options.initial_position.empty() ||
+                            !options.initial_velocity.empty();
+  if (!device.has_bodies() && moves_a_body) {
+    throw Error(ErrorCode::needs_bodies, "a transfer function has no body to hold or to start from");
   }
-  require(std::isfinite(force.amplitude), "user force amplitude must be finite");
-  require(is_duration(force.start), "user force start must be >= 0 s");
-  require(force.kind != UserForce::Kind::sine || (std::isfinite(force.frequency) && force.frequency > 0.0),
-          "user force frequency must be > 0 rad/s");
-  if (force.kind == UserForce::Kind::recorded) {
-    require(std::isfinite(force.period) && force.period > 0.0, "user force period must be > 0 s");
-    require(!force.samples.empty(), "recorded user force has no samples");
-    for (const double sample : force.samples) require(std::isfinite(sample), "recorded user force is not finite");
-  }
-  const Faults& faults = options.faults;
-  require(is_probability(faults.lost_sample_probability), "lost sample probability must be in 0..1");
-  require(is_probability(faults.overrun_probability), "overrun probability must be in 0..1");
-  require(is_duration(faults.overrun_delay), "overrun delay must be >= 0 s");
-  require(is_duration(faults.sampling_jitter) && faults.sampling_jitter < device.loop().sampling_period,
-          "sampling jitter must be >= 0 and less than the sampling period");
-  require(faults.overrun_delay <= max_delay_samples * device.loop().sampling_period, "overrun delay is too long");
-  for (const auto* each : {&options.initial_position, &options.initial_velocity}) {
-    require(each->empty() || each->size() == device.bodies().size(), "initial motion must be given for every body");
-    for (const double value : *each) require(std::isfinite(value), "initial motion must be finite");
+  if (const auto problem = find_problem(options, device)) {
+    throw Error(ErrorCode::invalid_argument,
+                fmt::format("{} {}; {}", problem->member, problem->what, problem->allowed));
   }
 }
 
@@ -135,8 +180,9 @@ struct HybridLoop::State {
         faults.lost_sample_probability > 0.0 || faults.sampling_jitter > 0.0 || faults.overrun_probability > 0.0;
     const bool takes_odd_steps = is_faulty || motion.has_friction() || options.user_force.kind != UserForce::Kind::none;
     require(!takes_odd_steps || motion.rate() * period <= most_parts_per_period,
-            "the device's fastest motion, about " + std::to_string(motion.rate()) +
-                " rad/s, is too fast to follow in time beside its sampling period; soften it or make it rigid");
+            fmt::format("the device's fastest motion, about {:.4g} rad/s, is too fast to follow in time beside its "
+                        "sampling period; soften it or make it rigid",
+                        motion.rate()));
     reset();
   }
 
@@ -307,6 +353,21 @@ struct HybridLoop::State {
   double command = 0.0;
   double work = 0.0;
 };
+
+std::optional<OptionProblem> find_problem(const HybridLoopOptions& options, const Device& device) {
+  const double period = device.loop().sampling_period;
+  if (auto problem = find_problem(options.controller, period)) {
+    problem->member.insert(0, "controller.");
+    return problem;
+  }
+  if (auto problem = faults_problem(options.faults, period)) return problem;
+  if (!device.has_bodies() && options.user_force.kind != UserForce::Kind::none) {
+    return OptionProblem{"user_force", "needs a body that a user could hold", "none on a transfer function"};
+  }
+  if (auto problem = user_force_problem(options.user_force)) return problem;
+  if (auto problem = motion_problem("initial_position", options.initial_position, device)) return problem;
+  return motion_problem("initial_velocity", options.initial_velocity, device);
+}
 
 HybridLoop::HybridLoop(const Device& device, const HybridLoopOptions& options) {
   check(device, options);

@@ -3,7 +3,7 @@
 #include <optional>
 #include <span>
 
-#include "zwidth/simulation/trajectory.hpp"
+#include "zwidth/simulation/simulate.hpp"
 
 namespace zwidth::internal {
 

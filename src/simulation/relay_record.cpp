@@ -42,11 +42,8 @@ void check(std::span<const double> force, std::span<const double> position, doub
   if (!(is_finite(sampling_period) && sampling_period > 0.0)) {
     refuse(fmt::format("sampling period of {} s; above 0", sampling_period));
   }
-  if (options.segment_length < least_samples) {
-    refuse(fmt::format("segments of {} samples; at least {}", options.segment_length, least_samples));
-  }
-  if (!(options.steady_tolerance > 0.0 && options.steady_tolerance < 1.0)) {
-    refuse(fmt::format("steady tolerance of {}; above 0, below 1", options.steady_tolerance));
+  if (const auto problem = find_problem(options)) {
+    refuse(fmt::format("{} {}; {}", problem->member, problem->what, problem->allowed));
   }
 }
 
@@ -106,7 +103,7 @@ std::string nothing_moves(std::span<const double> force, std::span<const double>
   return "";
 }
 
-void remark_steadiness(RelayResult& result, const SteadyPart& part, const RelayAnalysisOptions& options) {
+void remark_steadiness(RelayReading& result, const SteadyPart& part, const RelayAnalysisOptions& options) {
   if (std::abs(part.trend) > std::max(options.steady_tolerance, 2.0 * part.scatter)) {
     result.remarks.push_back({Remark::Severity::warning,
                               fmt::format("the swing still {} by {:.0f} % over the last half of the record",
@@ -120,7 +117,7 @@ void remark_steadiness(RelayResult& result, const SteadyPart& part, const RelayA
   }
 }
 
-void remark_signals(RelayResult& result, std::span<const double> position, const RelayAnalysisOptions& options) {
+void remark_signals(RelayReading& result, std::span<const double> position, const RelayAnalysisOptions& options) {
   if (result.steady_samples < options.segment_length) {
     result.remarks.push_back(
         {Remark::Severity::warning,
@@ -145,7 +142,19 @@ void remark_signals(RelayResult& result, std::span<const double> position, const
 
 }  // namespace
 
-tl::expected<RelayResult, NoOscillation> analyse_relay_record(std::span<const double> force,
+std::optional<OptionProblem> find_problem(const RelayAnalysisOptions& options) {
+  if (options.segment_length < least_samples) {
+    return OptionProblem{"segment_length", fmt::format("is {} samples", options.segment_length),
+                         fmt::format("at least {}", least_samples)};
+  }
+  if (!(options.steady_tolerance > 0.0 && options.steady_tolerance < 1.0)) {
+    return OptionProblem{"steady_tolerance", fmt::format("is {}", options.steady_tolerance),
+                         "a relative difference above 0, below 1"};
+  }
+  return std::nullopt;
+}
+
+tl::expected<RelayReading, NoOscillation> analyse_relay_record(std::span<const double> force,
                                                               std::span<const double> position, double sampling_period,
                                                               const RelayAnalysisOptions& options) {
   check(force, position, sampling_period, options);
@@ -180,7 +189,7 @@ tl::expected<RelayResult, NoOscillation> analyse_relay_record(std::span<const do
                     100.0 * peak.share, 100.0 * least_share)});
   }
 
-  RelayResult result;
+  RelayReading result;
   const double angle = 2.0 * std::numbers::pi / sampling_period;  // rad/s of one cycle per sample
   result.frequency = angle * peak.per_sample();
   result.stiffness = peak.stiffness;

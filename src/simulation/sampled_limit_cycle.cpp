@@ -92,4 +92,17 @@ std::vector<LimitCycle> sampled_relay_limit_cycles(const DiscreteStateSpace& sys
   return cycles;
 }
 
+std::vector<CycleBand> cycle_bands(const std::vector<LimitCycle>& cycles) {
+  constexpr double same_band = 1.1;
+  std::vector<CycleBand> bands;
+  for (const LimitCycle& cycle : cycles) {
+    if (bands.empty() || cycle.frequency > same_band * bands.back().highest.frequency) {
+      bands.push_back({0, cycle, cycle});
+    }
+    ++bands.back().count;
+    bands.back().highest = cycle;
+  }
+  return bands;
+}
+
 }  // namespace zwidth

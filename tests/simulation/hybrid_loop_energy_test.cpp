@@ -8,13 +8,14 @@
 
 #include "simulation/continuous_motion.hpp"
 #include "simulation/simulated_devices.hpp"
-#include "zwidth/simulation/trajectory.hpp"
+#include "zwidth/simulation/simulate.hpp"
 
 namespace zwidth {
 using namespace internal;
 namespace {
 
 using test::lhifam_parameters;
+using test::simulation_of;
 using test::spring_wall;
 using test::starting_at;
 using test::with_friction;
@@ -136,8 +137,7 @@ TEST(Energy, BalancesWhereTheUserDragsStickingBodies) {
 }
 
 TEST(GeneratedEnergy, AnUnstableWallGivesWithoutEnd) {
-  SimulationOptions options;
-  options.loop = starting_at(spring_wall(9500.0), {1e-3, 1e-3});
+  SimulationOptions options = simulation_of(starting_at(spring_wall(9500.0), {1e-3, 1e-3}));
   options.duration = 5.0;
   const Simulation shorter = simulate(Device(lhifam_parameters()), options);
   options.duration = 20.0;
@@ -151,8 +151,7 @@ TEST(GeneratedEnergy, AnUnstableWallGivesWithoutEnd) {
 TEST(GeneratedEnergy, AContinuousSpringGivesNothing) {
   DeviceParameters device = test::rigid_parameters();
   device.loop.sampling_period = 1e-6;
-  SimulationOptions options;
-  options.loop = starting_at(spring_wall(1000.0), {1e-3});
+  SimulationOptions options = simulation_of(starting_at(spring_wall(1000.0), {1e-3}));
   options.duration = 1.0;
   const Simulation run = simulate(Device(device), options);
   const double held_at_start = 0.5 * 1000.0 * 1e-6;
@@ -164,8 +163,7 @@ TEST(GeneratedEnergy, AContinuousSpringGivesNothing) {
 TEST(GeneratedEnergy, ADampedWallTakes) {
   DeviceParameters device = test::rigid_parameters();
   device.bodies[0].damping = 30.0;
-  SimulationOptions options;
-  options.loop = starting_at(spring_wall(2000.0, 20.0), {1e-3});
+  SimulationOptions options = simulation_of(starting_at(spring_wall(2000.0, 20.0), {1e-3}));
   const Simulation run = simulate(Device(device), options);
   EXPECT_LT(*run.generated_energy, 0.0);
   // 1 mm of 2 kN/m is 1 mJ; half a sample of delay gives some of it before the damper takes more.
@@ -177,8 +175,7 @@ TEST(GeneratedEnergy, ASaturatedSpringHoldsLess) {
   DeviceParameters device = test::rigid_parameters();
   device.loop.sampling_period = 1e-5;
   device.actuator.force_limit = 1.0;
-  SimulationOptions options;
-  options.loop = starting_at(spring_wall(1000.0), {5e-3});
+  SimulationOptions options = simulation_of(starting_at(spring_wall(1000.0), {5e-3}));
   options.duration = 0.5;
   const Simulation run = simulate(Device(device), options);
   const double held_at_start = 1.0 * 5e-3 - 0.5 * 1.0 / 1000.0;

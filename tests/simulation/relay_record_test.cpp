@@ -44,7 +44,7 @@ Record relay_record(
   return record;
 }
 
-RelayResult analysed(const Record& record, const RelayAnalysisOptions& options = {}) {
+RelayReading analysed(const Record& record, const RelayAnalysisOptions& options = {}) {
   const auto result = analyse_relay_record(record.force, record.position, period, options);
   if (!result) {
     ADD_FAILURE() << result.error().reason;
@@ -70,7 +70,7 @@ auto has_remark(const std::string& text) { return Contains(Field(&Remark::what, 
 TEST(RelayRecord, ReadsFrequencyAndGainOnALine) {
   // 41 lines of 1000/8192 Hz: about 5 Hz, 200 samples per cycle.
   const double frequency = 41.0 * 1000.0 / 8192.0;
-  const RelayResult result = analysed(relay_record(3 * 8192, frequency, 5.0, 1e-3));
+  const RelayReading result = analysed(relay_record(3 * 8192, frequency, 5.0, 1e-3));
   EXPECT_NEAR(result.frequency, 2.0 * pi * frequency, 1e-9);
   EXPECT_NEAR(result.line_spacing, 2.0 * pi * 1000.0 / 8192.0, 1e-12);
   // First harmonic of the sampled square wave: 4 d/pi but for its switches' rounding to samples.
@@ -85,7 +85,7 @@ TEST(RelayRecord, ReadsFrequencyAndGainOnALine) {
 TEST(RelayRecord, BetweenLinesTheCyclesKnowTheFrequency) {
   for (const double frequency : {2.3, 4.44, 17.03, 61.6}) {
     SCOPED_TRACE(frequency);
-    const RelayResult result = analysed(relay_record(20000, frequency, 5.0, 1e-3));
+    const RelayReading result = analysed(relay_record(20000, frequency, 5.0, 1e-3));
     EXPECT_LE(std::abs(result.frequency - 2.0 * pi * frequency), 0.51 * result.line_spacing);
     ASSERT_TRUE(result.cycle_frequency);
     EXPECT_NEAR(*result.cycle_frequency, 2.0 * pi * frequency, tilt(frequency, 20000) * result.frequency);
@@ -98,8 +98,8 @@ TEST(RelayRecord, UnitsScaleTheStiffnessAndNothingElse) {
   Record scaled = record;
   for (double& each : scaled.force) each *= 1e-3;
   for (double& each : scaled.position) each *= 1e6;
-  const RelayResult plain = analysed(record);
-  const RelayResult other = analysed(scaled);
+  const RelayReading plain = analysed(record);
+  const RelayReading other = analysed(scaled);
   EXPECT_DOUBLE_EQ(other.frequency, plain.frequency);
   EXPECT_NEAR(other.stiffness, 1e-9 * plain.stiffness, 1e-12 * other.stiffness);
   EXPECT_EQ(other.steady_from, plain.steady_from);
@@ -107,9 +107,9 @@ TEST(RelayRecord, UnitsScaleTheStiffnessAndNothingElse) {
 
 TEST(RelayRecord, AnOffsetAndASlowDriftOfTheEncoderDoNotMoveTheAnswer) {
   Record record = relay_record(20000, 4.44, 5.0, 1e-3);
-  const RelayResult plain = analysed(record);
+  const RelayReading plain = analysed(record);
   for (std::size_t k = 0; k < record.position.size(); ++k) record.position[k] += 0.3 + 1e-8 * static_cast<double>(k);
-  const RelayResult moved = analysed(record);
+  const RelayReading moved = analysed(record);
   EXPECT_DOUBLE_EQ(moved.frequency, plain.frequency);
   EXPECT_NEAR(moved.stiffness, plain.stiffness, 1e-4 * plain.stiffness);
 }
@@ -122,7 +122,7 @@ TEST(RelayRecord, SpectraAreThoseOfADirectSum) {
   std::normal_distribution<double> noise(0.0, 0.05);
   Record record = relay_record(1024, 31.0, 1.0, 1.0);
   for (double& each : record.position) each += noise(random);
-  const RelayResult result = analysed(record, options);
+  const RelayReading result = analysed(record, options);
   ASSERT_EQ(result.steady_from, 0U);
   const auto line_free = [](const std::vector<double>& signal) {
     const auto n = static_cast<double>(signal.size());
@@ -163,7 +163,7 @@ TEST(RelayRecord, SpectraAreThoseOfADirectSum) {
 TEST(RelayRecord, ATransientIsLeftOut) {
   // Starts ten times as large and dies down within 1 s time constant: 5 % is reached after ln(9/0.05) = 5.2 s.
   const Record record = relay_record(20000, 4.44, 5.0, 1e-3, [](double t) { return 1.0 + 9.0 * std::exp(-t / 1.0); });
-  const RelayResult result = analysed(record);
+  const RelayReading result = analysed(record);
   EXPECT_GT(result.steady_from, 4000U);
   EXPECT_LT(result.steady_from, 7000U);
   EXPECT_NEAR(result.stiffness, 4.0 * 5.0 / (pi * 1e-3), 0.02 * result.stiffness);
@@ -184,7 +184,7 @@ TEST(RelayRecord, AnUnsteadySwingIsRemarked) {
 }
 
 TEST(RelayRecord, ARecordShorterThanASegmentIsOneSegmentAndSaysSo) {
-  const RelayResult result = analysed(relay_record(5000, 5.0, 5.0, 1e-3));
+  const RelayReading result = analysed(relay_record(5000, 5.0, 5.0, 1e-3));
   EXPECT_EQ(result.segments, 1U);
   EXPECT_NEAR(result.line_spacing, 2.0 * pi * 1000.0 / 5000.0, 1e-9);
   EXPECT_NEAR(result.frequency, 2.0 * pi * 5.0, 0.51 * result.line_spacing);
@@ -205,7 +205,7 @@ TEST(RelayRecord, AnotherOscillationRidingOnItLeavesNoCycleFrequency) {
   for (std::size_t k = 0; k < record.position.size(); ++k) {
     record.position[k] += 0.9e-3 * std::sin(2.0 * pi * 50.3 * period * static_cast<double>(k));
   }
-  const RelayResult result = analysed(record);
+  const RelayReading result = analysed(record);
   EXPECT_NEAR(result.frequency, 2.0 * pi * 4.0, result.line_spacing);
   if (result.cycle_frequency) {
     EXPECT_NEAR(*result.cycle_frequency, result.frequency, result.line_spacing);

@@ -11,7 +11,7 @@
 #include "simulation/loop_judgement.hpp"
 #include "simulation/simulated_devices.hpp"
 #include "zwidth/error.hpp"
-#include "zwidth/simulation/trajectory.hpp"
+#include "zwidth/simulation/simulate.hpp"
 #include "zwidth/stability/closed_loop.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
 
@@ -22,14 +22,12 @@ namespace {
 using std::numbers::pi;
 using test::lhifam_parameters;
 using test::pushed_by;
+using test::simulation_of;
 using test::spring_wall;
 using test::starting_at;
 
 Simulation run(const DeviceParameters& device, const HybridLoopOptions& loop, double duration) {
-  SimulationOptions options;
-  options.loop = loop;
-  options.duration = duration;
-  return simulate(Device(device), options);
+  return simulate(Device(device), simulation_of(loop, duration));
 }
 
 UserForce step(double force, double start) {
@@ -79,8 +77,7 @@ TEST(Verdict, AnUnstableWallGrowsAsItsPoleSays) {
 }
 
 TEST(Verdict, DivergenceEndsTheRun) {
-  SimulationOptions options;
-  options.loop = starting_at(spring_wall(40000.0), {1e-3, 1e-3});
+  SimulationOptions options = simulation_of(starting_at(spring_wall(40000.0), {1e-3, 1e-3}));
   options.duration = 10.0;
   options.divergence = 0.5;
   const Simulation result = simulate(Device(lhifam_parameters()), options);
@@ -91,8 +88,7 @@ TEST(Verdict, DivergenceEndsTheRun) {
 }
 
 TEST(Verdict, EvenAnOverflowingRunIsUnstable) {
-  SimulationOptions options;
-  options.loop = starting_at(spring_wall(1e12), {1e-3, 1e-3});
+  SimulationOptions options = simulation_of(starting_at(spring_wall(1e12), {1e-3, 1e-3}));
   options.divergence = std::numeric_limits<double>::max();
   EXPECT_EQ(simulate(Device(lhifam_parameters()), options).verdict, LoopVerdict::unstable);
 }
@@ -291,8 +287,7 @@ TEST(Judgement, RestIsRest) {
 }
 
 TEST(Simulate, KeepsWhatIsAskedFor) {
-  SimulationOptions options;
-  options.loop = starting_at(spring_wall(5000.0), {1e-3, 2e-3});
+  SimulationOptions options = simulation_of(starting_at(spring_wall(5000.0), {1e-3, 2e-3}));
   options.duration = 0.1;
   options.keep_every = 7;
   const Simulation thin = simulate(Device(lhifam_parameters()), options);
@@ -342,21 +337,21 @@ TEST(Simulate, RefusesWhatItCannotDo) {
   options.divergence = 0.0;
   refused(options);
   options = {};
-  options.loop.initial_position = {1.0};
+  options.initial_position = {1.0};
   refused(options);
-  options.loop.initial_position = {1.0, std::nan("")};
-  refused(options);
-  options = {};
-  options.loop.controller.stiffness = -1.0;
+  options.initial_position = {1.0, std::nan("")};
   refused(options);
   options = {};
-  options.loop.user_force.kind = UserForce::Kind::sine;
+  options.controller = spring_wall(-1.0).controller;
   refused(options);
-  options.loop.user_force.kind = UserForce::Kind::recorded;
+  options = {};
+  options.user_force.kind = UserForce::Kind::sine;
+  refused(options);
+  options.user_force.kind = UserForce::Kind::recorded;
   refused(options);
   const Device transfer_function(test::transfer_function_parameters({1.0}, {1.0, 1.0, 0.0}, 1e-3));
   options = {};
-  options.loop.user_force.kind = UserForce::Kind::step;
+  options.user_force.kind = UserForce::Kind::step;
   EXPECT_THROW((void)simulate(transfer_function, options), Error);
 }
 
@@ -364,6 +359,7 @@ TEST(Simulate, ProgressEndsTheRunByThrowing) {
   struct Stop {};
   SimulationOptions options;
   options.duration = 100.0;
+  options.initial_velocity = {0.1, 0.1};
   options.keep_every = 0;
   double last = -1.0;
   EXPECT_THROW((void)simulate(Device(lhifam_parameters()), options,

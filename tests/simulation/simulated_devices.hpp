@@ -1,7 +1,7 @@
 #pragma once
 
 #include "lhifam.hpp"
-#include "zwidth/simulation/hybrid_loop.hpp"
+#include "zwidth/simulation/simulate.hpp"
 
 namespace zwidth::test {
 
@@ -48,6 +48,18 @@ inline HybridLoopOptions starting_at(HybridLoopOptions options, std::vector<doub
 
 inline HybridLoopOptions pushed_by(HybridLoopOptions options, UserForce force) {
   options.user_force = std::move(force);
+  return options;
+}
+
+/// The same loop as simulate() runs it.
+inline SimulationOptions simulation_of(HybridLoopOptions loop, std::optional<double> duration = 1.0) {
+  SimulationOptions options;
+  options.controller = std::move(loop.controller);
+  options.user_force = std::move(loop.user_force);
+  options.faults = loop.faults;
+  options.initial_position = std::move(loop.initial_position);
+  options.initial_velocity = std::move(loop.initial_velocity);
+  options.duration = duration;
   return options;
 }
 

@@ -5,7 +5,7 @@
 
 #include "report/figure/canvas.hpp"
 #include "zwidth/model/device.hpp"
-#include "zwidth/simulation/relay_experiment.hpp"
+#include "zwidth/simulation/relay_trials.hpp"
 
 namespace zwidth::report {
 

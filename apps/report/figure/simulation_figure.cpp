@@ -10,6 +10,7 @@
 
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
+#include "report/text/simulation_text.hpp"
 #include "report/text/text_table.hpp"
 
 namespace zwidth::report {
@@ -113,8 +114,8 @@ void draw_frame(Canvas& canvas, const Box& frame, const std::vector<Curve>& curv
   canvas.plot(frame, what + "NaN notitle");
 }
 
-void shade_wall(Canvas& canvas, const SimulatedLoop& loop, const Axis& axis) {
-  const ControllerOptions& wall = loop.options.loop.controller;
+void shade_wall(Canvas& canvas, const Simulation& result, const Axis& axis) {
+  const ControllerOptions& wall = result.loop.controller;
   if (wall.kind != ControllerOptions::Kind::wall || wall.position >= axis.high) return;
   const double part = std::max(0.0, (wall.position - axis.low) / (axis.high - axis.low));
   const double surface = positions.bottom - part * (positions.bottom - positions.top);
@@ -123,9 +124,8 @@ void shade_wall(Canvas& canvas, const SimulatedLoop& loop, const Axis& axis) {
               {Anchor::right, text_size, "#555555"});
 }
 
-std::vector<Curve> position_curves(const SimulatedLoop& loop) {
-  const Device& device = loop.analysed.device;
-  const Trajectory& kept = loop.result.trajectory;
+std::vector<Curve> position_curves(const Device& device, const Simulation& result) {
+  const Trajectory& kept = result.trajectory;
   if (!device.has_bodies()) return {{"position", &kept.position[0]}};
   const auto [sensed, held] = std::pair(device.loop().sensed, device.loop().held);
   std::vector<Curve> curves{{device.bodies()[sensed].name + " (sensed)", &kept.position[sensed]}};
@@ -135,16 +135,16 @@ std::vector<Curve> position_curves(const SimulatedLoop& loop) {
 
 }  // namespace
 
-std::string draw_simulation_figure(const SimulatedLoop& loop, FigureFormat format) {
-  const Trajectory& kept = loop.result.trajectory;
-  const Units units = units_of(loop.analysed.device.parameters().motion);
+std::string draw_simulation_figure(const Device& device, const Simulation& result, FigureFormat format) {
+  const Trajectory& kept = result.trajectory;
+  const Units units = units_of(device.parameters().motion);
   std::vector<std::string> lines;
-  std::istringstream sentence(wrap(verdict_sentence(loop), 115, 0));
+  std::istringstream sentence(wrap(verdict_sentence(device, result), 115, 0));
   for (std::string line; std::getline(sentence, line);) lines.push_back(line);
   const double list_top = forces.bottom + 64.0;
   Canvas canvas("Simulation", canvas_width, list_top + row_height * static_cast<double>(lines.size()));
   canvas.text(positions.left, 18.0,
-              Canvas::fitted(display_name(loop.analysed.device), 16.0, positions.right - positions.left),
+              Canvas::fitted(display_name(device), 16.0, positions.right - positions.left),
               {Anchor::left, 16.0});
   for (std::size_t i = 0; i < lines.size(); ++i) {
     canvas.text(positions.left, list_top + row_height * static_cast<double>(i), lines[i], {Anchor::left, text_size});
@@ -152,11 +152,11 @@ std::string draw_simulation_figure(const SimulatedLoop& loop, FigureFormat forma
   canvas.commands(
       "set tics font ',12' scale 0.6,0.3\nset border lw 0.8\n"
       "set grid xtics ytics lw 0.5 lc rgb '#c8c8c8' dt 1 back");
-  const std::vector<Curve> moved = position_curves(loop);
-  shade_wall(canvas, loop, axis_of(moved));
+  const std::vector<Curve> moved = position_curves(device, result);
+  shade_wall(canvas, result, axis_of(moved));
   draw_frame(canvas, positions, moved, kept.time, "Position", units.length);
   std::vector<Curve> pushed{{"commanded force", &kept.command}};
-  if (loop.options.loop.user_force.kind != UserForce::Kind::none) pushed.push_back({"user's force", &kept.user_force});
+  if (result.loop.user_force.kind != UserForce::Kind::none) pushed.push_back({"user's force", &kept.user_force});
   canvas.text(0.5 * (forces.left + forces.right), forces.bottom + 40.0, "Time (s)", {Anchor::centre, text_size});
   draw_frame(canvas, forces, pushed, kept.time, "Force", units.force);
   return canvas.draw(format);

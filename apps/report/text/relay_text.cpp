@@ -9,7 +9,6 @@
 
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
-#include "report/text/relay_explanation.hpp"
 #include "report/text/remark_line.hpp"
 #include "report/text/text_table.hpp"
 
@@ -22,53 +21,53 @@ constexpr std::size_t bullet = 4;
 
 std::string bulleted(std::string_view text) { return wrap(text, width, bullet).replace(0, bullet, "  - "); }
 
-std::string heading(const RelayReport& report) {
-  const Units units = units_of(report.motion);
-  const std::string relay = fmt::format("relay of {}", quantity(report.relay.amplitude, units.force));
+std::string heading(const RelayResult& result) {
+  const Units units = units_of(result.motion);
+  const std::string relay = fmt::format("relay of {}", quantity(result.relay.amplitude, units.force));
   std::string text;
-  if (report.source == RelayReport::Source::recording) {
-    text = fmt::format("Recorded relay experiment: {}\n  {}, {} Hz sampling\n", shortened(report.recording, width - 28),
-                       relay, number(1.0 / report.sampling_period));
+  if (result.source == RelayResult::Source::recording) {
+    text = fmt::format("Recorded relay experiment: {}\n  {}, {} Hz sampling\n", shortened(result.recording, width - 28),
+                       relay, number(1.0 / result.sampling_period));
   } else {
     text = fmt::format("Simulated relay experiment: {}\n  {}{}, delay {}\n",
-                       shortened(display_name(*report.device), width - 28), relay,
-                       report.relay.hysteresis > 0.0
-                           ? fmt::format(", hysteresis {}", quantity(report.relay.hysteresis, units.length))
+                       shortened(display_name(*result.device), width - 28), relay,
+                       result.relay.hysteresis > 0.0
+                           ? fmt::format(", hysteresis {}", quantity(result.relay.hysteresis, units.length))
                            : "",
-                       quantity(report.device->loop().delay, "s"));
+                       quantity(result.device->loop().delay, "s"));
   }
   return text + "\n";
 }
 
-std::string trial_table(const RelayReport& report) {
-  const Units units = units_of(report.motion);
+std::string trial_table(const RelayResult& result) {
+  const Units units = units_of(result.motion);
   TextTable table{{Align::right, Align::right, Align::right, Align::right, Align::right, Align::right, Align::right},
                   {{"trial", "Hz", fmt::format("K ({})", units.stiffness), "K (dB)",
                     fmt::format("amplitude ({})", units.length), "steady from (s)", "by cycles (Hz)"}}};
   std::string failures;
-  for (std::size_t i = 0; i < report.trials.size(); ++i) {
-    const RelayTrial& trial = report.trials[i];
+  for (std::size_t i = 0; i < result.trials.size(); ++i) {
+    const RelayTrial& trial = result.trials[i];
     const std::string name = std::to_string(i + 1);
     if (!trial.result) {
       table.rows.push_back({name, "-", "-", "-", "-", "-", "-"});
       failures += bulleted(fmt::format("trial {}: no oscillation: {}", name, trial.result.error().reason));
       continue;
     }
-    const RelayResult& result = *trial.result;
-    table.rows.push_back({name, fmt::format("{:.4f}", hertz(result.frequency)), number(result.stiffness),
-                          fmt::format("{:.2f}", decibels(result.stiffness)), number(result.amplitude),
-                          fmt::format("{:.2f}", static_cast<double>(result.steady_from) * report.sampling_period),
-                          result.cycle_frequency ? fmt::format("{:.4f}", hertz(*result.cycle_frequency)) : "-"});
+    const RelayReading& reading = *trial.result;
+    table.rows.push_back({name, fmt::format("{:.4f}", hertz(reading.frequency)), number(reading.stiffness),
+                          fmt::format("{:.2f}", decibels(reading.stiffness)), number(reading.amplitude),
+                          fmt::format("{:.2f}", static_cast<double>(reading.steady_from) * result.sampling_period),
+                          reading.cycle_frequency ? fmt::format("{:.4f}", hertz(*reading.cycle_frequency)) : "-"});
   }
-  if (const auto mean = mean_of(report.trials); mean && mean->trials > 1) {
+  if (const auto& mean = result.mean; mean && mean->trials > 1) {
     table.rows.push_back({"mean", fmt::format("{:.4f}", hertz(mean->frequency)), number(mean->stiffness),
                           fmt::format("{:.2f}", decibels(mean->stiffness)), number(mean->amplitude), "", ""});
   }
   return layout(table) + failures;
 }
 
-std::string spectra_note(const RelayReport& report) {
-  for (const RelayTrial& trial : report.trials) {
+std::string spectra_note(const RelayResult& result) {
+  for (const RelayTrial& trial : result.trials) {
     if (!trial.result) continue;
     return wrap(fmt::format("Frequencies are lines of the spectra, {} Hz apart; \"by cycles\" counts the position's "
                             "cycles instead.",
@@ -119,13 +118,13 @@ void add_crossovers(TextTable& table, const CriticalStiffness& linear) {
   if (left_out > 0) table.rows.push_back({"", fmt::format("and {} more", left_out), "", ""});
 }
 
-std::string prediction_table(const RelayReport& report) {
-  if (!report.prediction) return "";
-  const RelayPrediction& prediction = *report.prediction;
+std::string prediction_table(const RelayResult& result) {
+  if (!result.prediction) return "";
+  const RelayPrediction& prediction = *result.prediction;
   TextTable table{{Align::left, Align::right, Align::right, Align::right},
-                  {{"", "Hz", "K (dB)", fmt::format("amplitude ({})", units_of(report.motion).length)}}};
+                  {{"", "Hz", "K (dB)", fmt::format("amplitude ({})", units_of(result.motion).length)}}};
   add_crossovers(table, prediction.linear);
-  add_cycles(table, friction_level(report) > 0.0 ? "first harmonics, with friction" : "first harmonics",
+  add_cycles(table, result.friction_level.value_or(0.0) > 0.0 ? "first harmonics, with friction" : "first harmonics",
              prediction.describing_function, "none");
   const std::string none = fmt::format("none above {}", number(hertz(prediction.lowest_frequency)));
   add_cycles(table, "sampled relay, exact", prediction.sampled_relay, none);
@@ -157,15 +156,18 @@ std::vector<SharedRemark> shared_remarks(const std::vector<RelayTrial>& trials) 
   return shared;
 }
 
-std::string remarks(const RelayReport& report) {
+std::string remarks(const RelayResult& result) {
   std::string text;
-  for (const Remark& remark : remarks_of(report)) text += bulleted(remark_line(remark));
-  for (const SharedRemark& remark : shared_remarks(report.trials)) {
-    const bool is_of_all = remark.trials.size() == report.trials.size();
+  if (!result.trust.refused()) {
+    for (const std::string& reason : result.trust.reasons) text += bulleted("doubtful as a limit for walls: " + reason);
+  }
+  for (const Remark& remark : result.remarks) text += bulleted(remark_line(remark));
+  for (const SharedRemark& remark : shared_remarks(result.trials)) {
+    const bool is_of_all = remark.trials.size() == result.trials.size();
     text +=
         bulleted(is_of_all ? remark.text : fmt::format("trial {}: {}", fmt::join(remark.trials, ", "), remark.text));
   }
-  if (report.trials.size() > 1 && friction_level(report) == 0.0 && report.trials.front().start_offset == 0.0) {
+  if (result.trials.size() > 1 && result.friction_level.value_or(0.0) == 0.0 && result.trials.front().start_offset == 0.0) {
     text += bulleted("all trials are alike: without a start offset and friction nothing varies");
   }
   return text.empty() ? "" : "\nTo know\n" + text;
@@ -173,13 +175,12 @@ std::string remarks(const RelayReport& report) {
 
 }  // namespace
 
-std::string relay_text(const RelayReport& report) {
-  std::string text = heading(report) + trial_table(report) + spectra_note(report);
-  if (report.prediction) text += "\n" + prediction_table(report);
-  const std::vector<std::string> sentences = relay_explanation(report);
-  if (!sentences.empty()) text += "\nWhat it means\n";
-  for (const std::string& sentence : sentences) text += bulleted(sentence);
-  return text + remarks(report);
+std::string relay_text(const RelayResult& result) {
+  std::string text = heading(result) + trial_table(result) + spectra_note(result);
+  if (result.prediction) text += "\n" + prediction_table(result);
+  if (!result.explanation.empty()) text += "\nWhat it means\n";
+  for (const std::string& sentence : result.explanation) text += bulleted(sentence);
+  return text + remarks(result);
 }
 
 }  // namespace zwidth::report

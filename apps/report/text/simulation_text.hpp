@@ -2,11 +2,17 @@
 
 #include <string>
 
-#include "report/simulated_loop.hpp"
+#include "zwidth/simulation/simulate.hpp"
 
 namespace zwidth::report {
 
-/// What `simulate` prints: set-up, verdict, numbers with units, the linear answer.
-[[nodiscard]] std::string simulation_text(const SimulatedLoop& loop);
+/// One sentence: what the loop did, with numbers and units.
+[[nodiscard]] std::string verdict_sentence(const Device& device, const Simulation& result);
+
+/// What the linear analysis says of the same wall, and what it leaves out where the two differ.
+[[nodiscard]] std::string linear_answer(const Device& device, const Simulation& result);
+
+/// The text of `simulate`: set-up, verdict, numbers, linear answer and remarks; at most 100 columns.
+[[nodiscard]] std::string simulation_text(const Device& device, const Simulation& result);
 
 }  // namespace zwidth::report

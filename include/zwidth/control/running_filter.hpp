@@ -6,7 +6,7 @@
 
 namespace zwidth {
 
-/// A filter with its past: one call per sample, no allocation, no exception.
+/// A wall filter as it runs: a FilterSection with its past.
 ///
 /// With w the state, u what enters and y what leaves, delta w[k] = w[k+1] - w[k]:
 ///
@@ -14,12 +14,17 @@ namespace zwidth {
 ///                  y = n[0] w + n[1] delta w + ... + n[degree] delta^degree w      n: whole_numerator()
 ///
 /// States are differences, not past values: a filter slow against the sampling period keeps its digits.
+/// u and y in the same unit (N or N m in a wall). Starts, and starts again after reset(), from w = 0.
+/// Nothing allocates, locks, logs or throws. A NaN that enters never leaves: reset() it.
+/// Source: Middleton & Goodwin 1986, delta operator.
 class RunningFilter {
  public:
+  /// Lets nothing through.
   RunningFilter() = default;
-  explicit RunningFilter(const FilterSection& section)
+  explicit RunningFilter(const FilterSection& section) noexcept
       : degree_(section.degree), n_(whole_numerator(section)), d_(section.denominator) {}
 
+  /// y[k] from u[k].
   [[nodiscard]] double update(double u) noexcept {
     if (degree_ == 1) {
       const double highest = u - d_[0] * w_[0];
@@ -34,6 +39,7 @@ class RunningFilter {
     return y;
   }
 
+  /// Forgets the past.
   void reset() noexcept { w_ = {}; }
 
  private:

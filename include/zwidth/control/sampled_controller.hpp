@@ -2,10 +2,13 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "zwidth/control/running_filter.hpp"
+#include "zwidth/control/velocity_filter.hpp"
 #include "zwidth/model/device.hpp"
+#include "zwidth/option_problem.hpp"
 
 namespace zwidth {
 
@@ -35,11 +38,22 @@ struct ControllerOptions {
 /// The wall of a device file as a bilateral spring at 0; without wall.stiffness, K = 0.
 [[nodiscard]] ControllerOptions wall_controller(const Wall& wall);
 
-/// The controller as it runs on the device: one call per sample, no allocation, no exception. The same object serves
-/// the simulation and a real loop.
+/// The first member outside its domain, at this sampling period in s (a notch lies below Nyquist's frequency).
+[[nodiscard]] std::optional<OptionProblem> find_problem(const ControllerOptions& options, double sampling_period);
+
+/// The controller as it runs on a device: force from measured position, once per sampling period.
+///
+///     wall:   F = -F(z) (K (x - x_w) + B v),  v by VelocityFilter, F(z) by RunningFilter one after the other
+///     relay:  F = -+d, see ControllerOptions
+///
+/// Positions in m or rad, forces in N or N m.
+/// After construction nothing allocates, locks, logs or throws: the same object serves the simulation and a real-time
+/// loop. A NaN measured gives NaN, and may stay in the filters: stop, or reset().
+/// Source: eqs. 17-19 of Díaz & Gil.
 class SampledController {
  public:
-  /// Throws Error (invalid_argument) for a value outside its domain or a period that is not > 0.
+  /// Throws Error (invalid_argument) with member and value where find_problem() finds one, and for a period that is
+  /// not > 0.
   SampledController(const ControllerOptions& options, double sampling_period);
 
   /// Force to command for this sample's measured position. The first call takes the device to be at rest.
@@ -50,15 +64,12 @@ class SampledController {
 
  private:
   [[nodiscard]] double wall_force(double measured) noexcept;
+  [[nodiscard]] double relay_force(double measured) noexcept;
 
   ControllerOptions options_;
-  double rate_ = 0.0;    // 1/T
-  double filter_ = 0.0;  // a of (1 - a)/(1 - a z^-1)
+  VelocityFilter velocity_;
   std::array<RunningFilter, max_wall_filters> filters_{};
   std::size_t filter_count_ = 0;
-  bool started_ = false;
-  double previous_ = 0.0;
-  double velocity_ = 0.0;
   double relay_force_ = 0.0;
 };
 

@@ -3,10 +3,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "zwidth/control/sampled_controller.hpp"
 #include "zwidth/model/device.hpp"
+#include "zwidth/option_problem.hpp"
 
 namespace zwidth {
 
@@ -44,6 +46,10 @@ struct HybridLoopOptions {
   std::vector<double> initial_velocity;  ///< m/s or rad/s; empty: 0
 };
 
+/// The first member outside its domain for this device. (That Coulomb friction acts on too many bodies, or the device
+/// moves too fast to be followed in time, only the construction of a HybridLoop finds out.)
+[[nodiscard]] std::optional<OptionProblem> find_problem(const HybridLoopOptions& options, const Device& device);
+
 /// The sampled loop in time, exactly: the continuous device between samples, the controller at its instants.
 ///
 /// Each step is one sampling period: measure (encoder rounding to the nearest step), update the controller, limit the
@@ -54,7 +60,7 @@ struct HybridLoopOptions {
 /// the controller's. Nothing allocates, locks or throws after construction.
 class HybridLoop {
  public:
-  /// Throws Error (invalid_argument) for options outside their domain, sizes that are not the number of bodies, or
+  /// Throws Error (invalid_argument) with member and value where find_problem() finds one, for
   /// Coulomb friction on more than six bodies, or where user force, friction or faults act and the device's fastest
   /// motion has more than some 10 000 rad per sampling period; (needs_bodies) for a user force, motion or friction on a
   /// transfer function.

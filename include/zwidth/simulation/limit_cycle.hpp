@@ -25,6 +25,16 @@ struct LimitCycle {
   double stiffness = 0.0;
 };
 
+/// Oscillations that lie side by side: each within a tenth of the next one's frequency.
+struct CycleBand {
+  std::size_t count = 0;
+  LimitCycle lowest;
+  LimitCycle highest;
+};
+
+/// `cycles` by rising frequency.
+[[nodiscard]] std::vector<CycleBand> cycle_bands(const std::vector<LimitCycle>& cycles);
+
 /// Half-periods of a continuous relay around x' = A x + B u, y = C x with a delay from the switch to the force.
 ///
 ///     y(t_switch) = C (I + e^{Ah})^{-1} (e^{A h} - I) A^{-1} B d   at half-period h, without delay

@@ -7,6 +7,7 @@
 #include <tl/expected.hpp>
 #include <vector>
 
+#include "zwidth/option_problem.hpp"
 #include "zwidth/remark.hpp"
 
 namespace zwidth {
@@ -18,8 +19,11 @@ struct RelayAnalysisOptions {
   double steady_tolerance = 0.05;
 };
 
+/// The first member outside its domain.
+[[nodiscard]] std::optional<OptionProblem> find_problem(const RelayAnalysisOptions& options);
+
 /// What a steady relay record says.
-struct RelayResult {
+struct RelayReading {
   /// rad/s: the line where the averaged power spectra of force and position, each scaled to unit power, add up highest
   double frequency = 0.0;
   /// S_ff / |S_fx| there: the stiffness that the empirical transfer function reads off, N/m or N m/rad
@@ -49,7 +53,7 @@ struct NoOscillation {
 /// of Hann segments, three quarters overlapping; a steady part shorter than a segment is one segment. Requires equally
 /// many finite samples, sampling_period > 0 and options in their domain; throws Error (invalid_argument) otherwise.
 /// Source: section V of Díaz & Gil (who print neither window nor overlap).
-[[nodiscard]] tl::expected<RelayResult, NoOscillation> analyse_relay_record(std::span<const double> force,
+[[nodiscard]] tl::expected<RelayReading, NoOscillation> analyse_relay_record(std::span<const double> force,
                                                                             std::span<const double> position,
                                                                             double sampling_period,
                                                                             const RelayAnalysisOptions& options = {});

@@ -1,4 +1,4 @@
-#include "zwidth/simulation/relay_experiment.hpp"
+#include "zwidth/simulation/relay_trials.hpp"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -7,44 +7,30 @@
 #include <cmath>
 #include <mutex>
 #include <random>
+#include <string>
+#include <utility>
 
-#include "simulation/check_relay.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/simulation/hybrid_loop.hpp"
 
 namespace zwidth {
-using namespace internal;
 namespace {
 
 constexpr std::size_t samples_per_report = 1 << 14;
 
-[[noreturn]] void refuse(const std::string& what) { throw Error(ErrorCode::invalid_argument, what); }
-
-std::size_t samples_per_trial(const Device& device, const RelayExperimentOptions& options) {
-  check_relay(options.relay);
-  if (options.trials == 0) refuse("no trials; at least 1");
-  if (!(options.variation >= 0.0 && options.variation < 1.0)) {
-    refuse(fmt::format("variation is {}; 0 up to, but not including, 1", options.variation));
-  }
-  if (!std::isfinite(options.start_offset)) refuse("the start offset is not finite");
+std::size_t samples_per_trial(const Device& device, const RelayOptions& options) {
   if (!device.has_bodies() && options.start_offset != 0.0) {
     throw Error(ErrorCode::needs_bodies, "a start offset needs bodies; a transfer function starts at rest at 0");
   }
-  const double samples = std::round(options.duration / device.loop().sampling_period);
-  const double all = samples * static_cast<double>(options.trials);
-  if (!(samples >= least_relay_samples && all <= most_relay_samples)) {
-    refuse(fmt::format("{} trials of {} s are {:.6g} samples each; at least {} each, at most {} in all", options.trials,
-                       options.duration, samples, least_relay_samples, most_relay_samples));
+  if (const auto problem = find_problem(options, device)) {
+    throw Error(ErrorCode::invalid_argument,
+                fmt::format("{} {}; {}", problem->member, problem->what, problem->allowed));
   }
-  if (device.loop().delay >= options.duration) {
-    refuse(fmt::format("the delay of {} s is not shorter than the duration of {} s", device.loop().delay,
-                       options.duration));
-  }
-  return static_cast<std::size_t>(samples);
+  return static_cast<std::size_t>(std::round(options.duration / device.loop().sampling_period));
 }
 
 /// The trials, drawn but not yet run.
-std::vector<RelayTrial> drawn_trials(const RelayExperimentOptions& options) {
+std::vector<RelayTrial> drawn_trials(const RelayOptions& options) {
   std::mt19937_64 random(options.seed);
   const auto factor = [&] {
     const double uniform = static_cast<double>(random() >> 11) * 0x1p-53;  // the same on every platform
@@ -104,7 +90,56 @@ void run(RelayTrial& trial, HybridLoop loop, std::size_t samples, SharedProgress
 
 }  // namespace
 
-std::vector<RelayTrial> relay_experiment(const Device& device, const RelayExperimentOptions& options,
+std::optional<OptionProblem> find_problem(const RelayOptions& options, const Device& device) {
+  const auto problem = [](const char* member, auto value, std::string allowed) {
+    return OptionProblem{member, fmt::format("is {}", value), std::move(allowed)};
+  };
+  const double amplitude = options.relay.amplitude;
+  if (!(std::isfinite(options.relay.hysteresis) && options.relay.hysteresis >= 0.0)) {
+    return problem("relay.hysteresis", options.relay.hysteresis, "a position in m or rad, 0 or more");
+  }
+  if (auto wrong = find_problem(options.analysis)) {
+    wrong->member.insert(0, "analysis.");
+    return wrong;
+  }
+  if (!(std::isfinite(amplitude) && amplitude > 0.0)) {
+    return problem("relay.amplitude", amplitude, "a force in N or N m above 0");
+  }
+  const auto limit = device.parameters().actuator.force_limit;
+  if (limit && amplitude > *limit) {
+    return problem("relay.amplitude", amplitude,
+                   fmt::format("at most the device's actuator.force_limit, {}", *limit));
+  }
+  if (!std::isfinite(options.start_offset)) {
+    return problem("start_offset", options.start_offset, "a position in m or rad");
+  }
+  if (!device.has_bodies() && options.start_offset != 0.0) {
+    return problem("start_offset", options.start_offset, "a transfer function starts at rest at 0");
+  }
+  if (!(options.variation >= 0.0 && options.variation < 1.0)) {
+    return problem("variation", options.variation, "a relative variation, 0 up to, but not including, 1");
+  }
+  if (options.trials == 0) return problem("trials", options.trials, "at least 1");
+  if (!(std::isfinite(options.duration) && options.duration > 0.0)) {
+    return problem("duration", options.duration, "seconds above 0");
+  }
+  const double samples = std::round(options.duration / device.loop().sampling_period);
+  if (samples < least_relay_samples || samples * static_cast<double>(options.trials) > most_relay_samples) {
+    return OptionProblem{
+        "duration",
+        fmt::format("{} trials of {} s are {:.6g} samples each", options.trials, options.duration, samples),
+        fmt::format("at least {}, at most {} in all", least_relay_samples, most_relay_samples)};
+  }
+  if (device.loop().delay >= options.duration) {
+    return OptionProblem{
+        "duration",
+        fmt::format("{} s is no longer than the loop's delay of {} s", options.duration, device.loop().delay),
+        "a longer run"};
+  }
+  return std::nullopt;
+}
+
+std::vector<RelayTrial> relay_trials(const Device& device, const RelayOptions& options,
                                          const Progress& progress) {
   const std::size_t samples = samples_per_trial(device, options);
   std::vector<RelayTrial> trials = drawn_trials(options);

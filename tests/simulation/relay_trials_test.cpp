@@ -1,4 +1,4 @@
-#include "zwidth/simulation/relay_experiment.hpp"
+#include "zwidth/simulation/relay_trials.hpp"
 
 #include <gtest/gtest.h>
 
@@ -18,8 +18,8 @@ namespace {
 
 using std::numbers::pi;
 
-RelayExperimentOptions options_of(double amplitude, double start) {
-  RelayExperimentOptions options;
+RelayOptions options_of(double amplitude, double start) {
+  RelayOptions options;
   options.relay.amplitude = amplitude;
   options.start_offset = start;
   return options;
@@ -30,11 +30,11 @@ TEST(RelayExperiment, LeavesOutTheFiltersOfTheWall) {
   const DeviceParameters bare = test::with_delay(test::lhifam_parameters(), 4.25e-3);
   DeviceParameters filtered = bare;
   filtered.wall.filters = {{.kind = WallFilter::Kind::low_pass, .frequency_hz = 20.0}};
-  RelayExperimentOptions options = options_of(5.0, 0.03);
+  RelayOptions options = options_of(5.0, 0.03);
   options.trials = 1;
   options.duration = 5.0;
-  EXPECT_EQ(relay_experiment(Device(filtered), options).front().position,
-            relay_experiment(Device(bare), options).front().position);
+  EXPECT_EQ(relay_trials(Device(filtered), options).front().position,
+            relay_trials(Device(bare), options).front().position);
   const RelayPrediction with_filters = relay_prediction(Device(filtered), options.relay);
   const RelayPrediction without = relay_prediction(Device(bare), options.relay);
   EXPECT_EQ(with_filters.linear.stiffness, without.linear.stiffness);
@@ -50,10 +50,10 @@ TEST(RelayExperiment, AFrictionlessRigidDeviceSettlesAmongTheExactOscillations) 
   for (const double delay : {2e-3, 4.25e-3, 8e-3}) {
     SCOPED_TRACE(delay);
     const Device device(test::with_delay(test::rigid_parameters(), delay));
-    RelayExperimentOptions options = options_of(5.0, 0.03);
+    RelayOptions options = options_of(5.0, 0.03);
     options.duration = 60.0;
     const RelayPrediction prediction = relay_prediction(device, options.relay);
-    for (const RelayTrial& trial : relay_experiment(device, options)) {
+    for (const RelayTrial& trial : relay_trials(device, options)) {
       ASSERT_TRUE(trial.result) << trial.result.error().reason;
       ASSERT_TRUE(trial.result->cycle_frequency);
       const double half_period = pi / *trial.result->cycle_frequency;
@@ -70,7 +70,7 @@ TEST(RelayExperiment, AFrictionlessRigidDeviceSettlesAmongTheExactOscillations) 
 TEST(RelayExperiment, TheStiffnessIsThatOfTheSampledPlantAtTheFrequency) {
   const Device device(test::with_delay(test::rigid_parameters(), 4.25e-3));
   const SampledPlant plant = sampled_plant(device);
-  for (const RelayTrial& trial : relay_experiment(device, options_of(5.0, 0.03))) {
+  for (const RelayTrial& trial : relay_trials(device, options_of(5.0, 0.03))) {
     ASSERT_TRUE(trial.result);
     const double expected = 1.0 / std::abs(response(plant, *trial.result->cycle_frequency));
     EXPECT_NEAR(trial.result->stiffness, expected, 0.01 * expected);
@@ -81,9 +81,9 @@ TEST(RelayExperiment, ResultsDoNotDependOnTheForceWithoutEncoderAndWithFrictionI
   DeviceParameters parameters = test::with_delay(test::reduced_pretension_parameters(), 6.25e-3);
   const auto trial_with = [&](double amplitude) {
     parameters.bodies[1].coulomb = 0.08 * amplitude;
-    RelayExperimentOptions options = options_of(amplitude, 6e-3 * amplitude);
+    RelayOptions options = options_of(amplitude, 6e-3 * amplitude);
     options.trials = 1;
-    return relay_experiment(Device(parameters), options).front();
+    return relay_trials(Device(parameters), options).front();
   };
   const RelayTrial small = trial_with(1.0);
   const RelayTrial large = trial_with(16.0);  // a power of two: the same rounding
@@ -99,11 +99,11 @@ TEST(RelayExperiment, TheStartDecidesBetweenTwoOscillations) {
   parameters.bodies[1].coulomb = 0.4;
   parameters.sensor.resolution = 3.14e-6;
   const Device device(parameters);
-  for (const RelayTrial& trial : relay_experiment(device, options_of(5.0, 30e-3))) {
+  for (const RelayTrial& trial : relay_trials(device, options_of(5.0, 30e-3))) {
     ASSERT_TRUE(trial.result);
     EXPECT_NEAR(trial.result->frequency / (2.0 * pi), 4.5, 0.5);
   }
-  for (const RelayTrial& trial : relay_experiment(device, options_of(5.0, 0.1e-3))) {
+  for (const RelayTrial& trial : relay_trials(device, options_of(5.0, 0.1e-3))) {
     ASSERT_TRUE(trial.result);
     EXPECT_NEAR(trial.result->frequency / (2.0 * pi), 49.8, 0.3);
   }
@@ -113,13 +113,13 @@ TEST(RelayExperiment, EqualSeedsGiveEqualTrialsOnAnyNumberOfThreads) {
   DeviceParameters parameters = test::with_delay(test::reduced_pretension_parameters(), 3.25e-3);
   parameters.bodies[1].coulomb = 0.4;
   const Device device(parameters);
-  RelayExperimentOptions options = options_of(5.0, 0.03);
+  RelayOptions options = options_of(5.0, 0.03);
   options.duration = 2.0;
-  const auto first = relay_experiment(device, options);
+  const auto first = relay_trials(device, options);
   options.threads = 1;
-  const auto second = relay_experiment(device, options);
+  const auto second = relay_trials(device, options);
   options.seed = 2;
-  const auto other = relay_experiment(device, options);
+  const auto other = relay_trials(device, options);
   ASSERT_EQ(first.size(), 4U);
   for (std::size_t i = 0; i < first.size(); ++i) {
     EXPECT_EQ(first[i].position, second[i].position);
@@ -135,7 +135,7 @@ TEST(RelayExperiment, EqualSeedsGiveEqualTrialsOnAnyNumberOfThreads) {
 TEST(RelayExperiment, FrictionStrongerThanTheRelayEndsTheMotion) {
   DeviceParameters parameters = test::rigid_parameters();
   parameters.bodies[0].coulomb = 6.0;
-  for (const RelayTrial& trial : relay_experiment(Device(parameters), options_of(5.0, 0.03))) {
+  for (const RelayTrial& trial : relay_trials(Device(parameters), options_of(5.0, 0.03))) {
     ASSERT_FALSE(trial.result);
     EXPECT_EQ(trial.result.error().reason, "the force never changes");
   }
@@ -143,12 +143,12 @@ TEST(RelayExperiment, FrictionStrongerThanTheRelayEndsTheMotion) {
 
 TEST(RelayExperiment, HysteresisSlowsTheOscillation) {
   const Device device(test::with_delay(test::rigid_parameters(), 4e-3));
-  RelayExperimentOptions options = options_of(5.0, 0.03);
+  RelayOptions options = options_of(5.0, 0.03);
   options.duration = 60.0;
   options.trials = 1;
-  const auto plain = relay_experiment(device, options);
+  const auto plain = relay_trials(device, options);
   options.relay.hysteresis = 2e-3;
-  const auto with_hysteresis = relay_experiment(device, options);
+  const auto with_hysteresis = relay_trials(device, options);
   ASSERT_TRUE(plain[0].result && with_hysteresis[0].result);
   EXPECT_LT(with_hysteresis[0].result->frequency, 0.95 * plain[0].result->frequency);
   const auto cycles = relay_prediction(device, options.relay).sampled_relay;
@@ -159,24 +159,24 @@ TEST(RelayExperiment, HysteresisSlowsTheOscillation) {
 
 TEST(RelayExperiment, ProgressRisesToOneAndMayEndTheWork) {
   const Device device(test::with_delay(test::rigid_parameters(), 4e-3));
-  RelayExperimentOptions options = options_of(5.0, 0.03);
+  RelayOptions options = options_of(5.0, 0.03);
   options.duration = 40.0;
   double last = 0.0;
-  (void)relay_experiment(device, options, [&](double fraction) {
+  (void)relay_trials(device, options, [&](double fraction) {
     EXPECT_GE(fraction, last);
     last = fraction;
   });
   EXPECT_DOUBLE_EQ(last, 1.0);
-  EXPECT_THROW((void)relay_experiment(device, options, [](double) { throw std::runtime_error("enough"); }),
+  EXPECT_THROW((void)relay_trials(device, options, [](double) { throw std::runtime_error("enough"); }),
                std::runtime_error);
 }
 
 TEST(RelayExperiment, RefusesOptionsOutsideTheirDomain) {
   const Device device(test::with_delay(test::rigid_parameters(), 2e-3));
   const auto refuses = [&](const std::string& what, auto change) {
-    RelayExperimentOptions options = options_of(5.0, 0.03);
+    RelayOptions options = options_of(5.0, 0.03);
     change(options);
-    EXPECT_THROW((void)relay_experiment(device, options), Error) << what;
+    EXPECT_THROW((void)relay_trials(device, options), Error) << what;
   };
   refuses("zero amplitude", [](auto& options) { options.relay.amplitude = 0.0; });
   refuses("hysteresis below 0", [](auto& options) { options.relay.hysteresis = -1e-3; });
@@ -187,12 +187,12 @@ TEST(RelayExperiment, RefusesOptionsOutsideTheirDomain) {
   refuses("too short", [](auto& options) { options.duration = 0.01; });
   refuses("too much", [](auto& options) { options.duration = 1e6; });
   const Device late(test::with_delay(test::rigid_parameters(), 5.0));
-  RelayExperimentOptions options = options_of(5.0, 0.03);
+  RelayOptions options = options_of(5.0, 0.03);
   options.duration = 4.0;
-  EXPECT_THROW((void)relay_experiment(late, options), Error);
+  EXPECT_THROW((void)relay_trials(late, options), Error);
   const Device rational(test::transfer_function_parameters({1}, {1, 3, 2, 0}, 1e-2));
-  EXPECT_THROW((void)relay_experiment(rational, options_of(1.0, 0.1)), Error);
-  EXPECT_NO_THROW((void)relay_experiment(rational, options_of(1.0, 0.0)));
+  EXPECT_THROW((void)relay_trials(rational, options_of(1.0, 0.1)), Error);
+  EXPECT_NO_THROW((void)relay_trials(rational, options_of(1.0, 0.0)));
 }
 
 TEST(RelayPrediction, ListsTheLinearCrossoversAsFirstHarmonicsWithoutFriction) {

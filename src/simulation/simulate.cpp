@@ -1,13 +1,17 @@
-#include "zwidth/simulation/trajectory.hpp"
+#include "zwidth/simulation/simulate.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <span>
-#include <string>
 
 #include "signal/fitted_sine.hpp"
+#include "simulation/force_ripple.hpp"
 #include "simulation/loop_judgement.hpp"
+#include "simulation/simulation_remarks.hpp"
+#include "simulation/simulation_setup.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth {
@@ -20,16 +24,6 @@ constexpr double same_frequency = 0.01;  // relative: a multiple of the user's f
 constexpr double small_share = 0.01;     // of the user's rhythm: a motion beside it that does not count
 constexpr double never = std::numeric_limits<double>::infinity();
 constexpr std::size_t samples_per_report = 1 << 16;
-
-std::size_t sample_count(const Device& device, const SimulationOptions& options) {
-  const double count = std::round(options.duration / device.loop().sampling_period);
-  if (!(count >= 1.0 && count <= max_simulated_samples)) {
-    throw Error(ErrorCode::invalid_argument,
-                "duration is " + std::to_string(options.duration) + " s; must be 1 to 20 million sampling periods");
-  }
-  if (!(options.divergence > 0.0)) throw Error(ErrorCode::invalid_argument, "divergence bound must be > 0");
-  return static_cast<std::size_t>(count);
-}
 
 /// Keeps every n-th point of the loop.
 class TrajectoryKeeper {
@@ -151,15 +145,27 @@ void judge(Simulation& result, const std::vector<double>& sensed, const Device& 
   if (result.verdict == LoopVerdict::settles) result.settling_time = settling_time(sensed, period);
 }
 
-}  // namespace
+void check(const Device& device, const SimulationOptions& options) {
+  const bool moves_a_body = options.user_force.kind != UserForce::Kind::none || !options.initial_position.empty() ||
+                            !options.initial_velocity.empty();
+  if (!device.has_bodies() && moves_a_body) {
+    throw Error(ErrorCode::needs_bodies, "a transfer function has no body to hold or to start from");
+  }
+  if (const auto problem = find_problem(options, device)) {
+    throw Error(ErrorCode::invalid_argument,
+                fmt::format("{}{}{}; {}", problem->member, problem->member.empty() ? "" : " ", problem->what,
+                            problem->allowed));
+  }
+}
 
-Simulation simulate(const Device& device, const SimulationOptions& options, const Progress& progress) {
-  const std::size_t samples = sample_count(device, options);
-  HybridLoop loop(device, options.loop);
+/// Runs the loop; what it did is not judged yet. Returns the sensed positions, one more than samples.
+std::vector<double> run(Simulation& result, HybridLoop& loop, const Device& device, const SimulationOptions& options,
+                        const Progress& progress) {
+  const auto samples = static_cast<std::size_t>(std::round(result.duration / device.loop().sampling_period));
   TrajectoryKeeper keeper(device, samples, options.keep_every);
-  const ControllerOptions& wall = options.loop.controller;
+  RippleObserver ripple(device, result.loop, samples);
+  const ControllerOptions& wall = result.loop.controller;
   const bool has_wall = wall.kind == ControllerOptions::Kind::wall;
-  Simulation result;
   std::vector<double> sensed;
   sensed.reserve(samples + 1);
   const double start = loop.sensed_position();
@@ -169,31 +175,51 @@ Simulation simulate(const Device& device, const SimulationOptions& options, cons
     result.generated_energy = 0.0;
     result.peak_penetration = std::max(0.0, start - wall.position);
   }
-  bool diverges = false;
-  for (std::size_t k = 0; k < samples && !diverges; ++k) {
+  for (std::size_t k = 0; k < samples && !result.diverged; ++k) {
     if (progress && k % samples_per_report == 0) progress(static_cast<double>(k) / static_cast<double>(samples));
     keeper.note_motion(loop);
     loop.step();
     keeper.note_control(loop);
+    ripple.note(sensed.back(), loop.command());
     const double position = loop.sensed_position();
     sensed.push_back(position);
-    diverges = !(std::abs(position - start) <= options.divergence);
+    result.diverged = !(std::abs(position - start) <= options.divergence);
     if (!has_wall) continue;
     result.generated_energy = energy.generated(loop.work(), position);
     result.peak_generated_energy = std::max(result.peak_generated_energy, *result.generated_energy);
     result.peak_penetration = std::max(result.peak_penetration, position - wall.position);
   }
   if (progress) progress(1.0);
-  if (diverges) {
-    result.verdict = LoopVerdict::unstable;
-  } else {
-    judge(result, sensed, device, options.loop.user_force);
-  }
-  result.final_position = sensed.back();
+  result.samples = loop.sample();
   result.friction_events = loop.friction_events();
   result.overloaded_steps = loop.overloaded_steps();
-  result.samples = loop.sample();
+  result.final_position = sensed.back();
+  result.force_ripple = ripple.found();
   result.trajectory = keeper.take();
+  return sensed;
+}
+
+}  // namespace
+
+Simulation simulate(const Device& device, const SimulationOptions& options, const Progress& progress) {
+  check(device, options);
+  SimulationSetup setup = simulation_setup(device, options);
+  Simulation result;
+  result.loop = std::move(setup.loop);
+  HybridLoop loop(device, result.loop);
+  result.linear = linear_answer(device, options);
+  result.duration =
+      options.duration.value_or(internal::default_duration(device, result.linear.critical, options.user_force));
+  const std::vector<double> sensed = run(result, loop, device, options, progress);
+  if (result.diverged) {
+    result.verdict = LoopVerdict::unstable;
+  } else {
+    judge(result, sensed, device, result.loop.user_force);
+  }
+  compare_with_linear(result, device);
+  result.trust = device_trust(device);
+  result.remarks = simulation_remarks(result, device, options, sensed);
+  if (setup.moved_start) result.remarks.insert(result.remarks.begin(), *setup.moved_start);
   return result;
 }
 

@@ -1,17 +1,23 @@
-#include "report/text/relay_explanation.hpp"
+#include "simulation/relay_explanation.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string_view>
 
-#include "report/text/quantity.hpp"
+#include "zwidth/quantity.hpp"
 
-namespace zwidth::report {
+namespace zwidth::internal {
 namespace {
 
 constexpr double agrees_db = 0.5;
+/// A relay's square wave on a lightly damped rigid device slows its oscillation by 9 % against the crossover, the
+/// sampling by a little more.
+constexpr double near = 1.15;
 constexpr double same_branch = 1.5;  // ratio of frequencies beyond which a first-harmonic cycle is another one
+
+bool is_near(double frequency, double other) { return frequency <= near * other && other <= near * frequency; }
 
 bool is_same_branch(double frequency, double other) {
   return frequency <= same_branch * other && other <= same_branch * frequency;
@@ -54,36 +60,41 @@ std::string crossover_sentence(const RelayMean& mean, const CriticalStiffness& l
       place);
 }
 
-std::string limit_sentence(const RelayMean& mean, const CriticalStiffness& linear) {
-  if (!linear.limit || linear.limit->frequency <= 0.0) {
-    return "Linear theory gives this device no finite limit to compare with.";
+std::string limit_sentence(const RelayResult& result) {
+  const CriticalStiffness& linear = result.prediction->linear;
+  const std::string limit = linear.limit ? fmt::format("The stiffest stable wall by linear theory is at {}.",
+                                                       at(linear.limit->frequency, linear.stiffness))
+                                         : "";
+  const double difference = std::abs(decibels(result.mean->stiffness / linear.stiffness));
+  switch (result.limit_reading) {
+    case LimitReading::none:
+      break;
+    case LimitReading::confirms:
+      return limit + " The relay confirms it.";
+    case LimitReading::coincides:
+      return limit + " The relay reads the same stiffness, but at another frequency: a coincidence.";
+    case LimitReading::unsafe:
+      return limit + fmt::format(" The relay reads {:.2f} dB more: taken for that limit it is UNSAFE.", difference);
+    case LimitReading::too_cautious:
+      return limit + fmt::format(" The relay reads {:.2f} dB less: taken for that limit it is too cautious.", difference);
   }
-  const double difference = decibels(mean.stiffness / linear.stiffness);
-  const std::string limit =
-      fmt::format("The stiffest stable wall by linear theory is at {}.", at(linear.limit->frequency, linear.stiffness));
-  if (std::abs(difference) <= agrees_db) {
-    return limit + (is_near(mean.frequency, linear.limit->frequency)
-                        ? " The relay confirms it."
-                        : " The relay reads the same stiffness, but at another frequency: a coincidence.");
-  }
-  return limit + fmt::format(" The relay reads {:.2f} dB {}: taken for that limit it is {}.", std::abs(difference),
-                             difference > 0.0 ? "more" : "less", difference > 0.0 ? "UNSAFE" : "too cautious");
+  return "Linear theory gives this device no finite limit to compare with.";
 }
 
-std::string friction_sentence(const RelayReport& report, const RelayMean& mean) {
-  const double level = friction_level(report);
+std::string friction_sentence(const RelayResult& result, const RelayMean& mean) {
+  const double level = result.friction_level.value_or(0.0);
   if (level == 0.0) return "";
   const std::string start = fmt::format(
       "Coulomb friction of up to {:.1f} % of the relay's force acts as a damping that "
       "grows as the motion slows.",
       100.0 * level);
-  const LimitCycle* cycle = nearest(report.prediction->describing_function, mean.frequency);
+  const LimitCycle* cycle = nearest(result.prediction->describing_function, mean.frequency);
   if (!cycle || !is_same_branch(mean.frequency, cycle->frequency)) {
     return start +
            " By first harmonics alone no oscillation would be left near this one: the harmonics of the square "
            "wave, near a resonance, keep it up.";
   }
-  const Crossover* crossover = nearest(report.prediction->linear.crossovers, mean.frequency);
+  const Crossover* crossover = nearest(result.prediction->linear.crossovers, mean.frequency);
   const bool is_moved = crossover && !is_near(cycle->frequency, crossover->frequency);
   return start +
          fmt::format(
@@ -107,21 +118,21 @@ std::string bands_text(const std::vector<CycleBand>& bands) {
 }
 
 /// How closely frequencies are known, rad/s.
-double resolution_of(const RelayReport& report) {
+double resolution_of(const RelayResult& result) {
   double spacing = 0.0;
-  for (const RelayTrial& trial : report.trials) {
+  for (const RelayTrial& trial : result.trials) {
     if (trial.result) spacing = std::max(spacing, trial.result->line_spacing);
   }
   return spacing;
 }
 
-std::string sampled_sentence(const RelayReport& report, const RelayMean& mean) {
-  const std::vector<LimitCycle>& cycles = report.prediction->sampled_relay;
+std::string sampled_sentence(const RelayResult& result, const RelayMean& mean) {
+  const std::vector<LimitCycle>& cycles = result.prediction->sampled_relay;
   if (cycles.empty()) {
     return fmt::format(
         "Without friction and encoder the sampled relay has no simple oscillation (one switch each way per period) "
         "above {} Hz; below it was not searched.",
-        number(hertz(report.prediction->lowest_frequency)));
+        number(hertz(result.prediction->lowest_frequency)));
   }
   const LimitCycle* cycle = nearest(cycles, mean.frequency);
   return fmt::format(
@@ -129,9 +140,9 @@ std::string sampled_sentence(const RelayReport& report, const RelayMean& mean) {
       "between "
       "them.",
       cycles.size(), cycles.size() == 1 ? "" : "s", bands_text(cycle_bands(cycles)),
-      std::abs(mean.frequency - cycle->frequency) <= resolution_of(report)
+      std::abs(mean.frequency - cycle->frequency) <= resolution_of(result)
           ? std::string("this one among them")
-          : std::string(friction_level(report) > 0.0
+          : std::string(result.friction_level.value_or(0.0) > 0.0
                             ? "none of them this one: friction makes the difference"
                             : "none of them this one: it switches more often than once each way per "
                               "period, or the encoder matters"));
@@ -139,21 +150,29 @@ std::string sampled_sentence(const RelayReport& report, const RelayMean& mean) {
 
 }  // namespace
 
-std::vector<std::string> relay_explanation(const RelayReport& report) {
-  const auto mean = mean_of(report.trials);
-  if (!mean || !report.prediction) return {};
-  std::vector<std::string> sentences;
-  if (!is_near(mean->lowest_frequency, mean->highest_frequency)) {
+bool agree(const RelayMean& mean) { return is_near(mean.lowest_frequency, mean.highest_frequency); }
+
+LimitReading limit_reading(const RelayMean& mean, const CriticalStiffness& linear) {
+  if (!agree(mean) || !linear.limit || linear.limit->frequency <= 0.0) return LimitReading::none;
+  const double difference = decibels(mean.stiffness / linear.stiffness);
+  if (std::abs(difference) <= agrees_db) {
+    return is_near(mean.frequency, linear.limit->frequency) ? LimitReading::confirms : LimitReading::coincides;
+  }
+  return difference > 0.0 ? LimitReading::unsafe : LimitReading::too_cautious;
+}
+
+std::vector<std::string> relay_explanation(const RelayResult& result) {
+  const RelayMean& mean = *result.mean;
+  if (!agree(mean)) {
     return {
         fmt::format("The trials settle at different oscillations, from {} to {} Hz: several exist side by side, and "
                     "the start decides. Compare each with the predictions above.",
-                    number(hertz(mean->lowest_frequency)), number(hertz(mean->highest_frequency)))};
+                    number(hertz(mean.lowest_frequency)), number(hertz(mean.highest_frequency)))};
   }
-  sentences.push_back(crossover_sentence(*mean, report.prediction->linear));
-  sentences.push_back(limit_sentence(*mean, report.prediction->linear));
-  if (std::string friction = friction_sentence(report, *mean); !friction.empty()) sentences.push_back(friction);
-  sentences.push_back(sampled_sentence(report, *mean));
+  std::vector<std::string> sentences{crossover_sentence(mean, result.prediction->linear), limit_sentence(result)};
+  if (std::string friction = friction_sentence(result, mean); !friction.empty()) sentences.push_back(friction);
+  sentences.push_back(sampled_sentence(result, mean));
   return sentences;
 }
 
-}  // namespace zwidth::report
+}  // namespace zwidth::internal

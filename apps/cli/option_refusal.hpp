@@ -1,0 +1,16 @@
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <utility>
+
+#include "zwidth/option_problem.hpp"
+
+namespace zwidth::cli {
+
+/// Throws BadInput: "--duration: is nan s; allowed". `options`: the option that sets each member of an options struct;
+/// a problem without a member, or of one that no option sets, is told without an option.
+[[noreturn]] void refuse(const OptionProblem& problem,
+                         std::span<const std::pair<std::string_view, std::string_view>> options);
+
+}  // namespace zwidth::cli

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "zwidth/model/device.hpp"
+#include "zwidth/option_problem.hpp"
+#include "zwidth/progress.hpp"
+#include "zwidth/remark.hpp"
+#include "zwidth/simulation/relay_prediction.hpp"
+#include "zwidth/simulation/relay_trials.hpp"
+#include "zwidth/trust.hpp"
+
+namespace zwidth {
+
+/// A relay experiment that was recorded; SI units and radians.
+struct RelayRecord {
+  std::string source;  ///< its name, for reports
+  std::vector<double> force;
+  std::vector<double> position;
+  double sampling_period = 0.0;      ///< s
+  std::vector<Remark> remarks = {};  ///< of reading it
+};
+
+struct RelayRecordOptions {
+  std::optional<Device> device;    ///< that was recorded, with the whole delay: to compare with; may be absent
+  Motion motion = Motion::linear;  ///< of the units, without a device
+  double hysteresis = 0.0;         ///< of the relay that was used, m or rad; >= 0; for the predictions
+  RelayAnalysisOptions analysis;
+};
+
+/// The first member outside its domain; `sampling_period` is the record's: the device's must agree within 1 %.
+[[nodiscard]] std::optional<OptionProblem> find_problem(const RelayRecordOptions& options, double sampling_period);
+
+/// Means over the trials that oscillate.
+struct RelayMean {
+  std::size_t trials = 0;
+  double frequency = 0.0;  ///< rad/s
+  double stiffness = 0.0;  ///< geometric: the mean of the decibels
+  double amplitude = 0.0;
+  double lowest_frequency = 0.0;   ///< of a trial, rad/s
+  double highest_frequency = 0.0;  ///< rad/s
+};
+
+/// Nothing where no trial oscillates.
+[[nodiscard]] std::optional<RelayMean> relay_mean(const std::vector<RelayTrial>& trials);
+
+/// What the mean says of the stiffest stable wall of linear theory.
+enum class LimitReading {
+  none,          ///< no device, no oscillation, no finite limit, or trials that settle at different oscillations
+  confirms,      ///< the same stiffness within 0.5 dB, at its frequency within 15 %
+  coincides,     ///< the same stiffness at another frequency
+  unsafe,        ///< more: a wall as stiff as that would be unstable
+  too_cautious,  ///< less
+};
+
+/// A relay experiment, simulated or recorded, beside what theory expects of it.
+struct RelayResult {
+  enum class Source { simulation, recording };
+  Source source = Source::simulation;
+  std::string recording;  ///< its name; empty for a simulation
+  Motion motion = Motion::linear;
+  double sampling_period = 0.0;  ///< s
+  Relay relay;                   ///< of a recording: half of the force's peak to peak
+  std::vector<RelayTrial> trials;  ///< a recording is one
+  std::optional<RelayMean> mean;
+  std::optional<Device> device;
+  std::optional<double> friction_level;       ///< largest friction of the device over the relay's force
+  std::optional<RelayPrediction> prediction;  ///< with a device
+  LimitReading limit_reading = LimitReading::none;
+  /// What the experiment says about the wall's limit, a sentence or two each: whether it agrees with linear theory, what
+  /// friction does to it, which other oscillations exist. Empty where no trial oscillates or without a device.
+  std::vector<std::string> explanation;
+  /// Of the mean as a limit for walls: the device's own, and doubtful where it is above the limit of linear theory,
+  /// where trials differ and where no device says what to expect; refused where nothing oscillates.
+  Trust trust;
+  std::vector<Remark> remarks;  ///< of the recording, and that the device's [wall] is left out
+};
+
+/// Simulates the experiment on the device and sets it beside its predictions. The wall of the device is left out.
+///
+/// Throws Error (invalid_argument) with member and value where find_problem() finds one, (needs_bodies) for a start
+/// offset of a transfer function. See relay_trials() for threads and progress.
+[[nodiscard]] RelayResult relay(const Device& device, const RelayOptions& options, const Progress& progress = {});
+
+/// Reads a recorded experiment. The relay's force is half of the force's peak to peak.
+///
+/// Throws Error (invalid_argument) with member and value where find_problem() finds one, and for a record that
+/// analyse_relay_record() refuses.
+[[nodiscard]] RelayResult relay(RelayRecord record, const RelayRecordOptions& options = {});
+
+}  // namespace zwidth

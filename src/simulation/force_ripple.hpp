@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "zwidth/simulation/simulate.hpp"
+
+namespace zwidth::internal {
+
+/// Runs a second controller on the unrounded positions beside the loop's own: the difference of their commands is what
+/// the encoder's steps do, whatever else the wall does.
+class RippleObserver {
+ public:
+  /// Keeps the last quarter of `samples`.
+  RippleObserver(const Device& device, const HybridLoopOptions& loop, std::size_t samples);
+
+  /// The unrounded position of one sample, and the command that the loop's controller made of the rounded one.
+  void note(double position, double command);
+
+  /// Absent without encoder or wall, with faults (the instant of measuring is not known then), and for fewer than two
+  /// cycles.
+  [[nodiscard]] std::optional<ForceRipple> found() const;
+
+ private:
+  bool observes_ = false;
+  SampledController exact_;
+  double limit_ = 0.0;
+  double period_ = 0.0;
+  std::size_t first_ = 0;
+  std::size_t noted_ = 0;
+  std::vector<double> differences_;
+};
+
+}  // namespace zwidth::internal

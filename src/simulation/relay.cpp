@@ -1,0 +1,145 @@
+#include "zwidth/simulation/relay.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "simulation/relay_explanation.hpp"
+#include "simulation/simulation_setup.hpp"
+#include "zwidth/error.hpp"
+#include "zwidth/quantity.hpp"
+
+namespace zwidth {
+using namespace internal;
+namespace {
+
+constexpr double same_period = 0.01;  // relative
+
+double friction_level(const Device& device, double amplitude) {
+  double largest = 0.0;
+  for (const Body& body : device.bodies()) largest = std::max(largest, body.coulomb);
+  return largest / amplitude;
+}
+
+Trust trust_of_reading(const RelayResult& result) {
+  Trust trust;
+  if (result.device) trust = device_trust(*result.device);
+  if (!result.mean) {
+    trust.refuse("no trial oscillates: start further out, push harder or record for longer");
+    return trust;
+  }
+  if (!result.device) {
+    trust.doubt(
+        "what a relay reads is a limit for walls only where friction is small and it oscillates at the limit's "
+        "frequency: compare it with a device file");
+  } else if (!agree(*result.mean)) {
+    trust.doubt("the trials settle at different oscillations: compare each with the predictions");
+  } else if (result.limit_reading == LimitReading::unsafe) {
+    trust.doubt(fmt::format("the relay reads {:.2f} dB more than the limit of linear theory: build on that limit instead",
+                            decibels(result.mean->stiffness / result.prediction->linear.stiffness)));
+  }
+  return trust;
+}
+
+/// What follows from the trials and the device.
+void conclude(RelayResult& result) {
+  result.mean = relay_mean(result.trials);
+  if (result.device && result.relay.amplitude > 0.0) {
+    result.friction_level = friction_level(*result.device, result.relay.amplitude);
+    result.prediction = relay_prediction(*result.device, result.relay);
+  }
+  if (result.mean && result.prediction) {
+    result.limit_reading = limit_reading(*result.mean, result.prediction->linear);
+    result.explanation = relay_explanation(result);
+  }
+  result.trust = trust_of_reading(result);
+  if (!result.device) return;
+  const Wall& wall = result.device->parameters().wall;
+  if (wall.damping > 0.0 || !wall.filters.empty()) {
+    result.remarks.push_back(
+        {Remark::Severity::note, "the wall's damper and filters are left out: a relay has no wall",
+         "all numbers are of the device without them, not those of an analysis, which closes them"});
+  }
+}
+
+}  // namespace
+
+std::optional<RelayMean> relay_mean(const std::vector<RelayTrial>& trials) {
+  RelayMean mean;
+  double log_stiffness = 0.0;
+  for (const RelayTrial& trial : trials) {
+    if (!trial.result) continue;
+    const RelayReading& reading = *trial.result;
+    const bool is_first = mean.trials++ == 0;
+    mean.frequency += reading.frequency;
+    log_stiffness += std::log(reading.stiffness);
+    mean.amplitude += reading.amplitude;
+    mean.lowest_frequency = is_first ? reading.frequency : std::min(mean.lowest_frequency, reading.frequency);
+    mean.highest_frequency = std::max(mean.highest_frequency, reading.frequency);
+  }
+  if (mean.trials == 0) return std::nullopt;
+  const auto count = static_cast<double>(mean.trials);
+  mean.frequency /= count;
+  mean.stiffness = std::exp(log_stiffness / count);
+  mean.amplitude /= count;
+  return mean;
+}
+
+std::optional<OptionProblem> find_problem(const RelayRecordOptions& options, double sampling_period) {
+  if (!(std::isfinite(options.hysteresis) && options.hysteresis >= 0.0)) {
+    return OptionProblem{"hysteresis", fmt::format("is {}", options.hysteresis),
+                         "a position in m or rad, 0 or more"};
+  }
+  if (auto problem = find_problem(options.analysis)) {
+    problem->member.insert(0, "analysis.");
+    return problem;
+  }
+  if (!options.device) return std::nullopt;
+  const double expected = options.device->loop().sampling_period;
+  if (std::abs(sampling_period / expected - 1.0) <= same_period) return std::nullopt;
+  return OptionProblem{
+      "device",
+      fmt::format("loop.sampling_period: is {} s, the recording's is {:.6g} s", expected, sampling_period),
+      "they must agree"};
+}
+
+RelayResult relay(const Device& device, const RelayOptions& options, const Progress& progress) {
+  RelayResult result;
+  result.trials = relay_trials(device, options, progress);
+  result.motion = device.parameters().motion;
+  result.sampling_period = device.loop().sampling_period;
+  result.relay = options.relay;
+  result.device = device;
+  conclude(result);
+  return result;
+}
+
+RelayResult relay(RelayRecord record, const RelayRecordOptions& options) {
+  if (const auto problem = find_problem(options, record.sampling_period)) {
+    throw Error(ErrorCode::invalid_argument,
+                fmt::format("{} {}; {}", problem->member, problem->what, problem->allowed));
+  }
+  RelayResult result;
+  result.source = RelayResult::Source::recording;
+  result.recording = std::move(record.source);
+  result.motion = options.device ? options.device->parameters().motion : options.motion;
+  result.sampling_period = record.sampling_period;
+  RelayTrial trial;
+  trial.result = analyse_relay_record(record.force, record.position, record.sampling_period, options.analysis);
+  if (!record.force.empty()) {
+    const auto [lowest, highest] = std::minmax_element(record.force.begin(), record.force.end());
+    result.relay.amplitude = 0.5 * (*highest - *lowest);
+  }
+  result.relay.hysteresis = options.hysteresis;
+  trial.force = std::move(record.force);
+  trial.position = std::move(record.position);
+  result.trials.push_back(std::move(trial));
+  result.remarks = std::move(record.remarks);
+  result.device = options.device;
+  conclude(result);
+  return result;
+}
+
+}  // namespace zwidth

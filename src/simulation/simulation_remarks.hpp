@@ -1,0 +1,18 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "zwidth/simulation/simulate.hpp"
+
+namespace zwidth::internal {
+
+/// Sets the judged run beside its linear answer: its nonlinear parts, whether the two agree, and whether a growth that
+/// linear analysis sees is hidden, which makes the verdict undecided.
+void compare_with_linear(Simulation& result, const Device& device);
+
+/// What the verdict does not say. `sensed`: the sensed positions of the whole run.
+[[nodiscard]] std::vector<Remark> simulation_remarks(const Simulation& result, const Device& device,
+                                                     const SimulationOptions& options, std::span<const double> sensed);
+
+}  // namespace zwidth::internal

@@ -1,0 +1,245 @@
+#include "simulation/simulation_setup.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "zwidth/quantity.hpp"
+#include "zwidth/stability/wall_margins.hpp"
+
+namespace zwidth {
+namespace internal {
+namespace {
+
+constexpr double default_offset = 1e-3;   // m or rad, of a device that nothing else moves
+constexpr double least_duration = 1.0;    // s
+constexpr double default_periods = 40.0;  // of the critical oscillation
+constexpr double default_delays = 4.0;
+constexpr double default_samples = 1e6;   // at most
+constexpr double beyond_stiction = 10.0;  // times the friction: some swings are left until it rests
+constexpr double never = std::numeric_limits<double>::infinity();
+
+ControllerOptions controller_of(const Device& device, const SimulationOptions& options) {
+  ControllerOptions controller;
+  if (options.controller) {
+    controller = *options.controller;
+  } else {
+    const Wall& wall = device.parameters().wall;
+    controller = wall_controller(wall);
+    if (!wall.stiffness && wall.damping == 0.0) controller.kind = ControllerOptions::Kind::none;
+  }
+  controller.position = options.wall_position.value_or(controller.position);
+  controller.contact = options.contact.value_or(controller.contact);
+  return controller;
+}
+
+/// Springs to ground, the user's included, N/m or N m/rad.
+double ground_stiffness(const Device& device) {
+  double sum = device.parameters().user.stiffness;
+  for (const Body& body : device.bodies()) sum += body.stiffness;
+  return sum;
+}
+
+double measured(const Device& device, double position) {
+  const double step = device.parameters().sensor.resolution;
+  return step > 0.0 ? step * std::floor(position / step + 0.5) : position;
+}
+
+/// What pulls a device back that starts so far inside the wall, N or N m.
+double pull_at(const Device& device, const ControllerOptions& wall, double offset) {
+  const double limit = device.parameters().actuator.force_limit.value_or(never);
+  const double depth = measured(device, wall.position + offset) - wall.position;
+  return std::min(wall.stiffness * std::abs(depth), limit) + ground_stiffness(device) * offset;
+}
+
+bool is_zero(const std::vector<double>& values) {
+  return std::all_of(values.begin(), values.end(), [](double value) { return value == 0.0; });
+}
+
+bool asks_for_a_start(const SimulationOptions& options) {
+  return options.initial_position.empty() && options.initial_velocity.empty() &&
+         options.user_force.kind == UserForce::Kind::none;
+}
+
+/// What the options leave open, but for where the device starts.
+HybridLoopOptions loop_of(const Device& device, const SimulationOptions& options) {
+  HybridLoopOptions loop;
+  loop.controller = controller_of(device, options);
+  loop.user_force = options.user_force;
+  loop.faults = options.faults;
+  loop.initial_position = options.initial_position;
+  loop.initial_velocity = options.initial_velocity;
+  return loop;
+}
+
+void start_inside_the_wall(SimulationSetup& setup, const Device& device) {
+  ControllerOptions& wall = setup.loop.controller;
+  if (wall.kind == ControllerOptions::Kind::relay) return;
+  if (!device.has_bodies()) {
+    if (wall.position == 0.0) wall.position = -default_offset;
+    return;
+  }
+  double offset = default_offset;
+  const double friction = whole_friction(device);
+  const double pull = pull_at(device, wall, offset);
+  const auto further = start_beyond_stiction(device, wall);
+  if (pull <= friction && further && *further > offset) {
+    const Units units = units_of(device.parameters().motion);
+    offset = *further;
+    setup.moved_start = Remark{
+        Remark::Severity::note,
+        friction > 0.0 ? fmt::format("a start {} inside the wall would be inside the stiction: {} pull there, {} hold",
+                                     quantity(default_offset, units.length), quantity(pull, units.force),
+                                     quantity(friction, units.force))
+                       : fmt::format("a start {} inside the wall would be less than the encoder sees",
+                                     quantity(default_offset, units.length)),
+        fmt::format("the device starts {} inside the wall instead", quantity(offset, units.length)), ""};
+  }
+  setup.loop.initial_position.assign(device.bodies().size(), wall.position + offset);
+}
+
+std::optional<OptionProblem> duration_problem(const SimulationOptions& options, const Device& device) {
+  const Loop& loop = device.loop();
+  const double period = loop.sampling_period;
+  if (!options.duration) {
+    const double latest = (max_simulated_samples - default_samples) * period;
+    if (options.user_force.start <= latest) return std::nullopt;
+    return OptionProblem{"user_force.start", fmt::format("is {} s", options.user_force.start),
+                         fmt::format("at most {} s", latest)};
+  }
+  const double duration = *options.duration;
+  const auto problem = [duration](std::string allowed) {
+    return OptionProblem{"duration", fmt::format("is {} s", duration), std::move(allowed)};
+  };
+  const double samples = std::round(duration / period);
+  if (!(samples >= 1.0 && samples <= max_simulated_samples)) {
+    return problem(fmt::format("{} s to {} s, 1 to {} sampling periods", period, max_simulated_samples * period,
+                               max_simulated_samples));
+  }
+  if (loop.delay >= duration) {
+    return problem(fmt::format("longer than the loop's delay of {} s: no force would arrive", loop.delay));
+  }
+  if (options.user_force.kind != UserForce::Kind::none && options.user_force.start >= duration) {
+    return problem(fmt::format("longer: the user's force begins at {} s only", options.user_force.start));
+  }
+  return std::nullopt;
+}
+
+/// Whether anything sets the device in motion.
+std::optional<OptionProblem> start_problem(const SimulationOptions& options, const Device& device) {
+  const ControllerOptions wall = controller_of(device, options);
+  if (wall.kind == ControllerOptions::Kind::relay) return std::nullopt;
+  const bool only_pushes = wall.contact == ControllerOptions::Contact::unilateral;
+  if (asks_for_a_start(options)) {
+    if (wall.kind == ControllerOptions::Kind::none || wall.stiffness == 0.0) {
+      return OptionProblem{"", "nothing moves the device",
+                           "add a wall (wall.stiffness), a start, a velocity or a user's force"};
+    }
+    if (only_pushes) {
+      return OptionProblem{"contact", "is unilateral, and nothing presses the device against the wall",
+                           "add a user's force, a start or a velocity"};
+    }
+    if (device.has_bodies() || !options.wall_position) return std::nullopt;
+  }
+  const bool is_pushed = wall.kind == ControllerOptions::Kind::wall && wall.position != 0.0 &&
+                         (!only_pushes || wall.position < 0.0);
+  if (is_pushed || options.user_force.kind != UserForce::Kind::none || !is_zero(options.initial_position) ||
+      !is_zero(options.initial_velocity)) {
+    return std::nullopt;
+  }
+  if (!device.has_bodies()) {
+    return OptionProblem{"wall_position", "is 0, where nothing moves the device", "a number but 0"};
+  }
+  return OptionProblem{"initial_position", "every body starts at rest at 0, where nothing moves it", "a number but 0"};
+}
+
+/// The device with the controller's wall.
+Device with_wall_of(const Device& device, const ControllerOptions& controller) {
+  DeviceParameters parameters = device.parameters();
+  parameters.wall = {};
+  if (controller.kind == ControllerOptions::Kind::wall) {
+    parameters.wall = {controller.stiffness, controller.damping, controller.velocity_filter_hz, controller.filters};
+  }
+  return Device(std::move(parameters));
+}
+
+}  // namespace
+
+Trust device_trust(const Device& device) {
+  Trust trust;
+  const auto& uncertainty = device.parameters().uncertainty;
+  if (uncertainty && !uncertainty->warning.empty()) trust.doubt(uncertainty->warning);
+  return trust;
+}
+
+double whole_friction(const Device& device) {
+  double sum = 0.0;
+  for (const Body& body : device.bodies()) sum += body.coulomb;
+  return sum;
+}
+
+std::optional<double> start_beyond_stiction(const Device& device, const ControllerOptions& wall) {
+  const double friction = whole_friction(device);
+  const double ground = ground_stiffness(device);
+  const double limit = device.parameters().actuator.force_limit.value_or(never);
+  if (limit <= friction && ground == 0.0) return std::nullopt;
+  const double stiffness = (wall.kind == ControllerOptions::Kind::wall ? wall.stiffness : 0.0) + ground;
+  if (stiffness == 0.0) return std::nullopt;
+  return std::max(beyond_stiction * friction / stiffness, beyond_stiction * device.parameters().sensor.resolution);
+}
+
+SimulationSetup simulation_setup(const Device& device, const SimulationOptions& options) {
+  SimulationSetup setup{loop_of(device, options), std::nullopt};
+  if (asks_for_a_start(options)) start_inside_the_wall(setup, device);
+  return setup;
+}
+
+LinearAnswer linear_answer(const Device& device, const SimulationOptions& options) {
+  const Device linear = options.controller ? with_wall_of(device, *options.controller) : device;
+  const Wall& wall = linear.parameters().wall;
+  LinearAnswer answer;
+  answer.critical = critical_stiffness(filtered_plant(linear), {wall.damping, wall.velocity_filter_hz});
+  if (!wall.stiffness) return answer;
+  const WallMargins margins = wall_margins(linear);
+  answer.wall_stable = margins.stable;
+  answer.spectral_radius = margins.spectral_radius;
+  if (answer.critical.status == StiffnessStatus::finite) {
+    answer.wall_share = *wall.stiffness / answer.critical.stiffness;
+  }
+  return answer;
+}
+
+double default_duration(const Device& device, const CriticalStiffness& critical, const UserForce& force) {
+  const Loop& loop = device.loop();
+  double duration = std::max(least_duration, default_delays * loop.delay);
+  if (critical.limit && critical.limit->frequency > 0.0) {
+    duration = std::max(duration, default_periods * 2.0 * std::numbers::pi / critical.limit->frequency);
+  }
+  return std::min(duration, default_samples * loop.sampling_period) + force.start;
+}
+
+}  // namespace internal
+
+std::optional<OptionProblem> find_problem(const SimulationOptions& options, const Device& device) {
+  using namespace internal;
+  HybridLoopOptions loop = loop_of(device, options);
+  if (auto problem = find_problem(loop, device)) {
+    if (problem->member == "controller.position" && options.wall_position) problem->member = "wall_position";
+    return problem;
+  }
+  if (auto problem = duration_problem(options, device)) return problem;
+  if (!(std::isfinite(options.divergence) && options.divergence > 0.0)) {
+    return OptionProblem{"divergence", fmt::format("is {}", options.divergence), "a number of m or rad above 0"};
+  }
+  return start_problem(options, device);
+}
+
+double default_duration(const Device& device, const SimulationOptions& options) {
+  return internal::default_duration(device, internal::linear_answer(device, options).critical, options.user_force);
+}
+
+}  // namespace zwidth

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "zwidth/simulation/simulate.hpp"
+#include "zwidth/trust.hpp"
+
+namespace zwidth::internal {
+
+/// What simulate() runs, everything left open in its options decided.
+struct SimulationSetup {
+  HybridLoopOptions loop;
+  std::optional<Remark> moved_start;  ///< why the start is not 1 mm inside the wall
+};
+
+/// Requires options without a problem.
+[[nodiscard]] SimulationSetup simulation_setup(const Device& device, const SimulationOptions& options);
+
+/// The linear answer to the loop's controller; `agrees` is still open.
+[[nodiscard]] LinearAnswer linear_answer(const Device& device, const SimulationOptions& options);
+
+/// See default_duration(); `critical` is the linear answer's.
+[[nodiscard]] double default_duration(const Device& device, const CriticalStiffness& critical, const UserForce& force);
+
+/// How far the device's numbers are to be relied on.
+[[nodiscard]] Trust device_trust(const Device& device);
+
+/// Sum of the Coulomb friction of all bodies, N or N m.
+[[nodiscard]] double whole_friction(const Device& device);
+
+/// A start far enough inside the wall that wall and springs to ground pull ten times the whole friction, and by ten
+/// encoder steps; absent where no start would do: the force limit is below the friction.
+[[nodiscard]] std::optional<double> start_beyond_stiction(const Device& device, const ControllerOptions& wall);
+
+}  // namespace zwidth::internal

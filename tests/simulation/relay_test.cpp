@@ -1,0 +1,167 @@
+// What relay() makes of its trials: means, the verdict on their reading, trust.
+
+#include "zwidth/simulation/relay.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "simulation/simulated_devices.hpp"
+#include "zwidth/error.hpp"
+
+namespace zwidth {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+RelayOptions options_of(double start, double duration = 20.0) {
+  RelayOptions options;
+  options.relay.amplitude = 5.0;
+  options.start_offset = start;
+  options.duration = duration;
+  return options;
+}
+
+RelayResult simulated(DeviceParameters parameters, double start, double duration = 20.0) {
+  return relay(Device(std::move(parameters)), options_of(start, duration));
+}
+
+std::vector<std::string> explained(const RelayResult& result) { return result.explanation; }
+
+DeviceParameters with_friction(DeviceParameters device, double friction) {
+  device.bodies.back().coulomb = friction;
+  return device;
+}
+
+RelayTrial trial_of(double frequency, double stiffness) {
+  RelayTrial trial;
+  RelayReading result;
+  result.frequency = frequency;
+  result.stiffness = stiffness;
+  trial.result = result;
+  return trial;
+}
+
+TEST(Relay, MeanIsThatOfTheDecibels) {
+  std::vector<RelayTrial> trials{trial_of(10.0, 100.0), trial_of(14.0, 10000.0), {}};
+  trials.back().result = tl::unexpected(NoOscillation{"why"});
+  const auto mean = relay_mean(trials);
+  ASSERT_TRUE(mean);
+  EXPECT_EQ(mean->trials, 2U);
+  EXPECT_DOUBLE_EQ(mean->frequency, 12.0);
+  EXPECT_NEAR(mean->stiffness, 1000.0, 1e-9);
+  EXPECT_DOUBLE_EQ(mean->lowest_frequency, 10.0);
+  EXPECT_DOUBLE_EQ(mean->highest_frequency, 14.0);
+  trials.erase(trials.begin(), trials.begin() + 2);
+  EXPECT_FALSE(relay_mean(trials));
+}
+
+TEST(Relay, NeighbouringCyclesAreOneBand) {
+  const auto bands = cycle_bands({{1.0, 0, 1}, {1.05, 0, 1}, {1.1, 0, 1}, {1.5, 0, 1}, {9.0, 0, 1}, {9.5, 0, 1}});
+  ASSERT_EQ(bands.size(), 3U);
+  EXPECT_EQ(bands[0].count, 3U);
+  EXPECT_DOUBLE_EQ(bands[0].highest.frequency, 1.1);
+  EXPECT_EQ(bands[1].count, 1U);
+  EXPECT_DOUBLE_EQ(bands[2].lowest.frequency, 9.0);
+  EXPECT_TRUE(cycle_bands({}).empty());
+}
+
+TEST(Relay, ARelayOnTheResonanceIsToldFromTheLimit) {
+  const auto sentences = explained(simulated(with_friction(test::with_delay(test::reduced_pretension_parameters(), 4.25e-3), 0.4), 0.1e-3));
+  EXPECT_THAT(sentences, Contains(AllOf(HasSubstr("near the phase crossover"), HasSubstr("vibration mode 1"))));
+  EXPECT_THAT(sentences, Contains(AllOf(HasSubstr("stiffest stable wall"), HasSubstr("UNSAFE"))));
+  EXPECT_THAT(sentences, Contains(HasSubstr("Coulomb friction of up to 8.0 %")));
+}
+
+TEST(Relay, AFrictionlessRigidDeviceNearlyConfirmsTheLimit) {
+  const auto sentences = explained(simulated(test::with_delay(test::rigid_parameters(), 8e-3), 0.01, 60.0));
+  EXPECT_THAT(sentences, Contains(AllOf(HasSubstr("near the phase crossover"), HasSubstr("the rigid body"))));
+  EXPECT_THAT(sentences, Not(Contains(HasSubstr("Coulomb"))));
+}
+
+TEST(Relay, FrictionMovesARigidDeviceAwayFromItsCrossover) {
+  const auto sentences =
+      explained(simulated(with_friction(test::with_delay(test::rigid_parameters(), 8.25e-3), 0.4), 0.03));
+  EXPECT_THAT(sentences, Contains(HasSubstr("at no phase crossover of linear theory")));
+  EXPECT_THAT(sentences, Contains(HasSubstr("moves the oscillation away from the crossover, to 2.")));
+}
+
+TEST(Relay, ReadingsAboveTheLimitAreDoubtful) {
+  const RelayResult above =
+      simulated(with_friction(test::with_delay(test::reduced_pretension_parameters(), 4.25e-3), 0.4), 0.1e-3);
+  EXPECT_EQ(above.limit_reading, LimitReading::unsafe);
+  EXPECT_EQ(above.trust.verdict, Trust::Verdict::doubtful);
+  EXPECT_THAT(above.trust.reasons, Contains(HasSubstr("more than the limit of linear theory")));
+  const RelayResult below = simulated(test::with_delay(test::rigid_parameters(), 8e-3), 0.01, 60.0);
+  EXPECT_EQ(below.limit_reading, LimitReading::too_cautious);
+  EXPECT_TRUE(below.trust.sound());
+}
+
+TEST(Relay, TheDevicesDoubtIsTheReadings) {
+  DeviceParameters device = test::with_delay(test::rigid_parameters(), 8e-3);
+  device.uncertainty = Uncertainty{{"body.0.mass"}, {{1e-4}}, "the mass is not determined"};
+  EXPECT_THAT(simulated(device, 0.01).trust.reasons, Contains(HasSubstr("the mass is not determined")));
+}
+
+TEST(Relay, NothingThatOscillatesIsRefused) {
+  const RelayResult stuck = simulated(with_friction(test::rigid_parameters(), 6.0), 0.0, 2.0);
+  EXPECT_TRUE(stuck.trust.refused());
+  EXPECT_FALSE(stuck.mean);
+  EXPECT_EQ(stuck.limit_reading, LimitReading::none);
+  EXPECT_THAT(stuck.explanation, IsEmpty());
+  EXPECT_NEAR(*stuck.friction_level, 1.2, 1e-12);
+}
+
+TEST(Relay, ARecordingIsReadAsItWasSimulated) {
+  const Device device(with_friction(test::with_delay(test::reduced_pretension_parameters(), 6.25e-3), 0.4));
+  const RelayResult ran = relay(device, options_of(0.03));
+  RelayRecord record{"run", ran.trials[1].force, ran.trials[1].position, 1e-3};
+  const RelayResult alone = relay(record);
+  EXPECT_EQ(alone.trials.front().result->stiffness, ran.trials[1].result->stiffness);
+  EXPECT_DOUBLE_EQ(alone.relay.amplitude, 5.0);
+  EXPECT_FALSE(alone.prediction);
+  EXPECT_EQ(alone.trust.verdict, Trust::Verdict::doubtful);
+  RelayRecordOptions options;
+  options.device = device;
+  const RelayResult compared = relay(record, options);
+  EXPECT_EQ(compared.limit_reading, LimitReading::unsafe);
+  EXPECT_EQ(compared.prediction->linear.stiffness, ran.prediction->linear.stiffness);
+  record.sampling_period = 2e-3;
+  EXPECT_EQ(find_problem(options, record.sampling_period)->member, "device");
+  EXPECT_THROW((void)relay(record, options), Error);
+}
+
+TEST(Relay, NamesTheMemberThatIsWrong) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  DeviceParameters limited = test::rigid_parameters();
+  limited.actuator.force_limit = 6.0;
+  const Device device(limited);
+  const auto member_of = [&device](auto&& change) {
+    RelayOptions options = options_of(0.01);
+    change(options);
+    const auto problem = find_problem(options, device);
+    EXPECT_THROW((void)relay(device, options), Error);
+    return problem ? problem->member : "none";
+  };
+  EXPECT_FALSE(find_problem(options_of(0.01), device));
+  EXPECT_EQ(member_of([](RelayOptions& options) { options.relay.amplitude = 0.0; }), "relay.amplitude");
+  EXPECT_EQ(member_of([](RelayOptions& options) { options.relay.amplitude = 7.0; }), "relay.amplitude");
+  EXPECT_EQ(member_of([nan](RelayOptions& options) { options.relay.hysteresis = nan; }), "relay.hysteresis");
+  EXPECT_EQ(member_of([](RelayOptions& options) { options.analysis.segment_length = 2; }), "analysis.segment_length");
+  EXPECT_EQ(member_of([nan](RelayOptions& options) { options.start_offset = nan; }), "start_offset");
+  EXPECT_EQ(member_of([](RelayOptions& options) { options.variation = 1.0; }), "variation");
+  EXPECT_EQ(member_of([](RelayOptions& options) { options.trials = 0; }), "trials");
+  EXPECT_EQ(member_of([](RelayOptions& options) { options.duration = 0.01; }), "duration");
+}
+
+}  // namespace
+}  // namespace zwidth
