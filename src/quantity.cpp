@@ -24,7 +24,9 @@ std::string number(double value) {
 std::string quantity(double value, std::string_view unit) {
   static constexpr std::array<std::string_view, 8> prefixes = {"p", "n", "µ", "m", "", "k", "M", "G"};
   static constexpr int no_prefix = 4;
-  if (value == 0.0 || !std::isfinite(value)) return fmt::format("{:.4g} {}", value, unit);
+  // Beyond all prefixes, and where rounding could leave the range of a double.
+  const bool is_extreme = std::abs(value) < 1e-300 || std::abs(value) > 1e300;
+  if (is_extreme || !std::isfinite(value)) return fmt::format("{:.4g} {}", value, unit);
   // Rounded to four digits first, so that 999.96 becomes 1 k and not 1000.
   const double rounded = std::stod(fmt::format("{:.3e}", value));
   const int thousands = static_cast<int>(std::floor(std::log10(std::abs(rounded)) / 3.0 + 1e-9));

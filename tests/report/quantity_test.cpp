@@ -11,6 +11,8 @@ TEST(Quantity, HasFourDigitsAndAnEngineeringPrefix) {
   EXPECT_EQ(quantity(8848.70869499712, "N/m"), "8.849 kN/m");
   EXPECT_EQ(quantity(135171032.89, "N/m"), "135.2 MN/m");
   EXPECT_EQ(quantity(1e-3, "s"), "1 ms");
+  EXPECT_EQ(quantity(1.7976931348623157e308, "m"), "1.798e+308 m");
+  EXPECT_EQ(quantity(5e-324, "m"), "4.941e-324 m");
   EXPECT_EQ(quantity(3.14e-6, "m"), "3.14 µm");
   EXPECT_EQ(quantity(0.5, "N m/rad"), "500 mN m/rad");
   EXPECT_EQ(quantity(0.0, "N/m"), "0 N/m");

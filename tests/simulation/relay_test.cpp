@@ -108,7 +108,7 @@ TEST(Relay, ReadingsAboveTheLimitAreDoubtful) {
 
 TEST(Relay, TheDevicesDoubtIsTheReadings) {
   DeviceParameters device = test::with_delay(test::rigid_parameters(), 8e-3);
-  device.uncertainty = Uncertainty{{"body.0.mass"}, {{1e-4}}, "the mass is not determined"};
+  device.uncertainty = Uncertainty{{"body.body.mass"}, {{1e-4}}, "the mass is not determined"};
   EXPECT_THAT(simulated(device, 0.01).trust.reasons, Contains(HasSubstr("the mass is not determined")));
 }
 
