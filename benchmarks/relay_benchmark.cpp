@@ -4,8 +4,8 @@
 
 #include "lhifam.hpp"
 #include "zwidth/model/device.hpp"
-#include "zwidth/simulation/relay_trials.hpp"
 #include "zwidth/simulation/relay_prediction.hpp"
+#include "zwidth/simulation/relay_trials.hpp"
 
 namespace {
 

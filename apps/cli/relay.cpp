@@ -1,3 +1,5 @@
+#include "zwidth/simulation/relay.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,7 +22,6 @@
 #include "report/text/relay_text.hpp"
 #include "results/relay_csv.hpp"
 #include "results/relay_json.hpp"
-#include "zwidth/simulation/relay.hpp"
 
 namespace zwidth::cli {
 namespace {
@@ -29,7 +30,7 @@ struct RelayArguments {
   DeviceArguments devices;
   RecordingArguments recording;
   RelayOptions experiment;  ///< what needs no translation is parsed straight into it
-  double delay = 0.0;                 ///< s, added to the device's
+  double delay = 0.0;       ///< s, added to the device's
   std::string motion = "linear";
   std::string csv;
   std::string figure;
@@ -39,7 +40,7 @@ struct RelayArguments {
 constexpr const char* simulation_group = "Simulation";
 
 /// Options by the member of RelayOptions and of RelayRecordOptions that they set.
-constexpr std::pair<std::string_view, std::string_view> options_of_members[] = {
+constexpr std::pair<std::string_view, std::string_view> options_of_relay[] = {
     {"relay.amplitude", "--amplitude"},
     {"relay.hysteresis", "--hysteresis"},
     {"hysteresis", "--hysteresis"},
@@ -66,7 +67,7 @@ std::optional<Device> delayed_device(const RelayArguments& arguments) {
 }
 
 RelayResult simulated(const RelayArguments& arguments, const Device& device) {
-  if (const auto problem = find_problem(arguments.experiment, device)) refuse(*problem, options_of_members);
+  if (const auto problem = find_problem(arguments.experiment, device)) refuse(*problem, options_of_relay);
   ProgressLine line("simulating");
   return relay(device, arguments.experiment, line.progress());
 }
@@ -82,7 +83,7 @@ RelayResult recorded(const RelayArguments& arguments, std::optional<Device> devi
   options.hysteresis = arguments.experiment.relay.hysteresis;
   options.analysis = arguments.experiment.analysis;
   if (const auto problem = find_problem(options, motion.recording.sampling_period)) {
-    if (problem->member != "device") refuse(*problem, options_of_members);
+    if (problem->member != "device") refuse(*problem, options_of_relay);
     throw BadInput(fmt::format("{}: {}; {}", arguments.devices.files.front(), problem->what, problem->allowed));
   }
   return relay(RelayRecord{motion.recording.source, motion.force(), motion.motion(), motion.recording.sampling_period,

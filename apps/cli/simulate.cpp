@@ -1,3 +1,5 @@
+#include "zwidth/simulation/simulate.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,7 +25,6 @@
 #include "results/simulation_csv.hpp"
 #include "results/simulation_json.hpp"
 #include "zwidth/error.hpp"
-#include "zwidth/simulation/simulate.hpp"
 
 namespace zwidth::cli {
 namespace {
@@ -49,7 +50,7 @@ struct SimulateArguments {
 };
 
 /// Options by the member of SimulationOptions that they set.
-constexpr std::pair<std::string_view, std::string_view> options_of_members[] = {
+constexpr std::pair<std::string_view, std::string_view> options_of_simulation[] = {
     {"wall_position", "--wall-position"},
     {"contact", "--contact"},
     {"duration", "--duration"},
@@ -87,7 +88,7 @@ SimulationOptions options_of(const SimulateArguments& arguments, const Device& d
   apply(arguments.motion, device, options);
   options.duration = arguments.duration;
   options.divergence = arguments.divergence;
-  if (const auto problem = find_problem(options, device)) refuse(*problem, options_of_members);
+  if (const auto problem = find_problem(options, device)) refuse(*problem, options_of_simulation);
   if (arguments.csv.empty() && arguments.figure.empty()) {
     options.keep_every = 0;
   } else {

@@ -16,7 +16,7 @@ namespace zwidth::internal {
 namespace {
 
 /// |other forces| may exceed F_c by this relative amount before a body counts as broken away: rounding.
-constexpr double hold_tolerance = 1e-12;
+constexpr double stiction_tolerance = 1e-12;
 /// A term of the series this small beside every component of the state, with |A| h <= 1, ends it.
 constexpr double negligible = 1e-20;
 /// Pieces over which the bound on a second derivative is taken; more: tighter, costs at construction only.
@@ -206,7 +206,7 @@ void ContinuousMotion::set_motion(const double* positions, const double* velocit
   for (FrictionBody& each : friction_) {
     const double velocity = this->velocity(each.body);
     if (velocity == 0.0) {
-      release_or_hold(each);
+      stick_or_slide(each);
     } else {
       slide(each, sign_of(velocity));
       each.fresh = false;
@@ -247,10 +247,10 @@ void ContinuousMotion::stick(FrictionBody& body) noexcept {
   stuck_ |= 1u << index;
 }
 
-void ContinuousMotion::release_or_hold(FrictionBody& body) noexcept {
+void ContinuousMotion::stick_or_slide(FrictionBody& body) noexcept {
   state_.data()[bodies_ + body.body] = 0.0;
   const double others = body.other_forces.dot(state_);
-  if (std::abs(others) <= body.limit * (1.0 + hold_tolerance)) {
+  if (std::abs(others) <= body.limit * (1.0 + stiction_tolerance)) {
     stick(body);
   } else {
     slide(body, sign_of(others));
@@ -259,7 +259,7 @@ void ContinuousMotion::release_or_hold(FrictionBody& body) noexcept {
 
 void ContinuousMotion::break_away() noexcept {
   for (FrictionBody& each : friction_) {
-    if (each.direction == 0) release_or_hold(each);
+    if (each.direction == 0) stick_or_slide(each);
   }
 }
 
@@ -336,7 +336,7 @@ double ContinuousMotion::first_event(std::size_t& body) noexcept {
       if (each.fresh) {
         // The velocity starts at exactly 0: look at y/s, and at y/s² where the body only just breaks away.
         const double others = std::abs(each.other_forces.dot(state_));
-        from = others <= each.limit * (1.0 + hold_tolerance) ? 2 : 1;
+        from = others <= each.limit * (1.0 + stiction_tolerance) ? 2 : 1;
       }
       consider(k, from);
     } else {
@@ -344,7 +344,7 @@ double ContinuousMotion::first_event(std::size_t& body) noexcept {
         y[i] = -each.other_forces.dot(series_.col(static_cast<Eigen::Index>(i)));
       }
       const double others = -y[0];
-      const double tolerance = hold_tolerance * each.limit;
+      const double tolerance = stiction_tolerance * each.limit;
       for (const double direction : {1.0, -1.0}) {  // F_c - others, F_c + others
         y[0] = each.limit - direction * others;
         if (y[0] < 0.0 && y[0] >= -tolerance) y[0] = 0.0;
@@ -370,7 +370,7 @@ void ContinuousMotion::advance(double duration) noexcept {
       for (FrictionBody& each : friction_) each.fresh = each.fresh && fraction == 0.0;
       FrictionBody& met = friction_[body];
       if (met.direction != 0) {
-        release_or_hold(met);
+        stick_or_slide(met);
       } else {
         slide(met, sign_of(met.other_forces.dot(state_)));
       }

@@ -37,7 +37,7 @@ double swing_of(std::span<const double> y) { return 0.5 * range_of(without_line(
 /// the samples lie.
 double effective_swing(std::span<const double> y) {
   double squares = 0.0;
-  for (const double rest : without_line(y)) squares += rest * rest;
+  for (const double residual : without_line(y)) squares += residual * residual;
   return std::sqrt(squares / static_cast<double>(y.size()));
 }
 
@@ -45,7 +45,7 @@ double effective_swing(std::span<const double> y) {
 double slope_error(std::span<const double> y) {
   const auto n = static_cast<double>(y.size());
   double squares = 0.0;
-  for (const double rest : without_line(y)) squares += rest * rest;
+  for (const double residual : without_line(y)) squares += residual * residual;
   return std::sqrt(squares / (n - 2.0) * 12.0 / (n * (n * n - 1.0)));
 }
 
@@ -84,12 +84,12 @@ LoopJudgement judge_loop(std::span<const double> position, double sampling_perio
   LoopJudgement judgement;
   if (position.size() < least_samples) return judgement;
   const double range = range_of(position);
-  const double rest = std::max(resolution, rest_share * range);
+  const double rest_swing = std::max(resolution, rest_share * range);
   const auto second_half = position.last(position.size() / 2);
   const auto end = second_half.last(second_half.size() / windows);
-  const bool swings_at_end = swing_of(end) > rest;
+  const bool swings_at_end = swing_of(end) > rest_swing;
   const LoopVerdict quiet =
-      range_of(end) <= std::max(2.0 * rest, still_share * range) ? LoopVerdict::settles : LoopVerdict::drifts;
+      range_of(end) <= std::max(2.0 * rest_swing, still_share * range) ? LoopVerdict::settles : LoopVerdict::drifts;
 
   const std::vector<double> points = lowest_points(second_half);
   const std::size_t cycles = points.empty() ? 0 : points.size() - 1;
@@ -115,7 +115,7 @@ LoopJudgement judge_loop(std::span<const double> position, double sampling_perio
   const double windows_in_half = static_cast<double>(second_half.size()) / window_length;
   const double change = trend.slope * windows_in_half;
   const double uncertainty = significance * slope_error(swings) * windows_in_half;
-  if (!swings_at_end || last_swing <= rest) {
+  if (!swings_at_end || last_swing <= rest_swing) {
     judgement.verdict = quiet;
   } else if (std::abs(change) > std::max(steady_change, uncertainty)) {
     judgement.verdict = change > 0.0 ? LoopVerdict::unstable : LoopVerdict::settles;

@@ -37,8 +37,9 @@ Trust trust_of_reading(const RelayResult& result) {
   } else if (!agree(*result.mean)) {
     trust.doubt("the trials settle at different oscillations: compare each with the predictions");
   } else if (result.limit_reading == LimitReading::unsafe) {
-    trust.doubt(fmt::format("the relay reads {:.2f} dB more than the limit of linear theory: build on that limit instead",
-                            decibels(result.mean->stiffness / result.prediction->linear.stiffness)));
+    trust.doubt(
+        fmt::format("the relay reads {:.2f} dB more than the limit of linear theory: build on that limit instead",
+                    decibels(result.mean->stiffness / result.prediction->linear.stiffness)));
   }
   return trust;
 }
@@ -89,8 +90,7 @@ std::optional<RelayMean> relay_mean(const std::vector<RelayTrial>& trials) {
 
 std::optional<OptionProblem> find_problem(const RelayRecordOptions& options, double sampling_period) {
   if (!(std::isfinite(options.hysteresis) && options.hysteresis >= 0.0)) {
-    return OptionProblem{"hysteresis", fmt::format("is {}", options.hysteresis),
-                         "a position in m or rad, 0 or more"};
+    return OptionProblem{"hysteresis", fmt::format("is {}", options.hysteresis), "a position in m or rad, 0 or more"};
   }
   if (auto problem = find_problem(options.analysis)) {
     problem->member.insert(0, "analysis.");
@@ -100,8 +100,7 @@ std::optional<OptionProblem> find_problem(const RelayRecordOptions& options, dou
   const double expected = options.device->loop().sampling_period;
   if (std::abs(sampling_period / expected - 1.0) <= same_period) return std::nullopt;
   return OptionProblem{
-      "device",
-      fmt::format("loop.sampling_period: is {} s, the recording's is {:.6g} s", expected, sampling_period),
+      "device", fmt::format("loop.sampling_period: is {} s, the recording's is {:.6g} s", expected, sampling_period),
       "they must agree"};
 }
 

@@ -76,7 +76,8 @@ std::string limit_sentence(const RelayResult& result) {
     case LimitReading::unsafe:
       return limit + fmt::format(" The relay reads {:.2f} dB more: taken for that limit it is UNSAFE.", difference);
     case LimitReading::too_cautious:
-      return limit + fmt::format(" The relay reads {:.2f} dB less: taken for that limit it is too cautious.", difference);
+      return limit +
+             fmt::format(" The relay reads {:.2f} dB less: taken for that limit it is too cautious.", difference);
   }
   return "Linear theory gives this device no finite limit to compare with.";
 }

@@ -10,7 +10,6 @@
 #include "signal/averaged_spectra.hpp"
 #include "signal/window_function.hpp"
 #include "simulation/oscillation_cycles.hpp"
-#include "simulation/steady_part.hpp"
 #include "simulation/straight_line.hpp"
 #include "zwidth/error.hpp"
 
@@ -28,6 +27,7 @@ constexpr double threshold_of_cycles = 0.5;       // of the largest excursion
 constexpr double least_share = 0.2;               // of the position's power in the peak, for an oscillation
 constexpr double noticeable_drift = 0.2;          // of the amplitude, over the steady part
 constexpr std::size_t least_encoder_steps = 10;
+constexpr double scatters_allowed = 3.0;  // of the swing about its mean, in a steady part
 
 [[noreturn]] void refuse(const std::string& what) { throw Error(ErrorCode::invalid_argument, what); }
 
@@ -103,6 +103,47 @@ std::string nothing_moves(std::span<const double> force, std::span<const double>
   return "";
 }
 
+/// The end of a record in which an oscillation no longer changes its swing.
+struct SteadyPart {
+  std::size_t from = 0;  ///< first sample
+  /// Relative standard deviation of the swing over the stretches of the last half.
+  double scatter = 0.0;
+  /// Relative change of the swing over the last half, by a straight line through its stretches.
+  double trend = 0.0;
+};
+
+double swing(std::span<const double> position) {
+  double sum = 0.0;
+  for (const double each : without_line(position)) sum += each * each;
+  return std::sqrt(sum / static_cast<double>(position.size()));
+}
+
+/// Swing: rms about a straight line over each stretch, counted from the record's end. Steady from the first stretch
+/// after which every swing is within max(tolerance, 3 scatter) of the last half's mean. At most the first half is left
+/// out. Requires a stretch of at least 4 samples that fits four times into half the record.
+SteadyPart steady_part(std::span<const double> position, std::size_t stretch, double tolerance) {
+  const std::size_t count = position.size() / stretch;
+  const std::size_t start = position.size() - count * stretch;
+  std::vector<double> swings;
+  for (std::size_t i = 0; i < count; ++i) swings.push_back(swing(position.subspan(start + i * stretch, stretch)));
+
+  const std::size_t in_last_half = count / 2;
+  const std::span<const double> last_half = std::span(swings).last(in_last_half);
+  const StraightLine line = straight_line(last_half);
+  const double mean = line.middle;
+  double variance = 0.0;
+  for (const double each : without_line(last_half)) variance += each * each / static_cast<double>(in_last_half - 1);
+  SteadyPart part;
+  part.scatter = std::sqrt(variance) / mean;
+  part.trend = line.slope * static_cast<double>(in_last_half - 1) / mean;
+
+  const double allowed = std::max(tolerance, scatters_allowed * part.scatter) * mean;
+  std::size_t first = count - in_last_half;
+  while (first > 0 && std::abs(swings[first - 1] - mean) <= allowed) --first;
+  part.from = first == 0 ? 0 : start + first * stretch;
+  return part;
+}
+
 void remark_steadiness(RelayReading& result, const SteadyPart& part, const RelayAnalysisOptions& options) {
   if (std::abs(part.trend) > std::max(options.steady_tolerance, 2.0 * part.scatter)) {
     result.remarks.push_back({Remark::Severity::warning,
@@ -155,8 +196,8 @@ std::optional<OptionProblem> find_problem(const RelayAnalysisOptions& options) {
 }
 
 tl::expected<RelayReading, NoOscillation> analyse_relay_record(std::span<const double> force,
-                                                              std::span<const double> position, double sampling_period,
-                                                              const RelayAnalysisOptions& options) {
+                                                               std::span<const double> position, double sampling_period,
+                                                               const RelayAnalysisOptions& options) {
   check(force, position, sampling_period, options);
   if (std::string reason = nothing_moves(force, position, sampling_period); !reason.empty()) {
     return tl::unexpected(NoOscillation{std::move(reason)});

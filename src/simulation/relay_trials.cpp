@@ -107,8 +107,7 @@ std::optional<OptionProblem> find_problem(const RelayOptions& options, const Dev
   }
   const auto limit = device.parameters().actuator.force_limit;
   if (limit && amplitude > *limit) {
-    return problem("relay.amplitude", amplitude,
-                   fmt::format("at most the device's actuator.force_limit, {}", *limit));
+    return problem("relay.amplitude", amplitude, fmt::format("at most the device's actuator.force_limit, {}", *limit));
   }
   if (!std::isfinite(options.start_offset)) {
     return problem("start_offset", options.start_offset, "a position in m or rad");
@@ -126,8 +125,7 @@ std::optional<OptionProblem> find_problem(const RelayOptions& options, const Dev
   const double samples = std::round(options.duration / device.loop().sampling_period);
   if (samples < least_relay_samples || samples * static_cast<double>(options.trials) > most_relay_samples) {
     return OptionProblem{
-        "duration",
-        fmt::format("{} trials of {} s are {:.6g} samples each", options.trials, options.duration, samples),
+        "duration", fmt::format("{} trials of {} s are {:.6g} samples each", options.trials, options.duration, samples),
         fmt::format("at least {}, at most {} in all", least_relay_samples, most_relay_samples)};
   }
   if (device.loop().delay >= options.duration) {
@@ -139,8 +137,7 @@ std::optional<OptionProblem> find_problem(const RelayOptions& options, const Dev
   return std::nullopt;
 }
 
-std::vector<RelayTrial> relay_trials(const Device& device, const RelayOptions& options,
-                                         const Progress& progress) {
+std::vector<RelayTrial> relay_trials(const Device& device, const RelayOptions& options, const Progress& progress) {
   const std::size_t samples = samples_per_trial(device, options);
   std::vector<RelayTrial> trials = drawn_trials(options);
   SharedProgress shared(progress, samples * options.trials);

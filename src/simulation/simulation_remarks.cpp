@@ -50,7 +50,8 @@ std::vector<NonlinearPart> nonlinear_parts(const Simulation& result, const Devic
 /// encoder's step does not.
 bool must_grow(const Simulation& result) {
   const auto is_encoder = [](NonlinearPart part) { return part == NonlinearPart::encoder_step; };
-  return has_wall(result) && result.loop.controller.stiffness > 0.0 && result.linear.spectral_radius && *result.linear.spectral_radius > 1.0 &&
+  return has_wall(result) && result.loop.controller.stiffness > 0.0 && result.linear.spectral_radius &&
+         *result.linear.spectral_radius > 1.0 &&
          std::all_of(result.nonlinear_parts.begin(), result.nonlinear_parts.end(), is_encoder);
 }
 
@@ -74,8 +75,8 @@ void remark_wall(std::vector<Remark>& remarks, const Simulation& result, const D
   const double depth = (starts.empty() ? 0.0 : starts[device.loop().sensed]) - result.loop.controller.position;
   if (depth > 0.0) {
     const Units units = units_of(device.parameters().motion);
-    remarks.push_back(
-        note(fmt::format("the device starts {} inside the wall", quantity(depth, units.length)), "the wall pushes it out"));
+    remarks.push_back(note(fmt::format("the device starts {} inside the wall", quantity(depth, units.length)),
+                           "the wall pushes it out"));
   }
 }
 
@@ -102,13 +103,13 @@ void remark_encoder(std::vector<Remark>& remarks, const Simulation& result, cons
   const Units units = units_of(device.parameters().motion);
   const ForceRipple& ripple = *result.force_ripple;
   const bool is_damped = result.loop.controller.damping > 0.0;
-  remarks.push_back(
-      warning(fmt::format("the encoder's steps of {} make the force ripple by {} either way, at {} on average",
-                          quantity(device.parameters().sensor.resolution, units.length),
-                          quantity(ripple.amplitude, units.force), quantity(hertz(ripple.frequency), "Hz")),
-              result.verdict == LoopVerdict::drifts ? "the user feels it under slow motion, though nothing oscillates"
-                                                    : "the user feels it, though the device hardly moves",
-              is_damped ? "a finer encoder, a low-pass on the wall's velocity, or less wall.damping" : "a finer encoder"));
+  remarks.push_back(warning(
+      fmt::format("the encoder's steps of {} make the force ripple by {} either way, at {} on average",
+                  quantity(device.parameters().sensor.resolution, units.length),
+                  quantity(ripple.amplitude, units.force), quantity(hertz(ripple.frequency), "Hz")),
+      result.verdict == LoopVerdict::drifts ? "the user feels it under slow motion, though nothing oscillates"
+                                            : "the user feels it, though the device hardly moves",
+      is_damped ? "a finer encoder, a low-pass on the wall's velocity, or less wall.damping" : "a finer encoder"));
 }
 
 void remark_run(std::vector<Remark>& remarks, const Simulation& result, const Device& device,
@@ -154,8 +155,8 @@ void compare_with_linear(Simulation& result, const Device& device) {
   result.encoder_chatters = chatters(result, device);
 }
 
-std::vector<Remark> simulation_remarks(const Simulation& result, const Device& device,
-                                       const SimulationOptions& options, std::span<const double> sensed) {
+std::vector<Remark> simulation_remarks(const Simulation& result, const Device& device, const SimulationOptions& options,
+                                       std::span<const double> sensed) {
   std::vector<Remark> remarks;
   remark_wall(remarks, result, device);
   remark_run(remarks, result, device, options);

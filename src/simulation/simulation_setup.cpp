@@ -145,8 +145,8 @@ std::optional<OptionProblem> start_problem(const SimulationOptions& options, con
     }
     if (device.has_bodies() || !options.wall_position) return std::nullopt;
   }
-  const bool is_pushed = wall.kind == ControllerOptions::Kind::wall && wall.position != 0.0 &&
-                         (!only_pushes || wall.position < 0.0);
+  const bool is_pushed =
+      wall.kind == ControllerOptions::Kind::wall && wall.position != 0.0 && (!only_pushes || wall.position < 0.0);
   if (is_pushed || options.user_force.kind != UserForce::Kind::none || !is_zero(options.initial_position) ||
       !is_zero(options.initial_velocity)) {
     return std::nullopt;

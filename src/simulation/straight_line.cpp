@@ -18,11 +18,11 @@ StraightLine straight_line(std::span<const double> values) {
 std::vector<double> without_line(std::span<const double> values) {
   const StraightLine line = straight_line(values);
   const double middle = 0.5 * (static_cast<double>(values.size()) - 1.0);
-  std::vector<double> rest(values.begin(), values.end());
-  for (std::size_t i = 0; i < rest.size(); ++i) {
-    rest[i] -= line.middle + line.slope * (static_cast<double>(i) - middle);
+  std::vector<double> residuals(values.begin(), values.end());
+  for (std::size_t i = 0; i < residuals.size(); ++i) {
+    residuals[i] -= line.middle + line.slope * (static_cast<double>(i) - middle);
   }
-  return rest;
+  return residuals;
 }
 
 }  // namespace zwidth::internal

@@ -166,8 +166,9 @@ TEST(SimulationCsv, QuotesNamesThatNeedIt) {
   DeviceParameters parameters = run.device.parameters();
   parameters.bodies[0].name = "motor, \"old\"";
   run.device = Device(parameters);
-  EXPECT_THAT(simulation_csv(run.device, run.result), StartsWith("time_s,measured,command,user_force,\"motor, \"\"old\"\".position\","
-                                               "\"motor, \"\"old\"\".velocity\",handle.position,handle.velocity\n0,"));
+  EXPECT_THAT(simulation_csv(run.device, run.result),
+              StartsWith("time_s,measured,command,user_force,\"motor, \"\"old\"\".position\","
+                         "\"motor, \"\"old\"\".velocity\",handle.position,handle.velocity\n0,"));
 }
 
 TEST(SimulationFigure, DrawsNamesThatCouldBeMistakenForMarkup) {

@@ -76,7 +76,8 @@ TEST(Relay, NeighbouringCyclesAreOneBand) {
 }
 
 TEST(Relay, ARelayOnTheResonanceIsToldFromTheLimit) {
-  const auto sentences = explained(simulated(with_friction(test::with_delay(test::reduced_pretension_parameters(), 4.25e-3), 0.4), 0.1e-3));
+  const auto sentences = explained(
+      simulated(with_friction(test::with_delay(test::reduced_pretension_parameters(), 4.25e-3), 0.4), 0.1e-3));
   EXPECT_THAT(sentences, Contains(AllOf(HasSubstr("near the phase crossover"), HasSubstr("vibration mode 1"))));
   EXPECT_THAT(sentences, Contains(AllOf(HasSubstr("stiffest stable wall"), HasSubstr("UNSAFE"))));
   EXPECT_THAT(sentences, Contains(HasSubstr("Coulomb friction of up to 8.0 %")));

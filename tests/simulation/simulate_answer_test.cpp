@@ -19,15 +19,15 @@ namespace zwidth {
 namespace {
 
 using std::numbers::pi;
+using test::lhifam_parameters;
+using test::simulation_of;
+using test::spring_wall;
+using test::starting_at;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
-using test::lhifam_parameters;
-using test::simulation_of;
-using test::spring_wall;
-using test::starting_at;
 
 constexpr double critical = 8848.70869499712;  // of LHIfAM's Table I
 

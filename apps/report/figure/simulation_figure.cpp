@@ -143,8 +143,7 @@ std::string draw_simulation_figure(const Device& device, const Simulation& resul
   for (std::string line; std::getline(sentence, line);) lines.push_back(line);
   const double list_top = forces.bottom + 64.0;
   Canvas canvas("Simulation", canvas_width, list_top + row_height * static_cast<double>(lines.size()));
-  canvas.text(positions.left, 18.0,
-              Canvas::fitted(display_name(device), 16.0, positions.right - positions.left),
+  canvas.text(positions.left, 18.0, Canvas::fitted(display_name(device), 16.0, positions.right - positions.left),
               {Anchor::left, 16.0});
   for (std::size_t i = 0; i < lines.size(); ++i) {
     canvas.text(positions.left, list_top + row_height * static_cast<double>(i), lines[i], {Anchor::left, text_size});

@@ -148,8 +148,7 @@ std::string verdict_sentence(const Device& device, const Simulation& result) {
                            oscillation);
       }
       return fmt::format("SETTLES to within the encoder step of {}; what is left: {}",
-                         quantity(device.parameters().sensor.resolution, units_of(motion).length),
-                         oscillation);
+                         quantity(device.parameters().sensor.resolution, units_of(motion).length), oscillation);
     case LoopVerdict::limit_cycle:
       return "LIMIT CYCLE: the oscillation neither grows nor dies out by 1 % over the second half of the run: " +
              oscillation;
@@ -160,9 +159,8 @@ std::string verdict_sentence(const Device& device, const Simulation& result) {
                   : "");
     case LoopVerdict::unstable:
       if (!result.growth_rate)
-        return result.diverged
-                   ? "UNSTABLE: the position passes every bound"
-                   : "UNSTABLE: the motion grows threefold or more from quarter to quarter of the run";
+        return result.diverged ? "UNSTABLE: the position passes every bound"
+                               : "UNSTABLE: the motion grows threefold or more from quarter to quarter of the run";
       return fmt::format("UNSTABLE: an oscillation grows, {}; at the end {}", envelope_text(*result.growth_rate),
                          oscillation);
     case LoopVerdict::drifts:
@@ -179,8 +177,7 @@ std::string verdict_sentence(const Device& device, const Simulation& result) {
 
 std::string linear_answer(const Device& device, const Simulation& result) {
   const LinearAnswer& linear = result.linear;
-  std::string text =
-      "critical stiffness " + critical_stiffness_text(linear.critical, device.parameters().motion);
+  std::string text = "critical stiffness " + critical_stiffness_text(linear.critical, device.parameters().motion);
   if (!linear.wall_stable || result.loop.controller.stiffness == 0.0) return text;
   if (linear.wall_share) text += fmt::format("; the wall has {:.3g} % of it", 100.0 * *linear.wall_share);
   text += *linear.wall_stable ? ": stable" : ": UNSTABLE";

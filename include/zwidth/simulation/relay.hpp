@@ -62,8 +62,8 @@ struct RelayResult {
   Source source = Source::simulation;
   std::string recording;  ///< its name; empty for a simulation
   Motion motion = Motion::linear;
-  double sampling_period = 0.0;  ///< s
-  Relay relay;                   ///< of a recording: half of the force's peak to peak
+  double sampling_period = 0.0;    ///< s
+  Relay relay;                     ///< of a recording: half of the force's peak to peak
   std::vector<RelayTrial> trials;  ///< a recording is one
   std::optional<RelayMean> mean;
   std::optional<Device> device;

@@ -54,8 +54,8 @@ struct NoOscillation {
 /// many finite samples, sampling_period > 0 and options in their domain; throws Error (invalid_argument) otherwise.
 /// Source: section V of Díaz & Gil (who print neither window nor overlap).
 [[nodiscard]] tl::expected<RelayReading, NoOscillation> analyse_relay_record(std::span<const double> force,
-                                                                            std::span<const double> position,
-                                                                            double sampling_period,
-                                                                            const RelayAnalysisOptions& options = {});
+                                                                             std::span<const double> position,
+                                                                             double sampling_period,
+                                                                             const RelayAnalysisOptions& options = {});
 
 }  // namespace zwidth

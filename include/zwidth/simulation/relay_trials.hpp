@@ -48,6 +48,6 @@ struct RelayTrial {
 /// Throws Error (invalid_argument) with member and value where find_problem() finds one, (needs_bodies) for a start
 /// offset of a transfer function.
 [[nodiscard]] std::vector<RelayTrial> relay_trials(const Device& device, const RelayOptions& options,
-                                                       const Progress& progress = {});
+                                                   const Progress& progress = {});
 
 }  // namespace zwidth
