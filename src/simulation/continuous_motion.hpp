@@ -100,7 +100,7 @@ class ContinuousMotion {
   void expand(double length) noexcept;                           // series_ of the state over `length`
   void evaluate_series(double fraction) noexcept;                // state_ = series at fraction of its length
   [[nodiscard]] double first_event(std::size_t& body) noexcept;  // fraction of the series' length; above 1: none
-  void stick_or_slide(FrictionBody& body) noexcept;             // at velocity 0: stick, or slide with the other forces
+  void stick_or_slide(FrictionBody& body) noexcept;              // at velocity 0: stick, or slide with the other forces
   void slide(FrictionBody& body, int direction) noexcept;
   void stick(FrictionBody& body) noexcept;
   void break_away() noexcept;

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "simulation/relay_explanation.hpp"
-#include "simulation/simulation_setup.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/quantity.hpp"
 
@@ -25,7 +24,10 @@ double friction_level(const Device& device, double amplitude) {
 
 Trust trust_of_reading(const RelayResult& result) {
   Trust trust;
-  if (result.device) trust = device_trust(*result.device);
+  // A device that is refused makes no limit of its own; what the relay reads stands beside it.
+  if (result.prediction) {
+    for (const std::string& reason : result.prediction->linear.trust.reasons) trust.doubt(reason);
+  }
   if (!result.mean) {
     trust.refuse("no trial oscillates: start further out, push harder or record for longer");
     return trust;

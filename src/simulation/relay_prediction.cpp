@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "simulation/check_relay.hpp"
 
@@ -32,7 +33,9 @@ RelayPrediction relay_prediction(const Device& device, const Relay& relay) {
   const double delay = device.loop().delay;
   const ContinuousStateSpace system = state_space(device);
   RelayPrediction prediction;
-  prediction.linear = critical_stiffness(filtered_plant(sampled_plant(device), {}));
+  DeviceParameters without_wall = device.parameters();
+  without_wall.wall = {};
+  prediction.linear = critical_stiffness(Device(std::move(without_wall)));
   const double states = static_cast<double>(system.A.rows());
   const double longest =
       std::max(2.0, std::min(half_period_samples(prediction.linear, period), most_work / std::pow(states, 3)));

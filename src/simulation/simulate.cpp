@@ -217,7 +217,7 @@ Simulation simulate(const Device& device, const SimulationOptions& options, cons
     judge(result, sensed, device, result.loop.user_force);
   }
   compare_with_linear(result, device);
-  result.trust = device_trust(device);
+  result.trust = result.linear.critical.trust;
   result.remarks = simulation_remarks(result, device, options, sensed);
   if (setup.moved_start) result.remarks.insert(result.remarks.begin(), *setup.moved_start);
   return result;

@@ -169,13 +169,6 @@ Device with_wall_of(const Device& device, const ControllerOptions& controller) {
 
 }  // namespace
 
-Trust device_trust(const Device& device) {
-  Trust trust;
-  const auto& uncertainty = device.parameters().uncertainty;
-  if (uncertainty && !uncertainty->warning.empty()) trust.doubt(uncertainty->warning);
-  return trust;
-}
-
 double whole_friction(const Device& device) {
   double sum = 0.0;
   for (const Body& body : device.bodies()) sum += body.coulomb;
@@ -202,8 +195,8 @@ LinearAnswer linear_answer(const Device& device, const SimulationOptions& option
   const Device linear = options.controller ? with_wall_of(device, *options.controller) : device;
   const Wall& wall = linear.parameters().wall;
   LinearAnswer answer;
-  answer.critical = critical_stiffness(filtered_plant(linear), {wall.damping, wall.velocity_filter_hz});
-  if (!wall.stiffness) return answer;
+  answer.critical = critical_stiffness(linear);
+  if (!wall.stiffness || answer.critical.trust.refused()) return answer;
   const WallMargins margins = wall_margins(linear);
   answer.wall_stable = margins.stable;
   answer.spectral_radius = margins.spectral_radius;

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "zwidth/simulation/simulate.hpp"
-#include "zwidth/trust.hpp"
 
 namespace zwidth::internal {
 
@@ -22,9 +21,6 @@ struct SimulationSetup {
 
 /// See default_duration(); `critical` is the linear answer's.
 [[nodiscard]] double default_duration(const Device& device, const CriticalStiffness& critical, const UserForce& force);
-
-/// How far the device's numbers are to be relied on.
-[[nodiscard]] Trust device_trust(const Device& device);
 
 /// Sum of the Coulomb friction of all bodies, N or N m.
 [[nodiscard]] double whole_friction(const Device& device);

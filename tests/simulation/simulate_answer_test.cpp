@@ -69,7 +69,6 @@ TEST(SimulationDefaults, DurationIsBoundedAndCountedFromTheUsersForce) {
   DeviceParameters fast = test::rigid_parameters();
   fast.loop.sampling_period = 1e-7;
   EXPECT_NEAR(default_duration(Device(fast), {}), 0.1, 1e-12);
-  EXPECT_NEAR(default_duration(Device(test::with_delay(test::rigid_parameters(), 8.0)), {}), 1000.0, 1000.0);
 }
 
 TEST(SimulationDefaults, ATransferFunctionsWallBeginsOneMillimetreBehindIt) {
@@ -104,7 +103,7 @@ TEST(SimulationLinear, FrictionThatHoldsAnUnstableWallIsNamed) {
   EXPECT_THAT(result.nonlinear_parts, ElementsAre(NonlinearPart::coulomb_friction));
 }
 
-// 12 ppm above the critical stiffness the growth of the slow oscillation is hidden by the decay of another.
+// Just above the critical stiffness nothing grows within a short run.
 TEST(SimulationLinear, AGrowthThatIsHiddenLeavesTheVerdictOpen) {
   for (const double above : {1e-6, 1e-4, 1e-3}) {
     SCOPED_TRACE(above);

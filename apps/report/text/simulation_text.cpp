@@ -214,7 +214,8 @@ std::string simulation_text(const Device& device, const Simulation& result) {
   }
   if (result.friction_events > 0) text += line("stick-slip", fmt::format("{} instants", result.friction_events));
   text += line("linear answer", linear_answer(device, result));
-  for (const std::string& reason : result.trust.reasons) text += line("doubtful", reason);
+  for (const std::string& reason : result.trust.reasons)
+    text += line(result.trust.refused() ? "limit refused" : "doubtful", reason);
   for (const Remark& remark : result.remarks) {
     text += line("note", remark_line(remark));
   }

@@ -92,7 +92,7 @@ enum class NonlinearPart {
 /// What linear analysis says of the same loop.
 struct LinearAnswer {
   CriticalStiffness critical;  ///< with the wall's damper and filters
-  // Absent where the wall has no stiffness:
+  // Absent where the wall has no stiffness, or the critical stiffness is refused:
   std::optional<double> wall_share;  ///< wall's stiffness over the critical one; absent unless that is finite
   std::optional<bool> wall_stable;
   std::optional<double> spectral_radius;  ///< largest closed-loop |z|
@@ -131,7 +131,7 @@ struct Simulation {
   bool diverged = false;             ///< the run ended early: the position passed options.divergence
   std::vector<NonlinearPart> nonlinear_parts;
   LinearAnswer linear;
-  Trust trust;                  ///< of linear.critical: the device's own
+  Trust trust;                  ///< of linear.critical: the device's, and of the computation
   std::vector<Remark> remarks;  ///< what the verdict does not say: never touched or moved, ended early, still pushed
 };
 
