@@ -1,5 +1,7 @@
 #include "zwidth/control/sampled_controller.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -11,7 +13,7 @@ namespace zwidth {
 namespace {
 
 void require(bool holds, const char* what, double value) {
-  if (!holds) throw Error(ErrorCode::invalid_argument, std::string(what) + " is " + std::to_string(value));
+  if (!holds) throw Error(ErrorCode::invalid_argument, std::string(what) + " is " + fmt::format("{}", value));
 }
 
 void require_at_least_zero(const char* what, double value) {

@@ -1,5 +1,7 @@
 #include "zwidth/simulation/hybrid_loop.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -135,7 +137,7 @@ struct HybridLoop::State {
         faults.lost_sample_probability > 0.0 || faults.sampling_jitter > 0.0 || faults.overrun_probability > 0.0;
     const bool takes_odd_steps = is_faulty || motion.has_friction() || options.user_force.kind != UserForce::Kind::none;
     require(!takes_odd_steps || motion.rate() * period <= most_parts_per_period,
-            "the device's fastest motion, about " + std::to_string(motion.rate()) +
+            "the device's fastest motion, about " + fmt::format("{}", motion.rate()) +
                 " rad/s, is too fast to follow in time beside its sampling period; soften it or make it rigid");
     reset();
   }

@@ -1,5 +1,7 @@
 #include "zwidth/simulation/trajectory.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -25,7 +27,7 @@ std::size_t sample_count(const Device& device, const SimulationOptions& options)
   const double count = std::round(options.duration / device.loop().sampling_period);
   if (!(count >= 1.0 && count <= max_simulated_samples)) {
     throw Error(ErrorCode::invalid_argument,
-                "duration is " + std::to_string(options.duration) + " s; must be 1 to 20 million sampling periods");
+                "duration is " + fmt::format("{}", options.duration) + " s; must be 1 to 20 million sampling periods");
   }
   if (!(options.divergence > 0.0)) throw Error(ErrorCode::invalid_argument, "divergence bound must be > 0");
   return static_cast<std::size_t>(count);
