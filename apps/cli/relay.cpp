@@ -7,13 +7,12 @@
 #include <utility>
 
 #include "cli/device_arguments.hpp"
+#include "cli/outputs.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/recording_arguments.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
-#include "report/figure/canvas.hpp"
 #include "report/figure/relay_figure.hpp"
-#include "report/output_file.hpp"
 #include "report/relay_report.hpp"
 #include "report/text/relay_text.hpp"
 #include "results/relay_csv.hpp"
@@ -131,7 +130,7 @@ report::RelayReport recorded(const RelayArguments& arguments, std::optional<Devi
   return report;
 }
 
-void write_figure(const RelayArguments& arguments, const report::RelayReport& report, report::FigureFormat format) {
+std::string drawn(const report::RelayReport& report, report::FigureFormat format) {
   const auto oscillates = [](const RelayTrial& trial) { return trial.result.has_value(); };
   auto shown = std::find_if(report.trials.begin(), report.trials.end(), oscillates);
   if (shown == report.trials.end()) shown = report.trials.begin();
@@ -139,20 +138,15 @@ void write_figure(const RelayArguments& arguments, const report::RelayReport& re
   const std::string title = report.trials.size() == 1 ? fmt::format("Relay experiment: {}", name)
                                                       : fmt::format("Relay experiment, trial {}: {}",
                                                                     shown - report.trials.begin() + 1, name);
-  report::write_whole(arguments.figure,
-                      draw_relay_record(title, *shown, report.sampling_period, report.motion, format));
+  return draw_relay_record(title, *shown, report.sampling_period, report.motion, format);
 }
 
 void run_relay(const RelayArguments& arguments) {
-  const auto format = report::figure_format(arguments.figure);
-  if (!arguments.figure.empty() && !format) {
-    throw BadInput(fmt::format("--figure: {}: unknown extension; .svg, .png or .pdf", arguments.figure));
-  }
-  for (const auto& [option, output] : {std::pair{"--figure", arguments.figure}, std::pair{"--csv", arguments.csv}}) {
-    check_output_is_no_input(arguments.devices, option, output);
-    check_output_is_no_input(arguments.recording.file, option, output);
-  }
-  check_outputs_differ("--figure", arguments.figure, "--csv", arguments.csv);
+  Outputs outputs;
+  outputs.add("--csv", arguments.csv);
+  outputs.add("--figure", arguments.figure, Ending::figure);
+  outputs.keep(arguments.devices.files, "device file");
+  outputs.keep(arguments.recording.file, "recording");
   check_numbers(arguments);
   std::optional<Device> device = delayed_device(arguments);
   report::RelayReport report = arguments.recording.file.empty() ? simulated(arguments, *std::move(device))
@@ -160,9 +154,10 @@ void run_relay(const RelayArguments& arguments) {
   if (report.device && report.relay.amplitude > 0.0) {
     report.prediction = relay_prediction(*report.device, report.relay);
   }
-  if (!arguments.csv.empty()) report::write_whole(arguments.csv, relay_csv(report));
-  if (format) write_figure(arguments, report, *format);
-  write_standard_output(arguments.json ? relay_json(report).dump() + "\n" : relay_text(report));
+  outputs.put("--csv", [&] { return relay_csv(report); });
+  outputs.draw("--figure", [&](report::FigureFormat format) { return drawn(report, format); });
+  outputs.commit();
+  write_standard_output(arguments.json ? results::line(relay_json(report)) : relay_text(report));
 }
 
 /// Options of what is not done would be ignored: refused instead.

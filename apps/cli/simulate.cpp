@@ -11,14 +11,13 @@
 
 #include "cli/device_arguments.hpp"
 #include "cli/motion_arguments.hpp"
+#include "cli/outputs.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/recording_arguments.hpp"
 #include "cli/remark_lines.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
-#include "report/figure/canvas.hpp"
 #include "report/figure/simulation_figure.hpp"
-#include "report/output_file.hpp"
 #include "report/simulated_loop.hpp"
 #include "report/text/simulation_text.hpp"
 #include "results/simulation_csv.hpp"
@@ -198,23 +197,20 @@ report::SimulatedLoop simulated(const report::AnalysedDevice& analysed, const Si
 }
 
 void run_simulate(const SimulateArguments& arguments) {
-  const auto format = report::figure_format(arguments.figure);
-  if (!arguments.figure.empty() && !format) {
-    throw BadInput(fmt::format("--figure: {}: unknown extension; .svg, .png or .pdf", arguments.figure));
-  }
-  for (const auto& [option, output] : {std::pair{"--csv", arguments.csv}, std::pair{"--figure", arguments.figure}}) {
-    check_output_is_no_input(arguments.device, option, output);
-    check_output_is_no_input(arguments.motion.user_force, option, output);
-  }
-  check_outputs_differ("--figure", arguments.figure, "--csv", arguments.csv);
+  Outputs outputs;
+  outputs.add("--csv", arguments.csv);
+  outputs.add("--figure", arguments.figure, Ending::figure);
+  outputs.keep(arguments.device.files, "device file");
+  outputs.keep(arguments.motion.user_force, "recording");
   const report::AnalysedDevice analysed = analyze_devices(arguments.device, limit_and_wall_only()).front();
   const SimulationOptions options = options_of(arguments, analysed);
   const report::SimulatedLoop loop = simulated(analysed, options, arguments.device.files.front());
-  if (!arguments.csv.empty()) report::write_whole(arguments.csv, report::simulation_csv(loop));
-  if (format) report::write_whole(arguments.figure, report::draw_simulation_figure(loop, *format));
+  outputs.put("--csv", [&] { return report::simulation_csv(loop); });
+  outputs.draw("--figure", [&](report::FigureFormat format) { return report::draw_simulation_figure(loop, format); });
+  outputs.commit();
   if (arguments.json) {
     write_warnings(loop.remarks);
-    write_standard_output(report::simulation_json(loop).dump() + "\n");
+    write_standard_output(results::line(report::simulation_json(loop)));
   } else {
     write_standard_output(report::simulation_text(loop));
   }
