@@ -8,12 +8,6 @@ namespace {
 
 using Json = results::Json;
 
-Json to_json(const Remark& remark) {
-  return {{"severity", remark.severity == Remark::Severity::warning ? "warning" : "note"},
-          {"what", remark.what},
-          {"meaning", remark.consequence}};
-}
-
 Json to_json(const LimitCycle& cycle) {
   return {{"frequency_rad_s", cycle.frequency},
           {"frequency_hz", hertz(cycle.frequency)},
@@ -64,7 +58,7 @@ Json trials_json(const RelayReport& report) {
     each["start_offset"] = is_simulated ? Json(trial.start_offset) : Json(nullptr);
     each["friction_factor"] = is_simulated ? Json(trial.friction_factor) : Json(nullptr);
     each["result"] = trial.result ? to_json(*trial.result, report.sampling_period) : Json(nullptr);
-    each["remarks"] = trial.result ? to_json_array(trial.result->remarks) : Json::array();
+    each["remarks"] = trial.result ? Json(trial.result->remarks) : Json::array();
     trials.push_back(std::move(each));
   }
   return trials;
@@ -113,7 +107,7 @@ results::Json relay_json(const RelayReport& report) {
   document["mean"] = mean_json(report);
   document["predictions"] = prediction_json(report);
   document["explanation"] = relay_explanation(report);
-  document["remarks"] = to_json_array(remarks_of(report));
+  document["remarks"] = remarks_of(report);
   return document;
 }
 

@@ -116,12 +116,7 @@ results::Json simulation_json(const SimulatedLoop& loop) {
   document["peak_generated_energy"] = has_wall ? number_or_null(result.peak_generated_energy) : Json(nullptr);
   document["stick_slip_instants"] = result.friction_events;
   document["linear"] = linear_json(loop.analysed);
-  document["remarks"] = Json::array();
-  for (const Remark& remark : loop.remarks) {
-    document["remarks"].push_back({{"severity", remark.severity == Remark::Severity::warning ? "warning" : "note"},
-                                   {"what", remark.what},
-                                   {"meaning", remark.consequence}});
-  }
+  document["remarks"] = loop.remarks;
   return document;
 }
 
