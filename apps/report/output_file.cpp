@@ -106,7 +106,8 @@ Target target_of(const std::string& path) {
   if (!exists && errno != ENOENT) throw SystemError{errno};
   if (!exists) return {path, std::nullopt};
   if (S_ISDIR(existing.st_mode)) throw OutputFailed(fmt::format("{}: is a directory; give a file", path));
-  if (S_ISREG(existing.st_mode) && ::access(path.c_str(), W_OK) != 0) throw SystemError{errno};
+  if (!S_ISREG(existing.st_mode)) return {path, existing};
+  if (::access(path.c_str(), W_OK) != 0) throw SystemError{errno};
   std::error_code unresolved;
   const fs::path target = fs::canonical(path, unresolved);
   if (unresolved) throw SystemError{unresolved.value()};
