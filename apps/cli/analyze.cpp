@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "cli/device_arguments.hpp"
+#include "cli/outputs.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
 #include "cli/users_argument.hpp"
 #include "report/analysed_device.hpp"
-#include "report/output_file.hpp"
 #include "report/page/html_report.hpp"
 #include "report/text/analysis_text.hpp"
 #include "report/text/trust_text.hpp"
@@ -89,10 +89,13 @@ void check_walls(const AnalyzeOptions& options, const std::vector<report::Analys
 }
 
 void run_analyze(const AnalyzeOptions& options) {
-  if (options.report) check_output_is_no_input(options.devices, "--report", *options.report);
+  Outputs outputs;
+  outputs.add("--report", options.report.value_or(""));
+  outputs.keep(options.devices.files, "device file");
   const std::vector<report::AnalysedDevice> analysed = analysed_devices(options);
   if (options.require_stable) check_walls(options, analysed);
-  if (options.report) report::write_whole(*options.report, report::html_report(analysed));
+  outputs.put("--report", [&] { return report::html_report(analysed); });
+  outputs.commit();
   if (options.json) {
     std::string lines;
     for (const report::AnalysedDevice& each : analysed)

@@ -1,16 +1,14 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
 
 #include "cli/device_arguments.hpp"
+#include "cli/outputs.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
 #include "report/device_bode.hpp"
-#include "report/figure/canvas.hpp"
-#include "report/output_file.hpp"
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
 #include "report/text/text_table.hpp"
@@ -73,9 +71,8 @@ std::string crossover_table(const std::vector<AnalysedDevice>& devices) {
   return text + "A figure or the numbers: add --output FILE.svg, FILE.png, FILE.pdf or FILE.csv, or --json.\n";
 }
 
-void write_output(const BodeArguments& arguments, const std::vector<AnalysedDevice>& devices) {
-  const std::string& output = arguments.output;
-  if (const auto format = report::figure_format(output)) {
+void check_devices(const std::vector<AnalysedDevice>& devices, bool in_one_figure) {
+  if (in_one_figure) {
     if (devices.size() > report::most_curves) {
       throw BadInput(
           fmt::format("{} devices in one figure; at most {} can be told apart", devices.size(), report::most_curves));
@@ -86,31 +83,25 @@ void write_output(const BodeArguments& arguments, const std::vector<AnalysedDevi
         throw BadInput("linear and rotary devices in one figure; draw each kind by itself");
       }
     }
-    report::write_whole(output, draw(device_bode_figure(devices, arguments.bode), *format));
-  } else {
-    if (devices.size() > 1) throw BadInput("--output: a csv file holds one device; give one FILE, or use --json");
-    report::write_whole(output, bode_csv(devices.front(), arguments.bode));
+  } else if (devices.size() > 1) {
+    throw BadInput("--output: a csv file holds one device; give one FILE, or use --json");
   }
-}
-
-bool is_csv(std::string_view path) {
-  constexpr std::string_view extension = ".csv";
-  return path.size() >= extension.size() &&
-         std::equal(extension.rbegin(), extension.rend(), path.rbegin(),
-                    [](char wanted, char found) { return wanted == std::tolower(static_cast<unsigned char>(found)); });
 }
 
 void run_bode(const BodeArguments& arguments) {
-  if (!arguments.output.empty() && !report::figure_format(arguments.output) && !is_csv(arguments.output)) {
-    throw BadInput(fmt::format("--output: {}: unknown extension; .svg, .png, .pdf or .csv", arguments.output));
-  }
-  check_output_is_no_input(arguments.devices, "--output", arguments.output);
+  Outputs outputs;
+  outputs.add("--output", arguments.output, Ending::figure_or_csv);
+  outputs.keep(arguments.devices.files, "device file");
   const std::vector<AnalysedDevice> devices = analyze_devices(arguments.devices, limit_and_wall_only());
   check(arguments, devices);
-  if (!arguments.output.empty()) write_output(arguments, devices);
+  if (!arguments.output.empty()) check_devices(devices, outputs.figure("--output").has_value());
+  outputs.put("--output", [&] { return bode_csv(devices.front(), arguments.bode); });
+  outputs.draw("--output",
+               [&](report::FigureFormat format) { return draw(device_bode_figure(devices, arguments.bode), format); });
+  outputs.commit();
   if (arguments.json) {
     std::string lines;
-    for (const AnalysedDevice& each : devices) lines += bode_json(each, arguments.bode).dump() + "\n";
+    for (const AnalysedDevice& each : devices) lines += results::line(bode_json(each, arguments.bode));
     write_standard_output(lines);
   } else if (arguments.output.empty()) {
     write_standard_output(crossover_table(devices));

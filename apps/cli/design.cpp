@@ -10,18 +10,16 @@
 
 #include "cli/design_notch.hpp"
 #include "cli/device_arguments.hpp"
+#include "cli/outputs.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
 #include "cli/sweep_argument.hpp"
 #include "report/design_comparison.hpp"
 #include "report/design_sweep.hpp"
-#include "report/figure/canvas.hpp"
 #include "report/figure/design_sweep_figure.hpp"
-#include "report/output_file.hpp"
 #include "report/text/design_text.hpp"
 #include "results/design_json.hpp"
-#include "results/design_sweep_json.hpp"
 #include "zwidth/design/parameter_sweep.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/io/device_file.hpp"
@@ -59,7 +57,7 @@ void run_sensitivities(const DesignArguments& arguments) {
   for (std::size_t i = 0; i < devices.size(); ++i) {
     const auto designed = worked(arguments.devices.files[i], [&] { return report::designed_device(devices[i]); });
     if (arguments.json) {
-      text += report::design_json(designed).dump() + "\n";
+      text += results::line(results::design_json(designed));
     } else {
       text += (i > 0 ? "\n" : "") + report::design_text(designed);
     }
@@ -70,22 +68,6 @@ void run_sensitivities(const DesignArguments& arguments) {
 Device only_device(const DesignArguments& arguments, const std::string& option) {
   if (arguments.devices.files.size() != 1) throw BadInput(option + ": takes one device file");
   return std::move(read_devices(arguments.devices).front());
-}
-
-/// What --output asks for.
-struct SweepOutput {
-  std::optional<report::FigureFormat> figure;
-  bool csv = false;
-};
-
-SweepOutput sweep_output(const DesignArguments& arguments) {
-  const std::string& path = arguments.output;
-  SweepOutput output{report::figure_format(path), path.ends_with(".csv") || path.ends_with(".CSV")};
-  if (!path.empty() && !output.figure && !output.csv) {
-    throw BadInput(fmt::format("--output: {}: unknown extension; .csv, .svg, .png or .pdf", path));
-  }
-  check_output_is_no_input(arguments.devices, "--output", path);
-  return output;
 }
 
 void check_sweep(const Device& device, const std::vector<SweepAxis>& axes) {
@@ -103,11 +85,13 @@ void check_sweep(const Device& device, const std::vector<SweepAxis>& axes) {
 void run_sweep(const DesignArguments& arguments) {
   std::vector<SweepAxis> axes;
   for (const std::string& each : arguments.sweeps) axes.push_back(sweep_axis(each));
-  const SweepOutput output = sweep_output(arguments);
+  Outputs outputs;
+  outputs.add("--output", arguments.output, Ending::figure_or_csv);
+  outputs.keep(arguments.devices.files, "device file");
   const Device device = only_device(arguments, "--sweep");
   check_sweep(device, axes);
   // The figure of one parameter shows the any-user limit beside it.
-  const bool is_curve = output.figure.has_value() && axes.size() == 1;
+  const bool is_curve = outputs.figure("--output").has_value() && axes.size() == 1;
   const SweepOptions options{arguments.any_user || (is_curve && device.has_bodies()), is_curve};
   if (options.any_user && !device.has_bodies()) {
     throw BadInput("--any-user: a transfer function has no body for a user to hold");
@@ -116,9 +100,10 @@ void run_sweep(const DesignArguments& arguments) {
   const report::DesignSweep sweep = worked(arguments.devices.files.front(), [&] {
     return report::DesignSweep{device, parameter_sweep(device, axes, options, line.progress())};
   });
-  if (output.csv) report::write_whole(arguments.output, report::sweep_csv(sweep));
-  if (output.figure) report::write_whole(arguments.output, report::draw_sweep(sweep, *output.figure));
-  write_standard_output(arguments.json ? report::sweep_json(sweep).dump() + "\n" : report::sweep_text(sweep));
+  outputs.put("--output", [&] { return results::sweep_csv(sweep); });
+  outputs.draw("--output", [&](report::FigureFormat format) { return report::draw_sweep(sweep, format); });
+  outputs.commit();
+  write_standard_output(arguments.json ? results::line(results::sweep_json(sweep)) : report::sweep_text(sweep));
 }
 
 std::vector<std::string> listed_values(const std::string& argument, std::size_t equals) {
@@ -178,7 +163,7 @@ void run_comparison(const DesignArguments& arguments) {
   }
   const auto comparison =
       worked(arguments.devices.files.front(), [&] { return report::compare_designs(key, variants, user); });
-  write_standard_output(arguments.json ? report::comparison_json(comparison).dump() + "\n"
+  write_standard_output(arguments.json ? results::line(results::comparison_json(comparison))
                                        : report::comparison_text(comparison));
 }
 

@@ -6,12 +6,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "cli/outputs.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
 #include "report/designed_notch.hpp"
-#include "report/figure/canvas.hpp"
-#include "report/output_file.hpp"
+#include "results/design_json.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/io/device_file.hpp"
 
@@ -80,21 +80,19 @@ void refuse_notch_options(const CLI::App& command) {
 }
 
 void run_notch(const DeviceArguments& devices, const NotchArguments& arguments, const NotchOutput& output) {
-  const auto format = report::figure_format(output.figure);
-  if (!output.figure.empty() && !format) {
-    throw BadInput(fmt::format("--output: {}: unknown extension; .svg, .png or .pdf", output.figure));
-  }
-  check_output_is_no_input(devices, "--output", output.figure);
-  check_output_is_no_input(devices, "--write", arguments.write);
-  check_outputs_differ("--write", arguments.write, "--output", output.figure);
+  Outputs outputs;
+  outputs.add("--output", output.figure, Ending::figure);
+  outputs.add("--write", arguments.write);
+  outputs.keep(devices.files, "device file");
   const std::vector<Device> read = read_devices(devices);
   const report::DesignedNotch notch = designed(read.front(), notch_options(arguments), devices.files.front());
   if (!arguments.write.empty()) {
     if (!notch.with) throw WorkFailed("no notch makes the wall stiffer: " + arguments.write + " is not written");
-    report::write_whole(arguments.write, write_device(notch.with->device.parameters()));
   }
-  if (format) report::write_whole(output.figure, report::draw_notch(notch, *format));
-  write_standard_output(output.json ? report::notch_json(notch).dump() + "\n" : report::notch_text(notch));
+  outputs.put("--write", [&] { return write_device(notch.with->device.parameters()); });
+  outputs.draw("--output", [&](report::FigureFormat format) { return report::draw_notch(notch, format); });
+  outputs.commit();
+  write_standard_output(output.json ? results::line(results::notch_json(notch)) : report::notch_text(notch));
 }
 
 }  // namespace zwidth::cli

@@ -1,8 +1,6 @@
 #include "cli/device_arguments.hpp"
 
 #include <algorithm>
-#include <filesystem>
-#include <system_error>
 #include <utility>
 
 #include "cli/input_problem.hpp"
@@ -37,25 +35,6 @@ std::vector<Device> read_devices(const DeviceArguments& arguments) {
   }
   if (!problems.empty()) throw BadInput(problems);
   return devices;
-}
-
-void check_output_is_no_input(const DeviceArguments& arguments, const std::string& option, const std::string& output) {
-  for (const std::string& file : arguments.files) {
-    std::error_code one_is_missing;
-    if (std::filesystem::equivalent(file, output, one_is_missing)) {
-      throw BadInput(option + ": " + output + ": would overwrite the device file; name another file");
-    }
-  }
-}
-
-void check_outputs_differ(const std::string& option, const std::string& output, const std::string& other_option,
-                          const std::string& other_output) {
-  if (output.empty() || other_output.empty()) return;
-  std::error_code one_is_missing;
-  const bool same =
-      std::filesystem::path(output).lexically_normal() == std::filesystem::path(other_output).lexically_normal() ||
-      std::filesystem::equivalent(output, other_output, one_is_missing);
-  if (same) throw BadInput(option + ": " + output + ": is the file of " + other_option + "; name another");
 }
 
 std::vector<report::AnalysedDevice> analyze_devices(const DeviceArguments& arguments, std::vector<Device> devices,

@@ -24,13 +24,6 @@ void add_device_arguments(CLI::App& command, DeviceArguments& arguments, FileCou
 /// every mistake and nothing is computed before all input is known to be good.
 [[nodiscard]] std::vector<Device> read_devices(const DeviceArguments& arguments);
 
-/// Throws BadInput when the file to write, given with `option`, is one of the device files.
-void check_output_is_no_input(const DeviceArguments& arguments, const std::string& option, const std::string& output);
-
-/// Throws BadInput when two files to write, each given with its option, are one: the second would replace the first.
-void check_outputs_differ(const std::string& option, const std::string& output, const std::string& other_option,
-                          const std::string& other_output);
-
 /// Analyses the devices of the files, in order. Throws WorkFailed with the file's name where an analysis fails.
 [[nodiscard]] std::vector<report::AnalysedDevice> analyze_devices(const DeviceArguments& arguments,
                                                                   std::vector<Device> devices,

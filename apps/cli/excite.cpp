@@ -1,22 +1,19 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <filesystem>
 #include <map>
 #include <memory>
-#include "results/json.hpp"
 #include <optional>
-#include <system_error>
 
 #include "cli/device_arguments.hpp"
+#include "cli/outputs.hpp"
 #include "cli/remark_lines.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
 #include "report/excitation_summary.hpp"
 #include "report/figure/excitation_figure.hpp"
-#include "report/output_file.hpp"
 #include "report/text/remark_line.hpp"
-#include "results/excitation_csv.hpp"
+#include "results/excitation_json.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth::cli {
@@ -47,9 +44,6 @@ const std::map<std::string, ExcitationKind>& excitation_kinds() {
 std::optional<Device> read_device(const ExciteArguments& arguments) {
   if (arguments.device.empty()) return std::nullopt;
   const DeviceArguments device{{arguments.device}, arguments.overrides};
-  for (const auto& [option, output] : {std::pair("--output", &arguments.output), {"--figure", &arguments.figure}}) {
-    check_output_is_no_input(device, option, *output);
-  }
   return read_devices(device).front();
 }
 
@@ -86,15 +80,7 @@ void check_limits(const ExciteArguments& arguments, const report::CheckedExcitat
   throw WorkFailed(problems + "nothing is written; --beyond-limits writes it all the same");
 }
 
-void check_outputs(const ExciteArguments& arguments) {
-  if (!arguments.figure.empty() && !report::figure_format(arguments.figure)) {
-    throw BadInput(fmt::format("--figure: {}: unknown extension; .svg, .png or .pdf", arguments.figure));
-  }
-  std::error_code one_is_missing;
-  if (!arguments.figure.empty() && (arguments.figure == arguments.output ||
-                                    std::filesystem::equivalent(arguments.figure, arguments.output, one_is_missing))) {
-    throw BadInput("--figure: is the same file as --output; name another");
-  }
+void check(const ExciteArguments& arguments) {
   if (arguments.json && arguments.output == "-") {
     throw BadInput("--json: standard output is taken by --output -; name a file for the samples");
   }
@@ -104,29 +90,27 @@ void check_outputs(const ExciteArguments& arguments) {
 }
 
 void run_excite(const ExciteArguments& arguments) {
-  check_outputs(arguments);
+  Outputs outputs;
+  if (arguments.output != "-") outputs.add("--output", arguments.output);
+  outputs.add("--figure", arguments.figure, Ending::figure);
+  outputs.keep(arguments.device, "device file");
+  check(arguments);
   const report::CheckedExcitation checked = checked_excitation(arguments);
   check_limits(arguments, checked);
   const double rate = checked.options.rate;
-  // Drawn before anything is written, so that a failure leaves no half of the results.
-  std::string picture;
-  if (!arguments.figure.empty()) {
-    picture = draw_excitation(report::excitation_title(checked.options), checked.excitation, rate, checked.motion,
-                              *report::figure_format(arguments.figure));
-  }
   const auto samples = [&](const report::Sink& sink) {
-    report::write_excitation_csv(checked.excitation, rate, checked.motion, sink);
+    results::write_excitation_csv(checked.excitation, rate, checked.motion, sink);
   };
   const bool only_asked_for_others = arguments.output.empty() && (arguments.json || !arguments.figure.empty());
   const bool to_standard_output = arguments.output == "-" || (arguments.output.empty() && !only_asked_for_others);
-  if (to_standard_output) {
-    samples(write_standard_output);
-  } else if (!arguments.output.empty()) {
-    report::write_whole(arguments.output, samples);
-  }
-  if (!picture.empty()) report::write_whole(arguments.figure, picture);
+  outputs.put("--output", samples);
+  outputs.draw("--figure", [&](report::FigureFormat format) {
+    return draw_excitation(report::excitation_title(checked.options), checked.excitation, rate, checked.motion, format);
+  });
+  outputs.commit();
+  if (to_standard_output) samples(write_standard_output);
   if (arguments.json) {
-    write_standard_output(excitation_json(checked).dump() + "\n");
+    write_standard_output(results::line(results::excitation_json(checked)));
   } else if (to_standard_output) {
     write_standard_error(excitation_text(checked));
   } else {

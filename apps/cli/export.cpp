@@ -11,13 +11,13 @@
 #include <vector>
 
 #include "cli/device_arguments.hpp"
+#include "cli/outputs.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
 #include "export/export_c.hpp"
 #include "export/export_chai3d.hpp"
-#include "report/output_file.hpp"
 #include "report/text/trust_text.hpp"
-#include "results/json.hpp"
+#include "results/export_json.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth::cli {
@@ -136,17 +136,18 @@ std::string exported(const ExportArguments& arguments) {
   const report::ExportedModel model = report::exported_model(devices.front());
   if (arguments.format == "octave") return export_octave(model);
   if (arguments.format == "python") return export_python(model);
-  return export_json(model).dump() + "\n";
+  return results::line(results::export_json(model));
 }
 
 void run_export(const ExportArguments& arguments) {
-  check_output_is_no_input(arguments.devices, "--output", arguments.output);
+  const bool to_file = !arguments.output.empty() && arguments.output != "-";
+  Outputs outputs;
+  if (to_file) outputs.add("--output", arguments.output);
+  outputs.keep(arguments.devices.files, "device file");
   const std::string text = exported(arguments);
-  if (arguments.output.empty() || arguments.output == "-") {
-    write_standard_output(text);
-  } else {
-    report::write_whole(arguments.output, text);
-  }
+  outputs.put("--output", [&] { return text; });
+  outputs.commit();
+  if (!to_file) write_standard_output(text);
 }
 
 }  // namespace

@@ -6,14 +6,13 @@
 #include <string>
 
 #include "cli/device_arguments.hpp"
+#include "cli/outputs.hpp"
 #include "cli/remark_lines.hpp"
 #include "cli/response_arguments.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
-#include "report/figure/canvas.hpp"
 #include "report/figure/frf_figure.hpp"
 #include "report/measured_frf.hpp"
-#include "report/output_file.hpp"
 #include "report/text/frf_text.hpp"
 #include "results/frf_csv.hpp"
 #include "results/frf_json.hpp"
@@ -34,25 +33,22 @@ void run_frf(const FrfArguments& arguments) {
   const RecordingArguments& recording = arguments.response.recording;
   if (recording.list && arguments.json) throw BadInput("--json: --list prints text; leave one of them out");
   if (recording.list) return write_standard_output(contents_text(recording));
-  const auto format = report::figure_format(arguments.output);
-  if (!arguments.output.empty() && !format) {
-    throw BadInput(
-        fmt::format("--output: {}: unknown extension; .svg, .png or .pdf (numbers: --csv)", arguments.output));
-  }
+  Outputs outputs;
+  outputs.add("--csv", arguments.csv);
+  outputs.add("--output", arguments.output, Ending::figure);
   if (arguments.points && !arguments.json) throw BadInput("--points: is for JSON; add --json, or use --csv FILE");
-  check_output_is_no_input(recording.file, "--output", arguments.output);
-  check_output_is_no_input(recording.file, "--csv", arguments.csv);
-  check_outputs_differ("--output", arguments.output, "--csv", arguments.csv);
+  outputs.keep(recording.file, "recording");
 
   MeasuredResponse measured = measured_response(arguments.response);
   const report::MeasuredFrf frf =
       report::measured_frf(measured.source, arguments.units, std::move(measured.response), std::move(measured.remarks));
-  if (!arguments.csv.empty()) report::write_whole(arguments.csv, report::frf_csv(frf.response));
-  if (format) report::write_whole(arguments.output, report::draw(frf, *format));
+  outputs.put("--csv", [&] { return report::frf_csv(frf.response); });
+  outputs.draw("--output", [&](report::FigureFormat format) { return report::draw(frf, format); });
+  outputs.commit();
   if (arguments.json) {
     write_warnings(frf.remarks);
     const auto content = arguments.points ? report::FrfContent::with_lines : report::FrfContent::summary;
-    write_standard_output(report::frf_json(frf, content).dump() + "\n");
+    write_standard_output(results::line(report::frf_json(frf, content)));
   } else {
     write_standard_output(report::frf_text(frf));
   }

@@ -11,6 +11,7 @@
 
 #include "cli/device_arguments.hpp"
 #include "cli/identify_rigid_body.hpp"
+#include "cli/outputs.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/remark_lines.hpp"
 #include "cli/response_arguments.hpp"
@@ -18,7 +19,6 @@
 #include "cli/structure_arguments.hpp"
 #include "cli/subcommand.hpp"
 #include "report/figure/identification_figure.hpp"
-#include "report/output_file.hpp"
 #include "report/text/identification_text.hpp"
 #include "report/text/quantity.hpp"
 #include "report/text/remark_line.hpp"
@@ -47,15 +47,6 @@ struct IdentifyArguments {
   bool points = false;
 };
 
-void check_output(const IdentifyArguments& arguments, const std::string& option, const std::string& output) {
-  if (output.empty() || output == "-") return;
-  check_output_is_no_input(arguments.response.recording.file, option, output);
-  std::error_code one_is_missing;
-  if (std::filesystem::equivalent(arguments.structure.structure, output, one_is_missing)) {
-    throw BadInput(option + ": " + output + ": would overwrite the structure; name another file");
-  }
-}
-
 void check_method(const CLI::App& command, const IdentifyArguments& arguments) {
   if (arguments.method == "inverse-dynamics") return check_inverse_dynamics_options(command);
   refuse_inverse_dynamics_options(command);
@@ -64,13 +55,12 @@ void check_method(const CLI::App& command, const IdentifyArguments& arguments) {
   }
 }
 
-void check(const IdentifyArguments& arguments) {
-  check_output(arguments, "--output-device", arguments.output_device);
-  check_output(arguments, "--figure", arguments.figure);
-  check_outputs_differ("--figure", arguments.figure, "--output-device", arguments.output_device);
-  if (!arguments.figure.empty() && !report::figure_format(arguments.figure)) {
-    throw BadInput(fmt::format("--figure: {}: unknown extension; .svg, .png or .pdf", arguments.figure));
-  }
+/// Declares the outputs in `outputs`. Throws BadInput for what cannot be written or read together.
+void check(const IdentifyArguments& arguments, Outputs& outputs) {
+  if (arguments.output_device != "-") outputs.add("--output-device", arguments.output_device);
+  outputs.add("--figure", arguments.figure, Ending::figure);
+  outputs.keep(arguments.response.recording.file, "recording");
+  outputs.keep(arguments.structure.structure, "structure");
   if (arguments.output_device == "-" && arguments.json) {
     throw BadInput("--output-device: - is standard output, which --json takes; name a file");
   }
@@ -220,15 +210,15 @@ std::string device_hint(const IdentifyArguments& arguments) {
                                          : "\nThe device is in " + arguments.output_device + "\n";
 }
 
-/// `identify --method inverse-dynamics`, whose outputs have been checked.
-void run_inverse_dynamics(const IdentifyArguments& arguments) {
+/// `identify --method inverse-dynamics`.
+void run_inverse_dynamics(const IdentifyArguments& arguments, Outputs& outputs) {
   const report::IdentifiedRigidBody identified =
       fitted_rigid_body(arguments.response.recording, arguments.structure, arguments.inverse_dynamics);
   const std::string device = write_device(identified.device.parameters());
-  const bool to_file = !arguments.output_device.empty() && arguments.output_device != "-";
-  if (to_file) report::write_whole(arguments.output_device, device);
+  outputs.put("--output-device", [&] { return device; });
+  outputs.commit();
   if (arguments.json) {
-    write_standard_output(rigid_body_json(identified).dump() + "\n");
+    write_standard_output(results::line(rigid_body_json(identified)));
   } else if (arguments.output_device == "-") {
     write_warnings(identified.remarks);
     write_standard_output(device);
@@ -242,18 +232,17 @@ void run_identify(const IdentifyArguments& arguments) {
     write_standard_output(contents_text(arguments.response.recording));
     return;
   }
-  check(arguments);
-  if (arguments.method == "inverse-dynamics") return run_inverse_dynamics(arguments);
+  Outputs outputs;
+  check(arguments, outputs);
+  if (arguments.method == "inverse-dynamics") return run_inverse_dynamics(arguments, outputs);
   const report::IdentifiedDevice identified = identified_device(arguments);
   const std::string device = device_text(identified);
-  const bool to_file = !arguments.output_device.empty() && arguments.output_device != "-";
-  if (!arguments.figure.empty()) {
-    report::write_whole(arguments.figure, draw_identification(identified, *report::figure_format(arguments.figure)));
-  }
-  if (to_file) report::write_whole(arguments.output_device, device);
+  outputs.put("--output-device", [&] { return device; });
+  outputs.draw("--figure", [&](report::FigureFormat format) { return draw_identification(identified, format); });
+  outputs.commit();
   if (arguments.json) {
     const auto points = arguments.points ? report::PointsInJson::included : report::PointsInJson::left_out;
-    write_standard_output(identification_json(identified, points).dump() + "\n");
+    write_standard_output(results::line(identification_json(identified, points)));
   } else if (arguments.output_device == "-") {
     write_warnings(identified.remarks);
     write_standard_output(device);

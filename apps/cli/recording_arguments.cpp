@@ -4,8 +4,6 @@
 
 #include <array>
 #include <cmath>
-#include <filesystem>
-#include <system_error>
 #include <utility>
 
 #include "cli/input_problem.hpp"
@@ -216,13 +214,6 @@ std::string contents_text(const RecordingArguments& arguments) {
     text += report::remark_line(remark) + "\n";
   }
   return text;
-}
-
-void check_output_is_no_input(const std::string& recording, const std::string& option, const std::string& output) {
-  std::error_code one_is_missing;
-  if (std::filesystem::equivalent(recording, output, one_is_missing)) {
-    throw BadInput(option + ": " + output + ": would overwrite the recording; name another file");
-  }
 }
 
 }  // namespace zwidth::cli

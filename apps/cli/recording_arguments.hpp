@@ -55,7 +55,4 @@ struct RecordedMotion {
 /// What the file holds, as --list prints it. Throws BadInput.
 [[nodiscard]] std::string contents_text(const RecordingArguments& arguments);
 
-/// Throws BadInput when the file to write, given with `option`, is the recording.
-void check_output_is_no_input(const std::string& recording, const std::string& option, const std::string& output);
-
 }  // namespace zwidth::cli

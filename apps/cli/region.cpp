@@ -5,12 +5,11 @@
 #include <string>
 
 #include "cli/device_arguments.hpp"
+#include "cli/outputs.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
 #include "report/device_region.hpp"
-#include "report/figure/canvas.hpp"
 #include "report/figure/region_figure.hpp"
-#include "report/output_file.hpp"
 #include "report/text/region_text.hpp"
 #include "results/region_csv.hpp"
 #include "results/region_json.hpp"
@@ -41,22 +40,18 @@ report::DeviceRegion region_of(const DeviceArguments& arguments) {
 }
 
 void run_region(const RegionArguments& arguments) {
-  const auto format = report::figure_format(arguments.output);
-  if (!arguments.output.empty() && !format) {
-    throw BadInput(
-        fmt::format("--output: {}: unknown extension; .svg, .png or .pdf (numbers: --csv)", arguments.output));
-  }
+  Outputs outputs;
+  outputs.add("--csv", arguments.csv);
+  outputs.add("--output", arguments.output, Ending::figure);
+  outputs.keep(arguments.devices.files, "device file");
   if (arguments.raster && arguments.csv.empty()) throw BadInput("--raster: is for a csv file; add --csv FILE");
-  check_output_is_no_input(arguments.devices, "--output", arguments.output);
-  check_output_is_no_input(arguments.devices, "--csv", arguments.csv);
-  check_outputs_differ("--output", arguments.output, "--csv", arguments.csv);
   const report::DeviceRegion device = region_of(arguments.devices);
-  if (!arguments.csv.empty()) {
-    report::write_whole(arguments.csv, arguments.raster ? report::region_raster_csv(device, *arguments.raster)
-                                                        : report::region_csv(device.region));
-  }
-  if (format) report::write_whole(arguments.output, report::draw_region(device, *format));
-  write_standard_output(arguments.json ? report::region_json(device).dump() + "\n" : report::region_text(device));
+  outputs.put("--csv", [&] {
+    return arguments.raster ? report::region_raster_csv(device, *arguments.raster) : report::region_csv(device.region);
+  });
+  outputs.draw("--output", [&](report::FigureFormat format) { return report::draw_region(device, format); });
+  outputs.commit();
+  write_standard_output(arguments.json ? results::line(report::region_json(device)) : report::region_text(device));
 }
 
 }  // namespace

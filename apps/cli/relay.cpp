@@ -12,13 +12,12 @@
 
 #include "cli/device_arguments.hpp"
 #include "cli/option_refusal.hpp"
+#include "cli/outputs.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/recording_arguments.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
-#include "report/figure/canvas.hpp"
 #include "report/figure/relay_figure.hpp"
-#include "report/output_file.hpp"
 #include "report/text/relay_text.hpp"
 #include "results/relay_csv.hpp"
 #include "results/relay_json.hpp"
@@ -91,7 +90,7 @@ RelayResult recorded(const RelayArguments& arguments, std::optional<Device> devi
                options);
 }
 
-void write_figure(const RelayArguments& arguments, const RelayResult& result, report::FigureFormat format) {
+std::string drawn(const RelayResult& result, report::FigureFormat format) {
   const auto oscillates = [](const RelayTrial& trial) { return trial.result.has_value(); };
   auto shown = std::find_if(result.trials.begin(), result.trials.end(), oscillates);
   if (shown == result.trials.end()) shown = result.trials.begin();
@@ -99,25 +98,21 @@ void write_figure(const RelayArguments& arguments, const RelayResult& result, re
   const std::string title = result.trials.size() == 1 ? fmt::format("Relay experiment: {}", name)
                                                       : fmt::format("Relay experiment, trial {}: {}",
                                                                     shown - result.trials.begin() + 1, name);
-  report::write_whole(arguments.figure,
-                      draw_relay_record(title, *shown, result.sampling_period, result.motion, format));
+  return draw_relay_record(title, *shown, result.sampling_period, result.motion, format);
 }
 
 void run_relay(const RelayArguments& arguments) {
-  const auto format = report::figure_format(arguments.figure);
-  if (!arguments.figure.empty() && !format) {
-    throw BadInput(fmt::format("--figure: {}: unknown extension; .svg, .png or .pdf", arguments.figure));
-  }
-  for (const auto& [option, output] : {std::pair{"--figure", arguments.figure}, std::pair{"--csv", arguments.csv}}) {
-    check_output_is_no_input(arguments.devices, option, output);
-    check_output_is_no_input(arguments.recording.file, option, output);
-  }
-  check_outputs_differ("--figure", arguments.figure, "--csv", arguments.csv);
+  Outputs outputs;
+  outputs.add("--csv", arguments.csv);
+  outputs.add("--figure", arguments.figure, Ending::figure);
+  outputs.keep(arguments.devices.files, "device file");
+  outputs.keep(arguments.recording.file, "recording");
   std::optional<Device> device = delayed_device(arguments);
   const RelayResult result =
       arguments.recording.file.empty() ? simulated(arguments, *device) : recorded(arguments, std::move(device));
-  if (!arguments.csv.empty()) report::write_whole(arguments.csv, results::relay_csv(result));
-  if (format) write_figure(arguments, result, *format);
+  outputs.put("--csv", [&] { return results::relay_csv(result); });
+  outputs.draw("--figure", [&](report::FigureFormat format) { return drawn(result, format); });
+  outputs.commit();
   write_standard_output(arguments.json ? results::line(results::relay_json(result)) : report::relay_text(result));
 }
 

@@ -17,9 +17,11 @@ void run_reproduce(const std::string& directory) {
   const std::vector<report::PaperFigure> figures = report::paper_figures();
   const std::string page = report::reproduction_page(figures);
   const std::filesystem::path folder(directory);
-  for (const report::PaperFigure& figure : figures) report::write_whole(folder / figure.file, figure.svg);
+  report::OutputFiles files;
+  for (const report::PaperFigure& figure : figures) files.write(folder / figure.file, figure.svg);
   const std::string index = folder / "index.html";
-  report::write_whole(index, page);
+  files.write(index, page);
+  files.commit();
   write_standard_output(fmt::format("{} figures and the numbers beside the printed ones: {}\n", figures.size(), index));
 }
 

@@ -13,14 +13,13 @@
 #include "cli/device_arguments.hpp"
 #include "cli/motion_arguments.hpp"
 #include "cli/option_refusal.hpp"
+#include "cli/outputs.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/recording_arguments.hpp"
 #include "cli/remark_lines.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
-#include "report/figure/canvas.hpp"
 #include "report/figure/simulation_figure.hpp"
-#include "report/output_file.hpp"
 #include "report/text/simulation_text.hpp"
 #include "results/simulation_csv.hpp"
 #include "results/simulation_json.hpp"
@@ -99,15 +98,11 @@ SimulationOptions options_of(const SimulateArguments& arguments, const Device& d
 }
 
 void run_simulate(const SimulateArguments& arguments) {
-  const auto format = report::figure_format(arguments.figure);
-  if (!arguments.figure.empty() && !format) {
-    throw BadInput(fmt::format("--figure: {}: unknown extension; .svg, .png or .pdf", arguments.figure));
-  }
-  for (const auto& [option, output] : {std::pair{"--csv", arguments.csv}, std::pair{"--figure", arguments.figure}}) {
-    check_output_is_no_input(arguments.device, option, output);
-    check_output_is_no_input(arguments.motion.user_force, option, output);
-  }
-  check_outputs_differ("--figure", arguments.figure, "--csv", arguments.csv);
+  Outputs outputs;
+  outputs.add("--csv", arguments.csv);
+  outputs.add("--figure", arguments.figure, Ending::figure);
+  outputs.keep(arguments.device.files, "device file");
+  outputs.keep(arguments.motion.user_force, "recording");
   const Device device = read_devices(arguments.device).front();
   const std::string& file = arguments.device.files.front();
   Simulation result;
@@ -119,8 +114,11 @@ void run_simulate(const SimulateArguments& arguments) {
     if (error.code() == ErrorCode::did_not_converge) throw WorkFailed(file + ": " + error.what());
     throw BadInput(file + ": " + error.what());
   }
-  if (!arguments.csv.empty()) report::write_whole(arguments.csv, results::simulation_csv(device, result));
-  if (format) report::write_whole(arguments.figure, report::draw_simulation_figure(device, result, *format));
+  outputs.put("--csv", [&] { return results::simulation_csv(device, result); });
+  outputs.draw("--figure", [&](report::FigureFormat format) {
+    return report::draw_simulation_figure(device, result, format);
+  });
+  outputs.commit();
   if (arguments.json) {
     write_warnings(result.remarks);
     write_standard_output(results::line(results::simulation_json(device, result)));

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "results/json.hpp"
 #include <string>
 
 #include "report/analysed_device.hpp"
@@ -21,11 +20,6 @@ struct ExportedModel {
 };
 
 [[nodiscard]] ExportedModel exported_model(AnalysedDevice analysed);
-
-/// The model and its wall as a JSON document, schema "zwidth.model/1". Matrices are arrays of rows; polynomials ascend.
-/// "with_delay_states" is null where the delay exceeds most_delay_states samples: the matrix would be mostly zeros.
-[[nodiscard]] results::Json export_json(const ExportedModel& model);
-inline constexpr std::size_t most_delay_states = 200;
 
 /// A script for GNU Octave with its control package, that runs as it is: `sysc`, `sysd`,
 /// sampled_response(model, w), wall_controller(wall, T, K) and closed_loop_poles(sysd, wall, K).

@@ -5,10 +5,14 @@
 #include <vector>
 
 #include "export/export.hpp"
-#include "export/filter_coefficients.hpp"
+#include "results/filter_coefficients.hpp"
 
 namespace zwidth::report {
 namespace {
+
+using results::FilterCoefficients;
+using results::in_z;
+using results::velocity_filter_pole;
 
 /// How a language writes what the scripts hold.
 struct Notation {
@@ -344,6 +348,15 @@ std::string filled_in(std::string_view data, const ExportedModel& model, const N
 }
 
 }  // namespace
+
+ExportedModel exported_model(AnalysedDevice analysed) {
+  const Device& device = analysed.device;
+  ContinuousStateSpace continuous = state_space(device);
+  DiscreteStateSpace discrete = sample(continuous, {device.loop().sampling_period, device.loop().delay});
+  ModalForm modal = modal_form(device);
+  SampledPlant sampled = sampled_plant(device);
+  return {std::move(analysed), std::move(continuous), std::move(discrete), std::move(modal), std::move(sampled)};
+}
 
 std::string export_octave(const ExportedModel& model) {
   return filled_in(octave_data, model, octave, {"[]", "{", "}"}, octave_string(model.analysed.device.name())) +

@@ -10,12 +10,10 @@
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
 #include "report/text/text_table.hpp"
-#include "results/json_value.hpp"
 
 namespace zwidth::report {
 namespace {
 
-using Json = results::Json;
 using Align = TextTable::Align;
 
 constexpr std::size_t width = 100;
@@ -84,22 +82,6 @@ std::string user_text(const Operator& user, Motion motion) {
   const Units units = units_of(motion);
   return fmt::format("{} {}, {} {}, {} {}", number(user.mass), units.mass, number(user.damping), units.damping,
                      number(user.stiffness), units.stiffness);
-}
-
-Json to_json(const CriticalStiffness& critical) {
-  return {{"status", status_name(critical.status)},
-          {"critical_stiffness", number_or_null(critical.stiffness)},
-          {"frequency_rad_s", critical.limit ? Json(critical.limit->frequency) : Json(nullptr)},
-          {"limited_by", critical.limit ? mechanism_json(critical.limit->limited_by) : Json(nullptr)}};
-}
-
-Json best_or_null(const DesignComparison& comparison, const std::vector<std::optional<double>>& stiffness) {
-  std::optional<std::size_t> best;
-  for (std::size_t i = 0; i < stiffness.size(); ++i) {
-    if (!stiffness[i]) return nullptr;
-    if (!best || *stiffness[i] > *stiffness[*best]) best = i;
-  }
-  return best && *stiffness[*best] > 0.0 ? Json(comparison.designs[*best].value) : Json(nullptr);
 }
 
 /// K with each user, one per design.
@@ -171,33 +153,6 @@ std::string comparison_text(const DesignComparison& comparison) {
     text += "For a user of your own: --operator MASS,DAMPING,STIFFNESS\n";
   }
   return text;
-}
-
-results::Json comparison_json(const DesignComparison& comparison) {
-  const DeviceParameters& device = comparison.designs.front().device.parameters();
-  const Columns columns = columns_of(comparison);
-  const bool held = comparison.designs.front().held.has_value();
-  Json document;
-  document["schema"] = "zwidth.design_comparison/1";
-  document["device"] = device.name;
-  document["units"] = {{"stiffness", units_of(device.motion).stiffness}};
-  document["parameter"] = comparison.key;
-  document["operator"] = held ? Json{{"mass", comparison.user.mass},
-                                     {"damping", comparison.user.damping},
-                                     {"stiffness", comparison.user.stiffness}}
-                              : Json(nullptr);
-  document["designs"] = Json::array();
-  for (const ComparedDesign& each : comparison.designs) {
-    document["designs"].push_back(
-        {{"value", each.value},
-         {"free", to_json(each.free)},
-         {"any_user_stiffness", each.any_user ? number_or_null(each.any_user->stiffness) : Json(nullptr)},
-         {"with_operator", each.held ? to_json(*each.held) : Json(nullptr)}});
-  }
-  document["best"] = {{"free", best_or_null(comparison, columns.free)},
-                      {"any_user", best_or_null(comparison, columns.any_user)},
-                      {"with_operator", best_or_null(comparison, columns.held)}};
-  return document;
 }
 
 }  // namespace zwidth::report

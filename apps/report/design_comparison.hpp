@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "results/json.hpp"
 #include "zwidth/model/device.hpp"
 #include "zwidth/stability/any_user.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
@@ -39,8 +38,5 @@ struct Variant {
 
 /// A row per variant, and a sentence per user that says which is better.
 [[nodiscard]] std::string comparison_text(const DesignComparison& comparison);
-
-/// The answer of `design --compare --json`, schema zwidth.design_comparison/1 (docs/design.md).
-[[nodiscard]] results::Json comparison_json(const DesignComparison& comparison);
 
 }  // namespace zwidth::report

@@ -128,25 +128,4 @@ class Writer {
 
 std::string sweep_text(const DesignSweep& sweep) { return Writer(sweep).text(); }
 
-std::string sweep_csv(const DesignSweep& design) {
-  const ParameterSweep& sweep = design.sweep;
-  const bool any_user = sweep.points.front().any_user.has_value();
-  const bool two = sweep.axes.size() == 2;
-  std::string rows = sweep.axes[0].key + (two ? "," + sweep.axes[1].key : "") +
-                     ",critical_stiffness,frequency_rad_s,mode" + (any_user ? ",any_user_stiffness" : "") + "\n";
-  const auto finite = [](double value) { return std::isfinite(value) ? fmt::format("{:.17g}", value) : ""; };
-  const std::size_t columns = two ? sweep.values[1].size() : 1;
-  for (std::size_t i = 0; i < sweep.points.size(); ++i) {
-    const SweepPoint& point = sweep.points[i];
-    rows += fmt::format("{:.17g}", sweep.values[0][i / columns]);
-    if (two) rows += fmt::format(",{:.17g}", sweep.values[1][i % columns]);
-    fmt::format_to(std::back_inserter(rows), ",{},{},{}", finite(point.stiffness),
-                   point.limit ? fmt::format("{:.17g}", point.limit->frequency) : "",
-                   point.limit ? fmt::format("{}", point.limit->limited_by.mode) : "");
-    if (any_user) rows += "," + finite(point.any_user->stiffness);
-    rows += "\n";
-  }
-  return rows;
-}
-
 }  // namespace zwidth::report

@@ -18,8 +18,4 @@ struct DesignSweep {
 /// the largest K_CR with where they lie.
 [[nodiscard]] std::string sweep_text(const DesignSweep& sweep);
 
-/// Every point, a line each: the parameters, K_CR (empty where unbounded), rad/s, mode (0: the rigid body), the
-/// any-user limit where asked for.
-[[nodiscard]] std::string sweep_csv(const DesignSweep& sweep);
-
 }  // namespace zwidth::report

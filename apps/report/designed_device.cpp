@@ -20,16 +20,6 @@ DesignedDevice designed_device(Device device) {
   return designed;
 }
 
-std::string parameter_unit(const std::string& key, Motion motion) {
-  const Units units = units_of(motion);
-  if (key.ends_with(".mass")) return std::string(units.mass);
-  if (key.ends_with(".damping")) return std::string(units.damping);
-  if (key.ends_with(".stiffness")) return std::string(units.stiffness);
-  if (key.ends_with("_hz")) return "Hz";
-  if (key.starts_with("loop.") || key == "actuator.time_constant") return "s";
-  return {};
-}
-
 std::string parameter_text(const std::string& key, double value, Motion motion) {
   const std::string unit = parameter_unit(key, motion);
   if (unit.empty()) return number(value);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "report/analysed_device.hpp"
+#include "results/units.hpp"
 #include "zwidth/design/branch_switch.hpp"
 #include "zwidth/design/sensitivity.hpp"
 
@@ -26,8 +27,7 @@ inline constexpr std::size_t most_bodies_for_branch_switches = 8;
 /// Throws Error (did_not_converge) as its parts do.
 [[nodiscard]] DesignedDevice designed_device(Device device);
 
-/// "kg", "N s/m", "s", "Hz": the unit of a parameter's key; empty for a ratio.
-[[nodiscard]] std::string parameter_unit(const std::string& key, Motion motion);
+using results::parameter_unit;
 
 /// A parameter's value with its unit: "0.3 kg", "250 µs".
 [[nodiscard]] std::string parameter_text(const std::string& key, double value, Motion motion);

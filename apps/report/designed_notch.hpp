@@ -5,7 +5,6 @@
 
 #include "report/analysed_device.hpp"
 #include "report/figure/canvas.hpp"
-#include "results/json.hpp"
 #include "zwidth/design/notch_design.hpp"
 
 namespace zwidth::report {
@@ -24,9 +23,6 @@ struct DesignedNotch {
 
 /// The answer for people: what to paste, what it gains over the drift, what it costs.
 [[nodiscard]] std::string notch_text(const DesignedNotch& notch);
-
-/// The same as a document of schema zwidth.notch/1.
-[[nodiscard]] results::Json notch_json(const DesignedNotch& notch);
 
 /// The stiffest wall over the drift, with and without; and the gain of the notch. Throws OutputFailed.
 [[nodiscard]] std::string draw_notch(const DesignedNotch& notch, FigureFormat format);

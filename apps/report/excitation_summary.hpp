@@ -3,7 +3,6 @@
 #include <optional>
 #include <string>
 
-#include "results/json.hpp"
 #include "zwidth/identification/excitation.hpp"
 
 namespace zwidth::report {
@@ -22,8 +21,5 @@ struct CheckedExcitation {
 
 /// A few lines: the signal with its peak and crest factor, every note, the device's largest motion.
 [[nodiscard]] std::string excitation_text(const CheckedExcitation& checked);
-
-/// Schema zwidth.excitation/1.
-[[nodiscard]] results::Json excitation_json(const CheckedExcitation& checked);
 
 }  // namespace zwidth::report

@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <optional>
 #include <system_error>
 #include <utility>
 
@@ -93,37 +94,62 @@ void write_temporary(const fs::path& temporary, const Produce& produce, const st
   if (const int error = file.close()) throw SystemError{error};
 }
 
-void replace_file(const std::string& path, const Produce& produce) {
+/// The place behind links, and what is there.
+struct Target {
+  fs::path path;
+  std::optional<struct stat> existing;
+};
+
+Target target_of(const std::string& path) {
   struct stat existing {};
   const bool exists = ::stat(path.c_str(), &existing) == 0;
   if (!exists && errno != ENOENT) throw SystemError{errno};
-  if (exists && S_ISDIR(existing.st_mode)) throw OutputFailed(fmt::format("{}: is a directory; give a file", path));
-  if (exists && !S_ISREG(existing.st_mode)) return write_through(path, produce);
-  if (exists && ::access(path.c_str(), W_OK) != 0) throw SystemError{errno};
-
+  if (!exists) return {path, std::nullopt};
+  if (S_ISDIR(existing.st_mode)) throw OutputFailed(fmt::format("{}: is a directory; give a file", path));
+  if (!S_ISREG(existing.st_mode)) return {path, existing};
+  if (::access(path.c_str(), W_OK) != 0) throw SystemError{errno};
   std::error_code unresolved;
-  const fs::path target = exists ? fs::canonical(path, unresolved) : fs::path(path);
+  const fs::path target = fs::canonical(path, unresolved);
   if (unresolved) throw SystemError{unresolved.value()};
-  const fs::path temporary = target.parent_path() / fmt::format(".zwidth-{}.part", ::getpid());
-  ::unlink(temporary.c_str());  // left by a killed process that had our number
-  try {
-    write_temporary(temporary, produce, exists ? &existing : nullptr);
-    if (::rename(temporary.c_str(), target.c_str()) != 0) throw SystemError{errno};
-  } catch (...) {
-    ::unlink(temporary.c_str());
-    throw;
-  }
+  return {target, existing};
 }
 
 }  // namespace
 
-void write_whole(const std::string& path, const std::function<void(const Sink&)>& produce) {
+OutputFiles::~OutputFiles() {
+  for (const Pending& each : pending_) ::unlink(each.temporary.c_str());
+}
+
+void OutputFiles::write(const std::string& path, std::string_view contents) {
+  write(path, [contents](const Sink& sink) { sink(contents); });
+}
+
+void OutputFiles::write(const std::string& path, const std::function<void(const Sink&)>& produce) {
   if (path.empty()) throw OutputFailed("output: the file name is empty");
   try {
-    replace_file(path, produce);
+    const Target target = target_of(path);
+    if (target.existing && !S_ISREG(target.existing->st_mode)) return write_through(path, produce);
+    const fs::path temporary =
+        target.path.parent_path() / fmt::format(".zwidth-{}-{}.part", ::getpid(), pending_.size());
+    ::unlink(temporary.c_str());  // left by a killed process that had our number
+    pending_.push_back({path, temporary, target.path});
+    write_temporary(temporary, produce, target.existing ? &*target.existing : nullptr);
   } catch (const SystemError& error) {
     fail(path, error.number);
   }
+}
+
+void OutputFiles::commit() {
+  for (const Pending& each : pending_) {
+    if (::rename(each.temporary.c_str(), each.target.c_str()) != 0) fail(each.path, errno);
+  }
+  pending_.clear();
+}
+
+void write_whole(const std::string& path, const std::function<void(const Sink&)>& produce) {
+  OutputFiles file;
+  file.write(path, produce);
+  file.commit();
 }
 
 void write_whole(const std::string& path, std::string_view contents) {

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace zwidth::report {
 
@@ -12,17 +13,39 @@ struct OutputFailed : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Writes `contents` to `path`, whole or not at all: a temporary beside it, flushed to disk, then renamed over it.
-///
-/// A symbolic link is followed. What is not a regular file (/dev/stdout, a FIFO) is written straight through.
-/// Throws OutputFailed and leaves what was there before (missing or unwritable directory, full disk, a directory).
-void write_whole(const std::string& path, std::string_view contents);
-
 /// Takes the next piece of a text.
 using Sink = std::function<void(std::string_view)>;
 
-/// The same for a text made piece by piece, which need not fit into memory: `produce` is called once, with where to put
-/// its pieces. What it throws passes through, and then too the old file stays.
+/// Files that appear together, whole or not at all: each is written to a temporary beside its place and flushed to
+/// disk; commit() renames them over what was there.
+///
+/// A symbolic link is followed. What is not a regular file (/dev/stdout, a FIFO) is written straight through.
+/// What fails (missing or unwritable directory, full disk, a directory) throws OutputFailed; then, and without
+/// commit(), what was there before stays.
+class OutputFiles {
+ public:
+  OutputFiles() = default;
+  OutputFiles(const OutputFiles&) = delete;
+  OutputFiles& operator=(const OutputFiles&) = delete;
+  ~OutputFiles();
+
+  void write(const std::string& path, std::string_view contents);
+  /// A text made piece by piece, which need not fit into memory: `produce` is called once, with where to put its
+  /// pieces. What it throws passes through.
+  void write(const std::string& path, const std::function<void(const Sink&)>& produce);
+  void commit();
+
+ private:
+  struct Pending {
+    std::string path;  ///< as given, for messages
+    std::string temporary;
+    std::string target;
+  };
+  std::vector<Pending> pending_;
+};
+
+/// One file by itself.
+void write_whole(const std::string& path, std::string_view contents);
 void write_whole(const std::string& path, const std::function<void(const Sink&)>& produce);
 
 /// Creates the directory, and its parents, where missing; throws OutputFailed.

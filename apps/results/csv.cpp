@@ -14,6 +14,8 @@ void Csv::cell(Rounded number) {
   if (std::isfinite(number.value)) fmt::format_to(put, "{:.{}g}", number.value, number.digits);
 }
 
+void Csv::cell(Shortest number) { fmt::format_to(next(), "{}", number.value); }
+
 void Csv::cell(std::string_view text) {
   auto put = next();
   if (text.find_first_of(",\"\n\r;") == std::string_view::npos) {

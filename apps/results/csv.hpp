@@ -19,6 +19,11 @@ struct Rounded {
   int digits = 17;
 };
 
+/// A number with as many digits as it takes to read back the same double: 0.001, not 0.001000000000000000021.
+struct Shortest {
+  double value = 0.0;
+};
+
 /// Comma-separated values: a header line, then rows of numbers with 17 significant digits (they read back to the same
 /// double), integers and texts. What is absent or not finite is an empty cell.
 class Csv {
@@ -37,6 +42,7 @@ class Csv {
 
   void cell(double value) { cell(Rounded{value, 17}); }
   void cell(Rounded number);
+  void cell(Shortest number);
   void cell(std::integral auto value) { fmt::format_to(next(), "{}", +value); }
   /// Quoted where it holds what would end a cell.
   void cell(std::string_view text);

@@ -1,16 +1,14 @@
+#include "results/export_json.hpp"
+
 #include <vector>
 
-#include "export/export.hpp"
-#include "export/filter_coefficients.hpp"
-#include "report/text/quantity.hpp"
-#include "results/analysis_json.hpp"
-#include "results/json.hpp"
+#include "results/filter_coefficients.hpp"
+#include "results/stability_json.hpp"
+#include "results/units.hpp"
 #include "results/wall_filter_json.hpp"
 
-namespace zwidth::report {
+namespace zwidth::results {
 namespace {
-
-using Json = results::Json;
 
 Json rows(const Eigen::MatrixXd& matrix) {
   Json rows = Json::array();
@@ -78,29 +76,20 @@ Json wall_json(const Device& device) {
   const double period = device.loop().sampling_period;
   return {{"equation",
            "u = -C(z) y, C(z) = F(z) (K + B v(z)), v(z) = (1 - a)/T (z - 1)/(z - a), F the product of the filters"},
-          {"stiffness", wall.stiffness ? Json(*wall.stiffness) : Json(nullptr)},
+          {"stiffness", wall.stiffness},
           {"damping", wall.damping},
           {"velocity_filter_hz", wall.velocity_filter_hz},
           {"a", velocity_filter_pole(wall, period)},
-          {"filters", results::wall_filters_json(wall, period)}};
+          {"filters", wall_filters_json(wall, period)}};
 }
 
 }  // namespace
 
-ExportedModel exported_model(AnalysedDevice analysed) {
-  const Device& device = analysed.device;
-  ContinuousStateSpace continuous = state_space(device);
-  DiscreteStateSpace discrete = sample(continuous, {device.loop().sampling_period, device.loop().delay});
-  ModalForm modal = modal_form(device);
-  SampledPlant sampled = sampled_plant(device);
-  return {std::move(analysed), std::move(continuous), std::move(discrete), std::move(modal), std::move(sampled)};
-}
-
-Json export_json(const ExportedModel& model) {
+Json export_json(const report::ExportedModel& model) {
   const Device& device = model.analysed.device;
   const DiscreteStateSpace& discrete = model.discrete;
   const Units units = units_of(device.parameters().motion);
-  const Json analysis = results::analysis_json(model.analysed);
+  const CriticalStiffness& critical = model.analysed.analysis.critical;
   return {{"schema", "zwidth.model/1"},
           {"device", device.name()},
           {"units", {{"force", units.force}, {"position", units.length}, {"time", "s"}}},
@@ -127,9 +116,9 @@ Json export_json(const ExportedModel& model) {
             {"delay_samples", model.sampled.delay_samples},
             {"terms", sampled_terms(model.sampled)}}},
           {"wall", wall_json(device)},
-          {"status", analysis.at("status")},
-          {"critical_stiffness", analysis.at("critical_stiffness")},
-          {"crossovers", analysis.at("crossovers")}};
+          {"status", critical.status},
+          {"critical_stiffness", critical.stiffness},
+          {"crossovers", critical.crossovers}};
 }
 
-}  // namespace zwidth::report
+}  // namespace zwidth::results

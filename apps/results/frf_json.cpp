@@ -70,15 +70,7 @@ const char* name_of(MeasuredStiffnessStatus status) {
   return "undetermined";
 }
 
-results::Json remarks_json(const std::vector<Remark>& remarks) {
-  Json array = Json::array();
-  for (const Remark& remark : remarks) {
-    array.push_back({{"severity", remark.severity == Remark::Severity::warning ? "warning" : "note"},
-                     {"what", remark.what},
-                     {"meaning", remark.consequence}});
-  }
-  return array;
-}
+results::Json remarks_json(const std::vector<Remark>& remarks) { return remarks; }
 
 results::Json frf_json(const MeasuredFrf& frf, FrfContent content) {
   const FrequencyResponse& response = frf.response;

@@ -12,6 +12,16 @@ std::optional<double> hertz(std::optional<double> frequency) {
   return hertz(*frequency);
 }
 
+std::string parameter_unit(const std::string& key, Motion motion) {
+  const Units units = units_of(motion);
+  if (key.ends_with(".mass")) return std::string(units.mass);
+  if (key.ends_with(".damping")) return std::string(units.damping);
+  if (key.ends_with(".stiffness")) return std::string(units.stiffness);
+  if (key.ends_with("_hz")) return "Hz";
+  if (key.starts_with("loop.") || key == "actuator.time_constant") return "s";
+  return {};
+}
+
 Json wall_units(Motion motion) {
   const Units units = units_of(motion);
   return {{"stiffness", units.stiffness}, {"damping", units.damping}};

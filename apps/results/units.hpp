@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "results/json.hpp"
 #include "zwidth/quantity.hpp"
@@ -14,6 +15,9 @@ using zwidth::hertz;
 [[nodiscard]] std::optional<double> decibels(std::optional<double> value);
 
 [[nodiscard]] std::optional<double> hertz(std::optional<double> frequency);
+
+/// "kg", "N s/m", "s", "Hz": the unit of a device file's key; empty for a ratio.
+[[nodiscard]] std::string parameter_unit(const std::string& key, Motion motion);
 
 /// {"stiffness": "N/m", "damping": "N s/m"}: the units of a document about walls.
 [[nodiscard]] Json wall_units(Motion motion);

@@ -1,12 +1,12 @@
 #include "results/wall_filter_json.hpp"
 
-#include "export/filter_coefficients.hpp"
+#include "results/filter_coefficients.hpp"
 #include "zwidth/io/wall_filter_type.hpp"
 
 namespace zwidth::results {
 namespace {
 
-Json coefficients_json(const report::FilterCoefficients& coefficients) {
+Json coefficients_json(const FilterCoefficients& coefficients) {
   return {{"numerator", coefficients.numerator}, {"denominator", coefficients.denominator}};
 }
 
@@ -25,8 +25,8 @@ Json filter_json(const WallFilter& filter, double sampling_period) {
     json["denominator"] = filter.denominator;
   }
   const FilterSection section = filter_section(filter, sampling_period);
-  json["z"] = coefficients_json(report::in_z(section));
-  json["delta"] = coefficients_json(report::in_delta(section));
+  json["z"] = coefficients_json(in_z(section));
+  json["delta"] = coefficients_json(in_delta(section));
   return json;
 }
 

@@ -1,5 +1,7 @@
 #include "zwidth/design/any_user_region.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -91,11 +93,11 @@ AnyUserRegion any_user_region(const Device& device, double velocity_filter_hz, d
                               AnyUserRegionOptions options) {
   if (!(largest_damping > 0.0) || !std::isfinite(largest_damping)) {
     throw Error(ErrorCode::invalid_argument,
-                "the largest damping is " + std::to_string(largest_damping) + "; must be finite and > 0");
+                "the largest damping is " + fmt::format("{}", largest_damping) + "; must be finite and > 0");
   }
   if (!(options.deviation > 0.0 && options.deviation < 1.0)) {
     throw Error(ErrorCode::invalid_argument,
-                "the region's deviation is " + std::to_string(options.deviation) + "; must be above 0 and below 1");
+                "the region's deviation is " + fmt::format("{}", options.deviation) + "; must be above 0 and below 1");
   }
   Sampler sampler(device, velocity_filter_hz, options.deviation);
   AnyUserRegion region;

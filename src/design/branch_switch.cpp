@@ -1,5 +1,6 @@
 #include "zwidth/design/branch_switch.hpp"
 
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -112,7 +113,8 @@ std::vector<BranchSwitch> switches_of(const Device& device, const CriticalStiffn
 
 std::vector<BranchSwitch> branch_switches(const Device& device, BranchSwitchOptions options) {
   if (!(options.factor > 1.0) || !std::isfinite(options.factor)) {
-    throw Error(ErrorCode::invalid_argument, "the factor is " + std::to_string(options.factor) + "; must be above 1");
+    throw Error(ErrorCode::invalid_argument,
+                "the factor is " + fmt::format("{}", options.factor) + "; must be above 1");
   }
   const Wall& wall = device.parameters().wall;
   const CriticalStiffness own = critical_stiffness(filtered_plant(device), {wall.damping, wall.velocity_filter_hz});

@@ -1,5 +1,7 @@
 #include "zwidth/design/notch_design.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <boost/math/tools/minima.hpp>
@@ -205,7 +207,7 @@ class NotchSearch {
 
 void check(const NotchOptions& options) {
   const auto require = [](bool holds, const std::string& what, double value, const char* allowed) {
-    if (!holds) throw Error(ErrorCode::invalid_argument, what + " is " + std::to_string(value) + "; " + allowed);
+    if (!holds) throw Error(ErrorCode::invalid_argument, what + " is " + fmt::format("{}", value) + "; " + allowed);
   };
   require(options.drift >= 0.0 && options.drift <= 0.9, "the drift", options.drift, "must be from 0 to 0.9");
   require(options.gain_margin >= 1.0 && std::isfinite(options.gain_margin), "the gain margin", options.gain_margin,
@@ -313,7 +315,8 @@ class Over {
 
 Device drifted(const Device& device, double drift) {
   if (!(drift > -1.0 && drift <= 10.0)) {
-    throw Error(ErrorCode::invalid_argument, "the drift is " + std::to_string(drift) + "; must be above -1, up to 10");
+    throw Error(ErrorCode::invalid_argument,
+                "the drift is " + fmt::format("{}", drift) + "; must be above -1, up to 10");
   }
   if (drift == 0.0) return device;
   if (device.links().empty()) throw Error(ErrorCode::invalid_argument, "a drift of the modes needs a [[link]]");

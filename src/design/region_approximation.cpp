@@ -1,5 +1,7 @@
 #include "zwidth/design/region_approximation.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -66,7 +68,7 @@ double limit_at(const AnyUserRegion& region, double damping) {
 std::vector<RegionApproximation> region_approximations(const Device& device, double velocity_filter_hz) {
   if (!(velocity_filter_hz >= 0.0) || !std::isfinite(velocity_filter_hz)) {
     throw Error(ErrorCode::invalid_argument,
-                "the velocity filter has " + std::to_string(velocity_filter_hz) + " Hz; must be finite and >= 0");
+                "the velocity filter has " + fmt::format("{}", velocity_filter_hz) + " Hz; must be finite and >= 0");
   }
   if (!device.has_bodies()) return {};
   double damping = 0.0;

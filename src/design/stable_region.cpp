@@ -1,5 +1,7 @@
 #include "zwidth/design/stable_region.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
@@ -101,7 +103,7 @@ void find_extremes(StableRegion& region, const BoundaryCurve& curve, double devi
 StableRegion stable_region(const StableWalls& walls, OutlineOptions options) {
   if (!(options.deviation > 0.0 && options.deviation < 1.0)) {
     throw Error(ErrorCode::invalid_argument,
-                "the outline's deviation is " + std::to_string(options.deviation) + "; must be above 0 and below 1");
+                "the outline's deviation is " + fmt::format("{}", options.deviation) + "; must be above 0 and below 1");
   }
   const RegionStructure& structure = walls.structure();
   StableRegion region;

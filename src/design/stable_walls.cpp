@@ -1,5 +1,7 @@
 #include "zwidth/design/stable_walls.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -15,7 +17,7 @@ namespace {
 FilteredPlant checked(FilteredPlant plant, double velocity_filter_hz) {
   if (!(velocity_filter_hz >= 0.0) || !std::isfinite(velocity_filter_hz)) {
     throw Error(ErrorCode::invalid_argument,
-                "the velocity filter has " + std::to_string(velocity_filter_hz) + " Hz; must be finite and >= 0");
+                "the velocity filter has " + fmt::format("{}", velocity_filter_hz) + " Hz; must be finite and >= 0");
   }
   return plant;
 }
@@ -30,7 +32,7 @@ double StableWalls::velocity_filter_hz() const { return structure_->curve.veloci
 
 std::vector<StableInterval> StableWalls::stable_stiffnesses(double damping) const {
   if (!(damping >= 0.0)) {
-    throw Error(ErrorCode::invalid_argument, "the virtual damper has " + std::to_string(damping) + "; must be >= 0");
+    throw Error(ErrorCode::invalid_argument, "the virtual damper has " + fmt::format("{}", damping) + "; must be >= 0");
   }
   const auto& slabs = structure_->slabs;
   const auto slab = std::partition_point(slabs.begin(), slabs.end(),

@@ -1,5 +1,7 @@
 #include "zwidth/design/wall_ceilings.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -85,7 +87,7 @@ double any_user_damping(const Device& device, const AnyUserRegion& region, doubl
 std::optional<WallCeilings> wall_ceilings(const Device& device, double safety_factor) {
   if (!(safety_factor > 0.0 && safety_factor < 1.0)) {
     throw Error(ErrorCode::invalid_argument,
-                "the safety factor is " + std::to_string(safety_factor) + "; must be above 0 and below 1");
+                "the safety factor is " + fmt::format("{}", safety_factor) + "; must be above 0 and below 1");
   }
   const double filter = device.parameters().wall.velocity_filter_hz;
   const StableWalls walls(filtered_plant(device), filter);

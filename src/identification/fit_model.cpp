@@ -1,5 +1,7 @@
 #include "identification/fit_model.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -44,7 +46,7 @@ void check_response(const FrequencyResponse& response, std::size_t parameters) {
     const bool is_finite = std::isfinite(point.value.real()) && std::isfinite(point.value.imag());
     if (!is_finite || point.value == 0.0 || !(point.frequency > 0.0) || !(point.variance >= 0.0)) {
       throw Error(ErrorCode::invalid_argument,
-                  "the response at " + std::to_string(point.frequency) +
+                  "the response at " + fmt::format("{}", point.frequency) +
                       " rad/s is not a frequency > 0 with a finite value that is not 0 and a variance >= 0");
     }
   }

@@ -1,5 +1,7 @@
 #include "zwidth/sampling/filter_section.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -86,7 +88,7 @@ FilterSection digital_section(const WallFilter& filter) {
 
 FilterSection filter_section(const WallFilter& filter, double period) {
   if (!(period > 0.0) || !std::isfinite(period)) {
-    throw Error(ErrorCode::invalid_argument, "the sampling period is " + std::to_string(period) + "; must be > 0");
+    throw Error(ErrorCode::invalid_argument, "the sampling period is " + fmt::format("{}", period) + "; must be > 0");
   }
   if (const auto problem = find_problem(filter, period)) {
     throw Error(ErrorCode::invalid_argument,

@@ -1,5 +1,7 @@
 #include "sampling/sampling_instants.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <limits>
 #include <string>
@@ -12,10 +14,10 @@ SamplingInstants sampling_instants(const Sampling& sampling) {
   const auto [period, delay] = sampling;
   if (!(period > 0.0) || !std::isfinite(period)) {
     throw Error(ErrorCode::invalid_argument,
-                "sampling period is " + std::to_string(period) + " s; must be finite and > 0");
+                "sampling period is " + fmt::format("{}", period) + " s; must be finite and > 0");
   }
   if (!(delay >= 0.0) || !std::isfinite(delay)) {
-    throw Error(ErrorCode::invalid_argument, "delay is " + std::to_string(delay) + " s; must be finite and >= 0");
+    throw Error(ErrorCode::invalid_argument, "delay is " + fmt::format("{}", delay) + " s; must be finite and >= 0");
   }
   // A fraction within rounding of a whole number of samples is that number.
   const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * delay;

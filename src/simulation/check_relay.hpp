@@ -1,5 +1,7 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <string>
 
@@ -11,11 +13,12 @@ namespace zwidth::internal {
 /// Throws Error (invalid_argument) for a relay outside its domain.
 inline void check_relay(const Relay& relay) {
   if (!(std::isfinite(relay.amplitude) && relay.amplitude > 0.0)) {
-    throw Error(ErrorCode::invalid_argument, "relay amplitude is " + std::to_string(relay.amplitude) + "; must be > 0");
+    throw Error(ErrorCode::invalid_argument,
+                "relay amplitude is " + fmt::format("{}", relay.amplitude) + "; must be > 0");
   }
   if (!(std::isfinite(relay.hysteresis) && relay.hysteresis >= 0.0)) {
     throw Error(ErrorCode::invalid_argument,
-                "relay hysteresis is " + std::to_string(relay.hysteresis) + "; must be >= 0");
+                "relay hysteresis is " + fmt::format("{}", relay.hysteresis) + "; must be >= 0");
   }
 }
 

@@ -1,5 +1,7 @@
 #include "zwidth/stability/critical_stiffness.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -26,7 +28,7 @@ CriticalStiffness critical_stiffness(const FilteredPlant& plant, VirtualDamper d
   for (const double value : {damper.damping, damper.velocity_filter_hz}) {
     if (!(value >= 0.0) || !std::isfinite(value)) {
       throw Error(ErrorCode::invalid_argument,
-                  "the virtual damper has " + std::to_string(value) + "; must be finite and >= 0");
+                  "the virtual damper has " + fmt::format("{}", value) + "; must be finite and >= 0");
     }
   }
   const GainCrossings crossings = stiffness_crossings(plant, damper);

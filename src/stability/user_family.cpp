@@ -1,5 +1,7 @@
 #include "zwidth/stability/user_family.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -32,9 +34,9 @@ struct Found {
 
 void check(const ValueRange& range, const char* name) {
   if (range.least >= 0.0 && range.greatest >= range.least && std::isfinite(range.greatest)) return;
-  throw Error(ErrorCode::invalid_argument, "the users' " + std::string(name) + " is from " +
-                                               std::to_string(range.least) + " to " + std::to_string(range.greatest) +
-                                               "; must be finite, >= 0 and not reversed");
+  throw Error(ErrorCode::invalid_argument,
+              "the users' " + std::string(name) + " is from " + fmt::format("{}", range.least) + " to " +
+                  fmt::format("{}", range.greatest) + "; must be finite, >= 0 and not reversed");
 }
 
 class FamilySearch {

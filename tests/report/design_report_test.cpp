@@ -18,7 +18,6 @@
 #include "report/text/design_text.hpp"
 #include "report/text/text_table.hpp"
 #include "results/design_json.hpp"
-#include "results/design_sweep_json.hpp"
 
 namespace zwidth::report {
 namespace {
@@ -50,9 +49,9 @@ TEST(DesignJson, EveryKeyIsDocumented) {
   std::ifstream file(ZWIDTH_SOURCE_DIR "/docs/design.md");
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   std::set<std::string> keys;
-  collect_keys(design_json(designed_lhifam()), keys);
-  collect_keys(sweep_json(delay_sweep()), keys);
-  collect_keys(comparison_json(both_sensors({0.5, 6.0, 135.0})), keys);
+  collect_keys(results::design_json(designed_lhifam()), keys);
+  collect_keys(results::sweep_json(delay_sweep()), keys);
+  collect_keys(results::comparison_json(both_sensors({0.5, 6.0, 135.0})), keys);
   EXPECT_GT(keys.size(), 30U);
   for (const std::string& key : keys) EXPECT_NE(text.find("`" + key + "`"), std::string::npos) << key;
 }
@@ -69,16 +68,16 @@ TEST(DesignText, StrongestNumberFirstAndAtMost100Columns) {
 TEST(DesignText, WithoutALimitSaysSo) {
   const DesignedDevice designed = designed_device(hopeless());
   EXPECT_THAT(design_text(designed), HasSubstr("No sensitivities"));
-  EXPECT_TRUE(design_json(designed)["sensitivities"].empty());
-  EXPECT_EQ(design_json(designed)["status"], "none_stable");
+  EXPECT_TRUE(results::design_json(designed)["sensitivities"].empty());
+  EXPECT_EQ(results::design_json(designed)["status"], "none_stable");
 }
 
 TEST(SweepReports, HoldEveryPoint) {
   const DesignSweep sweep = delay_sweep({.any_user = true});
-  const std::string csv = sweep_csv(sweep);
+  const std::string csv = results::sweep_csv(sweep);
   EXPECT_THAT(csv, StartsWith("loop.delay,critical_stiffness,frequency_rad_s,mode,any_user_stiffness\n"));
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 82);
-  const Json json = sweep_json(sweep);
+  const Json json = results::sweep_json(sweep);
   EXPECT_EQ(json["points"].size(), 81U);
   EXPECT_EQ(json["points"][0]["critical_stiffness"].get<double>(), sweep.sweep.points[0].stiffness);
   EXPECT_THAT(sweep_text(sweep), HasSubstr("21 of 81 points"));
@@ -91,7 +90,7 @@ TEST(SweepReports, OfTwoNumbersSayWhereTheBestIs) {
   const std::string text = sweep_text(sweep);
   EXPECT_THAT(text, HasSubstr("2 x 3 points"));
   EXPECT_THAT(text, HasSubstr("largest K_CR 8.849 kN/m at loop.delay = 0 s, body.motor.mass = 0.3 kg"));
-  EXPECT_EQ(sweep_csv(sweep).substr(0, 26), "loop.delay,body.motor.mass");
+  EXPECT_EQ(results::sweep_csv(sweep).substr(0, 26), "loop.delay,body.motor.mass");
 }
 
 TEST(SweepReports, WithoutAnyLimitAreStillDrawn) {
@@ -130,7 +129,7 @@ TEST(Comparison, SaysWhichIsBetterForWhom) {
   EXPECT_THAT(text, HasSubstr("Free device: sensed = motor is better, 8.849 kN/m against 6.939 kN/m (+27.5 %)."));
   EXPECT_THAT(text, HasSubstr("Whoever holds it: sensed = handle is better, 6.37 kN/m against 5.776 kN/m (+10.3 %)."));
   EXPECT_LE(width_of(text), 100U);
-  const Json json = comparison_json(comparison);
+  const Json json = results::comparison_json(comparison);
   EXPECT_EQ(json["best"]["free"], "motor");
   EXPECT_EQ(json["best"]["any_user"], "handle");
   const double held = json["designs"][0]["with_operator"]["critical_stiffness"].get<double>();
@@ -142,8 +141,8 @@ TEST(Comparison, SaysWhichIsBetterForWhom) {
 TEST(Comparison, WithoutAUserHasTwoColumns) {
   const DesignComparison comparison = both_sensors({});
   EXPECT_THAT(comparison_text(comparison), HasSubstr("--operator"));
-  EXPECT_TRUE(comparison_json(comparison)["best"]["with_operator"].is_null());
-  EXPECT_TRUE(comparison_json(comparison)["operator"].is_null());
+  EXPECT_TRUE(results::comparison_json(comparison)["best"]["with_operator"].is_null());
+  EXPECT_TRUE(results::comparison_json(comparison)["operator"].is_null());
 }
 
 TEST(Comparison, OfEqualsSaysSo) {

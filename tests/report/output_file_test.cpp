@@ -99,6 +99,24 @@ TEST_F(OutputFile, AFailedWriteLeavesWhatWasThere) {
   EXPECT_EQ(entries(), 1U);
 }
 
+TEST_F(OutputFile, SeveralAppearTogetherOrNotAtAll) {
+  write_whole(path("a"), "old");
+  {
+    OutputFiles files;
+    files.write(path("a"), "new");
+    EXPECT_THROW(files.write(path("missing/b"), "new"), OutputFailed);
+  }
+  EXPECT_EQ(contents("a"), "old");
+  EXPECT_EQ(entries(), 1U);
+  OutputFiles files;
+  files.write(path("a"), "new");
+  files.write(path("b"), "new");
+  EXPECT_EQ(contents("a"), "old");
+  files.commit();
+  EXPECT_EQ(contents("a") + contents("b"), "newnew");
+  EXPECT_EQ(entries(), 2U);
+}
+
 TEST_F(OutputFile, MakesDirectoriesButNotOverAFile) {
   make_directory(path("a/b"));
   EXPECT_TRUE(fs::is_directory(path("a/b")));

@@ -9,6 +9,7 @@
 #include <span>
 #include <sstream>
 
+#include "report/figure/plot.hpp"
 #include "report/text/quantity.hpp"
 #include "report/text/text_table.hpp"
 
@@ -23,12 +24,8 @@ constexpr LineStyle nyquist_style{"#555555", 1.2, "(8,3,2,3,2,3)"};
 constexpr LineStyle mark_style{"#777777", 0.8, "(2,3)"};
 constexpr LineStyle critical_style{"#b91c1c", 1.2, "1"};
 
-constexpr double canvas_width = 900.0;
-constexpr double frame_left = 84.0;
-constexpr double frame_right = 876.0;
 constexpr double magnitude_height = 290.0;
 constexpr double phase_height = 190.0;
-constexpr double row_height = 20.0;
 constexpr double tag_size = 12.0;
 /// More than these are marked but not listed.
 constexpr std::size_t most_listed = 12;
@@ -85,10 +82,8 @@ bool is_critical(const BodeMark& mark) { return mark.rank == BodeMark::Rank::cri
 
 class Layout {
  public:
-  explicit Layout(const BodeFigure& figure) : figure_(figure) {
-    legend_top = 34.0;
-    const std::size_t legend_entries = figure.curves.size() + (figure.nyquist ? 1 : 0);
-    const double top = legend_top + row_height * static_cast<double>((legend_entries + 1) / 2) + 46.0;
+  Layout(const BodeFigure& figure, double heading_bottom) : figure_(figure) {
+    const double top = heading_bottom + 46.0;
     magnitude = {frame_left, frame_right, top, top + magnitude_height};
     phase = {frame_left, frame_right, magnitude.bottom + 22.0, magnitude.bottom + 22.0 + phase_height};
     list_top = phase.bottom + 68.0;
@@ -101,7 +96,6 @@ class Layout {
                             std::log(figure_.range.to / figure_.range.from);
   }
 
-  double legend_top = 0.0;
   Box magnitude;
   Box phase;
   double list_top = 0.0;
@@ -111,23 +105,15 @@ class Layout {
   const BodeFigure& figure_;
 };
 
-void legend_entry(Canvas& canvas, const Layout& layout, std::size_t index, const LineStyle& style,
-                  std::string_view text) {
-  const double left = frame_left + 400.0 * static_cast<double>(index % 2);
-  const double y = layout.legend_top + row_height * (static_cast<double>(index / 2) + 0.5);
-  canvas.line(left, y, left + 46.0, y, style);
-  canvas.text(left + 54.0, y, Canvas::fitted(text, 12.0, 340.0), {Anchor::left, 12.0});
-}
-
-void draw_legend(Canvas& canvas, const BodeFigure& figure, const Layout& layout) {
-  canvas.text(frame_left, 18.0, Canvas::fitted(figure.title, 16.0, frame_right - frame_left), {Anchor::left, 16.0});
-  for (std::size_t i = 0; i < figure.curves.size(); ++i) {
-    legend_entry(canvas, layout, i, curve_styles[i], figure.curves[i].name);
-  }
+std::vector<LegendEntry> legend(const BodeFigure& figure) {
+  std::vector<LegendEntry> entries;
+  for (std::size_t i = 0; i < figure.curves.size(); ++i) entries.push_back({figure.curves[i].name, curve_styles[i]});
   if (figure.nyquist) {
-    legend_entry(canvas, layout, figure.curves.size(), nyquist_style,
-                 fmt::format("Nyquist, {} rad/s ({} Hz)", number(*figure.nyquist), number(hertz(*figure.nyquist))));
+    entries.push_back(
+        {fmt::format("Nyquist, {} rad/s ({} Hz)", number(*figure.nyquist), number(hertz(*figure.nyquist))),
+         nyquist_style});
   }
+  return entries;
 }
 
 /// The number of a mark, and where it stands.
@@ -241,7 +227,8 @@ void draw_nyquist(Canvas& canvas, const BodeFigure& figure, const Layout& layout
 std::string draw(const BodeFigure& given, FigureFormat format) {
   BodeFigure figure = given;
   figure.notes = wrapped(given.notes);
-  const Layout layout(figure);
+  const Heading heading(figure.title, legend(figure));
+  const Layout layout(figure, heading.bottom());
   Canvas canvas(figure.title, canvas_width, layout.height);
   for (std::size_t i = 0; i < figure.curves.size(); ++i) {
     canvas.commands(fmt::format("$curve{} << EOD", i));
@@ -258,14 +245,13 @@ std::string draw(const BodeFigure& given, FigureFormat format) {
   });
 
   const std::string_view compliance = figure.motion == Motion::rotary ? "rad/(N m)" : "m/N";
-  canvas.commands(fmt::format(
-      "set logscale x\nset logscale x2\nset xrange [{}:{}]\nset x2range [{}:{}]\nset tics font ',12' "
-      "scale 0.6,0.3\nset border lw 0.8\nset grid xtics mxtics ytics lw 0.5 lc rgb '#c8c8c8' dt 1, lw 0.4 lc rgb "
-      "'#e4e4e4' dt 1 back\nset mxtics 10\nset format x ''\nset xtics nomirror 10\nset x2tics 10 nomirror\nset mx2tics "
-      "10\nset format x2 '%g'",
-      figure.range.from, figure.range.to, hertz(figure.range.from), hertz(figure.range.to)));
+  canvas.commands(
+      fmt::format("{}\nset grid mxtics\nset logscale x\nset logscale x2\nset xrange [{}:{}]\nset x2range [{}:{}]\nset "
+                  "mxtics 10\nset format x ''\nset xtics nomirror 10\nset x2tics 10 nomirror\nset mx2tics "
+                  "10\nset format x2 '%g'",
+                  axes_look(), figure.range.from, figure.range.to, hertz(figure.range.from), hertz(figure.range.to)));
 
-  draw_legend(canvas, figure, layout);
+  heading.draw(canvas);
   draw_list(canvas, figure, layout);
   draw_mark_lines(canvas, figure, layout, magnitude);
   draw_nyquist(canvas, figure, layout, layout.magnitude);

@@ -63,17 +63,14 @@ void Canvas::text(double x, double y, std::string_view content, const TextStyle&
   const std::string_view anchor = style.anchor == Anchor::left     ? "left"
                                   : style.anchor == Anchor::centre ? "center"
                                                                    : "right";
-  commands(fmt::format("set label {} at {} {} front noenhanced font ',{}' textcolor rgb '{}'", gnuplot_string(content),
-                       position(x, y), anchor, style.size, style.colour));
+  commands(fmt::format("set label {} at {} {} front {} font ',{}' textcolor rgb '{}'", gnuplot_string(content),
+                       position(x, y), anchor, style.markup == Markup::none ? "noenhanced" : "enhanced", style.size,
+                       style.colour));
 }
 
 void Canvas::line(double x1, double y1, double x2, double y2, const LineStyle& style) {
   commands(
       fmt::format("set arrow from {} to {} nohead back {}", position(x1, y1), position(x2, y2), gnuplot_line(style)));
-}
-
-void Canvas::point(double x, double y, std::string_view colour) {
-  marker(x, y, fmt::format("pt 6 ps 0.7 lw 1.3 lc rgb '{}'", colour));
 }
 
 void Canvas::marker(double x, double y, std::string_view style) {
@@ -125,6 +122,26 @@ std::string Canvas::fitted(std::string_view content, double size, double room) {
     shown.pop_back();
   }
   return shown + "…";
+}
+
+std::vector<std::string> Canvas::broken(std::string_view content, double size, double room, std::size_t most_lines) {
+  std::vector<std::string> lines;
+  while (!content.empty() && lines.size() + 1 < most_lines && text_width(content, size) > room) {
+    std::size_t end = 0;  // of what fits, by letters
+    std::size_t space = 0;
+    for (std::size_t next = 1; next <= content.size(); ++next) {
+      if (next < content.size() && (content[next] & 0xc0) == 0x80) continue;  // within a letter
+      if (text_width(content.substr(0, next), size) > room) break;
+      end = next;
+      if (next < content.size() && content[next] == ' ') space = next;
+    }
+    if (space > 0) end = space;
+    lines.emplace_back(content.substr(0, end));
+    content.remove_prefix(end);
+    content.remove_prefix(std::min(content.find_first_not_of(' '), content.size()));
+  }
+  lines.push_back(fitted(content, size, room));
+  return lines;
 }
 
 std::string gnuplot_line(const LineStyle& style) {

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace zwidth::report {
 
@@ -13,10 +14,14 @@ enum class FigureFormat { svg, png, pdf };
 
 enum class Anchor { left, centre, right };
 
+/// Whether a text is drawn as it is, or K_{CR} with its subscript: for our own words, never for a text of a file.
+enum class Markup { none, subscripts };
+
 struct TextStyle {
   Anchor anchor = Anchor::left;
   double size = 13.0;  ///< px
   std::string_view colour = "#1a1a1a";
+  Markup markup = Markup::none;
 };
 
 struct LineStyle {
@@ -34,7 +39,7 @@ struct Box {
 };
 
 /// A figure under construction: a gnuplot script laid out in px from the top left corner, so that what stands where is
-/// decided here and nothing overlaps by gnuplot's own choice. Text is drawn as it is: no markup, no escapes.
+/// decided here and nothing overlaps by gnuplot's own choice. Text is drawn as it is unless its style says so.
 class Canvas {
  public:
   Canvas(std::string title, double width, double height);
@@ -42,7 +47,6 @@ class Canvas {
   /// Drawn with the next plot, at px positions.
   void text(double x, double y, std::string_view content, const TextStyle& style = {});
   void line(double x1, double y1, double x2, double y2, const LineStyle& style);
-  void point(double x, double y, std::string_view colour);
   /// A point of any gnuplot style: "pt 7 ps 0.8 lc rgb '#c2410c'".
   void marker(double x, double y, std::string_view style);
   void rectangle(const Box& box, std::string_view colour);
@@ -61,6 +65,11 @@ class Canvas {
 
   /// The text, or as much of its start as `room` px hold, with "…".
   [[nodiscard]] static std::string fitted(std::string_view content, double size, double room);
+
+  /// The text in lines of `room` px, broken at spaces, within a word only where it alone is longer; the last of
+  /// `most_lines` fitted().
+  [[nodiscard]] static std::vector<std::string> broken(std::string_view content, double size, double room,
+                                                       std::size_t most_lines);
 
  private:
   [[nodiscard]] std::string position(double x, double y) const;

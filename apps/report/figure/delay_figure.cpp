@@ -2,8 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
+
+#include "report/figure/plot.hpp"
 
 namespace zwidth::report {
 namespace {
@@ -15,35 +16,31 @@ constexpr double milliseconds = 1e3;
 }  // namespace
 
 std::string draw_delay_figure(const std::string& title, const std::vector<DelaySeries>& series, FigureFormat format) {
-  constexpr Box frame{84.0, 876.0, 100.0, 420.0};
-  Canvas canvas(title, 900.0, 490.0);
-  canvas.text(frame.left, 18.0, title, {Anchor::left, 16.0});
+  std::vector<LegendEntry> legend;
+  for (std::size_t i = 0; i < series.size(); ++i) {
+    const bool is_curve = series[i].kind == DelaySeries::Kind::curve;
+    legend.push_back({series[i].name, styles.at(i), {}, is_curve ? std::string() : ring_marker(styles.at(i).colour)});
+  }
+  const Heading heading(title, legend);
+  const Box frame{frame_left, frame_right, heading.bottom() + 26.0, heading.bottom() + 346.0};
+  Canvas canvas(title, canvas_width, frame.bottom + 70.0);
+  heading.draw(canvas);
   std::string what;
   for (std::size_t i = 0; i < series.size(); ++i) {
     const LineStyle& style = styles.at(i);
-    const double left = frame.left + 400.0 * static_cast<double>(i % 2);
-    const double y = 46.0 + 22.0 * static_cast<double>(i / 2);
-    canvas.commands(fmt::format("$series{} << EOD", i));
+    std::string rows;
     for (const DelayPoint& point : series[i].points) {
-      canvas.commands(fmt::format("{:.9g} {:.6f}", milliseconds * point.delay, point.stiffness_db));
+      rows += fmt::format("{:.9g} {:.6f}\n", milliseconds * point.delay, point.stiffness_db);
     }
-    canvas.commands("EOD");
-    canvas.text(left + 54.0, y, Canvas::fitted(series[i].name, 12.0, 340.0), {Anchor::left, 12.0});
-    if (series[i].kind == DelaySeries::Kind::curve) {
-      canvas.line(left, y, left + 46.0, y, style);
-      what += fmt::format("$series{} with lines {}, ", i, gnuplot_line(style));
-    } else {
-      canvas.point(left + 23.0, y, style.colour);
-      what += fmt::format("$series{} with points pt 6 ps 0.7 lw 1.3 lc rgb '{}', ", i, style.colour);
-    }
+    data_block(canvas, fmt::format("series{}", i), rows);
+    what += legend[i].marker.empty() ? fmt::format("$series{} with lines {}, ", i, gnuplot_line(style))
+                                     : fmt::format("$series{} with points {}, ", i, legend[i].marker);
   }
+  // Offsets: markers must not lie on the frame.
   canvas.commands(
-      "set tics font ',12' scale 0.6,0.3\nset border lw 0.8\nset grid xtics ytics lw 0.5 lc rgb '#c8c8c8' dt 1 back\n"
-      "set ylabel 'Critical stiffness (dB re 1 N/m)' font ',12' offset 0.5,0\nset ytics 5\n"
-      // Markers must not lie on the frame.
-      "set autoscale xfix\nset offsets graph 0.02, graph 0.02, graph 0.04, graph 0.04");
-  canvas.text(0.5 * (frame.left + frame.right), frame.bottom + 42.0, "Delay (ms), besides the zero-order hold",
-              {Anchor::centre, 12.0});
+      fmt::format("{}\n{}\nset ytics 5\nset autoscale xfix\nset offsets graph 0.02, graph 0.02, graph 0.04, graph 0.04",
+                  axes_look(), y_label("Critical stiffness (dB re 1 N/m)")));
+  x_label(canvas, frame, "Delay (ms), besides the zero-order hold");
   canvas.plot(frame, what + "NaN notitle");
   return canvas.draw(format);
 }

@@ -11,14 +11,13 @@
 #include <vector>
 
 #include "report/designed_device.hpp"
+#include "report/figure/plot.hpp"
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
 
 namespace zwidth::report {
 namespace {
 
-constexpr double canvas_width = 900.0;
-constexpr double row_height = 20.0;
 constexpr double frame_height = 360.0;
 constexpr double same_branch = 0.3;  // of log frequency, between neighbouring points
 constexpr double room_above = 10.0;  // of the largest limit: branches higher up are left out
@@ -33,9 +32,16 @@ constexpr std::array<std::string_view, 6> colours = {"#0b4f9e", "#c2410c", "#7e2
 
 LineStyle branch_style(int mode) { return {colours.at(static_cast<std::size_t>(mode) % colours.size()), 1.3, "1"}; }
 
+/// The unit of a parameter's axis: with a prefix where parameter_text() gives one.
+AxisUnit parameter_axis_unit(const SweepAxis& axis, Motion motion) {
+  const std::string unit = results::parameter_unit(axis.key, motion);
+  if (unit != "s" && unit != "Hz" && !axis.key.ends_with(".stiffness")) return {};
+  return axis_unit(std::max(std::abs(axis.first), std::abs(axis.last)));
+}
+
 std::string axis_title(const SweepAxis& axis, Motion motion) {
-  const std::string unit = parameter_unit(axis.key, motion);
-  return unit.empty() ? axis.key : fmt::format("{} ({})", axis.key, unit);
+  const std::string unit = results::parameter_unit(axis.key, motion);
+  return unit.empty() ? axis.key : fmt::format("{} ({}{})", axis.key, parameter_axis_unit(axis, motion).prefix, unit);
 }
 
 bool is_logarithmic(const SweepAxis& axis) { return axis.spacing == SweepAxis::Spacing::logarithmic; }
@@ -46,24 +52,20 @@ class CurveFigure {
       : sweep_(design.sweep),
         values_(design.sweep.values[0]),
         motion_(design.device.parameters().motion),
-        title_(fmt::format("Critical stiffness of {}", display_name(design.device))) {
+        title_(fmt::format("Critical stiffness of {}", display_name(design.device))),
+        parameter_(parameter_axis_unit(sweep_.axes[0], motion_)),
+        stiffness_(axis_unit(range().second / room_above)) {
     for (const SweepPoint& point : sweep_.points) {
       for (const Crossover& each : point.crossovers) modes_ = std::max(modes_, each.limited_by.mode);
     }
   }
 
   [[nodiscard]] std::string draw(FigureFormat format) const {
-    const std::vector<Entry> entries = legend();
-    const double top = 44.0 + row_height * static_cast<double>((entries.size() + 1) / 2) + 18.0;
-    const Box frame{92.0, 876.0, top, top + frame_height};
+    const Heading heading(title_, legend());
+    const double top = heading.bottom() + 28.0;
+    const Box frame{frame_left, frame_right, top, top + frame_height};
     Canvas canvas(title_, canvas_width, frame.bottom + 62.0);
-    canvas.text(frame.left, 18.0, Canvas::fitted(title_, 16.0, frame.right - frame.left), {Anchor::left, 16.0});
-    for (std::size_t i = 0; i < entries.size(); ++i) {
-      const double left = frame.left + 400.0 * static_cast<double>(i % 2);
-      const double y = 46.0 + row_height * static_cast<double>(i / 2);
-      canvas.line(left, y, left + 46.0, y, entries[i].style);
-      canvas.text(left + 54.0, y, Canvas::fitted(entries[i].text, 12.0, 340.0), {Anchor::left, 12.0});
-    }
+    heading.draw(canvas);
     std::string what;
     for (int mode = 0; mode <= modes_; ++mode) {
       const LineStyle style = branch_style(mode);
@@ -73,32 +75,27 @@ class CurveFigure {
     add(canvas, what, "jumps", jumps(), jump_style);
     add(canvas, what, "any", any_user(), any_user_style);
     const SweepAxis& axis = sweep_.axes[0];
-    const auto [low, high] = range();
-    const auto [first, last] = std::minmax(axis.first, axis.last);
-    canvas.commands(fmt::format(
-        "set tics font ',12' scale 0.6,0.3\nset border lw 0.8\nset grid xtics ytics lw 0.5 lc rgb '#c8c8c8' dt 1 back\n"
-        "set logscale y\n{}\nset xrange [{:.9g}:{:.9g}]\nset yrange [{:.9g}:{:.9g}]\n"
-        "set format y '%.0s %c'\nset format x '%.10g'\nset ylabel 'Stiffness K ({})' font ',12' offset 0.5,0",
-        is_logarithmic(axis) ? "set logscale x" : "unset logscale x", first, last, low, high,
-        units_of(motion_).stiffness));
+    const double low = range().first / stiffness_.size;
+    const double high = range().second / stiffness_.size;
+    const double first = std::min(axis.first, axis.last) / parameter_.size;
+    const double last = std::max(axis.first, axis.last) / parameter_.size;
+    canvas.commands(
+        fmt::format("{}\nset logscale y\n{}\nset xrange [{:.9g}:{:.9g}]\nset yrange [{:.9g}:{:.9g}]\n"
+                    "set format y '%g'\nset format x '%.10g'\n{}",
+                    axes_look(), is_logarithmic(axis) ? "set logscale x" : "unset logscale x", first, last, low, high,
+                    y_label(fmt::format("Stiffness K ({}{})", stiffness_.prefix, units_of(motion_).stiffness))));
     if (high < few_decades * low) canvas.commands(fine_tics("y", low, high));
     if (is_logarithmic(axis) && last < few_decades * first) canvas.commands(fine_tics("x", first, last));
-    canvas.text(0.5 * (frame.left + frame.right), frame.bottom + 42.0, axis_title(axis, motion_),
-                {Anchor::centre, 12.0});
+    x_label(canvas, frame, axis_title(axis, motion_));
     canvas.plot(frame, what + "NaN notitle");
     return canvas.draw(format);
   }
 
  private:
-  struct Entry {
-    std::string text;
-    LineStyle style;
-  };
-
   static void add(Canvas& canvas, std::string& what, const std::string& name, const std::string& rows,
                   const LineStyle& style) {
     if (rows.empty()) return;
-    canvas.commands(fmt::format("${} << EOD\n{}EOD", name, rows));
+    data_block(canvas, name, rows);
     what += fmt::format("${} with lines {} notitle, ", name, gnuplot_line(style));
   }
 
@@ -108,16 +105,15 @@ class CurveFigure {
       for (const double step : {1.0, 2.0, 5.0}) {
         const double at = step * power;
         if (at < low * (1.0 - 1e-9) || at > high * (1.0 + 1e-9)) continue;
-        std::string label = quantity(at, "");
-        label.erase(label.find_last_not_of(' ') + 1);
-        tics += fmt::format("{}'{}' {:g}", tics.ends_with('(') ? "" : ", ", label, at);
+        tics += fmt::format("{}{:g}", tics.ends_with('(') ? "" : ", ", at);
       }
     }
     return tics + ")";
   }
 
-  [[nodiscard]] std::vector<Entry> legend() const {
-    std::vector<Entry> entries{{"bold: K_CR, the crossover that limits", limit_style}};
+  [[nodiscard]] std::vector<LegendEntry> legend() const {
+    std::vector<LegendEntry> entries{
+        {"bold: K_{CR}, the crossover that limits", limit_style, {}, {}, Markup::subscripts}};
     if (!any_user().empty()) entries.push_back({"with any passive user", any_user_style});
     for (int mode = 0; mode <= modes_; ++mode) {
       if (branches(mode).empty()) continue;
@@ -171,7 +167,8 @@ class CurveFigure {
   }
 
   [[nodiscard]] std::string segment(std::size_t i, double from, double to) const {
-    return fmt::format("{:.9g} {:.9g}\n{:.9g} {:.9g}\n\n", values_[i], from, values_[i + 1], to);
+    return fmt::format("{:.9g} {:.9g}\n{:.9g} {:.9g}\n\n", values_[i] / parameter_.size, from / stiffness_.size,
+                       values_[i + 1] / parameter_.size, to / stiffness_.size);
   }
 
   /// Pieces between neighbouring points whose crossovers are each other's nearest.
@@ -223,7 +220,8 @@ class CurveFigure {
     for (std::size_t i = 0; i < sweep_.points.size(); ++i) {
       const auto& limit = sweep_.points[i].any_user;
       const bool drawn = limit && limit->stiffness > 0.0 && std::isfinite(limit->stiffness);
-      rows += drawn ? fmt::format("{:.9g} {:.9g}\n", values_[i], limit->stiffness) : std::string("\n");
+      rows += drawn ? fmt::format("{:.9g} {:.9g}\n", values_[i] / parameter_.size, limit->stiffness / stiffness_.size)
+                    : std::string("\n");
     }
     return rows.find_first_not_of('\n') == std::string::npos ? "" : rows;
   }
@@ -232,6 +230,8 @@ class CurveFigure {
   const std::vector<double>& values_;
   Motion motion_;
   std::string title_;
+  AxisUnit parameter_;
+  AxisUnit stiffness_;
   int modes_ = 0;
 };
 
@@ -240,12 +240,15 @@ class MapFigure {
   explicit MapFigure(const DesignSweep& design)
       : sweep_(design.sweep),
         motion_(design.device.parameters().motion),
-        title_(fmt::format("Critical stiffness of {}", display_name(design.device))) {}
+        title_(fmt::format("Critical stiffness of {}", display_name(design.device))),
+        units_{parameter_axis_unit(sweep_.axes[0], motion_), parameter_axis_unit(sweep_.axes[1], motion_)} {}
 
   [[nodiscard]] std::string draw(FigureFormat format) const {
-    const Box frame{92.0, 760.0, 48.0, 48.0 + frame_height};
+    const Heading heading(title_, {});
+    const double top = heading.bottom() + 26.0;
+    const Box frame{frame_left, 760.0, top, top + frame_height};
     Canvas canvas(title_, canvas_width, frame.bottom + 62.0);
-    canvas.text(frame.left, 18.0, Canvas::fitted(title_, 16.0, 784.0), {Anchor::left, 16.0});
+    heading.draw(canvas);
     double low = std::numeric_limits<double>::infinity();
     double high = 0.0;
     std::string rows;
@@ -262,30 +265,27 @@ class MapFigure {
       rows += "\n";
     }
     if (high == 0.0) low = 1.0, high = 10.0;
-    canvas.commands(fmt::format("$map << EOD\n{}EOD", rows));
+    const AxisUnit stiffness = axis_unit(high);
+    low /= stiffness.size;
+    high /= stiffness.size;
+    data_block(canvas, "map", rows);
     canvas.commands(fmt::format(
-        "set tics font ',12' scale 0.6,0.3\nset border lw 0.8\nunset logscale\n{}{}"
-        "set xrange [{:.9g}:{:.9g}]\nset yrange [{:.9g}:{:.9g}]\nset ylabel {} font ',12' offset 0.5,0\n"
+        "{}\nunset grid\nunset logscale\n{}{}set xrange [{:.9g}:{:.9g}]\nset yrange [{:.9g}:{:.9g}]\n{}\n"
         "set palette defined (0 '#30123b', 1 '#3e9bfe', 2 '#46f884', 3 '#e1dd37', 4 '#f05b12', 5 '#7a0403')\n"
         "set colorbox user origin screen {:.5f},{:.5f} size screen 0.02,{:.5f}\n{}set cbrange [{:.9g}:{:.9g}]\n"
-        "set format cb '%.1s %c'",
-        tics("x", 0), tics("y", 1), edges(0).first, edges(0).second, edges(1).first, edges(1).second,
-        quoted(axis_title(sweep_.axes[1], motion_)), 780.0 / canvas_width, 62.0 / (frame.bottom + 62.0),
+        "set format cb '%g'",
+        axes_look(), tics("x", 0), tics("y", 1), edges(0).first, edges(0).second, edges(1).first, edges(1).second,
+        y_label(axis_title(sweep_.axes[1], motion_)), 780.0 / canvas_width, 62.0 / (frame.bottom + 62.0),
         frame_height / (frame.bottom + 62.0), high > 10.0 * low ? "set logscale cb\n" : "", low,
         high > low ? high : 1.001 * low));
-    canvas.text(0.5 * (frame.left + frame.right), frame.bottom + 42.0, axis_title(sweep_.axes[0], motion_),
-                {Anchor::centre, 12.0});
-    canvas.text(772.0, 38.0, fmt::format("K_CR ({})", units_of(motion_).stiffness), {Anchor::left, 12.0});
-    canvas.plot(frame, "$map using 1:2:3 with image notitle");
+    x_label(canvas, frame, axis_title(sweep_.axes[0], motion_));
+    canvas.text(772.0, frame.top - 10.0, fmt::format("K_{{CR}} ({}{})", stiffness.prefix, units_of(motion_).stiffness),
+                {Anchor::left, 12.0, ink, Markup::subscripts});
+    canvas.plot(frame, fmt::format("$map using 1:2:($3/{:g}) with image notitle", stiffness.size));
     return canvas.draw(format);
   }
 
  private:
-  static std::string quoted(std::string text) {
-    std::erase(text, '\'');
-    return "'" + text + "'";
-  }
-
   static std::vector<std::size_t> thinned(std::size_t count) {
     const std::size_t shown = std::min(count, most_cells);
     std::vector<std::size_t> indices;
@@ -306,7 +306,8 @@ class MapFigure {
   }
 
   [[nodiscard]] double transformed(std::size_t axis, double value) const {
-    return is_logarithmic(sweep_.axes[axis]) ? std::log10(value) : value;
+    const double drawn = value / units_.at(axis).size;
+    return is_logarithmic(sweep_.axes[axis]) ? std::log10(drawn) : drawn;
   }
 
   [[nodiscard]] std::pair<double, double> edges(std::size_t axis) const {
@@ -336,6 +337,7 @@ class MapFigure {
   const ParameterSweep& sweep_;
   Motion motion_;
   std::string title_;
+  std::array<AxisUnit, 2> units_;
 };
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "report/figure/plot.hpp"
 #include "report/text/quantity.hpp"
 #include "zwidth/signal/power_density.hpp"
 
@@ -78,21 +79,17 @@ std::span<const double> one_period(const Excitation& excitation) {
 
 std::string draw_excitation(const std::string& title, const Excitation& excitation, double rate, Motion motion,
                             FigureFormat format) {
-  constexpr Box time_frame{84.0, 876.0, 50.0, 220.0};
-  constexpr Box density_frame{84.0, 876.0, 290.0, 500.0};
+  const Heading heading(title, {});
+  const Box time_frame{frame_left, frame_right, heading.bottom() + 16.0, heading.bottom() + 186.0};
+  const Box density_frame{frame_left, frame_right, time_frame.bottom + 70.0, time_frame.bottom + 280.0};
   const std::string_view unit = motion == Motion::rotary ? "N m" : "N";
-  Canvas canvas(title, 900.0, 560.0);
-  canvas.text(time_frame.left, 18.0, Canvas::fitted(title, 16.0, time_frame.right - time_frame.left),
-              {Anchor::left, 16.0});
+  Canvas canvas(title, canvas_width, density_frame.bottom + 60.0);
+  heading.draw(canvas);
   const std::string signal = add_signal(canvas, excitation.samples, rate);
-  const double centre = 0.5 * (time_frame.left + time_frame.right);
   const double duration = static_cast<double>(excitation.samples.size()) / rate;
-  canvas.text(centre, time_frame.bottom + 40.0, "Time (s)", {Anchor::centre, 12.0});
-  canvas.commands(fmt::format(
-      "set tics font ',12' scale 0.6,0.3\nset border lw 0.8\nset grid xtics ytics lw 0.5 lc rgb '#c8c8c8' dt 1 back\n"
-      "set xrange [0:{:.9g}]\nset offsets 0, 0, graph 0.05, graph 0.05\nset ylabel 'Force ({})' font ',12' offset "
-      "0.5,0",
-      duration, unit));
+  x_label(canvas, time_frame, "Time (s)");
+  canvas.commands(fmt::format("{}\nset xrange [0:{:.9g}]\nset offsets 0, 0, graph 0.05, graph 0.05\n{}", axes_look(),
+                              duration, y_label(fmt::format("Force ({})", unit))));
   canvas.plot(time_frame, signal + ", NaN notitle");
 
   const std::span<const double> period = one_period(excitation);
@@ -106,8 +103,7 @@ std::string draw_excitation(const std::string& title, const Excitation& excitati
   }
   canvas.commands("EOD");
   const double top = 10.0 * std::ceil((highest + 1.0) / 10.0);
-  canvas.text(centre, density_frame.bottom + 42.0,
-              period.empty() ? "Frequency (Hz)" : "Frequency (Hz), lines of one period", {Anchor::centre, 12.0});
+  x_label(canvas, density_frame, period.empty() ? "Frequency (Hz)" : "Frequency (Hz), lines of one period");
   canvas.commands(fmt::format(
       "set logscale x\nset format x '%g'\nset mxtics 10\nset grid mxtics\nset offsets 0, 0, 0, 0\n"
       "set xrange [{:.9g}:{:.9g}]\nset yrange [{:g}:{:g}]\nset ytics 20\nset ylabel 'Power density (dB re 1 {}/Hz)'",

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 #include <vector>
 
+#include "report/figure/plot.hpp"
 #include "report/text/quantity.hpp"
 #include "report/text/remark_line.hpp"
 #include "report/text/text_table.hpp"
@@ -14,14 +16,10 @@
 namespace zwidth::report {
 namespace {
 
-constexpr double canvas_width = 900.0;
-constexpr double frame_left = 84.0;
-constexpr double frame_right = 876.0;
 constexpr double magnitude_height = 270.0;
 constexpr double phase_height = 190.0;
 constexpr double coherence_height = 90.0;
 constexpr double gap = 18.0;
-constexpr double row_height = 20.0;
 constexpr std::size_t most_listed = 12;
 /// Columns into which the axis is cut when there are more lines than a figure shows: each keeps its extremes.
 constexpr std::size_t most_columns = 1500;
@@ -62,12 +60,19 @@ std::vector<FrfPoint> thinned(std::vector<FrfPoint> points) {
   return kept;
 }
 
+/// A line below the frames.
+struct ListLine {
+  std::string text;
+  std::string_view colour;
+};
+
 class Layout {
  public:
-  Layout(const MeasuredFrf& frf, const std::vector<std::string>& list)
+  Layout(const MeasuredFrf& frf, const std::vector<ListLine>& list, double heading_bottom)
       : low_(hertz(frf.response.points.front().frequency) / 1.05),
         high_(hertz(frf.response.points.back().frequency) * 1.05) {
-    magnitude = {frame_left, frame_right, 60.0, 60.0 + magnitude_height};
+    const double top = heading_bottom + 8.0;
+    magnitude = {frame_left, frame_right, top, top + magnitude_height};
     phase = {frame_left, frame_right, magnitude.bottom + gap, magnitude.bottom + gap + phase_height};
     coherence = {frame_left, frame_right, phase.bottom + gap, phase.bottom + gap + coherence_height};
     list_top = coherence.bottom + 66.0;
@@ -104,24 +109,31 @@ std::vector<MeasuredCrossover> crossovers_of(const MeasuredFrf& frf) {
 }
 
 /// What stands below the frames: the crossovers, then the warnings.
-std::vector<std::string> list_of(const MeasuredFrf& frf) {
+std::vector<ListLine> list_of(const MeasuredFrf& frf) {
   const std::string unit = frf.units.stiffness();
-  std::vector<std::string> list;
+  std::vector<ListLine> list;
+  const auto add = [&list](const std::string& text, std::string_view colour = ink) {
+    for (std::string& line : Canvas::broken(text, 12.0, frame_right - frame_left, 3)) {
+      list.push_back({std::move(line), colour});
+    }
+  };
   const std::vector<MeasuredCrossover> crossovers = crossovers_of(frf);
   for (std::size_t i = 0; i < std::min(most_listed, crossovers.size()); ++i) {
     const MeasuredCrossover& crossover = crossovers[i];
-    list.push_back(fmt::format(
-        "{}   K = {} ({} to {}) at {} Hz ({} to {}){}", i + 1, quantity(crossover.stiffness, unit),
-        quantity(crossover.stiffness_interval.lower, unit), quantity(crossover.stiffness_interval.upper, unit),
-        number(hertz(crossover.frequency)), number(hertz(crossover.frequency_interval.lower)),
-        number(hertz(crossover.frequency_interval.upper)), is_critical(frf, crossover) ? ": critical" : ""));
+    const bool critical = is_critical(frf, crossover);
+    add(fmt::format("{}   K = {} ({} to {}) at {} Hz ({} to {}){}", i + 1, quantity(crossover.stiffness, unit),
+                    quantity(crossover.stiffness_interval.lower, unit),
+                    quantity(crossover.stiffness_interval.upper, unit), number(hertz(crossover.frequency)),
+                    number(hertz(crossover.frequency_interval.lower)),
+                    number(hertz(crossover.frequency_interval.upper)), critical ? ": critical" : ""),
+        critical ? critical_style.colour : ink);
   }
   if (crossovers.size() > most_listed) {
-    list.push_back(fmt::format("and {} more crossovers, marked without a number", crossovers.size() - most_listed));
+    add(fmt::format("and {} more crossovers, marked without a number", crossovers.size() - most_listed));
   }
-  list.emplace_back("Bands and intervals: 95 % confidence.");
+  add("Bands and intervals: 95 % confidence.");
   for (const Remark& remark : frf.remarks) {
-    if (remark.severity == Remark::Severity::warning) list.push_back(remark_line(remark));
+    if (remark.severity == Remark::Severity::warning) add(remark_line(remark));
   }
   return list;
 }
@@ -226,26 +238,23 @@ std::string band_and_curve(int curve, int lower, int upper) {
 
 std::string draw(const MeasuredFrf& frf, FigureFormat format) {
   const std::vector<FrfPoint> points = thinned(frf_points(frf.response));
-  const std::vector<std::string> list = list_of(frf);
-  const Layout layout(frf, list);
+  const Heading heading(std::filesystem::path(frf.recording).filename().string(), {},
+                        "Measured response, from commanded force to sensed position");
+  const std::vector<ListLine> list = list_of(frf);
+  const Layout layout(frf, list, heading.bottom());
   const bool has_marks = !crossovers_of(frf).empty();
   Canvas canvas(frf.recording, canvas_width, layout.height);
   const Axis magnitude = magnitude_axis(points, has_marks);
   add_data(canvas, points, magnitude.low);
 
-  canvas.text(frame_left, 18.0, Canvas::fitted(frf.recording, 16.0, frame_right - frame_left), {Anchor::left, 16.0});
-  canvas.text(frame_left, 40.0, "Measured response, from commanded force to sensed position", {Anchor::left, 12.0});
+  heading.draw(canvas);
   for (std::size_t i = 0; i < list.size(); ++i) {
-    canvas.text(frame_left, layout.list_top + row_height * static_cast<double>(i),
-                Canvas::fitted(list[i], 12.0, canvas_width - frame_left),
-                {Anchor::left, 12.0, list[i].ends_with(": critical") ? critical_style.colour : "#1a1a1a"});
+    canvas.text(frame_left, layout.list_top + row_height * static_cast<double>(i), list[i].text,
+                {Anchor::left, 12.0, list[i].colour});
   }
   canvas.commands(fmt::format(
-      "set logscale x\nset xrange [{}:{}]\nset tics font ',12' scale 0.6,0.3\nset border lw 0.8\nset grid xtics "
-      "ytics lw 0.5 lc rgb '#c8c8c8' dt 1, lw 0.4 lc rgb '#e4e4e4' dt 1 back\nset xtics ({})\nset format x ''\nset "
-      "style "
-      "fill solid 1.0 noborder",
-      layout.low_hz(), layout.high_hz(), frequency_tics(layout.low_hz(), layout.high_hz())));
+      "{}\nset logscale x\nset xrange [{}:{}]\nset xtics ({})\nset format x ''\nset style fill solid 1.0 noborder",
+      axes_look(), layout.low_hz(), layout.high_hz(), frequency_tics(layout.low_hz(), layout.high_hz())));
 
   draw_doubts(canvas, frf, layout, layout.magnitude);
   draw_marks(canvas, frf, layout, layout.magnitude);
@@ -263,8 +272,7 @@ std::string draw(const MeasuredFrf& frf, FigureFormat format) {
               band_and_curve(5, 6, 7) + fmt::format(", -180 with lines {}", gnuplot_line(reference_style)));
 
   draw_marks(canvas, frf, layout, layout.coherence);
-  canvas.text(0.5 * (frame_left + frame_right), layout.coherence.bottom + 40.0, "Frequency (Hz)",
-              {Anchor::centre, 12.0});
+  x_label(canvas, layout.coherence, "Frequency (Hz)");
   canvas.commands("set yrange [0:1.05]\nset ytics 0.5\nset ylabel 'Coherence'\nset format x '%g'");
   canvas.plot(layout.coherence, fmt::format("$lines using 1:8 with lines {}", gnuplot_line(curve_style)));
   return canvas.draw(format);

@@ -1,172 +1,123 @@
 #include "report/figure/gnuplot.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <poll.h>
-#include <signal.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
+#include <sys/stat.h>
 
-#include <array>
+#include <boost/process/child.hpp>
+#include <boost/process/cmd.hpp>
+#include <boost/process/io.hpp>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
-#include <optional>
+#include <memory>
+#include <system_error>
 #include <thread>
-#include <utility>
 
 #include "report/output_file.hpp"
-
-extern char** environ;
 
 namespace zwidth::report {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+namespace process = boost::process;
 
-[[noreturn]] void fail(std::string_view what, int error) {
-  throw OutputFailed(fmt::format("gnuplot: {}: {}", what, std::strerror(error)));
+[[noreturn]] void fail(std::string_view what, std::string_view why) {
+  throw OutputFailed(fmt::format("gnuplot: {}: {}", what, why));
 }
 
-[[noreturn]] void fail_late(std::chrono::milliseconds time_limit) {
-  throw OutputFailed(fmt::format("gnuplot did not finish within {} s and was stopped",
-                                 std::chrono::duration<double>(time_limit).count()));
-}
+/// An unnamed file that is gone when it is closed. Files instead of pipes: a gnuplot that stops reading or never stops
+/// writing can neither end nor block us, and no signal of the process needs to be touched.
+class TemporaryFile {
+ public:
+  TemporaryFile() : file_(std::tmpfile()) {
+    if (!file_) fail("cannot make a temporary file", std::strerror(errno));
+  }
+  [[nodiscard]] FILE* get() const { return file_.get(); }
+  [[nodiscard]] std::size_t size() const {
+    struct stat status {};  // not by seeking: the child shares our place in the file
+    return ::fstat(::fileno(get()), &status) == 0 ? static_cast<std::size_t>(status.st_size) : 0;
+  }
+  void write(std::string_view text) const {
+    if (std::fwrite(text.data(), 1, text.size(), get()) != text.size() || std::fflush(get()) != 0) {
+      fail("cannot write its script", std::strerror(errno));
+    }
+    std::rewind(get());
+  }
+  [[nodiscard]] std::string read() const {
+    std::string text(size(), '\0');
+    std::rewind(get());
+    text.resize(std::fread(text.data(), 1, text.size(), get()));
+    return text;
+  }
+
+ private:
+  struct Close {
+    void operator()(FILE* file) const { std::fclose(file); }
+  };
+  std::unique_ptr<FILE, Close> file_;
+};
 
 /// Far above any picture of ours.
 constexpr std::size_t size_limit = std::size_t{256} << 20;
+constexpr std::chrono::milliseconds polling_period(2);
 
-struct Pipe {
-  std::array<int, 2> ends{-1, -1};
-  Pipe() {
-    if (::pipe2(ends.data(), O_CLOEXEC) != 0) fail("cannot make a pipe", errno);
-  }
-  Pipe(const Pipe&) = delete;
-  Pipe& operator=(const Pipe&) = delete;
-  ~Pipe() {
-    close_end(0);
-    close_end(1);
-  }
-  void close_end(std::size_t end) {
-    if (ends[end] >= 0) ::close(std::exchange(ends[end], -1));
-  }
-};
-
-/// A running gnuplot: killed and reaped on every way out, so that none is left behind.
-class Child {
- public:
-  Child(Pipe& input, Pipe& output, Pipe& errors) {
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_adddup2(&actions, input.ends[0], STDIN_FILENO);
-    posix_spawn_file_actions_adddup2(&actions, output.ends[1], STDOUT_FILENO);
-    posix_spawn_file_actions_adddup2(&actions, errors.ends[1], STDERR_FILENO);
-    // --default-settings: a start-up file of the user must not change our figures.
-    std::array<char*, 3> arguments{const_cast<char*>("gnuplot"), const_cast<char*>("--default-settings"), nullptr};
-    const int error = ::posix_spawnp(&id_, arguments[0], &actions, nullptr, arguments.data(), environ);
-    posix_spawn_file_actions_destroy(&actions);
-    if (error == ENOENT) {
-      throw OutputFailed("gnuplot is not installed, and figures are drawn with it: apt-get install gnuplot-nox");
-    }
-    if (error != 0) fail("cannot start", error);
-  }
-  Child(const Child&) = delete;
-  Child& operator=(const Child&) = delete;
-  ~Child() {
-    if (id_ > 0) {
-      ::kill(id_, SIGKILL);
-      int status = 0;
-      while (::waitpid(id_, &status, 0) < 0 && errno == EINTR) {
-      }
-    }
-  }
-  /// The exit status, or nothing when it still runs at the deadline.
-  std::optional<int> wait_until(Clock::time_point deadline) {
-    int status = 0;
-    while (::waitpid(id_, &status, WNOHANG) == 0) {
-      if (Clock::now() > deadline) return std::nullopt;
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-    id_ = -1;
-    return status;
-  }
-
- private:
-  pid_t id_ = -1;
-};
-
-/// Appends what can be read without blocking; closes the end of the pipe at its end of file.
-void drain(Pipe& pipe, std::string& text) {
-  std::array<char, 65536> buffer;
-  const ssize_t count = ::read(pipe.ends[0], buffer.data(), buffer.size());
-  if (count > 0) text.append(buffer.data(), static_cast<std::size_t>(count));
-  if (count == 0 || (count < 0 && errno != EINTR && errno != EAGAIN)) pipe.close_end(0);
-}
-
-/// Sends what can be sent without blocking; closes the end when all is sent or gnuplot has stopped reading.
-void feed(Pipe& pipe, std::string_view& script) {
-  const ssize_t count = ::write(pipe.ends[1], script.data(), script.size());
-  if (count > 0) script.remove_prefix(static_cast<std::size_t>(count));
-  if (script.empty() || (count < 0 && errno != EINTR && errno != EAGAIN)) pipe.close_end(1);
-}
-
-/// A gnuplot that stops reading early must not end us; its own message is the one to report.
-class IgnoreBrokenPipe {
- public:
-  IgnoreBrokenPipe() : previous_(::signal(SIGPIPE, SIG_IGN)) {}
-  IgnoreBrokenPipe(const IgnoreBrokenPipe&) = delete;
-  IgnoreBrokenPipe& operator=(const IgnoreBrokenPipe&) = delete;
-  ~IgnoreBrokenPipe() { ::signal(SIGPIPE, previous_); }
-
- private:
-  void (*previous_)(int);
-};
-
-std::string one_line(std::string text) {
+/// Its messages in one line, or that there is none.
+std::string complaint_of(const TemporaryFile& errors) {
+  std::string text = errors.read();
   for (char& character : text) {
     if (character == '\n') character = ' ';
   }
   constexpr std::size_t enough = 300;
-  return text.substr(0, enough);
+  text = text.substr(0, enough);
+  return text.find_first_not_of(' ') == std::string::npos ? "no message" : text;
 }
+
+/// Stops and reaps a gnuplot on every way out, so that none is left behind.
+class Child {
+ public:
+  Child(const TemporaryFile& script, const TemporaryFile& picture, const TemporaryFile& errors) {
+    std::error_code error;
+    // --default-settings: a start-up file of the user must not change our figures.
+    child_ = process::child(process::cmd = "gnuplot --default-settings",
+                            process::std_in<script.get(), process::std_out> picture.get(),
+                            process::std_err > errors.get(), error);
+    if (error == std::errc::no_such_file_or_directory) {
+      throw OutputFailed("gnuplot is not installed, and figures are drawn with it: apt-get install gnuplot-nox");
+    }
+    if (error) fail("cannot start", error.message());
+  }
+  Child(const Child&) = delete;
+  Child& operator=(const Child&) = delete;
+  ~Child() {
+    std::error_code ignored;
+    if (child_.running(ignored)) child_.terminate(ignored);
+  }
+  [[nodiscard]] bool running() { return child_.running(); }
+  [[nodiscard]] bool succeeded() const { return child_.exit_code() == 0; }
+
+ private:
+  process::child child_;
+};
 
 }  // namespace
 
 std::string run_gnuplot(std::string_view script, std::chrono::milliseconds time_limit) {
-  const Clock::time_point deadline = Clock::now() + time_limit;
-  const IgnoreBrokenPipe ignore_broken_pipe;
-  Pipe input;
-  Pipe output;
-  Pipe errors;
-  Child child(input, output, errors);
-  input.close_end(0);
-  output.close_end(1);
-  errors.close_end(1);
-  ::fcntl(input.ends[1], F_SETFL, O_NONBLOCK);
-
-  std::string picture;
-  std::string complaint;
-  while (output.ends[0] >= 0 || errors.ends[0] >= 0) {
-    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now()).count();
-    std::array<pollfd, 3> waiting{pollfd{input.ends[1], POLLOUT, 0}, pollfd{output.ends[0], POLLIN, 0},
-                                  pollfd{errors.ends[0], POLLIN, 0}};
-    const int ready = left > 0 ? ::poll(waiting.data(), waiting.size(), static_cast<int>(left)) : 0;
-    if (ready == 0) fail_late(time_limit);
-    if (ready < 0) {
-      if (errno == EINTR) continue;
-      fail("cannot wait for it", errno);
+  const auto deadline = std::chrono::steady_clock::now() + time_limit;
+  const TemporaryFile input;
+  const TemporaryFile picture;
+  const TemporaryFile errors;
+  input.write(script);
+  Child child(input, picture, errors);
+  while (child.running()) {
+    if (std::chrono::steady_clock::now() > deadline) {
+      throw OutputFailed(fmt::format("gnuplot did not finish within {} s and was stopped",
+                                     std::chrono::duration<double>(time_limit).count()));
     }
-    if (waiting[0].revents != 0) feed(input, script);
-    if (waiting[1].revents != 0) drain(output, picture);
-    if (waiting[2].revents != 0) drain(errors, complaint);
-    if (picture.size() + complaint.size() > size_limit) throw OutputFailed("gnuplot wrote without end and was stopped");
+    if (picture.size() + errors.size() > size_limit) throw OutputFailed("gnuplot wrote without end and was stopped");
+    std::this_thread::sleep_for(polling_period);
   }
-  const std::optional<int> status = child.wait_until(deadline);
-  if (!status) fail_late(time_limit);
-  if (!WIFEXITED(*status) || WEXITSTATUS(*status) != 0 || picture.empty()) {
-    throw OutputFailed("gnuplot failed: " + one_line(complaint.empty() ? "no message" : complaint));
-  }
-  return picture;
+  std::string drawn = picture.read();
+  if (!child.succeeded() || drawn.empty()) throw OutputFailed("gnuplot failed: " + complaint_of(errors));
+  return drawn;
 }
 
 std::string gnuplot_string(std::string_view text) {

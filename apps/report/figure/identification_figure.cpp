@@ -8,16 +8,13 @@
 #include <numbers>
 #include <vector>
 
+#include "report/figure/plot.hpp"
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
 
 namespace zwidth::report {
 namespace {
 
-constexpr double left = 84.0;
-constexpr double right = 876.0;
-constexpr Box magnitude_frame{left, right, 84.0, 374.0};
-constexpr Box phase_frame{left, right, 396.0, 586.0};
 constexpr LineStyle fit_style{"#c2410c", 1.8, "1"};
 constexpr std::string_view point_colour = "#0b4f9e";
 constexpr std::string_view band_colour = "#c7d7ee";
@@ -62,14 +59,6 @@ std::vector<Row> rows(const IdentifiedDevice& identified) {
   return result;
 }
 
-void add_legend(Canvas& canvas, const std::string& points) {
-  constexpr double y = 46.0;
-  canvas.point(left + 23.0, y, point_colour);
-  canvas.text(left + 54.0, y, Canvas::fitted(points, 12.0, 336.0), {Anchor::left, 12.0});
-  canvas.line(left + 400.0, y, left + 446.0, y, fit_style);
-  canvas.text(left + 454.0, y, "fitted device", {Anchor::left, 12.0});
-}
-
 /// Labels at 1, 2 and 5 of every decade: a measured band is often less than one.
 std::string frequency_ticks(double from, double to) {
   std::string labels;
@@ -99,9 +88,12 @@ std::string draw_identification(const IdentifiedDevice& identified, FigureFormat
 std::string draw_identification(const IdentifiedDevice& identified, const IdentificationLabels& labels,
                                 FigureFormat format) {
   const std::vector<Row> data = rows(identified);
-  Canvas canvas(labels.title, 900.0, 660.0);
-  canvas.text(left, 18.0, Canvas::fitted(labels.title, 16.0, right - left), {Anchor::left, 16.0});
-  add_legend(canvas, labels.points);
+  const Heading heading(labels.title,
+                        {{labels.points, {}, {}, ring_marker(point_colour)}, {"fitted device", fit_style}});
+  const Box magnitude_frame{frame_left, frame_right, heading.bottom() + 28.0, heading.bottom() + 318.0};
+  const Box phase_frame{frame_left, frame_right, magnitude_frame.bottom + 22.0, magnitude_frame.bottom + 212.0};
+  Canvas canvas(labels.title, canvas_width, phase_frame.bottom + 70.0);
+  heading.draw(canvas);
   canvas.commands("$rows << EOD");
   double lowest = data.front().magnitude;
   double highest = lowest;
@@ -115,13 +107,11 @@ std::string draw_identification(const IdentifiedDevice& identified, const Identi
   canvas.commands("EOD");
   const std::string_view compliance = identified.fit.device.parameters().motion == Motion::rotary ? "rad/(N m)" : "m/N";
   canvas.commands(fmt::format(
-      "set logscale x\nset xrange [{}:{}]\nset tics font ',12' scale 0.6,0.3\nset border lw 0.8\n"
-      "set grid xtics mxtics ytics lw 0.5 lc rgb '#c8c8c8' dt 1, lw 0.4 lc rgb '#e4e4e4' dt 1 back\nset format x ''\n"
-      "set yrange [{}:{}]\nset ylabel 'Magnitude (dB re 1 {})' offset 0.5,0 font ',12'",
+      "{}\nset grid mxtics\nset logscale x\nset xrange [{}:{}]\nset format x ''\nset yrange [{}:{}]\n{}", axes_look(),
       data.front().hz, std::max(data.back().hz, 1.01 * data.front().hz), 10.0 * std::floor((lowest - 1.0) / 10.0),
-      10.0 * std::ceil((highest + 1.0) / 10.0), compliance));
+      10.0 * std::ceil((highest + 1.0) / 10.0), y_label(fmt::format("Magnitude (dB re 1 {})", compliance))));
   canvas.plot(magnitude_frame, plots(2, 3, 4, 8));
-  canvas.text(0.5 * (left + right), phase_frame.bottom + 42.0, "Frequency (Hz)", {Anchor::centre, 12.0});
+  x_label(canvas, phase_frame, "Frequency (Hz)");
   canvas.commands("set autoscale y\nset ytics 90\nset ylabel 'Phase (degrees)'");
   canvas.commands(frequency_ticks(data.front().hz, data.back().hz));
   canvas.plot(phase_frame, plots(5, 6, 7, 9));

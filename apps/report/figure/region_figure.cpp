@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 #include <vector>
 
+#include "report/figure/plot.hpp"
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
 #include "report/text/wall_filter_text.hpp"
@@ -17,10 +17,6 @@ namespace {
 
 using Formula = RegionApproximation::Formula;
 
-constexpr double canvas_width = 900.0;
-constexpr double frame_left = 84.0;
-constexpr double frame_right = 876.0;
-constexpr double row_height = 20.0;
 constexpr double frame_height = 360.0;
 
 constexpr std::string_view stable_colour = "#dbe7f6";
@@ -40,19 +36,8 @@ LineStyle style_of(Formula formula) {
   return {"#1a1a1a", 1.6, "1"};
 }
 
-/// The unit that K is drawn in.
-struct DrawnUnit {
-  double size = 1.0;  // in SI
-  std::string_view prefix;
-};
-
-DrawnUnit drawn_unit(double largest) {
-  static constexpr std::array<DrawnUnit, 6> units = {
-      {{1e9, "G"}, {1e6, "M"}, {1e3, "k"}, {1.0, ""}, {1e-3, "m"}, {1e-6, "µ"}}};
-  constexpr double least_shown = 3.0;
-  const auto fits = [largest](const DrawnUnit& unit) { return largest >= least_shown * unit.size; };
-  const auto* const found = std::find_if(units.begin(), units.end(), fits);
-  return found != units.end() ? *found : units.back();
+std::string point_marker(Formula formula) {
+  return fmt::format("pt 6 ps 0.9 lw 1.6 lc rgb '{}'", style_of(formula).colour);
 }
 
 /// What a panel shows: 0 to these.
@@ -68,11 +53,10 @@ class RegionFigure {
 
   [[nodiscard]] std::string draw(FigureFormat format) const {
     const std::vector<Extent> panels = extents();
-    const std::vector<Entry> entries = legend();
-    const double top = 40.0 + row_height * static_cast<double>((entries.size() + 1) / 2) + 22.0;
+    const Heading heading(title_, legend());
+    const double top = heading.bottom() + 28.0;
     Canvas canvas(title_, canvas_width, top + frame_height + 62.0);
-    canvas.text(frame_left, 18.0, Canvas::fitted(title_, 16.0, frame_right - frame_left), {Anchor::left, 16.0});
-    for (std::size_t i = 0; i < entries.size(); ++i) draw_entry(canvas, entries[i], i);
+    heading.draw(canvas);
     data(canvas);
     const double gap = 100.0;
     const double width =
@@ -85,13 +69,6 @@ class RegionFigure {
   }
 
  private:
-  struct Entry {
-    std::string text;
-    LineStyle style;
-    std::string_view fill;  // empty: none
-    bool is_point = false;
-  };
-
   [[nodiscard]] std::string title() const {
     const double filter = device_.walls.velocity_filter_hz();
     const auto filters = wall_filters_text(device_.analysed.device.parameters().wall);
@@ -100,8 +77,8 @@ class RegionFigure {
                        filters ? ", through " + *filters : std::string());
   }
 
-  [[nodiscard]] std::vector<Entry> legend() const {
-    std::vector<Entry> entries;
+  [[nodiscard]] std::vector<LegendEntry> legend() const {
+    std::vector<LegendEntry> entries;
     if (device_.region.stiffest) {
       entries.push_back(
           {fmt::format("stable: up to {} at {} {}", quantity(device_.region.stiffest->stiffness, units_.stiffness),
@@ -121,21 +98,9 @@ class RegionFigure {
       entries.push_back({formula_name(each.formula.formula) + off,
                          style_of(each.formula.formula),
                          {},
-                         each.formula.largest_damping == 0.0});
+                         each.formula.largest_damping == 0.0 ? point_marker(each.formula.formula) : std::string()});
     }
     return entries;
-  }
-
-  static void draw_entry(Canvas& canvas, const Entry& entry, std::size_t index) {
-    const double left = frame_left + 400.0 * static_cast<double>(index % 2);
-    const double y = 46.0 + row_height * static_cast<double>(index / 2);
-    if (!entry.fill.empty()) canvas.rectangle({left, left + 46.0, y - 7.0, y + 7.0}, entry.fill);
-    if (entry.is_point) {
-      canvas.point(left + 23.0, y, entry.style.colour);
-    } else {
-      canvas.line(left, y, left + 46.0, y, entry.style);
-    }
-    canvas.text(left + 54.0, y, Canvas::fitted(entry.text, 12.0, 340.0), {Anchor::left, 12.0});
   }
 
   /// The whole region, and the corner at the origin where the formulas and K_CR would be too small to see.
@@ -154,10 +119,6 @@ class RegionFigure {
     const bool shown = corner.damping > too_small * whole.damping && corner.stiffness > too_small * whole.stiffness;
     if (shown || corner.damping == 0.0 || corner.stiffness == 0.0) return {whole};
     return {whole, {std::min(corner.damping, whole.damping), std::min(corner.stiffness, whole.stiffness)}};
-  }
-
-  static void block(Canvas& canvas, const std::string& name, const std::string& rows) {
-    canvas.commands(fmt::format("${} << EOD\n{}EOD", name, rows));
   }
 
   static std::string row(double damping, double stiffness) {
@@ -184,8 +145,8 @@ class RegionFigure {
         edges += ring_rows({{arc}}) + "\n";
       }
     }
-    block(canvas, "outlines", outlines);
-    block(canvas, "edges", edges);
+    data_block(canvas, "outlines", outlines);
+    data_block(canvas, "edges", edges);
     std::string limits;
     if (device_.any_user) {
       for (const auto& range : device_.any_user->ranges) {
@@ -194,9 +155,9 @@ class RegionFigure {
         limits += row(range.back().damping, 0.0) + "\n";
       }
     }
-    block(canvas, "limits", limits);
+    data_block(canvas, "limits", limits);
     for (const ComparedApproximation& each : device_.approximations) {
-      block(canvas, formula_key(each.formula.formula), formula_rows(each.formula));
+      data_block(canvas, formula_key(each.formula.formula), formula_rows(each.formula));
     }
   }
 
@@ -207,15 +168,13 @@ class RegionFigure {
   }
 
   void draw_panel(Canvas& canvas, const Box& frame, const Extent& extent) const {
-    const DrawnUnit unit = drawn_unit(extent.stiffness);
+    const AxisUnit unit = axis_unit(extent.stiffness, 3.0);
     const std::string columns = fmt::format("using 1:($2/{:g})", unit.size);
     canvas.commands(fmt::format(
-        "set xrange [0:{:.9g}]\nset yrange [0:{:.9g}]\nset tics font ',12' scale 0.6,0.3\nset border lw 0.8\n"
-        "set grid xtics ytics lw 0.5 lc rgb '#c8c8c8' dt 1 front\n"
-        "set ylabel 'Stiffness K ({}{})' font ',12' offset 0.5,0\nset xtics autofreq\nset ytics autofreq",
-        extent.damping, extent.stiffness / unit.size, unit.prefix, units_.stiffness));
-    canvas.text(0.5 * (frame.left + frame.right), frame.bottom + 42.0,
-                fmt::format("Virtual damping B ({})", units_.damping), {Anchor::centre, 12.0});
+        "{}\nset grid front\nset xrange [0:{:.9g}]\nset yrange [0:{:.9g}]\n{}\nset xtics autofreq\nset ytics autofreq",
+        axes_look(), extent.damping, extent.stiffness / unit.size,
+        y_label(fmt::format("Stiffness K ({}{})", unit.prefix, units_.stiffness))));
+    x_label(canvas, frame, fmt::format("Virtual damping B ({})", units_.damping));
     std::string what;
     if (!device_.region.components.empty()) {
       what += fmt::format("$outlines {} with filledcurves closed fc rgb '{}' fs solid noborder notitle, ", columns,
@@ -234,8 +193,7 @@ class RegionFigure {
       const Formula formula = each.formula.formula;
       const LineStyle style = style_of(formula);
       what += each.formula.largest_damping == 0.0
-                  ? fmt::format("${} {} with points pt 6 ps 0.9 lw 1.6 lc rgb '{}' notitle, ", formula_key(formula),
-                                columns, style.colour)
+                  ? fmt::format("${} {} with points {} notitle, ", formula_key(formula), columns, point_marker(formula))
                   : fmt::format("${} {} with lines {} notitle, ", formula_key(formula), columns, gnuplot_line(style));
     }
     canvas.plot(frame, what + "NaN notitle");

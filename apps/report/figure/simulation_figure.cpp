@@ -8,6 +8,7 @@
 #include <sstream>
 #include <vector>
 
+#include "report/figure/plot.hpp"
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
 #include "report/text/simulation_text.hpp"
@@ -16,10 +17,8 @@
 namespace zwidth::report {
 namespace {
 
-constexpr double canvas_width = 900.0;
 constexpr Box positions{84.0, 876.0, 64.0, 284.0};
 constexpr Box forces{84.0, 876.0, 336.0, 516.0};
-constexpr double row_height = 20.0;
 constexpr double text_size = 12.0;
 constexpr double head_room = 0.06;  // of the axis
 constexpr std::string_view wall_colour = "#e8e8e8";
@@ -64,22 +63,6 @@ std::vector<std::size_t> drawn_points(const std::vector<double>& values) {
   return points;
 }
 
-/// What engineering prefix suits an axis: its factor and name.
-struct Prefix {
-  double factor = 1.0;
-  std::string_view name;
-};
-
-Prefix prefix_of(const Axis& axis) {
-  static constexpr std::array<Prefix, 4> prefixes = {Prefix{1.0, ""}, Prefix{1e3, "m"}, Prefix{1e6, "µ"},
-                                                     Prefix{1e9, "n"}};
-  const double largest = std::max(std::abs(axis.low), std::abs(axis.high));
-  for (const Prefix& each : prefixes) {
-    if (largest * each.factor >= 0.1) return each;
-  }
-  return prefixes.back();
-}
-
 void draw_legend(Canvas& canvas, const Box& frame, const std::vector<Curve>& curves) {
   double left = frame.left;
   const double y = frame.top - 14.0;
@@ -94,23 +77,23 @@ void draw_legend(Canvas& canvas, const Box& frame, const std::vector<Curve>& cur
 void draw_frame(Canvas& canvas, const Box& frame, const std::vector<Curve>& curves, const std::vector<double>& time,
                 std::string_view quantity_name, std::string_view unit) {
   const Axis axis = axis_of(curves);
-  const Prefix prefix = prefix_of(axis);
+  const AxisUnit drawn = axis_unit(std::max(std::abs(axis.low), std::abs(axis.high)), 0.1);
   std::string what;
   for (std::size_t i = 0; i < curves.size(); ++i) {
     const std::string name = fmt::format("${}{}", quantity_name, i);
     canvas.commands(name + " << EOD");
     std::string rows;
     for (const std::size_t k : drawn_points(*curves[i].values)) {
-      rows += fmt::format("{:.9g} {:.9g}\n", time[k], prefix.factor * (*curves[i].values)[k]);
+      rows += fmt::format("{:.9g} {:.9g}\n", time[k], (*curves[i].values)[k] / drawn.size);
     }
     canvas.commands(rows + "EOD");
     what += fmt::format("{} with lines {}, ", name, gnuplot_line(styles[i]));
   }
   draw_legend(canvas, frame, curves);
-  canvas.commands(
-      fmt::format("set xrange [{}:{}]\nset yrange [{}:{}]\nset ytics autofreq\nset ylabel '{} ({}{})' font ',12'",
-                  time.front(), std::max(time.back(), time.front() + 1e-12), prefix.factor * axis.low,
-                  prefix.factor * axis.high, quantity_name, prefix.name, unit));
+  canvas.commands(fmt::format("set xrange [{}:{}]\nset yrange [{}:{}]\nset ytics autofreq\n{}", time.front(),
+                              std::max(time.back(), time.front() + 1e-12), axis.low / drawn.size,
+                              axis.high / drawn.size,
+                              y_label(fmt::format("{} ({}{})", quantity_name, drawn.prefix, unit))));
   canvas.plot(frame, what + "NaN notitle");
 }
 
@@ -148,15 +131,13 @@ std::string draw_simulation_figure(const Device& device, const Simulation& resul
   for (std::size_t i = 0; i < lines.size(); ++i) {
     canvas.text(positions.left, list_top + row_height * static_cast<double>(i), lines[i], {Anchor::left, text_size});
   }
-  canvas.commands(
-      "set tics font ',12' scale 0.6,0.3\nset border lw 0.8\n"
-      "set grid xtics ytics lw 0.5 lc rgb '#c8c8c8' dt 1 back");
+  canvas.commands(axes_look());
   const std::vector<Curve> moved = position_curves(device, result);
   shade_wall(canvas, result, axis_of(moved));
   draw_frame(canvas, positions, moved, kept.time, "Position", units.length);
   std::vector<Curve> pushed{{"commanded force", &kept.command}};
   if (result.loop.user_force.kind != UserForce::Kind::none) pushed.push_back({"user's force", &kept.user_force});
-  canvas.text(0.5 * (forces.left + forces.right), forces.bottom + 40.0, "Time (s)", {Anchor::centre, text_size});
+  x_label(canvas, forces, "Time (s)");
   draw_frame(canvas, forces, pushed, kept.time, "Force", units.force);
   return canvas.draw(format);
 }

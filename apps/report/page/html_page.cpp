@@ -8,30 +8,37 @@ namespace zwidth::report {
 namespace {
 
 constexpr std::string_view style = R"(
-:root { color-scheme: light; }
-body { font: 16px/1.5 system-ui, -apple-system, "Segoe UI", Roboto, Helvetica, Arial, sans-serif; color: #1a1a1a;
-  background: #fff; max-width: 1000px; margin: 0 auto; padding: 1.5rem 1rem 3rem; overflow-wrap: break-word; }
+:root { color-scheme: light dark; --ink: #1a1a1a; --paper: #fff; --quiet: #555; --line: #d4d4d4; --rule: #888;
+  --mark: #b91c1c; }
+@media (prefers-color-scheme: dark) { :root { --ink: #e6e6e6; --paper: #16181b; --quiet: #a8adb3; --line: #3c4148;
+  --rule: #7a808a; --mark: #f87171; } }
+body { font: 16px/1.5 system-ui, -apple-system, "Segoe UI", Roboto, Helvetica, Arial, sans-serif; color: var(--ink);
+  background: var(--paper); max-width: 1000px; margin: 0 auto; padding: 1.5rem 1rem 3rem; overflow-wrap: break-word; }
 h1 { font-size: 1.7rem; line-height: 1.25; margin: 0 0 1rem; }
 h2 { font-size: 1.25rem; margin: 2rem 0 .5rem; }
 h3 { font-size: 1.05rem; margin: 1.5rem 0 .5rem; }
 p, ul { margin: .5rem 0; }
-.answer { border: 1px solid #d4d4d4; border-left: 6px solid #b91c1c; border-radius: 4px; padding: .8rem 1.2rem;
+.answer { border: 1px solid var(--line); border-left: 6px solid var(--mark); border-radius: 4px; padding: .8rem 1.2rem;
   margin: 1rem 0; }
 .answer .value { font-size: 1.6rem; font-weight: 600; margin: 0; }
 .answer p { margin: .2rem 0; }
 .wide { overflow-x: auto; }
 table { border-collapse: collapse; margin: .6rem 0; font-size: .93rem; }
-th, td { padding: .3rem .7rem; border-bottom: 1px solid #ddd; text-align: left; vertical-align: top; }
-th { border-bottom: 2px solid #888; font-weight: 600; }
+th, td { padding: .3rem .7rem; border-bottom: 1px solid var(--line); text-align: left; vertical-align: top; }
+th { border-bottom: 2px solid var(--rule); font-weight: 600; }
 .n { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
 th.n { white-space: normal; }
 .reasons td:last-child { min-width: 17rem; }
-figure { margin: 1.2rem 0; }
-figure svg { width: 100%; height: auto; display: block; }
-figcaption { font-size: .9rem; color: #444; margin-top: .3rem; }
-.device { border-top: 1px solid #bbb; margin-top: 2.5rem; padding-top: 1rem; }
-footer { margin-top: 2.5rem; padding-top: .6rem; border-top: 1px solid #ddd; font-size: .85rem; color: #555; }
-@media print { body { max-width: none; padding: 0; font-size: 11pt; } figure, table, .answer { break-inside: avoid; }
+figure { margin: 1.2rem 0; overflow-x: auto; }
+/* Figures are drawn on white, and their letters must stay legible on a phone: they scroll sideways there. */
+figure svg { width: 100%; min-width: 620px; height: auto; display: block; background: #fff; border-radius: 4px; }
+figcaption { font-size: .9rem; color: var(--quiet); margin-top: .3rem; }
+.device { border-top: 1px solid var(--line); margin-top: 2.5rem; padding-top: 1rem; }
+footer { margin-top: 2.5rem; padding-top: .6rem; border-top: 1px solid var(--line); font-size: .85rem; color: var(--quiet); }
+@media (max-width: 480px) { body { padding: 1rem .7rem 2rem; } h1 { font-size: 1.4rem; } th, td { padding: .3rem .45rem; }
+  .answer { padding: .6rem .8rem; } .answer .value { font-size: 1.3rem; } }
+@media print { :root { color-scheme: light; --ink: #1a1a1a; --paper: #fff; --quiet: #555; --line: #d4d4d4; }
+  figure { overflow: visible; } figure svg { min-width: 0; } body { max-width: none; padding: 0; font-size: 11pt; } figure, table, .answer { break-inside: avoid; }
   h2, h3 { break-after: avoid; } .device { break-before: page; border: 0; } .wide { overflow: visible; } }
 @page { margin: 18mm; }
 )";

@@ -1,10 +1,10 @@
-#include "export/filter_coefficients.hpp"
+#include "results/filter_coefficients.hpp"
 
 #include <array>
 #include <cmath>
 #include <numbers>
 
-namespace zwidth::report {
+namespace zwidth::results {
 
 FilterCoefficients in_delta(const FilterSection& section) {
   const std::array<double, 3> numerator = whole_numerator(section);
@@ -30,4 +30,4 @@ double velocity_filter_pole(const Wall& wall, double sampling_period) {
   return std::exp(-2.0 * std::numbers::pi * wall.velocity_filter_hz * sampling_period);
 }
 
-}  // namespace zwidth::report
+}  // namespace zwidth::results

@@ -5,7 +5,7 @@
 #include "zwidth/model/device.hpp"
 #include "zwidth/sampling/filter_section.hpp"
 
-namespace zwidth::report {
+namespace zwidth::results {
 
 /// A section as a quotient of polynomials.
 struct FilterCoefficients {
@@ -23,4 +23,4 @@ struct FilterCoefficients {
 /// a of the low-pass (1 - a)/(1 - a z^-1) on the damper's velocity, exp(-2 pi f_c T); 0 without one.
 [[nodiscard]] double velocity_filter_pole(const Wall& wall, double sampling_period);
 
-}  // namespace zwidth::report
+}  // namespace zwidth::results

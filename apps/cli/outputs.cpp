@@ -1,0 +1,88 @@
+#include "cli/outputs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <system_error>
+
+#include "cli/subcommand.hpp"
+
+namespace zwidth::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_csv(const std::string& path) {
+  std::string ending = fs::path(path).extension();
+  std::ranges::transform(ending, ending.begin(), [](unsigned char letter) { return std::tolower(letter); });
+  return ending == ".csv";
+}
+
+bool same_file(const std::string& one, const std::string& other) {
+  std::error_code one_is_missing;
+  return fs::path(one).lexically_normal() == fs::path(other).lexically_normal() ||
+         fs::equivalent(one, other, one_is_missing);
+}
+
+}  // namespace
+
+void Outputs::add(const std::string& option, const std::string& path, Ending ending) {
+  if (path.empty()) return;
+  Output output{option, path, std::nullopt};
+  if (ending != Ending::any) output.figure = report::figure_format(path);
+  if (ending == Ending::figure && !output.figure) {
+    throw BadInput(fmt::format("{}: {}: unknown extension; .svg, .png or .pdf", option, path));
+  }
+  if (ending == Ending::figure_or_csv && !output.figure && !is_csv(path)) {
+    throw BadInput(fmt::format("{}: {}: unknown extension; .svg, .png, .pdf or .csv", option, path));
+  }
+  for (const Output& other : outputs_) {
+    if (same_file(path, other.path)) {
+      throw BadInput(fmt::format("{}: {}: is the file of {}; name another", option, path, other.option));
+    }
+  }
+  outputs_.push_back(std::move(output));
+}
+
+void Outputs::keep(const std::string& input, std::string_view name) const {
+  for (const Output& output : outputs_) {
+    std::error_code one_is_missing;
+    if (fs::equivalent(input, output.path, one_is_missing)) {
+      throw BadInput(
+          fmt::format("{}: {}: would overwrite the {}; name another file", output.option, output.path, name));
+    }
+  }
+}
+
+void Outputs::keep(const std::vector<std::string>& inputs, std::string_view name) const {
+  for (const std::string& input : inputs) keep(input, name);
+}
+
+const Outputs::Output* Outputs::find(std::string_view option) const {
+  const auto found = std::ranges::find(outputs_, option, &Output::option);
+  return found == outputs_.end() ? nullptr : &*found;
+}
+
+std::optional<report::FigureFormat> Outputs::figure(std::string_view option) const {
+  const Output* output = find(option);
+  return output != nullptr ? output->figure : std::nullopt;
+}
+
+void Outputs::put(std::string_view option, const std::function<std::string()>& make) {
+  const Output* output = find(option);
+  if (output != nullptr && !output->figure) files_.write(output->path, make());
+}
+
+void Outputs::put(std::string_view option, const std::function<void(const report::Sink&)>& produce) {
+  const Output* output = find(option);
+  if (output != nullptr && !output->figure) files_.write(output->path, produce);
+}
+
+void Outputs::draw(std::string_view option, const std::function<std::string(report::FigureFormat)>& make) {
+  const Output* output = find(option);
+  if (output != nullptr && output->figure) files_.write(output->path, make(*output->figure));
+}
+
+}  // namespace zwidth::cli

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "report/figure/canvas.hpp"
+#include "report/output_file.hpp"
+
+namespace zwidth::cli {
+
+/// What the ending of a file name may be.
+enum class Ending { any, figure, figure_or_csv };
+
+/// The files that a command writes, each asked for with an option: checked before the work, written after it, all or
+/// none of them.
+class Outputs {
+ public:
+  /// Declares an output; an empty `path` is not asked for. Throws BadInput where its ending is not allowed, or where it
+  /// is the file of another output: the second would replace the first.
+  void add(const std::string& option, const std::string& path, Ending ending = Ending::any);
+
+  /// Throws BadInput where an output is this input: `name` is "device file", "recording", "structure".
+  void keep(const std::string& input, std::string_view name) const;
+  void keep(const std::vector<std::string>& inputs, std::string_view name) const;
+
+  /// The format of a figure that was asked for with this option.
+  [[nodiscard]] std::optional<report::FigureFormat> figure(std::string_view option) const;
+
+  /// Writes what `make` returns, where the option asks for a file; where it asks for a figure instead of numbers,
+  /// draw() writes it.
+  void put(std::string_view option, const std::function<std::string()>& make);
+  void put(std::string_view option, const std::function<void(const report::Sink&)>& produce);
+  void draw(std::string_view option, const std::function<std::string(report::FigureFormat)>& make);
+
+  /// Shows all that was put and drawn. Throws OutputFailed.
+  void commit() { files_.commit(); }
+
+ private:
+  struct Output {
+    std::string option;
+    std::string path;
+    std::optional<report::FigureFormat> figure;
+  };
+  [[nodiscard]] const Output* find(std::string_view option) const;
+
+  std::vector<Output> outputs_;
+  report::OutputFiles files_;
+};
+
+}  // namespace zwidth::cli

@@ -1,0 +1,103 @@
+#include "report/figure/plot.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "report/figure/gnuplot.hpp"
+
+namespace zwidth::report {
+namespace {
+
+constexpr double title_size = 16.0;
+constexpr double text_size = 12.0;
+constexpr double title_row = 22.0;
+constexpr double sample = 46.0;  // px of a legend's line
+constexpr double text_after = 54.0;
+constexpr double column = 400.0;
+constexpr std::size_t most_lines = 3;
+
+}  // namespace
+
+std::string ring_marker(std::string_view colour) { return fmt::format("pt 6 ps 0.7 lw 1.3 lc rgb '{}'", colour); }
+
+Heading::Heading(const std::string& title, std::vector<LegendEntry> legend, const std::string& subtitle)
+    : title_(Canvas::broken(title, title_size, frame_right - frame_left, most_lines)) {
+  if (!subtitle.empty()) subtitle_ = Canvas::broken(subtitle, text_size, frame_right - frame_left, most_lines);
+  bottom_ = 12.0 + title_row * static_cast<double>(title_.size());
+  if (!subtitle_.empty()) bottom_ += 4.0 + row_height * static_cast<double>(subtitle_.size());
+  bool beside = false;  // the second place of the row is free
+  for (LegendEntry& entry : legend) {
+    const bool is_short = Canvas::text_width(entry.text, text_size) <= column - text_after - 6.0;
+    if (beside && is_short) {
+      legend_.push_back({std::move(entry), frame_left + column, bottom_ - 0.5 * row_height, {}});
+      legend_.back().lines = {legend_.back().entry.text};
+      beside = false;
+      continue;
+    }
+    std::vector<std::string> lines =
+        is_short ? std::vector<std::string>{entry.text}
+                 : Canvas::broken(entry.text, text_size, frame_right - frame_left - text_after, most_lines);
+    const double height = row_height * static_cast<double>(lines.size());
+    legend_.push_back({std::move(entry), frame_left, bottom_ + 0.5 * row_height, std::move(lines)});
+    bottom_ += height;
+    beside = is_short;
+  }
+}
+
+void Heading::draw(Canvas& canvas) const {
+  for (std::size_t i = 0; i < title_.size(); ++i) {
+    canvas.text(frame_left, 18.0 + title_row * static_cast<double>(i), title_[i], {Anchor::left, title_size});
+  }
+  double y = 18.0 + title_row * static_cast<double>(title_.size()) + 2.0;
+  for (const std::string& line : subtitle_) {
+    canvas.text(frame_left, y, line, {Anchor::left, text_size});
+    y += row_height;
+  }
+  for (const Placed& each : legend_) {
+    const LegendEntry& entry = each.entry;
+    if (!entry.fill.empty()) {
+      canvas.rectangle({each.left, each.left + sample, each.y - 7.0, each.y + 7.0}, entry.fill);
+    }
+    if (entry.marker.empty()) {
+      canvas.line(each.left, each.y, each.left + sample, each.y, entry.line);
+    } else {
+      canvas.marker(each.left + 0.5 * sample, each.y, entry.marker);
+    }
+    for (std::size_t i = 0; i < each.lines.size(); ++i) {
+      canvas.text(each.left + text_after, each.y + row_height * static_cast<double>(i), each.lines[i],
+                  {Anchor::left, text_size, ink, entry.markup});
+    }
+  }
+}
+
+AxisUnit axis_unit(double largest, double least_shown) {
+  static constexpr std::array<AxisUnit, 7> units = {
+      {{1e9, "G"}, {1e6, "M"}, {1e3, "k"}, {1.0, ""}, {1e-3, "m"}, {1e-6, "µ"}, {1e-9, "n"}}};
+  if (!(largest > 0.0) || !std::isfinite(largest)) return {};
+  const auto* const found = std::ranges::find_if(
+      units, [&](const AxisUnit& unit) { return largest >= least_shown * unit.size * (1.0 - 1e-12); });
+  return found != units.end() ? *found : units.back();
+}
+
+std::string_view axes_look() {
+  return "set tics font ',12' scale 0.6,0.3\nset border lw 0.8\n"
+         "set grid xtics ytics lw 0.5 lc rgb '#c8c8c8' dt 1, lw 0.4 lc rgb '#e4e4e4' dt 1 back";
+}
+
+std::string y_label(std::string_view text) {
+  return fmt::format("set ylabel {} noenhanced font ',12' offset 0.5,0", gnuplot_string(text));
+}
+
+void x_label(Canvas& canvas, const Box& frame, std::string_view text) {
+  canvas.text(0.5 * (frame.left + frame.right), frame.bottom + 42.0, text, {Anchor::centre, text_size});
+}
+
+void data_block(Canvas& canvas, std::string_view name, std::string_view rows) {
+  canvas.commands(fmt::format("${} << EOD\n{}EOD", name, rows));
+}
+
+}  // namespace zwidth::report

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "report/figure/canvas.hpp"
+
+namespace zwidth::report {
+
+// What all figures share: the width and its frame, the head with title and legend, the look of axes, their units.
+
+inline constexpr double canvas_width = 900.0;
+inline constexpr double frame_left = 84.0;
+inline constexpr double frame_right = 876.0;
+inline constexpr double row_height = 20.0;
+
+inline constexpr std::string_view ink = "#1a1a1a";
+inline constexpr std::string_view blue = "#0b4f9e";
+inline constexpr std::string_view orange = "#c2410c";
+inline constexpr std::string_view green = "#15803d";
+inline constexpr std::string_view purple = "#7e22ce";
+inline constexpr std::string_view red = "#b91c1c";
+inline constexpr std::string_view grey = "#555555";
+
+struct LegendEntry {
+  std::string text;
+  LineStyle line = {};
+  std::string_view fill = {};  ///< colour of an area behind the line; empty: none
+  std::string marker = {};     ///< a point style of gnuplot instead of the line; empty: none
+  Markup markup = Markup::none;
+};
+
+/// The point style of a ring in this colour.
+[[nodiscard]] std::string ring_marker(std::string_view colour);
+
+/// Title, remarks below it, and the legend: entries stand two in a row, long ones in rows of their own. Nothing is cut
+/// that three lines hold.
+class Heading {
+ public:
+  Heading(const std::string& title, std::vector<LegendEntry> legend, const std::string& subtitle = {});
+
+  /// px from the top: where the next thing may begin.
+  [[nodiscard]] double bottom() const { return bottom_; }
+  void draw(Canvas& canvas) const;
+
+ private:
+  struct Placed {
+    LegendEntry entry;
+    double left = 0.0;
+    double y = 0.0;
+    std::vector<std::string> lines;
+  };
+  std::vector<std::string> title_;
+  std::vector<std::string> subtitle_;
+  std::vector<Placed> legend_;
+  double bottom_ = 0.0;
+};
+
+/// The unit that an axis counts in: values are divided by `size`.
+struct AxisUnit {
+  double size = 1.0;        ///< in SI
+  std::string_view prefix;  ///< "k", "", "m", ...
+};
+
+/// The largest prefix in which the largest value is at least `least_shown`; without one for 0.
+[[nodiscard]] AxisUnit axis_unit(double largest, double least_shown = 1.0);
+
+/// gnuplot commands that every frame begins with: size of the tics, border, grid behind the curves.
+[[nodiscard]] std::string_view axes_look();
+
+/// `set ylabel` with the text as it is.
+[[nodiscard]] std::string y_label(std::string_view text);
+
+/// The text below the frame's bottom axis.
+void x_label(Canvas& canvas, const Box& frame, std::string_view text);
+
+/// Data for a plot: `$name << EOD`, the rows, `EOD`.
+void data_block(Canvas& canvas, std::string_view name, std::string_view rows);
+
+}  // namespace zwidth::report
