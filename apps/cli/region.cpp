@@ -1,20 +1,22 @@
+#include "zwidth/design/region.hpp"
+
 #include <fmt/format.h>
 
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "cli/device_arguments.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
-#include "report/device_region.hpp"
 #include "report/figure/canvas.hpp"
 #include "report/figure/region_figure.hpp"
 #include "report/output_file.hpp"
 #include "report/text/region_text.hpp"
+#include "report/text/trust_text.hpp"
 #include "results/region_csv.hpp"
 #include "results/region_json.hpp"
-#include "zwidth/error.hpp"
 
 namespace zwidth::cli {
 namespace {
@@ -27,19 +29,6 @@ struct RegionArguments {
   bool json = false;
 };
 
-report::DeviceRegion region_of(const DeviceArguments& arguments) {
-  std::vector<Device> devices = read_devices(arguments);
-  try {
-    return report::device_region(std::move(devices.front()));
-  } catch (const Error& error) {
-    std::string message = arguments.files.front() + ": " + error.what();
-    if (error.code() == ErrorCode::did_not_converge) {
-      message += "; `zwidth analyze --set wall.damping=B` still gives the stable stiffnesses at one damping B";
-    }
-    throw WorkFailed(message);
-  }
-}
-
 void run_region(const RegionArguments& arguments) {
   const auto format = report::figure_format(arguments.output);
   if (!arguments.output.empty() && !format) {
@@ -50,13 +39,19 @@ void run_region(const RegionArguments& arguments) {
   check_output_is_no_input(arguments.devices, "--output", arguments.output);
   check_output_is_no_input(arguments.devices, "--csv", arguments.csv);
   check_outputs_differ("--output", arguments.output, "--csv", arguments.csv);
-  const report::DeviceRegion device = region_of(arguments.devices);
-  if (!arguments.csv.empty()) {
-    report::write_whole(arguments.csv, arguments.raster ? report::region_raster_csv(device, *arguments.raster)
-                                                        : report::region_csv(device.region));
+  const Device device = std::move(read_devices(arguments.devices).front());
+  const WallRegion walls = region(device);
+  if (walls.trust.refused()) {
+    if (arguments.json) write_standard_output(results::line(results::region_json(device, walls)));
+    throw WorkFailed(arguments.devices.files.front() + ": " + report::verdict_text(walls.trust));
   }
-  if (format) report::write_whole(arguments.output, report::draw_region(device, *format));
-  write_standard_output(arguments.json ? report::region_json(device).dump() + "\n" : report::region_text(device));
+  if (!arguments.csv.empty()) {
+    report::write_whole(arguments.csv, arguments.raster ? results::region_raster_csv(walls, *arguments.raster)
+                                                        : results::region_csv(walls.region));
+  }
+  if (format) report::write_whole(arguments.output, report::draw_region(device, walls, *format));
+  write_standard_output(arguments.json ? results::line(results::region_json(device, walls))
+                                       : report::region_text(device, walls));
 }
 
 }  // namespace

@@ -129,7 +129,8 @@ Json export_json(const ExportedModel& model) {
           {"wall", wall_json(device)},
           {"status", analysis.at("status")},
           {"critical_stiffness", analysis.at("critical_stiffness")},
-          {"crossovers", analysis.at("crossovers")}};
+          {"crossovers", analysis.at("crossovers")},
+          {"trust", analysis.at("trust")}};
 }
 
 }  // namespace zwidth::report
