@@ -37,8 +37,10 @@ const Drawn& lhifam_region() {
 Drawn transfer_function_region() { return Drawn(test::transfer_function_parameters({1.0}, {1.0, 1.0}, 1.0)); }
 
 Json region_json(const Drawn& drawn) { return results::region_json(drawn.device, drawn.walls); }
-std::string region_text(const Drawn& drawn) { return region_text(drawn.device, drawn.walls); }
-std::string draw_region(const Drawn& drawn) { return draw_region(drawn.device, drawn.walls, FigureFormat::svg); }
+std::string region_text(const Drawn& drawn) { return report::region_text(drawn.device, drawn.walls); }
+std::string draw_region(const Drawn& drawn) {
+  return report::draw_region(drawn.device, drawn.walls, FigureFormat::svg);
+}
 
 /// Negative damping: unstable whatever the wall.
 Drawn hopeless_region() { return Drawn(test::transfer_function_parameters({1.0}, {1.0, -8.0, 0.0}, 1.0)); }
