@@ -18,6 +18,8 @@
 #include "export/export_chai3d.hpp"
 #include "report/text/trust_text.hpp"
 #include "results/export_json.hpp"
+#include "results/json.hpp"
+#include "zwidth/design/safe_wall.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth::cli {
@@ -32,6 +34,7 @@ struct ExportArguments {
   std::string contact = "bilateral";
   std::optional<double> stiffness;
   std::optional<double> safety_factor;
+  bool accept_doubt = false;
 };
 
 void check(const ExportArguments& arguments, const CLI::App& command) {
@@ -45,6 +48,7 @@ void check(const ExportArguments& arguments, const CLI::App& command) {
   only_for("--contact", {"c"});
   only_for("--stiffness", {"c"});
   only_for("--safety-factor", {"c", "chai3d"});
+  only_for("--accept-doubt", {"c"});
   if (arguments.stiffness && arguments.safety_factor) {
     throw BadInput("--safety-factor: stands beside --stiffness; each sets the stiffness: give one of them");
   }
@@ -56,8 +60,8 @@ void check(const ExportArguments& arguments, const CLI::App& command) {
   }
 }
 
-report::AnalysedDevice with_stiffness(const report::AnalysedDevice& analysed, double stiffness) {
-  DeviceParameters parameters = analysed.device.parameters();
+report::AnalysedDevice with_stiffness(const Device& device, double stiffness) {
+  DeviceParameters parameters = device.parameters();
   parameters.wall.stiffness = stiffness;
   if (const auto problem = find_problem(parameters)) {
     throw BadInput(fmt::format("{} {}; {}", problem->key, problem->what, problem->allowed));
@@ -65,41 +69,71 @@ report::AnalysedDevice with_stiffness(const report::AnalysedDevice& analysed, do
   return report::analysed_device(Device(std::move(parameters)), {.draws = 0});
 }
 
-/// The stiffest wall of the file's damper and filters that no user destabilises; where there is none, K_CR.
-report::CodedWall scaled_wall(const report::AnalysedDevice& analysed, double safety_factor) {
-  const CriticalStiffness& critical = analysed.analysis.critical;
-  if (critical.status != StiffnessStatus::finite) {
-    throw BadInput(fmt::format("--safety-factor: {}; give --stiffness",
-                               critical.status == StiffnessStatus::unbounded
-                                   ? "every wall is stable, there is no limit to take a share of"
-                                   : "no wall is stable, there is no limit to take a share of"));
+/// Nothing is written on a refused device, a wall to run on a doubtful one only where that is asked for.
+void check_trust(const ExportArguments& arguments, const Trust& trust) {
+  if (trust.refused()) throw WorkFailed(arguments.devices.files.front() + ": " + report::verdict_text(trust));
+  if (!trust.sound() && !arguments.accept_doubt) {
+    throw WorkFailed(arguments.devices.files.front() + ": " + report::verdict_text(trust) +
+                     "; --accept-doubt writes the wall all the same");
   }
-  const bool any_user = analysed.analysis.any_user && analysed.analysis.any_user->stiffness > 0.0 &&
-                        std::isfinite(analysed.analysis.any_user->stiffness);
-  const double limit = any_user ? analysed.analysis.any_user->stiffness : critical.stiffness;
-  return {with_stiffness(analysed, safety_factor * limit),
-          {},
-          fmt::format("{} of the {}", safety_factor, any_user ? "limit for any user" : "critical stiffness")};
 }
 
-void check_it_is_not_refused(const ExportArguments& arguments, const Trust& trust) {
-  if (trust.refused()) throw WorkFailed(arguments.devices.files.front() + ": " + report::verdict_text(trust));
+/// A wall that can be taken a share of.
+SafeWall chosen_wall(const ExportArguments& arguments, const Device& device, const SafeWallOptions& options) {
+  SafeWall wall = [&] {
+    try {
+      return safe_wall(device, options);
+    } catch (const Error& error) {
+      throw WorkFailed(arguments.devices.files.front() + ": " + error.what());
+    }
+  }();
+  const auto refuse = [&](const std::string& why) {
+    const std::string subject = arguments.format == "c" ? "--safety-factor" : "there is no ceiling to declare";
+    const std::string message = arguments.devices.files.front() + ": " + subject + ": " + why;
+    if (arguments.format == "c") throw BadInput(message + "; give --stiffness");
+    throw WorkFailed(message);
+  };
+  switch (wall.status) {
+    case SafeWall::Status::refused:
+      throw WorkFailed(arguments.devices.files.front() + ": " + report::verdict_text(wall.trust));
+    case SafeWall::Status::none_stable:
+      refuse("no wall is stable, there is no limit to take a share of");
+      break;
+    case SafeWall::Status::unbounded:
+      refuse("every wall is stable, there is no limit to take a share of");
+      break;
+    case SafeWall::Status::chosen:
+      break;
+  }
+  return wall;
+}
+
+/// Says how K was chosen.
+std::string source_of(const SafeWall& wall, double safety_factor) {
+  const char* limit = wall.basis == SafeWall::Basis::any_user ? "limit for any user" : "critical stiffness";
+  if (wall.uncertainty_share == 1.0) return fmt::format("{} of the {}", safety_factor, limit);
+  return fmt::format("{} of the {} at the lower end of its 95 % interval", safety_factor, limit);
 }
 
 report::CodedWall coded_wall(const ExportArguments& arguments) {
-  report::AnalysedDevice analysed = std::move(analyze_devices(arguments.devices, AnalysisOptions{.draws = 0}).front());
-  check_it_is_not_refused(arguments, analysed.analysis.trust);
+  Device device = std::move(read_devices(arguments.devices).front());
   report::CodedWall wall = [&]() -> report::CodedWall {
-    if (arguments.stiffness) return {with_stiffness(analysed, *arguments.stiffness), {}, "--stiffness"};
-    if (arguments.safety_factor) return scaled_wall(analysed, *arguments.safety_factor);
-    if (!analysed.device.parameters().wall.stiffness) {
+    if (arguments.stiffness) return {with_stiffness(device, *arguments.stiffness), {}, "--stiffness"};
+    if (arguments.safety_factor) {
+      SafeWall chosen = chosen_wall(arguments, device, {.safety_factor = *arguments.safety_factor});
+      report::CodedWall scaled{
+          with_stiffness(device, chosen.stiffness), {}, source_of(chosen, *arguments.safety_factor)};
+      scaled.analysed.analysis.trust.inherit(chosen.trust);
+      return scaled;
+    }
+    if (!device.parameters().wall.stiffness) {
       throw BadInput(arguments.devices.files.front() +
                      ": wall.stiffness: is missing: there is no wall to write; set it, or give --stiffness or "
                      "--safety-factor");
     }
-    return {std::move(analysed), {}, "wall.stiffness"};
+    return {report::analysed_device(std::move(device), {.draws = 0}), {}, "wall.stiffness"};
   }();
-  check_it_is_not_refused(arguments, wall.analysed.analysis.trust);
+  check_trust(arguments, wall.analysed.analysis.trust);
   if (arguments.contact == "unilateral") wall.contact = ControllerOptions::Contact::unilateral;
   return wall;
 }
@@ -116,17 +150,9 @@ std::string exported_c(const ExportArguments& arguments) {
 std::string exported_chai3d(const ExportArguments& arguments) {
   const Device device = std::move(read_devices(arguments.devices).front());
   const double safety_factor = arguments.safety_factor.value_or(default_safety_factor);
-  std::optional<WallCeilings> ceilings;
-  try {
-    ceilings = wall_ceilings(device, safety_factor);
-  } catch (const Error& error) {
-    throw WorkFailed(arguments.devices.files.front() + ": " + error.what());
-  }
-  if (!ceilings) {
-    throw WorkFailed(arguments.devices.files.front() +
-                     ": there is no ceiling to declare: without a damper no wall is stable, or every wall is");
-  }
-  return report::export_chai3d(device, *ceilings, safety_factor);
+  const SafeWall wall =
+      chosen_wall(arguments, device, {.safety_factor = safety_factor, .damping = SafeWallOptions::Damping::ceiling});
+  return report::export_chai3d(device, wall, safety_factor);
 }
 
 std::string exported(const ExportArguments& arguments) {
@@ -176,9 +202,12 @@ void add_export(CLI::App& app) {
   command
       ->add_option("--safety-factor", arguments->safety_factor,
                    "c: K is this share of the limit for any passive user, or of the\n"
-                   "critical stiffness where there is no such limit;\n"
+                   "critical stiffness where there is no such limit; of the lower end\n"
+                   "of the 95 % interval where the device has one;\n"
                    "chai3d: of both ceilings (default 0.5)")
       ->type_name("S");
+  command->add_flag("--accept-doubt", arguments->accept_doubt,
+                    "c: write the wall of a device that is doubtful (its file says why)");
   command->footer(
       "Examples:\n"
       "  zwidth export devices/lhifam.toml --format octave --output lhifam.m\n"

@@ -1,19 +1,21 @@
+#include "zwidth/design/region.hpp"
+
 #include <fmt/format.h>
 
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "cli/device_arguments.hpp"
 #include "cli/outputs.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
-#include "report/device_region.hpp"
 #include "report/figure/region_figure.hpp"
 #include "report/text/region_text.hpp"
+#include "report/text/trust_text.hpp"
 #include "results/region_csv.hpp"
 #include "results/region_json.hpp"
-#include "zwidth/error.hpp"
 
 namespace zwidth::cli {
 namespace {
@@ -26,32 +28,25 @@ struct RegionArguments {
   bool json = false;
 };
 
-report::DeviceRegion region_of(const DeviceArguments& arguments) {
-  std::vector<Device> devices = read_devices(arguments);
-  try {
-    return report::device_region(std::move(devices.front()));
-  } catch (const Error& error) {
-    std::string message = arguments.files.front() + ": " + error.what();
-    if (error.code() == ErrorCode::did_not_converge) {
-      message += "; `zwidth analyze --set wall.damping=B` still gives the stable stiffnesses at one damping B";
-    }
-    throw WorkFailed(message);
-  }
-}
-
 void run_region(const RegionArguments& arguments) {
   Outputs outputs;
   outputs.add("--csv", arguments.csv);
   outputs.add("--output", arguments.output, Ending::figure);
   outputs.keep(arguments.devices.files, "device file");
   if (arguments.raster && arguments.csv.empty()) throw BadInput("--raster: is for a csv file; add --csv FILE");
-  const report::DeviceRegion device = region_of(arguments.devices);
+  const Device device = std::move(read_devices(arguments.devices).front());
+  const WallRegion walls = region(device);
+  if (walls.trust.refused()) {
+    if (arguments.json) write_standard_output(results::line(results::region_json(device, walls)));
+    throw WorkFailed(arguments.devices.files.front() + ": " + report::verdict_text(walls.trust));
+  }
   outputs.put("--csv", [&] {
-    return arguments.raster ? report::region_raster_csv(device, *arguments.raster) : report::region_csv(device.region);
+    return arguments.raster ? results::region_raster_csv(walls, *arguments.raster) : results::region_csv(walls.region);
   });
-  outputs.draw("--output", [&](report::FigureFormat format) { return report::draw_region(device, format); });
+  outputs.draw("--output", [&](report::FigureFormat format) { return report::draw_region(device, walls, format); });
   outputs.commit();
-  write_standard_output(arguments.json ? results::line(report::region_json(device)) : report::region_text(device));
+  write_standard_output(arguments.json ? results::line(results::region_json(device, walls))
+                                       : report::region_text(device, walls));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
+#include "report/text/trust_text.hpp"
 #include "report/text/wall_filter_text.hpp"
 #include "results/filter_coefficients.hpp"
 #include "zwidth/error.hpp"
@@ -91,6 +92,7 @@ class CodeWriter {
         is_one_sided() ? "unilateral: it pushes only, out of position > 0" : "bilateral: a spring on both sides of 0",
         critical_text(analysis.critical, units_.stiffness), any_user_text(coded_.analysed, units_.stiffness),
         device_.loop.sampling_period, device_.loop.delay);
+    if (const auto note = trust_note(analysis.trust)) text += " *\n * " + in_comment(*note) + "\n";
     if (!analysis.wall || !analysis.wall->stable) {
       text += " *\n * WARNING: with this wall the loop is UNSTABLE by linear analysis.\n";
     }

@@ -6,6 +6,7 @@
 
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
+#include "report/text/trust_text.hpp"
 #include "report/text/wall_filter_text.hpp"
 
 namespace zwidth::report {
@@ -18,6 +19,15 @@ double rounded_down(double value) {
   if (!(value > 0.0)) return 0.0;
   const double unit = std::pow(10.0, std::floor(std::log10(value)) - shown_digits + 1.0);
   return unit * std::floor(value / unit * (1.0 + limit_error));
+}
+
+/// A reason may hold anything that a device file does.
+std::string one_line(std::string text) {
+  for (char& character : text) {
+    const auto byte = static_cast<unsigned char>(character);
+    if (byte < 0x20 || byte == 0x7f || character == '\\') character = ' ';
+  }
+  return text;
 }
 
 /// As C++ of type double.
@@ -33,12 +43,23 @@ std::string velocity_text(const Wall& wall, Units units) {
   return text + ".";
 }
 
+std::string interval_text(const SafeWall& ceilings) {
+  if (ceilings.uncertainty_share == 1.0) return {};
+  return fmt::format("// Both are taken at the lower end of the 95 % interval, {:.4g} of their value.\n",
+                     ceilings.uncertainty_share);
+}
+
+std::string doubt_text(const Trust& trust) {
+  const auto note = trust_note(trust);
+  return note ? "// " + one_line(*note) + "\n" : std::string();
+}
+
 }  // namespace
 
-std::string export_chai3d(const Device& device, const WallCeilings& ceilings, double safety_factor) {
+std::string export_chai3d(const Device& device, const SafeWall& ceilings, double safety_factor) {
   const Units units = units_of(device.parameters().motion);
   const char* kind = device.parameters().motion == Motion::rotary ? "Angular" : "Linear";
-  const bool any_user = ceilings.basis == WallCeilings::Basis::any_user;
+  const bool any_user = ceilings.basis == SafeWall::Basis::any_user;
   return fmt::format(
       "// {name}: ceilings by zwidth {version}, safety factor {factor}, loop at {rate} with a delay of {delay}\n"
       "// Stiffness: {factor} of {limit:.4g} {stiffness_unit}, {basis}.\n"
@@ -46,6 +67,7 @@ std::string export_chai3d(const Device& device, const WallCeilings& ceilings, do
       "stiffness.\n"
       "// Every wall up to both is stable{whose}, each alone or both together.\n"
       "// {velocity}\n"
+      "{interval}{doubt}"
       "m_specifications.m_max{kind}Stiffness = {stiffness};  // [{stiffness_unit}]\n"
       "m_specifications.m_max{kind}Damping = {damping};  // [{damping_unit}]\n",
       fmt::arg("name", display_name(device)), fmt::arg("version", ZWIDTH_VERSION), fmt::arg("factor", safety_factor),
@@ -54,8 +76,10 @@ std::string export_chai3d(const Device& device, const WallCeilings& ceilings, do
       fmt::arg("stiffness_unit", units.stiffness), fmt::arg("damping_unit", units.damping),
       fmt::arg("basis", any_user ? "the limit for any passive user"
                                  : "the critical stiffness of the device as it is: there is no limit for any user"),
-      fmt::arg("damping_limit", ceilings.damping_limit), fmt::arg("whose", any_user ? " whoever holds the device" : ""),
+      fmt::arg("damping_limit", ceilings.damping_limit.value_or(ceilings.damping)),
+      fmt::arg("whose", any_user ? " whoever holds the device" : ""),
       fmt::arg("velocity", velocity_text(device.parameters().wall, units)), fmt::arg("kind", kind),
+      fmt::arg("interval", interval_text(ceilings)), fmt::arg("doubt", doubt_text(ceilings.trust)),
       fmt::arg("stiffness", literal(rounded_down(ceilings.stiffness))),
       fmt::arg("damping", literal(rounded_down(ceilings.damping))));
 }

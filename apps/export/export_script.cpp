@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "export/export.hpp"
+#include "report/text/trust_text.hpp"
 #include "results/filter_coefficients.hpp"
 
 namespace zwidth::report {
@@ -326,6 +327,12 @@ struct Words {
   std::string_view list_end;
 };
 
+/// Behind the device's name in the first comment.
+std::string doubt_of(const ExportedModel& model) {
+  const auto note = trust_note(model.analysed.analysis.trust);
+  return note ? ". " + *note : std::string();
+}
+
 std::string filled_in(std::string_view data, const ExportedModel& model, const Notation& notation, const Words& words,
                       const std::string& name) {
   const Wall& wall = model.analysed.device.parameters().wall;
@@ -333,13 +340,13 @@ std::string filled_in(std::string_view data, const ExportedModel& model, const N
   const DiscreteStateSpace& discrete = model.discrete;
   const auto matrix = [&](const Eigen::MatrixXd& values) { return literal(values, notation); };
   return fmt::format(
-      fmt::runtime(data), fmt::arg("comment", one_line(device.name())), fmt::arg("version", ZWIDTH_VERSION),
-      fmt::arg("device", name), fmt::arg("A", matrix(model.continuous.A)), fmt::arg("B", matrix(model.continuous.B)),
-      fmt::arg("C", matrix(model.continuous.C)), fmt::arg("T", discrete.period), fmt::arg("delay", device.loop().delay),
-      fmt::arg("l", discrete.delay_samples), fmt::arg("Phi", matrix(discrete.Phi)),
-      fmt::arg("Gamma1", matrix(discrete.Gamma1)), fmt::arg("Gamma2", matrix(discrete.Gamma2)),
-      fmt::arg("terms", matrix(term_rows(model.sampled))), fmt::arg("m", model.sampled.delay_samples),
-      fmt::arg("damping", wall.damping),
+      fmt::runtime(data), fmt::arg("comment", one_line(device.name() + doubt_of(model))),
+      fmt::arg("version", ZWIDTH_VERSION), fmt::arg("device", name), fmt::arg("A", matrix(model.continuous.A)),
+      fmt::arg("B", matrix(model.continuous.B)), fmt::arg("C", matrix(model.continuous.C)),
+      fmt::arg("T", discrete.period), fmt::arg("delay", device.loop().delay), fmt::arg("l", discrete.delay_samples),
+      fmt::arg("Phi", matrix(discrete.Phi)), fmt::arg("Gamma1", matrix(discrete.Gamma1)),
+      fmt::arg("Gamma2", matrix(discrete.Gamma2)), fmt::arg("terms", matrix(term_rows(model.sampled))),
+      fmt::arg("m", model.sampled.delay_samples), fmt::arg("damping", wall.damping),
       fmt::arg("K", wall.stiffness ? fmt::format("{:.17g}", *wall.stiffness) : std::string(words.missing)),
       fmt::arg("missing", wall.stiffness ? "" : ", not given"),
       fmt::arg("a", velocity_filter_pole(wall, discrete.period)),

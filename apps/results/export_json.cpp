@@ -118,7 +118,8 @@ Json export_json(const report::ExportedModel& model) {
           {"wall", wall_json(device)},
           {"status", critical.status},
           {"critical_stiffness", critical.stiffness},
-          {"crossovers", critical.crossovers}};
+          {"crossovers", critical.crossovers},
+          {"trust", critical.trust}};
 }
 
 }  // namespace zwidth::results

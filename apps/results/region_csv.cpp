@@ -4,13 +4,15 @@
 
 #include <iterator>
 
-namespace zwidth::report {
+#include "results/region_json.hpp"
+
+namespace zwidth::results {
 namespace {
 
 void append_ring(std::string& rows, const BoundaryRing& ring, std::size_t component) {
   for (const BoundaryArc& arc : ring.arcs) {
     for (const BoundaryPoint& point : arc.points) {
-      fmt::format_to(std::back_inserter(rows), "{},{},{:.17g},{:.17g},{},{}\n", component, boundary_key(arc.kind),
+      fmt::format_to(std::back_inserter(rows), "{},{},{:.17g},{:.17g},{},{}\n", component, name_of(arc.kind),
                      point.stiffness, point.damping, point.frequency ? fmt::format("{:.17g}", *point.frequency) : "",
                      point.limited_by ? fmt::format("{}", point.limited_by->mode) : "");
     }
@@ -36,12 +38,12 @@ std::string region_csv(const StableRegion& region) {
   return rows;
 }
 
-std::string region_raster_csv(const DeviceRegion& device, std::size_t count) {
+std::string region_raster_csv(const WallRegion& walls, std::size_t count) {
   std::string rows = "stiffness,damping,stable\n";
-  if (!device.region.stiffest) return rows;
-  const std::vector<double> stiffnesses = middles(device.region.stiffest->stiffness, count);
-  const std::vector<double> dampings = middles(device.region.most_damped->damping, count);
-  const std::vector<std::uint8_t> stable = stable_on_grid(device.walls, stiffnesses, dampings);
+  if (!walls.walls || !walls.region.stiffest) return rows;
+  const std::vector<double> stiffnesses = middles(walls.region.stiffest->stiffness, count);
+  const std::vector<double> dampings = middles(walls.region.most_damped->damping, count);
+  const std::vector<std::uint8_t> stable = stable_on_grid(*walls.walls, stiffnesses, dampings);
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t j = 0; j < count; ++j) {
       fmt::format_to(std::back_inserter(rows), "{:.17g},{:.17g},{}\n", stiffnesses[j], dampings[i],
@@ -51,4 +53,4 @@ std::string region_raster_csv(const DeviceRegion& device, std::size_t count) {
   return rows;
 }
 
-}  // namespace zwidth::report
+}  // namespace zwidth::results

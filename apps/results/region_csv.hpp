@@ -2,9 +2,9 @@
 
 #include <string>
 
-#include "report/device_region.hpp"
+#include "zwidth/design/region.hpp"
 
-namespace zwidth::report {
+namespace zwidth::results {
 
 /// The boundary, a line per point: component by number, kind, K, B, rad/s, mode
 /// (0: the rigid body; empty on K = 0 and B = 0).
@@ -12,6 +12,6 @@ namespace zwidth::report {
 
 /// `count` values of K and of B, the middles of equal cells over the region's extent and a tenth beyond, with a line
 /// per wall: K, B, 1 where it is stable.
-[[nodiscard]] std::string region_raster_csv(const DeviceRegion& device, std::size_t count);
+[[nodiscard]] std::string region_raster_csv(const WallRegion& walls, std::size_t count);
 
-}  // namespace zwidth::report
+}  // namespace zwidth::results

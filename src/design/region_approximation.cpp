@@ -63,7 +63,39 @@ double limit_at(const AnyUserRegion& region, double damping) {
   return 0.0;
 }
 
+std::vector<std::string> unmet_assumptions(Formula formula, const Device& device) {
+  const DeviceParameters& parameters = device.parameters();
+  std::vector<std::string> unmet;
+  if (!parameters.links.empty()) unmet.emplace_back("flexible links");
+  const bool tied = std::any_of(parameters.bodies.begin(), parameters.bodies.end(),
+                                [](const Body& body) { return body.stiffness > 0.0; });
+  if (tied) unmet.emplace_back("springs to ground");
+  if (parameters.actuator.time_constant > 0.0) unmet.emplace_back("an actuator lag");
+  if (formula == Formula::colgate_schenkel && parameters.loop.delay > 0.0) unmet.emplace_back("a delay");
+  if (formula == Formula::gil_hulin && parameters.wall.velocity_filter_hz > 0.0) {
+    unmet.emplace_back("a velocity filter");
+  }
+  if (!parameters.wall.filters.empty()) unmet.emplace_back("filters in the wall");
+  if (formula == Formula::gil_hulin && parameters.user.stiffness > 0.0) unmet.emplace_back("a user with stiffness");
+  return unmet;
+}
+
 }  // namespace
+
+FormulaFacts facts_of(RegionApproximation::Formula formula) {
+  switch (formula) {
+    case Formula::colgate_schenkel:
+      return {"Colgate & Schenkel", "Colgate & Schenkel 1997", "b > K T/2 + B (1 - a)/(1 + a)",
+              "rigid device, no delay, any passive user; exact there"};
+    case Formula::gil_hulin:
+      return {"Gil, Hulin", "Gil et al. 2007, Hulin et al.", "K < (b + B)/(T/2 + t_d)",
+              "rigid device, no other user, small delay, fast sampling, low damping; approximate"};
+    case Formula::diolaiti:
+      break;
+  }
+  return {"Diolaiti", "Diolaiti et al. 2006", "K <= b/(T/2 + t_d), B = 0",
+          "rigid device, no virtual damper, any passive user; exact for a delay of whole samples"};
+}
 
 std::vector<RegionApproximation> region_approximations(const Device& device, double velocity_filter_hz) {
   if (!(velocity_filter_hz >= 0.0) || !std::isfinite(velocity_filter_hz)) {
@@ -78,9 +110,12 @@ std::vector<RegionApproximation> region_approximations(const Device& device, dou
   const double half_turn = 0.5 * period + device.loop().delay;
   // (1 - a)/(1 + a)
   const double filter = velocity_filter_hz > 0.0 ? std::tanh(std::numbers::pi * velocity_filter_hz * period) : 1.0;
-  return {{Formula::colgate_schenkel, true, 2.0 * damping / period, -2.0 * filter / period, damping / filter},
-          {Formula::gil_hulin, false, with_user / half_turn, 1.0 / half_turn, std::nullopt},
-          {Formula::diolaiti, true, damping / half_turn, 0.0, 0.0}};
+  std::vector<RegionApproximation> formulas = {
+      {Formula::colgate_schenkel, true, 2.0 * damping / period, -2.0 * filter / period, damping / filter},
+      {Formula::gil_hulin, false, with_user / half_turn, 1.0 / half_turn, std::nullopt},
+      {Formula::diolaiti, true, damping / half_turn, 0.0, 0.0}};
+  for (RegionApproximation& each : formulas) each.not_met = unmet_assumptions(each.formula, device);
+  return formulas;
 }
 
 double stiffness_at(const RegionApproximation& approximation, double damping) {

@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <limits>
 #include <map>
-#include <string>
 #include <utility>
 
 #include "design/ring_tracer.hpp"
@@ -103,7 +102,7 @@ void find_extremes(StableRegion& region, const BoundaryCurve& curve, double devi
 StableRegion stable_region(const StableWalls& walls, OutlineOptions options) {
   if (!(options.deviation > 0.0 && options.deviation < 1.0)) {
     throw Error(ErrorCode::invalid_argument,
-                "the outline's deviation is " + fmt::format("{}", options.deviation) + "; must be above 0 and below 1");
+                fmt::format("the outline's deviation is {}; must be above 0 and below 1", options.deviation));
   }
   const RegionStructure& structure = walls.structure();
   StableRegion region;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 #include <utility>
 
 #include "design/region_structure.hpp"
@@ -17,7 +16,7 @@ namespace {
 FilteredPlant checked(FilteredPlant plant, double velocity_filter_hz) {
   if (!(velocity_filter_hz >= 0.0) || !std::isfinite(velocity_filter_hz)) {
     throw Error(ErrorCode::invalid_argument,
-                "the velocity filter has " + fmt::format("{}", velocity_filter_hz) + " Hz; must be finite and >= 0");
+                fmt::format("the velocity filter has {} Hz; must be finite and >= 0", velocity_filter_hz));
   }
   return plant;
 }
@@ -32,7 +31,7 @@ double StableWalls::velocity_filter_hz() const { return structure_->curve.veloci
 
 std::vector<StableInterval> StableWalls::stable_stiffnesses(double damping) const {
   if (!(damping >= 0.0)) {
-    throw Error(ErrorCode::invalid_argument, "the virtual damper has " + fmt::format("{}", damping) + "; must be >= 0");
+    throw Error(ErrorCode::invalid_argument, fmt::format("the virtual damper has {}; must be >= 0", damping));
   }
   const auto& slabs = structure_->slabs;
   const auto slab = std::partition_point(slabs.begin(), slabs.end(),

@@ -22,19 +22,28 @@ using ::testing::Not;
 using ::testing::StartsWith;
 using Json = results::Json;
 
-const DeviceRegion& lhifam_region() {
-  static const DeviceRegion region = device_region(Device(test::lhifam_parameters()));
-  return region;
+/// A device and its region.
+struct Drawn {
+  explicit Drawn(const DeviceParameters& parameters) : device(parameters), walls(zwidth::region(device)) {}
+  Device device;
+  WallRegion walls;
+};
+
+const Drawn& lhifam_region() {
+  static const Drawn drawn(test::lhifam_parameters());
+  return drawn;
 }
 
-DeviceRegion transfer_function_region() {
-  return device_region(Device(test::transfer_function_parameters({1.0}, {1.0, 1.0}, 1.0)));
+Drawn transfer_function_region() { return Drawn(test::transfer_function_parameters({1.0}, {1.0, 1.0}, 1.0)); }
+
+Json region_json(const Drawn& drawn) { return results::region_json(drawn.device, drawn.walls); }
+std::string region_text(const Drawn& drawn) { return report::region_text(drawn.device, drawn.walls); }
+std::string draw_region(const Drawn& drawn) {
+  return report::draw_region(drawn.device, drawn.walls, FigureFormat::svg);
 }
 
 /// Negative damping: unstable whatever the wall.
-DeviceRegion hopeless_region() {
-  return device_region(Device(test::transfer_function_parameters({1.0}, {1.0, -8.0, 0.0}, 1.0)));
-}
+Drawn hopeless_region() { return Drawn(test::transfer_function_parameters({1.0}, {1.0, -8.0, 0.0}, 1.0)); }
 
 TEST(RegionJson, EveryKeyIsDocumented) {
   std::ifstream file(ZWIDTH_SOURCE_DIR "/docs/region.md");
@@ -49,8 +58,8 @@ TEST(RegionJson, EveryKeyIsDocumented) {
 }
 
 TEST(RegionJson, GivesTheNumbersWithoutLoss) {
-  const DeviceRegion& region = lhifam_region();
-  const Json document = Json::parse(region_json(region).dump());
+  const WallRegion& region = lhifam_region().walls;
+  const Json document = Json::parse(region_json(lhifam_region()).dump());
   EXPECT_EQ(document["schema"], "zwidth.region/1");
   EXPECT_EQ(document["status"], "bounded");
   EXPECT_EQ(document["critical_stiffness"].get<double>(), region.region.critical_stiffness);
@@ -62,7 +71,7 @@ TEST(RegionJson, GivesTheNumbersWithoutLoss) {
   ASSERT_EQ(outline.size(), region.region.components[0].outline.arcs.size());
   for (std::size_t i = 0; i < outline.size(); ++i) {
     const BoundaryArc& arc = region.region.components[0].outline.arcs[i];
-    EXPECT_EQ(outline[i]["boundary"], boundary_key(arc.kind));
+    EXPECT_EQ(outline[i]["boundary"], results::name_of(arc.kind));
     ASSERT_EQ(outline[i]["points"].size(), arc.points.size());
     EXPECT_EQ(outline[i]["points"][0]["stiffness"].get<double>(), arc.points[0].stiffness);
     EXPECT_EQ(outline[i]["points"][0]["frequency_rad_s"].is_null(), !arc.points[0].frequency.has_value());
@@ -98,21 +107,42 @@ TEST(RegionText, SaysWhatLimitsAndHowFarFormulasAreOff) {
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 110U) << line;
 }
 
+TEST(RegionText, SaysFirstWhatIsDoubtful) {
+  DeviceParameters parameters = test::lhifam_parameters();
+  parameters.uncertainty = Uncertainty{{}, {}, "the limiting crossover lies above the excited band"};
+  const Drawn drawn(parameters);
+  EXPECT_THAT(region_text(drawn), HasSubstr("DOUBTFUL: the limiting crossover lies above the excited band"));
+  EXPECT_EQ(region_json(drawn)["trust"]["verdict"], "doubtful");
+  EXPECT_THAT(draw_region(drawn), HasSubstr("(DOUBTFUL)"));
+}
+
+TEST(RegionJson, OfARefusedDeviceHoldsNoNumber) {
+  DeviceParameters parameters = test::lhifam_parameters();
+  parameters.uncertainty = Uncertainty{{}, {}, "nothing was determined"};
+  parameters.uncertainty->verdict = Trust::Verdict::refused;
+  const Json document = region_json(Drawn(parameters));
+  EXPECT_EQ(document["status"], "refused");
+  for (const char* key : {"critical_stiffness", "stiffest", "most_damped", "area", "any_user"}) {
+    EXPECT_TRUE(document[key].is_null()) << key;
+  }
+  EXPECT_TRUE(document["components"].empty());
+}
+
 TEST(RegionText, OfADeviceWithoutStableWallsSaysSo) {
   EXPECT_THAT(region_text(hopeless_region()), HasSubstr("No wall is stable"));
 }
 
 TEST(RegionCsv, HasALinePerPoint) {
-  const StableRegion& region = lhifam_region().region;
+  const StableRegion& region = lhifam_region().walls.region;
   std::size_t points = 0;
   for (const BoundaryArc& arc : region.components[0].outline.arcs) points += arc.points.size();
-  const std::string csv = region_csv(region);
+  const std::string csv = results::region_csv(region);
   EXPECT_THAT(csv, StartsWith("component,boundary,stiffness,damping,frequency_rad_s,mode\n1,oscillation,"));
   EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')), points + 1);
 }
 
 TEST(RegionCsv, OfARasterIsTheGrid) {
-  const std::string csv = region_raster_csv(lhifam_region(), 20);
+  const std::string csv = results::region_raster_csv(lhifam_region().walls, 20);
   std::istringstream lines(csv);
   std::string line;
   std::getline(lines, line);
@@ -125,13 +155,13 @@ TEST(RegionCsv, OfARasterIsTheGrid) {
   }
   EXPECT_EQ(rows, 400U);
   // The area of the region in a box a tenth larger than its extent, by 400 cells.
-  const StableRegion& region = lhifam_region().region;
+  const StableRegion& region = lhifam_region().walls.region;
   const double share = region.area / (1.21 * region.stiffest->stiffness * region.most_damped->damping);
   EXPECT_NEAR(static_cast<double>(stable) / 400.0, share, 0.02);
 }
 
 TEST(RegionFigure, ShowsTheRegionAndTheFormulas) {
-  const std::string svg = draw_region(lhifam_region(), FigureFormat::svg);
+  const std::string svg = draw_region(lhifam_region());
   for (const char* text : {"Stable walls of LHIfAM", "with any passive user", "Colgate &amp; Schenkel", "Gil, Hulin",
                            "Diolaiti", "Virtual damping B (N s/m)", "Stiffness K (kN/m)"}) {
     EXPECT_THAT(svg, HasSubstr(text));
@@ -139,7 +169,7 @@ TEST(RegionFigure, ShowsTheRegionAndTheFormulas) {
 }
 
 TEST(RegionFigure, OfNothingIsStillAFigure) {
-  const std::string svg = draw_region(hopeless_region(), FigureFormat::svg);
+  const std::string svg = draw_region(hopeless_region());
   EXPECT_THAT(svg, HasSubstr("no wall is stable"));
   EXPECT_THAT(svg, Not(HasSubstr("Colgate")));
 }

@@ -5,7 +5,6 @@
 
 #include "export/export_c.hpp"
 #include "report/device_bode.hpp"
-#include "report/device_region.hpp"
 #include "report/example_analyses.hpp"
 #include "report/page/html_report.hpp"
 #include "report/text/analysis_text.hpp"
@@ -47,11 +46,11 @@ TEST(WallFilterText, StandsInEveryReport) {
   const BodeFigure figure = device_bode_figure({&analysed, 1}, {});
   EXPECT_THAT(figure.notes, ::testing::Contains(HasSubstr(filters)));
   EXPECT_THAT(figure.curves[0].name, HasSubstr("Through the filters, F Z[H G e^(-t_d s)]"));
-  const DeviceRegion region = device_region(analysed.device);
-  EXPECT_THAT(region_text(region), HasSubstr(filters));
-  EXPECT_THAT(region_text(region), HasSubstr("filters in the wall"));
-  for (const ComparedApproximation& each : region.approximations) {
-    EXPECT_THAT(unmet_assumptions(each.formula.formula, analysed.device), ::testing::Contains("filters in the wall"));
+  const WallRegion walls = zwidth::region(analysed.device);
+  EXPECT_THAT(region_text(analysed.device, walls), HasSubstr(filters));
+  EXPECT_THAT(region_text(analysed.device, walls), HasSubstr("filters in the wall"));
+  for (const ComparedApproximation& each : walls.approximations) {
+    EXPECT_THAT(each.formula.not_met, ::testing::Contains("filters in the wall"));
   }
   EXPECT_THAT(*what_limits(analysed), HasSubstr("the wall's filters, "));
   const AnalysedDevice bare = lhifam_with_wall();

@@ -11,6 +11,7 @@
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
 #include "report/text/wall_filter_text.hpp"
+#include "results/region_json.hpp"
 
 namespace zwidth::report {
 namespace {
@@ -48,8 +49,8 @@ struct Extent {
 
 class RegionFigure {
  public:
-  explicit RegionFigure(const DeviceRegion& device)
-      : device_(device), units_(units_of(device.analysed.device.parameters().motion)), title_(title()) {}
+  RegionFigure(const Device& device, const WallRegion& walls)
+      : device_(device), walls_(walls), units_(units_of(device.parameters().motion)), title_(title()) {}
 
   [[nodiscard]] std::string draw(FigureFormat format) const {
     const std::vector<Extent> panels = extents();
@@ -69,33 +70,41 @@ class RegionFigure {
   }
 
  private:
+  /// A doubtful region says so on the picture.
   [[nodiscard]] std::string title() const {
-    const double filter = device_.walls.velocity_filter_hz();
-    const auto filters = wall_filters_text(device_.analysed.device.parameters().wall);
-    return fmt::format("Stable walls of {}{}{}", display_name(device_.analysed.device),
+    const double filter = device_.parameters().wall.velocity_filter_hz;
+    const auto filters = wall_filters_text(device_.parameters().wall);
+    return fmt::format("Stable walls of {}{}{}{}", display_name(device_),
                        filter > 0.0 ? fmt::format(", velocity filter {}", quantity(filter, "Hz")) : std::string(),
-                       filters ? ", through " + *filters : std::string());
+                       filters ? ", through " + *filters : std::string(),
+                       walls_.trust.sound()     ? ""
+                       : walls_.trust.refused() ? " (REFUSED)"
+                                                : " (DOUBTFUL)");
   }
 
   [[nodiscard]] std::vector<LegendEntry> legend() const {
     std::vector<LegendEntry> entries;
-    if (device_.region.stiffest) {
+    if (walls_.region.stiffest) {
       entries.push_back(
-          {fmt::format("stable: up to {} at {} {}", quantity(device_.region.stiffest->stiffness, units_.stiffness),
-                       number(device_.region.stiffest->damping), units_.damping),
+          {fmt::format("stable: up to {} at {} {}", quantity(walls_.region.stiffest->stiffness, units_.stiffness),
+                       number(walls_.region.stiffest->damping), units_.damping),
            boundary_style, stable_colour});
     } else {
-      entries.push_back({device_.region.bounded ? "no wall is stable" : "every wall is stable", boundary_style, {}});
+      entries.push_back({walls_.trust.refused()  ? "refused: no region is given"
+                         : walls_.region.bounded ? "no wall is stable"
+                                                 : "every wall is stable",
+                         boundary_style,
+                         {}});
     }
-    if (device_.any_user && device_.any_user->stiffest) {
+    if (walls_.any_user && walls_.any_user->stiffest) {
       entries.push_back({fmt::format("with any passive user: up to {}",
-                                     quantity(device_.any_user->stiffest->stiffness, units_.stiffness)),
+                                     quantity(walls_.any_user->stiffest->stiffness, units_.stiffness)),
                          any_user_style, any_user_colour});
     }
-    for (const ComparedApproximation& each : device_.approximations) {
+    for (const ComparedApproximation& each : walls_.approximations) {
       const auto& ratio = each.error.ratio;
       const std::string off = ratio ? fmt::format(" ({:+.1f} dB at B = 0)", decibels(*ratio)) : std::string();
-      entries.push_back({formula_name(each.formula.formula) + off,
+      entries.push_back({std::string(facts_of(each.formula.formula).name) + off,
                          style_of(each.formula.formula),
                          {},
                          each.formula.largest_damping == 0.0 ? point_marker(each.formula.formula) : std::string()});
@@ -107,11 +116,11 @@ class RegionFigure {
   [[nodiscard]] std::vector<Extent> extents() const {
     constexpr double margin = 1.06;
     constexpr double too_small = 0.2;
-    const StableRegion& region = device_.region;
+    const StableRegion& region = walls_.region;
     if (!region.stiffest) return {{1.0, 1.0}};
     const Extent whole{margin * region.most_damped->damping, margin * region.stiffest->stiffness};
     Extent corner{0.0, std::isfinite(region.critical_stiffness) ? region.critical_stiffness : 0.0};
-    for (const ComparedApproximation& each : device_.approximations) {
+    for (const ComparedApproximation& each : walls_.approximations) {
       corner.stiffness = std::max(corner.stiffness, each.formula.at_zero_damping);
       corner.damping = std::max(corner.damping, each.formula.largest_damping.value_or(0.0));
     }
@@ -135,7 +144,7 @@ class RegionFigure {
 
   /// Data blocks: rings as closed outlines, `edges` as the boundary without the axes.
   void data(Canvas& canvas) const {
-    const StableRegion& region = device_.region;
+    const StableRegion& region = walls_.region;
     std::string outlines;
     std::string edges;
     for (const StableComponent& component : region.components) {
@@ -148,21 +157,21 @@ class RegionFigure {
     data_block(canvas, "outlines", outlines);
     data_block(canvas, "edges", edges);
     std::string limits;
-    if (device_.any_user) {
-      for (const auto& range : device_.any_user->ranges) {
+    if (walls_.any_user) {
+      for (const auto& range : walls_.any_user->ranges) {
         limits += row(range.front().damping, 0.0);
         for (const AnyUserPoint& point : range) limits += row(point.damping, point.stiffness);
         limits += row(range.back().damping, 0.0) + "\n";
       }
     }
     data_block(canvas, "limits", limits);
-    for (const ComparedApproximation& each : device_.approximations) {
-      data_block(canvas, formula_key(each.formula.formula), formula_rows(each.formula));
+    for (const ComparedApproximation& each : walls_.approximations) {
+      data_block(canvas, results::name_of(each.formula.formula), formula_rows(each.formula));
     }
   }
 
   [[nodiscard]] std::string formula_rows(const RegionApproximation& formula) const {
-    const double end = formula.largest_damping.value_or(2.0 * device_.region.most_damped->damping);
+    const double end = formula.largest_damping.value_or(2.0 * walls_.region.most_damped->damping);
     const std::string first = row(0.0, formula.at_zero_damping);
     return end > 0.0 ? first + row(end, formula.at_zero_damping + formula.slope * end) : first;
   }
@@ -176,36 +185,41 @@ class RegionFigure {
         y_label(fmt::format("Stiffness K ({}{})", unit.prefix, units_.stiffness))));
     x_label(canvas, frame, fmt::format("Virtual damping B ({})", units_.damping));
     std::string what;
-    if (!device_.region.components.empty()) {
+    if (!walls_.region.components.empty()) {
       what += fmt::format("$outlines {} with filledcurves closed fc rgb '{}' fs solid noborder notitle, ", columns,
                           stable_colour);
     }
-    if (device_.any_user && device_.any_user->stiffest) {
+    if (walls_.any_user && walls_.any_user->stiffest) {
       what += fmt::format(
           "$limits {0} with filledcurves closed fc rgb '{1}' fs solid noborder notitle, $limits {0} with lines {2} "
           "notitle, ",
           columns, any_user_colour, gnuplot_line(any_user_style));
     }
-    if (!device_.region.components.empty()) {
+    if (!walls_.region.components.empty()) {
       what += fmt::format("$edges {} with lines {} notitle, ", columns, gnuplot_line(boundary_style));
     }
-    for (const ComparedApproximation& each : device_.approximations) {
+    for (const ComparedApproximation& each : walls_.approximations) {
       const Formula formula = each.formula.formula;
       const LineStyle style = style_of(formula);
       what += each.formula.largest_damping == 0.0
-                  ? fmt::format("${} {} with points {} notitle, ", formula_key(formula), columns, point_marker(formula))
-                  : fmt::format("${} {} with lines {} notitle, ", formula_key(formula), columns, gnuplot_line(style));
+                  ? fmt::format("${} {} with points {} notitle, ", results::name_of(formula), columns,
+                                point_marker(formula))
+                  : fmt::format("${} {} with lines {} notitle, ", results::name_of(formula), columns,
+                                gnuplot_line(style));
     }
     canvas.plot(frame, what + "NaN notitle");
   }
 
-  const DeviceRegion& device_;
+  const Device& device_;
+  const WallRegion& walls_;
   Units units_;
   std::string title_;
 };
 
 }  // namespace
 
-std::string draw_region(const DeviceRegion& device, FigureFormat format) { return RegionFigure(device).draw(format); }
+std::string draw_region(const Device& device, const WallRegion& walls, FigureFormat format) {
+  return RegionFigure(device, walls).draw(format);
+}
 
 }  // namespace zwidth::report

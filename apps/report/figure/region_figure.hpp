@@ -2,13 +2,13 @@
 
 #include <string>
 
-#include "report/device_region.hpp"
 #include "report/figure/canvas.hpp"
+#include "zwidth/design/region.hpp"
 
 namespace zwidth::report {
 
 /// The stable walls, B to the right and K up, with those that no passive user destabilises and the formulas of the
 /// literature; where these lie in a corner of the region, that corner beside it. Throws OutputFailed.
-[[nodiscard]] std::string draw_region(const DeviceRegion& device, FigureFormat format);
+[[nodiscard]] std::string draw_region(const Device& device, const WallRegion& walls, FigureFormat format);
 
 }  // namespace zwidth::report

@@ -5,7 +5,9 @@
 
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
+#include "report/text/remark_line.hpp"
 #include "report/text/text_table.hpp"
+#include "report/text/trust_text.hpp"
 #include "report/text/wall_filter_text.hpp"
 
 namespace zwidth::report {
@@ -16,19 +18,25 @@ constexpr std::size_t label_width = 22;
 
 class Writer {
  public:
-  explicit Writer(const DeviceRegion& device)
-      : device_(device), units_(units_of(device.analysed.device.parameters().motion)) {}
+  Writer(const Device& device, const WallRegion& walls)
+      : device_(device), walls_(walls), units_(units_of(device.parameters().motion)) {
+    named_.modes = walls.modes;
+    named_.suspended_rigid_body = walls.suspended_rigid_body;
+  }
 
   [[nodiscard]] std::string text() const {
-    std::string text = shortened(display_name(device_.analysed.device), width) + "\n";
-    const StableRegion& region = device_.region;
+    std::string text = shortened(display_name(device_), width) + "\n";
+    if (const auto note = trust_note(walls_.trust)) text += wrap(*note, width, 0);
+    if (walls_.trust.refused()) return text;
+    const StableRegion& region = walls_.region;
     if (!region.bounded) {
       return text + wrap("Every wall is stable: the force does not move what the wall senses.", width, 0) + "\n";
     }
     if (!region.stiffest) return text + wrap("No wall is stable, with or without a virtual damper.", width, 0) + "\n";
     text += answer_lines() + "\n" + meaning() + "\n";
-    if (device_.any_user) text += any_user_paragraph() + "\n";
-    if (!device_.approximations.empty()) text += approximations() + "\n";
+    if (walls_.any_user) text += any_user_paragraph() + "\n";
+    if (!walls_.approximations.empty()) text += approximations() + "\n";
+    for (const Remark& remark : walls_.remarks) text += wrap(remark_line(remark), width, 0) + "\n";
     return text + wrap(
                       "Linear and sampled: friction, encoder steps and the force limit are left out. The area is one "
                       "number for the Z-width: of all stable walls in the plane of K and B.",
@@ -47,11 +55,11 @@ class Writer {
   [[nodiscard]] std::string where(const BoundaryPoint& point) const {
     if (!point.limited_by) return {};
     return fmt::format("; beyond it oscillates at {}, limited by {}", crossover_frequency_text(*point.frequency),
-                       mechanism_name(device_.analysed.analysis, *point.limited_by));
+                       mechanism_name(named_, *point.limited_by));
   }
 
   [[nodiscard]] std::string answer_lines() const {
-    const StableRegion& region = device_.region;
+    const StableRegion& region = walls_.region;
     std::string lines =
         line("largest K", fmt::format("{} with a virtual damper of {}{}", stiffness(region.stiffest->stiffness),
                                       damping(region.stiffest->damping), where(*region.stiffest)));
@@ -61,16 +69,16 @@ class Writer {
     lines += line("largest B", fmt::format("{} at K = {}", damping(region.most_damped->damping),
                                            stiffness(region.most_damped->stiffness)));
     lines += line("Z-width (area)", fmt::format("{:.4g} {} x {}", region.area, units_.stiffness, units_.damping));
-    const double filter = device_.walls.velocity_filter_hz();
+    const double filter = device_.parameters().wall.velocity_filter_hz;
     lines += line("velocity filter", filter > 0.0 ? quantity(filter, "Hz") : std::string("none"));
-    if (const auto filters = wall_filters_text(device_.analysed.device.parameters().wall)) {
+    if (const auto filters = wall_filters_text(device_.parameters().wall)) {
       lines += line("filters in the wall", *filters);
     }
     return lines;
   }
 
   [[nodiscard]] std::string meaning() const {
-    const StableRegion& region = device_.region;
+    const StableRegion& region = walls_.region;
     std::string text;
     if (region.critical_stiffness > 0.0 && region.stiffest->damping > 0.0) {
       text = fmt::format(
@@ -88,7 +96,7 @@ class Writer {
   }
 
   [[nodiscard]] std::string any_user_paragraph() const {
-    const AnyUserRegion& region = *device_.any_user;
+    const AnyUserRegion& region = *walls_.any_user;
     if (!region.stiffest) return wrap("Some passive user destabilises any wall.", width, 0);
     const auto& first = region.ranges.front().front();
     const std::string undamped =
@@ -96,7 +104,7 @@ class Writer {
     return wrap(fmt::format("Stable with every passive user: up to {} with a damper of {}{}, and up to a damper of {}. "
                             "Its area is {:.3g} % of the one above.",
                             stiffness(region.stiffest->stiffness), damping(region.stiffest->damping), undamped,
-                            damping(region.most_damped->damping), 100.0 * region.area / device_.region.area),
+                            damping(region.most_damped->damping), 100.0 * region.area / walls_.region.area),
                 width, 0);
   }
 
@@ -106,7 +114,7 @@ class Writer {
     table.rows.push_back(
         {"formula", "", fmt::format("K ({})", units_.stiffness), "exact", "off at B = 0", "over all B"});
     std::string notes;
-    for (const ComparedApproximation& each : device_.approximations) {
+    for (const ComparedApproximation& each : walls_.approximations) {
       const RegionApproximation& formula = each.formula;
       const ApproximationError& error = each.error;
       const std::string off = error.ratio ? fmt::format("{:+.2f} dB{}", decibels(*error.ratio),
@@ -116,25 +124,28 @@ class Writer {
                                      ? std::string("B = 0 only")
                                      : fmt::format("{:.3g} % of it unsafe, {:.3g} % missed", 100.0 * error.unsafe_share,
                                                    100.0 * error.missed_share);
-      table.rows.push_back({formula_name(formula.formula), formula.any_user ? "any user" : "this device",
+      const FormulaFacts facts = facts_of(formula.formula);
+      table.rows.push_back({std::string(facts.name), formula.any_user ? "any user" : "this device",
                             number(formula.at_zero_damping), number(error.at_zero_damping), off, shares});
-      const auto unmet = unmet_assumptions(formula.formula, device_.analysed.device);
-      notes += wrap(fmt::format("{}: {}. For a {}{}.", formula_source(formula.formula), formula_text(formula.formula),
-                                formula_validity(formula.formula),
-                                unmet.empty() ? "" : fmt::format("; this device has {}", fmt::join(unmet, ", "))),
-                    width, 2);
+      notes += wrap(
+          fmt::format(
+              "{}: {}. For a {}{}.", facts.source, facts.equation, facts.valid_for,
+              formula.not_met.empty() ? "" : fmt::format("; this device has {}", fmt::join(formula.not_met, ", "))),
+          width, 2);
     }
     return "Formulas of the literature beside it, K at B = 0 (b: damping of all bodies)\n" + layout(table) + notes;
   }
 
   static constexpr double negligible = 1e-6;
 
-  const DeviceRegion& device_;
+  const Device& device_;
+  const WallRegion& walls_;
+  Analysis named_;  // the modes alone
   Units units_;
 };
 
 }  // namespace
 
-std::string region_text(const DeviceRegion& device) { return Writer(device).text(); }
+std::string region_text(const Device& device, const WallRegion& walls) { return Writer(device, walls).text(); }
 
 }  // namespace zwidth::report

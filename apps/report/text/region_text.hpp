@@ -2,11 +2,11 @@
 
 #include <string>
 
-#include "report/device_region.hpp"
+#include "zwidth/design/region.hpp"
 
 namespace zwidth::report {
 
 /// The answer of `region` for an engineer.
-[[nodiscard]] std::string region_text(const DeviceRegion& device);
+[[nodiscard]] std::string region_text(const Device& device, const WallRegion& walls);
 
 }  // namespace zwidth::report

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "zwidth/design/any_user_region.hpp"
@@ -27,7 +29,18 @@ struct RegionApproximation {
   double at_zero_damping = 0.0;           ///< K at B = 0
   double slope = 0.0;                     ///< 1/s
   std::optional<double> largest_damping;  ///< it ends at this B; absent: without end
+  /// What the formula assumes and the device is not: "flexible links", "a delay". Empty where it holds.
+  std::vector<std::string> not_met = {};
 };
+
+/// What the literature says of a formula.
+struct FormulaFacts {
+  std::string_view name;       ///< "Colgate & Schenkel"
+  std::string_view source;     ///< "Colgate & Schenkel 1997"
+  std::string_view equation;   ///< "b > K T/2 + B (1 - a)/(1 + a)"
+  std::string_view valid_for;  ///< what it is made for
+};
+[[nodiscard]] FormulaFacts facts_of(RegionApproximation::Formula formula);
 
 /// Those formulas for the device; none for a transfer function.
 /// Throws Error (invalid_argument) for a negative or non-finite filter frequency.

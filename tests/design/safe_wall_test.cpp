@@ -1,10 +1,11 @@
-#include "zwidth/design/wall_ceilings.hpp"
+#include "zwidth/design/safe_wall.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,12 +34,19 @@ double excess(const Device& device, double stiffness, double damping) {
   return largest;
 }
 
-void expect_stable_rectangle(const Device& device, const WallCeilings& ceilings) {
+void expect_stable_rectangle(const Device& device, const SafeWall& ceilings) {
   for (const double k : {1e-3, 0.1, 0.35, 0.7, 1.0}) {
     for (const double b : {0.0, 0.2, 0.5, 0.8, 1.0}) {
       EXPECT_LT(excess(device, k * ceilings.stiffness, b * ceilings.damping), 0.0) << k << " " << b;
     }
   }
+}
+
+std::optional<SafeWall> ceilings_of(const Device& device, double factor) {
+  SafeWall wall = safe_wall(device, {.safety_factor = factor, .damping = SafeWallOptions::Damping::ceiling});
+  EXPECT_FALSE(wall.trust.refused());
+  if (wall.status != SafeWall::Status::chosen) return std::nullopt;
+  return wall;
 }
 
 Device held_by(const Device& device, Operator user) {
@@ -47,7 +55,7 @@ Device held_by(const Device& device, Operator user) {
   return Device(parameters);
 }
 
-TEST(WallCeilings, HoldTogetherAndAlone) {
+TEST(SafeWallCeilings, HoldTogetherAndAlone) {
   std::vector<DeviceParameters> devices{test::lhifam_parameters(), test::rigid_parameters(),
                                         test::reduced_pretension_parameters(),
                                         test::with_delay(test::lhifam_parameters(), 0.25e-3)};
@@ -59,11 +67,11 @@ TEST(WallCeilings, HoldTogetherAndAlone) {
     const Device device(parameters);
     for (const double factor : {0.5, 0.95}) {
       SCOPED_TRACE(parameters.name + " " + std::to_string(factor));
-      const auto ceilings = wall_ceilings(device, factor);
+      const auto ceilings = ceilings_of(device, factor);
       ASSERT_TRUE(ceilings.has_value());
-      EXPECT_EQ(ceilings->basis, WallCeilings::Basis::any_user);
+      EXPECT_EQ(ceilings->basis, SafeWall::Basis::any_user);
       EXPECT_EQ(ceilings->stiffness, factor * ceilings->limit);
-      EXPECT_EQ(ceilings->damping, factor * ceilings->damping_limit);
+      EXPECT_EQ(ceilings->damping, factor * *ceilings->damping_limit);
       EXPECT_EQ(ceilings->limit, any_user_limit(device, {0.0, parameters.wall.velocity_filter_hz}).stiffness);
       EXPECT_GT(ceilings->damping, 0.0);
       expect_stable_rectangle(device, *ceilings);
@@ -77,7 +85,7 @@ TEST(WallCeilings, HoldTogetherAndAlone) {
 }
 
 // Where a user destabilises every wall the device itself sets the ceilings; random devices of every kind.
-TEST(WallCeilings, RandomDevices) {
+TEST(SafeWallCeilings, RandomDevices) {
   test::RandomDevices random(77);
   std::size_t by_device = 0;
   std::size_t by_any_user = 0;
@@ -85,14 +93,14 @@ TEST(WallCeilings, RandomDevices) {
     if (kind == "long_delay" || kind == "fast_sampling" || kind == "everything" || kind == "chain") continue;  // slow
     SCOPED_TRACE(kind);
     const Device device(random.device(kind));
-    const auto ceilings = wall_ceilings(device, 0.7);
+    const auto ceilings = ceilings_of(device, 0.7);
     if (!ceilings) continue;
-    (ceilings->basis == WallCeilings::Basis::device ? by_device : by_any_user) += 1;
+    (ceilings->basis == SafeWall::Basis::device ? by_device : by_any_user) += 1;
     expect_stable_rectangle(device, *ceilings);
-    if (ceilings->basis == WallCeilings::Basis::any_user) continue;
+    if (ceilings->basis == SafeWall::Basis::any_user) continue;
     // The limit of the damping is one: just beyond it some wall up to the stiffness is not stable.
     const StableWalls walls(filtered_plant(device), device.parameters().wall.velocity_filter_hz);
-    const auto beyond = walls.stable_stiffnesses(1.001 * ceilings->damping_limit);
+    const auto beyond = walls.stable_stiffnesses(1.001 * *ceilings->damping_limit);
     EXPECT_TRUE(beyond.empty() || beyond.front().lower > 0.0 ||
                 beyond.front().upper.value_or(1e300) < 1.001 * ceilings->stiffness);
   }
@@ -101,23 +109,67 @@ TEST(WallCeilings, RandomDevices) {
 }
 
 // One body without delay: K + 2 B/T < 2 b/T is Colgate & Schenkel's, for any user: at K = S 2 b/T, B = (1 - S) b.
-TEST(WallCeilings, OfARigidDeviceAreColgateAndSchenkels) {
-  const auto ceilings = wall_ceilings(Device(test::rigid_parameters()), 0.4);
+TEST(SafeWallCeilings, OfARigidDeviceAreColgateAndSchenkels) {
+  const auto ceilings = ceilings_of(Device(test::rigid_parameters()), 0.4);
   ASSERT_TRUE(ceilings.has_value());
   EXPECT_NEAR(ceilings->limit, 7000.0, 7000.0 * 1e-6);
-  EXPECT_NEAR(ceilings->damping_limit, 0.6 * 3.5, 1e-5);
+  EXPECT_NEAR(*ceilings->damping_limit, 0.6 * 3.5, 1e-5);
 }
 
-TEST(WallCeilings, NoneWithoutAStableWall) {
+TEST(SafeWallCeilings, NoneWithoutAStableWall) {
   DeviceParameters undamped = test::rigid_parameters();
   undamped.bodies[0].damping = 0.0;
-  EXPECT_FALSE(wall_ceilings(Device(undamped), 0.5).has_value());
+  EXPECT_FALSE(ceilings_of(Device(undamped), 0.5).has_value());
+  EXPECT_EQ(safe_wall(Device(undamped)).status, SafeWall::Status::none_stable);
 }
 
-TEST(WallCeilings, RefusedFactors) {
+TEST(SafeWallCeilings, RefusedFactors) {
   for (const double factor : {0.0, 1.0, -1.0, std::nan("")}) {
-    EXPECT_THROW((void)wall_ceilings(Device(test::rigid_parameters()), factor), Error);
+    EXPECT_THROW((void)safe_wall(Device(test::rigid_parameters()), {.safety_factor = factor}), Error);
   }
+}
+
+TEST(SafeWall, IsAShareOfTheAnyUserLimitWithTheOwnDamperClosed) {
+  DeviceParameters parameters = test::lhifam_parameters();
+  parameters.wall.damping = 1.5;
+  const Device device(parameters);
+  const SafeWall wall = safe_wall(device, {.safety_factor = 0.6});
+  ASSERT_EQ(wall.status, SafeWall::Status::chosen);
+  EXPECT_EQ(wall.basis, SafeWall::Basis::any_user);
+  EXPECT_EQ(wall.damping, 1.5);
+  EXPECT_FALSE(wall.damping_limit.has_value());
+  EXPECT_EQ(wall.stiffness, 0.6 * any_user_limit(device, {1.5, 0.0}).stiffness);
+  EXPECT_TRUE(wall.trust.sound());
+}
+
+// A transfer function has no user.
+TEST(SafeWall, IsAShareOfTheCriticalStiffnessWhereThereIsNoUser) {
+  const SafeWall wall = safe_wall(Device(test::transfer_function_parameters({1.0}, {1.0, 1.0}, 1.0)));
+  EXPECT_EQ(wall.basis, SafeWall::Basis::device);
+  EXPECT_NEAR(wall.stiffness, 0.5 * 2.16395341373865, 1e-12);  // theory, section 6
+}
+
+TEST(SafeWall, TakesTheLowerEndOfTheInterval) {
+  DeviceParameters parameters = test::lhifam_parameters();
+  const SafeWall certain = safe_wall(Device(parameters));
+  parameters.uncertainty = Uncertainty{{"body.motor.damping"}, {{0.04}}};
+  const SafeWall uncertain = safe_wall(Device(parameters), {.draws = 200});
+  ASSERT_TRUE(uncertain.interval.has_value());
+  EXPECT_LT(uncertain.uncertainty_share, 1.0);
+  EXPECT_NEAR(uncertain.stiffness / (certain.stiffness * uncertain.uncertainty_share), 1.0, 1e-12);
+  EXPECT_FALSE(uncertain.remarks.empty());
+}
+
+TEST(SafeWall, IsTrustedNoMoreThanTheDevice) {
+  DeviceParameters parameters = test::lhifam_parameters();
+  parameters.uncertainty = Uncertainty{{}, {}, "the limiting crossover lies above the excited band"};
+  const SafeWall doubtful = safe_wall(Device(parameters));
+  EXPECT_EQ(doubtful.trust.verdict, Trust::Verdict::doubtful);
+  EXPECT_GT(doubtful.stiffness, 0.0);
+  parameters.uncertainty->verdict = Trust::Verdict::refused;
+  const SafeWall refused = safe_wall(Device(parameters));
+  EXPECT_EQ(refused.status, SafeWall::Status::refused);
+  EXPECT_EQ(refused.stiffness, 0.0);
 }
 
 }  // namespace

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "zwidth/design/any_user_region.hpp"
+#include "zwidth/design/region_approximation.hpp"
+#include "zwidth/design/stable_region.hpp"
+#include "zwidth/model/device.hpp"
+#include "zwidth/model/modal_form.hpp"
+#include "zwidth/option_problem.hpp"
+#include "zwidth/remark.hpp"
+#include "zwidth/trust.hpp"
+
+namespace zwidth {
+
+struct RegionOptions {
+  OutlineOptions outline = {};
+  bool any_user = true;        ///< the walls that no passive user destabilises, where the device has a body to hold
+  bool approximations = true;  ///< the formulas of the literature and how far each is off
+};
+
+/// Checks: outline.deviation above 0 and below 1.
+[[nodiscard]] std::optional<OptionProblem> find_problem(const RegionOptions& options);
+
+/// A formula of the literature beside the exact region.
+struct ComparedApproximation {
+  RegionApproximation formula;
+  ApproximationError error;
+};
+
+/// Every wall (K, B) that a device renders stably. Where it is refused (trust), no wall, region, limit or formula is held.
+struct WallRegion {
+  std::optional<StableWalls> walls;  ///< with the device's velocity filter and filters; absent where refused
+  StableRegion region;
+  /// Absent unless asked for; for a transfer function, above most_bodies_for_any_user, or where no wall is stable.
+  std::optional<AnyUserRegion> any_user;
+  std::vector<ComparedApproximation> approximations;  ///< none for a transfer function, or unless asked for
+  std::vector<Mode> modes;                            ///< vibration modes, that BoundaryPoint::limited_by numbers
+  std::optional<Mode> suspended_rigid_body;           ///< where springs tie the device to ground
+  Trust trust;                                        ///< the device's, and what the check of the walls found
+  std::vector<Remark> remarks;                        ///< how the walls were checked, what was left out
+};
+
+/// The region of a device, with the velocity filter and the filters of its wall: the entry point.
+///
+/// The boundary is that of stable_region(). Walls inside and outside, over the whole extent and on both sides of the
+/// boundary, are then asked of a second route that shares nothing with it: matrix exponential and closed-loop poles.
+/// Where the two contradict, where the boundary cannot be followed or does not close, or where the device's own numbers
+/// are refused (trust_of()), the answer is `refused`; what is doubtful stays so.
+/// The device's wall.stiffness and wall.damping are left out.
+/// Throws Error (invalid_argument) where find_problem() finds one.
+[[nodiscard]] WallRegion region(const Device& device, const RegionOptions& options = {});
+
+}  // namespace zwidth

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "zwidth/model/device.hpp"
+#include "zwidth/option_problem.hpp"
+#include "zwidth/remark.hpp"
+#include "zwidth/stability/stiffness_interval.hpp"
+#include "zwidth/trust.hpp"
+
+namespace zwidth {
+
+struct SafeWallOptions {
+  double safety_factor = 0.5;  ///< of every limit
+  enum class Damping {
+    own,      ///< the device's own wall.damping, closed while the stiffness is chosen
+    ceiling,  ///< chosen too: ceilings of both that may be used alone or together
+  };
+  Damping damping = Damping::own;
+  std::size_t draws = 1000;  ///< of the device's uncertainty, where it has one
+};
+
+/// Checks: safety_factor above 0 and below 1; draws at least 1.
+[[nodiscard]] std::optional<OptionProblem> find_problem(const SafeWallOptions& options);
+
+/// A wall with a margin to the limit, to be rendered.
+struct SafeWall {
+  enum class Basis {
+    any_user,  ///< whoever holds the device
+    device,    ///< the device as it is, with its own user if it has one
+  };
+  enum class Status {
+    chosen,
+    none_stable,  ///< no wall is stable from K = 0 on: there is nothing to take a share of
+    unbounded,    ///< every wall is stable: there is no limit to take a share of
+    refused,      ///< see trust
+  };
+  Status status = Status::chosen;
+  Basis basis = Basis::device;
+  double limit = 0.0;      ///< K where stability ends: the any-user limit, or K_CR
+  double stiffness = 0.0;  ///< K chosen
+  double damping = 0.0;    ///< B of it: the device's own, or the ceiling
+  /// With Damping::ceiling the least B at which some wall of 0 < K <= stiffness is not stable.
+  std::optional<double> damping_limit;
+  std::optional<StiffnessInterval> interval;  ///< of K_CR, where the device has an uncertainty
+  /// The lower end of that interval over K_CR, at most 1: every limit is taken at this share. 1 without an uncertainty.
+  double uncertainty_share = 1.0;
+  Trust trust;  ///< the device's, and what the check of the wall found; where refused, no number is held
+  std::vector<Remark> remarks;  ///< on what the limits rest
+};
+
+/// A share of what the device renders stably.
+///
+///     stiffness = safety_factor * uncertainty_share * limit
+///
+/// `limit` is the any-user limit (any_user_limit()) where there is one, else K_CR. With Damping::own the device's damper
+/// stays closed; with Damping::ceiling `limit` is that at B = 0, and
+///
+///     damping = safety_factor * uncertainty_share * damping_limit
+///
+/// A program may then use the stiffness alone, the damping alone, or both, and any less of them: so the whole rectangle
+/// must be stable. damping_limit is the lowest boundary of the region over 0 < K <= stiffness: of the any-user region
+/// (any_user_region(), sampled over B) where any_user_limit() at B = 0 is above 0, else of stable_region(). The velocity
+/// filter and the filters of the wall stay in.
+///
+/// The wall chosen, or walls over the whole rectangle, are asked of a second route, closed-loop poles by matrix
+/// exponential: where one is not stable the answer is `refused`, and so it is for a refused device.
+/// Throws Error (invalid_argument) where find_problem() finds one.
+[[nodiscard]] SafeWall safe_wall(const Device& device, const SafeWallOptions& options = {});
+
+}  // namespace zwidth

@@ -1,0 +1,112 @@
+#include "zwidth/design/region.hpp"
+
+#include <fmt/format.h>
+
+#include <string>
+#include <utility>
+
+#include "design/region_check.hpp"
+#include "design/region_structure.hpp"
+#include "zwidth/error.hpp"
+#include "zwidth/model/device_trust.hpp"
+#include "zwidth/quantity.hpp"
+#include "zwidth/stability/analysis.hpp"
+
+namespace zwidth {
+using namespace internal;
+namespace {
+
+std::vector<ComparedApproximation> compared(const Device& device, const WallRegion& walls) {
+  std::vector<ComparedApproximation> result;
+  for (RegionApproximation& formula : region_approximations(device, walls.walls->velocity_filter_hz())) {
+    if (formula.any_user && walls.any_user) {
+      const ApproximationError error = approximation_error(formula, *walls.any_user);
+      result.push_back({std::move(formula), error});
+    } else if (!formula.any_user && walls.region.most_damped) {
+      const ApproximationError error = approximation_error(formula, *walls.walls, walls.region.most_damped->damping);
+      result.push_back({std::move(formula), error});
+    }
+  }
+  return result;
+}
+
+void refuse(WallRegion& result, std::string reason) {
+  Trust trust = std::move(result.trust);
+  trust.refuse(std::move(reason));
+  result = {};
+  result.trust = std::move(trust);
+}
+
+// Follows the boundary and asks the second route.
+void find_walls(const Device& device, const OutlineOptions& outline, WallRegion& result) {
+  result.walls.emplace(filtered_plant(device), device.parameters().wall.velocity_filter_hz);
+  result.region = stable_region(*result.walls, outline);
+  const RegionCheck check = check_region(device, *result.walls, result.region, outline.deviation);
+  const Units units = units_of(device.parameters().motion);
+  if (check.contradiction) {
+    refuse(result, fmt::format("two computations contradict each other on whether the wall of {} and {} {} is stable: "
+                               "modes lie too close together, or are too little damped, for either to be sure; give "
+                               "the links their damping, or merge bodies that move alike",
+                               quantity(check.contradiction->stiffness, units.stiffness),
+                               number(check.contradiction->damping), units.damping));
+    return;
+  }
+  if (check.asked == 0 && result.region.bounded) {
+    result.trust.doubt(
+        "no second computation confirms the region: the loop has too many states; shorten the delay or merge bodies "
+        "that hardly move against each other");
+  }
+  if (!result.walls->structure().proven) {
+    result.remarks.push_back(
+        {Remark::Severity::note,
+         fmt::format("the boundary was followed by samples, not by bounds, and confirmed at {} walls", check.confirmed),
+         "a part of the region that is much thinner than its distance from K = B = 0 may be missing",
+         "critical_stiffness at one damping has no such gap"});
+  }
+}
+
+}  // namespace
+
+std::optional<OptionProblem> find_problem(const RegionOptions& options) {
+  const double deviation = options.outline.deviation;
+  if (!(deviation > 0.0 && deviation < 1.0)) {
+    return OptionProblem{"outline.deviation", fmt::format("is {}", deviation), "must be above 0 and below 1"};
+  }
+  return std::nullopt;
+}
+
+WallRegion region(const Device& device, const RegionOptions& options) {
+  if (const auto problem = find_problem(options)) {
+    throw Error(ErrorCode::invalid_argument, problem->member + " " + problem->what + "; " + problem->allowed);
+  }
+  WallRegion result;
+  result.trust = trust_of(device);
+  if (result.trust.refused()) return result;
+  try {
+    find_walls(device, options.outline, result);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::did_not_converge) throw;
+    refuse(result,
+           fmt::format("{}; the stable stiffnesses at one damping (wall.damping) can still be told", error.what()));
+  }
+  if (result.trust.refused()) return result;
+  const ModalForm form = modal_form(device);
+  result.modes = form.modes;
+  result.suspended_rigid_body = form.suspended_rigid_body;
+  if (options.any_user && device.has_bodies() && result.region.most_damped &&
+      result.region.most_damped->damping > 0.0) {
+    if (device.bodies().size() <= most_bodies_for_any_user) {
+      result.any_user = any_user_region(device, result.walls->velocity_filter_hz(), result.region.most_damped->damping);
+    } else {
+      result.remarks.push_back({Remark::Severity::note,
+                                fmt::format("no limit for any passive user: the device has {} bodies, more than {}",
+                                            device.bodies().size(), most_bodies_for_any_user),
+                                "a user may destabilise walls of this region",
+                                "merge bodies that hardly move against each other"});
+    }
+  }
+  if (options.approximations) result.approximations = compared(device, result);
+  return result;
+}
+
+}  // namespace zwidth

@@ -1,0 +1,221 @@
+#include "zwidth/design/safe_wall.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "stability/any_user_search.hpp"
+#include "stability/guarded_stiffness.hpp"
+#include "stability/pole_count.hpp"
+#include "zwidth/design/any_user_region.hpp"
+#include "zwidth/design/stable_region.hpp"
+#include "zwidth/error.hpp"
+#include "zwidth/model/device_trust.hpp"
+#include "zwidth/stability/analysis.hpp"
+#include "zwidth/stability/any_user.hpp"
+
+namespace zwidth {
+using namespace internal;
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr int bisections = 24;  // of a stretch of B
+
+/// The end of the range from `holds` (true at `low`) to `fails` (false at `high`), from below.
+template <typename Holds>
+double last_that_holds(double low, double high, Holds&& holds) {
+  for (int i = 0; i < bisections; ++i) {
+    const double middle = 0.5 * (low + high);
+    (holds(middle) ? low : high) = middle;
+  }
+  return low;
+}
+
+/// Least B on the segment where K <= stiffness; infinity where it has none.
+double least_damping(const BoundaryPoint& a, const BoundaryPoint& b, double stiffness) {
+  double least = infinity;
+  for (const BoundaryPoint* end : {&a, &b}) {
+    if (end->stiffness <= stiffness) least = std::min(least, end->damping);
+  }
+  if ((a.stiffness <= stiffness) != (b.stiffness <= stiffness)) {
+    const double share = (stiffness - a.stiffness) / (b.stiffness - a.stiffness);
+    least = std::min(least, a.damping + share * (b.damping - a.damping));
+  }
+  return least;
+}
+
+/// Least B of the boundary over 0 < K <= stiffness.
+double boundary_damping(const StableWalls& walls, const StableRegion& region, double stiffness) {
+  double least = infinity;
+  for (const StableComponent& component : region.components) {
+    for (const BoundaryArc& arc : component.outline.arcs) {
+      if (arc.kind == BoundaryKind::no_stiffness || arc.kind == BoundaryKind::no_damping) continue;
+      for (std::size_t i = 1; i < arc.points.size(); ++i) {
+        least = std::min(least, least_damping(arc.points[i - 1], arc.points[i], stiffness));
+      }
+    }
+  }
+  // The outline is a polygon: the exact intervals of K decide beside it.
+  const auto holds = [&](double damping) {
+    const std::vector<StableInterval> intervals = walls.stable_stiffnesses(damping);
+    return !intervals.empty() && intervals.front().lower == 0.0 &&
+           intervals.front().upper.value_or(infinity) > stiffness;
+  };
+  constexpr double beside = 0.05;
+  const double low = (1.0 - beside) * least;
+  const double high = (1.0 + beside) * least;
+  if (!holds(low)) return last_that_holds(0.0, low, holds);
+  return holds(high) ? least : last_that_holds(low, high, holds);
+}
+
+/// Least B at which the any-user limit is not above `stiffness`.
+double any_user_damping(const Device& device, const AnyUserRegion& region, double stiffness) {
+  const double filter = device.parameters().wall.velocity_filter_hz;
+  const std::vector<AnyUserPoint>& limit = region.ranges.front();  // from B = 0, where the limit is above 0
+  const auto first_below = std::ranges::find_if(limit, [&](const AnyUserPoint& p) { return p.stiffness <= stiffness; });
+  if (first_below == limit.begin()) return 0.0;
+  if (first_below == limit.end()) return limit.back().damping;
+  const AnyUserSearch search(device);
+  return last_that_holds(std::prev(first_below)->damping, first_below->damping, [&](double damping) {
+    return search.limit({damping, filter}).stiffness > stiffness;
+  });
+}
+
+/// Of the uncertainty nothing is lost.
+Device with_damping(const Device& device, double damping) {
+  DeviceParameters parameters = device.parameters();
+  parameters.wall.damping = damping;
+  return Device(std::move(parameters));
+}
+
+/// Leaves the trust alone.
+SafeWall refused(SafeWall wall) {
+  SafeWall result;
+  result.status = SafeWall::Status::refused;
+  result.trust = std::move(wall.trust);
+  return result;
+}
+
+/// The device with this wall.
+Device with_wall(const Device& device, double stiffness, double damping) {
+  DeviceParameters parameters = device.parameters();
+  parameters.uncertainty.reset();
+  parameters.wall.stiffness = stiffness;
+  parameters.wall.damping = damping;
+  return Device(std::move(parameters));
+}
+
+/// Asks the second route.
+void check(const Device& device, double stiffness, double damping, Trust& trust) {
+  const Device walled = with_wall(device, stiffness, damping);
+  distrust(agreement(PoleCount(walled), stiffness, true), stiffness, trust);
+}
+
+void check_wall(const Device& device, const SafeWallOptions& options, SafeWall& wall) {
+  if (options.damping == SafeWallOptions::Damping::own) {
+    check(device, wall.stiffness, wall.damping, wall.trust);
+    return;
+  }
+  for (const double stiffness : {1e-3, 0.5, 1.0}) {
+    for (const double damping : {0.0, 0.5, 1.0}) {
+      if (wall.trust.refused()) return;
+      check(device, stiffness * wall.stiffness, damping * wall.damping, wall.trust);
+    }
+  }
+}
+
+/// What the uncertainty leaves of every limit.
+void take_lower_end(const Device& device, const CriticalStiffness& critical, std::size_t draws, SafeWall& wall) {
+  const std::optional<Uncertainty>& uncertainty = device.parameters().uncertainty;
+  if (!uncertainty || uncertainty->parameters.empty()) return;
+  wall.interval = stiffness_interval(device, draws);
+  wall.uncertainty_share = std::clamp(wall.interval->lower / critical.stiffness, 0.0, 1.0);
+  wall.remarks.push_back({Remark::Severity::note,
+                          fmt::format("limits are taken at the lower end of the 95 % interval, {:.4g} of their value",
+                                      wall.uncertainty_share),
+                          "the parameters of the device are known so well and no better",
+                          "identify them from more or longer recordings for a stiffer wall"});
+}
+
+void choose(const Device& device, const SafeWallOptions& options, SafeWall& wall) {
+  const bool own = options.damping == SafeWallOptions::Damping::own;
+  const double filter = device.parameters().wall.velocity_filter_hz;
+  wall.damping = own ? device.parameters().wall.damping : 0.0;
+  const Device closed = own ? device : with_damping(device, 0.0);
+  const CriticalStiffness critical = critical_stiffness(closed);
+  wall.trust.inherit(critical.trust);
+  if (wall.trust.refused()) return;
+  if (critical.status == StiffnessStatus::none_stable) wall.status = SafeWall::Status::none_stable;
+  if (critical.status == StiffnessStatus::unbounded) wall.status = SafeWall::Status::unbounded;
+  if (wall.status != SafeWall::Status::chosen) return;
+  wall.limit = critical.stiffness;
+  if (device.has_bodies() && device.bodies().size() <= most_bodies_for_any_user) {
+    const double any_user = any_user_limit(device, {wall.damping, filter}).stiffness;
+    if (any_user > 0.0 && std::isfinite(any_user)) {
+      wall.basis = SafeWall::Basis::any_user;
+      wall.limit = any_user;
+    }
+  }
+  if (wall.basis == SafeWall::Basis::device && device.has_bodies()) {
+    wall.remarks.push_back({Remark::Severity::note, "there is no limit for any passive user to take a share of",
+                            "whoever holds the device may destabilise this wall", ""});
+  }
+  take_lower_end(closed, critical, options.draws, wall);
+  const double share = options.safety_factor * wall.uncertainty_share;
+  wall.stiffness = share * wall.limit;
+  if (!own && wall.stiffness > 0.0) {
+    const StableWalls walls(filtered_plant(device), filter);
+    const StableRegion region = stable_region(walls);
+    if (!region.most_damped) {
+      wall.trust.refuse("the region of stable walls contradicts the critical stiffness");
+      return;
+    }
+    wall.damping_limit =
+        wall.basis == SafeWall::Basis::any_user
+            ? any_user_damping(device, any_user_region(device, filter, region.most_damped->damping), wall.stiffness)
+            : boundary_damping(walls, region, wall.stiffness);
+    wall.damping = share * *wall.damping_limit;
+  }
+  if (!(wall.stiffness > 0.0)) {
+    wall.trust.refuse(
+        "the uncertainty of the device leaves no wall: in more than 2.5 % of the draws none is stable; identify it "
+        "from "
+        "more or longer recordings");
+    return;
+  }
+  check_wall(device, options, wall);
+}
+
+}  // namespace
+
+std::optional<OptionProblem> find_problem(const SafeWallOptions& options) {
+  if (!(options.safety_factor > 0.0 && options.safety_factor < 1.0)) {
+    return OptionProblem{"safety_factor", fmt::format("is {}", options.safety_factor), "must be above 0 and below 1"};
+  }
+  if (options.draws == 0) return OptionProblem{"draws", "is 0", "must be at least 1"};
+  return std::nullopt;
+}
+
+SafeWall safe_wall(const Device& device, const SafeWallOptions& options) {
+  if (const auto problem = find_problem(options)) {
+    throw Error(ErrorCode::invalid_argument, problem->member + " " + problem->what + "; " + problem->allowed);
+  }
+  SafeWall wall;
+  wall.trust = trust_of(device);
+  if (wall.trust.refused()) return refused(std::move(wall));
+  try {
+    choose(device, options, wall);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::did_not_converge) throw;
+    wall.trust.refuse(error.what());
+  }
+  if (wall.trust.refused()) return refused(std::move(wall));
+  return wall;
+}
+
+}  // namespace zwidth

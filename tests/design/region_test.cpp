@@ -1,0 +1,274 @@
+// region(): devices that earlier answers lost, refused without need, or never answered; every answer against
+// closed-loop eigenvalues.
+
+#include "zwidth/design/region.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <string>
+
+#include "lhifam.hpp"
+#include "property/random_devices.hpp"
+#include "zwidth/error.hpp"
+#include "zwidth/stability/closed_loop.hpp"
+
+namespace zwidth {
+namespace {
+
+constexpr double on_circle = 1e-9;
+
+/// Largest |z| - 1 of the closed loop.
+class Eigenvalues {
+ public:
+  explicit Eigenvalues(const Device& device)
+      : plant_(sample(state_space(device), {device.loop().sampling_period, device.loop().delay})),
+        wall_(device.parameters().wall) {}
+  [[nodiscard]] double excess(double stiffness, double damping) const {
+    Wall wall = wall_;
+    wall.stiffness = stiffness;
+    wall.damping = damping;
+    return stability_excess(plant_, wall);
+  }
+  /// Certainly on that side, here and 0.1 % away.
+  [[nodiscard]] bool is_clearly(bool stable, double stiffness, double damping) const {
+    const auto agrees = [&](double k, double b) {
+      const double here = excess(k, b);
+      return stable ? here < -on_circle : here > on_circle;
+    };
+    constexpr double step = 1e-3;
+    return agrees(stiffness, damping) && agrees(stiffness * (1.0 - step), damping) &&
+           agrees(stiffness * (1.0 + step), damping) && agrees(stiffness, damping * (1.0 - step)) &&
+           agrees(stiffness, damping * (1.0 + step));
+  }
+
+ private:
+  DiscreteStateSpace plant_;
+  Wall wall_;
+};
+
+/// Inside and outside, evenly and by ratios, as the region says and as eigenvalues do.
+void expect_confirmed(const Device& device, const WallRegion& walls) {
+  if (!walls.region.stiffest) return;
+  const Eigenvalues eigenvalues(device);
+  const double stiffness = walls.region.stiffest->stiffness;
+  const double damping = walls.region.most_damped->damping;
+  const auto ask = [&](double k, double b) {
+    const auto intervals = walls.walls->stable_stiffnesses(b);
+    const bool stable = std::any_of(intervals.begin(), intervals.end(), [k](const StableInterval& interval) {
+      return k > interval.lower && (!interval.upper || k < *interval.upper);
+    });
+    EXPECT_FALSE(eigenvalues.is_clearly(!stable, k, b)) << device.name() << ": K " << k << " B " << b;
+  };
+  for (int i = 1; i <= 9; ++i) {
+    for (int j = 0; j <= 9; ++j) ask(1.2 * stiffness * i / 9.0, 1.2 * damping * j / 9.0);
+  }
+  for (int i = -5; i <= 4; ++i) {
+    for (int j = -5; j <= 4; ++j) ask(stiffness * std::pow(10.0, i), damping * std::pow(10.0, j));
+  }
+}
+
+/// Every arc begins where the last one ends, nowhere below K = 0 or B = 0.
+void expect_closed(const WallRegion& walls) {
+  for (const StableComponent& component : walls.region.components) {
+    const auto& arcs = component.outline.arcs;
+    for (std::size_t i = 0; i < arcs.size(); ++i) {
+      const BoundaryPoint& end = arcs[i].points.back();
+      const BoundaryPoint& begin = arcs[(i + 1) % arcs.size()].points.front();
+      EXPECT_EQ(end.stiffness, begin.stiffness);
+      EXPECT_EQ(end.damping, begin.damping);
+      for (const BoundaryPoint& point : arcs[i].points) {
+        EXPECT_GE(point.stiffness, 0.0);
+        EXPECT_GE(point.damping, 0.0);
+      }
+    }
+  }
+}
+
+/// Two bodies, the second one actuated and sensed.
+DeviceParameters far_body(double first, double second, double damping, Link link) {
+  DeviceParameters device;
+  device.name = "far body";
+  device.bodies = {{"b0", first, 0.0, 0.0, 0.0}, {"b1", second, damping, 0.0, 0.0}};
+  device.links = {link};
+  device.loop.actuated = 1;
+  device.loop.sensed = 1;
+  device.loop.held = 1;
+  device.loop.sampling_period = 1e-3;
+  return device;
+}
+
+const RegionOptions walls_alone{.any_user = false, .approximations = false};
+
+// Was "No wall is stable"; K_CR is 5714. The damper destabilises the undamped mode from 0.6835 N s/m on (the locus of B
+// alone, gain_crossings).
+TEST(Region, IsNotLostBesideAnUndampedStiffLink) {
+  DeviceParameters parameters = far_body(0.06, 0.7, 0.4, {0, 1, 3e7, 0.0});
+  parameters.loop.sampling_period = 1e-4;
+  parameters.loop.delay = 20e-6;
+  const Device device(parameters);
+  const WallRegion walls = region(device, walls_alone);
+  EXPECT_TRUE(walls.trust.sound());
+  EXPECT_NEAR(walls.region.critical_stiffness, 5714.33, 0.01);
+  EXPECT_NEAR(walls.region.most_damped->damping, 0.683521, 1e-5);
+  expect_closed(walls);
+  expect_confirmed(device, walls);
+}
+
+// Was 0.194.
+TEST(Region, ReachesTheDampingAtWhichTheDamperAloneIsUnstable) {
+  DeviceParameters parameters = far_body(0.06, 0.7, 0.4, {0, 1, 3e5, 0.0});
+  parameters.loop.delay = 0.2e-3;
+  const Device device(parameters);
+  const WallRegion walls = region(device, walls_alone);
+  EXPECT_NEAR(walls.region.most_damped->damping, 0.683556, 1e-5);
+  expect_closed(walls);
+  expect_confirmed(device, walls);
+}
+
+// Was without end.
+TEST(Region, OfAModeBesideNyquistEnds) {
+  DeviceParameters parameters = far_body(1.02706, 0.0847166, 0.0, {0, 1, 770862.0, 0.0049});
+  parameters.loop.held = 0;
+  parameters.loop.delay = 0.23314753407830435e-3;
+  const Device device(parameters);
+  const WallRegion walls = region(device);
+  EXPECT_FALSE(walls.trust.refused());
+  EXPECT_GT(walls.region.area, 0.0);
+  expect_closed(walls);
+  expect_confirmed(device, walls);
+}
+
+// z (z - a) - c (K z + B (z - 1)/T) with c > 0: the product of the poles is c B/T, which is 1 along one B, whatever K.
+TEST(Region, HasAHorizontalBoundary) {
+  const Device device(test::transfer_function_parameters({-0.143891}, {1.0, 356.8755}, 1e-3));
+  const WallRegion walls = region(device);
+  EXPECT_TRUE(walls.trust.sound());
+  ASSERT_EQ(walls.region.components.size(), 1U);
+  const double rate = 356.8755;
+  const double top = 1e-3 * rate / (0.143891 * -std::expm1(-rate * 1e-3));
+  EXPECT_NEAR(walls.region.most_damped->damping, top, 1e-9 * top);
+  double along = 0.0;  // the length of boundary at that B
+  for (const BoundaryArc& arc : walls.region.components[0].outline.arcs) {
+    if (arc.kind != BoundaryKind::oscillation) continue;
+    EXPECT_NEAR(arc.points.front().damping, top, 1e-9 * top);
+    along += std::abs(arc.points.back().stiffness - arc.points.front().stiffness);
+  }
+  EXPECT_NEAR(along, rate / 0.143891, 1e-6 * rate / 0.143891);  // up to the static -1/P(1)
+  EXPECT_NEAR(walls.region.area, top * rate / 0.143891, 1e-6 * top * rate / 0.143891);
+  expect_closed(walls);
+}
+
+TEST(Region, OfExtremeCoefficientsEndsOneWayOrTheOther) {
+  for (const double size : {1e-30, 1e-12, 1e12, 1e30}) {
+    for (const double pole : {1e-9, 1e9}) {
+      const WallRegion walls = region(Device(test::transfer_function_parameters({size}, {1.0, pole}, 1e-3)));
+      if (!walls.trust.refused()) expect_closed(walls);
+    }
+  }
+}
+
+/// 1 to 4 bodies; most dampings are the default 0.
+DeviceParameters hardly_damped(test::RandomDevices& random) {
+  DeviceParameters device;
+  const std::size_t bodies = 1 + random.index(4);
+  const auto damping = [&](double none, double low, double high) {
+    return random.chance(none) ? 0.0 : random.log_uniform(low, high);
+  };
+  for (std::size_t i = 0; i < bodies; ++i) {
+    const bool last = i + 1 == bodies;
+    device.bodies.push_back(
+        {"b" + std::to_string(i), random.log_uniform(0.02, 5.0), damping(last ? 0.2 : 0.8, 0.01, 10.0), 0.0, 0.0});
+  }
+  for (std::size_t i = 0; i + 1 < bodies; ++i) {
+    device.links.push_back({i, i + 1, random.log_uniform(1e2, 3e7), damping(0.6, 1e-3, 30.0)});
+  }
+  device.loop.actuated = random.index(bodies);
+  device.loop.sensed = random.chance(0.7) ? device.loop.actuated : random.index(bodies);
+  device.loop.held = random.index(bodies);
+  device.loop.sampling_period = std::array{1e-4, 5e-4, 1e-3, 2e-3}[random.index(4)];
+  if (random.chance(0.5)) device.loop.delay = random.log_uniform(0.01, 3.0) * device.loop.sampling_period;
+  return device;
+}
+
+DeviceParameters long_chain(test::RandomDevices& random) {
+  DeviceParameters device;
+  const std::size_t bodies = 7 + random.index(4);
+  for (std::size_t i = 0; i < bodies; ++i) {
+    device.bodies.push_back(
+        {"b" + std::to_string(i), random.log_uniform(0.02, 5.0), random.log_uniform(0.01, 10.0), 0.0, 0.0});
+  }
+  for (std::size_t i = 0; i + 1 < bodies; ++i) {
+    device.links.push_back({i, i + 1, random.log_uniform(1e3, 3e5), random.log_uniform(0.1, 30.0)});
+  }
+  device.loop.held = bodies - 1;
+  device.loop.sampling_period = std::array{5e-4, 1e-3, 2e-3}[random.index(3)];
+  return device;
+}
+
+std::size_t cases() {
+  const char* wish = std::getenv("ZWIDTH_REGION_CASES");
+  return std::max<std::size_t>(1, (wish != nullptr ? std::strtoul(wish, nullptr, 10) : 200) / 4);
+}
+
+template <typename Make>
+void expect_confirmed_family(std::size_t count, const Make& make) {
+  std::size_t refused = 0;
+  for (std::size_t seed = 0; seed < count; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    test::RandomDevices random(7919 * seed + 13);
+    const Device device(make(random));
+    const WallRegion walls = region(device, walls_alone);
+    if (walls.trust.refused()) {
+      ++refused;
+      EXPECT_TRUE(walls.region.components.empty());
+      EXPECT_FALSE(walls.walls.has_value());
+      continue;
+    }
+    expect_closed(walls);
+    expect_confirmed(device, walls);
+  }
+  EXPECT_LE(refused, 1 + count / 20) << "of " << count;
+}
+
+TEST(RegionProperty, OfHardlyDampedDevices) { expect_confirmed_family(cases(), hardly_damped); }
+
+TEST(RegionProperty, OfSevenToTenBodies) { expect_confirmed_family(1 + cases() / 10, long_chain); }
+
+TEST(Region, IsTrustedNoMoreThanItsDevice) {
+  DeviceParameters parameters = test::lhifam_parameters();
+  parameters.uncertainty = Uncertainty{{}, {}, "the limiting crossover lies above the excited band"};
+  EXPECT_EQ(region(Device(parameters), walls_alone).trust.verdict, Trust::Verdict::doubtful);
+  parameters.uncertainty->verdict = Trust::Verdict::refused;
+  const WallRegion refused = region(Device(parameters));
+  EXPECT_TRUE(refused.trust.refused());
+  EXPECT_FALSE(refused.walls.has_value());
+  EXPECT_TRUE(refused.region.components.empty());
+}
+
+TEST(Region, ComputesWhatIsAskedFor) {
+  const Device device(test::rigid_parameters());
+  const WallRegion all = region(device);
+  EXPECT_TRUE(all.any_user.has_value());
+  EXPECT_EQ(all.approximations.size(), 3U);
+  const WallRegion alone = region(device, walls_alone);
+  EXPECT_FALSE(alone.any_user.has_value());
+  EXPECT_TRUE(alone.approximations.empty());
+  EXPECT_EQ(alone.region.area, all.region.area);
+}
+
+TEST(RegionOptions, NameTheMember) {
+  for (const double deviation : {0.0, 1.0, -1.0, std::nan("")}) {
+    const auto problem = find_problem(RegionOptions{.outline = {deviation}});
+    ASSERT_TRUE(problem.has_value());
+    EXPECT_EQ(problem->member, "outline.deviation");
+    EXPECT_THROW((void)region(Device(test::rigid_parameters()), {.outline = {deviation}}), Error);
+  }
+  EXPECT_FALSE(find_problem(RegionOptions{}).has_value());
+}
+
+}  // namespace
+}  // namespace zwidth
