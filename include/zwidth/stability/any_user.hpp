@@ -19,7 +19,7 @@ struct AnyUserLimit {
   double truncation = 0.0;
   /// The free device itself reaches it: no user makes the wall less stable than nobody.
   bool needs_no_user = false;
-  Trust trust = {};  ///< doubtful where more than 1e-6 had to be taken off
+  Trust trust = {};  ///< doubtful where more than 1e-4 had to be taken off
 };
 
 /// The limit over all passive users of a flexible device, with the virtual damper closed.
