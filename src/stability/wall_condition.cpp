@@ -83,9 +83,19 @@ WallCondition::Terms WallCondition::terms(const UserDiscs::Disc& disc, std::comp
           disc.centre.real() + disc.power * damper.real(), disc.power};
 }
 
+/// Whether |a| <= 1e-11 b at all nodes: rounding.
+bool is_rounding_beside(const InterpolationValues& a, const InterpolationValues& b) {
+  constexpr double rounding = 1e-11;
+  for (std::size_t i = 0; i < interpolation_points; ++i) {
+    if (!(std::abs(a[i]) <= rounding * std::abs(b[i]))) return false;
+  }
+  return true;
+}
+
 /// The three terms on a piece that begins at 0, each over the power of x = w² as which it goes there.
 struct WallCondition::NearZero {
   struct Term {
+    static constexpr double highest = 5.0;
     int order = 0;  // of x
     InterpolationValues coefficients{};
     double error = 0.0;
@@ -93,7 +103,8 @@ struct WallCondition::NearZero {
     /// x in units of the piece's end.
     Term(const InterpolationValues& values, const InterpolationValues& x) {
       const double slope = std::log(std::abs(values[1] / values[0])) / std::log(x[1] / x[0]);
-      order = std::isfinite(slope) ? static_cast<int>(std::clamp(std::round(slope), -5.0, 5.0)) : 0;
+      order = std::isfinite(slope) ? static_cast<int>(std::clamp(std::round(slope), -highest, highest))
+                                   : static_cast<int>(highest);  // 0 throughout
       InterpolationValues over{};
       for (std::size_t i = 0; i < interpolation_points; ++i) over[i] = values[i] * std::pow(x[i], -order);
       coefficients = bernstein_coefficients(over);
@@ -151,6 +162,15 @@ WallCondition::WallCondition(const DiscPieces::Piece& piece,
     half[i] = nodes_[i].factor * terms_[i].half;
     quadratic[i] = nodes_[i].factor * terms_[i].quadratic;
   }
+  // Where q² >> p A the A K² is rounding (of a rigid device it vanishes), where q² << p A the q K: no order of its own.
+  InterpolationValues product{};
+  InterpolationValues square{};
+  for (std::size_t i = 0; i < interpolation_points; ++i) {
+    product[i] = constant[i] * quadratic[i];
+    square[i] = half[i] * half[i];
+  }
+  if (is_rounding_beside(product, square)) quadratic.fill(0.0);
+  if (is_rounding_beside(square, product)) half.fill(0.0);
   const NearZero near_zero{{constant, x}, {half, x}, {quadratic, x}};
   look_at_zero(near_zero);
   // Where springs tie the device to ground all of them vanish at 0, where only links dissipate they grow.
