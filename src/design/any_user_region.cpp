@@ -23,13 +23,13 @@ class Sampler {
   Sampler(const Device& device, double velocity_filter_hz, double deviation)
       : search_(device), velocity_filter_hz_(velocity_filter_hz), deviation_(deviation) {}
 
-  [[nodiscard]] AnyUserPoint at(double damping) const {
+  [[nodiscard]] AnyUserPoint at(double damping) {
     const AnyUserLimit limit = search_.limit({damping, velocity_filter_hz_});
     return {damping, limit.stiffness, limit.frequency};
   }
 
   // The end of the limit between a B where it is above 0 and one where it is 0.
-  [[nodiscard]] AnyUserPoint end_between(const AnyUserPoint& inside, const AnyUserPoint& outside) const {
+  [[nodiscard]] AnyUserPoint end_between(const AnyUserPoint& inside, const AnyUserPoint& outside) {
     double in = inside.damping;
     double out = outside.damping;
     for (int i = 0; i < end_bisections; ++i) {
@@ -41,7 +41,7 @@ class Sampler {
   }
 
   // Appends the points after `from` up to `to`.
-  void refine(const AnyUserPoint& from, const AnyUserPoint& to, int depth, std::vector<AnyUserPoint>& points) const {
+  void refine(const AnyUserPoint& from, const AnyUserPoint& to, int depth, std::vector<AnyUserPoint>& points) {
     const AnyUserPoint middle = at(0.5 * (from.damping + to.damping));
     const double off = std::abs(middle.stiffness - 0.5 * (from.stiffness + to.stiffness)) / stiffness_extent;
     const double width = (to.damping - from.damping) / damping_extent;
@@ -62,7 +62,7 @@ class Sampler {
   double deviation_;
 };
 
-std::vector<AnyUserPoint> scan(const Sampler& sampler, double largest) {
+std::vector<AnyUserPoint> scan(Sampler& sampler, double largest) {
   std::vector<AnyUserPoint> points{sampler.at(0.0)};
   for (double damping = first_ratio * largest; damping < largest; damping *= scan_ratio) {
     points.push_back(sampler.at(damping));
@@ -72,7 +72,7 @@ std::vector<AnyUserPoint> scan(const Sampler& sampler, double largest) {
 }
 
 // The scan cut into ranges of B with a limit above 0, their ends found.
-std::vector<std::vector<AnyUserPoint>> ranges_of(const Sampler& sampler, const std::vector<AnyUserPoint>& points) {
+std::vector<std::vector<AnyUserPoint>> ranges_of(Sampler& sampler, const std::vector<AnyUserPoint>& points) {
   std::vector<std::vector<AnyUserPoint>> ranges;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const bool here = points[i].stiffness > 0.0;

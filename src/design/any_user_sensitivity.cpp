@@ -1,13 +1,16 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
+#include <string>
 
 #include "design/controller_slopes.hpp"
 #include "design/design_parameter.hpp"
 #include "design/disc_slopes.hpp"
 #include "stability/disc_stiffness.hpp"
 #include "zwidth/design/sensitivity.hpp"
+#include "zwidth/model/parameter.hpp"
 
 namespace zwidth {
 using namespace internal;
@@ -39,14 +42,14 @@ double stiffness_at(const Device& free, const UserDiscs& discs, double angle) {
 }
 
 /// Steps from rest, rad per sample: large ones keep digits, small ones see slow modes and filters.
-constexpr double rest_steps[] = {3.0 * clear_angle, 2.0 * clear_angle, clear_angle, 0.1 * clear_angle,
-                                 0.01 * clear_angle};
+constexpr double rest_angle = 3e-3;
+constexpr double rest_steps[] = {3.0 * rest_angle, 2.0 * rest_angle, rest_angle, 0.1 * rest_angle, 0.01 * rest_angle};
 constexpr double fits_well = 1e-8;  // relative, of the values; slopes bend more
 
 /// From how far the limit at w -> 0 can be extrapolated; nothing where the limit is not reached there.
 std::optional<double> step_from_rest(const Device& free, const UserDiscs& discs, const AnyUserLimit& limit) {
   const double angle = limit.frequency * free.loop().sampling_period;
-  if (angle >= clear_angle) return std::nullopt;
+  if (angle >= rest_angle) return std::nullopt;
   const double rounding = angle > 0.0 ? rounding_unit / (angle * angle) : 0.0;
   std::optional<double> fitting;
   for (const double step : rest_steps) {
@@ -153,6 +156,55 @@ std::vector<double> slopes_at(const Device& free, const UserDiscs& discs, const 
   return result;
 }
 
+/// The limit itself, without what is taken off it.
+double moved_limit(const Device& free, const std::string& key, double value) {
+  DeviceParameters moved = free.parameters();
+  set_parameter(moved, key, value);
+  const VirtualDamper damper{moved.wall.damping, moved.wall.velocity_filter_hz};
+  const AnyUserLimit limit = any_user_limit(Device(std::move(moved)), damper);
+  return limit.stiffness / (1.0 - limit.truncation);
+}
+
+/// A slope of a limit reached at nearly zero frequency, where all terms grow without bound, held against differences of
+/// the limit: the slope where they agree, a better difference where they do not, NaN where that does not settle.
+double checked_slope(const Device& free, const DesignParameter& parameter, double slope, double limit) {
+  constexpr double nearly = 1e-4;  // of K/p
+  constexpr double settles = 1e-5;
+  constexpr double step = 1e-3;
+  const double p = parameter.value;
+  const auto at = [&](double change) { return moved_limit(free, parameter.key, p * (1.0 + change)); };
+  const auto middle = [&](double h) { return (at(h) - at(-h)) / (2.0 * h * p); };
+  const double scale = std::max(limit / p, std::isfinite(slope) ? std::abs(slope) : 0.0);
+  const double coarse = middle(step);
+  if (std::abs(coarse - slope) <= nearly * scale) return slope;
+  // Richardson, twice
+  const double twice = middle(2.0 * step);
+  const double half = middle(0.5 * step);
+  const double finer = (4.0 * half - coarse) / 3.0;
+  const double rougher = (4.0 * coarse - twice) / 3.0;
+  const bool is_settled = std::abs(finer - rougher) <= settles * std::max(limit / p, std::abs(finer));
+  return is_settled ? finer : std::numeric_limits<double>::quiet_NaN();
+}
+
+/// The same for a parameter that grows from 0: the slope where a difference confirms it, else NaN.
+double checked_first_slope(const Device& free, const DesignParameter& parameter, double slope, double limit) {
+  constexpr double roughly = 0.05;
+  constexpr double step = 1e-4;
+  using Kind = DesignParameter::Kind;
+  double unit = free.loop().sampling_period;
+  if (parameter.kind == Kind::body_stiffness || parameter.kind == Kind::link_stiffness) unit = limit;
+  if (parameter.kind == Kind::body_damping || parameter.kind == Kind::link_damping ||
+      parameter.kind == Kind::wall_damping) {
+    unit *= limit;
+  }
+  const double h = step * unit;
+  const double first = moved_limit(free, parameter.key, h);
+  const double second = moved_limit(free, parameter.key, 2.0 * h);
+  const double difference = (4.0 * first - second - 3.0 * limit) / (2.0 * h);
+  const bool is_confirmed = std::abs(difference - slope) <= roughly * std::max(std::abs(slope), 1e-3 * limit / unit);
+  return is_confirmed ? slope : std::numeric_limits<double>::quiet_NaN();
+}
+
 }  // namespace
 
 std::vector<Sensitivity> any_user_sensitivities(const Device& device) {
@@ -170,21 +222,27 @@ std::vector<Sensitivity> any_user_sensitivities(const Device& device, const AnyU
   }
   const UserDiscs discs(free);
   const std::vector<DesignParameter> parameters = parameters_of(free);
-  std::vector<double> slopes;
+  std::vector<double> slopes(parameters.size(), std::numeric_limits<double>::quiet_NaN());
   const std::optional<double> step = step_from_rest(free, discs, limit);
-  if (!step && limit.frequency == 0.0) return {};
-  if (!step) {
-    const double angle = std::min(limit.frequency * free.loop().sampling_period, std::numbers::pi);
-    slopes = slopes_at(free, discs, polished(free, discs, {limit.stiffness, angle}), parameters);
-  } else {
+  const double angle = std::min(limit.frequency * free.loop().sampling_period, std::numbers::pi);
+  if (step) {
     const auto near_rest = [&](double steps) {
-      const double angle = steps * *step;
-      return slopes_at(free, discs, {stiffness_at(free, discs, angle), angle}, parameters);
+      const double at = steps * *step;
+      return slopes_at(free, discs, {stiffness_at(free, discs, at), at}, parameters);
     };
     const std::vector<double> y1 = near_rest(1.0);
     const std::vector<double> y2 = near_rest(2.0);
     const std::vector<double> y3 = near_rest(3.0);
-    for (std::size_t i = 0; i < parameters.size(); ++i) slopes.push_back(even_parabola(y1[i], y2[i], y3[i], 0.0));
+    for (std::size_t i = 0; i < parameters.size(); ++i) slopes[i] = even_parabola(y1[i], y2[i], y3[i], 0.0);
+  } else if (limit.frequency > 0.0) {
+    slopes = slopes_at(free, discs, polished(free, discs, {limit.stiffness, angle}), parameters);
+  }
+  if (angle < rest_angle) {
+    const double found = limit.stiffness / (1.0 - limit.truncation);
+    for (std::size_t i = 0; i < parameters.size(); ++i) {
+      slopes[i] = parameters[i].value != 0.0 ? checked_slope(free, parameters[i], slopes[i], found)
+                                             : checked_first_slope(free, parameters[i], slopes[i], found);
+    }
   }
   std::vector<Sensitivity> result;
   for (std::size_t i = 0; i < parameters.size(); ++i) {

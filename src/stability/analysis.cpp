@@ -128,6 +128,10 @@ void answer_about_users(const Device& device, const AnalysisOptions& options, An
       if (is_held(device) && !stands(critical_stiffness(with_user(device, {})), "the limit over all users", analysis)) {
         analysis.any_user.reset();
       }
+      if (analysis.any_user) {
+        analysis.any_user->trust.inherit(analysis.trust);
+        analysis.trust.inherit(analysis.any_user->trust);
+      }
       if (options.worst_user && analysis.any_user) analysis.worst_user = worst_user(device, *analysis.any_user, damper);
     } else {
       analysis.remarks.push_back(

@@ -1,16 +1,21 @@
 #include "stability/any_user_search.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
+#include <complex>
 #include <cstdint>
-#include <functional>
+#include <iterator>
 #include <limits>
 #include <numbers>
 #include <vector>
 
 #include "stability/damper_response.hpp"
 #include "stability/disc_stiffness.hpp"
+#include "stability/wall_condition.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -18,10 +23,6 @@ namespace {
 using std::numbers::pi;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double lowest_angle = 1e-7;  // rad per sample
-// A limit at w = 0 is extrapolated from the first of these that fits closer to 0 too; rounding asks for large ones.
-constexpr double zero_angles[] = {3e-5, 3e-6, 3e-7};
-constexpr double closer = 1.0 / 30.0;
-constexpr double rounding_unit = 2e-15;  // relative error of the root at w T = 1; it grows as 1/(w T)
 constexpr int even_samples = 64;
 constexpr double samples_per_delay = 16.0;  // more of them for each sample of delay: e^{-j w t_d} turns that often
 constexpr int low_samples_per_decade = 24;
@@ -30,19 +31,16 @@ constexpr double far_above = 10.0;       // times the least K: a disc there woul
 constexpr int refining_bits = 30;
 constexpr std::uintmax_t max_refinements = 60;
 constexpr double worth_refining = 1.05;  // of the least sample
-
-/// The limit of an even function at 0 from its values at 1, 2 and 3 steps; nothing where those at 4 steps and much
-/// closer to 0 do not fit.
-std::optional<double> limit_at_zero(const std::function<double(double)>& even, double step, double close) {
-  const double y1 = even(step);
-  const double y2 = even(2.0 * step);
-  const double y3 = even(3.0 * step);
-  const double y4 = even(4.0 * step);
-  if (!(std::abs(even_parabola(y1, y2, y3, 4.0) - y4) <= smooth_enough * y4)) return std::nullopt;
-  const double at_zero = even_parabola(y1, y2, y3, 0.0);
-  if (!(std::abs(even(close) - at_zero) <= smooth_enough * at_zero)) return std::nullopt;
-  return at_zero;
-}
+// How far below the least K found the condition is shown to hold, relative; more where that cannot be shown.
+constexpr double proven_within[] = {2e-10, 2e-9, 2e-8, 2e-7, 2e-6, 2e-5, 2e-4, 2e-3};
+constexpr double sound_within = 1e-4;  // more taken off makes the limit doubtful
+// Of the typical stiffness over frequency: where nothing dissipates at all, rounding leaves a limit of about this.
+constexpr double nothing = 1e-14;
+constexpr int most_divisions = 60;              // of one piece
+constexpr std::size_t divisions_per_share = 4;  // of an undecided piece, before the next share above will do
+constexpr std::size_t most_pieces = 3000;       // beyond those to start with
+constexpr int looks_within_piece = 32;
+constexpr double same_stiffness = 1e-9;  // relative: the limit towards w = 0 is named rather than another frequency
 
 /// Where the condition may be tightest whatever the damper: evenly, towards zero, and around every mode of the held
 /// device and its alias.
@@ -76,17 +74,31 @@ std::vector<double> frequencies_to_scan(const UserDiscs& discs, double period, d
   return scan;
 }
 
+/// The middle one of the finite stiffnesses; 0 without any.
+double typical_of(std::vector<double> stiffnesses) {
+  std::erase_if(stiffnesses, [](double each) { return !std::isfinite(each); });
+  if (stiffnesses.empty()) return 0.0;
+  const auto middle = stiffnesses.begin() + static_cast<std::ptrdiff_t>(stiffnesses.size() / 2);
+  std::nth_element(stiffnesses.begin(), middle, stiffnesses.end());
+  return *middle;
+}
+
 }  // namespace
 
 AnyUserSearch::AnyUserSearch(const Device& device) : discs_(device), period_(device.loop().sampling_period) {
   if (discs_.is_undamped()) return;
+  pieces_ = DiscPieces(discs_, device);
   frequencies_ = frequencies_to_scan(discs_, period_, device.loop().delay, device.parameters().wall.filters);
   discs_at_.reserve(frequencies_.size());
-  for (const double frequency : frequencies_) discs_at_.push_back(discs_.at(frequency));
+  for (const double frequency : frequencies_) discs_at_.push_back(pieces_.at(frequency));
 }
 
 double AnyUserSearch::limit_at(VirtualDamper damper, double frequency) const {
   return least_stiffness(discs_.at(frequency), damper_response(damper, period_, frequency));
+}
+
+double AnyUserSearch::quick_limit_at(VirtualDamper damper, double frequency) const {
+  return least_stiffness(pieces_.at(frequency), damper_response(damper, period_, frequency));
 }
 
 /// By rising frequency. The free device's own crossovers lie on the discs: the limit is never above them, and the band
@@ -107,7 +119,7 @@ std::vector<AnyUserSearch::Sample> AnyUserSearch::scan(VirtualDamper damper, con
     if (each.stiffness > far_above * least) continue;
     for (double share = 0.0; share < 0.5; share = share == 0.0 ? narrowest_band : 4.0 * share) {
       for (const double at : {each.frequency * (1.0 - share), each.frequency * (1.0 + share)}) {
-        if (at > lowest_angle / period_ && at < pi / period_) samples.push_back({at, limit_at(damper, at)});
+        if (at > lowest_angle / period_ && at < pi / period_) samples.push_back({at, quick_limit_at(damper, at)});
       }
     }
   }
@@ -117,28 +129,18 @@ std::vector<AnyUserSearch::Sample> AnyUserSearch::scan(VirtualDamper damper, con
   return samples;
 }
 
-AnyUserLimit AnyUserSearch::limit(VirtualDamper damper) const {
-  AnyUserLimit limit;
-  limit.truncation = discs_.truncation();
-  const CriticalStiffness free = critical_stiffness(discs_.free_plant(), damper);
-  if (free.status == StiffnessStatus::none_stable || discs_.is_undamped()) return limit;
-  limit.stiffness = infinity;
-  const auto consider = [&](double frequency, double stiffness) {
-    const double angle = frequency > 0.0 ? frequency * period_ : zero_angles[0];
-    if (stiffness * (1.0 + rounding_unit / angle) >= limit.stiffness) return;
-    limit.stiffness = stiffness;
-    limit.frequency = frequency;
+/// Refines the local minima among samples that may lead below the least.
+void AnyUserSearch::take_least_of(VirtualDamper damper, const std::vector<Sample>& samples, Sample& least) const {
+  const auto take = [&](double frequency) {
+    const double stiffness = limit_at(damper, frequency);
+    if (stiffness < least.stiffness) least = {frequency, stiffness};
   };
-  const auto at = [&](double frequency) { return limit_at(damper, frequency); };
-  for (const double angle : zero_angles) {
-    const std::optional<double> at_zero = limit_at_zero(at, angle / period_, closer * angle / period_);
-    if (!at_zero) continue;
-    consider(0.0, std::max(*at_zero, 0.0));
-    break;
-  }
-  const std::vector<Sample> samples = scan(damper, free);
-  for (const Sample& each : samples) consider(each.frequency, each.stiffness);
-  const double least = limit.stiffness;
+  const auto lowest = std::min_element(samples.begin(), samples.end(),
+                                       [](const Sample& a, const Sample& b) { return a.stiffness < b.stiffness; });
+  if (lowest == samples.end()) return;
+  take(lowest->frequency);
+  Sample best = *lowest;
+  const double sampled = lowest->stiffness;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const Sample& here = samples[i];
     const double left = i > 0 ? samples[i - 1].stiffness : infinity;
@@ -146,21 +148,140 @@ AnyUserLimit AnyUserSearch::limit(VirtualDamper damper) const {
     if (here.stiffness > left || here.stiffness > right) continue;
     // Between the samples it may fall as far again as from the higher neighbour to here.
     const double may_reach = here.stiffness - (std::max(left, right) - here.stiffness);
-    if (!(std::isfinite(here.stiffness) && may_reach <= worth_refining * least)) continue;
+    if (!(std::isfinite(here.stiffness) && may_reach <= worth_refining * sampled)) continue;
     std::uintmax_t iterations = max_refinements;
     // 1/K, which stays finite where no K violates the condition
     const auto [frequency, compliance] = boost::math::tools::brent_find_minima(
-        [&](double x) { return -1.0 / at(x); }, samples[i > 0 ? i - 1 : 0].frequency,
+        [&](double x) { return -1.0 / quick_limit_at(damper, x); }, samples[i > 0 ? i - 1 : 0].frequency,
         samples[std::min(i + 1, samples.size() - 1)].frequency, refining_bits, iterations);
-    consider(frequency, -1.0 / compliance);
+    if (-1.0 / compliance < best.stiffness) best = {frequency, -1.0 / compliance};
   }
+  take(best.frequency);
+}
+
+/// The least K of a piece, looking closer around `at`.
+AnyUserSearch::Sample AnyUserSearch::least_within(VirtualDamper damper, const DiscPieces::Piece& piece,
+                                                  double at) const {
+  std::vector<double> places{at};
+  for (int i = 1; i <= looks_within_piece; ++i) {
+    places.push_back(piece.frequency_at(-1.0 + 2.0 * i / looks_within_piece));
+  }
+  const double width = piece.end - piece.begin;
+  for (double share = 1.0 / looks_within_piece; share > narrowest_band; share *= 0.5) {
+    for (const double place : {at - share * width, at + share * width}) {
+      if (place > piece.begin && place < piece.end) places.push_back(place);
+    }
+  }
+  std::sort(places.begin(), places.end());
+  std::vector<Sample> samples;
+  for (const double place : places) {
+    if (place > 0.0) samples.push_back({place, quick_limit_at(damper, place)});
+  }
+  Sample least{at, infinity};
+  take_least_of(damper, samples, least);
+  return least;
+}
+
+/// Shows that no K below the least found violates the condition, or finds the lower ones and shows it of those.
+/// The share of the least by which that could not be shown.
+double AnyUserSearch::prove(VirtualDamper damper, Sample& least) {
+  struct Open {
+    std::size_t piece;
+    std::size_t divisions;  // because it was undecided
+  };
+  std::vector<Open> stack;
+  for (std::size_t i = pieces_.first_pieces(); i-- > 0;) stack.push_back({i, 0});
+  std::size_t left = pieces_.first_pieces() + most_pieces;
+  double within = 0.0;
+  const double filter_pole =
+      damper.damping > 0.0 && damper.velocity_filter_hz > 0.0 ? 2.0 * pi * damper.velocity_filter_hz : infinity;
+  while (!stack.empty()) {
+    const std::size_t index = stack.back().piece;
+    const std::size_t divisions = stack.back().divisions;
+    const double share = proven_within[std::min(divisions / divisions_per_share, std::size(proven_within) - 1)];
+    const bool may_divide = pieces_[index].depth < most_divisions && left > 0;
+    if (left > 0) --left;
+    const auto divide = [&](std::size_t more) {
+      stack.pop_back();
+      pieces_.divide(index);
+      stack.push_back({static_cast<std::size_t>(pieces_[index].second_half), divisions + more});
+      stack.push_back({static_cast<std::size_t>(pieces_[index].first_half), divisions + more});
+    };
+    if (may_divide && !pieces_.is_clear_of_poles(index, filter_pole)) {
+      divide(0);
+      continue;
+    }
+    const DiscPieces::Piece& piece = pieces_.sampled(index);
+    std::array<std::complex<double>, interpolation_points> dampers{};
+    for (std::size_t i = 0; i < interpolation_points; ++i) {
+      dampers[i] = damper_response(damper, period_, piece.nodes[i].frequency);
+    }
+    const WallCondition condition(piece, dampers);
+    const auto answer_at = [&](double below) { return condition.up_to(least.stiffness * (1.0 - below)); };
+    if (const auto at_zero = condition.least_stiffness_at_zero()) {
+      if (*at_zero <= least.stiffness * (1.0 + same_stiffness)) least = {0.0, std::min(*at_zero, least.stiffness)};
+      if (least.stiffness == 0.0) return 0.0;
+    }
+    const WallCondition::Answer answer = answer_at(share);
+    if (answer.verdict == WallCondition::Verdict::holds) {
+      stack.pop_back();
+      within = std::max(within, share);
+      continue;
+    }
+    if (answer.verdict == WallCondition::Verdict::broken) {
+      const Sample lower = least_within(damper, piece, piece.frequency_at(answer.at));
+      if (lower.stiffness < least.stiffness * (1.0 - 0.5 * proven_within[0])) {
+        least = lower;
+        if (left > 0) continue;
+      }
+    }
+    if (may_divide) {
+      divide(1);
+      continue;
+    }
+    stack.pop_back();
+    const auto proven = std::find_if(std::begin(proven_within), std::end(proven_within), [&](double below) {
+      return answer_at(below).verdict == WallCondition::Verdict::holds;
+    });
+    within = std::max(within, proven != std::end(proven_within) ? *proven : 1.0);
+  }
+  return within;
+}
+
+AnyUserLimit AnyUserSearch::limit(VirtualDamper damper) {
+  AnyUserLimit limit;
+  const CriticalStiffness free = critical_stiffness(discs_.free_plant(), damper);
+  if (free.status == StiffnessStatus::none_stable || discs_.is_undamped()) return limit;
+  Sample least{0.0, infinity};
+  const std::vector<Sample> samples = scan(damper, free);
+  take_least_of(damper, samples, least);
   // Nobody is a passive user too. Where users hardly reach the wall's loop their discs are too small for rounding.
-  if (free.limit && free.stiffness <= limit.stiffness) {
-    limit.stiffness = free.stiffness;
-    limit.frequency = free.limit->frequency;
-    limit.needs_no_user = true;
+  const auto nobody = [&] { return free.limit && free.stiffness <= least.stiffness; };
+  if (nobody()) least = {free.limit->frequency, free.stiffness};
+  std::vector<double> stiffnesses;
+  for (const Sample& each : samples) stiffnesses.push_back(each.stiffness);
+  const bool is_nothing = least.stiffness <= nothing * typical_of(stiffnesses);
+  if (is_nothing) least.stiffness = 0.0;
+  double unproven = 0.0;
+  if (least.stiffness > 0.0) unproven = prove(damper, least);
+  if (least.stiffness == 0.0) return limit;
+  limit.needs_no_user = nobody();
+  limit.frequency = std::isfinite(least.stiffness) ? least.frequency : 0.0;
+  limit.truncation = std::min(discs_.truncation() + unproven, 1.0);
+  limit.stiffness = limit.needs_no_user ? least.stiffness : least.stiffness * (1.0 - limit.truncation);
+  if (unproven > sound_within) {
+    limit.trust.doubt(
+        fmt::format("the limit for any passive user is shown to hold only to {:.1g} of it, which is taken off: "
+                    "rounding hides the rest; "
+                    "check the device's numbers for values that lie many powers of ten apart",
+                    unproven));
   }
-  if (limit.stiffness == 0.0 || !std::isfinite(limit.stiffness)) limit.frequency = 0.0;
+  if (discs_.truncation() > sound_within) {
+    limit.trust.doubt(
+        fmt::format("the sum over aliases leaves {:.1g} of the limit for any passive user, which is taken "
+                    "off: the device has modes or corners far above the sampling rate",
+                    discs_.truncation()));
+  }
   return limit;
 }
 

@@ -2,18 +2,24 @@
 
 #include <vector>
 
+#include "stability/disc_pieces.hpp"
 #include "stability/user_discs.hpp"
 #include "zwidth/stability/any_user.hpp"
 
 namespace zwidth::internal {
 
 /// any_user_limit() of one device for many dampers: the discs do not depend on the damper and are summed once.
+///
+/// A scan finds the minimum; then WallCondition shows on all of (0, pi/T], interval by interval, that nothing lies
+/// below it. Where that finds a frequency the scan has missed, the minimum there is taken.
 class AnyUserSearch {
  public:
   /// Throws as any_user_limit().
   explicit AnyUserSearch(const Device& device);
+  AnyUserSearch(const AnyUserSearch&) = delete;
+  AnyUserSearch& operator=(const AnyUserSearch&) = delete;
 
-  [[nodiscard]] AnyUserLimit limit(VirtualDamper damper) const;
+  [[nodiscard]] AnyUserLimit limit(VirtualDamper damper);
 
  private:
   /// The stiffness that the condition allows at one frequency, rad/s.
@@ -22,10 +28,15 @@ class AnyUserSearch {
     double stiffness = 0.0;
   };
   [[nodiscard]] double limit_at(VirtualDamper damper, double frequency) const;
+  [[nodiscard]] double quick_limit_at(VirtualDamper damper, double frequency) const;
   [[nodiscard]] std::vector<Sample> scan(VirtualDamper damper, const CriticalStiffness& free) const;
+  void take_least_of(VirtualDamper damper, const std::vector<Sample>& samples, Sample& least) const;
+  [[nodiscard]] Sample least_within(VirtualDamper damper, const DiscPieces::Piece& piece, double at) const;
+  [[nodiscard]] double prove(VirtualDamper damper, Sample& least);
 
   UserDiscs discs_;
   double period_ = 0.0;
+  DiscPieces pieces_;
   std::vector<double> frequencies_;        // where the condition may be tightest with any damper, rising
   std::vector<UserDiscs::Disc> discs_at_;  // at those
 };

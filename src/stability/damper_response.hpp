@@ -15,7 +15,8 @@ inline std::complex<double> damper_response(VirtualDamper damper, double period,
   const double filter =
       damper.velocity_filter_hz > 0.0 ? std::exp(-2.0 * std::numbers::pi * damper.velocity_filter_hz * period) : 0.0;
   // 1 - e^{-ja} = 2 j sin(a/2) e^{-ja/2}
-  const std::complex<double> difference = std::polar(2.0 * std::sin(0.5 * angle), 0.5 * (std::numbers::pi - angle));
+  const double sine = std::sin(0.5 * angle);
+  const std::complex<double> difference(2.0 * sine * sine, 2.0 * sine * std::cos(0.5 * angle));
   return damper.damping / period * difference * (1.0 - filter) / (1.0 - filter * std::polar(1.0, -angle));
 }
 

@@ -5,19 +5,22 @@
 
 namespace zwidth::internal {
 
+double least_root(double constant, double half, double quadratic) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  if (constant <= 0.0) return 0.0;
+  const double discriminant = half * half - quadratic * constant;
+  if (discriminant < 0.0) return infinity;
+  const double denominator = std::sqrt(discriminant) - half;
+  return denominator > 0.0 ? constant / denominator : infinity;
+}
+
 // With A = |c|² - r²:
 //
-//     K² A + 2 K (Re c + A Re[B v]) + 1 + 2 Re[B v c] + A |B v|² = 0
+//     1 + 2 Re[B v c] + A |B v|² + 2 K (Re c + A Re[B v]) + K² A = 0
 double least_stiffness(const UserDiscs::Disc& disc, std::complex<double> damper) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   if (!std::isfinite(disc.radius)) return 0.0;
-  const double half = -disc.centre.real() - disc.power * damper.real();
-  const double constant = 1.0 + 2.0 * (damper * disc.centre).real() + disc.power * std::norm(damper);
-  if (constant <= 0.0) return 0.0;
-  const double discriminant = half * half - disc.power * constant;
-  if (discriminant < 0.0) return infinity;
-  const double denominator = half + std::sqrt(discriminant);
-  return denominator > 0.0 ? constant / denominator : infinity;
+  return least_root(1.0 + 2.0 * (damper * disc.centre).real() + disc.power * std::norm(damper),
+                    disc.centre.real() + disc.power * damper.real(), disc.power);
 }
 
 // Lagrange in steps²: nodes 1, 4, 9

@@ -6,6 +6,9 @@
 
 namespace zwidth::internal {
 
+/// The least K > 0 with constant + 2 half K + quadratic K² = 0; 0 for a constant <= 0, infinity where there is none.
+[[nodiscard]] double least_root(double constant, double half, double quadratic);
+
 /// The least K > 0 with |1 + (K + B v) c| = |K + B v| r, where `damper` is B v; infinity where there is none.
 [[nodiscard]] double least_stiffness(const UserDiscs::Disc& disc, std::complex<double> damper);
 

@@ -17,6 +17,7 @@ constexpr double clear_of_modes = 2.5;    // aliases beyond this many times the 
 constexpr double clear_of_corners = 4.0;  // beyond this many times the highest corner frequency its tail begins
 constexpr std::size_t least_exact_aliases = 12;
 constexpr double most_exact_aliases = 20000.0;
+constexpr double weakly = 0.1;  // |D| beside |G_sa|
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Device without_operator(const Device& device) {
@@ -27,6 +28,30 @@ Device without_operator(const Device& device) {
 
 /// |z| of a density, which is far from where squares overflow or vanish.
 double size_of(std::complex<double> z) { return std::sqrt(std::norm(z)); }
+
+/// The motion of one body past another. Their terms share denominators, and numerators that agree to many digits (a
+/// rigid body moves as one) are subtracted with the digits that double leaves out.
+ModalForm difference(ModalForm first, const ModalForm& second) {
+  const auto same_poles = [](const ModalTerm& a, const ModalTerm& b) {
+    return a.degree == b.degree && std::equal(a.denominator, a.denominator + a.degree, b.denominator);
+  };
+  for (const ModalTerm& term : second.terms) {
+    auto found = std::find_if(first.terms.begin(), first.terms.end(),
+                              [&](const ModalTerm& each) { return same_poles(each, term); });
+    if (found == first.terms.end()) {
+      first.terms.push_back(term);
+      found = std::prev(first.terms.end());
+      std::fill(std::begin(found->numerator), std::end(found->numerator), 0.0);
+      std::fill(std::begin(found->numerator_rest), std::end(found->numerator_rest), 0.0);
+    }
+    for (std::size_t i = 0; i < term.degree; ++i) {
+      found->numerator[i] =
+          (found->numerator[i] - term.numerator[i]) + (found->numerator_rest[i] - term.numerator_rest[i]);
+      found->numerator_rest[i] = 0.0;
+    }
+  }
+  return first;
+}
 
 }  // namespace
 
@@ -40,15 +65,24 @@ UserDiscs::UserDiscs(const Device& device)
       plant_(filtered_plant(without_operator(device))) {
   if (!device.has_bodies()) throw Error(ErrorCode::needs_bodies, "a transfer function has no body for a user to hold");
   const Device free = without_operator(device);
+  const auto motion_of = [&](std::size_t body) { return modal_form(free, {held_, body}, ActuatorLag::left_out); };
+  std::vector<ModalForm> motions;
   for (std::size_t i = 0; i < free.bodies().size(); ++i) {
-    positions_.push_back(modal_form(free, {held_, i}, ActuatorLag::left_out));
-    if (free.bodies()[i].damping > 0.0) dampers_.push_back({i, i, free.bodies()[i].damping});
+    motions.push_back(motion_of(i));
+    if (free.bodies()[i].damping > 0.0) dampers_.push_back({motions[i], free.bodies()[i].damping});
   }
   for (const Link& link : free.links()) {
-    if (link.damping > 0.0) dampers_.push_back({link.first, link.second, link.damping});
+    if (link.damping > 0.0) dampers_.push_back({difference(motions[link.first], motions[link.second]), link.damping});
   }
+  held_motion_ = motions[held_];
+  sensed_motion_ = motions[sensed_];
+  actuated_motion_ = motions[actuated_];
   through_ = modal_form(free, {actuated_, sensed_}, ActuatorLag::left_out);
-  matrices_ = device_matrices<double>(free);
+  matrices_ = device_matrices<long double>(free);
+  poles_ = held_motion_.terms;
+  for (const ModalForm* each : {&through_, &sensed_motion_, &actuated_motion_}) {
+    if (each->terms.size() > poles_.size()) poles_ = each->terms;
+  }
   undamped_ = dampers_.empty();
   if (undamped_) return;
   double highest_mode = 0.0;
@@ -75,98 +109,152 @@ UserDiscs::UserDiscs(const Device& device)
   }
 }
 
-std::complex<double> UserDiscs::disc_density(double frequency) const {
+UserDiscs::Density UserDiscs::density(double frequency) const {
   std::array<std::complex<double>, 8> few;
   std::vector<std::complex<double>> many;
-  std::complex<double>* q = few.data();
-  if (positions_.size() > few.size()) {
-    many.resize(positions_.size());
-    q = many.data();
+  std::complex<double>* motions = few.data();
+  if (dampers_.size() > few.size()) {
+    many.resize(dampers_.size());
+    motions = many.data();
   }
-  double largest = 0.0;
-  for (std::size_t i = 0; i < positions_.size(); ++i) {
-    q[i] = response(positions_[i], frequency);
-    largest = std::max({largest, std::abs(q[i].real()), std::abs(q[i].imag())});
+  const auto larger = [](double a, std::complex<double> z) {
+    return std::max({a, std::abs(z.real()), std::abs(z.imag())});
+  };
+  const std::complex<double> sensed = response(sensed_motion_, frequency);
+  const std::complex<double> actuated = actuated_ == sensed_ ? sensed : response(actuated_motion_, frequency);
+  double largest = larger(larger(0.0, sensed), actuated);
+  for (std::size_t i = 0; i < dampers_.size(); ++i) {
+    motions[i] = response(dampers_[i].motion, frequency);
+    largest = larger(largest, motions[i]);
   }
   // Scaled by the largest, so that squares neither overflow nor vanish.
   const double unit = 1.0 / largest;
   double dissipation = 0.0;
-  for (const Damper& each : dampers_) {
-    const std::complex<double> motion = each.second == each.first ? q[each.first] : q[each.first] - q[each.second];
-    dissipation += each.damping * std::norm(motion * unit);
-  }
-  const std::complex<double> through = (q[sensed_] * unit) * (q[actuated_] * unit);
-  const std::complex<double> density = through / (2.0 * frequency * frequency * dissipation);
-  return lag_ > 0.0 ? density / std::complex<double>(1.0, lag_ * frequency) : density;
+  for (std::size_t i = 0; i < dampers_.size(); ++i) dissipation += dampers_[i].damping * std::norm(motions[i] * unit);
+  dissipation *= frequency * frequency;
+  const std::complex<double> value = (sensed * unit) * (actuated * unit) / (2.0 * dissipation);
+  return {lag_ > 0.0 ? value / std::complex<double>(1.0, lag_ * frequency) : value, dissipation * largest * largest};
 }
 
 UserDiscs::Disc UserDiscs::at(double frequency) const {
   if (undamped_) return {response(plant_, frequency), infinity, -infinity};
-  return frequency * period_ < clear_angle ? near_zero(frequency) : summed(rule_, frequency);
+  return frequency * period_ < clear_angle ? near_zero(frequency, density(frequency), other_aliases(frequency))
+                                           : summed(rule_, frequency);
 }
 
-/// (G_sa - D)/(jw), lag included: the centre of one alias, over what the hold makes of it.
-std::complex<double> UserDiscs::centre_density(double frequency) const {
-  const std::complex<double> s(0.0, frequency);
-  return response(through_, frequency) / (s * (1.0 + lag_ * s)) - disc_density(frequency);
+/// F (1 - e^{-jwT}) e^{-jwt_d}/T. Its phase keeps its digits towards w = 0, where it is all that counts.
+std::complex<double> UserDiscs::shared_factor(double frequency) const {
+  const double sine = std::sin(0.5 * frequency * period_);
+  const double cosine = std::cos(0.5 * frequency * period_);
+  return filter_response(plant_, frequency * period_) * (2.0 * sine / period_) * std::complex<double>(sine, cosine) *
+         std::polar(1.0, -frequency * delay_);
 }
 
-/// |G_sa - D|² - |D|² = |G_sa|²/R Re[jw X], X the response G_hh with the sensed position kept at 0 by a force at the
-/// actuated body (0 where either is the held body): no cancellation.
+UserDiscs::OtherAliases UserDiscs::other_aliases(double frequency) const {
+  const double spacing = 2.0 * pi / period_;
+  OtherAliases others;
+  for (const AliasRule::Node& node : rule_.nodes) {
+    if (node.number == 0.0) continue;
+    for (const double side : {1.0, -1.0}) {
+      const double at_alias = node.number * spacing + side * frequency;
+      const std::complex<double> disc = disc_density(at_alias);
+      const std::complex<double> s(0.0, at_alias);
+      const std::complex<double> centre = node.turning * (response(through_, at_alias) / (s * (1.0 + lag_ * s)) - disc);
+      others.centre += side > 0.0 ? centre : std::conj(centre);
+      others.radius += node.still * size_of(disc);
+    }
+  }
+  return others;
+}
+
+/// The response X = G_hh with the sensed position kept at 0 by a force at the actuated body; 0 where either is the held
+/// body. In long double, for the digits of a small imaginary part.
 ///
 ///     [-w² M + jw C + K   -e_a] [x]   [e_h]
 ///     [      e_s^T          0 ] [f] = [ 0 ],    X = e_h^T x
-double UserDiscs::own_power(double frequency) const {
+std::complex<double> UserDiscs::kept_motion(double frequency) const {
+  using Real = long double;
+  using Number = std::complex<Real>;
   if (held_ == sensed_ || held_ == actuated_) return 0.0;
   const auto n = static_cast<Eigen::Index>(matrices_.mass.size());
-  Eigen::MatrixXcd bordered = Eigen::MatrixXcd::Zero(n + 1, n + 1);
+  Eigen::Matrix<Number, Eigen::Dynamic, Eigen::Dynamic> bordered(n + 1, n + 1);
+  bordered.setZero();
+  Real size = 0.0;
   for (Eigen::Index i = 0; i < n; ++i) {
     for (Eigen::Index j = 0; j < n; ++j) {
       const auto entry = static_cast<std::size_t>(i * n + j);
-      bordered(i, j) = {matrices_.stiffness[entry], frequency * matrices_.damping[entry]};
+      bordered(i, j) = {matrices_.stiffness[entry], Real(frequency) * matrices_.damping[entry]};
     }
-    bordered(i, i) -= frequency * frequency * matrices_.mass[static_cast<std::size_t>(i)];
+    bordered(i, i) -= Real(frequency) * Real(frequency) * matrices_.mass[static_cast<std::size_t>(i)];
+    for (Eigen::Index j = 0; j < n; ++j) {
+      size = std::max({size, std::abs(bordered(i, j).real()), std::abs(bordered(i, j).imag())});
+    }
   }
   const auto held = static_cast<Eigen::Index>(held_);
   // The border as large as the rest.
-  const double size = bordered.cwiseAbs().maxCoeff();
   bordered(static_cast<Eigen::Index>(actuated_), n) = -size;
   bordered(n, static_cast<Eigen::Index>(sensed_)) = size;
-  Eigen::VectorXcd force = Eigen::VectorXcd::Zero(n + 1);
-  force(held) = 1.0;
-  const std::complex<double> kept = Eigen::FullPivLU<Eigen::MatrixXcd>(bordered).solve(force)(held);
-  const double conductance = -frequency * response(positions_[held_], frequency).imag();  // R = Re[jw G_hh]
-  return std::norm(response(through_, frequency)) / std::norm(std::complex<double>(1.0, lag_ * frequency)) *
-         (-frequency * kept.imag()) / conductance;
+  Eigen::Matrix<Number, Eigen::Dynamic, 1> force = Eigen::Matrix<Number, Eigen::Dynamic, 1>::Zero(n + 1);
+  force(held) = Real(1.0);
+  const Number kept = bordered.partialPivLu().solve(force)(held);
+  return {static_cast<double>(kept.real()), static_cast<double>(kept.imag())};
 }
 
 /// With c_0 and r_0 of w itself, which grow as 1/w, and dc and dr of all other aliases, which fall as w:
 ///
 ///     |c|² - r² = (|c_0|² - r_0²) + 2 Re[c_0 conj dc] - 2 r_0 dr + |dc|² - dr²
-UserDiscs::Disc UserDiscs::near_zero(double frequency) const {
-  const double spacing = 2.0 * pi / period_;
-  const std::complex<double> late = std::polar(1.0, -frequency * delay_);
-  std::complex<double> centre = 0.0;
-  double radius = 0.0;
-  for (const AliasRule::Node& node : rule_.nodes) {
-    if (node.number == 0.0) continue;
-    const double offset = node.number * spacing;
-    centre += node.turning * (centre_density(offset + frequency) * late);
-    centre += std::conj(node.turning * (centre_density(offset - frequency) * std::conj(late)));
-    radius += node.still * (std::abs(disc_density(offset + frequency)) + std::abs(disc_density(offset - frequency)));
-  }
-  // F (1 - e^{-jwT})/T
-  const std::complex<double> factor = filter_response(plant_, frequency * period_) * 2.0 *
-                                      std::sin(0.5 * frequency * period_) / period_ *
-                                      std::polar(1.0, 0.5 * (pi - frequency * period_));
-  const std::complex<double> own_centre = factor * late * centre_density(frequency);
-  const double own_radius = std::abs(factor) * std::abs(disc_density(frequency));
-  centre *= factor;
-  radius *= std::abs(factor);
-  const double own = std::norm(factor / frequency) * own_power(frequency);
+///     c_0 = G_sa - D = jw G_sa (X - conj G_hh)/(2R),   |c_0|² - r_0² = |G_sa|²/R Re[jw X],   R = Re Y
+///
+/// In this form neither difference loses digits; real and imaginary part of each factor keep their own.
+UserDiscs::Disc UserDiscs::near_zero(double frequency, const Density& own, const OtherAliases& others) const {
+  const std::complex<double> factor = shared_factor(frequency);
+  const std::complex<double> lag(1.0, lag_ * frequency);
+  const std::complex<double> through = response(through_, frequency) / lag;
+  const std::complex<double> kept = kept_motion(frequency);
+  const std::complex<double> held = std::conj(response(held_motion_, frequency));
+  // Where the user hardly reaches the wall's loop X and G_hh are nearly the same, and G_sa - D loses nothing.
+  const std::complex<double> s(0.0, frequency);
+  const bool is_weak = std::abs(own.value * frequency) < weakly * std::abs(through);
+  const std::complex<double> own_centre =
+      factor * (is_weak ? through / s - own.value : through * (kept - held) / (2.0 * own.conductance));
+  const double own_radius = std::abs(factor) * std::abs(own.value);
+  const double own_power =
+      std::norm(factor / frequency) * std::norm(through) * (-frequency * kept.imag()) / own.conductance;
+  const std::complex<double> centre = factor * others.centre;
+  const double radius = std::abs(factor) * others.radius;
   return {own_centre + centre, own_radius + radius,
-          own + 2.0 * (own_centre * std::conj(centre)).real() - 2.0 * own_radius * radius + std::norm(centre) -
+          own_power + 2.0 * (own_centre * std::conj(centre)).real() - 2.0 * own_radius * radius + std::norm(centre) -
               radius * radius};
+}
+
+UserDiscs::SplitDisc UserDiscs::with_others(double frequency, const OtherAliases& others, double unit) const {
+  const Density own = density(frequency);
+  const std::complex<double> shared = shared_factor(frequency);
+  SplitDisc split;
+  split.shared = std::abs(shared);
+  if (frequency * period_ < clear_angle) {
+    split.disc = near_zero(frequency, own, others);
+  } else {
+    const std::complex<double> s(0.0, frequency);
+    const std::complex<double> own_centre = response(through_, frequency) / (s * (1.0 + lag_ * s)) - own.value;
+    const std::complex<double> centre = shared * (own_centre + others.centre);
+    const double radius = split.shared * (std::abs(own.value) + others.radius);
+    split.disc = {centre, radius, (std::abs(centre) - radius) * (std::abs(centre) + radius)};
+  }
+  // A term s² + d1 s + d0; an integrator's s is in the conductance's poles no more.
+  split.factor = own.conductance;
+  for (const ModalTerm& term : poles_) {
+    if (term.mode < 0) continue;
+    const std::complex<double> s(0.0, frequency);
+    std::complex<double> value = 1.0;
+    double size = 1.0;
+    for (std::size_t i = term.degree; i-- > static_cast<std::size_t>(term.integrators);) {
+      value = value * s + term.denominator[i];
+      size = size * unit + std::abs(term.denominator[i]);
+    }
+    split.factor *= std::norm(value / size);
+  }
+  return split;
 }
 
 UserDiscs::Disc UserDiscs::summed(const AliasRule& rule, double frequency) const {
@@ -203,8 +291,7 @@ UserDiscs::Alias UserDiscs::alias(double frequency, int k, double direction) con
   const std::complex<double> density = disc_density(positive);
   const std::complex<double> filters = filter_response(plant_, frequency * period_);
   const double hold = 2.0 * std::sin(0.5 * frequency * period_) / period_;
-  const std::complex<double> through = response(positions_[sensed_], positive) *
-                                       response(positions_[actuated_], positive) /
+  const std::complex<double> through = response(sensed_motion_, positive) * response(actuated_motion_, positive) /
                                        std::complex<double>(1.0, lag_ * positive);
   // The term is -f q_s q_a/(Y + 1/Z), f = F (1 - e^{-jwT})/T e^{-jw_k t_d}; with Z = jX, towards the direction,
   //     q_s q_a/(Y + 1/Z) = g (1 - e^{j turn}),   1/(1 - e^{j turn}) = (1 + j cot(turn/2))/2,   q_s q_a/g = 2 Re Y.
@@ -212,7 +299,7 @@ UserDiscs::Alias UserDiscs::alias(double frequency, int k, double direction) con
   const double factor_angle = std::arg(filters) + 0.5 * (pi - frequency * period_) - at_alias * delay_;
   const double turn = (at_alias < 0.0 ? factor_angle - direction : direction - factor_angle) - std::arg(density);
   const double conductance = std::abs(through) / (2.0 * std::abs(density));
-  const double susceptance = positive * response(positions_[held_], positive).real();
+  const double susceptance = positive * response(held_motion_, positive).real();
   return {positive, std::abs(filters) * hold * std::abs(density),
           1.0 / (susceptance - conductance / std::tan(0.5 * turn))};
 }

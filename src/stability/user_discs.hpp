@@ -11,8 +11,8 @@
 
 namespace zwidth::internal {
 
-/// Above this angle, rad per sample, |c_T| - r_T keeps its digits by subtraction.
-inline constexpr double clear_angle = 3e-3;
+/// Above this angle, rad per sample, |c_T| - r_T keeps its digits by subtraction: it loses as many as 1/(w T)².
+inline constexpr double clear_angle = 0.1;
 
 /// What passive users make of the sampled plant: at each frequency the disc |p - centre| <= radius (see any_user.hpp).
 class UserDiscs {
@@ -28,6 +28,23 @@ class UserDiscs {
   /// 0 < frequency <= pi/T, rad/s.
   [[nodiscard]] Disc at(double frequency) const;
 
+  /// What all aliases but the frequency itself add, over the factor F (1 - e^{-jwT}) e^{-jwt_d}/T that all terms share.
+  struct OtherAliases {
+    std::complex<double> centre;  // sum of (G_sa - D)/(jw_k)
+    double radius = 0.0;          // sum of |D/w_k|
+  };
+  [[nodiscard]] OtherAliases other_aliases(double frequency) const;
+
+  /// The same disc as at() from its own term and a sum of the other aliases, and a positive factor that makes own terms
+  /// polynomials in the frequency, of twice the order of the device at most: 2 w² q^H Dmp q times |det(Z)|², over
+  /// `unit`; divided by it, own terms have poles at its zeros only, near the real axis where little is dissipated.
+  struct SplitDisc {
+    Disc disc;
+    double factor = 0.0;
+    double shared = 0.0;  // |F (1 - e^{-jwT})/T|: what an error of `others` counts
+  };
+  [[nodiscard]] SplitDisc with_others(double frequency, const OtherAliases& others, double unit) const;
+
   /// The disc of one alias, a term of the sum that at() makes.
   struct Alias {
     double frequency = 0.0;  // |w + 2 pi k/T|
@@ -40,7 +57,7 @@ class UserDiscs {
   [[nodiscard]] Alias alias(double frequency, int k, double direction) const;
 
   [[nodiscard]] const FilteredPlant& free_plant() const noexcept { return plant_; }
-  [[nodiscard]] const ModalForm& held_form() const noexcept { return positions_[held_]; }
+  [[nodiscard]] const ModalForm& held_form() const noexcept { return held_motion_; }
   /// Relative error that the sums over aliases may leave, from a second, finer rule.
   [[nodiscard]] double truncation() const noexcept { return truncation_; }
   [[nodiscard]] bool is_undamped() const noexcept { return undamped_; }
@@ -50,21 +67,28 @@ class UserDiscs {
 
  private:
   struct Damper {
-    std::size_t first = 0;
-    std::size_t second = 0;  // first: to ground
+    ModalForm motion;  // its length, for a force at the held body
     double damping = 0.0;
+  };
+  struct Density {
+    std::complex<double> value;  // g(w)
+    double conductance = 0.0;    // Re Y = w² q^H Dmp q
   };
 
   /// g(w) = D(jw) / (jw) = q_s q_a lag / (2 w² q^H Dmp q).
-  [[nodiscard]] std::complex<double> disc_density(double frequency) const;
+  [[nodiscard]] Density density(double frequency) const;
+  [[nodiscard]] std::complex<double> disc_density(double frequency) const { return density(frequency).value; }
   [[nodiscard]] Disc summed(const AliasRule& rule, double frequency) const;
-  [[nodiscard]] Disc near_zero(double frequency) const;
-  [[nodiscard]] std::complex<double> centre_density(double frequency) const;
-  [[nodiscard]] double own_power(double frequency) const;
+  [[nodiscard]] Disc near_zero(double frequency, const Density& own, const OtherAliases& others) const;
+  [[nodiscard]] std::complex<double> shared_factor(double frequency) const;
+  [[nodiscard]] std::complex<double> kept_motion(double frequency) const;
 
-  std::vector<ModalForm> positions_;  // of every body, for a force at the held body
-  ModalForm through_;                 // actuated -> sensed, the lag left out
-  DeviceMatrices<double> matrices_;
+  ModalForm held_motion_;  // for a force at the held body, as the next two
+  ModalForm sensed_motion_;
+  ModalForm actuated_motion_;
+  ModalForm through_;  // actuated -> sensed, the lag left out
+  DeviceMatrices<long double> matrices_;
+  std::vector<ModalTerm> poles_;  // the terms whose denominators are those of the device
   std::vector<Damper> dampers_;
   std::size_t sensed_ = 0;
   std::size_t actuated_ = 0;

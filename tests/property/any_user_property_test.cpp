@@ -52,6 +52,50 @@ bool has_unresolved_mode(const Device& device) {
   });
 }
 
+/// What makes the limit hard to find: links that only dissipate, lags longer than all else, hardly any damping, bodies
+/// without any.
+void make_hard(DeviceParameters& device, std::size_t how, test::RandomDevices& random) {
+  switch (how % 4) {
+    case 0:
+      for (Link& link : device.links)
+        link = {link.first, link.second, 0.0, link.damping * random.log_uniform(0.1, 1e3)};
+      break;
+    case 1:
+      device.actuator.time_constant = random.log_uniform(3e-3, 30.0);
+      break;
+    case 2:
+      for (Body& body : device.bodies) body.damping *= random.log_uniform(1e-4, 1.0);
+      break;
+    default:
+      for (Body& body : device.bodies) body.damping *= random.chance(0.5) ? 0.0 : 1.0;
+      device.wall.damping = random.log_uniform(0.01, 10.0);
+  }
+}
+
+TEST(AnyUserProperty, NoPassiveUserDestabilisesAHardDeviceBelowTheLimit) {
+  std::size_t tried = 0;
+  for (std::size_t seed = 0; seed < device_count(); ++seed) {
+    test::RandomDevices random(seed + 4400);
+    DeviceParameters parameters = random.device(test::device_kinds[seed % test::reference_kinds]);
+    parameters.user = {};
+    make_hard(parameters, seed, random);
+    const Device device(parameters);
+    const VirtualDamper damper{parameters.wall.damping, parameters.wall.velocity_filter_hz};
+    const AnyUserLimit limit = any_user_limit(device, damper);
+    if (!(limit.stiffness > 0.0) || !std::isfinite(limit.stiffness)) continue;
+    for (std::size_t i = 0; i < users_per_device; ++i) {
+      DeviceParameters heavy = parameters;  // every other user: ever heavier, who reach a limit at w -> 0
+      heavy.user.mass = random.log_uniform(1.0, 1e8);
+      const Device held = i % 2 == 0 ? Device(heavy) : with_random_user(device, random);
+      if (has_unresolved_mode(held)) continue;
+      ++tried;
+      EXPECT_GE(critical_stiffness(filtered_plant(held), damper).stiffness, limit.stiffness * (1.0 - rounding))
+          << test::device_kinds[seed % test::reference_kinds] << ", seed " << seed << ", user " << i;
+    }
+  }
+  EXPECT_GT(tried, device_count() * users_per_device / 4);
+}
+
 TEST(AnyUserProperty, NoPassiveUserDestabilisesAWallBelowTheLimit) {
   double closest = 1e300;
   std::size_t tried = 0;

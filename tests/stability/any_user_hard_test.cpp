@@ -107,8 +107,8 @@ TEST(UserDiscs, TheFormulaNearZeroAgreesWithTheSums) {
         parameters.wall.filters = {filter};
         const UserDiscs discs{Device(parameters)};
         const double at = clear_angle / 1e-3;
-        const UserDiscs::Disc below = discs.at(at * (1.0 - 1e-9));
-        const UserDiscs::Disc above = discs.at(at * (1.0 + 1e-9));
+        const UserDiscs::Disc below = discs.at(at * (1.0 - 1e-12));
+        const UserDiscs::Disc above = discs.at(at * (1.0 + 1e-12));
         EXPECT_LT(std::abs(below.centre - above.centre), 1e-8 * above.radius);
         EXPECT_NEAR(below.radius, above.radius, 1e-8 * above.radius);
         // |c|² - r² of the sums has lost digits by subtraction.

@@ -43,9 +43,10 @@ struct Sensitivity {
 ///
 /// That limit is the least over frequency of K(theta; p) with |1 + C c_T| = |C| r_T; at the frequency of the least
 /// value its slope is that of K alone (envelope theorem), and c_T and r_T are differentiated exactly, alias by alias.
-/// Good to 1e-5 of K/p. Without operator.*, which the limit does not depend on. Where p is 0, and for the delay of
-/// whole samples, the slope is that of growing p: the limit has a corner there. Empty where the limit is 0 or infinite,
-/// or is reached at w -> 0 beside something slower than 3e-5 rad per sample. Throws Error (needs_bodies) for a transfer
+/// Good to 1e-5 of K/p; to 1e-4 where the limit is reached below 3e-3 rad per sample: there each slope is held against
+/// differences of the limit, and a parameter whose slope they do not confirm is left out. Without operator.*, which the
+/// limit does not depend on. Where p is 0, and for the delay of whole samples, the slope is that of growing p: the
+/// limit has a corner there. Empty where the limit is 0 or infinite. Throws Error (needs_bodies) for a transfer
 /// function.
 [[nodiscard]] std::vector<Sensitivity> any_user_sensitivities(const Device& device);
 

@@ -1,0 +1,93 @@
+#pragma once
+
+// The discs of passive users on intervals of frequency, by values at interpolation points. The sums over aliases are
+// smooth between the images of modes above Nyquist and cost most: they are interpolated first.
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "stability/interval_polynomial.hpp"
+#include "stability/user_discs.hpp"
+
+namespace zwidth::internal {
+
+/// UserDiscs::other_aliases() on (0, pi/T], interpolated.
+class AliasSums {
+ public:
+  struct Singularity {
+    double position = 0.0;  // rad/s
+    double depth = 0.0;     // distance from the real axis
+  };
+
+  AliasSums() = default;
+  AliasSums(const UserDiscs& discs, double period, const std::vector<Singularity>& images);
+
+  struct Value {
+    UserDiscs::OtherAliases sums;
+    double error = 0.0;  // of either sum
+  };
+  [[nodiscard]] Value at(double frequency) const;
+
+ private:
+  struct Piece {
+    double begin = 0.0;
+    double end = 0.0;
+    InterpolationValues real{};
+    InterpolationValues imaginary{};
+    InterpolationValues radius{};
+    double error = 0.0;
+  };
+  std::vector<Piece> pieces_;  // by rising frequency
+};
+
+/// The discs on pieces of (0, pi/T], made when they are first asked for and kept: they do not depend on the damper.
+class DiscPieces {
+ public:
+  DiscPieces() = default;
+  DiscPieces(const UserDiscs& discs, const Device& device);
+
+  struct Node {
+    double frequency = 0.0;
+    UserDiscs::Disc disc;
+    double factor = 0.0;  // see UserDiscs::SplitDisc
+    double error = 0.0;   // of centre and radius each
+  };
+  struct Piece {
+    double begin = 0.0;  // rad/s; 0: the nodes stand in the frequency's square, in which all is smooth at 0 too
+    double end = 0.0;
+    int depth = 0;
+    int first_half = -1;  // index of the halves, once divided
+    int second_half = -1;
+    bool is_sampled = false;
+    std::array<Node, interpolation_points> nodes{};
+    /// A frequency of the piece, from -1 <= x <= 1 in which it is interpolated.
+    [[nodiscard]] double frequency_at(double x) const;
+  };
+
+  /// Indices of the pieces to start with: they cover (0, pi/T].
+  [[nodiscard]] std::size_t first_pieces() const { return first_pieces_; }
+  [[nodiscard]] const Piece& sampled(std::size_t index);
+  [[nodiscard]] const Piece& operator[](std::size_t index) const { return pieces_[index]; }
+  /// Divides a piece, unless that is done.
+  void divide(std::size_t index);
+
+  /// Whether the poles of the sums and filters, and one at `further` on the imaginary axis, lie far enough from a piece
+  /// for its values to speak for all of it.
+  [[nodiscard]] bool is_clear_of_poles(std::size_t index, double further) const;
+
+  /// The disc from the interpolated sums.
+  [[nodiscard]] UserDiscs::Disc at(double frequency) const;
+
+ private:
+  void add_first(double begin, double end);
+
+  const UserDiscs* discs_ = nullptr;
+  double period_ = 0.0;
+  AliasSums sums_;
+  std::vector<AliasSums::Singularity> singularities_;  // of the filters and of the images
+  std::vector<Piece> pieces_;
+  std::size_t first_pieces_ = 0;
+};
+
+}  // namespace zwidth::internal

@@ -1,0 +1,231 @@
+#include "stability/wall_condition.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "stability/disc_stiffness.hpp"
+
+namespace zwidth::internal {
+namespace {
+
+constexpr int most_halvings = 14;
+
+struct Bernstein {
+  InterpolationValues constant;  // f(0)
+  InterpolationValues middle;    // p + q K1
+  InterpolationValues last;      // f(K1)
+  InterpolationValues quadratic;
+};
+
+struct Errors {
+  double constant;
+  double middle;
+  double last;
+  double quadratic;
+};
+
+struct Range {
+  double least;
+  double greatest;
+};
+
+Range range_of(const InterpolationValues& coefficients) {
+  const auto [least, greatest] = std::minmax_element(coefficients.begin(), coefficients.end());
+  return {*least, *greatest};
+}
+
+double uncertainty(const InterpolationValues& values) {
+  double largest = 0.0;
+  for (const double value : values) largest = std::max(largest, std::abs(value));
+  return interpolation_error(values) + bernstein_rounding * largest;
+}
+
+/// f > 0 at 0 <= K <= K1 for all values in these ranges.
+bool is_positive(const Range& constant, const Range& middle, const Range& last, const Range& quadratic,
+                 const Errors& errors) {
+  const double constant_least = constant.least - errors.constant;
+  const double last_least = last.least - errors.last;
+  if (!(constant_least > 0.0 || (errors.constant == 0.0 && constant_least == 0.0)) || !(last_least > 0.0)) return false;
+  if (quadratic.greatest + errors.quadratic < 0.0 || middle.least - errors.middle > 0.0) return true;
+  const double steepest = std::min(middle.least - errors.middle, 0.0);
+  return steepest * steepest < constant_least * last_least;
+}
+
+bool is_broken(double constant, double middle, double last, const Errors& errors) {
+  if (constant < -errors.constant || last < -errors.last) return true;
+  const double steepest = middle + errors.middle;
+  return steepest < 0.0 && steepest * steepest > (constant + errors.constant) * (last + errors.last);
+}
+
+WallCondition::Answer judge(const Bernstein& b, const Errors& errors, double begin, double end, int halvings) {
+  using enum WallCondition::Verdict;
+  if (is_positive(range_of(b.constant), range_of(b.middle), range_of(b.last), range_of(b.quadratic), errors)) {
+    return {holds, 0.0};
+  }
+  if (is_broken(b.constant.front(), b.middle.front(), b.last.front(), errors)) return {broken, begin};
+  if (is_broken(b.constant.back(), b.middle.back(), b.last.back(), errors)) return {broken, end};
+  if (halvings == 0) return {undecided, 0.5 * (begin + end)};
+  const Halves constant = halves_of(b.constant);
+  const Halves middle = halves_of(b.middle);
+  const Halves last = halves_of(b.last);
+  const Halves quadratic = halves_of(b.quadratic);
+  const double half = 0.5 * (begin + end);
+  const auto left = judge({constant.left, middle.left, last.left, quadratic.left}, errors, begin, half, halvings - 1);
+  if (left.verdict != holds) return left;
+  return judge({constant.right, middle.right, last.right, quadratic.right}, errors, half, end, halvings - 1);
+}
+
+}  // namespace
+
+WallCondition::Terms WallCondition::terms(const UserDiscs::Disc& disc, std::complex<double> damper) {
+  return {1.0 + 2.0 * (damper * disc.centre).real() + disc.power * std::norm(damper),
+          disc.centre.real() + disc.power * damper.real(), disc.power};
+}
+
+/// Whether |a| <= 1e-11 b at all nodes: rounding.
+bool is_rounding_beside(const InterpolationValues& a, const InterpolationValues& b) {
+  constexpr double rounding = 1e-11;
+  for (std::size_t i = 0; i < interpolation_points; ++i) {
+    if (!(std::abs(a[i]) <= rounding * std::abs(b[i]))) return false;
+  }
+  return true;
+}
+
+/// The three terms on a piece that begins at 0, each over the power of x = w² as which it goes there.
+struct WallCondition::NearZero {
+  struct Term {
+    static constexpr double highest = 5.0;
+    int order = 0;  // of x
+    InterpolationValues coefficients{};
+    double error = 0.0;
+
+    /// x in units of the piece's end.
+    Term(const InterpolationValues& values, const InterpolationValues& x) {
+      const double slope = std::log(std::abs(values[1] / values[0])) / std::log(x[1] / x[0]);
+      order = std::isfinite(slope) ? static_cast<int>(std::clamp(std::round(slope), -highest, highest))
+                                   : static_cast<int>(highest);  // 0 throughout
+      InterpolationValues over{};
+      for (std::size_t i = 0; i < interpolation_points; ++i) over[i] = values[i] * std::pow(x[i], -order);
+      coefficients = bernstein_coefficients(over);
+      error = uncertainty(over);
+    }
+    [[nodiscard]] double least() const { return range_of(coefficients).least - error; }
+    [[nodiscard]] double greatest() const { return range_of(coefficients).greatest + error; }
+  };
+  Term constant;
+  Term half;
+  Term quadratic;
+  [[nodiscard]] int lowest_order() const { return std::min({constant.order, half.order, quadratic.order}); }
+};
+
+/// With p = x^a p', q = x^b q', A = x^c A': no root K > 0 where p' > 0, A' > 0 and q' > 0 or x^{2b - a - c} q'² < p'
+/// A'.
+void WallCondition::look_at_zero(const NearZero& terms) {
+  constexpr double certain = 1e-6;  // relative, of a value at 0
+  const auto& [p, q, a] = terms;
+  const int surplus = 2 * q.order - p.order - a.order;
+  const double steepest = std::min(q.least(), 0.0);
+  if (p.least() > 0.0 && a.least() > 0.0 &&
+      (steepest == 0.0 || (surplus >= 0 && steepest * steepest < p.least() * a.least()))) {
+    holds_for_all_k_ = true;
+  }
+  const int lowest = terms.lowest_order();
+  const auto at_zero = [&](const NearZero::Term& term) {
+    return term.order == lowest ? term.coefficients.front() : 0.0;
+  };
+  for (const NearZero::Term* term : {&p, &q, &a}) {
+    if (term->order == lowest && !(term->error <= certain * std::abs(term->coefficients.front()))) return;
+  }
+  if (p.order == lowest) {
+    at_zero_ = least_root(at_zero(p), at_zero(q), at_zero(a));
+  } else if (holds_for_all_k_) {
+    at_zero_ = std::numeric_limits<double>::infinity();
+  } else if (p.coefficients.front() < 0.0 || at_zero(q) < 0.0 || (at_zero(q) == 0.0 && at_zero(a) < 0.0)) {
+    at_zero_ = 0.0;
+  }
+}
+
+WallCondition::WallCondition(const DiscPieces::Piece& piece,
+                             const std::array<std::complex<double>, interpolation_points>& dampers)
+    : nodes_(piece.nodes), dampers_(dampers) {
+  is_undamped_ = std::all_of(dampers.begin(), dampers.end(), [](std::complex<double> each) { return each == 0.0; });
+  for (std::size_t i = 0; i < interpolation_points; ++i) terms_[i] = terms(nodes_[i].disc, dampers_[i]);
+  if (piece.begin != 0.0) return;
+  InterpolationValues x{};
+  InterpolationValues constant{};
+  InterpolationValues half{};
+  InterpolationValues quadratic{};
+  for (std::size_t i = 0; i < interpolation_points; ++i) {
+    x[i] = 0.5 * (1.0 + interpolation_nodes()[i]);
+    constant[i] = nodes_[i].factor * terms_[i].constant;
+    half[i] = nodes_[i].factor * terms_[i].half;
+    quadratic[i] = nodes_[i].factor * terms_[i].quadratic;
+  }
+  // Where q² >> p A the A K² is rounding (of a rigid device it vanishes), where q² << p A the q K: no order of its own.
+  InterpolationValues product{};
+  InterpolationValues square{};
+  for (std::size_t i = 0; i < interpolation_points; ++i) {
+    product[i] = constant[i] * quadratic[i];
+    square[i] = half[i] * half[i];
+  }
+  if (is_rounding_beside(product, square)) quadratic.fill(0.0);
+  if (is_rounding_beside(square, product)) half.fill(0.0);
+  const NearZero near_zero{{constant, x}, {half, x}, {quadratic, x}};
+  look_at_zero(near_zero);
+  // Where springs tie the device to ground all of them vanish at 0, where only links dissipate they grow.
+  for (std::size_t i = 0; i < interpolation_points; ++i) nodes_[i].factor *= std::pow(x[i], -near_zero.lowest_order());
+}
+
+/// f(K1) at a node, by the difference of which less is lost: near a root of 1 + C c, and where c grows without bound.
+double WallCondition::last_at(std::size_t node, double stiffness) const {
+  const UserDiscs::Disc& disc = nodes_[node].disc;
+  const std::complex<double> wall = stiffness + dampers_[node];
+  const double apart = std::abs(1.0 + wall * disc.centre);
+  const double reach = std::abs(wall) * disc.radius;
+  const auto& [constant, half, quadratic] = terms_[node];
+  const double lost = apart * (1.0 + std::abs(wall * disc.centre)) + reach * reach;
+  const double lost_in_sum = std::abs(constant) + stiffness * (2.0 * std::abs(half) + stiffness * std::abs(quadratic));
+  if (lost < lost_in_sum) return (apart - reach) * (apart + reach);
+  return constant + stiffness * (2.0 * half + stiffness * quadratic);
+}
+
+WallCondition::Answer WallCondition::up_to(double stiffness) const {
+  if (holds_for_all_k_) return {Verdict::holds, 0.0};
+  Bernstein values{};
+  Errors errors{0.0, 0.0, 0.0, 0.0};
+  for (std::size_t i = 0; i < interpolation_points; ++i) {
+    const DiscPieces::Node& node = nodes_[i];
+    const Terms& at = terms_[i];
+    values.constant[i] = node.factor * at.constant;
+    values.middle[i] = node.factor * (at.constant + at.half * stiffness);
+    values.last[i] = node.factor * last_at(i, stiffness);
+    values.quadratic[i] = node.factor * at.quadratic;
+    // What an error of centre and radius makes of them.
+    const double error = node.factor * node.error;
+    const double size = std::abs(node.disc.centre) + node.disc.radius;
+    const double damper = std::abs(dampers_[i]);
+    const std::complex<double> wall = stiffness + dampers_[i];
+    const double apart = std::abs(1.0 + wall * node.disc.centre) + std::abs(wall) * node.disc.radius;
+    const double of_constant = 2.0 * error * damper * (1.0 + damper * size);
+    errors.constant = std::max(errors.constant, of_constant);
+    errors.middle = std::max(errors.middle, of_constant + stiffness * error * (1.0 + 2.0 * damper * size));
+    errors.last = std::max(errors.last, 2.0 * error * std::abs(wall) * apart);
+    errors.quadratic = std::max(errors.quadratic, 2.0 * error * size);
+  }
+  errors.constant += uncertainty(values.constant);
+  errors.middle += uncertainty(values.middle);
+  errors.last += uncertainty(values.last);
+  errors.quadratic += uncertainty(values.quadratic);
+  values.constant = bernstein_coefficients(values.constant);
+  values.middle = bernstein_coefficients(values.middle);
+  values.last = bernstein_coefficients(values.last);
+  values.quadratic = bernstein_coefficients(values.quadratic);
+  if (is_undamped_) {  // positive as it stands, its interpolant or not
+    for (double& each : values.constant) each = std::max(each, 0.0);
+    errors.constant = 0.0;
+  }
+  return judge(values, errors, -1.0, 1.0, most_halvings);
+}
+
+}  // namespace zwidth::internal
