@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <map>
 #include <memory>
-#include "results/json.hpp"
 #include <optional>
 #include <system_error>
 
@@ -17,6 +16,7 @@
 #include "report/output_file.hpp"
 #include "report/text/remark_line.hpp"
 #include "results/excitation_csv.hpp"
+#include "results/json.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth::cli {
