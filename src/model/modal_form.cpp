@@ -1,15 +1,16 @@
 #include "zwidth/model/modal_form.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
 #include "model/device_matrices.hpp"
+#include "model/exact_partial_fractions.hpp"
 #include "model/partial_fractions.hpp"
 #include "model/pencil.hpp"
 #include "model/pole_search.hpp"
+#include "model/pole_starts.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth {
@@ -55,52 +56,73 @@ std::vector<ComplexX> find_poles(const Pencil& pencil, const PencilX& extended, 
   return roots;
 }
 
-// Roots of s² + c1 s + c0 in double, without cancellation.
-std::pair<ComplexD, ComplexD> quadratic_roots(double c1, double c0) {
-  const double half = c1 / 2.0;
-  const double discriminant = half * half - c0;
-  if (discriminant < 0.0) {
-    const double imaginary = std::sqrt(-discriminant);
-    return {ComplexD(-half, imaginary), ComplexD(-half, -imaginary)};
-  }
-  const double large = -(half + std::copysign(std::sqrt(discriminant), half));
-  return {ComplexD(large), ComplexD(large != 0.0 ? c0 / large : 0.0)};
+// Where terms exceed their sum by more than the first, the sum is held against G itself; by more than the second, the
+// terms leave too few digits to whoever adds them up in double.
+constexpr double checked_cancellation = 1e2;
+constexpr double carried_cancellation = 1e7;
+// What the sum of terms may be off.
+constexpr double carried_error = 1e-12;
+
+// Near the poles of a term.
+double typical_frequency(const ModalTerm& term) {
+  const auto zeros = static_cast<std::size_t>(term.integrators);
+  if (zeros >= term.degree) return 0.0;
+  const double product = std::abs(term.denominator[zeros]);
+  const std::size_t count = term.degree - zeros;
+  return count == 1 ? product : count == 2 ? std::sqrt(product) : std::pow(product, 1.0 / static_cast<double>(count));
 }
 
-struct UndampedModes {
-  std::vector<double> stiffness;  // w², ascending
-  std::vector<double> damping;    // phi' D phi
-  bool lowest_mode_is_rigid = false;
-};
+// G(jw) of one term, with what rounding to double left out.
+ComplexX extended_response(const ModalTerm& term, double frequency) {
+  const ComplexX s(Extended(0.0), Extended(frequency));
+  ComplexX numerator;
+  ComplexX denominator{Extended(1.0)};
+  for (std::size_t i = term.degree; i-- > 0;) {
+    numerator = numerator * s;
+    numerator.re += Extended(term.numerator[i]) + Extended(term.numerator_rest[i]);
+    denominator = denominator * s;
+    denominator.re += Extended(term.denominator[i]) + Extended(term.denominator_rest[i]);
+  }
+  return numerator / denominator;
+}
 
-// Real modes of M, K (mass-normalised) with the diagonal of the modal damping: starting values, not results.
-UndampedModes undamped_modes(const Device& device, const DeviceMatrices<double>& matrices) {
-  const auto n = static_cast<Eigen::Index>(matrices.mass.size());
-  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  const Eigen::Map<const RowMajor> stiffness(matrices.stiffness.data(), n, n);
-  const Eigen::Map<const RowMajor> damping(matrices.damping.data(), n, n);
-  const Eigen::VectorXd scale = Eigen::Map<const Eigen::VectorXd>(matrices.mass.data(), n).cwiseSqrt().cwiseInverse();
-  const Eigen::MatrixXd normalised = scale.asDiagonal() * stiffness * scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(normalised);
-  const Eigen::MatrixXd shapes = scale.asDiagonal() * solver.eigenvectors();
-  UndampedModes modes;
-  for (Eigen::Index k = 0; k < n; ++k) {
-    modes.stiffness.push_back(std::max(solver.eigenvalues()(k), 0.0));
-    modes.damping.push_back(std::max(shapes.col(k).dot(damping * shapes.col(k)), 0.0));
+// Whether double-double carried the poles and the terms. Where poles crowd the terms cancel near them, and what they
+// lost shows.
+template <typename PencilX>
+bool is_carried(const ModalForm& form, const PencilX& pencil) {
+  for (const ModalTerm& at : form.terms) {
+    const double frequency = typical_frequency(at);
+    if (frequency == 0.0) continue;
+    std::complex<double> sum = 0.0;
+    double size = 0.0;
+    for (const ModalTerm& term : form.terms) {
+      const std::complex<double> value = response(term, frequency);
+      sum += value;
+      size += std::sqrt(std::norm(value));
+    }
+    const double cancellation = size / std::sqrt(std::norm(sum));
+    if (!std::isfinite(cancellation)) continue;  // on an undamped mode
+    if (cancellation > carried_cancellation) return false;
+    if (cancellation <= checked_cancellation && at.degree <= 2) continue;
+    ComplexX error = ComplexX() - pencil.gain(ComplexX(Extended(0.0), Extended(frequency)));
+    const double gain = magnitude(error);
+    for (const ModalTerm& term : form.terms) error += extended_response(term, frequency);
+    if (magnitude(error) > carried_error * gain) return false;
   }
-  double in_links = 0.0;
-  for (const Link& link : device.links()) {
-    const double stretch =
-        shapes(static_cast<Eigen::Index>(link.first), 0) - shapes(static_cast<Eigen::Index>(link.second), 0);
-    in_links += link.stiffness * stretch * stretch;
+  return true;
+}
+
+// The modal form in double-double, or by exact arithmetic where that does not carry. `exact` gives G as ExactFraction.
+template <typename Pencil, typename PencilX, typename Exact>
+ModalForm expand_poles(const Pencil& pencil, const PencilX& extended, std::vector<ComplexD> start,
+                       const PoleLabels& labels, const Exact& exact) {
+  try {
+    ModalForm form = expand(extended, find_poles(pencil, extended, std::move(start)), labels);
+    if (is_carried(form, extended)) return form;
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::did_not_converge) throw;
   }
-  double to_ground =
-      device.parameters().user.stiffness * std::pow(shapes(static_cast<Eigen::Index>(device.loop().held), 0), 2);
-  for (std::size_t i = 0; i < device.bodies().size(); ++i) {
-    to_ground += device.bodies()[i].stiffness * std::pow(shapes(static_cast<Eigen::Index>(i), 0), 2);
-  }
-  modes.lowest_mode_is_rigid = to_ground >= in_links;
-  return modes;
+  return exact_modal_form(exact(), leading(extended.lag), labels);
 }
 
 // How many poles at s = 0 the structure implies: one for every set of bodies that no spring ties to ground, directly or
@@ -242,41 +264,13 @@ ModalForm expand_bodies(const Device& device, Path path, double lag) {
   for (ComplexD& s : start) {
     if (!(magnitude(s) > 0.0)) s = ComplexD(-1e-3, 1e-3);
   }
+  const auto exact = [&] { return exact_fraction(device, path); };
   if (matrices.mass.size() <= 2) {
-    const auto extended = small_device_pencil<Extended>(device, path, lag);
-    return expand(extended, find_poles(small_device_pencil<double>(device, path, lag), extended, std::move(start)),
-                  labels);
+    return expand_poles(small_device_pencil<double>(device, path, lag),
+                        small_device_pencil<Extended>(device, path, lag), std::move(start), labels, exact);
   }
-  const auto extended = body_pencil<Extended>(device, path, lag);
-  return expand(extended, find_poles(body_pencil<double>(device, path, lag), extended, std::move(start)), labels);
-}
-
-// Starting values on circles whose radii come from the upper convex hull of log |coefficients| (D. Bini 1996).
-std::vector<ComplexD> newton_polygon_start(const std::vector<double>& p) {
-  const std::size_t degree = p.size() - 1;
-  std::vector<std::size_t> hull;
-  for (std::size_t i = 0; i <= degree; ++i) {
-    if (p[i] == 0.0) continue;
-    const auto height = [&](std::size_t k) { return std::log(std::abs(p[k])); };
-    const auto above = [&](std::size_t a, std::size_t b, std::size_t c) {  // is b on or under the line a-c?
-      return (height(b) - height(a)) * static_cast<double>(c - a) <=
-             (height(c) - height(a)) * static_cast<double>(b - a);
-    };
-    while (hull.size() >= 2 && above(hull[hull.size() - 2], hull.back(), i)) hull.pop_back();
-    hull.push_back(i);
-  }
-  std::vector<ComplexD> start;
-  for (std::size_t h = 0; h + 1 < hull.size(); ++h) {
-    const std::size_t count = hull[h + 1] - hull[h];
-    const double radius =
-        std::exp((std::log(std::abs(p[hull[h]])) - std::log(std::abs(p[hull[h + 1]]))) / static_cast<double>(count));
-    for (std::size_t i = 0; i < count; ++i) {
-      const double angle =
-          2.0 * M_PI * static_cast<double>(i) / static_cast<double>(count) + 0.7 + static_cast<double>(h);
-      start.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
-    }
-  }
-  return start;
+  return expand_poles(body_pencil<double>(device, path, lag), body_pencil<Extended>(device, path, lag),
+                      std::move(start), labels, exact);
 }
 
 ModalForm expand_transfer_function(const TransferFunction& transfer_function, double lag) {
@@ -307,8 +301,8 @@ ModalForm expand_transfer_function(const TransferFunction& transfer_function, do
   pencil.denominator = denominator;
   extended.numerator.assign(numerator.begin(), numerator.end());
   extended.denominator.assign(denominator.begin(), denominator.end());
-  PoleLabels labels;
-  return expand(extended, find_poles(pencil, extended, newton_polygon_start(denominator)), labels);
+  return expand_poles(pencil, extended, newton_polygon_start(denominator), PoleLabels{},
+                      [&] { return exact_fraction(transfer_function); });
 }
 
 }  // namespace
@@ -343,6 +337,10 @@ std::complex<double> response(const ModalTerm& term, double frequency) {
       return {(n_real * d_real + n_imaginary * d_imaginary) * scale,
               (n_imaginary * d_real - n_real * d_imaginary) * scale};
     }
+  }
+  if (term.degree > 2) {  // crowded poles: their polynomials cancel near a resonance
+    const ComplexX value = extended_response(term, frequency);
+    return {leading(value.re), leading(value.im)};
   }
   const std::complex<double> s(0.0, frequency);
   std::complex<double> numerator = 0.0;

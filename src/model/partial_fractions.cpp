@@ -157,7 +157,7 @@ ModalTerm real_term(const PoleGroup& group, PolynomialX numerator, PolynomialX d
   return term;
 }
 
-void finish(ModalForm& form, double lag) {
+void clear_unseen(ModalForm& form) {
   std::vector<double> weights;
   for (const ModalTerm& term : form.terms) {
     const double frequency = term.mode > 0
@@ -172,13 +172,18 @@ void finish(ModalForm& form, double lag) {
       std::fill_n(term.numerator, term.degree, 0.0);
       std::fill_n(term.numerator_rest, term.degree, 0.0);
     }
-    if (lag > 0.0 && term.mode >= 0 && term.degree == 2) {
-      // The mode without the lag is N (lag s + 1) mod D; its residue at s = -1/lag is its part of the lag's term.
-      const double n0 = term.numerator[0] - lag * term.numerator[1] * term.denominator[0];
-      const double n1 = term.numerator[1] + lag * (term.numerator[0] - term.numerator[1] * term.denominator[1]);
-      const double s = -1.0 / lag;
-      term.lag_numerator = (n0 + n1 * s) / (term.denominator[0] + s * (term.denominator[1] + s)) / lag;
-    }
+  }
+}
+
+void share_lag(ModalForm& form, double lag) {
+  if (!(lag > 0.0)) return;
+  for (ModalTerm& term : form.terms) {
+    if (term.mode < 0 || term.degree != 2) continue;
+    // The mode without the lag is N (lag s + 1) mod D; its residue at s = -1/lag is its part of the lag's term.
+    const double n0 = term.numerator[0] - lag * term.numerator[1] * term.denominator[0];
+    const double n1 = term.numerator[1] + lag * (term.numerator[0] - term.numerator[1] * term.denominator[1]);
+    const double s = -1.0 / lag;
+    term.lag_numerator = (n0 + n1 * s) / (term.denominator[0] + s * (term.denominator[1] + s)) / lag;
   }
 }
 

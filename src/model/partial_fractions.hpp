@@ -58,8 +58,10 @@ double isolation(const PoleGroup& group, const std::vector<ComplexX>& all_poles)
 void cancel_common_factors(PolynomialX& numerator, PolynomialX& denominator, double scale);
 // The real term of numerator / denominator, plus its conjugate unless the group is closed.
 ModalTerm real_term(const PoleGroup& group, PolynomialX numerator, PolynomialX denominator);
-// Clears numerators of modes that the path does not see; says how much of the lag's term stems from each mode.
-void finish(ModalForm& form, double lag);
+// Clears numerators of modes that the path does not see.
+void clear_unseen(ModalForm& form);
+// Says how much of the lag's term stems from each mode.
+void share_lag(ModalForm& form, double lag);
 
 template <typename Pencil>
 ComplexX analytic_part(const Pencil& pencil, const PoleGroup& group, const ComplexX& s) {
@@ -184,7 +186,8 @@ ModalForm expand(const Pencil& pencil, std::vector<ComplexX> poles, const PoleLa
     add_lag_pole(groups, poles.back());
   }
   for (const PoleGroup& group : groups) form.terms.push_back(term_of(pencil, group, poles));
-  finish(form, lag);
+  clear_unseen(form);
+  share_lag(form, lag);
   return form;
 }
 

@@ -147,7 +147,7 @@ double response_at_nyquist(const std::vector<ExtendedTerm>& terms, std::size_t d
   return delay_samples % 2 == 0 ? leading(sum) : -leading(sum);
 }
 
-std::vector<double> common_numerator(const std::vector<ExtendedTerm>& terms) {
+std::vector<Extended> extended_common_numerator(const std::vector<ExtendedTerm>& terms) {
   const auto multiply = [](const std::vector<Extended>& a, const std::vector<Extended>& b) {
     std::vector<Extended> product(a.size() + b.size() - 1, Extended(0.0));
     for (std::size_t i = 0; i < a.size(); ++i)
@@ -164,6 +164,11 @@ std::vector<double> common_numerator(const std::vector<ExtendedTerm>& terms) {
     numerator = std::move(sum);
     denominator = multiply(denominator, term.denominator);
   }
+  return numerator;
+}
+
+std::vector<double> common_numerator(const std::vector<ExtendedTerm>& terms) {
+  const std::vector<Extended> numerator = extended_common_numerator(terms);
   std::vector<double> rounded(numerator.size());
   std::transform(numerator.begin(), numerator.end(), rounded.begin(), [](const Extended& c) { return leading(c); });
   return rounded;

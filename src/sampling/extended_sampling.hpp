@@ -21,7 +21,8 @@ ExtendedTerm sample_extended(const ModalTerm& term, const SamplingInstants& inst
 // P(-1), the delay included; 0 where it vanishes to rounding.
 double response_at_nyquist(const std::vector<ExtendedTerm>& terms, std::size_t delay_samples);
 
-// sum_k N_k prod_{j != k} D_j.
+// sum_k N_k prod_{j != k} D_j, and the same rounded.
+std::vector<Extended> extended_common_numerator(const std::vector<ExtendedTerm>& terms);
 std::vector<double> common_numerator(const std::vector<ExtendedTerm>& terms);
 
 }  // namespace zwidth::internal

@@ -5,9 +5,11 @@
 #include <numbers>
 
 #include "sampling/cancellation.hpp"
+#include "sampling/exact_sampling.hpp"
 #include "sampling/extended_sampling.hpp"
 #include "sampling/hold_integrals.hpp"
 #include "sampling/sampling_instants.hpp"
+#include "sampling/term_on_circle.hpp"
 #include "sampling/unit_circle.hpp"
 #include "zwidth/error.hpp"
 
@@ -68,8 +70,19 @@ bool is_seen(const ModalTerm& term) {
 }
 
 void round_into(const ExtendedTerm& term, SampledTerm& sampled) {
-  for (std::size_t i = 0; i <= sampled.degree; ++i) sampled.numerator[i] = leading(term.numerator[i]);
-  for (std::size_t i = 0; i < sampled.degree; ++i) sampled.denominator[i] = leading(term.denominator[i]);
+  const auto round = [](const Extended& exact, double& rounded, double& rest) {
+    rounded = leading(exact);
+    rest = leading(exact - Extended(rounded));
+  };
+  for (std::size_t i = 0; i <= sampled.degree; ++i)
+    round(term.numerator[i], sampled.numerator[i], sampled.numerator_rest[i]);
+  for (std::size_t i = 0; i < sampled.degree; ++i)
+    round(term.denominator[i], sampled.denominator[i], sampled.denominator_rest[i]);
+}
+
+// Terms of crowded poles are beyond double-double.
+ExtendedTerm sample_precisely(const ModalTerm& term, const SamplingInstants& instants) {
+  return term.degree > 2 ? sample_exactly(term, instants) : sample_extended(term, instants);
 }
 
 // Products of a few terms must stay in range: an unstable pole may grow that much within one period.
@@ -86,6 +99,18 @@ void check_range(const SampledTerm& sampled) {
 // Looked at where it is worst, far above the modes.
 double worst_cancellation(const SampledPlant& plant) {
   return std::max(cancellation(plant, std::numbers::pi / 3.0), cancellation(plant, 2.0 * std::numbers::pi / 3.0));
+}
+
+// The same near the poles of each term.
+double cancellation_at_poles(const SampledPlant& plant) {
+  double worst = 1.0;
+  for (const SampledTerm& term : plant.terms) {
+    const double distance = std::pow(std::abs(term.denominator[0]), 1.0 / static_cast<double>(term.degree));
+    if (!(distance > 0.0)) continue;
+    const double here = cancellation(plant, 2.0 * std::asin(std::min(0.5 * distance, 1.0)));
+    if (std::isfinite(here)) worst = std::max(worst, here);
+  }
+  return worst;
 }
 
 // The same at z = -1, for the coefficients within each numerator: a slow device's response nearly vanishes there.
@@ -121,6 +146,7 @@ SampledPlant sample(const ModalForm& form, Sampling sampling) {
   plant.period = sampling.period;
   plant.delay_samples = instants.whole_samples + (instants.with_old > 0.0 ? 1U : 0U);
   plant.terms.reserve(form.terms.size());
+  bool crowded = false;
   double lag_numerator = 0.0;
   for (const ModalTerm& term : form.terms)
     if (term.mode < 0) lag_numerator = term.numerator[0];
@@ -140,18 +166,25 @@ SampledPlant sample(const ModalForm& form, Sampling sampling) {
     } else if (term.degree == 2) {
       sample_second_order(term, instants, sampling.period, sampled);
     } else {
-      round_into(sample_extended(term, instants), sampled);
+      round_into(sample_exactly(term, instants), sampled);
+      crowded = true;
     }
     check_range(sampled);
     plant.terms.push_back(sampled);
   }
-  const bool sum_cancels = plant.terms.size() > 1 && worst_cancellation(plant) > tolerable_cancellation;
+  crowded = crowded || (plant.terms.size() > 2 && cancellation_at_poles(plant) > tolerable_cancellation);
+  const bool sum_cancels = plant.terms.size() > 1 && (crowded || worst_cancellation(plant) > tolerable_cancellation);
   const bool nyquist_cancels = cancellation_at_nyquist(plant) > tolerable_cancellation_at_nyquist;
   if (sum_cancels || nyquist_cancels) {
     std::vector<ExtendedTerm> terms;
     for (const ModalTerm& term : form.terms)
-      if (is_seen(term)) terms.push_back(sample_extended(term, instants));
-    if (sum_cancels) plant.numerator = common_numerator(terms);
+      if (is_seen(term)) terms.push_back(sample_precisely(term, instants));
+    if (sum_cancels) {
+      for (const Extended& c : extended_common_numerator(terms)) {
+        plant.numerator.push_back(leading(c));
+        if (crowded) plant.numerator_rest.push_back(leading(c - Extended(plant.numerator.back())));
+      }
+    }
     plant.at_nyquist = response_at_nyquist(terms, plant.delay_samples);
   }
   return plant;
@@ -182,8 +215,8 @@ std::complex<double> filter_response(const FilteredPlant& plant, double angle) {
 
 std::complex<double> response(const SampledTerm& term, double angle) {
   const CirclePoint<double> point = circle_point(angle);
-  const OnCircle<double> numerator = polynomial(term.numerator, term.degree, term.numerator[term.degree], point);
-  const OnCircle<double> denominator = polynomial(term.denominator, term.degree, 1.0, point);
+  const OnCircle<double> numerator = numerator_of(term, point);
+  const OnCircle<double> denominator = denominator_of(term, 0, point);
   const OnCircle<double> product = multiply(numerator, conj(denominator), point);
   const double scale = 1.0 / squared_magnitude(denominator, point);
   return {product.even * scale, product.odd * std::sin(angle) * scale};
@@ -208,11 +241,10 @@ std::complex<double> response(const SampledPlant& plant, double frequency) {
     for (const SampledTerm& term : plant.terms) sum += response(term, angle);
   } else {
     const CirclePoint<double> point = circle_point(angle);
-    const OnCircle<double> numerator =
-        polynomial(plant.numerator.data(), plant.numerator.size() - 1, plant.numerator.back(), point);
+    const OnCircle<double> numerator = sum_of_numerators(plant, point);
     sum = {numerator.even, numerator.odd * std::sin(angle)};
     for (const SampledTerm& term : plant.terms) {
-      const OnCircle<double> denominator = polynomial(term.denominator, term.degree, 1.0, point);
+      const OnCircle<double> denominator = denominator_of(term, 0, point);
       sum /= std::complex<double>(denominator.even, denominator.odd * std::sin(angle));
     }
   }

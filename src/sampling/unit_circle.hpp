@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "model/extended_precision.hpp"
+
 namespace zwidth::internal {
 
 template <typename Real>
@@ -61,6 +63,34 @@ OnCircle<Real> polynomial(const double* c, std::size_t count, double leading, co
     value.even = even + c[i];
   }
   return value;
+}
+
+// The same with the rest of each coefficient in double-double: where poles crowd the powers of delta cancel. A jet in
+// double leaves the rests out: they are below its rounding.
+template <typename Real>
+OnCircle<Real> polynomial(const double* c, const double* rest, std::size_t count, double leading, double leading_rest,
+                          const CirclePoint<Real>& point) {
+  if constexpr (requires(const Real& a, const Extended& b) { a + b; }) {
+    const Real& x = point.chord_squared;
+    OnCircle<Real> value{Real(0.0) + (Extended(leading) + Extended(leading_rest)), Real(0.0)};
+    for (std::size_t i = count; i-- > 0;) {
+      const Real even = -0.5 * (x * value.even) - point.sine_squared * value.odd;
+      value.odd = value.even - 0.5 * (x * value.odd);
+      value.even = even + (Extended(c[i]) + Extended(rest[i]));
+    }
+    return value;
+  } else {
+    return polynomial(c, count, leading, point);
+  }
+}
+
+// At a point: added up in double-double, at the x that double holds.
+inline OnCircle<double> polynomial(const double* c, const double* rest, std::size_t count, double leading,
+                                   double leading_rest, const CirclePoint<double>& point) {
+  const Extended x(point.chord_squared);
+  const CirclePoint<Extended> extended{x, x * (Extended(1.0) - x * 0.25)};
+  const OnCircle<Extended> value = polynomial<Extended>(c, rest, count, leading, leading_rest, extended);
+  return {internal::leading(value.even), internal::leading(value.odd)};
 }
 
 }  // namespace zwidth::internal

@@ -10,6 +10,7 @@
 // Scalar is double, or Extended where double cannot tell f from zero.
 
 #include <cmath>
+#include <concepts>
 
 #include "model/extended_precision.hpp"
 
@@ -41,6 +42,9 @@ struct BoundedJet {
   friend BoundedJet operator-(const BoundedJet& a) { return {-a.value, -a.slope, a.bend, a.weight}; }
   friend BoundedJet operator+(const BoundedJet& a, double c) {
     return {a.value + c, a.slope, a.bend, a.weight + std::abs(c)};
+  }
+  friend BoundedJet operator+(const BoundedJet& a, const Extended& c) requires(!std::same_as<Scalar, double>) {
+    return {a.value + c, a.slope, a.bend, a.weight + std::abs(leading(c))};
   }
   friend BoundedJet operator-(double c, const BoundedJet& a) {
     return {c - a.value, -a.slope, a.bend, a.weight + std::abs(c)};

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "sampling/term_on_circle.hpp"
 #include "sampling/unit_circle.hpp"
 #include "stability/bounded_jet.hpp"
 #include "zwidth/sampling/sampled_plant.hpp"
@@ -88,24 +89,23 @@ PlantFraction<Real> plant_fraction(const FilteredPlant& plant, const CirclePoint
   OnCircle<Real> d{Real(1.0), Real(0.0)};
   OnCircle<Real> replaced{Real(1.0), Real(0.0)};
   const bool add_up = plant.numerator.empty();
-  if (!add_up) s = polynomial(plant.numerator.data(), plant.numerator.size() - 1, plant.numerator.back(), point);
+  if (!add_up) s = sum_of_numerators(plant, point);
   bool first = true;
   for (const SampledTerm& term : plant.terms) {
-    OnCircle<Real> d_k = polynomial(term.denominator, term.degree, 1.0, point);
+    OnCircle<Real> d_k = denominator_of(term, 0, point);
     double scale = std::abs(value_of(d_k.even)) + sine * std::abs(value_of(d_k.odd));
     scale = scale > 0.0 ? 1.0 / scale : 1.0;
     d_k = scaled(scale, d_k);
     OnCircle<Real> n_k{Real(0.0), Real(0.0)};
     if (add_up) {
-      n_k = scaled(scale, polynomial(term.numerator, term.degree, term.numerator[term.degree], point));
+      n_k = scaled(scale, numerator_of(term, point));
     } else {
       s = scaled(scale, s);
     }
     OnCircle<Real> replaced_k = d_k;
     if (integrators != nullptr && term.integrators > 0) {
       const auto zeros = static_cast<std::size_t>(term.integrators);
-      replaced_k = scaled(
-          scale, multiply(*integrators, polynomial(term.denominator + zeros, term.degree - zeros, 1.0, point), point));
+      replaced_k = scaled(scale, multiply(*integrators, denominator_of(term, zeros, point), point));
     }
     if (first) {
       if (add_up) s = n_k;

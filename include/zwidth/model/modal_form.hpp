@@ -16,7 +16,7 @@ namespace zwidth {
 /// Degree 1: a lone real pole; 2: a mode (or the rigid body, d[0] = 0 when nothing ties it to ground); more: poles so
 /// close together that separate terms would cancel.
 struct ModalTerm {
-  static constexpr std::size_t max_degree = 8;
+  static constexpr std::size_t max_degree = 24;
   std::size_t degree = 0;
   double numerator[max_degree] = {};
   double denominator[max_degree] = {};  ///< monic; the leading 1 is not stored
@@ -45,7 +45,9 @@ struct Mode {
 ///
 /// Unlike one transfer function of high degree it keeps full relative accuracy at every frequency, with stiff links,
 /// light or critical damping and widely spread masses. Poles are found by Ehrlich-Aberth iteration on
-/// det(M s² + D s + K) in double-double arithmetic; poles closer than cluster_tolerance share a term.
+/// det(M s² + D s + K) in double-double arithmetic; poles closer than cluster_tolerance share a term. Where that does
+/// not carry (many poles close together) they are isolated with proof from the exact polynomial, and terms that cancel
+/// are joined.
 struct ModalForm {
   std::vector<ModalTerm> terms;              ///< rigid body first, then modes by rising frequency, lag last
   std::vector<Mode> modes;                   ///< vibration modes only, by rising frequency

@@ -30,6 +30,9 @@ struct SampledTerm {
   int unstable_poles = 0;                            ///< poles with |z| > 1 (of a transfer function)
   int undamped_pairs = 0;                            ///< pole pairs with |z| = 1, z != 1
   double undamped_angle = 0.0;                       ///< their angle in [0, pi]
+  /// What rounding to double left out of each coefficient: where poles crowd (degree > 2); 0 elsewhere
+  double numerator_rest[ModalTerm::max_degree + 1] = {};
+  double denominator_rest[ModalTerm::max_degree] = {};
 };
 
 /// The plant that the sampled wall sees: Z[H(s) G(s) e^{-t_d s}] = z^-delay_samples sum_k N_k(z - 1) / D_k(z - 1).
@@ -42,6 +45,8 @@ struct SampledPlant {
   std::vector<double> numerator;
   /// P(-1) without the filters, where the terms' numerators nearly vanish at Nyquist; computed in double-double.
   std::optional<double> at_nyquist;
+  /// What rounding to double left out of `numerator`; empty where that does not matter.
+  std::vector<double> numerator_rest = {};
 };
 
 /// The plant as a wall of K + B v(z) sees it, through the wall's filters: F P, since 1 + F (K + B v) P = 0 either way.

@@ -1,0 +1,159 @@
+#include "model/exact_fraction.hpp"
+
+#include <flint/fmpz_poly_mat.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "model/device_matrices.hpp"
+#include "zwidth/error.hpp"
+
+namespace zwidth::internal {
+namespace {
+
+// The exact determinant grows like the fourth power of their number: seconds beyond it.
+constexpr std::size_t max_exact_bodies = 40;
+
+using Integer = FlintValue<fmpz, fmpz_init, fmpz_clear, fmpz_set>;
+
+// value = mantissa 2^exponent, mantissa odd or zero.
+struct Binary {
+  std::int64_t mantissa = 0;
+  long exponent = 0;
+};
+
+Binary binary(double value) {
+  if (value == 0.0) return {};
+  int exponent = 0;
+  Binary result{static_cast<std::int64_t>(std::ldexp(std::frexp(value, &exponent), 53)), 0};
+  result.exponent = exponent - 53;
+  while (result.mantissa % 2 == 0) {
+    result.mantissa /= 2;
+    ++result.exponent;
+  }
+  return result;
+}
+
+// A sum of doubles without rounding, as device_matrices() needs it.
+class ExactSum {
+ public:
+  explicit ExactSum(double value) { *this += value; }
+  ExactSum& operator+=(const ExactSum& other) {
+    arf_add(arb_midref(sum_), arb_midref(sum_), arb_midref(other.sum_), ARF_PREC_EXACT, ARF_RND_DOWN);
+    return *this;
+  }
+
+  // Exponent of the last bit.
+  [[nodiscard]] long last_bit() const {
+    if (arf_is_zero(arb_midref(sum_))) return std::numeric_limits<long>::max();
+    Integer mantissa;
+    Integer exponent;
+    arf_get_fmpz_2exp(mantissa, exponent, arb_midref(sum_));
+    return fmpz_get_si(exponent);
+  }
+  // times 2^-shift, an integer
+  void get(fmpz* integer, long shift) const {
+    RealBall scaled;
+    arf_mul_2exp_si(arb_midref(scaled), arb_midref(sum_), -shift);
+    arf_get_fmpz(integer, arb_midref(scaled), ARF_RND_DOWN);
+  }
+
+ private:
+  ExactSum& operator+=(double value) {
+    RealBall ball;
+    arf_set_d(arb_midref(ball), value);
+    arf_add(arb_midref(sum_), arb_midref(sum_), arb_midref(ball), ARF_PREC_EXACT, ARF_RND_DOWN);
+    return *this;
+  }
+
+  RealBall sum_;
+};
+
+// Coefficients by descending powers; returns the exponent of two that was divided out.
+long set_polynomial(IntegerPolynomial& p, const std::vector<double>& coefficients) {
+  long lowest = std::numeric_limits<long>::max();
+  for (const double c : coefficients) {
+    if (c != 0.0) lowest = std::min(lowest, binary(c).exponent);
+  }
+  if (lowest == std::numeric_limits<long>::max()) return 0;
+  for (std::size_t i = 0; i < coefficients.size(); ++i) {
+    const Binary c = binary(coefficients[i]);
+    if (c.mantissa == 0) continue;
+    Integer integer;
+    fmpz_set_si(integer, c.mantissa);
+    fmpz_mul_2exp(integer, integer, static_cast<ulong>(c.exponent - lowest));
+    fmpz_poly_set_coeff_fmpz(p, static_cast<slong>(coefficients.size() - 1 - i), integer);
+  }
+  return lowest;
+}
+
+class PolynomialMatrix {
+ public:
+  explicit PolynomialMatrix(std::size_t size) {
+    fmpz_poly_mat_init(matrix_, static_cast<slong>(size), static_cast<slong>(size));
+  }
+  PolynomialMatrix(const PolynomialMatrix&) = delete;
+  PolynomialMatrix& operator=(const PolynomialMatrix&) = delete;
+  ~PolynomialMatrix() { fmpz_poly_mat_clear(matrix_); }
+  fmpz_poly_struct* operator()(std::size_t i, std::size_t j) {
+    return fmpz_poly_mat_entry(matrix_, static_cast<slong>(i), static_cast<slong>(j));
+  }
+  void determinant(IntegerPolynomial& result) const { fmpz_poly_mat_det(result, matrix_); }
+
+ private:
+  fmpz_poly_mat_t matrix_;
+};
+
+}  // namespace
+
+ExactFraction exact_fraction(const TransferFunction& transfer_function) {
+  ExactFraction result;
+  const long above = set_polynomial(result.numerator, transfer_function.numerator);
+  const long below = set_polynomial(result.denominator, transfer_function.denominator);
+  result.exponent = above - below;
+  return result;
+}
+
+// Q(s) = M s² + D s + K: G = (-1)^(i+j) det(Q without row j and column i) / det Q.
+ExactFraction exact_fraction(const Device& device, Path path) {
+  const std::size_t n = device.bodies().size();
+  if (n > max_exact_bodies) {
+    throw Error(ErrorCode::did_not_converge,
+                fmt::format("the modes of {} bodies lie too close together for double-double arithmetic, and exact "
+                            "arithmetic takes at most {} bodies: join bodies whose links are stiff",
+                            n, max_exact_bodies));
+  }
+  const DeviceMatrices<ExactSum> m = device_matrices<ExactSum>(device);
+  long lowest = std::numeric_limits<long>::max();
+  for (const auto* entries : {&m.mass, &m.damping, &m.stiffness}) {
+    for (const ExactSum& entry : *entries) lowest = std::min(lowest, entry.last_bit());
+  }
+  PolynomialMatrix dynamic(n);
+  PolynomialMatrix minor(n - 1);
+  Integer integer;
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j < n; ++j) {
+      m.stiffness[i * n + j].get(integer, lowest);
+      fmpz_poly_set_coeff_fmpz(dynamic(i, j), 0, integer);
+      m.damping[i * n + j].get(integer, lowest);
+      fmpz_poly_set_coeff_fmpz(dynamic(i, j), 1, integer);
+    }
+    m.mass[i].get(integer, lowest);
+    fmpz_poly_set_coeff_fmpz(dynamic(i, i), 2, integer);
+  }
+  for (std::size_t i = 0; i + 1 < n; ++i) {
+    for (std::size_t j = 0; j + 1 < n; ++j) {
+      fmpz_poly_set(minor(i, j), dynamic(i + (i >= path.force_at ? 1 : 0), j + (j >= path.position_of ? 1 : 0)));
+    }
+  }
+  ExactFraction result;
+  dynamic.determinant(result.denominator);
+  minor.determinant(result.numerator);
+  if ((path.force_at + path.position_of) % 2 == 1) fmpz_poly_neg(result.numerator, result.numerator);
+  result.exponent = -lowest;
+  return result;
+}
+
+}  // namespace zwidth::internal

@@ -1,0 +1,22 @@
+#pragma once
+
+// G(s) of a device without any rounding: the numbers of a device are doubles, hence rational.
+
+#include "model/balls.hpp"
+#include "zwidth/model/device.hpp"
+#include "zwidth/model/modal_form.hpp"
+
+namespace zwidth::internal {
+
+// G = 2^exponent numerator(s) / denominator(s), the actuator's lag not included.
+struct ExactFraction {
+  IntegerPolynomial numerator;
+  IntegerPolynomial denominator;
+  long exponent = 0;
+};
+
+ExactFraction exact_fraction(const TransferFunction& transfer_function);
+// Throws Error (did_not_converge) for more bodies than the exact determinant can take.
+ExactFraction exact_fraction(const Device& device, Path path);
+
+}  // namespace zwidth::internal

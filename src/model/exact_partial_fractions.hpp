@@ -1,0 +1,19 @@
+#pragma once
+
+// Partial fractions of devices whose poles crowd: separate terms cancel there, and double-double carries neither the
+// poles nor the terms. Roots are isolated with proof from the exact polynomial (Arb), terms are computed in balls whose
+// precision rises until every coefficient is known, and terms that cancel are joined.
+
+#include "model/exact_fraction.hpp"
+#include "model/pole_groups.hpp"
+#include "zwidth/model/modal_form.hpp"
+
+namespace zwidth::internal {
+
+// Terms are joined until none exceeds the sum by more, at the frequency of any pole.
+inline constexpr double joined_above = 1e3;
+
+// Throws Error (did_not_converge) where terms of ModalTerm::max_degree still cancel too much.
+ModalForm exact_modal_form(ExactFraction fraction, double lag, const PoleLabels& labels);
+
+}  // namespace zwidth::internal
