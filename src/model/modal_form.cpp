@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 
 #include "model/device_matrices.hpp"
@@ -58,10 +59,11 @@ std::vector<ComplexX> find_poles(const Pencil& pencil, const PencilX& extended, 
 
 // Where terms exceed their sum by more than the first, the sum is held against G itself; by more than the second, the
 // terms leave too few digits to whoever adds them up in double.
-constexpr double checked_cancellation = 1e2;
+constexpr double checked_cancellation = 1e5;
 constexpr double carried_cancellation = 1e7;
-// What the sum of terms may be off.
+// What the sum of terms may be off, near the poles and far above them.
 constexpr double carried_error = 1e-12;
+constexpr double carried_error_at_nyquist = 1e-9;
 
 // Near the poles of a term.
 double typical_frequency(const ModalTerm& term) {
@@ -86,39 +88,51 @@ ComplexX extended_response(const ModalTerm& term, double frequency) {
   return numerator / denominator;
 }
 
-// Whether double-double carried the poles and the terms. Where poles crowd the terms cancel near them, and what they
-// lost shows.
-template <typename PencilX>
-bool is_carried(const ModalForm& form, const PencilX& pencil) {
-  for (const ModalTerm& at : form.terms) {
-    const double frequency = typical_frequency(at);
-    if (frequency == 0.0) continue;
-    std::complex<double> sum = 0.0;
-    double size = 0.0;
-    for (const ModalTerm& term : form.terms) {
-      const std::complex<double> value = response(term, frequency);
-      sum += value;
-      size += std::sqrt(std::norm(value));
-    }
-    const double cancellation = size / std::sqrt(std::norm(sum));
-    if (!std::isfinite(cancellation)) continue;  // on an undamped mode
-    if (cancellation > carried_cancellation) return false;
-    if (cancellation <= checked_cancellation && at.degree <= 2) continue;
-    ComplexX error = ComplexX() - pencil.gain(ComplexX(Extended(0.0), Extended(frequency)));
-    const double gain = magnitude(error);
-    for (const ModalTerm& term : form.terms) error += extended_response(term, frequency);
-    if (magnitude(error) > carried_error * gain) return false;
+// The sum of the terms' magnitudes over the magnitude of their sum.
+double cancellation(const ModalForm& form, double frequency) {
+  std::complex<double> sum = 0.0;
+  double size = 0.0;
+  for (const ModalTerm& term : form.terms) {
+    const std::complex<double> value = response(term, frequency);
+    sum += value;
+    size += std::sqrt(std::norm(value));
   }
-  return true;
+  return size / std::sqrt(std::norm(sum));
+}
+
+// |sum of terms - G| / |G| in double-double.
+template <typename PencilX>
+double error_of_sum(const ModalForm& form, const PencilX& pencil, double frequency) {
+  ComplexX error = ComplexX() - pencil.gain(ComplexX(Extended(0.0), Extended(frequency)));
+  const double gain = magnitude(error);
+  for (const ModalTerm& term : form.terms) error += extended_response(term, frequency);
+  return magnitude(error) / gain;
+}
+
+// Whether double-double carried the poles and the terms. Where poles crowd the terms cancel near them, and what they
+// lost shows; at the Nyquist frequency it shows most.
+template <typename PencilX>
+bool is_carried(const ModalForm& form, const PencilX& pencil, double nyquist) {
+  for (const ModalTerm& term : form.terms) {
+    const double frequency = typical_frequency(term);
+    if (frequency == 0.0) continue;
+    const double here = cancellation(form, frequency);
+    if (!std::isfinite(here)) continue;  // on an undamped mode
+    if (here > carried_cancellation) return false;
+    if (here <= checked_cancellation && term.degree <= 2) continue;
+    if (error_of_sum(form, pencil, frequency) > carried_error) return false;
+  }
+  return form.terms.size() < 3 || cancellation(form, nyquist) <= checked_cancellation ||
+         error_of_sum(form, pencil, nyquist) <= carried_error_at_nyquist;
 }
 
 // The modal form in double-double, or by exact arithmetic where that does not carry. `exact` gives G as ExactFraction.
 template <typename Pencil, typename PencilX, typename Exact>
 ModalForm expand_poles(const Pencil& pencil, const PencilX& extended, std::vector<ComplexD> start,
-                       const PoleLabels& labels, const Exact& exact) {
+                       const PoleLabels& labels, double nyquist, const Exact& exact) {
   try {
     ModalForm form = expand(extended, find_poles(pencil, extended, std::move(start)), labels);
-    if (is_carried(form, extended)) return form;
+    if (is_carried(form, extended, nyquist)) return form;
   } catch (const Error& error) {
     if (error.code() != ErrorCode::did_not_converge) throw;
   }
@@ -264,16 +278,17 @@ ModalForm expand_bodies(const Device& device, Path path, double lag) {
   for (ComplexD& s : start) {
     if (!(magnitude(s) > 0.0)) s = ComplexD(-1e-3, 1e-3);
   }
+  const double nyquist = std::numbers::pi / device.loop().sampling_period;
   const auto exact = [&] { return exact_fraction(device, path); };
   if (matrices.mass.size() <= 2) {
     return expand_poles(small_device_pencil<double>(device, path, lag),
-                        small_device_pencil<Extended>(device, path, lag), std::move(start), labels, exact);
+                        small_device_pencil<Extended>(device, path, lag), std::move(start), labels, nyquist, exact);
   }
   return expand_poles(body_pencil<double>(device, path, lag), body_pencil<Extended>(device, path, lag),
-                      std::move(start), labels, exact);
+                      std::move(start), labels, nyquist, exact);
 }
 
-ModalForm expand_transfer_function(const TransferFunction& transfer_function, double lag) {
+ModalForm expand_transfer_function(const TransferFunction& transfer_function, double lag, double nyquist) {
   std::vector<double> numerator(transfer_function.numerator.rbegin(), transfer_function.numerator.rend());
   std::vector<double> denominator(transfer_function.denominator.rbegin(), transfer_function.denominator.rend());
   while (numerator.size() > 1 && numerator.back() == 0.0) numerator.pop_back();
@@ -301,7 +316,7 @@ ModalForm expand_transfer_function(const TransferFunction& transfer_function, do
   pencil.denominator = denominator;
   extended.numerator.assign(numerator.begin(), numerator.end());
   extended.denominator.assign(denominator.begin(), denominator.end());
-  return expand_poles(pencil, extended, newton_polygon_start(denominator), PoleLabels{},
+  return expand_poles(pencil, extended, newton_polygon_start(denominator), PoleLabels{}, nyquist,
                       [&] { return exact_fraction(transfer_function); });
 }
 
@@ -309,7 +324,10 @@ ModalForm expand_transfer_function(const TransferFunction& transfer_function, do
 
 ModalForm modal_form(const Device& device) {
   const double lag = device.parameters().actuator.time_constant;
-  if (!device.has_bodies()) return expand_transfer_function(*device.parameters().transfer_function, lag);
+  if (!device.has_bodies()) {
+    return expand_transfer_function(*device.parameters().transfer_function, lag,
+                                    std::numbers::pi / device.loop().sampling_period);
+  }
   return expand_bodies(device, {device.loop().actuated, device.loop().sensed}, lag);
 }
 
