@@ -7,7 +7,8 @@
 namespace zwidth::internal {
 namespace {
 
-constexpr std::size_t max_size = ModalTerm::max_degree + 1;
+// Terms of higher degree are sampled in balls (exact_sampling.hpp).
+constexpr std::size_t max_size = 3;
 
 // A small square matrix of double-doubles.
 struct Matrix {

@@ -91,6 +91,8 @@ GainLocus::TermSum GainLocus::by_terms(double angle) const {
   const std::complex<double> delta(-0.5 * circle_point(angle).chord_squared, std::sin(angle));
   std::complex<double> plant = 0.0;
   double noise = 0.0;
+  double of_terms = 0.0;    // sum of their magnitudes
+  double of_factors = 0.0;  // rounding of the denominators, relative
   for (const SampledTerm& term : plant_.terms) {
     const std::complex<double> value = response(term, angle);
     std::complex<double> power = 1.0;
@@ -103,6 +105,30 @@ GainLocus::TermSum GainLocus::by_terms(double angle) const {
     }
     plant += value;
     noise += unit * std::abs(value) * (1.0 + size / std::abs(denominator));
+    of_terms += std::abs(value);
+    of_factors += unit * size / std::abs(denominator);
+  }
+  if (!plant_.numerator_rest.empty()) {  // the sum added up in double-double: better where the terms cancel
+    constexpr double extended_unit = 1e-29;
+    const CirclePoint<double> point = circle_point(angle);
+    const OnCircle<double> added = sum_of_numerators(plant_, point);
+    std::complex<double> quotient(added.even, added.odd * std::sin(angle));
+    double size = 0.0;
+    double power = 1.0;
+    for (const double c : plant_.numerator) {
+      size += std::abs(c) * power;
+      power *= std::abs(delta);
+    }
+    const double of_sum = extended_unit * size / std::abs(quotient);
+    for (const SampledTerm& term : plant_.terms) {
+      const OnCircle<double> denominator = denominator_of(term, 0, point);
+      quotient /= std::complex<double>(denominator.even, denominator.odd * std::sin(angle));
+    }
+    const double lost = std::abs(quotient) * (of_sum + unit + of_factors) + extended_unit * of_terms;
+    if (lost < noise) {
+      plant = quotient;
+      noise = lost;
+    }
   }
   const std::complex<double> turned =
       filter_response(plant_, angle) * std::polar(1.0, -static_cast<double>(plant_.delay_samples) * angle);
@@ -112,10 +138,10 @@ GainLocus::TermSum GainLocus::by_terms(double angle) const {
   if (gain_ == Gain::stiffness) {
     const double damping = damping_ * velocity.imag();
     const double size = std::abs(plant);
-    return {-plant.imag() + damping * size * size, noise * (1.0 + 2.0 * damping * size)};
+    return {-plant.imag() + damping * size * size, noise * (1.0 + 2.0 * damping * size), size};
   }
   const std::complex<double> weight = gain_ == Gain::damping ? velocity : stiffness_ + damping_ * velocity;
-  return {-(plant * weight).imag(), noise * std::abs(weight)};
+  return {-(plant * weight).imag(), noise * std::abs(weight), std::abs(plant * weight)};
 }
 
 std::vector<double> GainLocus::pole_angles() const {

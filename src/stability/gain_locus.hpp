@@ -41,6 +41,7 @@ class GainLocus {
   struct TermSum {
     double value = 0.0;
     double noise = 0.0;
+    double size = 0.0;  // of what the value is the imaginary part of
   };
   [[nodiscard]] TermSum by_terms(double angle) const;
 

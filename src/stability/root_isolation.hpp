@@ -94,20 +94,26 @@ double polish(const Function& f, const Interval& interval) {
 }
 
 // The roots in a run of intervals where the function is zero to rounding, from its sum of terms, in angles. Asked
-// evenly and ever closer to each pole.
+// evenly and ever closer to each pole. Where the value is rounding while what it is a part of is not, f touches zero;
+// where both are, the gain is beyond all digits.
 struct RootsByTerms {
   std::vector<CircleRoot> roots;
   bool is_certain = true;  // the sign was beyond rounding wherever it was asked
+  // Signs at the first and the last angle where it was; 0: nowhere.
+  int first_sign = 0;
+  int last_sign = 0;
+  double last_certain = 0.0;
 };
 
 template <typename Function>
 RootsByTerms roots_by_terms(const Function& f, double begin, double end) {
-  constexpr int even_points = 64;
+  const std::vector<double> poles = f.pole_angles();
+  const int even_points = 64 + 16 * static_cast<int>(poles.size());  // a crossover or two per pole
   constexpr int halvings = 44;
   const double width = end - begin;
   std::vector<double> angles;
   for (int i = 0; i <= even_points; ++i) angles.push_back(begin + width * i / even_points);
-  for (const double pole : f.pole_angles()) {
+  for (const double pole : poles) {
     double distance = width;
     for (int i = 0; i < halvings; ++i, distance *= 0.5) {
       for (const double angle : {pole - distance, pole + distance}) {
@@ -117,12 +123,15 @@ RootsByTerms roots_by_terms(const Function& f, double begin, double end) {
   }
   std::sort(angles.begin(), angles.end());
   RootsByTerms found;
+  constexpr double resolved = 1e3;  // times the noise
   double last_angle = begin;
-  double last = 0.0;  // the last value whose sign is certain
+  double last = 0.0;    // the last value whose sign is certain
+  double touch = -1.0;  // an angle since then at which f may touch zero
   for (const double angle : angles) {
-    const auto [value, noise] = f.by_terms(angle);
+    const auto [value, noise, size] = f.by_terms(angle);
     if (!(std::abs(value) > noise)) {
       found.is_certain = false;
+      if (size > resolved * noise) touch = angle;
       continue;
     }
     if (last != 0.0 && (value > 0.0) != (last > 0.0)) {
@@ -133,10 +142,16 @@ RootsByTerms roots_by_terms(const Function& f, double begin, double end) {
       const auto [low, high] = boost::math::tools::toms748_solve([&f](double at) { return f.by_terms(at).value; },
                                                                  last_angle, angle, last, value, close_enough, steps);
       found.roots.push_back({0.5 * (low + high), value > 0.0 ? 1 : -1});
+    } else if (last != 0.0 && touch >= 0.0) {
+      found.roots.push_back({touch, 0});
     }
+    touch = -1.0;
+    if (last == 0.0) found.first_sign = value > 0.0 ? 1 : -1;
     last_angle = angle;
     last = value;
   }
+  if (last != 0.0) found.last_sign = last > 0.0 ? 1 : -1;
+  found.last_certain = last_angle;
   return found;
 }
 
@@ -173,13 +188,13 @@ std::vector<CircleRoot> roots_on_circle(const Function& f, std::size_t pieces) {
     const bool before = is_positive(f, zero_begin);
     const bool after = is_positive(f, zero_end);
     if constexpr (requires { f.by_terms(0.0); }) {
-      const auto [inside, is_certain] = roots_by_terms(f, angle_of(zero_begin), angle_of(zero_end));
-      // What comes of the run must agree with what goes in.
-      const bool agrees =
-          !inside.empty() && (inside.front().direction > 0) != before && (inside.back().direction > 0) == after;
-      const bool nothing_there = inside.empty() && is_certain && before == after;
-      if (agrees || nothing_there) {
-        roots.insert(roots.end(), inside.begin(), inside.end());
+      const RootsByTerms inside = roots_by_terms(f, angle_of(zero_begin), angle_of(zero_end));
+      if (inside.last_sign != 0 && (inside.first_sign > 0) == before && (inside.is_certain || !inside.roots.empty())) {
+        roots.insert(roots.end(), inside.roots.begin(), inside.roots.end());
+        // What comes of the run must agree with what goes in: the rest lies where nothing is certain.
+        if ((inside.last_sign > 0) != after) {
+          roots.push_back({0.5 * (inside.last_certain + angle_of(zero_end)), after ? 1 : -1});
+        }
         zero_begin = -1.0;
         return;
       }
