@@ -175,13 +175,24 @@ double join(std::vector<Fraction>& fractions, const ExactFraction& g, const std:
   arb_poly_set_fmpz_poly(numerator, g.numerator, precision);
   arb_poly_set_fmpz_poly(denominator, g.denominator, precision);
   arb_poly_scalar_mul_2exp_si(numerator, numerator, g.exponent);
+  struct Sample {
+    double frequency;
+    double size;  // log2 |G|
+  };
+  std::vector<Sample> samples;
+  double largest_sum = -1e300;
+  for (const double frequency : frequencies) {
+    const std::optional<double> sum = log_magnitude(numerator, denominator, frequency, precision);
+    if (!sum) continue;
+    samples.push_back({frequency, *sum});
+    largest_sum = std::max(largest_sum, *sum);
+  }
+  std::erase_if(samples, [&](const Sample& at) { return at.size < largest_sum + std::log2(irrelevant_below); });
   while (true) {
     double worst = 0.0;  // log2 of the cancellation
     std::size_t first = 0;
     std::size_t second = 0;
-    for (const double frequency : frequencies) {
-      const std::optional<double> sum = log_magnitude(numerator, denominator, frequency, precision);
-      if (!sum) continue;
+    for (const auto& [frequency, sum] : samples) {
       std::size_t largest = fractions.size();
       double size = 0.0;
       std::vector<double> sizes(fractions.size(), -1e300);
@@ -194,8 +205,8 @@ double join(std::vector<Fraction>& fractions, const ExactFraction& g, const std:
           size = *part;
         }
       }
-      if (largest == fractions.size() || size - *sum <= worst) continue;
-      worst = size - *sum;
+      if (largest == fractions.size() || size - sum <= worst) continue;
+      worst = size - sum;
       // What cancels the largest: the next largest that fits.
       first = second = largest;
       for (std::size_t i = 0; i < fractions.size(); ++i) {

@@ -12,6 +12,8 @@ namespace zwidth::internal {
 
 // Terms are joined until none exceeds the sum by more, at the frequency of any pole.
 inline constexpr double joined_above = 1e3;
+// Except where |G| is below this share of its largest value at a pole: a critical stiffness 1/|G| is beyond use there.
+inline constexpr double irrelevant_below = 1e-9;
 
 // Throws Error (did_not_converge) where terms of ModalTerm::max_degree still cancel too much.
 ModalForm exact_modal_form(ExactFraction fraction, double lag, const PoleLabels& labels);

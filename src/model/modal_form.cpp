@@ -100,6 +100,17 @@ double cancellation(const ModalForm& form, double frequency) {
   return size / std::sqrt(std::norm(sum));
 }
 
+// Whether |G| is large enough here to matter: a stiffness is 1/|G| where it is critical, and this one is no more than
+// irrelevant_below^-1 times one at another pole.
+bool is_relevant(const ModalForm& form, double frequency) {
+  double largest = 0.0;
+  for (const ModalTerm& term : form.terms) {
+    const double other = typical_frequency(term);
+    if (other > 0.0) largest = std::max(largest, std::abs(response(form, other)));
+  }
+  return std::abs(response(form, frequency)) > irrelevant_below * largest;
+}
+
 // |sum of terms - G| / |G| in double-double.
 template <typename PencilX>
 double error_of_sum(const ModalForm& form, const PencilX& pencil, double frequency) {
@@ -118,7 +129,7 @@ bool is_carried(const ModalForm& form, const PencilX& pencil, double nyquist) {
     if (frequency == 0.0) continue;
     const double here = cancellation(form, frequency);
     if (!std::isfinite(here)) continue;  // on an undamped mode
-    if (here > carried_cancellation) return false;
+    if (here > carried_cancellation && is_relevant(form, frequency)) return false;
     if (here <= checked_cancellation && term.degree <= 2) continue;
     if (error_of_sum(form, pencil, frequency) > carried_error) return false;
   }

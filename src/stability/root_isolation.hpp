@@ -203,7 +203,10 @@ std::vector<CircleRoot> roots_on_circle(const Function& f, std::size_t pieces) {
     zero_begin = -1.0;
   };
   while (!stack.empty()) {
-    if (intervals_left-- == 0) throw Error(ErrorCode::did_not_converge, "the crossovers could not be isolated");
+    if (intervals_left-- == 0)
+      throw Error(ErrorCode::did_not_converge,
+                  "the crossovers could not be isolated: terms of the device cancel beyond 30 digits; merge "
+                  "bodies that hardly move against each other, or sense nearer to the actuator");
     const Interval interval = stack.back();
     const auto [begin, end, extended] = interval;
     stack.pop_back();
