@@ -1,8 +1,9 @@
 #include "model/pole_starts.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+
+#include "model/symmetric_eigen.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -29,11 +30,11 @@ UndampedModes undamped_modes(const Device& device, const DeviceMatrices<double>&
   const Eigen::Map<const RowMajor> damping(matrices.damping.data(), n, n);
   const Eigen::VectorXd scale = Eigen::Map<const Eigen::VectorXd>(matrices.mass.data(), n).cwiseSqrt().cwiseInverse();
   const Eigen::MatrixXd normalised = scale.asDiagonal() * stiffness * scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(normalised);
-  const Eigen::MatrixXd shapes = scale.asDiagonal() * solver.eigenvectors();
+  const SymmetricEigen solver = symmetric_eigen(normalised);
+  const Eigen::MatrixXd shapes = scale.asDiagonal() * solver.vectors;
   UndampedModes modes;
   for (Eigen::Index k = 0; k < n; ++k) {
-    modes.stiffness.push_back(std::max(solver.eigenvalues()(k), 0.0));
+    modes.stiffness.push_back(std::max(solver.values(k), 0.0));
     modes.damping.push_back(std::max(shapes.col(k).dot(damping * shapes.col(k)), 0.0));
   }
   double in_links = 0.0;
