@@ -3,6 +3,7 @@
 #include <string>
 
 #include "report/analysed_device.hpp"
+#include "results/json.hpp"
 #include "zwidth/model/modal_form.hpp"
 #include "zwidth/model/state_space.hpp"
 #include "zwidth/sampling/discrete_state_space.hpp"

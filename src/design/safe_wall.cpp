@@ -80,7 +80,7 @@ double any_user_damping(const Device& device, const AnyUserRegion& region, doubl
   const auto first_below = std::ranges::find_if(limit, [&](const AnyUserPoint& p) { return p.stiffness <= stiffness; });
   if (first_below == limit.begin()) return 0.0;
   if (first_below == limit.end()) return limit.back().damping;
-  const AnyUserSearch search(device);
+  AnyUserSearch search(device);
   return last_that_holds(std::prev(first_below)->damping, first_below->damping, [&](double damping) {
     return search.limit({damping, filter}).stiffness > stiffness;
   });

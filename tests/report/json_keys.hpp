@@ -1,8 +1,9 @@
 #pragma once
 
-#include "results/json.hpp"
 #include <set>
 #include <string>
+
+#include "results/json.hpp"
 
 namespace zwidth::report {
 
