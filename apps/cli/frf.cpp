@@ -44,9 +44,8 @@ void run_frf(const FrfArguments& arguments) {
   check_output_is_no_input(recording.file, "--csv", arguments.csv);
   check_outputs_differ("--output", arguments.output, "--csv", arguments.csv);
 
-  MeasuredResponse measured = measured_response(arguments.response);
   const report::MeasuredFrf frf =
-      report::measured_frf(measured.source, arguments.units, std::move(measured.response), std::move(measured.remarks));
+      report::measured_frf(measured_response(response_source(arguments.response)), arguments.units);
   if (!arguments.csv.empty()) report::write_whole(arguments.csv, report::frf_csv(frf.response));
   if (format) report::write_whole(arguments.output, report::draw(frf, *format));
   if (arguments.json) {

@@ -15,12 +15,6 @@ Json number_or_null(std::optional<double> value) {
   return value && std::isfinite(*value) ? Json(*value) : Json(nullptr);
 }
 
-Json to_json(const Remark& remark) {
-  return {{"severity", remark.severity == Remark::Severity::warning ? "warning" : "note"},
-          {"what", remark.what},
-          {"meaning", remark.consequence}};
-}
-
 Json points_json(const IdentifiedDevice& identified) {
   Json frequencies = Json::array();
   Json measured = Json::array();
@@ -78,8 +72,17 @@ results::Json identification_json(const IdentifiedDevice& identified, PointsInJs
                           "limited_by", "modes"}) {
     document[key] = analysis[key];
   }
-  document["remarks"] = Json::array();
-  for (const Remark& remark : identified.remarks) document["remarks"].push_back(to_json(remark));
+  if (identified.trust.refused()) {
+    for (const char* key :
+         {"status", "critical_stiffness", "critical_stiffness_interval", "critical_frequency_hz", "limited_by"}) {
+      document[key] = nullptr;
+    }
+  }
+  document["basis"] = {{"virtual_damping", identified.basis.virtual_damping},
+                       {"velocity_filter_hz", identified.basis.velocity_filter_hz},
+                       {"filters", identified.basis.filters}};
+  document["trust"] = identified.trust;
+  document["remarks"] = identified.remarks;
   if (points == PointsInJson::included) document["points"] = points_json(identified);
   return document;
 }
