@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
 #include "report/text/text_table.hpp"
 
 namespace zwidth::report {
