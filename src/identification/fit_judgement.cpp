@@ -51,9 +51,10 @@ class Judge {
     judge_misfit();
     judge_band();
     judge_measured_crossover();
-    judge_open_numbers();
     judge_search();
     judge_friction();
+    result_.device_trust = result_.trust;
+    judge_open_numbers();
     for (Remark& remark : implausible_device(fit_.device, known_structure(), judged_.fit.response.sampling_period)) {
       result_.remarks.push_back(std::move(remark));
     }
@@ -133,6 +134,8 @@ class Judge {
     recorded.wall = {};
     recorded.uncertainty.reset();
     const double fitted = limit_of(Device(std::move(recorded))).stiffness;
+    is_measured_ = judged_.options.fit.locked.empty() && measured.status == MeasuredStiffnessStatus::found &&
+                   std::abs(fitted / measured.limit->stiffness - 1.0) < tolerated - 1.0;
     if (!(fitted > tolerated * proven)) return;
     const Remark unsafe{
         Remark::Severity::warning,
@@ -148,8 +151,11 @@ class Judge {
   void judge_open_numbers() {
     const std::vector<std::string> keys = undetermined(fit_, judged_.options);
     if (keys.empty()) return;
-    result_.trust.doubt(
-        fmt::format("the data do not determine {}: taken as they stand in the structure", fmt::join(keys, ", ")));
+    const std::string reason =
+        fmt::format("the data do not determine {}: taken as they stand in the structure", fmt::join(keys, ", "));
+    result_.device_trust.doubt(reason);
+    // What the response shows by itself does not hang on how bodies share it.
+    if (!is_measured_) result_.trust.doubt(reason);
     if (known_structure()) return;
     for (const std::string& key : keys) {
       result_.remarks.push_back({Remark::Severity::warning,
@@ -188,6 +194,7 @@ class Judge {
   const JudgedFit& judged_;
   const ParameterFit& fit_;
   Judgement result_;
+  bool is_measured_ = false;  ///< the response shows the fitted critical stiffness without any model
 };
 
 }  // namespace

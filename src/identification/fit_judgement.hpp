@@ -20,7 +20,8 @@ struct JudgedFit {
 
 struct Judgement {
   std::vector<Remark> remarks;
-  Trust trust;
+  Trust trust;         ///< of the critical stiffness
+  Trust device_trust;  ///< of the device for any other purpose: open numbers count too
 };
 
 /// How far the fitted device may be relied on; see identify().

@@ -172,14 +172,15 @@ class Fitting {
 };
 
 /// An interval that spans more than this is an order of magnitude, not an answer.
-void judge_interval(Identification& result) {
+void judge_interval(Identification& result, Trust device_trust) {
   constexpr double widest = 2.0;
   const auto& interval = result.analysis.interval;
   if (!interval || !(interval->upper > widest * interval->lower)) return;
   result.trust.doubt(fmt::format(
       "the data leave the critical stiffness open within a factor of {:.2g}; excite more strongly or for longer",
       interval->lower > 0.0 ? interval->upper / interval->lower : std::numeric_limits<double>::infinity()));
-  result.fit.device = with_trust(result.fit.device, result.trust);
+  device_trust.inherit(result.trust);
+  result.fit.device = with_trust(result.fit.device, device_trust);
 }
 
 void check(const IdentifyOptions& options) {
@@ -207,9 +208,9 @@ Identification identified(const MeasuredResponse& measured, const Recording* rec
   }
   const Wall& wall = result.fit.device.parameters().wall;
   result.basis = {wall.damping, wall.velocity_filter_hz, wall.filters.size()};
-  result.fit.device = with_trust(result.fit.device, result.trust);
+  result.fit.device = with_trust(result.fit.device, judgement.device_trust);
   result.analysis = analyze(result.fit.device, {.any_user = false});
-  judge_interval(result);
+  judge_interval(result, judgement.device_trust);
   return result;
 }
 
