@@ -211,9 +211,7 @@ std::vector<std::string> undetermined(const ParameterFit& fit, const IdentifyOpt
   return keys;
 }
 
-CriticalStiffness limit_of(const Device& device) {
-  return critical_stiffness(device);
-}
+CriticalStiffness limit_of(const Device& device) { return critical_stiffness(device); }
 
 Device with_trust(const Device& device, const Trust& trust) {
   if (trust.sound()) return device;

@@ -55,8 +55,15 @@ class Fitting {
       fit_options_.free.emplace_back(delay_key);
     }
     fit_ = whole_fit(structure, measured.response, fit_options_);
-    if (may_free()) free_what_shows();
+    if (may_free()) {
+      free_what_shows();
+    } else {
+      look_for_delay();
+    }
   }
+
+  /// A delay that the record shows, which was not to be fitted; s.
+  [[nodiscard]] std::optional<double> ignored_delay() const { return ignored_delay_; }
 
   [[nodiscard]] const RecordFit& fit() const { return *fit_; }
   [[nodiscard]] std::vector<Remark>& remarks() { return remarks_; }
@@ -138,6 +145,21 @@ class Fitting {
     }
   }
 
+  /// Whether the structure's delay is the record's.
+  void look_for_delay() {
+    if (is_free(delay_key)) return;
+    const std::optional<RecordFit> wider = with_free({delay_key}, ParameterFitOptions::Start::from_structure);
+    if (!wider) return;
+    const ParameterEstimate& estimate = wider->fit.estimates.back();
+    const double given = fit_->fit.device.loop().delay;
+    constexpr double significant = 4.0;
+    constexpr double notable = 0.02;  // of the sampling period
+    const double beyond = std::abs(estimate.value - given);
+    if (!estimate.standard_deviation || beyond <= significant * *estimate.standard_deviation) return;
+    if (beyond <= notable * fit_->fit.device.loop().sampling_period) return;
+    ignored_delay_ = estimate.value;
+  }
+
   /// Delay, then lag, where the record shows them.
   void free_what_shows() {
     for (const char* key : {delay_key, lag_key}) {
@@ -169,7 +191,19 @@ class Fitting {
   ParameterFitOptions fit_options_;
   std::optional<RecordFit> fit_;
   std::vector<Remark> remarks_;
+  std::optional<double> ignored_delay_;
 };
+
+void judge_delay(const Fitting& fitting, Judgement& judgement) {
+  if (!fitting.ignored_delay()) return;
+  const double given = fitting.fit().fit.device.loop().delay;
+  const std::string what = fmt::format("the record shows a delay of {:.3g} s where the structure has {:.3g} s",
+                                       *fitting.ignored_delay(), given);
+  const char* remedy = "free loop.delay, or give it";
+  judgement.trust.doubt(fmt::format("{}; {}", what, remedy));
+  judgement.device_trust.inherit(judgement.trust);
+  judgement.remarks.push_back({Remark::Severity::warning, what, "the critical stiffness depends on it", remedy});
+}
 
 /// An interval that spans more than this is an order of magnitude, not an answer.
 void judge_interval(Identification& result, Trust device_trust) {
@@ -197,6 +231,7 @@ Identification identified(const MeasuredResponse& measured, const Recording* rec
   const CriticalStiffness critical = limit_of(fitting.fit().fit.device);
   std::optional<ShownFriction> friction = fitting.friction();
   Judgement judgement = judge({fitting.fit(), structure, options, critical, friction});
+  judge_delay(fitting, judgement);
   Identification result{.source = measured.source,
                         .response = fitting.fit().response,
                         .fit = fitting.fit().fit,

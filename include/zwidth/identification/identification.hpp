@@ -55,14 +55,16 @@ struct Identification {
   StiffnessBasis basis;                   ///< of analysis.critical
   std::optional<ShownFriction> friction;  ///< absent where the record shows none
   std::vector<Remark> remarks;            ///< of reading, estimate, fit and judgement
-  Trust trust;                            ///< of analysis.critical and of the device
+  /// Of analysis.critical. The device's own (fit.device, analysis.trust) is no better: there, numbers that the data
+  /// leave open count even where the response itself shows the critical stiffness.
+  Trust trust;
 };
 
 /// Identifies a device from a record of force and motion: frequency_response(), fit_parameters(), without_leakage();
 /// frees delay and lag where the record shows them; and judges.
 ///
-/// Sound: the excited band holds the limiting crossover, the structure explains the response, every number that is not
-/// known beforehand is determined, no friction shows, and the response itself shows no softer crossover. Doubtful where
+/// Sound: the excited band holds the limiting crossover, the structure explains the response, the record shows no other
+/// delay, every number that the limit hangs on is known or determined, no friction shows, and the response itself shows no softer crossover. Doubtful where
 /// one of these fails: where the crossover lies above the band, delay and lag enter the uncertainty whether or not they
 /// were free. Refused: nothing is determined, half of the response is unexplained, or the sign of the motion is turned.
 /// Requires two channels (force, motion), and what fit_parameters() does. Throws Error (invalid_argument) where
