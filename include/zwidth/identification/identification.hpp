@@ -51,13 +51,13 @@ struct Identification {
   FrequencyResponse response;  ///< as measured, less the leakage of its segments
   /// fit.device holds the uncertainty, with the verdict and the reasons below: its file keeps them.
   ParameterFit fit;
-  Analysis analysis;                      ///< of fit.device, as analyze() gives it, without users
-  StiffnessBasis basis;                   ///< of analysis.critical
-  std::optional<ShownFriction> friction;  ///< absent where the record shows none
-  std::vector<Remark> remarks;            ///< of reading, estimate, fit and judgement
+  Analysis analysis = {};                      ///< of fit.device, as analyze() gives it, without users
+  StiffnessBasis basis = {};                   ///< of analysis.critical
+  std::optional<ShownFriction> friction = {};  ///< absent where the record shows none
+  std::vector<Remark> remarks = {};            ///< of reading, estimate, fit and judgement
   /// Of analysis.critical. The device's own (fit.device, analysis.trust) is no better: there, numbers that the data
   /// leave open count even where the response itself shows the critical stiffness.
-  Trust trust;
+  Trust trust = {};
 };
 
 /// Identifies a device from a record of force and motion: frequency_response(), fit_parameters(), without_leakage();
