@@ -44,7 +44,7 @@ results::Json estimate_json(const ParameterEstimate& estimate, Motion motion) {
 results::Json identification_json(const IdentifiedDevice& identified, PointsInJson points) {
   const ParameterFit& fit = identified.fit;
   const Motion motion = fit.device.parameters().motion;
-  const Json analysis = results::analysis_json(identified.analysed);
+  const Json analysis = results::analysis_json(identified.analysed.device, identified.analysed.analysis);
   Json document;
   document["schema"] = "zwidth.identification/1";
   document["source"] = identified.source;
