@@ -39,9 +39,8 @@ void run_frf(const FrfArguments& arguments) {
   if (arguments.points && !arguments.json) throw BadInput("--points: is for JSON; add --json, or use --csv FILE");
   outputs.keep(recording.file, "recording");
 
-  MeasuredResponse measured = measured_response(arguments.response);
   const report::MeasuredFrf frf =
-      report::measured_frf(measured.source, arguments.units, std::move(measured.response), std::move(measured.remarks));
+      report::measured_frf(measured_response(response_source(arguments.response)), arguments.units);
   outputs.put("--csv", [&] { return report::frf_csv(frf.response); });
   outputs.draw("--output", [&](report::FigureFormat format) { return report::draw(frf, format); });
   outputs.commit();

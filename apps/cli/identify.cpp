@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -24,12 +23,8 @@
 #include "report/text/remark_line.hpp"
 #include "results/identification_json.hpp"
 #include "zwidth/error.hpp"
-#include "zwidth/identification/measured_stiffness.hpp"
-#include "zwidth/identification/record_fit.hpp"
+#include "zwidth/identification/identification.hpp"
 #include "zwidth/io/device_file.hpp"
-#include "zwidth/model/parameter.hpp"
-#include "zwidth/sampling/sampled_plant.hpp"
-#include "zwidth/stability/critical_stiffness.hpp"
 
 namespace zwidth::cli {
 namespace {
@@ -69,127 +64,35 @@ void check(const IdentifyArguments& arguments, Outputs& outputs) {
   }
 }
 
-/// The fit, and the response it is of.
-RecordFit fitted(const IdentifyArguments& arguments, const Device& device, const MeasuredResponse& measured) {
-  ParameterFitOptions options;
-  options.free = free_parameters(arguments.structure, device);
-  options.locked = arguments.structure.locked;
-  if (arguments.from_structure) options.start = ParameterFitOptions::Start::from_structure;
-  if (arguments.no_hold) options.critical_point = ParameterFitOptions::CriticalPoint::free;
-  try {
-    RecordFit fit{fit_parameters(device, measured.response, options), measured.response};
-    if (!measured.motion) return fit;
-    return without_leakage(std::move(fit), measured.motion->force(), measured.motion->motion(), measured.options,
-                           options);
-  } catch (const Error& error) {
-    if (error.code() == ErrorCode::did_not_converge) throw WorkFailed(measured.source + ": " + error.what());
-    throw BadInput(measured.source + ": " + error.what());
+IdentifyOptions identify_options(const IdentifyArguments& arguments, const Device& device,
+                                 const FrequencyResponseOptions& response) {
+  IdentifyOptions options;
+  options.response = response;
+  options.fit.free = free_parameters(arguments.structure, device);
+  options.fit.locked = arguments.structure.locked;
+  if (arguments.from_structure) options.fit.start = ParameterFitOptions::Start::from_structure;
+  if (arguments.no_hold) options.fit.critical_point = ParameterFitOptions::CriticalPoint::free;
+  if (is_named_structure(arguments.structure)) {
+    options.structure_values = IdentifyOptions::StructureValues::placeholders;
   }
-}
-
-bool is_locked(const IdentifyArguments& arguments, const std::string& body) {
-  return std::ranges::find(arguments.structure.locked, body) != arguments.structure.locked.end();
-}
-
-/// Keys of the numbers that stand as they stood in the structure: those that the data leave open and, of a named
-/// structure, those of its locked bodies.
-std::vector<std::string> undetermined(const IdentifyArguments& arguments, const report::IdentifiedDevice& identified) {
-  std::vector<std::string> keys;
-  for (const ParameterEstimate& estimate : identified.fit.estimates) {
-    if (!estimate.identifiable) keys.push_back(estimate.key);
-  }
-  if (!is_named_structure(arguments.structure)) return keys;
-  for (const std::string& body : arguments.structure.locked) {
-    for (const char* number : {"mass", "damping"}) keys.push_back(fmt::format("body.{}.{}", body, number));
-  }
-  return keys;
-}
-
-/// Numbers of a named structure that the data leave open are no one's.
-void warn_of_placeholders(const IdentifyArguments& arguments, report::IdentifiedDevice& identified) {
-  if (!is_named_structure(arguments.structure)) return;
-  for (const std::string& key : undetermined(arguments, identified)) {
-    identified.remarks.push_back({Remark::Severity::warning,
-                                  fmt::format("{} = {:.4g} is a placeholder: the data do not determine it", key,
-                                              parameter(identified.fit.device.parameters(), key).value_or(0.0)),
-                                  "give what is known with --set, or a device file as the structure"});
-  }
-}
-
-/// The device of the experiment: its bodies locked as in the recording, without a wall's damper and filters.
-Device recorded_device(const IdentifyArguments& arguments, const Device& fitted) {
-  DeviceParameters parameters = fitted.parameters();
-  parameters.wall = {};
-  parameters.uncertainty.reset();
-  std::vector<std::size_t> locked;
-  for (std::size_t i = 0; i < parameters.bodies.size(); ++i) {
-    if (is_locked(arguments, parameters.bodies[i].name)) locked.push_back(i);
-  }
-  return locked.empty() ? Device(std::move(parameters)) : locked_device(Device(std::move(parameters)), locked);
-}
-
-/// A fit whose critical stiffness lies above the one that the same data show without a model is not to be trusted.
-std::optional<Remark> unsafe_fit(const IdentifyArguments& arguments, const report::IdentifiedDevice& identified) {
-  constexpr double tolerated = 1.05;
-  const Device& device = identified.fit.device;
-  const auto& period = identified.response.sampling_period;
-  const bool same_loop = period && std::abs(*period - device.loop().sampling_period) <= 1e-6 * *period;
-  if (!same_loop || identified.response.points.size() < 2) return std::nullopt;
-  const MeasuredStiffness measured = measured_stiffness(identified.response);
-  if (measured.crossovers.empty()) return std::nullopt;
-  double proven = std::numeric_limits<double>::infinity();
-  for (const MeasuredCrossover& each : measured.crossovers) {
-    if (each.poles_leaving > 0) proven = std::min(proven, each.stiffness_interval.upper);
-  }
-  const double fitted =
-      critical_stiffness(filtered_plant(sampled_plant(recorded_device(arguments, device)), {})).stiffness;
-  if (!(fitted > tolerated * proven)) return std::nullopt;
-  return Remark{
-      Remark::Severity::warning,
-      fmt::format("UNSAFE: the critical stiffness of the recorded device as fitted, {:.4g} {}, lies above {:.4g}, "
-                  "where the same data show an oscillation without any model",
-                  fitted, report::units_of(device.parameters().motion).stiffness, proven),
-      "use the one of zwidth frf; the structure lacks something: try --free all,loop.delay,actuator.time_constant, or "
-      "name bodies that were --locked"};
-}
-
-/// Into the fitted device's [uncertainty], so that what reads its file says it too: a K_CR above the measured one, and
-/// parameters that the data do not determine, which count as exact.
-void keep_distrust(const IdentifyArguments& arguments, const std::optional<Remark>& unsafe,
-                   report::IdentifiedDevice& identified) {
-  DeviceParameters parameters = identified.fit.device.parameters();
-  if (!parameters.uncertainty) return;
-  std::vector<std::string> distrust;
-  if (unsafe) distrust.push_back(unsafe->what);
-  const std::vector<std::string> keys = undetermined(arguments, identified);
-  if (!keys.empty()) {
-    distrust.push_back(
-        fmt::format("the data do not determine {}: taken as they stand in the structure", fmt::join(keys, ", ")));
-  }
-  parameters.uncertainty->warning = fmt::format("{}", fmt::join(distrust, "; "));
-  identified.fit.device = Device(std::move(parameters));
-  identified.analysed.device = identified.fit.device;
+  const std::vector<std::string>& free = arguments.structure.free;
+  const bool takes_all = free.empty() || std::ranges::count(free, "all") > 0;
+  if (!takes_all) options.loop_delay = IdentifyOptions::LoopDelay::as_given;
+  return options;
 }
 
 report::IdentifiedDevice identified_device(const IdentifyArguments& arguments) {
-  MeasuredResponse measured = measured_response(arguments.response);
-  const Device device = structure(arguments.structure, measured.response.sampling_period);
-  RecordFit fit = fitted(arguments, device, measured);
-  report::AnalysedDevice analysed = [&] {
-    try {
-      return report::analysed_device(fit.fit.device);
-    } catch (const Error& error) {
-      throw WorkFailed(measured.source + ": " + error.what());
-    }
-  }();
-  report::IdentifiedDevice identified{measured.source, std::move(fit.response), std::move(fit.fit), std::move(analysed),
-                                      std::move(measured.remarks)};
-  for (const Remark& remark : identified.fit.remarks) identified.remarks.push_back(remark);
-  warn_of_placeholders(arguments, identified);
-  const std::optional<Remark> unsafe = unsafe_fit(arguments, identified);
-  if (unsafe) identified.remarks.push_back(*unsafe);
-  keep_distrust(arguments, unsafe, identified);
-  return identified;
+  const ResponseSource source = response_source(arguments.response);
+  const Device device = structure(arguments.structure, source.sampling_period());
+  const IdentifyOptions options = identify_options(arguments, device, source.options);
+  try {
+    ProgressLine line("identifying");
+    return report::identified_device(source.recording ? identify(*source.recording, device, options, line.progress())
+                                                      : identify(source.table, device, options));
+  } catch (const Error& error) {
+    if (error.code() == ErrorCode::did_not_converge) throw WorkFailed(source.name + ": " + error.what());
+    throw BadInput(source.name + ": " + error.what());
+  }
 }
 
 /// The device file, its warnings as comments at the top: whoever reads it later is told as well.
@@ -212,7 +115,7 @@ std::string device_hint(const IdentifyArguments& arguments) {
 
 /// `identify --method inverse-dynamics`.
 void run_inverse_dynamics(const IdentifyArguments& arguments, Outputs& outputs) {
-  const report::IdentifiedRigidBody identified =
+  const RigidBodyIdentification identified =
       fitted_rigid_body(arguments.response.recording, arguments.structure, arguments.inverse_dynamics);
   const std::string device = write_device(identified.device.parameters());
   outputs.put("--output-device", [&] { return device; });

@@ -3,9 +3,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cmath>
-#include <iterator>
-#include <utility>
 
 #include "cli/progress_line.hpp"
 #include "cli/subcommand.hpp"
@@ -49,23 +46,17 @@ void refuse_inverse_dynamics_options(const CLI::App& command) {
   }
 }
 
-report::IdentifiedRigidBody fitted_rigid_body(const RecordingArguments& recording, const StructureArguments& structure,
-                                              const InverseDynamicsOptions& options) {
-  RecordedMotion motion = read_motion(recording);
-  const double period = structure.sampling_period.value_or(motion.recording.sampling_period);
-  if (!(std::isfinite(period) && period > 0.0)) {
-    throw BadInput(fmt::format("--sampling-period: is {}; a number of seconds above 0", period));
+RigidBodyIdentification fitted_rigid_body(const RecordingArguments& recording, const StructureArguments& structure,
+                                          const InverseDynamicsOptions& options) {
+  RigidBodyOptions all{options, structure.motion == "rotary" ? Motion::rotary : Motion::linear,
+                       structure.sampling_period};
+  if (const auto problem = find_problem(all); problem && problem->member == "sampling_period") {
+    throw BadInput(fmt::format("--sampling-period: {}; {}", problem->what, problem->allowed));
   }
+  const RecordedMotion motion = read_motion(recording);
   try {
     ProgressLine line("fitting " + recording.file);
-    RigidBodyFit fit = identify_rigid_body(motion.force(), motion.motion(), motion.recording.sampling_period, options,
-                                           line.progress());
-    report::IdentifiedRigidBody identified = report::identified_rigid_body(
-        recording.file, std::move(fit), structure.motion == "rotary" ? Motion::rotary : Motion::linear, period);
-    std::vector<Remark>& remarks = motion.recording.remarks;
-    identified.remarks.insert(identified.remarks.begin(), std::make_move_iterator(remarks.begin()),
-                              std::make_move_iterator(remarks.end()));
-    return identified;
+    return identify_rigid_body(motion.recording, all, line.progress());
   } catch (const Error& error) {
     throw BadInput(recording.file + ": " + error.what());
   }

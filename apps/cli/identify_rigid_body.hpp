@@ -20,8 +20,8 @@ void check_inverse_dynamics_options(const CLI::App& command);
 void refuse_inverse_dynamics_options(const CLI::App& command);
 
 /// Reads force and position and fits the rigid body. Throws BadInput: a file or a record that is refused.
-[[nodiscard]] report::IdentifiedRigidBody fitted_rigid_body(const RecordingArguments& recording,
-                                                            const StructureArguments& structure,
-                                                            const InverseDynamicsOptions& options);
+[[nodiscard]] RigidBodyIdentification fitted_rigid_body(const RecordingArguments& recording,
+                                                        const StructureArguments& structure,
+                                                        const InverseDynamicsOptions& options);
 
 }  // namespace zwidth::cli

@@ -72,14 +72,13 @@ std::string columns_of(const RecordingArguments& arguments) {
 struct RequestedMotion {
   ColumnRequest column;
   OutputQuantity output = OutputQuantity::position;
-  SignalRole role = SignalRole::position;
 };
 
 RequestedMotion requested_motion(const RecordingArguments& arguments) {
   const std::array<RequestedMotion, 3> candidates{
-      RequestedMotion{arguments.position, OutputQuantity::position, SignalRole::position},
-      RequestedMotion{arguments.velocity, OutputQuantity::velocity, SignalRole::velocity},
-      RequestedMotion{arguments.acceleration, OutputQuantity::acceleration, SignalRole::acceleration}};
+      RequestedMotion{arguments.position, OutputQuantity::position},
+      RequestedMotion{arguments.velocity, OutputQuantity::velocity},
+      RequestedMotion{arguments.acceleration, OutputQuantity::acceleration}};
   const RequestedMotion* found = nullptr;
   for (const RequestedMotion& candidate : candidates) {
     if (candidate.column.name.empty()) continue;
@@ -188,16 +187,8 @@ RecordedMotion read_motion(const RecordingArguments& arguments) {
   auto recording = read_recording(arguments.file, options, line.progress());
   if (!recording) throw BadInput(input_problem(recording.error()));
   check_that_columns_differ(*recording, arguments.force, motion.column);
-  RecordedMotion recorded{*std::move(recording), motion.output};
-  const auto check = [&recorded](std::size_t channel, SignalRole role) {
-    for (Remark& remark :
-         check_signal(recorded.recording.channels[channel], recorded.recording.sampling_period, role)) {
-      recorded.recording.remarks.push_back(std::move(remark));
-    }
-  };
-  check(0, SignalRole::force);
-  check(1, motion.role);
-  return recorded;
+  recording->source = arguments.file;
+  return {*std::move(recording), motion.output};
 }
 
 std::string contents_text(const RecordingArguments& arguments) {

@@ -44,11 +44,9 @@ void add_recording_options(CLI::App& command, RecordingArguments& arguments);
 struct RecordedMotion {
   Recording recording;  ///< channels: force, motion
   OutputQuantity output = OutputQuantity::position;
-  [[nodiscard]] const std::vector<double>& force() const { return recording.channels[0].samples; }
-  [[nodiscard]] const std::vector<double>& motion() const { return recording.channels[1].samples; }
 };
 
-/// Reads force and motion, shows progress, and adds what check_signal() finds to the recording's remarks.
+/// Reads force and motion, and shows progress.
 /// Throws BadInput: a column that is not named (the message lists the file's), or a file that is refused.
 [[nodiscard]] RecordedMotion read_motion(const RecordingArguments& arguments);
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <numbers>
 #include <utility>
 
@@ -19,6 +18,7 @@ namespace {
 
 constexpr const char* estimate_group = "Estimate";
 constexpr const char* table_group = "Table of a response";
+constexpr const char* no_line_left = ": no line is left in the band; widen --lowest-hz and --highest-hz";
 constexpr double radians_per_turn = 2.0 * std::numbers::pi;
 
 void add_estimate_options(CLI::App& command, ResponseArguments& arguments) {
@@ -152,7 +152,7 @@ void check_table_options(const CLI::App& command) {
   }
 }
 
-MeasuredResponse from_table(const ResponseArguments& arguments) {
+ResponseSource from_table(const ResponseArguments& arguments) {
   check_table_options(*arguments.command);
   ResponseTableOptions options = arguments.table;
   options.file = recording_options(arguments.recording);
@@ -170,31 +170,21 @@ MeasuredResponse from_table(const ResponseArguments& arguments) {
   std::erase_if(response->points, [&](const ResponsePoint& point) {
     return (band.lowest && point.frequency < *band.lowest) || (band.highest && point.frequency > *band.highest);
   });
-  MeasuredResponse measured;
-  measured.source = arguments.recording.file;
-  measured.response = *std::move(response);
-  return measured;
+  if (response->points.empty()) throw BadInput(arguments.recording.file + no_line_left);
+  ResponseSource source;
+  source.name = arguments.recording.file;
+  source.table = judged_response(source.name, *std::move(response));
+  return source;
 }
 
-MeasuredResponse from_recording(const ResponseArguments& arguments) {
-  const FrequencyResponseOptions estimate = estimate_options(arguments);
-  MeasuredResponse measured;
-  measured.source = arguments.recording.file;
+ResponseSource from_recording(const ResponseArguments& arguments) {
+  ResponseSource source;
+  source.name = arguments.recording.file;
+  source.options = estimate_options(arguments);
   RecordedMotion motion = read_motion(arguments.recording);
-  measured.remarks = std::move(motion.recording.remarks);
-  FrequencyResponseOptions options = estimate;
-  options.output = motion.output;
-  try {
-    ProgressLine line("estimating the response");
-    measured.response =
-        frequency_response(motion.force(), motion.motion(), motion.recording.sampling_period, options, line.progress());
-  } catch (const Error& error) {
-    // What the estimate refuses lies in the recording, or in an option that does not fit it.
-    throw BadInput(measured.source + ": " + error.what());
-  }
-  measured.motion = std::move(motion);
-  measured.options = options;
-  return measured;
+  source.options.output = motion.output;
+  source.recording = std::move(motion.recording);
+  return source;
 }
 
 }  // namespace
@@ -206,15 +196,23 @@ void add_response_arguments(CLI::App& command, ResponseArguments& arguments) {
   arguments.command = &command;
 }
 
-MeasuredResponse measured_response(const ResponseArguments& arguments) {
-  MeasuredResponse measured = arguments.is_table ? from_table(arguments) : from_recording(arguments);
-  std::vector<Remark>& own = measured.response.remarks;
-  std::move(own.begin(), own.end(), std::back_inserter(measured.remarks));
-  own.clear();
-  if (measured.response.points.empty()) {
-    throw BadInput(measured.source + ": no line is left in the band; widen --lowest-hz and --highest-hz");
+std::optional<double> ResponseSource::sampling_period() const {
+  return recording ? std::optional(recording->sampling_period) : table.response.sampling_period;
+}
+
+ResponseSource response_source(const ResponseArguments& arguments) {
+  return arguments.is_table ? from_table(arguments) : from_recording(arguments);
+}
+
+MeasuredResponse measured_response(const ResponseSource& source) {
+  if (!source.recording) return source.table;
+  try {
+    ProgressLine line("estimating the response");
+    return frequency_response(*source.recording, source.options, line.progress());
+  } catch (const Error& error) {
+    // What the estimate refuses lies in the recording, or in an option that does not fit it.
+    throw BadInput(source.name + ": " + error.what());
   }
-  return measured;
 }
 
 }  // namespace zwidth::cli

@@ -6,9 +6,8 @@
 #include <vector>
 
 #include "cli/recording_arguments.hpp"
-#include "zwidth/identification/frequency_response.hpp"
+#include "zwidth/identification/measured_response.hpp"
 #include "zwidth/io/recording_file.hpp"
-#include "zwidth/remark.hpp"
 
 namespace zwidth::cli {
 
@@ -19,7 +18,7 @@ struct ResponseArguments {
   ResponseTableOptions table;
   bool is_table = false;
 
-  // As typed; measured_response() translates them.
+  // As typed; response_source() translates them.
   std::optional<std::size_t> period;
   bool aperiodic = false;
   bool no_detrend = false;
@@ -36,16 +35,19 @@ struct ResponseArguments {
 /// Declares the recording's options, those of the estimate and those of a table; `arguments` must outlive the parsing.
 void add_response_arguments(CLI::App& command, ResponseArguments& arguments);
 
-/// The measured response with every remark on the way to it: reading, signals, estimate.
-struct MeasuredResponse {
-  std::string source;          ///< the file's name
-  FrequencyResponse response;  ///< its remarks moved to the ones below
-  std::vector<Remark> remarks;
-  std::optional<RecordedMotion> motion;  ///< absent for a table
-  FrequencyResponseOptions options;      ///< of the estimate, where there is a motion
+/// What the command line names: a recording and how its response is estimated, or a table of a response.
+struct ResponseSource {
+  std::string name;                    ///< the file's name
+  std::optional<Recording> recording;  ///< absent for a table
+  FrequencyResponseOptions options;    ///< of the recording's estimate
+  MeasuredResponse table;              ///< where there is no recording
+  [[nodiscard]] std::optional<double> sampling_period() const;
 };
 
-/// Reads the file and estimates the response, with progress. Throws BadInput for a file or an option that is refused.
-[[nodiscard]] MeasuredResponse measured_response(const ResponseArguments& arguments);
+/// Reads the file, with progress. Throws BadInput for a file or an option that is refused.
+[[nodiscard]] ResponseSource response_source(const ResponseArguments& arguments);
+
+/// The response, judged. Throws BadInput where the recording has none.
+[[nodiscard]] MeasuredResponse measured_response(const ResponseSource& source);
 
 }  // namespace zwidth::cli

@@ -23,9 +23,9 @@ std::string frf_csv(const FrequencyResponse& response) {
   std::string rows =
       "frequency_rad_s,frequency_hz,magnitude,magnitude_lower,magnitude_upper,phase_deg,phase_lower_deg,"
       "phase_upper_deg,coherence,real,imaginary\n";
-  const std::vector<FrfPoint> points = frf_points(response);
+  const std::vector<ResponseLine> points = response_lines(response);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const FrfPoint& point = points[i];
+    const ResponseLine& point = points[i];
     const std::complex<double>& value = response.points[i].value;
     rows += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", cell(point.frequency), cell(hertz(point.frequency)),
                         cell(point.magnitude), cell(point.magnitude_lower), cell(point.magnitude_upper),

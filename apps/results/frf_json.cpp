@@ -35,25 +35,25 @@ Json to_json(const MeasuredCrossover& crossover) {
 }
 
 template <typename Value>
-Json column(const std::vector<FrfPoint>& points, Value&& value) {
+Json column(const std::vector<ResponseLine>& points, Value&& value) {
   Json array = Json::array();
-  for (const FrfPoint& point : points) array.push_back(number_or_null(value(point)));
+  for (const ResponseLine& point : points) array.push_back(number_or_null(value(point)));
   return array;
 }
 
 void add_lines(Json& document, const FrequencyResponse& response) {
-  const std::vector<FrfPoint> points = frf_points(response);
-  document["frequency_hz"] = column(points, [](const FrfPoint& p) { return hertz(p.frequency); });
+  const std::vector<ResponseLine> points = response_lines(response);
+  document["frequency_hz"] = column(points, [](const ResponseLine& p) { return hertz(p.frequency); });
   const auto add = [&](const char* key, auto member) {
-    document[key] = column(points, [member](const FrfPoint& p) { return p.*member; });
+    document[key] = column(points, [member](const ResponseLine& p) { return p.*member; });
   };
-  add("magnitude", &FrfPoint::magnitude);
-  add("magnitude_lower", &FrfPoint::magnitude_lower);
-  add("magnitude_upper", &FrfPoint::magnitude_upper);
-  add("phase_rad", &FrfPoint::phase);
-  add("phase_lower_rad", &FrfPoint::phase_lower);
-  add("phase_upper_rad", &FrfPoint::phase_upper);
-  add("coherence", &FrfPoint::coherence);
+  add("magnitude", &ResponseLine::magnitude);
+  add("magnitude_lower", &ResponseLine::magnitude_lower);
+  add("magnitude_upper", &ResponseLine::magnitude_upper);
+  add("phase_rad", &ResponseLine::phase);
+  add("phase_lower_rad", &ResponseLine::phase_lower);
+  add("phase_upper_rad", &ResponseLine::phase_upper);
+  add("coherence", &ResponseLine::coherence);
 }
 
 }  // namespace
@@ -112,6 +112,8 @@ results::Json frf_json(const MeasuredFrf& frf, FrfContent content) {
   document["averages"] = response.averages > 0.0 ? number_or_null(response.averages) : Json(nullptr);
   document["sampling_period_s"] = number_or_null(response.sampling_period);
   if (content == FrfContent::with_lines) add_lines(document, response);
+  document["basis"] = {{"virtual_damping", 0.0}, {"velocity_filter_hz", 0.0}, {"filters", 0}};
+  document["trust"] = frf.trust;
   document["remarks"] = remarks_json(frf.remarks);
   return document;
 }

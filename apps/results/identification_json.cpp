@@ -44,7 +44,7 @@ results::Json estimate_json(const ParameterEstimate& estimate, Motion motion) {
 results::Json identification_json(const IdentifiedDevice& identified, PointsInJson points) {
   const ParameterFit& fit = identified.fit;
   const Motion motion = fit.device.parameters().motion;
-  const Json analysis = results::analysis_json(identified.analysed);
+  const Json analysis = results::analysis_json(identified.analysed.device, identified.analysed.analysis);
   Json document;
   document["schema"] = "zwidth.identification/1";
   document["source"] = identified.source;
@@ -72,6 +72,16 @@ results::Json identification_json(const IdentifiedDevice& identified, PointsInJs
                           "limited_by", "modes"}) {
     document[key] = analysis[key];
   }
+  if (identified.trust.refused()) {
+    for (const char* key :
+         {"status", "critical_stiffness", "critical_stiffness_interval", "critical_frequency_hz", "limited_by"}) {
+      document[key] = nullptr;
+    }
+  }
+  document["basis"] = {{"virtual_damping", identified.basis.virtual_damping},
+                       {"velocity_filter_hz", identified.basis.velocity_filter_hz},
+                       {"filters", identified.basis.filters}};
+  document["trust"] = identified.trust;
   document["remarks"] = identified.remarks;
   if (points == PointsInJson::included) document["points"] = points_json(identified);
   return document;

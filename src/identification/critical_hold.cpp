@@ -19,8 +19,16 @@ std::optional<CriticalPoint> measured_critical_point(const FrequencyResponse& re
   const auto above =
       std::ranges::lower_bound(response.points, measured.limit->frequency, {}, &ResponsePoint::frequency);
   const ResponsePoint& nearest = above == response.points.end() ? response.points.back() : *above;
-  return CriticalPoint{{measured.limit->frequency, -1.0 / measured.limit->stiffness, 0.0, 1.0},
-                       std::sqrt(nearest.variance) / std::abs(nearest.value)};
+  CriticalPoint critical{{measured.limit->frequency, -1.0 / measured.limit->stiffness, 0.0, 1.0},
+                         std::sqrt(nearest.variance) / std::abs(nearest.value),
+                         measured.status != MeasuredStiffnessStatus::found,
+                         {}};
+  for (const Remark& remark : measured.remarks) {
+    if (remark.severity != Remark::Severity::warning) continue;
+    critical.is_guess = true;
+    critical.remarks.push_back(remark);
+  }
+  return critical;
 }
 
 std::optional<Solution> hold(const FitModel& model, const std::vector<ResponsePoint>& points, const Solution& free,
@@ -42,7 +50,7 @@ std::optional<Solution> hold(const FitModel& model, const std::vector<ResponsePo
   const LeastSquares fit = least_squares(model, data, free.x, {Misfit::weighted, robust_threshold, 200}, free.pull);
   const double error = model_error_of(points, model.response_at(fit.x, fit_data(points, 0.0).frequencies));
   if (!fit.converged || error > most_growth * free.model_error) return std::nullopt;
-  return Solution{fit.x, std::max(error, free.model_error), free.pull};
+  return Solution{fit.x, std::max(error, free.model_error), free.pull, free.settled};
 }
 
 }  // namespace zwidth::internal

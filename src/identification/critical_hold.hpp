@@ -11,6 +11,8 @@ namespace zwidth::internal {
 struct CriticalPoint {
   ResponsePoint point;
   double relative_deviation = 0.0;  ///< of the measurement there
+  bool is_guess = false;            ///< the data do not prove that it is the critical one
+  std::vector<Remark> remarks;      ///< what the measurement says against it
 };
 
 /// The critical point that the response shows; nothing where it is a table, where bodies are locked, or where the data

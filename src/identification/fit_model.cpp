@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
+#include <utility>
 
+#include "identification/response_features.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/parameter.hpp"
 #include "zwidth/sampling/sampled_plant.hpp"
@@ -46,14 +49,15 @@ void check_response(const FrequencyResponse& response, std::size_t parameters) {
     const bool is_finite = std::isfinite(point.value.real()) && std::isfinite(point.value.imag());
     if (!is_finite || point.value == 0.0 || !(point.frequency > 0.0) || !(point.variance >= 0.0)) {
       throw Error(ErrorCode::invalid_argument,
-                  "the response at " + fmt::format("{}", point.frequency) +
-                      " rad/s is not a frequency > 0 with a finite value that is not 0 and a variance >= 0");
+                  fmt::format("the response at {} rad/s is not a frequency > 0 with a finite value that is not 0 and a "
+                              "variance >= 0",
+                              point.frequency));
     }
   }
   if (response.points.size() <= parameters) {
-    throw Error(ErrorCode::invalid_argument, "the response has " + std::to_string(response.points.size()) +
-                                                 " points for " + std::to_string(parameters) +
-                                                 " free parameters; it must have more points than that");
+    throw Error(ErrorCode::invalid_argument,
+                fmt::format("the response has {} points for {} free parameters; it must have more points than that",
+                            response.points.size(), parameters));
   }
 }
 
@@ -93,7 +97,12 @@ FitModel::FitModel(const Device& structure, const FrequencyResponse& response, c
     const std::string key = full_parameter_key(structure.parameters(), given);
     check_free(structure.parameters(), key);
     if (!seen.insert(key).second) throw Error(ErrorCode::invalid_argument, key + " is given twice as free");
-    coordinates_.push_back({key, kind_of(key), unit_of(key, response.points)});
+    Coordinate coordinate{key, kind_of(key), unit_of(key, response.points)};
+    if (key == "loop.delay") {
+      const double longest = max_delay_samples * sampling_period_.value_or(std::numeric_limits<double>::infinity());
+      coordinate.bound = std::min(longest_resolved_delay(response.points), longest) / coordinate.unit;
+    }
+    coordinates_.push_back(std::move(coordinate));
   }
 }
 

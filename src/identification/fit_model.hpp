@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <complex>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +20,8 @@ struct Coordinate {
   };
   Kind kind = Kind::not_negative;
   double unit = 1.0;  ///< a typical value
+  /// x stays below: a delay is known only modulo what the spacing of the lines resolves.
+  double bound = std::numeric_limits<double>::infinity();
 
   [[nodiscard]] double value(double x) const;
   [[nodiscard]] double position(double value) const;  ///< x of a value

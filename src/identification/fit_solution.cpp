@@ -33,6 +33,12 @@ std::vector<LeastSquares> logarithmic_fits(const FitModel& model, const std::vec
   return fits;
 }
 
+Error no_convergence() {
+  return {ErrorCode::did_not_converge,
+          "the fit finds no values for which the structure answers at all like the record; name a structure with other "
+          "bodies, free fewer parameters, or start from values that are nearly right"};
+}
+
 }  // namespace
 
 Start start_at(const FitModel& model, const Eigen::VectorXd& x) {
@@ -87,13 +93,15 @@ Solution solve(const FitModel& model, const std::vector<ResponsePoint>& points, 
     const LeastSquares fit = least_squares(model, fit_data(points, error), start.x, rough, start.pull);
     const double left = model_error_of(points, model.response_at(fit.x, all.frequencies));
     if (std::pair(left, fit.cost) < std::pair(best.model_error, best_cost)) {
-      best = {fit.x, left, start.pull};
+      best = {fit.x, left, start.pull, fit.converged};
       best_cost = fit.cost;
     }
   }
+  if (best.x.size() == 0) throw no_convergence();
   for (int round = 0; round < most_rounds; ++round) {
     const LeastSquares fit = least_squares(model, fit_data(points, best.model_error), best.x, options, best.pull);
-    if (!fit.converged) throw Error(ErrorCode::did_not_converge, "the fit does not converge");
+    if (!fit.x.allFinite()) throw no_convergence();
+    best.settled = fit.converged;
     const double error = model_error_of(points, model.response_at(fit.x, all.frequencies));
     const bool is_done = std::abs(error - best.model_error) <= close_enough * error;
     best.x = fit.x;

@@ -26,7 +26,8 @@ struct Start {
 struct Solution {
   Eigen::VectorXd x;
   double model_error = 0.0;
-  Pull pull;  ///< of the start that it was found from
+  Pull pull;            ///< of the start that it was found from
+  bool settled = true;  ///< false: the iterations ran out while the fit still improved
 };
 
 /// Starting points from the data, the best first: after a fit of the logarithm at some of the points.

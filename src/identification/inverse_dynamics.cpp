@@ -9,7 +9,7 @@
 #include <cmath>
 
 #include "identification/correlated_residuals.hpp"
-#include "identification/motion_bandwidth.hpp"
+#include "identification/rigid_band.hpp"
 #include "model/symmetric_eigen.hpp"
 #include "signal/zero_phase_filter.hpp"
 #include "zwidth/error.hpp"
@@ -20,7 +20,6 @@ namespace {
 
 constexpr std::size_t least_samples = 100;
 constexpr std::size_t least_equations = 20;
-constexpr double most_cutoff = 0.1;  // of the rate: the differences are then off by 0.5 % at most
 constexpr double decimation_factor = 0.8;
 
 [[noreturn]] void fail(const std::string& message) { throw Error(ErrorCode::invalid_argument, message); }
@@ -66,14 +65,6 @@ struct Stencil {
   double second = 0.0;  ///< of signal[+2] + parity signal[-2]
   double parity = 1.0;
 };
-
-/// Of the low-pass, as a fraction of the rate.
-double chosen_cutoff(std::span<const double> position) {
-  // Coulomb differs from viscous friction by the harmonics that it puts on the motion's main frequency.
-  constexpr double harmonics = 5.0;
-  const MotionBandwidth motion = motion_bandwidth(position);
-  return std::min(std::max(motion.nearly_all, harmonics * motion.half), most_cutoff);
-}
 
 std::vector<double> combined(std::span<const double> signal, const Stencil& stencil) {
   std::vector<double> result(signal.size() - 2 * reach);
@@ -225,7 +216,8 @@ RigidBodyFit identify_rigid_body(std::span<const double> force, std::span<const 
   const auto report = [&](double fraction) {
     if (progress) progress(fraction);
   };
-  const double cutoff = options.cutoff_hz ? *options.cutoff_hz * sampling_period : chosen_cutoff(position);
+  const RigidBand band = rigid_band(force, position);
+  const double cutoff = options.cutoff_hz ? *options.cutoff_hz * sampling_period : band.cutoff;
   report(0.2);
   const std::size_t decimation =
       options.decimation.value_or(std::max<std::size_t>(1, static_cast<std::size_t>(decimation_factor * 0.5 / cutoff)));
@@ -238,6 +230,7 @@ RigidBodyFit identify_rigid_body(std::span<const double> force, std::span<const 
   fit.cutoff_hz = cutoff / sampling_period;
   fit.decimation = decimation;
   fit.equations = kept.size();
+  if (band.first_mode) fit.first_mode_hz = *band.first_mode / sampling_period;
 
   Solution solution = solve(terms, kept, sampling_period, 0.0, columns);
   double total_delay = 0.0;

@@ -16,28 +16,43 @@ namespace {
 // A coordinate that may be 0 starts no nearer to it: from 0 itself the search could not leave.
 constexpr double least_start = 1e-4;
 
-/// The search is for y: x itself where that is a logarithm, else log x. So there are no bounds, at which Ceres is slow.
+/// The search is for y: x itself where that is a logarithm, else log x, or log x / (bound - x) where x is bounded above.
+/// So there are no bounds, at which Ceres is slow.
 class SearchCoordinates {
  public:
   SearchCoordinates(const FitModel& model, const Eigen::VectorXd& start) : model_(model), y(start) {
     for (Eigen::Index i = 0; i < y.size(); ++i) {
-      if (may_be_zero(i)) y(i) = std::log(std::max(y(i), least_start));
+      if (may_be_zero(i)) y(i) = searched(std::max(y(i), least_start), bound(i));
     }
   }
 
   [[nodiscard]] bool may_be_zero(Eigen::Index i) const {
     return model_.coordinates()[static_cast<std::size_t>(i)].kind == Coordinate::Kind::not_negative;
   }
-  [[nodiscard]] double x(Eigen::Index i) const { return may_be_zero(i) ? std::exp(y(i)) : y(i); }
+  [[nodiscard]] double x(Eigen::Index i) const {
+    if (!may_be_zero(i)) return y(i);
+    return std::isfinite(bound(i)) ? bound(i) / (1.0 + std::exp(-y(i))) : std::exp(y(i));
+  }
   [[nodiscard]] Eigen::VectorXd x() const {
     Eigen::VectorXd all(y.size());
     for (Eigen::Index i = 0; i < y.size(); ++i) all(i) = x(i);
     return all;
   }
   /// dx / dy
-  [[nodiscard]] double slope(Eigen::Index i) const { return may_be_zero(i) ? x(i) : 1.0; }
+  [[nodiscard]] double slope(Eigen::Index i) const {
+    if (!may_be_zero(i)) return 1.0;
+    return x(i) * (1.0 - x(i) / bound(i));
+  }
 
  private:
+  [[nodiscard]] double bound(Eigen::Index i) const { return model_.coordinates()[static_cast<std::size_t>(i)].bound; }
+  [[nodiscard]] static double searched(double x, double bound) {
+    if (!std::isfinite(bound)) return std::log(x);
+    constexpr double inside = 0.9;
+    const double share = std::min(x / bound, inside);
+    return std::log(share / (1.0 - share));
+  }
+
   const FitModel& model_;
 
  public:
@@ -116,6 +131,8 @@ class PointMisfit : public ceres::CostFunction {
       const int n = parameter_block_sizes()[0];
       for (int j = 0; j < n; ++j) {
         const std::complex<double> slope = shared_.slope(point_, j);
+        // Ceres would print its own lines about it.
+        if (!std::isfinite(slope.real()) || !std::isfinite(slope.imag())) return false;
         jacobians[0][j] = slope.real();
         jacobians[0][n + j] = slope.imag();
       }
@@ -140,9 +157,11 @@ class PullMisfit : public ceres::CostFunction {
     const Eigen::Index n = pull_.towards.size();
     for (Eigen::Index i = 0; i < n; ++i) {
       residuals[i] = (position_.x(i) - pull_.towards(i)) * pull_.strength(i);
+      if (!std::isfinite(residuals[i])) return false;
       if (!jacobians || !jacobians[0]) continue;
       for (Eigen::Index j = 0; j < n; ++j) {
         jacobians[0][i * n + j] = i == j ? pull_.strength(i) * position_.slope(i) : 0.0;
+        if (!std::isfinite(jacobians[0][i * n + j])) return false;
       }
     }
     return true;

@@ -11,6 +11,7 @@
 #include "identification/fit_solution.hpp"
 #include "identification/fit_weights.hpp"
 #include "identification/identifiability.hpp"
+#include "identification/percent.hpp"
 #include "identification/residual_checks.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/modal_form.hpp"
@@ -49,6 +50,10 @@ ParameterEstimate estimate(const Coordinate& coordinate, double x, bool determin
   if (is_at_bound(coordinate, x)) result.value = 0.0;
   if (!determined) return result;
   const double deviation = coordinate.slope(x) * std::sqrt(variance);
+  if (!std::isfinite(deviation)) {
+    result.identifiable = false;
+    return result;
+  }
   result.standard_deviation = deviation;
   result.lower = std::max(0.0, result.value - two_sided * deviation);
   result.upper = result.value + two_sided * deviation;
@@ -74,7 +79,7 @@ std::optional<Uncertainty> uncertainty(const FitModel& model, const Eigen::Vecto
                                        const std::vector<bool>& determined, const Eigen::MatrixXd& covariance) {
   std::vector<Eigen::Index> kept;
   for (Eigen::Index i = 0; i < x.size(); ++i) {
-    if (determined[static_cast<std::size_t>(i)]) kept.push_back(i);
+    if (determined[static_cast<std::size_t>(i)] && std::isfinite(covariance(i, i))) kept.push_back(i);
   }
   if (kept.empty() || kept.size() > max_uncertain_parameters) return std::nullopt;
   Uncertainty result;
@@ -115,9 +120,10 @@ double stiffness_at(const FitModel& model, const Eigen::VectorXd& x) {
   return critical_stiffness(filtered_plant(sampled_plant(Device(std::move(parameters))), {})).stiffness;
 }
 
-/// Whether the response with its sign turned round fits much better: a position that falls as the force rises.
-std::optional<Remark> wrong_sign(const FitModel& model, std::vector<ResponsePoint> points, double model_error,
-                                 double robust_threshold) {
+/// The model error of the response with its sign turned round, where it fits much better: a position that falls as the
+/// force rises.
+std::optional<double> error_if_turned(const FitModel& model, std::vector<ResponsePoint> points, double model_error,
+                                      double robust_threshold) {
   constexpr double suspicious = 0.3;
   constexpr double much_better = 0.3;
   if (model_error < suspicious) return std::nullopt;
@@ -125,10 +131,7 @@ std::optional<Remark> wrong_sign(const FitModel& model, std::vector<ResponsePoin
   try {
     const double turned = solve(model, points, promising_starts(model, points), robust_threshold).model_error;
     if (turned > much_better * model_error) return std::nullopt;
-    return Remark{Remark::Severity::warning,
-                  fmt::format("with its sign turned round, {:.2g} % of the response would be unexplained, not {:.2g} %",
-                              100.0 * turned, 100.0 * model_error),
-                  "the position falls as the force rises: scale one of them by -1"};
+    return turned;
   } catch (const Error&) {  // then it fits no better
     return std::nullopt;
   }
@@ -147,8 +150,8 @@ void add_remarks(ParameterFit& fit, const FitModel& model, const std::vector<Res
   for (const ParameterEstimate& each : fit.estimates) {
     if (each.standard_deviation && each.value > 0.0 && *each.standard_deviation > 0.5 * each.value) {
       fit.remarks.push_back({Remark::Severity::warning,
-                             fmt::format("{} is known to {:.2g} % only (one standard deviation)", each.key,
-                                         100.0 * *each.standard_deviation / each.value),
+                             fmt::format("{} is known to {} only (one standard deviation)", each.key,
+                                         percent(*each.standard_deviation / each.value)),
                              "the data hardly determine it"});
     }
   }
@@ -158,8 +161,14 @@ void add_remarks(ParameterFit& fit, const FitModel& model, const std::vector<Res
          "the fit is held to the measured critical point, since the structure misses the data by more than their noise",
          fmt::format("all points alike would give a critical stiffness of {:.4g}", *fit.stiffness_without_hold)});
   }
-  for (Remark& remark : check_residuals(fit, points, mode_frequencies(fit.device, model.locked()))) {
-    fit.remarks.push_back(std::move(remark));
+  ResidualChecks checks = check_residuals(fit, points, mode_frequencies(fit.device, model.locked()));
+  fit.missing_mode = checks.missing_mode;
+  for (Remark& remark : checks.remarks) fit.remarks.push_back(std::move(remark));
+  if (fit.model_error_if_turned) {
+    fit.remarks.push_back({Remark::Severity::warning,
+                           fmt::format("with its sign turned round, {} of the response would be unexplained, not {}",
+                                       percent(*fit.model_error_if_turned), percent(fit.model_error)),
+                           "the position falls as the force rises", "scale one of them by -1"});
   }
 }
 
@@ -209,10 +218,14 @@ ParameterFit fit_parameters(const Device& structure, const FrequencyResponse& re
     solution = solve(model, points, {start_at(model, solution.x, own, known.determined)}, options.robust_threshold);
   }
   std::optional<double> without_hold;
+  std::vector<Remark> about_the_hold;
+  bool held_to_a_guess = false;
   if (const auto critical = measured_critical_point(in_band, options)) {
     if (const auto held = hold(model, points, solution, *critical, options.robust_threshold)) {
       without_hold = stiffness_at(model, solution.x);
       solution = *held;
+      held_to_a_guess = critical->is_guess;
+      about_the_hold = critical->remarks;
     }
   }
   const FitData data = fit_data(points, solution.model_error);
@@ -225,7 +238,10 @@ ParameterFit fit_parameters(const Device& structure, const FrequencyResponse& re
                    .misfit = misfit(points, at_solution.values),
                    .model_error = solution.model_error,
                    .stiffness_without_hold = without_hold,
-                   .frequencies = data.frequencies};
+                   .frequencies = data.frequencies,
+                   .remarks = std::move(about_the_hold),
+                   .settled = solution.settled,
+                   .held_to_a_guess = held_to_a_guess};
   for (Eigen::Index i = 0; i < solution.x.size(); ++i) {
     const auto k = static_cast<std::size_t>(i);
     fit.estimates.push_back(
@@ -242,10 +258,8 @@ ParameterFit fit_parameters(const Device& structure, const FrequencyResponse& re
     fit.fitted.push_back(at_solution.values(static_cast<Eigen::Index>(i)));
     fit.residuals.push_back(points[i].value - fit.fitted.back());
   }
+  fit.model_error_if_turned = error_if_turned(model, points, fit.model_error, options.robust_threshold);
   add_remarks(fit, model, points);
-  if (auto remark = wrong_sign(model, points, fit.model_error, options.robust_threshold)) {
-    fit.remarks.push_back(*std::move(remark));
-  }
   return fit;
 }
 

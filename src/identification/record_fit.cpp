@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "identification/friction_test.hpp"
 #include "identification/period_detection.hpp"
 #include "zwidth/model/state_space.hpp"
 #include "zwidth/sampling/forced_response.hpp"
@@ -16,16 +17,6 @@ using namespace internal;
 namespace {
 
 using Excitation = FrequencyResponseOptions::Excitation;
-
-/// The fitted device as it was in the experiment: bodies locked, sampled at the record's rate.
-Device device_in_experiment(const Device& fitted, const std::vector<std::string>& locked, double sampling_period) {
-  std::vector<std::size_t> bodies;
-  for (const std::string& name : locked) bodies.push_back(fitted.body_index(name));
-  DeviceParameters parameters = locked_device(fitted, bodies).parameters();
-  parameters.loop.sampling_period = sampling_period;
-  parameters.wall.filters.clear();  // no wall acted; and at the record's rate they may be impossible
-  return Device(std::move(parameters));
-}
 
 /// P_M + H1(force -> y - y_M).
 FrequencyResponse corrected_response(const FrequencyResponse& last, const Device& device, std::span<const double> force,
@@ -68,6 +59,19 @@ bool stands_still(const ParameterFit& before, const ParameterFit& after) {
 }
 
 }  // namespace
+
+namespace internal {
+
+Device device_in_experiment(const Device& fitted, const std::vector<std::string>& locked, double sampling_period) {
+  std::vector<std::size_t> bodies;
+  for (const std::string& name : locked) bodies.push_back(fitted.body_index(name));
+  DeviceParameters parameters = locked_device(fitted, bodies).parameters();
+  parameters.loop.sampling_period = sampling_period;
+  parameters.wall.filters.clear();  // no wall acted; and at the record's rate they may be impossible
+  return Device(std::move(parameters));
+}
+
+}  // namespace internal
 
 RecordFit without_leakage(RecordFit first, std::span<const double> force, std::span<const double> output,
                           const FrequencyResponseOptions& response_options, const ParameterFitOptions& fit_options) {

@@ -9,6 +9,8 @@
 #include <numbers>
 #include <optional>
 
+#include "identification/percent.hpp"
+
 namespace zwidth::internal {
 namespace {
 
@@ -182,27 +184,29 @@ Remark largest_model_error(const Residuals& residuals, double model_error) {
   const std::string where = band.end - band.begin > 1 ? fmt::format("from {:.4g} to {:.4g} Hz", from, to)
                                                       : fmt::format("near {:.4g} Hz", from);
   return {Remark::Severity::warning,
-          fmt::format("the structure leaves {:.2g} % of the response unexplained beyond the noise, most {}",
-                      100.0 * model_error, where),
+          fmt::format("the structure leaves {} of the response unexplained beyond the noise, most {}",
+                      percent(model_error), where),
           "friction, backlash or a mode that the structure lacks; the intervals are widened for it, the values may be "
           "off by more"};
 }
 
 }  // namespace
 
-std::vector<Remark> check_residuals(const ParameterFit& fit, const std::vector<ResponsePoint>& points,
-                                    const std::vector<double>& modes) {
-  std::vector<Remark> remarks;
-  if (points.size() < 3 || fit.model_error < 1e-6) return remarks;
+ResidualChecks check_residuals(const ParameterFit& fit, const std::vector<ResponsePoint>& points,
+                               const std::vector<double>& modes) {
+  ResidualChecks checks;
+  std::vector<Remark>& remarks = checks.remarks;
+  if (points.size() < 3 || fit.model_error < 1e-6) return checks;
   const Residuals residuals(fit, points);
   if (const auto mode = missing_mode(residuals, modes)) {
+    checks.missing_mode = mode->frequency;
     remarks.push_back({Remark::Severity::warning,
                        fmt::format("a mode near {:.4g} Hz (damping ratio about {:.2g}) is missing from the structure",
                                    hertz(mode->frequency), mode->damping_ratio),
                        "add a body and a link for it, or leave that band out"});
   }
   if (fit.model_error > notable_model_error) remarks.push_back(largest_model_error(residuals, fit.model_error));
-  return remarks;
+  return checks;
 }
 
 }  // namespace zwidth::internal

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <set>
 
@@ -68,11 +69,14 @@ void find_extremes(const std::vector<ResponsePoint>& points, ResponseFeatures& f
 double find_delay(const std::vector<ResponsePoint>& points) {
   const double highest = points.back().frequency;
   const double step = std::numbers::pi / (8.0 * highest);
+  // Doubled, the phase is open by half as much; and half of that again leaves no neighbour of an alias.
+  const double longest = 0.45 * longest_resolved_delay(points);
   constexpr int steps = 400;  // 25 turns of the highest frequency
   double best = 0.0;
   double best_sum = -1.0;
   for (int i = 0; i <= steps; ++i) {
     const double delay = step * i;
+    if (delay > longest) break;
     double sum = 0.0;
     for (const ResponsePoint& point : points) {
       sum += std::cos(2.0 * (std::arg(point.value) + point.frequency * delay));
@@ -86,6 +90,14 @@ double find_delay(const std::vector<ResponsePoint>& points) {
 }
 
 }  // namespace
+
+double longest_resolved_delay(const std::vector<ResponsePoint>& points) {
+  double spacing = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    spacing = std::min(spacing, points[i].frequency - points[i - 1].frequency);
+  }
+  return std::numbers::pi / spacing;
+}
 
 ResponseFeatures response_features(const std::vector<ResponsePoint>& points) {
   ResponseFeatures features;

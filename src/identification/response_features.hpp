@@ -18,6 +18,9 @@ struct ResponseFeatures {
   double delay = 0.0;
 };
 
+/// s: half of what the closest lines leave open, 2 pi / spacing; a longer delay is another one by an alias.
+[[nodiscard]] double longest_resolved_delay(const std::vector<ResponsePoint>& points);
+
 /// Requires at least one point.
 [[nodiscard]] ResponseFeatures response_features(const std::vector<ResponsePoint>& points);
 

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "identification/plausibility.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/signal/recording.hpp"
 
@@ -307,5 +308,17 @@ std::vector<Remark> check_signal(const Channel& channel, double sampling_period,
   check_dropouts(signal, extent, clipped, remarks);
   return remarks;
 }
+
+namespace internal {
+
+bool is_clipped(const Channel& channel, double sampling_period, SignalRole role) {
+  const Extent extent = extent_of(channel.samples);
+  if (extent.range() == 0.0 || !std::isfinite(extent.range())) return false;
+  if (levels_of(channel.samples) <= most_switch_levels) return false;
+  std::vector<Remark> remarks;
+  return !check_clipping({channel, sampling_period, role}, extent, remarks).empty();
+}
+
+}  // namespace internal
 
 }  // namespace zwidth

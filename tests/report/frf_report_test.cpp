@@ -35,7 +35,8 @@ FrequencyResponse falling_phase(double relative_deviation) {
 const double stiffness_at_21_hz = 5.4 * std::pow(2.0 * std::numbers::pi * 21.0, 2);
 
 MeasuredFrf example(double relative_deviation = 1e-3) {
-  return measured_frf("run.csv", {}, falling_phase(relative_deviation), {{Remark::Severity::note, "a note", ""}});
+  return measured_frf(
+      judged_response("run.csv", falling_phase(relative_deviation), {{Remark::Severity::note, "a note", ""}}), {});
 }
 
 TEST(FrfUnits, AreQuotientsWithBracketsWhereNeeded) {
@@ -47,7 +48,7 @@ TEST(FrfUnits, AreQuotientsWithBracketsWhereNeeded) {
 TEST(FrfPoints, UnwrapThePhaseAndLeaveOpenBoundsOut) {
   FrequencyResponse response = falling_phase(1e-3);
   response.points[3].variance = std::norm(response.points[3].value);  // the disc holds 0
-  const auto points = frf_points(response);
+  const auto points = response_lines(response);
   for (std::size_t i = 0; i < points.size(); ++i) {
     EXPECT_NEAR(points[i].phase * 180.0 / std::numbers::pi, -170.0 - 0.5 * static_cast<double>(i), 1e-9);
   }
@@ -56,7 +57,7 @@ TEST(FrfPoints, UnwrapThePhaseAndLeaveOpenBoundsOut) {
   EXPECT_NEAR(*points[4].phase_upper - points[4].phase, points[4].phase - *points[4].phase_lower, 1e-12);
   response.averages = 0.0;
   response.points[5].variance = 0.0;
-  EXPECT_FALSE(frf_points(response)[5].magnitude_upper);
+  EXPECT_FALSE(response_lines(response)[5].magnitude_upper);
 }
 
 TEST(FrfJson, HoldsTheAnswerAndOnlyOnRequestTheLines) {
@@ -89,10 +90,11 @@ TEST(FrfJson, AnUndeterminedStiffnessIsNullAndBoundedAbove) {
 TEST(FrfJson, ASingleLineAndAContinuousResponseHaveNoStiffness) {
   FrequencyResponse response = falling_phase(1e-3);
   response.points.resize(1);
-  EXPECT_TRUE(frf_json(measured_frf("run.csv", {}, response, {}), FrfContent::with_lines)["status"].is_null());
+  EXPECT_TRUE(
+      frf_json(measured_frf(judged_response("run.csv", response, {}), {}), FrfContent::with_lines)["status"].is_null());
   response = falling_phase(1e-3);
   response.sampling_period.reset();
-  const MeasuredFrf continuous = measured_frf("run.csv", {}, response, {});
+  const MeasuredFrf continuous = measured_frf(judged_response("run.csv", response, {}), {});
   EXPECT_TRUE(frf_json(continuous, FrfContent::summary)["critical_stiffness"].is_null());
   EXPECT_THAT(frf_text(continuous), HasSubstr("not to be had"));
 }

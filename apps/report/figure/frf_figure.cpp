@@ -38,20 +38,20 @@ struct Axis {
 };
 
 /// The points of which a figure can show the difference.
-std::vector<FrfPoint> thinned(std::vector<FrfPoint> points) {
+std::vector<ResponseLine> thinned(std::vector<ResponseLine> points) {
   if (points.size() <= 3 * most_columns) return points;
   const double per_octave =
       static_cast<double>(most_columns) / std::log(points.back().frequency / points.front().frequency);
-  const auto column_of = [&](const FrfPoint& point) {
+  const auto column_of = [&](const ResponseLine& point) {
     return static_cast<std::size_t>(per_octave * std::log(point.frequency / points.front().frequency));
   };
-  std::vector<FrfPoint> kept;
+  std::vector<ResponseLine> kept;
   for (auto first = points.begin(); first != points.end();) {
-    const auto end = std::find_if(first, points.end(), [&, column = column_of(*first)](const FrfPoint& point) {
+    const auto end = std::find_if(first, points.end(), [&, column = column_of(*first)](const ResponseLine& point) {
       return column_of(point) != column;
     });
     auto [least, most] =
-        std::minmax_element(first, end, [](const FrfPoint& a, const FrfPoint& b) { return a.magnitude < b.magnitude; });
+        std::minmax_element(first, end, [](const ResponseLine& a, const ResponseLine& b) { return a.magnitude < b.magnitude; });
     if (most < least) std::swap(least, most);
     kept.push_back(*least);
     if (most != least) kept.push_back(*most);
@@ -139,7 +139,7 @@ std::vector<ListLine> list_of(const MeasuredFrf& frf) {
 }
 
 /// Columns: Hz, dB, its bounds, degrees, their bounds, coherence. NaN breaks a band where there is none.
-void add_data(Canvas& canvas, const std::vector<FrfPoint>& points, double lowest_db) {
+void add_data(Canvas& canvas, const std::vector<ResponseLine>& points, double lowest_db) {
   const auto db = [&](double magnitude) {
     return magnitude > 0.0 ? std::max(decibels(magnitude), lowest_db) : lowest_db;
   };
@@ -147,7 +147,7 @@ void add_data(Canvas& canvas, const std::vector<FrfPoint>& points, double lowest
     return value ? fmt::format("{:.6g}", *value) : std::string("NaN");
   };
   canvas.commands("$lines << EOD");
-  for (const FrfPoint& point : points) {
+  for (const ResponseLine& point : points) {
     std::optional<double> lower;
     std::optional<double> upper;
     if (point.magnitude_lower) lower = db(*point.magnitude_lower);
@@ -163,9 +163,9 @@ void add_data(Canvas& canvas, const std::vector<FrfPoint>& points, double lowest
   canvas.commands("EOD");
 }
 
-Axis magnitude_axis(const std::vector<FrfPoint>& points, bool has_marks) {
+Axis magnitude_axis(const std::vector<ResponseLine>& points, bool has_marks) {
   Axis axis{1e300, -1e300};
-  for (const FrfPoint& point : points) {
+  for (const ResponseLine& point : points) {
     if (point.magnitude <= 0.0) continue;
     axis.low = std::min(axis.low, decibels(point.magnitude));
     axis.high = std::max(axis.high, decibels(point.magnitude_upper.value_or(point.magnitude)));
@@ -176,9 +176,9 @@ Axis magnitude_axis(const std::vector<FrfPoint>& points, bool has_marks) {
   return axis;
 }
 
-Axis phase_axis(const std::vector<FrfPoint>& points) {
+Axis phase_axis(const std::vector<ResponseLine>& points) {
   Axis axis{1e300, -1e300};
-  for (const FrfPoint& point : points) {
+  for (const ResponseLine& point : points) {
     axis.low = std::min(axis.low, degrees_per_radian * point.phase);
     axis.high = std::max(axis.high, degrees_per_radian * point.phase);
   }
@@ -237,7 +237,7 @@ std::string band_and_curve(int curve, int lower, int upper) {
 }  // namespace
 
 std::string draw(const MeasuredFrf& frf, FigureFormat format) {
-  const std::vector<FrfPoint> points = thinned(frf_points(frf.response));
+  const std::vector<ResponseLine> points = thinned(response_lines(frf.response));
   const Heading heading(std::filesystem::path(frf.recording).filename().string(), {},
                         "Measured response, from commanded force to sensed position");
   const std::vector<ListLine> list = list_of(frf);

@@ -5,6 +5,7 @@
 #include "report/text/quantity.hpp"
 #include "report/text/remark_line.hpp"
 #include "report/text/text_table.hpp"
+#include "report/text/trust_text.hpp"
 
 namespace zwidth::report {
 namespace {
@@ -90,8 +91,10 @@ std::string frf_text(const MeasuredFrf& frf) {
   std::string measured = fmt::format("{} lines, {}", response.points.size(),
                                      in_hertz({response.points.front().frequency, response.points.back().frequency}));
   if (response.sampling_period) measured += fmt::format(", T = {}", quantity(*response.sampling_period, "s"));
-  return shortened(frf.recording, width) + "\n" + answer(frf) + labelled("  measured", measured) + "\n" +
-         crossovers(frf) + "Remarks\n" + remarks_text(frf.remarks);
+  const std::string basis =
+      frf.trust.refused() ? "" : labelled("  basis", "the bare stiffness, without a virtual damper");
+  return shortened(frf.recording, width) + "\n" + answer(frf) + basis + trust_lines(frf.trust) +
+         labelled("  measured", measured) + "\n" + crossovers(frf) + "Remarks\n" + remarks_text(frf.remarks);
 }
 
 }  // namespace zwidth::report

@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
 #include "report/text/remark_line.hpp"
 #include "report/text/text_table.hpp"
+#include "report/text/trust_text.hpp"
 
 namespace zwidth::report {
 namespace {
@@ -17,7 +20,7 @@ std::string fit_quality(const ParameterFit& fit) {
                                  hertz(fit.frequencies.front()), hertz(fit.frequencies.back()));
   if (fit.misfit) text += fmt::format("; residuals {:.3g} times the noise (1: the noise explains them)", *fit.misfit);
   if (fit.model_error > 1e-4) {
-    text += fmt::format("; {:.2g} % of the response unexplained beyond it", 100.0 * fit.model_error);
+    text += fmt::format("; {:.3g} % of the response unexplained beyond it", 100.0 * std::min(fit.model_error, 10.0));
   }
   return text + ".";
 }
@@ -65,8 +68,11 @@ std::string identification_text(const IdentifiedDevice& identified) {
   std::string text = fmt::format("{}, identified from {}\n", display_name(fit.device), identified.source);
   text += layout(estimate_table(fit.estimates, fit.device.parameters().motion)) + correlations(fit) + "\n" +
           wrap(fit_quality(fit), width, 0) + "\n";
-  text += wrap("Critical stiffness of this device: " +
-                   critical_stiffness_text(analysis.critical, fit.device.parameters().motion) + ".",
+  text += trust_lines(identified.trust);
+  if (identified.trust.refused()) return text + remarks(identified.remarks);
+  const Motion motion = fit.device.parameters().motion;
+  text += wrap(fmt::format("Critical stiffness of this device, {}: {}.", basis_text(identified.basis, motion),
+                           critical_stiffness_text(analysis.critical, motion)),
                width, 0);
   if (const auto interval = interval_note(identified.analysed)) {
     text += wrap("95 % interval: " + *interval + ".", width, 0);

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "report/text/text_table.hpp"
+
 namespace zwidth::report {
 
 std::string verdict_text(const Trust& trust) {
@@ -13,6 +15,16 @@ std::string verdict_text(const Trust& trust) {
 
 std::optional<std::string> trust_note(const Trust& trust) {
   return trust.sound() ? std::nullopt : std::optional(verdict_text(trust));
+}
+
+std::string trust_lines(const Trust& trust) {
+  constexpr std::size_t width = 100;
+  constexpr std::size_t bullet = 4;
+  if (trust.sound()) return "";
+  std::string text = trust.refused() ? "REFUSED: no critical stiffness is given, because\n"
+                                     : "DOUBTFUL: data and model do not carry the critical stiffness, because\n";
+  for (const std::string& reason : trust.reasons) text += wrap(reason, width, bullet).replace(0, bullet, "  ! ");
+  return text;
 }
 
 }  // namespace zwidth::report

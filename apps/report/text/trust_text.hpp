@@ -13,4 +13,7 @@ namespace zwidth::report {
 /// verdict_text() where there is something to say.
 [[nodiscard]] std::optional<std::string> trust_note(const Trust& trust);
 
+/// A heading and a line per reason; empty where the answer is sound.
+[[nodiscard]] std::string trust_lines(const Trust& trust);
+
 }  // namespace zwidth::report

@@ -27,6 +27,7 @@ struct RigidBodyFit {
   Eigen::Matrix4d covariance;      ///< of mass, viscous, coulomb, offset
   double relative_residual = 0.0;  ///< rms of the residual force / rms of the force, both filtered
   double cutoff_hz = 0.0;
+  std::optional<double> first_mode_hz;  ///< where the response of the record turns back: the body is not rigid there
   std::size_t decimation = 1;
   std::size_t equations = 0;  ///< samples left after filtering, decimation and removal of rests
   std::vector<Remark> remarks;
@@ -40,8 +41,8 @@ struct RigidBodyFit {
 /// and backwards) acts alike on all terms, so that it biases none; then every `decimation`-th equation is kept. The
 /// delay is fitted with the rest: a force that is held after its sample acts half a period late, a drive adds its own.
 /// Cutoff, where not given: the frequency below which 99 % of the acceleration's power above the encoder's noise lies,
-/// or five times that of half the power (so that the harmonics of Coulomb friction pass) if that is higher; at most a
-/// tenth of the rate. Decimation: 0.8 times the rate over twice the cutoff. Equations where the body rests (friction
+/// or five times that of half the power (so that the harmonics of Coulomb friction pass) if that is higher; not far
+/// above what the force excites, at most a fifth of the first vibration mode's frequency and a tenth of the rate. Decimation: 0.8 times the rate over twice the cutoff. Equations where the body rests (friction
 /// then is anything up to coulomb) and near the ends (filter transients) are left out.
 /// Ordinary least squares; 95 % intervals allow for residuals that vary in size and are correlated in time (Newey and
 /// West 1987, bandwidth by Andrews 1991).

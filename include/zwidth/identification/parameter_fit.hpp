@@ -76,6 +76,12 @@ struct ParameterFit {
   std::vector<std::complex<double>> fitted{};     ///< the model there
   std::vector<std::complex<double>> residuals{};  ///< measured - fitted
   std::vector<Remark> remarks{};                  ///< residuals that betray a wrong structure, with where and what
+  bool settled = true;                   ///< the search came to rest; false: it was stopped while still improving
+  std::optional<double> missing_mode{};  ///< rad/s: the residual is a resonance there, which the structure lacks
+  /// model_error of a fit to the response with its sign turned round, where that explains much more.
+  std::optional<double> model_error_if_turned{};
+  /// The measured critical point that the fit is held to is a guess (measured_stiffness() does not find it).
+  bool held_to_a_guess = false;
 };
 
 /// The parameters that ParameterFitOptions::free means when it is empty.

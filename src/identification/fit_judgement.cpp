@@ -1,0 +1,227 @@
+#include "identification/fit_judgement.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "identification/friction_test.hpp"
+#include "identification/percent.hpp"
+#include "identification/plausibility.hpp"
+#include "zwidth/model/parameter.hpp"
+#include "zwidth/sampling/sampled_plant.hpp"
+#include "zwidth/stability/critical_stiffness.hpp"
+
+namespace zwidth::internal {
+namespace {
+
+// A fit that leaves more of the response unexplained has identified nothing.
+constexpr double refused_model_error = 0.5;
+// Beyond the noise, a share of the response that moves a critical stiffness by about as much.
+constexpr double doubtful_model_error = 0.05;
+// Beyond the noise, and beside it: what is left over shows clearly, so the structure is another one.
+constexpr double clear_model_error = 0.01;
+
+double hertz(double frequency) { return frequency / (2.0 * std::numbers::pi); }
+
+const char* stiffness_unit(const Device& device) {
+  return device.parameters().motion == Motion::rotary ? "N m/rad" : "N/m";
+}
+
+double median_noise(const FrequencyResponse& response) {
+  std::vector<double> shares;
+  for (const ResponsePoint& point : response.points) {
+    shares.push_back(std::sqrt(point.variance) / std::abs(point.value));
+  }
+  const auto middle = shares.begin() + static_cast<std::ptrdiff_t>(shares.size() / 2);
+  std::nth_element(shares.begin(), middle, shares.end());
+  return *middle;
+}
+
+class Judge {
+ public:
+  explicit Judge(const JudgedFit& judged) : judged_(judged), fit_(judged.fit.fit) {}
+
+  Judgement judge() && {
+    refuse_what_is_none();
+    judge_misfit();
+    judge_band();
+    judge_measured_crossover();
+    judge_search();
+    judge_friction();
+    result_.device_trust = result_.trust;
+    judge_open_numbers();
+    for (Remark& remark : implausible_device(fit_.device, known_structure(), judged_.fit.response.sampling_period)) {
+      result_.remarks.push_back(std::move(remark));
+    }
+    return std::move(result_);
+  }
+
+ private:
+  [[nodiscard]] const Device* known_structure() const {
+    return judged_.options.structure_values == IdentifyOptions::StructureValues::known ? &judged_.structure : nullptr;
+  }
+
+  void refuse_what_is_none() {
+    if (fit_.model_error_if_turned) {
+      result_.trust.refuse("the position falls as the force rises: scale one of them by -1");
+    }
+    if (fit_.model_error > refused_model_error) {
+      result_.trust.refuse(
+          fmt::format("the structure leaves {} of the response unexplained; is the structure right, "
+                      "and are force and position those of one experiment?",
+                      percent(fit_.model_error)));
+    }
+    if (std::ranges::none_of(fit_.estimates, &ParameterEstimate::identifiable)) {
+      result_.trust.refuse("the record determines no parameter of the structure; free fewer, or excite more strongly");
+    }
+  }
+
+  void judge_misfit() {
+    if (fit_.missing_mode) {
+      result_.trust.doubt(fmt::format("a mode near {:.4g} Hz is missing from the structure; add a body and a link",
+                                      hertz(*fit_.missing_mode)));
+    }
+    const double noise = median_noise(judged_.fit.response);
+    const bool is_clear = fit_.model_error > std::max(clear_model_error, noise);
+    if (fit_.model_error > doubtful_model_error || is_clear) {
+      result_.trust.doubt(
+          fmt::format("the structure leaves {} of the response unexplained beyond the noise: friction, backlash, or "
+                      "a body that it lacks",
+                      percent(fit_.model_error)));
+    }
+  }
+
+  /// What limits must have been excited.
+  void judge_band() {
+    if (!judged_.critical.limit) return;
+    const double limiting = judged_.critical.limit->frequency;
+    const double lowest = fit_.frequencies.front();
+    const double highest = fit_.frequencies.back();
+    if (limiting >= lowest && limiting <= highest) return;
+    const bool above = limiting > highest;
+    const std::string reason = fmt::format(
+        "the crossover that limits, near {:.4g} Hz, lies {} the measured band, {:.4g} to {:.4g} Hz: {}; excite {} "
+        "frequencies",
+        hertz(limiting), above ? "above" : "below", hertz(lowest), hertz(highest),
+        above ? "delay, lag and modes there are not in the data" : "dampings and springs there are not in the data",
+        above ? "higher" : "lower");
+    result_.trust.doubt(reason);
+    result_.remarks.push_back(
+        {Remark::Severity::warning,
+         fmt::format("the critical stiffness is extrapolated {} the measured band", above ? "above" : "below"),
+         reason});
+  }
+
+  /// A fit whose critical stiffness lies above the one that the same data show without a model is not to be trusted.
+  void judge_measured_crossover() {
+    constexpr double tolerated = 1.05;
+    const FrequencyResponse& response = judged_.fit.response;
+    const auto& period = response.sampling_period;
+    const bool same_loop = period && std::abs(*period - fit_.device.loop().sampling_period) <= 1e-6 * *period;
+    if (!same_loop || response.points.size() < 2) return;
+    const MeasuredStiffness measured = measured_stiffness(response);
+    double proven = std::numeric_limits<double>::infinity();
+    for (const MeasuredCrossover& each : measured.crossovers) {
+      if (each.poles_leaving > 0) proven = std::min(proven, each.stiffness_interval.upper);
+    }
+    if (!std::isfinite(proven)) return;
+    DeviceParameters recorded = device_in_experiment(fit_.device, judged_.options.fit.locked, *period).parameters();
+    recorded.wall = {};
+    recorded.uncertainty.reset();
+    const double fitted = limit_of(Device(std::move(recorded))).stiffness;
+    is_measured_ = judged_.options.fit.locked.empty() && measured.status == MeasuredStiffnessStatus::found &&
+                   std::abs(fitted / measured.limit->stiffness - 1.0) < tolerated - 1.0;
+    if (!(fitted > tolerated * proven)) return;
+    const Remark unsafe{
+        Remark::Severity::warning,
+        fmt::format("UNSAFE: the critical stiffness of the recorded device as fitted, {:.4g} {}, lies above {:.4g}, "
+                    "where the same data show an oscillation without any model",
+                    fitted, stiffness_unit(fit_.device), proven),
+        "the structure lacks something",
+        "use the critical stiffness of the response itself; free delay and lag, or name bodies that were locked"};
+    result_.trust.doubt(unsafe.what);
+    result_.remarks.push_back(unsafe);
+  }
+
+  void judge_open_numbers() {
+    const std::vector<std::string> keys = undetermined(fit_, judged_.options);
+    if (keys.empty()) return;
+    const std::string reason =
+        fmt::format("the data do not determine {}: taken as they stand in the structure", fmt::join(keys, ", "));
+    result_.device_trust.doubt(reason);
+    // What the response shows by itself does not hang on how bodies share it.
+    if (!is_measured_) result_.trust.doubt(reason);
+    if (known_structure()) return;
+    for (const std::string& key : keys) {
+      result_.remarks.push_back({Remark::Severity::warning,
+                                 fmt::format("{} = {:.4g} is a placeholder: the data do not determine it", key,
+                                             parameter(fit_.device.parameters(), key).value_or(0.0)),
+                                 "give what is known, or a device file as the structure"});
+    }
+  }
+
+  void judge_search() {
+    if (!fit_.settled) {
+      const char* what = "the search for the parameters was stopped while it still improved";
+      const char* remedy = "free fewer parameters, or start from values that are nearly right";
+      result_.trust.doubt(fmt::format("{}; {}", what, remedy));
+      result_.remarks.push_back({Remark::Severity::warning, what, "", remedy});
+    }
+    if (fit_.held_to_a_guess) {
+      result_.trust.doubt("the fit is held to a measured critical point that is itself a guess");
+    }
+  }
+
+  void judge_friction() {
+    if (!judged_.friction) return;
+    const ShownFriction& friction = *judged_.friction;
+    const char* unit = fit_.device.parameters().motion == Motion::rotary ? "N m" : "N";
+    const std::string what =
+        fmt::format("the record shows dry friction of about {:.3g} {} on {}", friction.force, unit, friction.body);
+    const std::string meaning =
+        fmt::format("the fit takes it for damping: without it the critical stiffness is about {:.3g} {}",
+                    friction.stiffness_without, stiffness_unit(fit_.device));
+    result_.trust.doubt(what + ": " + meaning);
+    result_.remarks.push_back(
+        {Remark::Severity::warning, what, meaning, "excite more strongly: its share falls with the amplitude"});
+  }
+
+  const JudgedFit& judged_;
+  const ParameterFit& fit_;
+  Judgement result_;
+  bool is_measured_ = false;  ///< the response shows the fitted critical stiffness without any model
+};
+
+}  // namespace
+
+std::vector<std::string> undetermined(const ParameterFit& fit, const IdentifyOptions& options) {
+  std::vector<std::string> keys;
+  for (const ParameterEstimate& estimate : fit.estimates) {
+    if (!estimate.identifiable) keys.push_back(estimate.key);
+  }
+  if (options.structure_values == IdentifyOptions::StructureValues::known) return keys;
+  for (const std::string& body : options.fit.locked) {
+    for (const char* number : {"mass", "damping"}) keys.push_back(fmt::format("body.{}.{}", body, number));
+  }
+  return keys;
+}
+
+CriticalStiffness limit_of(const Device& device) { return critical_stiffness(device); }
+
+Device with_trust(const Device& device, const Trust& trust) {
+  if (trust.sound()) return device;
+  DeviceParameters parameters = device.parameters();
+  if (!parameters.uncertainty) parameters.uncertainty.emplace();
+  parameters.uncertainty->verdict = trust.verdict;
+  parameters.uncertainty->warning = fmt::format("{}", fmt::join(trust.reasons, "; "));
+  return Device(std::move(parameters));
+}
+
+Judgement judge(const JudgedFit& judged) { return Judge(judged).judge(); }
+
+}  // namespace zwidth::internal

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "zwidth/identification/identification.hpp"
+#include "zwidth/identification/record_fit.hpp"
+
+namespace zwidth::internal {
+
+/// What is to be judged.
+struct JudgedFit {
+  const RecordFit& fit;
+  const Device& structure;
+  const IdentifyOptions& options;
+  const CriticalStiffness& critical;  ///< of fit.fit.device, in its wall
+  const std::optional<ShownFriction>& friction;
+};
+
+struct Judgement {
+  std::vector<Remark> remarks;
+  Trust trust;         ///< of the critical stiffness
+  Trust device_trust;  ///< of the device for any other purpose: open numbers count too
+};
+
+/// How far the fitted device may be relied on; see identify().
+[[nodiscard]] Judgement judge(const JudgedFit& judged);
+
+/// K_CR with the wall's damper and filters, as analyze() gives it.
+[[nodiscard]] CriticalStiffness limit_of(const Device& device);
+
+/// Keys of the numbers that stand as they stood in the structure: those that the data leave open and, where the
+/// structure's values are placeholders, those that were not fitted.
+[[nodiscard]] std::vector<std::string> undetermined(const ParameterFit& fit, const IdentifyOptions& options);
+
+/// The verdict into the fitted device's [uncertainty], so that its file keeps it.
+[[nodiscard]] Device with_trust(const Device& device, const Trust& trust);
+
+}  // namespace zwidth::internal

@@ -1,0 +1,274 @@
+#include "zwidth/identification/identification.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "identification/fit_judgement.hpp"
+#include "identification/friction_test.hpp"
+#include "zwidth/error.hpp"
+#include "zwidth/identification/record_fit.hpp"
+#include "zwidth/model/parameter.hpp"
+
+namespace zwidth {
+using namespace internal;
+namespace {
+
+constexpr const char* delay_key = "loop.delay";
+constexpr const char* lag_key = "actuator.time_constant";
+
+std::optional<OptionProblem> find_fit_problem(const ParameterFitOptions& options) {
+  if (!(std::isfinite(options.robust_threshold) && options.robust_threshold >= 0.0)) {
+    return OptionProblem{"robust_threshold", fmt::format("is {}", options.robust_threshold), "must be finite and >= 0"};
+  }
+  for (const auto& [name, value] : {std::pair{"lowest", options.lowest}, std::pair{"highest", options.highest}}) {
+    if (value && !(std::isfinite(*value) && *value > 0.0)) {
+      return OptionProblem{name, fmt::format("is {} rad/s", *value), "must be finite and > 0"};
+    }
+  }
+  if (options.lowest && options.highest && *options.lowest >= *options.highest) {
+    return OptionProblem{"highest", fmt::format("is {} rad/s", *options.highest),
+                         fmt::format("must be above lowest, {} rad/s", *options.lowest)};
+  }
+  if (options.free.size() > max_free_parameters) {
+    return OptionProblem{"free", fmt::format("has {} keys", options.free.size()),
+                         fmt::format("must be at most {}", max_free_parameters)};
+  }
+  return std::nullopt;
+}
+
+/// A structure on its way to the device: the record, the fit so far, and what is free.
+class Fitting {
+ public:
+  Fitting(const MeasuredResponse& measured, const Recording* recording, const Device& structure,
+          const IdentifyOptions& options)
+      : recording_(recording), structure_(structure), options_(options), fit_options_(options.fit) {
+    for (std::string& key : fit_options_.free) key = full_parameter_key(structure.parameters(), key);
+    if (fit_options_.free.empty()) fit_options_.free = fittable_parameters(structure, fit_options_.locked);
+    const bool is_unknown = options.structure_values == IdentifyOptions::StructureValues::placeholders;
+    if (may_free() && is_unknown && !is_free(delay_key) &&
+        measured.response.points.size() > fit_options_.free.size() + 1) {
+      fit_options_.free.emplace_back(delay_key);
+    }
+    fit_ = whole_fit(structure, measured.response, fit_options_);
+    if (may_free()) {
+      free_what_shows();
+    } else {
+      look_for_delay();
+    }
+  }
+
+  /// A delay that the record shows, which was not to be fitted; s.
+  [[nodiscard]] std::optional<double> ignored_delay() const { return ignored_delay_; }
+
+  [[nodiscard]] const RecordFit& fit() const { return *fit_; }
+  [[nodiscard]] std::vector<Remark>& remarks() { return remarks_; }
+
+  /// Where the limit lies above the band, delay and lag count with what the data leave open of them.
+  void widen_above_the_band() {
+    const CriticalStiffness critical = limit_of(fit_->fit.device);
+    if (!critical.limit || critical.limit->frequency <= fit_->fit.frequencies.back()) return;
+    std::optional<RecordFit> wider;
+    for (const std::vector<const char*>& keys : {std::vector{delay_key, lag_key}, std::vector{delay_key}}) {
+      wider = with_free(keys, ParameterFitOptions::Start::from_structure);
+      if (wider && wider->fit.device.parameters().uncertainty) break;
+    }
+    if (!wider || !wider->fit.device.parameters().uncertainty) return;
+    if (may_free()) {
+      fit_ = std::move(wider);
+      return;
+    }
+    DeviceParameters parameters = fit_->fit.device.parameters();
+    parameters.uncertainty = wider->fit.device.parameters().uncertainty;
+    fit_->fit.device = Device(std::move(parameters));
+  }
+
+  [[nodiscard]] std::optional<ShownFriction> friction() const {
+    if (!recording_ || options_.response.output != OutputQuantity::position) return std::nullopt;
+    std::optional<FrictionEvidence> found;
+    try {
+      found = find_friction({fit_->fit.device, fit_options_.locked, keys_of(fit_->fit), recording_->sampling_period,
+                             fit_->fit.frequencies.front(), fit_->fit.frequencies.back()},
+                            recording_->channels[0].samples, recording_->channels[1].samples);
+    } catch (const Error&) {  // a device that cannot be played says nothing
+      return std::nullopt;
+    }
+    constexpr double significant = 4.0;
+    constexpr double matters = 0.02;
+    if (!found || found->force <= significant * found->deviation) return std::nullopt;
+    DeviceParameters parameters = fit_->fit.device.parameters();
+    parameters.uncertainty.reset();
+    const double own = limit_of(Device(parameters)).stiffness;
+    for (Body& body : parameters.bodies) {
+      if (body.name == found->body) body.damping = std::max(0.0, body.damping - found->equivalent_damping);
+    }
+    const double without = limit_of(Device(std::move(parameters))).stiffness;
+    if (std::abs(without - own) <= matters * own) return std::nullopt;
+    return ShownFriction{found->body, found->force, found->deviation, without};
+  }
+
+ private:
+  [[nodiscard]] bool may_free() const { return options_.loop_delay == IdentifyOptions::LoopDelay::from_data; }
+  [[nodiscard]] bool is_free(const std::string& key) const { return std::ranges::count(fit_options_.free, key) > 0; }
+
+  [[nodiscard]] static std::vector<std::string> keys_of(const ParameterFit& fit) {
+    std::vector<std::string> keys;
+    for (const ParameterEstimate& each : fit.estimates) keys.push_back(each.key);
+    return keys;
+  }
+
+  [[nodiscard]] RecordFit whole_fit(const Device& structure, const FrequencyResponse& response,
+                                    const ParameterFitOptions& options) const {
+    RecordFit fit{fit_parameters(structure, response, options), response};
+    if (!recording_) return fit;
+    return without_leakage(std::move(fit), recording_->channels[0].samples, recording_->channels[1].samples,
+                           options_.response, options);
+  }
+
+  /// The same fit with these parameters free beside the others; nothing where that is impossible.
+  [[nodiscard]] std::optional<RecordFit> with_free(const std::vector<const char*>& keys,
+                                                   ParameterFitOptions::Start start) const {
+    ParameterFitOptions options = fit_options_;
+    options.start = start;
+    for (const char* key : keys) {
+      if (!is_free(key)) options.free.emplace_back(key);
+    }
+    if (fit_->response.points.size() <= options.free.size()) return std::nullopt;
+    try {
+      return whole_fit(fit_->fit.device, fit_->response, options);
+    } catch (const Error&) {
+      return std::nullopt;
+    }
+  }
+
+  /// Whether the structure's delay is the record's.
+  void look_for_delay() {
+    if (is_free(delay_key)) return;
+    const std::optional<RecordFit> wider = with_free({delay_key}, ParameterFitOptions::Start::from_structure);
+    if (!wider) return;
+    const ParameterEstimate& estimate = wider->fit.estimates.back();
+    const double given = fit_->fit.device.loop().delay;
+    constexpr double significant = 4.0;
+    constexpr double notable = 0.02;  // of the sampling period
+    const double beyond = std::abs(estimate.value - given);
+    if (!estimate.standard_deviation || beyond <= significant * *estimate.standard_deviation) return;
+    if (beyond <= notable * fit_->fit.device.loop().sampling_period) return;
+    ignored_delay_ = estimate.value;
+  }
+
+  /// Delay, then lag, where the record shows them.
+  void free_what_shows() {
+    for (const char* key : {delay_key, lag_key}) {
+      if (is_free(key)) continue;
+      if (std::string_view(key) == lag_key && !is_free(delay_key)) return;
+      constexpr double poor = 0.02;
+      const auto start = fit_->fit.model_error > poor ? ParameterFitOptions::Start::from_data
+                                                      : ParameterFitOptions::Start::from_structure;
+      std::optional<RecordFit> wider = with_free({key}, start);
+      if (!wider) return;
+      const ParameterEstimate& estimate = wider->fit.estimates.back();
+      const double given = parameter(fit_->fit.device.parameters(), key).value_or(0.0);
+      constexpr double significant = 3.0;
+      const bool shows = estimate.identifiable && estimate.standard_deviation &&
+                         std::abs(estimate.value - given) > significant * *estimate.standard_deviation;
+      if (!shows || wider->fit.model_error > 1.02 * fit_->fit.model_error + 1e-9) return;
+      remarks_.push_back({Remark::Severity::note,
+                          fmt::format("{} is fitted too: the record shows {:.4g} s, the structure has {:.4g} s", key,
+                                      estimate.value, given),
+                          ""});
+      fit_options_.free.emplace_back(key);
+      fit_ = std::move(wider);
+    }
+  }
+
+  const Recording* recording_;
+  const Device& structure_;
+  const IdentifyOptions& options_;
+  ParameterFitOptions fit_options_;
+  std::optional<RecordFit> fit_;
+  std::vector<Remark> remarks_;
+  std::optional<double> ignored_delay_;
+};
+
+void judge_delay(const Fitting& fitting, Judgement& judgement) {
+  if (!fitting.ignored_delay()) return;
+  const double given = fitting.fit().fit.device.loop().delay;
+  const std::string what = fmt::format("the record shows a delay of {:.3g} s where the structure has {:.3g} s",
+                                       *fitting.ignored_delay(), given);
+  const char* remedy = "free loop.delay, or give it";
+  judgement.trust.doubt(fmt::format("{}; {}", what, remedy));
+  judgement.device_trust.inherit(judgement.trust);
+  judgement.remarks.push_back({Remark::Severity::warning, what, "the critical stiffness depends on it", remedy});
+}
+
+/// An interval that spans more than this is an order of magnitude, not an answer.
+void judge_interval(Identification& result, Trust device_trust) {
+  constexpr double widest = 2.0;
+  const auto& interval = result.analysis.interval;
+  if (!interval || !(interval->upper > widest * interval->lower)) return;
+  result.trust.doubt(fmt::format(
+      "the data leave the critical stiffness open within a factor of {:.2g}; excite more strongly or for longer",
+      interval->lower > 0.0 ? interval->upper / interval->lower : std::numeric_limits<double>::infinity()));
+  device_trust.inherit(result.trust);
+  result.fit.device = with_trust(result.fit.device, device_trust);
+}
+
+void check(const IdentifyOptions& options) {
+  if (const auto problem = find_problem(options)) {
+    throw Error(ErrorCode::invalid_argument,
+                fmt::format("{} {}; {}", problem->member, problem->what, problem->allowed));
+  }
+}
+
+Identification identified(const MeasuredResponse& measured, const Recording* recording, const Device& structure,
+                          const IdentifyOptions& options) {
+  Fitting fitting(measured, recording, structure, options);
+  fitting.widen_above_the_band();
+  const CriticalStiffness critical = limit_of(fitting.fit().fit.device);
+  std::optional<ShownFriction> friction = fitting.friction();
+  Judgement judgement = judge({fitting.fit(), structure, options, critical, friction});
+  judge_delay(fitting, judgement);
+  Identification result{.source = measured.source,
+                        .response = fitting.fit().response,
+                        .fit = fitting.fit().fit,
+                        .friction = std::move(friction),
+                        .trust = std::move(judgement.trust)};
+  result.remarks = measured.remarks;
+  for (std::vector<Remark>* more : {&result.fit.remarks, &fitting.remarks(), &judgement.remarks}) {
+    result.remarks.insert(result.remarks.end(), more->begin(), more->end());
+  }
+  const Wall& wall = result.fit.device.parameters().wall;
+  result.basis = {wall.damping, wall.velocity_filter_hz, wall.filters.size()};
+  result.fit.device = with_trust(result.fit.device, judgement.device_trust);
+  result.analysis = analyze(result.fit.device, {.any_user = false});
+  judge_interval(result, judgement.device_trust);
+  return result;
+}
+
+}  // namespace
+
+std::optional<OptionProblem> find_problem(const IdentifyOptions& options) {
+  const auto within = [](const char* part, std::optional<OptionProblem> problem) {
+    if (problem) problem->member = fmt::format("{}.{}", part, problem->member);
+    return problem;
+  };
+  if (auto problem = within("response", find_problem(options.response))) return problem;
+  return within("fit", find_fit_problem(options.fit));
+}
+
+Identification identify(const Recording& recording, const Device& structure, const IdentifyOptions& options,
+                        const Progress& progress) {
+  check(options);
+  return identified(frequency_response(recording, options.response, progress), &recording, structure, options);
+}
+
+Identification identify(const MeasuredResponse& measured, const Device& structure, const IdentifyOptions& options) {
+  check(options);
+  return identified(measured, nullptr, structure, options);
+}
+
+}  // namespace zwidth
