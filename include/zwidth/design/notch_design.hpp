@@ -1,10 +1,15 @@
 #pragma once
 
+#include <numbers>
 #include <optional>
 #include <vector>
 
 #include "zwidth/model/device.hpp"
+#include "zwidth/option_problem.hpp"
 #include "zwidth/progress.hpp"
+#include "zwidth/remark.hpp"
+#include "zwidth/stability/analysis.hpp"
+#include "zwidth/trust.hpp"
 
 namespace zwidth {
 
@@ -19,16 +24,29 @@ struct NotchOptions {
   /// The vibration modes may lie anywhere from (1 - drift) to (1 + drift) times their frequency (a cable's tension
   /// changes); from 0 to 0.9. See drifted().
   double drift = 0.0;
-  double gain_margin = 1.0;   ///< least factor from the wall's stiffness to the goal's; >= 1
-  double phase_margin = 0.0;  ///< least phase margin of the wall on the device as it is, rad; from 0 to pi/2
+  /// Least factor from the wall's stiffness to the goal's with the damper as it is, and on the whole force; >= 1.
+  double gain_margin = 2.0;                      // 6 dB
+  double phase_margin = std::numbers::pi / 6.0;  ///< least phase margin of the wall, rad; from 0 to pi/2
+  bool far_from_modes = false;  ///< the centre may lie anywhere; else within half to twice a mode as the wall sees it
+  bool lower_any_user = false;  ///< the limit with any passive user may become lower than without the notch
   Progress progress = {};
 };
+
+/// Checks every member's range; of the device: a vibration mode below Nyquist or an alias of one, and for the any-user
+/// goal a body to hold.
+[[nodiscard]] std::optional<OptionProblem> find_problem(const NotchOptions& options, const Device& device);
 
 /// What one notch does with the modes shifted by one factor.
 struct NotchAtDrift {
   double drift = 0.0;    ///< frequencies are (1 + drift) times the nominal
   double without = 0.0;  ///< stiffest wall that keeps the margins, without the notch; infinite where unbounded
   double with = 0.0;     ///< with it
+};
+
+/// The device as it is with the designed wall in [wall], and its answer.
+struct NotchState {
+  Device device;
+  Analysis analysis;
 };
 
 struct NotchDesign {
@@ -39,6 +57,10 @@ struct NotchDesign {
   /// What it costs: below its centre it delays the force by this much, 2 z (1 - depth)/w, s; the wall feels less damped
   /// by K times it.
   double low_frequency_delay = 0.0;
+  std::optional<NotchState> state_without;  ///< absent where refused
+  std::optional<NotchState> state_with;     ///< absent where there is no notch
+  Trust trust;
+  std::vector<Remark> remarks;
 };
 
 /// The device with its vibration modes shifted by the factor 1 + drift: stiffness of every link times (1 + drift)²,
@@ -47,19 +69,20 @@ struct NotchDesign {
 /// Throws Error (invalid_argument) for a drift outside (-1, 10], or a device without links.
 [[nodiscard]] Device drifted(const Device& device, double drift);
 
-/// The stiffest wall that keeps the margins: goal/gain_margin, or less where the phase margin asks for it (the stiffest
-/// found going down from there; softer walls may have less phase margin).
+/// The stiffest wall that keeps the margins: goal/gain_margin, or less where the margins of the whole force ask for it
+/// (found going down from there; walls between gaps narrower than a step of a fifth are passed over).
 /// The device's damper and filters are closed. Infinite where unbounded, 0 where there is none.
 [[nodiscard]] double stiffest_wall(const Device& device, const NotchOptions& options);
 
 /// The notch that makes the least stiffest_wall() over the drift greatest.
 ///
 /// Maximises over centre, width and depth the minimum over the drift: a grid around every mode (or the alias at which
-/// the wall sees it) and around the softest crossovers (or the worst user's frequency), then pattern search from the
-/// best of each; the worst drift found joins the search until it holds. A local optimum, found by search: there may be
-/// better notches. What it promises is recomputed at 41 drifts, refined between them around every local minimum, and
-/// shaved by 1e-6; the least with the notch is never below the least without. Runs after the filters that the wall has.
-/// Throws Error (invalid_argument) for options outside their range or a device without vibration modes.
+/// the wall sees it), then pattern search from the best of each, all on a grid of frequencies; the worst drift found
+/// joins the search until it holds. A local optimum, found by search: there may be better notches. What is proposed is
+/// recomputed exactly at 41 drifts, refined between them around every local minimum, and shaved by 1e-6: there the wall
+/// is stable and keeps the margins asked, and the any-user limit is not below that without the notch (unless
+/// lower_any_user). Runs after the filters that the wall has.
+/// Throws Error (invalid_argument) where find_problem() finds one, (did_not_converge) as its parts do.
 [[nodiscard]] NotchDesign design_notch(const Device& device, const NotchOptions& options);
 
 }  // namespace zwidth

@@ -1,0 +1,50 @@
+#include "zwidth/design/design.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "zwidth/error.hpp"
+
+namespace zwidth {
+
+std::optional<OptionProblem> find_problem(const DesignOptions& options) {
+  if (options.branch_switch_factor > 1.0 && std::isfinite(options.branch_switch_factor)) return std::nullopt;
+  return OptionProblem{"branch_switch_factor", fmt::format("is {}", options.branch_switch_factor),
+                       "must be finite and above 1"};
+}
+
+Design design(const Device& device, const DesignOptions& options) {
+  if (const auto problem = find_problem(options)) {
+    throw Error(ErrorCode::invalid_argument,
+                fmt::format("{} {}; {}", problem->member, problem->what, problem->allowed));
+  }
+  Design design;
+  design.analysis = analyze(device, {.any_user = options.any_user, .draws = 0});
+  design.trust = design.analysis.trust;
+  design.remarks = design.analysis.remarks;
+  if (design.trust.refused()) return design;
+  design.sensitivities = stiffness_sensitivities(device, design.analysis.critical);
+  if (design.analysis.any_user) {
+    design.any_user_sensitivities = any_user_sensitivities(device, *design.analysis.any_user);
+  }
+  if (!options.branch_switches) return design;
+  if (device.bodies().size() <= most_bodies_for_branch_switches) {
+    design.branch_switches = branch_switches(device, {options.branch_switch_factor});
+  } else {
+    design.remarks.push_back({Remark::Severity::note,
+                              fmt::format("with more than {} bodies it is not searched where another mechanism takes "
+                                          "over",
+                                          most_bodies_for_branch_switches),
+                              "the slopes hold near the device's own values only", "sweep the number that you change"});
+  }
+  return design;
+}
+
+const Sensitivity* find_sensitivity(const std::vector<Sensitivity>& sensitivities, const std::string& key) {
+  const auto found = std::ranges::find(sensitivities, key, &Sensitivity::key);
+  return found == sensitivities.end() ? nullptr : &*found;
+}
+
+}  // namespace zwidth

@@ -1,0 +1,244 @@
+#include "zwidth/design/design_target.hpp"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <boost/math/tools/toms748_solve.hpp>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <mutex>
+
+#include "design/design_parameter.hpp"
+#include "zwidth/error.hpp"
+#include "zwidth/model/parameter.hpp"
+#include "zwidth/stability/analysis.hpp"
+
+namespace zwidth {
+using namespace internal;
+namespace {
+
+constexpr double steps_per_decade = 12.0;
+constexpr double steps_per_decade_any_user = 6.0;
+constexpr std::uintmax_t max_refinements = 200;
+constexpr double reached = 1e-10;     // relative difference of the limit to the target
+constexpr double first_share = 1e-3;  // of a number that is 0 now: of the value at which its unit matters
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// A value of the number with its limit.
+struct Point {
+  double value = 0.0;
+  double limit = 0.0;
+};
+
+// The values that a number of 0 could take at all, by what stands beside it in the device.
+double natural_size(const Device& device, const DesignParameter& parameter, double target) {
+  using Kind = DesignParameter::Kind;
+  double mass = 0.0;
+  for (const Body& body : device.bodies()) mass += body.mass;
+  const double period = device.loop().sampling_period;
+  switch (parameter.kind) {
+    case Kind::body_mass:
+    case Kind::user_mass:
+      return mass;
+    case Kind::body_damping:
+    case Kind::link_damping:
+    case Kind::wall_damping:
+    case Kind::user_damping:
+      return target * period;
+    case Kind::body_stiffness:
+    case Kind::link_stiffness:
+    case Kind::user_stiffness:
+      return target;
+    default:
+      return period;
+  }
+}
+
+class Search {
+ public:
+  Search(const Device& device, const DesignTargetOptions& options, double limit_now)
+      : device_(device), options_(options), limit_now_(limit_now) {}
+
+  [[nodiscard]] DesignTarget target_of(const DesignParameter& parameter) const {
+    DesignTarget target{parameter.key, parameter.value, std::nullopt, {}};
+    const Point now{parameter.value, limit_now_};
+    Extremes extremes{limit_now_, limit_now_};
+    if (parameter.value > 0.0) {
+      const std::optional<double> down =
+          first_crossing(parameter, now, parameter.value, parameter.value / options_.factor, extremes);
+      const std::optional<double> up =
+          first_crossing(parameter, now, parameter.value, parameter.value * options_.factor, extremes);
+      target.value_needed = nearer(parameter.value, down, up);
+    } else {
+      const double size = natural_size(device_, parameter, options_.stiffness);
+      target.value_needed = first_crossing(parameter, now, first_share * size, options_.factor * size, extremes);
+    }
+    target.why = target.value_needed ? reason_there(parameter, *target.value_needed) : reason_of_none(extremes);
+    return target;
+  }
+
+  [[nodiscard]] std::optional<double> limit_at(const DesignParameter& parameter, double value) const {
+    DeviceParameters moved = device_.parameters();
+    moved.uncertainty.reset();
+    set_parameter(moved, parameter.key, value);
+    if (find_problem(moved)) return std::nullopt;
+    const VirtualDamper damper{moved.wall.damping, moved.wall.velocity_filter_hz};
+    const Device device(std::move(moved));
+    try {
+      const double limit = critical_stiffness(filtered_plant(device), damper).stiffness;
+      if (options_.goal == StiffnessGoal::critical_stiffness) return limit;
+      return std::min(limit, any_user_limit(device, damper).stiffness);
+    } catch (const Error& error) {
+      if (error.code() == ErrorCode::did_not_converge) return std::nullopt;
+      throw;
+    }
+  }
+
+ private:
+  struct Extremes {
+    double least = 0.0;
+    double most = 0.0;
+  };
+
+  static std::optional<double> nearer(double now, std::optional<double> a, std::optional<double> b) {
+    if (!a || !b) return a ? a : b;
+    return std::abs(std::log(*a / now)) <= std::abs(std::log(*b / now)) ? a : b;
+  }
+
+  [[nodiscard]] double excess(double limit) const { return limit - options_.stiffness; }
+
+  // The first value, by equal factors from `start` to `end`, at which the limit passes the target.
+  [[nodiscard]] std::optional<double> first_crossing(const DesignParameter& parameter, Point last, double start,
+                                                     double end, Extremes& extremes) const {
+    const double density =
+        options_.goal == StiffnessGoal::any_user_limit ? steps_per_decade_any_user : steps_per_decade;
+    const int steps = static_cast<int>(std::ceil(density * std::abs(std::log10(end / start))));
+    for (int i = parameter.value > 0.0 ? 1 : 0; i <= steps; ++i) {
+      const double value = start * std::pow(end / start, static_cast<double>(i) / steps);
+      const std::optional<double> limit = limit_at(parameter, value);
+      if (!limit) return std::nullopt;
+      extremes = {std::min(extremes.least, *limit), std::max(extremes.most, *limit)};
+      const Point next{value, *limit};
+      if ((excess(last.limit) >= 0.0) != (excess(next.limit) >= 0.0)) return refined(parameter, last, next);
+      last = next;
+    }
+    return std::nullopt;
+  }
+
+  // Between two values on either side of the target: where the limit is the target; at a jump the side that has it.
+  [[nodiscard]] std::optional<double> refined(const DesignParameter& parameter, Point a, Point b) const {
+    bool lost = false;
+    const auto difference = [&](double value) {
+      const std::optional<double> limit = limit_at(parameter, value);
+      if (!limit) lost = true;
+      return limit ? std::clamp(excess(*limit) / options_.stiffness, -1.0, 1.0) : 0.0;
+    };
+    const auto [low, high] = std::minmax(a.value, b.value);
+    const double at_low = std::clamp(excess(a.value <= b.value ? a.limit : b.limit) / options_.stiffness, -1.0, 1.0);
+    const double at_high = std::clamp(excess(a.value <= b.value ? b.limit : a.limit) / options_.stiffness, -1.0, 1.0);
+    std::uintmax_t iterations = max_refinements;
+    const auto [left, right] = boost::math::tools::toms748_solve(
+        difference, low, high, at_low, at_high, boost::math::tools::eps_tolerance<double>(52), iterations);
+    if (lost) return std::nullopt;
+    const double at_left = difference(left);
+    const double at_right = difference(right);
+    if (std::min(std::abs(at_left), std::abs(at_right)) <= reached) {
+      return std::abs(at_left) <= std::abs(at_right) ? left : right;
+    }
+    return at_left >= 0.0 ? left : right;  // a jump
+  }
+
+  [[nodiscard]] std::string reason_there(const DesignParameter& parameter, double value) const {
+    DeviceParameters moved = device_.parameters();
+    set_parameter(moved, parameter.key, value);
+    const CriticalStiffness there = critical_stiffness(Device(std::move(moved)));
+    if (there.trust.refused()) return "the limit there is refused: " + there.trust.reasons.front();
+    if (options_.goal == StiffnessGoal::any_user_limit) return "the limit with any passive user is the target there";
+    const double limit = there.stiffness;
+    if (std::abs(excess(limit)) > reached * options_.stiffness) {
+      return "the limit jumps across the target there: another mechanism takes over";
+    }
+    return there.limit->limited_by.kind == Mechanism::Kind::rigid_body
+               ? "the limit is the target there, set by the rigid body"
+               : fmt::format("the limit is the target there, set by vibration mode {}", there.limit->limited_by.mode);
+  }
+
+  [[nodiscard]] std::string reason_of_none(const Extremes& extremes) const {
+    const bool below = extremes.most < options_.stiffness;
+    const double nearest = below ? extremes.most : extremes.least;
+    if (!std::isfinite(nearest)) return "every wall is stable whatever it is";
+    return fmt::format("within a factor of {:g} of its value the limit gets no {} than {:.6g}", options_.factor,
+                       below ? "higher" : "lower", nearest);
+  }
+
+  const Device& device_;
+  const DesignTargetOptions& options_;
+  double limit_now_;
+};
+
+// Where in the answer: relative change, then numbers that are 0 now, then those without a value.
+double cost(const DesignTarget& target) {
+  if (!target.value_needed) return infinity;
+  return target.value_now > 0.0 ? std::abs(std::log(*target.value_needed / target.value_now)) : 1e300;
+}
+
+}  // namespace
+
+std::optional<OptionProblem> find_problem(const DesignTargetOptions& options, const Device& device) {
+  if (!(options.stiffness > 0.0) || !std::isfinite(options.stiffness)) {
+    return OptionProblem{"stiffness", fmt::format("is {}", options.stiffness), "must be finite and > 0"};
+  }
+  if (!(options.factor > 1.0) || !(options.factor <= 1e6)) {
+    return OptionProblem{"factor", fmt::format("is {}", options.factor), "must be above 1, at most 1e6"};
+  }
+  if (options.goal == StiffnessGoal::any_user_limit) {
+    if (!device.has_bodies()) {
+      return OptionProblem{"goal", "is the limit with any user", "a transfer function has no body for a user to hold"};
+    }
+    if (device.bodies().size() > most_bodies_for_any_user) {
+      return OptionProblem{"goal", fmt::format("is the limit with any user of {} bodies", device.bodies().size()),
+                           fmt::format("at most {} bodies", most_bodies_for_any_user)};
+    }
+  }
+  return std::nullopt;
+}
+
+DesignTargets design_targets(const Device& device, const DesignTargetOptions& options) {
+  if (const auto problem = find_problem(options, device)) {
+    throw Error(ErrorCode::invalid_argument,
+                fmt::format("{} {}; {}", problem->member, problem->what, problem->allowed));
+  }
+  DesignTargets result;
+  const CriticalStiffness own = critical_stiffness(device);
+  result.trust = own.trust;
+  if (result.trust.refused()) return result;
+  double limit = own.stiffness;
+  if (options.goal == StiffnessGoal::any_user_limit) {
+    const Wall& wall = device.parameters().wall;
+    limit = std::min(limit, any_user_limit(device, {wall.damping, wall.velocity_filter_hz}).stiffness);
+  }
+  result.limit_now = limit;
+  if (limit == options.stiffness) {
+    result.remarks.push_back({Remark::Severity::note, "the limit is the target already", "nothing needs to change"});
+  }
+  const Search search(device, options, limit);
+  std::vector<DesignParameter> parameters = design_parameters(device);
+  if (options.goal == StiffnessGoal::any_user_limit) {  // which is over all users
+    std::erase_if(parameters, [](const DesignParameter& each) { return each.key.starts_with("operator."); });
+  }
+  result.targets.resize(parameters.size());
+  std::mutex progress_mutex;
+  std::size_t done = 0;
+  tbb::parallel_for(std::size_t{0}, parameters.size(), [&](std::size_t i) {
+    result.targets[i] = search.target_of(parameters[i]);
+    const std::lock_guard lock(progress_mutex);
+    if (options.progress) options.progress(static_cast<double>(++done) / static_cast<double>(parameters.size()));
+  });
+  std::ranges::stable_sort(result.targets, {}, cost);
+  return result;
+}
+
+}  // namespace zwidth

@@ -1,0 +1,213 @@
+#include "design/margin_wall.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "stability/damper_response.hpp"
+#include "stability/disc_stiffness.hpp"
+#include "zwidth/stability/any_user.hpp"
+#include "zwidth/stability/wall_margins.hpp"
+
+namespace zwidth::internal {
+namespace {
+
+using std::numbers::pi;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+constexpr int points_per_decade = 60;
+constexpr double lowest_angle = 1e-6;
+constexpr int points_near_nyquist = 60;  // evenly, over the upper half
+// Around a resonance of damping ratio zeta, in units of its half width zeta w.
+constexpr std::array offsets{0.0, 0.3, 0.6, 1.0, 1.5, 2.2, 3.2, 4.6, 6.6, 10.0, 15.0, 25.0, 40.0};
+constexpr double narrowest_half_width = 1e-5;  // of an undamped mode, relative
+
+// The walk from a stiffness whose margins fail to one that keeps them, and back by bisection.
+constexpr double step_down = 0.8;
+constexpr int most_steps = 120;
+constexpr int bisections = 34;
+constexpr double rounding = 1e-9;  // of margins that stand exactly at what is required
+
+bool loop_keeps(const FilteredPlant& plant, Wall wall, double stiffness, const RequiredMargins& margins) {
+  wall.stiffness = stiffness;
+  const LoopMargins has = loop_margins(plant, wall);
+  return has.stable && has.gain_margin.value_or(infinity) >= margins.gain * (1.0 - rounding) &&
+         has.phase_margin.value_or(pi) >= margins.phase * (1.0 - rounding);
+}
+
+// The end of the stable interval, of every user where asked.
+double stable_below(const Device& device, const FilteredPlant& plant, const RequiredMargins& margins) {
+  const VirtualDamper damper = virtual_damper(device);
+  const double limit = critical_stiffness(plant, damper).stiffness;
+  return margins.any_user && limit > 0.0 ? std::min(limit, any_user_limit(device, damper).stiffness) : limit;
+}
+
+void add_resonances(const Device& device, std::vector<double>& angles) {
+  const double period = device.loop().sampling_period;
+  const ModalForm form = modal_form(device);
+  std::vector<Mode> modes = form.modes;
+  if (form.suspended_rigid_body) modes.push_back(*form.suspended_rigid_body);
+  for (const Mode& mode : modes) {
+    const double half_width = std::max(mode.damping_ratio, narrowest_half_width) * mode.frequency * period;
+    for (const double offset : offsets) {
+      for (const double sign : {-1.0, 1.0}) {
+        const double seen = std::abs(std::remainder(mode.frequency * period + sign * offset * half_width, 2.0 * pi));
+        if (seen > lowest_angle) angles.push_back(seen);
+      }
+    }
+  }
+}
+
+std::vector<double> grid_of(const Device& device) {
+  std::vector<double> angles;
+  const int decades = static_cast<int>(std::ceil(std::log10(pi / lowest_angle)));
+  for (int i = 0; i < decades * points_per_decade; ++i) {
+    angles.push_back(pi * std::pow(10.0, -static_cast<double>(i) / points_per_decade));
+  }
+  for (int i = 0; i < points_near_nyquist; ++i) {
+    angles.push_back(pi * (1.0 - 0.5 * static_cast<double>(i) / points_near_nyquist));
+  }
+  add_resonances(device, angles);
+  std::ranges::sort(angles);
+  angles.erase(std::unique(angles.begin(), angles.end()), angles.end());
+  return angles;
+}
+
+// The least K > 0 of the loop 1 + gain (K + B v) P at a phase crossover, linear between the grid's points.
+class LeastCrossover {
+ public:
+  explicit LeastCrossover(double gain) : gain_(gain) {}
+
+  void add(std::complex<double> minus_one_over_plant, std::complex<double> damper) {
+    const std::complex<double> required = minus_one_over_plant / gain_ - damper;  // K, where it is real
+    if (seen_ && (required.imag() < 0.0) != (last_.imag() < 0.0)) {
+      const double share = last_.imag() / (last_.imag() - required.imag());
+      const double stiffness = last_.real() + share * (required.real() - last_.real());
+      if (stiffness > 0.0) least_ = std::min(least_, stiffness);
+    }
+    last_ = required;
+    seen_ = true;
+  }
+  void add_nyquist(double minus_one_over_plant, double damper) {
+    const double stiffness = minus_one_over_plant / gain_ - damper;
+    if (stiffness > 0.0) least_ = std::min(least_, stiffness);
+  }
+  [[nodiscard]] double value() const { return least_; }
+
+ private:
+  double gain_;
+  bool seen_ = false;
+  std::complex<double> last_;
+  double least_ = infinity;
+};
+
+// K > 0 with |K + damper| |plant| = 1, and whether the loop's phase is then within `phase` of -1.
+std::optional<double> short_of_phase(std::complex<double> minus_one_over_plant, std::complex<double> damper,
+                                     double cosine) {
+  const double rest = std::norm(minus_one_over_plant) - damper.imag() * damper.imag();
+  if (!(rest > 0.0)) return std::nullopt;
+  const double stiffness = std::sqrt(rest) - damper.real();
+  if (!(stiffness > 0.0)) return std::nullopt;
+  // -L = (K + damper) / (-1/P): its angle is the distance to -1
+  const std::complex<double> turned = (stiffness + damper) / minus_one_over_plant;
+  return turned.real() > cosine * std::abs(turned) ? std::optional(stiffness) : std::nullopt;
+}
+
+}  // namespace
+
+double stiffest_wall(const Device& device, const RequiredMargins& margins) {
+  const FilteredPlant plant = filtered_plant(device);
+  const double top = stable_below(device, plant, margins) / margins.gain;
+  if (!(top > 0.0)) return 0.0;
+  const Wall& wall = device.parameters().wall;
+  if (!std::isfinite(top)) return margins.phase == 0.0 ? infinity : 0.0;  // no stiffness to begin the walk at
+  // Nothing more is asked: the boundary itself.
+  if (margins.phase == 0.0 && (wall.damping == 0.0 || margins.gain == 1.0)) return top;
+  double high = top * (1.0 - rounding);
+  if (loop_keeps(plant, wall, high, margins)) return high;
+  double low = high;
+  for (int i = 0; i < most_steps; ++i) {
+    low *= step_down;
+    if (loop_keeps(plant, wall, low, margins)) {
+      for (int step = 0; step < bisections; ++step) {
+        const double middle = 0.5 * (low + high);
+        (loop_keeps(plant, wall, middle, margins) ? low : high) = middle;
+      }
+      return low;
+    }
+    high = low;
+  }
+  return 0.0;
+}
+
+bool keeps_margins(const Device& device, double stiffness, const RequiredMargins& margins) {
+  const FilteredPlant plant = filtered_plant(device);
+  return stiffness * margins.gain < stable_below(device, plant, margins) &&
+         loop_keeps(plant, device.parameters().wall, stiffness, margins);
+}
+
+LoopGrid::LoopGrid(const Device& device, bool with_users)
+    : period_(device.loop().sampling_period), angles_(grid_of(device)) {
+  const FilteredPlant plant = filtered_plant(device);
+  std::optional<UserDiscs> users;
+  if (with_users) users.emplace(device);
+  plant_.reserve(angles_.size());
+  damper_.reserve(angles_.size());
+  for (const double angle : angles_) {
+    const double frequency = angle / period_;
+    plant_.push_back(response(plant, frequency));
+    damper_.push_back(damper_response(virtual_damper(device), period_, frequency));
+    if (!users) continue;
+    // The discs are those behind the wall's own filters (UserDiscs closes them).
+    discs_.push_back(users->at(frequency));
+  }
+}
+
+LoopGrid::Response LoopGrid::filter(const WallFilter& filter) const {
+  const FilterSection section = filter_section(filter, period_);
+  Response factor;
+  factor.reserve(angles_.size());
+  for (const double angle : angles_) factor.push_back(response(section, angle));
+  return factor;
+}
+
+double LoopGrid::stiffest(const Response& factor, const RequiredMargins& margins) const {
+  const double cosine = std::cos(margins.phase);
+  LeastCrossover alone(1.0);
+  LeastCrossover half(std::sqrt(margins.gain));
+  LeastCrossover whole(margins.gain);
+  double least = infinity;
+  for (std::size_t i = 0; i < angles_.size(); ++i) {
+    const std::complex<double> seen = plant_[i] * factor[i];
+    if (seen == 0.0) continue;
+    const std::complex<double> required = -1.0 / seen;
+    alone.add(required, damper_[i]);
+    half.add(required, damper_[i]);
+    whole.add(required, damper_[i]);
+    if (margins.phase > 0.0) {
+      if (const auto stiffness = short_of_phase(required, damper_[i], cosine)) least = std::min(least, *stiffness);
+    }
+    if (i + 1 == angles_.size()) {
+      alone.add_nyquist(required.real(), damper_[i].real());
+      half.add_nyquist(required.real(), damper_[i].real());
+      whole.add_nyquist(required.real(), damper_[i].real());
+    }
+  }
+  least = std::min({least, alone.value() / margins.gain, half.value(), whole.value()});
+  return margins.any_user ? std::min(least, any_user(factor) / margins.gain) : least;
+}
+
+double LoopGrid::any_user(const Response& factor) const {
+  double least = infinity;
+  for (std::size_t i = 0; i < discs_.size(); ++i) {
+    const double size = std::abs(factor[i]);
+    const UserDiscs::Disc seen{discs_[i].centre * factor[i], discs_[i].radius * size, discs_[i].power * size * size};
+    least = std::min(least, least_stiffness(seen, damper_[i]));
+  }
+  return least;
+}
+
+}  // namespace zwidth::internal

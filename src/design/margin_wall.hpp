@@ -1,0 +1,59 @@
+#pragma once
+
+// The stiffest wall that keeps margins, for whatever proposes walls: exactly, and on a grid of frequencies for
+// searches.
+
+#include <complex>
+#include <optional>
+#include <vector>
+
+#include "stability/user_discs.hpp"
+#include "zwidth/model/device.hpp"
+#include "zwidth/sampling/sampled_plant.hpp"
+#include "zwidth/stability/critical_stiffness.hpp"
+
+namespace zwidth::internal {
+
+/// What a proposed wall keeps. `gain` is a margin twice over: the stiffness alone may grow by it with the damper as it
+/// is, and so may the whole force.
+struct RequiredMargins {
+  double gain = 1.0;      // factor >= 1
+  double phase = 0.0;     // rad in [0, pi/2], lag and lead
+  bool any_user = false;  // the gain margin of the stiffness holds with every passive user
+};
+
+/// The stiffest K with gain * K inside the stable interval that begins at 0 (of every user where asked) and the margins
+/// of the loop kept at K; its softer neighbours keep them too, and all of them down to 0 where no gap is met on the way
+/// (gaps narrower than the steps of the walk are passed over). Infinite where nothing bounds it, 0 where there is none.
+[[nodiscard]] double stiffest_wall(const Device& device, const RequiredMargins& margins);
+
+/// Whether that wall keeps the margins; stable, strictly.
+[[nodiscard]] bool keeps_margins(const Device& device, double stiffness, const RequiredMargins& margins);
+
+/// A loop on a grid of frequencies: evenly over the logarithm, closer at Nyquist and around every resonance. What a
+/// search compares is seen on it; what is proposed is recomputed exactly.
+class LoopGrid {
+ public:
+  using Response = std::vector<std::complex<double>>;  // one value per frequency
+
+  LoopGrid(const Device& device, bool with_users);
+
+  [[nodiscard]] std::size_t size() const { return angles_.size(); }
+
+  /// F at the grid's frequencies.
+  [[nodiscard]] Response filter(const WallFilter& filter) const;
+
+  /// Of the wall's force behind this factor more: stiffest_wall(), as far as the grid tells.
+  [[nodiscard]] double stiffest(const Response& factor, const RequiredMargins& margins) const;
+  /// The any-user limit behind this factor more; infinite where the grid has no users.
+  [[nodiscard]] double any_user(const Response& factor) const;
+
+ private:
+  double period_ = 0.0;
+  std::vector<double> angles_;
+  Response plant_;                      // seen through the wall's own filters
+  Response damper_;                     // B v
+  std::vector<UserDiscs::Disc> discs_;  // behind the wall's own filters
+};
+
+}  // namespace zwidth::internal

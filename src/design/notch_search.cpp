@@ -1,0 +1,137 @@
+#include "design/notch_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+namespace zwidth::internal {
+namespace {
+
+using std::numbers::pi;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+constexpr double highest_centre = 0.95;  // of Nyquist
+constexpr double lowest_centre = 1e-4;
+constexpr double nearest_factor = 2.0;  // from a mode, unless asked for
+constexpr double narrowest = 0.02;      // damping ratio of the notch's poles
+constexpr double widest = 1.0;
+constexpr double deepest = 3e-3;
+constexpr double shallowest = 0.99;
+constexpr std::array centres_on_grid{0.5, 0.65, 0.8, 0.9, 0.95, 1.0, 1.05, 1.1, 1.25, 1.5, 1.9};
+constexpr std::array far_centres_on_grid{0.03, 0.06, 0.12, 0.25, 0.4, 2.5};
+constexpr std::array widths_on_grid{0.03, 0.08, 0.2, 0.5, 0.9};
+constexpr std::array depths_on_grid{0.01, 0.05, 0.15, 0.4, 0.7, 0.9, 0.97};
+constexpr double same_on_grid = 2e-3;  // relative, of two any-user limits on a grid of frequencies
+
+// Pattern search.
+constexpr double coarsest = 0.08;
+constexpr double finest = 1e-3;
+constexpr std::array weight{1.0, 4.0, 4.0};  // width and depth matter less than the centre
+constexpr int most_moves = 100;
+
+}  // namespace
+
+RequiredMargins required(const NotchOptions& options) {
+  return {options.gain_margin, options.phase_margin, options.goal == StiffnessGoal::any_user_limit};
+}
+
+WallFilter NotchSearch::notch_at(const Point& at) {
+  WallFilter notch;
+  notch.kind = WallFilter::Kind::notch;
+  notch.frequency_hz = std::exp(at[0]) / (2.0 * pi);
+  notch.damping_ratio = std::exp(at[1]);
+  notch.depth = std::exp(at[2]);
+  return notch;
+}
+
+NotchSearch::NotchSearch(const NotchOptions& options, std::vector<double> modes, double period, bool keep_any_user)
+    : options_(options),
+      margins_(required(options)),
+      modes_(std::move(modes)),
+      nyquist_(pi / period),
+      keep_any_user_(keep_any_user) {}
+
+void NotchSearch::add(const Device& device) {
+  LoopGrid grid(device, keep_any_user_ || margins_.any_user);
+  const LoopGrid::Response none(grid.size(), 1.0);
+  const double any_user = keep_any_user_ ? grid.any_user(none) * (1.0 - same_on_grid) : 0.0;
+  scenarios_.push_back({std::move(grid), any_user});
+}
+
+// Over the scenarios; some value not above `enough` as soon as it is seen to be that.
+double NotchSearch::least(const Point& at, double enough) const {
+  const WallFilter notch = notch_at(at);
+  double result = infinity;
+  for (const Scenario& scenario : scenarios_) {
+    const LoopGrid::Response factor = scenario.grid.filter(notch);
+    result = std::min(result, scenario.grid.stiffest(factor, margins_));
+    if (result <= enough) return result;
+    if (scenario.any_user > 0.0 && scenario.grid.any_user(factor) < scenario.any_user) return 0.0;
+  }
+  return result;
+}
+
+std::vector<NotchSearch::Point> NotchSearch::candidates(const std::function<void(double)>& on_step) const {
+  std::vector<double> factors(centres_on_grid.begin(), centres_on_grid.end());
+  if (options_.far_from_modes) factors.insert(factors.end(), far_centres_on_grid.begin(), far_centres_on_grid.end());
+  std::vector<Point> points;
+  std::size_t step = 0;
+  for (const double mode : modes_) {
+    std::optional<Point> best;
+    double most = 0.0;
+    for (const double factor : factors) {
+      on_step(static_cast<double>(step++) / static_cast<double>(modes_.size() * factors.size()));
+      if (factor * mode > highest_centre * nyquist_) continue;
+      for (const double width : widths_on_grid) {
+        for (const double depth : depths_on_grid) {
+          const Point at{std::log(factor * mode), std::log(width), std::log(depth)};
+          const double value = least(at, most);
+          if (value > most) most = value, best = at;
+        }
+      }
+    }
+    if (best) points.push_back(*best);
+  }
+  return points;
+}
+
+std::pair<double, NotchSearch::Point> NotchSearch::refine(Point at) const {
+  double value = least(at, 0.0);
+  int moves = 0;
+  for (double step = coarsest; step > finest && moves < most_moves;) {
+    Point best = at;
+    double best_value = value;
+    for (int i = 0; i < 27; ++i) {
+      const Point neighbour =
+          inside({at[0] + step * weight[0] * (i % 3 - 1), at[1] + step * weight[1] * (i / 3 % 3 - 1),
+                  at[2] + step * weight[2] * (i / 9 - 1)});
+      if (neighbour == at || !is_near(neighbour)) continue;
+      const double there = least(neighbour, best_value);
+      if (there > best_value) best_value = there, best = neighbour;
+    }
+    if (best_value > value) {
+      value = best_value, at = best;
+      ++moves;
+    } else {
+      step *= 0.5;
+    }
+  }
+  return {value, at};
+}
+
+bool NotchSearch::is_near(const Point& at) const {
+  return options_.far_from_modes || std::ranges::any_of(modes_, [&](double mode) {
+           return std::abs(at[0] - std::log(mode)) <= std::log(nearest_factor);
+         });
+}
+
+NotchSearch::Point NotchSearch::inside(const Point& at) const {
+  return {std::clamp(at[0], std::log(lowest_centre * nyquist_), std::log(highest_centre * nyquist_)),
+          std::clamp(at[1], std::log(narrowest), std::log(widest)),
+          std::clamp(at[2], std::log(deepest), std::log(shallowest))};
+}
+
+}  // namespace zwidth::internal

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "design/margin_wall.hpp"
+#include "zwidth/design/notch_design.hpp"
+
+namespace zwidth::internal {
+
+/// The margins that a notch is designed for.
+[[nodiscard]] RequiredMargins required(const NotchOptions& options);
+
+/// Searches the notch that makes the least stiffest wall over some drifts of a device greatest, on grids of
+/// frequencies.
+class NotchSearch {
+ public:
+  /// Centre (rad/s), damping ratio and depth of a notch, as logarithms.
+  using Point = std::array<double, 3>;
+  [[nodiscard]] static WallFilter notch_at(const Point& at);
+
+  /// `modes`: where the wall sees them, rad/s. `options` must outlive the search.
+  NotchSearch(const NotchOptions& options, std::vector<double> modes, double period, bool keep_any_user);
+
+  /// One drift of the device more.
+  void add(const Device& device);
+
+  /// The best of a grid around each mode; `on_step` takes the fraction done.
+  [[nodiscard]] std::vector<Point> candidates(const std::function<void(double)>& on_step) const;
+
+  /// Pattern search: the best of the 26 neighbours of a cube, halved where none is better; with its stiffest wall.
+  [[nodiscard]] std::pair<double, Point> refine(Point at) const;
+
+ private:
+  struct Scenario {
+    LoopGrid grid;
+    double any_user = 0.0;  // without the notch, on the grid; 0: not to be kept
+  };
+  [[nodiscard]] double least(const Point& at, double enough) const;
+  [[nodiscard]] bool is_near(const Point& at) const;
+  [[nodiscard]] Point inside(const Point& at) const;
+
+  const NotchOptions& options_;
+  RequiredMargins margins_;
+  std::vector<double> modes_;
+  double nyquist_;
+  bool keep_any_user_;
+  std::vector<Scenario> scenarios_;
+};
+
+}  // namespace zwidth::internal
