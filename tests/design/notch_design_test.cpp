@@ -31,6 +31,17 @@ Device with_notch(const Device& device, const WallFilter& notch) {
   return Device(std::move(parameters));
 }
 
+// Stability alone, as far as any notch can raise it.
+NotchOptions without_margins(double drift = 0.0) {
+  NotchOptions options;
+  options.drift = drift;
+  options.gain_margin = 1.0;
+  options.phase_margin = 0.0;
+  options.far_from_modes = true;
+  options.lower_any_user = true;
+  return options;
+}
+
 double excess(const Device& device, double stiffness) {
   Wall wall = device.parameters().wall;
   wall.stiffness = stiffness;
@@ -40,9 +51,7 @@ double excess(const Device& device, double stiffness) {
 TEST(NotchDesign, RaisesTheWorstWallAndEigenvaluesAgree) {
   const Device device = mode_limited();
   ASSERT_EQ(critical_stiffness(device).limit->limited_by.kind, Mechanism::Kind::vibration_mode);
-  NotchOptions options;
-  options.drift = 0.1;
-  const NotchDesign design = design_notch(device, options);
+  const NotchDesign design = design_notch(device, without_margins(0.1));
   ASSERT_TRUE(design.notch);
   EXPECT_GT(design.with, 1.5 * design.without);
   ASSERT_EQ(design.over_drift.size(), 41u);
@@ -61,9 +70,7 @@ TEST(NotchDesign, RaisesTheWorstWallAndEigenvaluesAgree) {
 // Its worst lies between the drifts of the table.
 TEST(NotchDesign, KeepsItsPromiseBetweenTheDriftsOfTheTable) {
   const Device device(test::reduced_pretension_parameters());
-  NotchOptions options;
-  options.drift = 0.1;
-  const NotchDesign design = design_notch(device, options);
+  const NotchDesign design = design_notch(device, without_margins(0.1));
   ASSERT_TRUE(design.notch);
   for (int i = -400; i <= 400; ++i) {
     const double drift = 0.1 * i / 400.0;
@@ -91,9 +98,7 @@ TEST(NotchDesign, ComparesWithTheTrueWallWithoutANotch) {
 
 TEST(NotchDesign, IsALocalOptimum) {
   const Device device = mode_limited();
-  NotchOptions options;
-  options.drift = 0.1;
-  const NotchDesign design = design_notch(device, options);
+  const NotchDesign design = design_notch(device, without_margins(0.1));
   ASSERT_TRUE(design.notch);
   for (int i = 0; i < 6; ++i) {
     WallFilter moved = *design.notch;
@@ -111,8 +116,7 @@ TEST(NotchDesign, IsALocalOptimum) {
 
 TEST(NotchDesign, KeepsTheMarginsAskedFor) {
   const Device device = mode_limited();
-  NotchOptions options;
-  options.drift = 0.05;
+  NotchOptions options = without_margins(0.05);
   options.gain_margin = 2.0;
   options.phase_margin = 0.1;
   const NotchDesign design = design_notch(device, options);
@@ -129,12 +133,12 @@ TEST(NotchDesign, KeepsTheMarginsAskedFor) {
 
 TEST(NotchDesign, RaisesTheAnyUserLimit) {
   const Device device = mode_limited();
-  NotchOptions options;
+  NotchOptions options = without_margins();
   options.goal = StiffnessGoal::any_user_limit;
   const NotchDesign design = design_notch(device, options);
   EXPECT_GE(design.with, design.without);
   if (design.notch) {
-    EXPECT_NEAR(any_user_limit(with_notch(device, *design.notch)).stiffness / design.with, 1.0, 1e-9);
+    EXPECT_NEAR(any_user_limit(with_notch(device, *design.notch)).stiffness / design.with, 1.0, 2e-6);
   }
 }
 
@@ -143,12 +147,55 @@ TEST(NotchDesign, NeverMakesAWorseWall) {
   for (const double delay : {0.0, 0.25e-3, 2e-3, 6e-3}) {
     for (DeviceParameters parameters : {test::lhifam_parameters(), test::reduced_pretension_parameters()}) {
       parameters.loop.delay = delay;
-      NotchOptions options;
-      options.drift = 0.1;
-      const NotchDesign design = design_notch(Device(parameters), options);
+      const NotchDesign design = design_notch(Device(parameters), without_margins(0.1));
       EXPECT_GE(design.with, design.without) << delay;
       EXPECT_EQ(design.notch.has_value(), design.with > design.without);
     }
+  }
+}
+
+// Asked for nothing: the margins of a wall that one can run, near a mode, and no user is worse off.
+TEST(NotchDesign, KeepsTheDefaultMarginsAtEveryDrift) {
+  DeviceParameters damped = mode_limited().parameters();
+  damped.wall.damping = 8.0;
+  const Device device(damped);
+  NotchOptions options;
+  options.drift = 0.1;
+  const NotchDesign design = design_notch(device, options);
+  EXPECT_TRUE(design.trust.sound());
+  ASSERT_GT(design.with, 0.0);
+  for (const NotchAtDrift& each : design.over_drift) {
+    const Device plain = drifted(device, each.drift);
+    const Device notched = design.notch ? with_notch(plain, *design.notch) : plain;
+    EXPECT_LT(excess(notched, design.with), 0.0);
+    EXPECT_LT(excess(notched, 2.0 * design.with * (1.0 - 1e-5)), 0.0) << "the stiffness alone, twice";
+    DeviceParameters parameters = notched.parameters();
+    parameters.wall.stiffness = design.with;
+    const WallMargins margins = wall_margins(Device(parameters));
+    EXPECT_TRUE(margins.stable);
+    EXPECT_GE(margins.gain_margin.value(), 2.0 * (1.0 - 1e-5));
+    EXPECT_GE(margins.phase_margin.value(), std::numbers::pi / 6.0 * (1.0 - 1e-5));
+    EXPECT_GE(any_user_limit(notched, virtual_damper(notched)).stiffness,
+              any_user_limit(plain, virtual_damper(plain)).stiffness * (1.0 - 1e-9));
+  }
+  if (design.notch) {
+    const double mode = modal_form(device).modes.at(0).frequency / (2.0 * std::numbers::pi);
+    EXPECT_GT(design.notch->frequency_hz, 0.499 * mode);
+    EXPECT_LT(design.notch->frequency_hz, 2.001 * mode);
+  }
+}
+
+TEST(NotchDesign, NeverLowersTheAnyUserLimitUnasked) {
+  const Device device(test::reduced_pretension_parameters());
+  const double free = any_user_limit(device).stiffness;
+  NotchOptions options = without_margins(0.1);
+  const NotchDesign lowering = design_notch(device, options);
+  ASSERT_TRUE(lowering.notch);
+  EXPECT_LT(any_user_limit(with_notch(device, *lowering.notch)).stiffness, free);
+  options.lower_any_user = false;
+  const NotchDesign keeping = design_notch(device, options);
+  if (keeping.notch) {
+    EXPECT_GE(any_user_limit(with_notch(device, *keeping.notch)).stiffness, free * (1.0 - 1e-9));
   }
 }
 
