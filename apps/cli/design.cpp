@@ -18,8 +18,11 @@
 #include "report/design_comparison.hpp"
 #include "report/design_sweep.hpp"
 #include "report/figure/design_sweep_figure.hpp"
+#include "report/text/design_target_text.hpp"
 #include "report/text/design_text.hpp"
 #include "results/design_json.hpp"
+#include "results/design_target_json.hpp"
+#include "zwidth/design/design_target.hpp"
 #include "zwidth/design/parameter_sweep.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/io/device_file.hpp"
@@ -35,6 +38,7 @@ struct DesignArguments {
   std::vector<double> user;  // mass, damping, stiffness
   std::string output;
   NotchArguments notch;
+  std::optional<double> target;
   bool any_user = false;
   bool json = false;
 };
@@ -167,17 +171,37 @@ void run_comparison(const DesignArguments& arguments) {
                                        : report::comparison_text(comparison));
 }
 
+void run_target(const DesignArguments& arguments) {
+  if (!arguments.output.empty()) throw BadInput("--output: is for a sweep, not for --target");
+  const Device device = only_device(arguments, "--target");
+  DesignTargetOptions options{.stiffness = *arguments.target};
+  if (arguments.any_user) options.goal = StiffnessGoal::any_user_limit;
+  if (const auto problem = find_problem(options, device)) {
+    throw BadInput(fmt::format("{}: {}; {}", problem->member == "goal" ? "--any-user" : "--target", problem->what,
+                               problem->allowed));
+  }
+  ProgressLine line("searching the numbers");
+  options.progress = line.progress();
+  const DesignTargets targets =
+      worked(arguments.devices.files.front(), [&] { return design_targets(device, options); });
+  write_standard_output(arguments.json ? results::line(results::design_target_json(device, options, targets))
+                                       : report::design_target_text(device, options, targets));
+}
+
 void run_design(const CLI::App& command, const DesignArguments& arguments) {
   if (arguments.notch.wanted) {
     if (!arguments.sweeps.empty() || !arguments.compare.empty()) {
       throw BadInput("--notch: excludes --sweep and --compare");
     }
     if (arguments.devices.files.size() != 1) throw BadInput("--notch: takes one device file");
+    if (arguments.target) throw BadInput("--notch: excludes --target");
     return run_notch(arguments.devices, arguments.notch, {arguments.output, arguments.json});
   }
   refuse_notch_options(command);
   if (!arguments.sweeps.empty()) return run_sweep(arguments);
   if (!arguments.compare.empty()) return run_comparison(arguments);
+  if (arguments.target) return run_target(arguments);
+  if (arguments.any_user) throw BadInput("--any-user: is for a sweep or a target; add --sweep or --target");
   run_sensitivities(arguments);
 }
 
@@ -186,7 +210,7 @@ void run_design(const CLI::App& command, const DesignArguments& arguments) {
 void add_design(CLI::App& app) {
   auto arguments = std::make_shared<DesignArguments>();
   CLI::App* command =
-      app.add_subcommand("design", "What to change: slopes of every number, sweeps, comparisons, a notch");
+      app.add_subcommand("design", "What to change: slopes of every number, sweeps, comparisons, targets, a notch");
   add_device_arguments(*command, arguments->devices, FileCount::several);
   command->add_flag("--json", arguments->json, "Print one JSON document per answer, on one line");
   CLI::Option* sweep = command->add_option("--sweep", arguments->sweeps,
@@ -194,11 +218,15 @@ void add_design(CLI::App& app) {
   sweep->type_name("KEY=A:B:N")->allow_extra_args(false);
   command->add_option("-o,--output", arguments->output, "Of a sweep: .csv; of it or of a notch: .svg, .png or .pdf")
       ->type_name("FILE");
-  command->add_flag("--any-user", arguments->any_user, "Of a sweep: the limit over all passive users too")
-      ->needs(sweep);
+  command->add_flag("--any-user", arguments->any_user,
+                    "Of a sweep: the limit over all passive users too; of a target: that limit");
   CLI::Option* compare =
       command->add_option("--compare", arguments->compare, "Judge several values of one key side by side");
   compare->type_name("KEY=V,V")->excludes(sweep);
+  command->add_option("--target", arguments->target, "What each number alone must be for the limit to be K")
+      ->type_name("K")
+      ->excludes(sweep)
+      ->excludes(compare);
   command->add_option("--operator", arguments->user, "Of a comparison: the user, instead of the file's [operator]")
       ->type_name("MASS,DAMPING,STIFFNESS")
       ->delimiter(',')
@@ -212,6 +240,7 @@ void add_design(CLI::App& app) {
       "  zwidth design devices/lhifam.toml --sweep loop.delay=0:8e-3:81 --output delay.svg\n"
       "  zwidth design devices/lhifam.toml --sweep loop.delay=0:4e-3:9 --sweep link.damping=5:50:9 -o m.svg\n"
       "  zwidth design devices/lhifam.toml --compare sensed=motor,handle --operator 0.5,6,135\n"
+      "  zwidth design devices/lhifam.toml --target 12000\n"
       "  zwidth design devices/lhifam_reduced_pretension.toml --notch --drift-percent 10 --output notch.svg");
   command->callback([arguments, command] { run_design(*command, *arguments); });
 }

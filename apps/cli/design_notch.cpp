@@ -18,24 +18,33 @@
 namespace zwidth::cli {
 namespace {
 
-constexpr std::array options_of_notch{"--goal", "--drift-percent", "--gain-margin-db", "--phase-margin-deg", "--write"};
+constexpr std::array options_of_notch{"--goal",           "--drift-percent",  "--gain-margin-db", "--phase-margin-deg",
+                                      "--far-from-modes", "--lower-any-user", "--write"};
 
 NotchOptions notch_options(const NotchArguments& arguments) {
-  const auto require_number = [](const char* option, double value) {
-    if (!std::isfinite(value)) throw BadInput(fmt::format("{}: is {}; a number", option, value));
-  };
-  require_number("--drift-percent", arguments.drift_percent);
-  require_number("--gain-margin-db", arguments.gain_margin_db);
-  require_number("--phase-margin-deg", arguments.phase_margin_deg);
   NotchOptions options;
   if (arguments.goal == "any-user") options.goal = StiffnessGoal::any_user_limit;
-  options.drift = arguments.drift_percent / 100.0;
-  options.gain_margin = std::pow(10.0, arguments.gain_margin_db / 20.0);
-  options.phase_margin = arguments.phase_margin_deg * std::numbers::pi / 180.0;
+  if (arguments.drift_percent) options.drift = *arguments.drift_percent / 100.0;
+  if (arguments.gain_margin_db) options.gain_margin = std::pow(10.0, *arguments.gain_margin_db / 20.0);
+  if (arguments.phase_margin_deg) options.phase_margin = *arguments.phase_margin_deg * std::numbers::pi / 180.0;
+  options.far_from_modes = arguments.far_from_modes;
+  options.lower_any_user = arguments.lower_any_user;
   return options;
 }
 
+/// The option that sets a member of NotchOptions.
+const char* option_of(const std::string& member) {
+  if (member == "drift") return "--drift-percent";
+  if (member == "gain_margin") return "--gain-margin-db";
+  if (member == "phase_margin") return "--phase-margin-deg";
+  if (member == "goal") return "--goal";
+  return "--notch";
+}
+
 report::DesignedNotch designed(const Device& device, NotchOptions options, const std::string& file) {
+  if (const auto problem = find_problem(options, device)) {
+    throw BadInput(fmt::format("{}: {}: {}; {}", option_of(problem->member), file, problem->what, problem->allowed));
+  }
   ProgressLine line("designing the notch");
   options.progress = line.progress();
   try {
@@ -60,13 +69,21 @@ void add_notch_options(CLI::App& command, NotchArguments& arguments) {
       ->type_name("P")
       ->check(CLI::Range(0.0, 90.0))
       ->group(group);
-  command.add_option("--gain-margin-db", arguments.gain_margin_db, "Least gain margin of the designed wall")
+  command
+      .add_option("--gain-margin-db", arguments.gain_margin_db,
+                  "Least gain margin of the designed wall, alone and of the whole force (default 6.02)")
       ->type_name("DB")
       ->check(CLI::Range(0.0, 100.0))
       ->group(group);
-  command.add_option("--phase-margin-deg", arguments.phase_margin_deg, "Least phase margin of the designed wall")
+  command
+      .add_option("--phase-margin-deg", arguments.phase_margin_deg,
+                  "Least phase margin of the designed wall (default 30)")
       ->type_name("DEG")
       ->check(CLI::Range(0.0, 90.0))
+      ->group(group);
+  command.add_flag("--far-from-modes", arguments.far_from_modes, "The filter may lie far from every mode: a lag")
+      ->group(group);
+  command.add_flag("--lower-any-user", arguments.lower_any_user, "The notch may lower the limit with any passive user")
       ->group(group);
   command.add_option("--write", arguments.write, "Write the device file with the notch (and the designed wall) in it")
       ->type_name("FILE")

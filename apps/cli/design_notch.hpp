@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/App.hpp>
+#include <optional>
 #include <string>
 
 #include "cli/device_arguments.hpp"
@@ -11,9 +12,11 @@ namespace zwidth::cli {
 struct NotchArguments {
   bool wanted = false;
   std::string goal = "critical-stiffness";
-  double drift_percent = 0.0;
-  double gain_margin_db = 0.0;
-  double phase_margin_deg = 0.0;
+  std::optional<double> drift_percent;  // not given: the library's
+  std::optional<double> gain_margin_db;
+  std::optional<double> phase_margin_deg;
+  bool far_from_modes = false;
+  bool lower_any_user = false;
   std::string write;
 };
 

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <utility>
 
 #include "report/text/quantity.hpp"
@@ -10,14 +9,11 @@
 namespace zwidth::report {
 
 DesignedDevice designed_device(Device device) {
-  AnalysedDevice analysed = analysed_device(std::move(device), {.draws = 0});
-  DesignedDevice designed{std::move(analysed), {}, {}, std::nullopt};
-  const Device& own = designed.analysed.device;
-  designed.sensitivities = stiffness_sensitivities(own, designed.analysed.analysis.critical);
-  if (designed.analysed.analysis.any_user)
-    designed.any_user = any_user_sensitivities(own, *designed.analysed.analysis.any_user);
-  if (own.bodies().size() <= most_bodies_for_branch_switches) designed.branch_switches = branch_switches(own);
-  return designed;
+  Design answer = design(device);
+  return {{std::move(device), std::move(answer.analysis)},
+          std::move(answer.sensitivities),
+          std::move(answer.any_user_sensitivities),
+          std::move(answer.branch_switches)};
 }
 
 std::string parameter_text(const std::string& key, double value, Motion motion) {
@@ -26,11 +22,6 @@ std::string parameter_text(const std::string& key, double value, Motion motion) 
   // Prefixes with units of one word only: no "mkg", no "mN s/m".
   return unit == "s" || unit == "Hz" || key.ends_with(".stiffness") ? quantity(value, unit)
                                                                     : fmt::format("{} {}", number(value), unit);
-}
-
-const Sensitivity* find_sensitivity(const std::vector<Sensitivity>& sensitivities, const std::string& key) {
-  const auto found = std::ranges::find(sensitivities, key, &Sensitivity::key);
-  return found == sensitivities.end() ? nullptr : &*found;
 }
 
 }  // namespace zwidth::report

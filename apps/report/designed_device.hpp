@@ -7,8 +7,7 @@
 
 #include "report/analysed_device.hpp"
 #include "results/units.hpp"
-#include "zwidth/design/branch_switch.hpp"
-#include "zwidth/design/sensitivity.hpp"
+#include "zwidth/design/design.hpp"
 
 namespace zwidth::report {
 
@@ -21,9 +20,6 @@ struct DesignedDevice {
   std::optional<std::vector<BranchSwitch>> branch_switches;
 };
 
-/// Every number is followed through dozens of devices: with more bodies that would take minutes.
-inline constexpr std::size_t most_bodies_for_branch_switches = 8;
-
 /// Throws Error (did_not_converge) as its parts do.
 [[nodiscard]] DesignedDevice designed_device(Device device);
 
@@ -31,9 +27,5 @@ using results::parameter_unit;
 
 /// A parameter's value with its unit: "0.3 kg", "250 µs".
 [[nodiscard]] std::string parameter_text(const std::string& key, double value, Motion motion);
-
-/// The sensitivity of that key, or nullptr.
-[[nodiscard]] const Sensitivity* find_sensitivity(const std::vector<Sensitivity>& sensitivities,
-                                                  const std::string& key);
 
 }  // namespace zwidth::report

@@ -1,20 +1,16 @@
 #include "report/designed_notch.hpp"
 
-#include <cmath>
 #include <utility>
 
 namespace zwidth::report {
 
 DesignedNotch designed_notch(const Device& device, const NotchOptions& options) {
   NotchDesign design = design_notch(device, options);
-  DeviceParameters parameters = device.parameters();
-  if (design.with > 0.0 && std::isfinite(design.with)) parameters.wall.stiffness = design.with;
-  AnalysedDevice without = analysed_device(Device(parameters), {.draws = 0});
+  AnalysedDevice without = design.state_without
+                               ? AnalysedDevice{design.state_without->device, design.state_without->analysis}
+                               : analysed_device(device, {.any_user = false, .draws = 0});
   std::optional<AnalysedDevice> with;
-  if (design.notch) {
-    parameters.wall.filters.push_back(*design.notch);
-    with = analysed_device(Device(parameters), {.draws = 0});
-  }
+  if (design.state_with) with = AnalysedDevice{design.state_with->device, design.state_with->analysis};
   return {options, std::move(design), std::move(without), std::move(with)};
 }
 

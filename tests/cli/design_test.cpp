@@ -107,6 +107,23 @@ TEST_F(Design, OfATransferFunctionHasNoUsers) {
   EXPECT_THAT(refused.errors, HasSubstr("no body for a user"));
 }
 
+// What it says of one number, analyze confirms.
+TEST_F(Design, TargetsAreConfirmedByAnalyze) {
+  const Outcome outcome = run("zwidth design devices/lhifam.toml --target 12000 --json");
+  ASSERT_EQ(outcome.status, 0) << outcome.errors;
+  const auto document = nlohmann::json::parse(outcome.output);
+  EXPECT_EQ(document["schema"], "zwidth.design_target/1");
+  EXPECT_EQ(document["trust"]["verdict"], "sound");
+  const auto& cheapest = document["targets"][0];
+  EXPECT_EQ(cheapest["parameter"], "loop.sampling_period");
+  const Outcome analysis = run("zwidth analyze devices/lhifam.toml --json --set loop.sampling_period=" +
+                               cheapest["value_needed"].dump());
+  EXPECT_NEAR(nlohmann::json::parse(analysis.output)["critical_stiffness"].get<double>() / 12e3, 1.0, 1e-9);
+  const Outcome text = run("zwidth design devices/lhifam.toml --target 12000");
+  EXPECT_THAT(text.output, HasSubstr("What reaches it"));
+  EXPECT_THAT(text.output, HasSubstr("loop.sampling_period"));
+}
+
 TEST_F(Design, RefusesWhatItCannotDoBeforeAnyWork) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"devices/lhifam.toml --sweep loop.delay", "has no KEY="},
@@ -131,6 +148,9 @@ TEST_F(Design, RefusesWhatItCannotDoBeforeAnyWork) {
       {"devices/lhifam.toml -o a.svg", "--output: is for a sweep"},
       {"devices/lhifam.toml --any-user", "--sweep"},
       {"devices/lhifam.toml --operator 1,2,3", "--compare"},
+      {"devices/lhifam.toml --target 0", "--target: is 0"},
+      {"devices/lhifam.toml --target nan", "--target: is nan"},
+      {"devices/lhifam.toml --target 1e4 --notch", "excludes"},
       {"devices/lhifam.toml --compare sensed", "KEY=VALUE,VALUE"},
       {"devices/lhifam.toml --compare sensed=motor", "has one value"},
       {"devices/lhifam.toml --compare sensed=motor,handel", "handel"},

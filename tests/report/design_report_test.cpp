@@ -18,6 +18,7 @@
 #include "report/text/design_text.hpp"
 #include "report/text/text_table.hpp"
 #include "results/design_json.hpp"
+#include "results/design_target_json.hpp"
 
 namespace zwidth::report {
 namespace {
@@ -52,6 +53,9 @@ TEST(DesignJson, EveryKeyIsDocumented) {
   collect_keys(results::design_json(designed_lhifam()), keys);
   collect_keys(results::sweep_json(delay_sweep()), keys);
   collect_keys(results::comparison_json(both_sensors({0.5, 6.0, 135.0})), keys);
+  const DesignTargetOptions target{.stiffness = 12e3};
+  const Device device(test::lhifam_parameters());
+  collect_keys(results::design_target_json(device, target, design_targets(device, target)), keys);
   EXPECT_GT(keys.size(), 30U);
   for (const std::string& key : keys) EXPECT_NE(text.find("`" + key + "`"), std::string::npos) << key;
 }

@@ -8,6 +8,7 @@
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
 #include "report/text/text_table.hpp"
+#include "report/text/trust_text.hpp"
 
 namespace zwidth::report {
 namespace {
@@ -31,7 +32,8 @@ class Writer {
 
   [[nodiscard]] std::string text() const {
     const CriticalStiffness& critical = designed_.analysed.analysis.critical;
-    std::string text = shortened(display_name(device_), width) + "\n" +
+    const auto trust = trust_note(designed_.analysed.analysis.trust);
+    std::string text = shortened(display_name(device_), width) + "\n" + (trust ? labelled("  trust", *trust) : "") +
                        labelled("  critical stiffness", critical_stiffness_text(critical, motion_));
     if (const auto limit = what_limits(designed_.analysed)) text += labelled("  limited by", *limit);
     if (const auto limit = any_user_note(designed_.analysed)) text += labelled("  any passive user", *limit);

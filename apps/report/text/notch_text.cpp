@@ -7,7 +7,9 @@
 #include "report/designed_notch.hpp"
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
+#include "report/text/remark_line.hpp"
 #include "report/text/text_table.hpp"
+#include "report/text/trust_text.hpp"
 
 namespace zwidth::report {
 namespace {
@@ -22,6 +24,9 @@ class Writer {
 
   [[nodiscard]] std::string text() const {
     std::string text = shortened(display_name(notch_.without.device), width) + "\n";
+    if (const auto trust = trust_note(design_.trust)) text += wrap(*trust, width, 22).replace(0, 7, "  trust");
+    if (design_.trust.refused()) return text;
+    for (const Remark& remark : design_.remarks) text += wrap(remark_line(remark), width, 4).replace(0, 4, "  ! ");
     if (!std::isfinite(design_.without)) {
       return text + wrap("Every wall is stable without a notch: there is nothing to gain.", width, 0);
     }

@@ -1,0 +1,26 @@
+#include "results/design_target_json.hpp"
+
+#include "results/units.hpp"
+
+namespace zwidth::results {
+
+Json design_target_json(const Device& device, const DesignTargetOptions& options, const DesignTargets& targets) {
+  Json json = document("zwidth.design_target/1");
+  json["device"] = device.name();
+  json["units"] = wall_units(device.parameters().motion);
+  json["goal"] = options.goal == StiffnessGoal::any_user_limit ? "any_user_limit" : "critical_stiffness";
+  json["target"] = options.stiffness;
+  json["stiffness_now"] = targets.limit_now;
+  json["trust"] = targets.trust;
+  json["remarks"] = targets.remarks;
+  json["targets"] = Json::array();
+  for (const DesignTarget& each : targets.targets) {
+    json["targets"].push_back(Json{{"parameter", each.key},
+                                   {"value_now", each.value_now},
+                                   {"value_needed", Json(each.value_needed)},
+                                   {"why", each.why}});
+  }
+  return json;
+}
+
+}  // namespace zwidth::results
