@@ -15,11 +15,11 @@
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
 #include "cli/sweep_argument.hpp"
-#include "report/design_comparison.hpp"
-#include "report/design_sweep.hpp"
 #include "report/figure/design_sweep_figure.hpp"
+#include "report/text/comparison_text.hpp"
 #include "report/text/design_target_text.hpp"
 #include "report/text/design_text.hpp"
+#include "report/text/sweep_text.hpp"
 #include "results/design_json.hpp"
 #include "results/design_target_json.hpp"
 #include "zwidth/design/design_target.hpp"
@@ -59,11 +59,11 @@ void run_sensitivities(const DesignArguments& arguments) {
   const std::vector<Device> devices = read_devices(arguments.devices);
   std::string text;
   for (std::size_t i = 0; i < devices.size(); ++i) {
-    const auto designed = worked(arguments.devices.files[i], [&] { return report::designed_device(devices[i]); });
+    const Design answer = worked(arguments.devices.files[i], [&] { return design(devices[i]); });
     if (arguments.json) {
-      text += results::line(results::design_json(designed));
+      text += results::line(results::design_json(devices[i], answer));
     } else {
-      text += (i > 0 ? "\n" : "") + report::design_text(designed);
+      text += (i > 0 ? "\n" : "") + report::design_text(devices[i], answer);
     }
   }
   write_standard_output(text);
@@ -101,13 +101,13 @@ void run_sweep(const DesignArguments& arguments) {
     throw BadInput("--any-user: a transfer function has no body for a user to hold");
   }
   ProgressLine line("sweeping");
-  const report::DesignSweep sweep = worked(arguments.devices.files.front(), [&] {
-    return report::DesignSweep{device, parameter_sweep(device, axes, options, line.progress())};
-  });
+  const ParameterSweep sweep =
+      worked(arguments.devices.files.front(), [&] { return parameter_sweep(device, axes, options, line.progress()); });
   outputs.put("--output", [&] { return results::sweep_csv(sweep); });
-  outputs.draw("--output", [&](report::FigureFormat format) { return report::draw_sweep(sweep, format); });
+  outputs.draw("--output", [&](report::FigureFormat format) { return report::draw_sweep(device, sweep, format); });
   outputs.commit();
-  write_standard_output(arguments.json ? results::line(results::sweep_json(sweep)) : report::sweep_text(sweep));
+  write_standard_output(arguments.json ? results::line(results::sweep_json(device, sweep))
+                                       : report::sweep_text(device, sweep));
 }
 
 std::vector<std::string> listed_values(const std::string& argument, std::size_t equals) {
@@ -141,7 +141,7 @@ void run_comparison(const DesignArguments& arguments) {
   }
   const Device device = only_device(arguments, "--compare");
   const std::string text = write_device(device.parameters());
-  std::vector<report::Variant> variants;
+  std::vector<DesignVariant> variants;
   std::string problems;
   for (const std::string& value : values) {
     const std::vector<std::string> override = {key + "=" + value};
@@ -165,8 +165,7 @@ void run_comparison(const DesignArguments& arguments) {
       throw BadInput(fmt::format("--operator: {}: {}; {}", problem->key, problem->what, problem->allowed));
     }
   }
-  const auto comparison =
-      worked(arguments.devices.files.front(), [&] { return report::compare_designs(key, variants, user); });
+  const auto comparison = worked(arguments.devices.files.front(), [&] { return compare_designs(key, variants, user); });
   write_standard_output(arguments.json ? results::line(results::comparison_json(comparison))
                                        : report::comparison_text(comparison));
 }

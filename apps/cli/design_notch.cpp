@@ -10,7 +10,8 @@
 #include "cli/progress_line.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
-#include "report/designed_notch.hpp"
+#include "report/figure/notch_figure.hpp"
+#include "report/text/notch_text.hpp"
 #include "results/design_json.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/io/device_file.hpp"
@@ -41,14 +42,14 @@ const char* option_of(const std::string& member) {
   return "--notch";
 }
 
-report::DesignedNotch designed(const Device& device, NotchOptions options, const std::string& file) {
+NotchDesign designed(const Device& device, NotchOptions options, const std::string& file) {
   if (const auto problem = find_problem(options, device)) {
     throw BadInput(fmt::format("{}: {}: {}; {}", option_of(problem->member), file, problem->what, problem->allowed));
   }
   ProgressLine line("designing the notch");
   options.progress = line.progress();
   try {
-    return report::designed_notch(device, options);
+    return design_notch(device, options);
   } catch (const Error& error) {
     if (error.code() == ErrorCode::did_not_converge) throw WorkFailed(file + ": " + error.what());
     throw BadInput(file + ": " + error.what());
@@ -101,15 +102,18 @@ void run_notch(const DeviceArguments& devices, const NotchArguments& arguments, 
   outputs.add("--output", output.figure, Ending::figure);
   outputs.add("--write", arguments.write);
   outputs.keep(devices.files, "device file");
-  const std::vector<Device> read = read_devices(devices);
-  const report::DesignedNotch notch = designed(read.front(), notch_options(arguments), devices.files.front());
-  if (!arguments.write.empty()) {
-    if (!notch.with) throw WorkFailed("no notch makes the wall stiffer: " + arguments.write + " is not written");
+  const Device device = read_devices(devices).front();
+  const NotchOptions options = notch_options(arguments);
+  const NotchDesign notch = designed(device, options, devices.files.front());
+  if (!arguments.write.empty() && !notch.state_with) {
+    throw WorkFailed("no notch makes the wall stiffer: " + arguments.write + " is not written");
   }
-  outputs.put("--write", [&] { return write_device(notch.with->device.parameters()); });
-  outputs.draw("--output", [&](report::FigureFormat format) { return report::draw_notch(notch, format); });
+  outputs.put("--write", [&] { return write_device(notch.state_with->device.parameters()); });
+  outputs.draw("--output",
+               [&](report::FigureFormat format) { return report::draw_notch(device, options, notch, format); });
   outputs.commit();
-  write_standard_output(output.json ? results::line(results::notch_json(notch)) : report::notch_text(notch));
+  write_standard_output(output.json ? results::line(results::notch_json(device, options, notch))
+                                    : report::notch_text(device, options, notch));
 }
 
 }  // namespace zwidth::cli

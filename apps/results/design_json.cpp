@@ -10,9 +10,6 @@
 
 namespace zwidth::results {
 
-NLOHMANN_JSON_SERIALIZE_ENUM(StiffnessGoal, {{StiffnessGoal::critical_stiffness, "critical_stiffness"},
-                                             {StiffnessGoal::any_user_limit, "any_user_limit"}})
-
 namespace {
 
 Json stiffness_units(Motion motion) { return {{"stiffness", units_of(motion).stiffness}}; }
@@ -29,7 +26,7 @@ std::optional<Mechanism> mechanism_of(const std::optional<Crossover>& limit) {
   return limit ? std::optional(limit->limited_by) : std::nullopt;
 }
 
-Json sensitivity_json(const std::string& key, double value, const report::DesignedDevice& designed) {
+Json sensitivity_json(const std::string& key, double value, const Device& device, const Design& design) {
   const auto find = [&key](const std::vector<Sensitivity>& all) -> std::optional<Sensitivity> {
     const auto found = std::ranges::find(all, key, &Sensitivity::key);
     return found != all.end() ? std::optional(*found) : std::nullopt;
@@ -38,11 +35,11 @@ Json sensitivity_json(const std::string& key, double value, const report::Design
   const auto relative = [](const std::optional<Sensitivity>& each) {
     return each ? Json(each->relative) : Json(nullptr);
   };
-  const std::optional<Sensitivity> own = find(designed.sensitivities);
-  const std::optional<Sensitivity> any_user = find(designed.any_user);
+  const std::optional<Sensitivity> own = find(design.sensitivities);
+  const std::optional<Sensitivity> any_user = find(design.any_user_sensitivities);
   return {{"parameter", key},
           {"value", value},
-          {"unit", parameter_unit(key, designed.analysed.device.parameters().motion)},
+          {"unit", parameter_unit(key, device.parameters().motion)},
           {"slope", slope(own)},
           {"relative", relative(own)},
           {"any_user_slope", slope(any_user)},
@@ -50,13 +47,18 @@ Json sensitivity_json(const std::string& key, double value, const report::Design
 }
 
 /// What the two states of a notch's device are compared by.
-Json state_json(const report::AnalysedDevice& device) {
-  const CriticalStiffness& critical = device.analysis.critical;
+Json state_json(const std::optional<NotchState>& state) {
+  if (!state) return nullptr;
+  const CriticalStiffness& critical = state->analysis.critical;
   return {{"critical_stiffness", critical.stiffness},
           {"critical_frequency_rad_s", frequency_of(critical.limit)},
           {"limited_by", mechanism_of(critical.limit)},
-          {"any_user_stiffness", stiffness_of(device.analysis.any_user)},
-          {"wall", device.analysis.wall}};
+          {"any_user_stiffness", stiffness_of(state->analysis.any_user)},
+          {"wall", state->analysis.wall}};
+}
+
+std::optional<double> stiffness_of(const CriticalStiffness& critical) {
+  return critical.trust.refused() ? std::nullopt : std::optional(critical.stiffness);
 }
 
 Json critical_json(const CriticalStiffness& critical) {
@@ -67,19 +69,12 @@ Json critical_json(const CriticalStiffness& critical) {
 }
 
 /// The value of the key with the greatest K; null where a design has none, or where no wall is stable with any.
-Json best_json(const report::DesignComparison& comparison,
-               std::optional<double> (*stiffness)(const report::ComparedDesign&)) {
-  Json best = nullptr;
-  double greatest = 0.0;
-  for (const report::ComparedDesign& each : comparison.designs) {
-    const std::optional<double> value = stiffness(each);
-    if (!value) return nullptr;
-    if (*value > greatest) {
-      greatest = *value;
-      best = each.value;
-    }
-  }
-  return best;
+Json best_json(const DesignComparison& comparison, const std::optional<BestDesigns>& best,
+               std::optional<double> (*stiffness)(const ComparedDesign&)) {
+  const bool all =
+      std::ranges::all_of(comparison.designs, [&](const auto& each) { return stiffness(each).has_value(); });
+  if (!best || !all || *stiffness(comparison.designs[best->best]) == 0.0) return nullptr;
+  return comparison.designs[best->best].value;
 }
 
 }  // namespace
@@ -107,51 +102,49 @@ void to_json(Json& json, const NotchAtDrift& each) {
   json = {{"drift", each.drift}, {"without", each.without}, {"with", each.with}};
 }
 
-void to_json(Json& json, const report::ComparedDesign& each) {
+void to_json(Json& json, const ComparedDesign& each) {
   json = {{"value", each.value},
           {"free", critical_json(each.free)},
           {"any_user_stiffness", stiffness_of(each.any_user)},
           {"with_operator", each.held ? critical_json(*each.held) : Json(nullptr)}};
 }
 
-Json design_json(const report::DesignedDevice& designed) {
-  const DeviceParameters& device = designed.analysed.device.parameters();
-  const CriticalStiffness& critical = designed.analysed.analysis.critical;
+Json design_json(const Device& device, const Design& design) {
   Json json = document("zwidth.design/1");
-  json["device"] = device.name;
-  json["units"] = stiffness_units(device.motion);
-  add_critical(json, critical);
-  json["any_user_stiffness"] = stiffness_of(designed.analysed.analysis.any_user);
+  json["device"] = device.name();
+  json["units"] = stiffness_units(device.parameters().motion);
+  json["trust"] = design.trust;
+  add_critical(json, design.analysis.critical);
+  json["any_user_stiffness"] = stiffness_of(design.analysis.any_user);
   json["sensitivities"] = Json::array();
-  for (const Sensitivity& each : designed.sensitivities) {
-    json["sensitivities"].push_back(sensitivity_json(each.key, each.value, designed));
+  for (const Sensitivity& each : design.sensitivities) {
+    json["sensitivities"].push_back(sensitivity_json(each.key, each.value, device, design));
   }
-  for (const Sensitivity& each : designed.any_user) {
-    if (std::ranges::find(designed.sensitivities, each.key, &Sensitivity::key) != designed.sensitivities.end())
-      continue;
-    json["sensitivities"].push_back(sensitivity_json(each.key, each.value, designed));
+  for (const Sensitivity& each : design.any_user_sensitivities) {
+    if (find_sensitivity(design.sensitivities, each.key) != nullptr) continue;
+    json["sensitivities"].push_back(sensitivity_json(each.key, each.value, device, design));
   }
-  json["branch_switches"] = designed.branch_switches;
+  json["branch_switches"] = design.branch_switches;
+  json["remarks"] = design.remarks;
   return json;
 }
 
-Json sweep_json(const report::DesignSweep& design) {
-  const DeviceParameters& device = design.device.parameters();
+Json sweep_json(const Device& swept, const ParameterSweep& sweep) {
+  const DeviceParameters& device = swept.parameters();
   Json json = document("zwidth.design_sweep/1");
   json["device"] = device.name;
   json["units"] = stiffness_units(device.motion);
   json["axes"] = Json::array();
-  for (std::size_t i = 0; i < design.sweep.axes.size(); ++i) {
-    const std::string& key = design.sweep.axes[i].key;
+  for (std::size_t i = 0; i < sweep.axes.size(); ++i) {
+    const std::string& key = sweep.axes[i].key;
     json["axes"].push_back(
-        {{"parameter", key}, {"unit", parameter_unit(key, device.motion)}, {"values", design.sweep.values[i]}});
+        {{"parameter", key}, {"unit", parameter_unit(key, device.motion)}, {"values", sweep.values[i]}});
   }
-  json["points"] = design.sweep.points;
+  json["points"] = sweep.points;
   return json;
 }
 
-std::string sweep_csv(const report::DesignSweep& design) {
-  const ParameterSweep& sweep = design.sweep;
+std::string sweep_csv(const ParameterSweep& sweep) {
   const bool any_user = sweep.points.front().any_user.has_value();
   Csv csv;
   for (const SweepAxis& axis : sweep.axes) csv.cell(axis.key);
@@ -172,11 +165,10 @@ std::string sweep_csv(const report::DesignSweep& design) {
   return csv.text();
 }
 
-Json comparison_json(const report::DesignComparison& comparison) {
+Json comparison_json(const DesignComparison& comparison) {
   const DeviceParameters& device = comparison.designs.front().device.parameters();
   const bool held = comparison.designs.front().held.has_value();
   const Operator& user = comparison.user;
-  using report::ComparedDesign;
   Json json = document("zwidth.design_comparison/1");
   json["device"] = device.name;
   json["units"] = stiffness_units(device.motion);
@@ -184,26 +176,26 @@ Json comparison_json(const report::DesignComparison& comparison) {
   json["operator"] = nullptr;
   if (held) json["operator"] = {{"mass", user.mass}, {"damping", user.damping}, {"stiffness", user.stiffness}};
   json["designs"] = comparison.designs;
-  json["best"] = {
-      {"free",
-       best_json(comparison, [](const ComparedDesign& each) -> std::optional<double> { return each.free.stiffness; })},
-      {"any_user", best_json(comparison, [](const ComparedDesign& each) { return stiffness_of(each.any_user); })},
-      {"with_operator", best_json(comparison, [](const ComparedDesign& each) -> std::optional<double> {
-         return each.held ? std::optional(each.held->stiffness) : std::nullopt;
-       })}};
+  json["best"] = {{"free", best_json(comparison, comparison.best_free,
+                                     [](const ComparedDesign& each) { return stiffness_of(each.free); })},
+                  {"any_user", best_json(comparison, comparison.best_any_user,
+                                         [](const ComparedDesign& each) { return stiffness_of(each.any_user); })},
+                  {"with_operator", best_json(comparison, comparison.best_held, [](const ComparedDesign& each) {
+                     return each.held ? stiffness_of(*each.held) : std::nullopt;
+                   })}};
+  json["trust"] = comparison.trust;
   return json;
 }
 
-Json notch_json(const report::DesignedNotch& notch) {
-  const DeviceParameters& parameters = notch.without.device.parameters();
-  const NotchDesign& design = notch.design;
+Json notch_json(const Device& device, const NotchOptions& options, const NotchDesign& design) {
+  const DeviceParameters& parameters = device.parameters();
   Json json = document("zwidth.notch/1");
   json["device"] = parameters.name;
   json["units"] = wall_units(parameters.motion);
-  json["goal"] = notch.options.goal;
-  json["drift"] = notch.options.drift;
-  json["gain_margin"] = notch.options.gain_margin;
-  json["phase_margin_rad"] = notch.options.phase_margin;
+  json["goal"] = options.goal;
+  json["drift"] = options.drift;
+  json["gain_margin"] = options.gain_margin;
+  json["phase_margin_rad"] = options.phase_margin;
   json["notch"] = nullptr;
   if (design.notch) {
     json["notch"] = {{"type", "notch"},
@@ -215,8 +207,10 @@ Json notch_json(const report::DesignedNotch& notch) {
   json["stiffness_with"] = design.with;
   json["low_frequency_delay_s"] = design.low_frequency_delay;
   json["over_drift"] = design.over_drift;
-  json["without"] = state_json(notch.without);
-  json["with"] = notch.with ? state_json(*notch.with) : Json(nullptr);
+  json["without"] = state_json(design.state_without);
+  json["with"] = state_json(design.state_with);
+  json["trust"] = design.trust;
+  json["remarks"] = design.remarks;
   return json;
 }
 

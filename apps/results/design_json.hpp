@@ -2,28 +2,31 @@
 
 #include <string>
 
-#include "report/design_comparison.hpp"
-#include "report/design_sweep.hpp"
-#include "report/designed_device.hpp"
-#include "report/designed_notch.hpp"
 #include "results/json.hpp"
+#include "zwidth/design/design.hpp"
+#include "zwidth/design/design_comparison.hpp"
+#include "zwidth/design/notch_design.hpp"
+#include "zwidth/design/parameter_sweep.hpp"
 
 namespace zwidth::results {
 
+NLOHMANN_JSON_SERIALIZE_ENUM(StiffnessGoal, {{StiffnessGoal::critical_stiffness, "critical_stiffness"},
+                                             {StiffnessGoal::any_user_limit, "any_user_limit"}})
+
 /// The answer of `design --json`, schema zwidth.design/1 (docs/design.md).
-[[nodiscard]] Json design_json(const report::DesignedDevice& designed);
+[[nodiscard]] Json design_json(const Device& device, const Design& design);
 
 /// The answer of `design --sweep --json`, schema zwidth.design_sweep/1.
-[[nodiscard]] Json sweep_json(const report::DesignSweep& sweep);
+[[nodiscard]] Json sweep_json(const Device& device, const ParameterSweep& sweep);
 
 /// Every point, a line each: the parameters, K_CR (empty where unbounded), rad/s, mode (0: the rigid body), the
 /// any-user limit where asked for.
-[[nodiscard]] std::string sweep_csv(const report::DesignSweep& sweep);
+[[nodiscard]] std::string sweep_csv(const ParameterSweep& sweep);
 
 /// The answer of `design --compare --json`, schema zwidth.design_comparison/1.
-[[nodiscard]] Json comparison_json(const report::DesignComparison& comparison);
+[[nodiscard]] Json comparison_json(const DesignComparison& comparison);
 
 /// The answer of `design --notch --json`, schema zwidth.notch/1.
-[[nodiscard]] Json notch_json(const report::DesignedNotch& notch);
+[[nodiscard]] Json notch_json(const Device& device, const NotchOptions& options, const NotchDesign& notch);
 
 }  // namespace zwidth::results

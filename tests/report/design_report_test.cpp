@@ -11,11 +11,11 @@
 #include <sstream>
 
 #include "lhifam.hpp"
-#include "report/design_comparison.hpp"
-#include "report/design_sweep.hpp"
 #include "report/figure/design_sweep_figure.hpp"
 #include "report/json_keys.hpp"
+#include "report/text/comparison_text.hpp"
 #include "report/text/design_text.hpp"
+#include "report/text/sweep_text.hpp"
 #include "report/text/text_table.hpp"
 #include "results/design_json.hpp"
 #include "results/design_target_json.hpp"
@@ -28,16 +28,20 @@ using ::testing::Not;
 using ::testing::StartsWith;
 using Json = results::Json;
 
-const DesignedDevice& designed_lhifam() {
-  static const DesignedDevice designed = designed_device(Device(test::lhifam_parameters()));
-  return designed;
+const Device& lhifam() {
+  static const Device device(test::lhifam_parameters());
+  return device;
+}
+
+const Design& designed_lhifam() {
+  static const Design answer = design(lhifam());
+  return answer;
 }
 
 Device hopeless() { return Device(test::transfer_function_parameters({1.0}, {1.0, -8.0, 0.0}, 1.0)); }
 
-DesignSweep delay_sweep(SweepOptions options = {}) {
-  const Device device(test::lhifam_parameters());
-  return {device, parameter_sweep(device, {{"loop.delay", 0.0, 8e-3, 81}}, options)};
+ParameterSweep delay_sweep(SweepOptions options = {}) {
+  return parameter_sweep(lhifam(), {{"loop.delay", 0.0, 8e-3, 81}}, options);
 }
 
 DesignComparison both_sensors(const Operator& user) {
@@ -50,18 +54,19 @@ TEST(DesignJson, EveryKeyIsDocumented) {
   std::ifstream file(ZWIDTH_SOURCE_DIR "/docs/design.md");
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   std::set<std::string> keys;
-  collect_keys(results::design_json(designed_lhifam()), keys);
-  collect_keys(results::sweep_json(delay_sweep()), keys);
+  collect_keys(results::design_json(lhifam(), designed_lhifam()), keys);
+  collect_keys(results::sweep_json(lhifam(), delay_sweep()), keys);
   collect_keys(results::comparison_json(both_sensors({0.5, 6.0, 135.0})), keys);
   const DesignTargetOptions target{.stiffness = 12e3};
-  const Device device(test::lhifam_parameters());
-  collect_keys(results::design_target_json(device, target, design_targets(device, target)), keys);
+  collect_keys(results::design_target_json(lhifam(), target, design_targets(lhifam(), target)), keys);
+  const NotchOptions notch;
+  collect_keys(results::notch_json(lhifam(), notch, design_notch(lhifam(), notch)), keys);
   EXPECT_GT(keys.size(), 30U);
   for (const std::string& key : keys) EXPECT_NE(text.find("`" + key + "`"), std::string::npos) << key;
 }
 
 TEST(DesignText, StrongestNumberFirstAndAtMost100Columns) {
-  const std::string text = design_text(designed_lhifam());
+  const std::string text = design_text(lhifam(), designed_lhifam());
   EXPECT_LE(width_of(text), 100U);
   EXPECT_LT(text.find("loop.sampling_period"), text.find("body.handle.damping"));
   EXPECT_LT(text.find("body.handle.damping"), text.find("link.0.stiffness"));
@@ -70,45 +75,45 @@ TEST(DesignText, StrongestNumberFirstAndAtMost100Columns) {
 }
 
 TEST(DesignText, WithoutALimitSaysSo) {
-  const DesignedDevice designed = designed_device(hopeless());
-  EXPECT_THAT(design_text(designed), HasSubstr("No sensitivities"));
-  EXPECT_TRUE(results::design_json(designed)["sensitivities"].empty());
-  EXPECT_EQ(results::design_json(designed)["status"], "none_stable");
+  const Design answer = design(hopeless());
+  EXPECT_THAT(design_text(hopeless(), answer), HasSubstr("No sensitivities"));
+  EXPECT_TRUE(results::design_json(hopeless(), answer)["sensitivities"].empty());
+  EXPECT_EQ(results::design_json(hopeless(), answer)["status"], "none_stable");
 }
 
 TEST(SweepReports, HoldEveryPoint) {
-  const DesignSweep sweep = delay_sweep({.any_user = true});
+  const ParameterSweep sweep = delay_sweep({.any_user = true});
   const std::string csv = results::sweep_csv(sweep);
   EXPECT_THAT(csv, StartsWith("loop.delay,critical_stiffness,frequency_rad_s,mode,any_user_stiffness\n"));
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 82);
-  const Json json = results::sweep_json(sweep);
+  const Json json = results::sweep_json(lhifam(), sweep);
   EXPECT_EQ(json["points"].size(), 81U);
-  EXPECT_EQ(json["points"][0]["critical_stiffness"].get<double>(), sweep.sweep.points[0].stiffness);
-  EXPECT_THAT(sweep_text(sweep), HasSubstr("21 of 81 points"));
+  EXPECT_EQ(json["points"][0]["critical_stiffness"].get<double>(), sweep.points[0].stiffness);
+  EXPECT_THAT(sweep_text(lhifam(), sweep), HasSubstr("21 of 81 points"));
 }
 
 TEST(SweepReports, OfTwoNumbersSayWhereTheBestIs) {
   const Device device(test::lhifam_parameters());
-  const DesignSweep sweep{device,
-                          parameter_sweep(device, {{"loop.delay", 0.0, 1e-3, 2}, {"body.motor.mass", 0.3, 0.6, 3}})};
-  const std::string text = sweep_text(sweep);
+  const ParameterSweep sweep =
+      parameter_sweep(device, {{"loop.delay", 0.0, 1e-3, 2}, {"body.motor.mass", 0.3, 0.6, 3}});
+  const std::string text = sweep_text(device, sweep);
   EXPECT_THAT(text, HasSubstr("2 x 3 points"));
   EXPECT_THAT(text, HasSubstr("largest K_CR 8.849 kN/m at loop.delay = 0 s, body.motor.mass = 0.3 kg"));
   EXPECT_EQ(results::sweep_csv(sweep).substr(0, 26), "loop.delay,body.motor.mass");
 }
 
 TEST(SweepReports, WithoutAnyLimitAreStillDrawn) {
-  const DesignSweep curve{hopeless(), parameter_sweep(hopeless(), {{"loop.delay", 0.0, 1.0, 3}}, {.crossovers = true})};
-  EXPECT_THAT(sweep_text(curve), HasSubstr("none stable"));
-  EXPECT_THAT(draw_sweep(curve, FigureFormat::svg), HasSubstr("<svg"));
-  const DesignSweep map{hopeless(),
-                        parameter_sweep(hopeless(), {{"loop.delay", 0.0, 1.0, 2}, {"wall.damping", 0.0, 1.0, 2}})};
-  EXPECT_THAT(sweep_text(map), HasSubstr("no wall is stable from K = 0 at 4 points"));
-  EXPECT_THAT(draw_sweep(map, FigureFormat::svg), HasSubstr("<svg"));
+  const ParameterSweep curve = parameter_sweep(hopeless(), {{"loop.delay", 0.0, 1.0, 3}}, {.crossovers = true});
+  EXPECT_THAT(sweep_text(hopeless(), curve), HasSubstr("none stable"));
+  EXPECT_THAT(draw_sweep(hopeless(), curve, FigureFormat::svg), HasSubstr("<svg"));
+  const ParameterSweep map = parameter_sweep(hopeless(), {{"loop.delay", 0.0, 1.0, 2}, {"wall.damping", 0.0, 1.0, 2}});
+  EXPECT_THAT(sweep_text(hopeless(), map), HasSubstr("no wall is stable from K = 0 at 4 points"));
+  EXPECT_THAT(draw_sweep(hopeless(), map, FigureFormat::svg), HasSubstr("<svg"));
 }
 
 TEST(SweepFigure, NamesWhatIsDrawn) {
-  const std::string figure = draw_sweep(delay_sweep({.any_user = true, .crossovers = true}), FigureFormat::svg);
+  const std::string figure =
+      draw_sweep(lhifam(), delay_sweep({.any_user = true, .crossovers = true}), FigureFormat::svg);
   EXPECT_THAT(figure, HasSubstr("loop.delay (s)"));
   EXPECT_THAT(figure, HasSubstr("with any passive user"));
   EXPECT_THAT(figure, HasSubstr("crossovers of vibration mode 1"));
@@ -117,13 +122,12 @@ TEST(SweepFigure, NamesWhatIsDrawn) {
 
 TEST(SweepFigure, DrawsAMapOfUnevenAndFallingAxes) {
   const Device device(test::lhifam_parameters());
-  const DesignSweep sweep{device,
-                          parameter_sweep(device, {{"link.stiffness", 2e5, 2e4, 5, SweepAxis::Spacing::logarithmic},
-                                                   {"loop.delay", 1e-3, 0.0, 300}})};
+  const ParameterSweep sweep = parameter_sweep(
+      device, {{"link.stiffness", 2e5, 2e4, 5, SweepAxis::Spacing::logarithmic}, {"loop.delay", 1e-3, 0.0, 300}});
   for (const FigureFormat format : {FigureFormat::svg, FigureFormat::png, FigureFormat::pdf}) {
-    EXPECT_GT(draw_sweep(sweep, format).size(), 1000U);
+    EXPECT_GT(draw_sweep(device, sweep, format).size(), 1000U);
   }
-  EXPECT_THAT(draw_sweep(sweep, FigureFormat::svg), HasSubstr("link.stiffness (N/m)"));
+  EXPECT_THAT(draw_sweep(device, sweep, FigureFormat::svg), HasSubstr("link.stiffness (N/m)"));
 }
 
 // Theory, sections 2 and 5: the motor's encoder is better in free motion, the handle's whoever holds it.

@@ -10,7 +10,6 @@
 #include <numbers>
 #include <vector>
 
-#include "report/designed_device.hpp"
 #include "report/figure/plot.hpp"
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
@@ -48,11 +47,11 @@ bool is_logarithmic(const SweepAxis& axis) { return axis.spacing == SweepAxis::S
 
 class CurveFigure {
  public:
-  explicit CurveFigure(const DesignSweep& design)
-      : sweep_(design.sweep),
-        values_(design.sweep.values[0]),
-        motion_(design.device.parameters().motion),
-        title_(fmt::format("Critical stiffness of {}", display_name(design.device))),
+  CurveFigure(const Device& device, const ParameterSweep& sweep)
+      : sweep_(sweep),
+        values_(sweep.values[0]),
+        motion_(device.parameters().motion),
+        title_(fmt::format("Critical stiffness of {}", display_name(device))),
         parameter_(parameter_axis_unit(sweep_.axes[0], motion_)),
         stiffness_(axis_unit(range().second / room_above)) {
     for (const SweepPoint& point : sweep_.points) {
@@ -237,10 +236,10 @@ class CurveFigure {
 
 class MapFigure {
  public:
-  explicit MapFigure(const DesignSweep& design)
-      : sweep_(design.sweep),
-        motion_(design.device.parameters().motion),
-        title_(fmt::format("Critical stiffness of {}", display_name(design.device))),
+  MapFigure(const Device& device, const ParameterSweep& sweep)
+      : sweep_(sweep),
+        motion_(device.parameters().motion),
+        title_(fmt::format("Critical stiffness of {}", display_name(device))),
         units_{parameter_axis_unit(sweep_.axes[0], motion_), parameter_axis_unit(sweep_.axes[1], motion_)} {}
 
   [[nodiscard]] std::string draw(FigureFormat format) const {
@@ -342,8 +341,8 @@ class MapFigure {
 
 }  // namespace
 
-std::string draw_sweep(const DesignSweep& sweep, FigureFormat format) {
-  return sweep.sweep.axes.size() == 1 ? CurveFigure(sweep).draw(format) : MapFigure(sweep).draw(format);
+std::string draw_sweep(const Device& device, const ParameterSweep& sweep, FigureFormat format) {
+  return sweep.axes.size() == 1 ? CurveFigure(device, sweep).draw(format) : MapFigure(device, sweep).draw(format);
 }
 
 }  // namespace zwidth::report

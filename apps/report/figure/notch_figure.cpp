@@ -1,3 +1,5 @@
+#include "report/figure/notch_figure.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "report/designed_notch.hpp"
 #include "report/figure/plot.hpp"
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
@@ -22,31 +23,30 @@ std::string axes(const std::string& ranges, std::string_view label) {
   return fmt::format("{}\n{}\nset xtics autofreq\nset ytics autofreq\n{}", axes_look(), y_label(label), ranges);
 }
 
-void draw_drift(Canvas& canvas, const Box& frame, const DesignedNotch& notch, const Units& units) {
+void draw_drift(Canvas& canvas, const Box& frame, double drift, const NotchDesign& notch, const Units& units) {
   std::string rows;
   double top = 0.0;
-  for (const NotchAtDrift& each : notch.design.over_drift) {
+  for (const NotchAtDrift& each : notch.over_drift) {
     rows += fmt::format("{:.9g} {:.9g} {:.9g}\n", 100.0 * each.drift, each.without, each.with);
     top = std::max({top, each.without, each.with});
   }
   const AxisUnit unit = axis_unit(top);
   data_block(canvas, "drift", rows);
-  const double reach = std::max(100.0 * notch.options.drift, 1.0);
+  const double reach = std::max(100.0 * drift, 1.0);
   canvas.commands(
       axes(fmt::format("set xrange [{:.6g}:{:.6g}]\nset yrange [0:{:.6g}]", -reach, reach, 1.1 * top / unit.size),
            fmt::format("Stiffest wall ({}{})", unit.prefix, units.stiffness)));
   x_label(canvas, frame, "Shift of the modes (%)");
-  const char* style = notch.design.over_drift.size() > 1 ? "lines" : "points pt 7";
+  const char* style = notch.over_drift.size() > 1 ? "lines" : "points pt 7";
   canvas.plot(frame, fmt::format("$drift using 1:($2/{3}) with {0} {1} notitle, $drift using 1:($3/{3}) with {0} {2} "
                                  "notitle",
                                  style, gnuplot_line(without_style), gnuplot_line(with_style), unit.size));
 }
 
-void draw_gain(Canvas& canvas, const Box& frame, const DesignedNotch& notch) {
-  const double period = notch.without.device.loop().sampling_period;
+void draw_gain(Canvas& canvas, const Box& frame, double period, const NotchDesign& notch) {
   const double nyquist = 0.5 / period;
-  const FilterSection section = filter_section(*notch.design.notch, period);
-  const double lowest = std::max(1e-3 * nyquist, 0.05 * notch.design.notch->frequency_hz);
+  const FilterSection section = filter_section(*notch.notch, period);
+  const double lowest = std::max(1e-3 * nyquist, 0.05 * notch.notch->frequency_hz);
   std::string rows;
   for (int i = 0; i <= gain_points; ++i) {
     const double hz = lowest * std::pow(nyquist / lowest, static_cast<double>(i) / gain_points);
@@ -70,24 +70,26 @@ void draw_gain(Canvas& canvas, const Box& frame, const DesignedNotch& notch) {
 
 }  // namespace
 
-std::string draw_notch(const DesignedNotch& notch, FigureFormat format) {
-  const Units units = units_of(notch.without.device.parameters().motion);
-  const std::string title = "Notch for " + display_name(notch.without.device);
+std::string draw_notch(const Device& device, const NotchOptions& options, const NotchDesign& notch,
+                       FigureFormat format) {
+  const Units units = units_of(device.parameters().motion);
+  const std::string title = "Notch for " + display_name(device);
   std::vector<LegendEntry> legend{
-      {fmt::format("without: {} at least", quantity(notch.design.without, units.stiffness)), without_style}};
-  if (const auto& filter = notch.design.notch) {
+      {fmt::format("without: {} at least", quantity(notch.without, units.stiffness)), without_style}};
+  if (const auto& filter = notch.notch) {
     legend.push_back(
         {fmt::format("with a notch at {:.4g} Hz, damping ratio {:.3g}, depth {:.3g}: {} at least", filter->frequency_hz,
-                     filter->damping_ratio, filter->depth, quantity(notch.design.with, units.stiffness)),
+                     filter->damping_ratio, filter->depth, quantity(notch.with, units.stiffness)),
          with_style});
   }
   const Heading heading(title, std::move(legend),
-                        notch.design.notch ? std::string() : "No notch was found that makes the worst wall stiffer.");
+                        notch.notch ? std::string() : "No notch was found that makes the worst wall stiffer.");
   const double top = heading.bottom() + 26.0;
   Canvas canvas(title, canvas_width, top + 366.0);
   heading.draw(canvas);
-  draw_drift(canvas, {frame_left, 440.0, top, top + 304.0}, notch, units);
-  if (notch.design.notch) draw_gain(canvas, {530.0, frame_right - 46.0, top, top + 304.0}, notch);
+  draw_drift(canvas, {frame_left, 440.0, top, top + 304.0}, options.drift, notch, units);
+  if (notch.notch)
+    draw_gain(canvas, {530.0, frame_right - 46.0, top, top + 304.0}, device.loop().sampling_period, notch);
   return canvas.draw(format);
 }
 

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "report/designed_device.hpp"
 #include "report/text/explanation.hpp"
+#include "report/text/quantity.hpp"
 #include "report/text/remark_line.hpp"
 #include "report/text/text_table.hpp"
 #include "report/text/trust_text.hpp"

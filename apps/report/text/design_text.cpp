@@ -27,18 +27,18 @@ std::string labelled(std::string_view label, std::string_view text, std::size_t 
 
 class Writer {
  public:
-  explicit Writer(const DesignedDevice& designed)
-      : designed_(designed), device_(designed.analysed.device), motion_(device_.parameters().motion) {}
+  Writer(const Device& device, const Design& design)
+      : design_(design), analysed_{device, design.analysis}, device_(device), motion_(device.parameters().motion) {}
 
   [[nodiscard]] std::string text() const {
-    const CriticalStiffness& critical = designed_.analysed.analysis.critical;
-    const auto trust = trust_note(designed_.analysed.analysis.trust);
+    const CriticalStiffness& critical = design_.analysis.critical;
+    const auto trust = trust_note(design_.analysis.trust);
     std::string text = shortened(display_name(device_), width) + "\n" + (trust ? labelled("  trust", *trust) : "") +
                        labelled("  critical stiffness", critical_stiffness_text(critical, motion_));
-    if (const auto limit = what_limits(designed_.analysed)) text += labelled("  limited by", *limit);
-    if (const auto limit = any_user_note(designed_.analysed)) text += labelled("  any passive user", *limit);
+    if (const auto limit = what_limits(analysed_)) text += labelled("  limited by", *limit);
+    if (const auto limit = any_user_note(analysed_)) text += labelled("  any passive user", *limit);
     text += "\n";
-    if (designed_.sensitivities.empty() && designed_.any_user.empty()) {
+    if (design_.sensitivities.empty() && design_.any_user_sensitivities.empty()) {
       return text + "No sensitivities: there is no limit that a parameter could move.\n";
     }
     text += relative_table();
@@ -61,9 +61,9 @@ class Writer {
   /// Keys of both lists, in the order of the file.
   [[nodiscard]] std::vector<const Sensitivity*> all() const {
     std::vector<const Sensitivity*> result;
-    for (const Sensitivity& each : designed_.sensitivities) result.push_back(&each);
-    for (const Sensitivity& each : designed_.any_user) {
-      if (find_sensitivity(designed_.sensitivities, each.key) == nullptr) result.push_back(&each);
+    for (const Sensitivity& each : design_.sensitivities) result.push_back(&each);
+    for (const Sensitivity& each : design_.any_user_sensitivities) {
+      if (find_sensitivity(design_.sensitivities, each.key) == nullptr) result.push_back(&each);
     }
     return result;
   }
@@ -78,10 +78,10 @@ class Writer {
                     {{fmt::format("+{:.0f} % of", change), "now", "critical stiffness", "any passive user"}}};
     for (const Sensitivity* each : rows) {
       table.rows.push_back({shortened(each->key, key_width), parameter_text(each->key, each->value, motion_),
-                            percent(find_sensitivity(designed_.sensitivities, each->key)),
-                            percent(find_sensitivity(designed_.any_user, each->key))});
+                            percent(find_sensitivity(design_.sensitivities, each->key)),
+                            percent(find_sensitivity(design_.any_user_sensitivities, each->key))});
     }
-    if (designed_.any_user.empty()) drop_last_column(table);
+    if (design_.any_user_sensitivities.empty()) drop_last_column(table);
     return fmt::format("What +{:.0f} % of each number gives, the strongest first\n", change) + layout(table);
   }
 
@@ -91,15 +91,15 @@ class Writer {
                     {{"now 0; its first", "critical stiffness", "any passive user", ""}}};
     const auto cell = [&](const Sensitivity* each) {
       if (each == nullptr) return std::string("-");
-      return std::abs(each->slope) <= nothing * designed_.analysed.analysis.critical.stiffness
+      return std::abs(each->slope) <= nothing * design_.analysis.critical.stiffness
                  ? "0"
                  : fmt::format("{:+.3g}", each->slope);
     };
     for (const Sensitivity* each : all()) {
       if (each->relative) continue;
       const std::string unit = parameter_unit(each->key, motion_);
-      table.rows.push_back({shortened(each->key, key_width), cell(find_sensitivity(designed_.sensitivities, each->key)),
-                            cell(find_sensitivity(designed_.any_user, each->key)),
+      table.rows.push_back({shortened(each->key, key_width), cell(find_sensitivity(design_.sensitivities, each->key)),
+                            cell(find_sensitivity(design_.any_user_sensitivities, each->key)),
                             fmt::format("{} per {}", stiffness, unit.empty() ? "1" : unit)});
     }
     if (table.rows.size() < 2) return {};
@@ -119,7 +119,7 @@ class Writer {
   }
 
   [[nodiscard]] std::string switch_note(const BranchSwitch& each) const {
-    const Sensitivity* sensitivity = find_sensitivity(designed_.sensitivities, each.key);
+    const Sensitivity* sensitivity = find_sensitivity(design_.sensitivities, each.key);
     const bool grows = sensitivity == nullptr || each.value > sensitivity->value;
     std::string note =
         fmt::format("{} {} {}: ", each.key, grows ? "above" : "below", parameter_text(each.key, each.value, motion_));
@@ -135,23 +135,24 @@ class Writer {
   }
 
   [[nodiscard]] std::string switch_notes() const {
-    if (!designed_.branch_switches) {
+    if (!design_.branch_switches) {
       return fmt::format("\nWhere another crossover takes over is not searched with more than {} bodies\n",
                          most_bodies_for_branch_switches);
     }
-    if (designed_.branch_switches->empty()) return {};
+    if (design_.branch_switches->empty()) return {};
     std::string text = "\nWhere another crossover takes over, and the slope above ends\n";
-    for (const BranchSwitch& each : *designed_.branch_switches) text += labelled("  - ", switch_note(each), 4);
+    for (const BranchSwitch& each : *design_.branch_switches) text += labelled("  - ", switch_note(each), 4);
     return text;
   }
 
-  const DesignedDevice& designed_;
+  const Design& design_;
+  AnalysedDevice analysed_;
   const Device& device_;
   Motion motion_;
 };
 
 }  // namespace
 
-std::string design_text(const DesignedDevice& designed) { return Writer(designed).text(); }
+std::string design_text(const Device& device, const Design& design) { return Writer(device, design).text(); }
 
 }  // namespace zwidth::report

@@ -1,10 +1,11 @@
+#include "report/text/notch_text.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
 #include <numbers>
 #include <vector>
 
-#include "report/designed_notch.hpp"
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
 #include "report/text/remark_line.hpp"
@@ -19,11 +20,11 @@ constexpr std::size_t drifts_shown = 9;
 
 class Writer {
  public:
-  explicit Writer(const DesignedNotch& notch)
-      : notch_(notch), design_(notch.design), units_(units_of(notch.without.device.parameters().motion)) {}
+  Writer(const Device& device, const NotchOptions& options, const NotchDesign& notch)
+      : device_(device), options_(options), design_(notch), units_(units_of(device.parameters().motion)) {}
 
   [[nodiscard]] std::string text() const {
-    std::string text = shortened(display_name(notch_.without.device), width) + "\n";
+    std::string text = shortened(display_name(device_), width) + "\n";
     if (const auto trust = trust_note(design_.trust)) text += wrap(*trust, width, 22).replace(0, 7, "  trust");
     if (design_.trust.refused()) return text;
     for (const Remark& remark : design_.remarks) text += wrap(remark_line(remark), width, 4).replace(0, 4, "  ! ");
@@ -52,17 +53,17 @@ class Writer {
 
  private:
   [[nodiscard]] const char* goal() const {
-    return notch_.options.goal == StiffnessGoal::any_user_limit ? "limit with any passive user" : "critical stiffness";
+    return options_.goal == StiffnessGoal::any_user_limit ? "limit with any passive user" : "critical stiffness";
   }
 
   [[nodiscard]] std::string what_is_promised() const {
     std::string text = fmt::format("the least {}", goal());
-    if (notch_.options.drift > 0.0) {
-      text += fmt::format(" while the modes drift by up to {:.3g} %", 100.0 * notch_.options.drift);
+    if (options_.drift > 0.0) {
+      text += fmt::format(" while the modes drift by up to {:.3g} %", 100.0 * options_.drift);
     }
-    if (notch_.options.gain_margin > 1.0) text += fmt::format(", over {:.3g}", notch_.options.gain_margin);
-    if (notch_.options.phase_margin > 0.0) {
-      text += fmt::format(", {:.3g} degrees of phase left", notch_.options.phase_margin * 180.0 / std::numbers::pi);
+    if (options_.gain_margin > 1.0) text += fmt::format(", over {:.3g}", options_.gain_margin);
+    if (options_.phase_margin > 0.0) {
+      text += fmt::format(", {:.3g} degrees of phase left", options_.phase_margin * 180.0 / std::numbers::pi);
     }
     return text;
   }
@@ -72,7 +73,7 @@ class Writer {
       return fmt::format("No wall keeps what is asked for ({}), and no notch was found that changes that.",
                          what_is_promised());
     }
-    const auto cause = what_limits(notch_.without);
+    const auto cause = what_limits({design_.state_without->device, design_.state_without->analysis});
     return fmt::format("No notch was found that makes the worst wall stiffer than {} without one: {}.{}",
                        quantity(design_.without, units_.stiffness), what_is_promised(),
                        cause ? " The device as it is is limited by " + *cause + "." : std::string());
@@ -106,14 +107,13 @@ class Writer {
                                          : std::string("none"));
   }
 
-  [[nodiscard]] std::vector<std::string> column(const AnalysedDevice& device) const {
-    const CriticalStiffness& critical = device.analysis.critical;
-    std::vector<std::string> cells{quantity(critical.stiffness, units_.stiffness)};
-    cells.push_back(critical.limit ? mechanism_name(device.analysis, critical.limit->limited_by) : "-");
-    cells.push_back(critical.limit ? quantity(hertz(critical.limit->frequency), "Hz") : "-");
-    cells.push_back(device.analysis.any_user ? quantity(device.analysis.any_user->stiffness, units_.stiffness) : "-");
-    cells.push_back(device.analysis.wall ? margins(device.analysis) : "-");
-    return cells;
+  [[nodiscard]] std::vector<std::string> column(const Analysis& analysis) const {
+    const CriticalStiffness& critical = analysis.critical;
+    return {quantity(critical.stiffness, units_.stiffness),
+            critical.limit ? mechanism_name(analysis, critical.limit->limited_by) : "-",
+            critical.limit ? quantity(hertz(critical.limit->frequency), "Hz") : "-",
+            analysis.any_user ? quantity(analysis.any_user->stiffness, units_.stiffness) : "-",
+            analysis.wall ? margins(analysis) : "-"};
   }
 
   [[nodiscard]] std::string costs() const {
@@ -121,20 +121,23 @@ class Writer {
     const std::vector<std::string> names{
         "critical stiffness", "limited by", "at", "any passive user",
         fmt::format("margins of a wall of {}", quantity(design_.with, units_.stiffness))};
-    const std::vector<std::string> without = column(notch_.without);
-    const std::vector<std::string> with = column(*notch_.with);
+    const std::vector<std::string> without = column(design_.state_without->analysis);
+    const std::vector<std::string> with = column(design_.state_with->analysis);
     TextTable table{{Align::left, Align::left, Align::left}, {{"", "without", "with the notch"}}};
     for (std::size_t i = 0; i < names.size(); ++i) table.rows.push_back({names[i], without[i], with[i]});
     return "What it changes on the device as it is\n" + layout(table);
   }
 
-  const DesignedNotch& notch_;
+  const Device& device_;
+  const NotchOptions& options_;
   const NotchDesign& design_;
   Units units_;
 };
 
 }  // namespace
 
-std::string notch_text(const DesignedNotch& notch) { return Writer(notch).text(); }
+std::string notch_text(const Device& device, const NotchOptions& options, const NotchDesign& notch) {
+  return Writer(device, options, notch).text();
+}
 
 }  // namespace zwidth::report

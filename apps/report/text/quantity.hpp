@@ -2,10 +2,12 @@
 
 #include <string>
 
+#include "results/units.hpp"
 #include "zwidth/quantity.hpp"
 
 namespace zwidth::report {
 
+using results::parameter_unit;
 using zwidth::decibels;
 using zwidth::hertz;
 using zwidth::number;
@@ -15,5 +17,8 @@ using zwidth::units_of;
 
 /// Where a pole leaves the unit circle, from rad/s: "6.143 Hz (38.6 rad/s)", or "0 Hz (a real pole at rest)".
 [[nodiscard]] std::string crossover_frequency_text(double frequency);
+
+/// A parameter's value with its unit: "0.3 kg", "250 µs".
+[[nodiscard]] std::string parameter_text(const std::string& key, double value, Motion motion);
 
 }  // namespace zwidth::report

@@ -1,4 +1,4 @@
-#include "report/design_sweep.hpp"
+#include "report/text/sweep_text.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,6 @@
 #include <iterator>
 #include <optional>
 
-#include "report/designed_device.hpp"
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
 #include "report/text/text_table.hpp"
@@ -46,11 +45,8 @@ std::string mechanism_text(const Crossover& crossover) {
 
 class Writer {
  public:
-  explicit Writer(const DesignSweep& sweep)
-      : device_(sweep.device),
-        sweep_(sweep.sweep),
-        motion_(sweep.device.parameters().motion),
-        unit_(units_of(motion_).stiffness) {}
+  Writer(const Device& device, const ParameterSweep& sweep)
+      : device_(device), sweep_(sweep), motion_(device.parameters().motion), unit_(units_of(motion_).stiffness) {}
 
   [[nodiscard]] std::string text() const {
     const std::string title = shortened(display_name(device_), width) + "\n";
@@ -126,6 +122,6 @@ class Writer {
 
 }  // namespace
 
-std::string sweep_text(const DesignSweep& sweep) { return Writer(sweep).text(); }
+std::string sweep_text(const Device& device, const ParameterSweep& sweep) { return Writer(device, sweep).text(); }
 
 }  // namespace zwidth::report
