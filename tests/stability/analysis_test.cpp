@@ -190,7 +190,8 @@ TEST(Analysis, StiffnessMarginIsOfTheStiffnessAlone) {
   const Analysis analysis = analyze(Device(parameters), limit_and_wall_only());
   ASSERT_TRUE(analysis.wall->stable);
   EXPECT_NEAR(*analysis.wall->stiffness_margin * 2000.0 / analysis.critical.stiffness, 1.0, 1e-12);
-  EXPECT_LT(*analysis.wall->gain_margin, *analysis.wall->stiffness_margin);
+  // A damper that grows with the stiffness carries far more.
+  EXPECT_GT(*analysis.wall->gain_margin, 5.0 * *analysis.wall->stiffness_margin);
 }
 
 }  // namespace
