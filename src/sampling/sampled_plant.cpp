@@ -135,6 +135,9 @@ double cancellation_at_nyquist(const SampledPlant& plant) {
 // 1e-16 times this is what a stiffness at Nyquist may lose.
 constexpr double tolerable_cancellation_at_nyquist = 1e5;
 
+// The common numerator of more terms cancels in double, by powers of two.
+constexpr std::size_t rounded_terms = 6;
+
 // Beyond this loss the numerators are added up in double-double instead.
 constexpr double tolerable_cancellation = 1e3;
 
@@ -180,9 +183,10 @@ SampledPlant sample(const ModalForm& form, Sampling sampling) {
     for (const ModalTerm& term : form.terms)
       if (is_seen(term)) terms.push_back(sample_precisely(term, instants));
     if (sum_cancels) {
+      const bool long_sum = terms.size() > rounded_terms;
       for (const Extended& c : extended_common_numerator(terms)) {
         plant.numerator.push_back(leading(c));
-        if (crowded) plant.numerator_rest.push_back(leading(c - Extended(plant.numerator.back())));
+        if (crowded || long_sum) plant.numerator_rest.push_back(leading(c - Extended(plant.numerator.back())));
       }
     }
     plant.at_nyquist = response_at_nyquist(terms, plant.delay_samples);

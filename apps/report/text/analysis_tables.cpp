@@ -84,22 +84,21 @@ TextTable mode_table(const AnalysedDevice& analysed) {
 }
 
 TextTable comparison_table(std::span<const AnalysedDevice> devices, std::size_t name_width) {
-  TextTable table{{Align::right, Align::left, Align::right, Align::right, Align::right, Align::right, Align::left,
-                   Align::right, Align::left},
-                  {{"", "device", "K_CR", "any user", "dB", "frequency", "limited by", "rigid model", "wall"}}};
+  TextTable table{
+      {Align::right, Align::left, Align::right, Align::right, Align::right, Align::left, Align::right, Align::left},
+      {{"", "device", "K_CR", "any user", "frequency", "limited by", "rigid model", "wall"}}};
   for (const AnalysedDevice& each : devices) {
     const CriticalStiffness& critical = each.analysis.critical;
     std::vector<std::string> row = {std::to_string(table.rows.size()),
                                     shortened(display_name(each.device), name_width)};
     if (critical.limit) {
       row.insert(row.end(), {quantity(critical.stiffness, units_of(each.device.parameters().motion).stiffness),
-                             fmt::format("{:.2f}", decibels(critical.stiffness)),
                              quantity(hertz(critical.limit->frequency), "Hz"), short_name(critical.limit->limited_by)});
     } else {
       row.insert(row.end(), {critical.status == StiffnessStatus::refused       ? "refused"
                              : critical.status == StiffnessStatus::none_stable ? "none"
                                                                                : "unbounded",
-                             "-", "-", "-"});
+                             "-", "-"});
     }
     row.insert(row.begin() + 3, any_user_cell(each));
     row.insert(row.end(), {rigid_cell(each), wall_verdict(each.analysis)});
