@@ -108,6 +108,8 @@ std::vector<double> RegionStructure::levels(const std::vector<BoundarySegment>& 
       if (end->wall.stiffness >= 0.0) found.push_back(end->wall.damping);
     }
   }
+  // The Nyquist line ends on K = 0, to rounding.
+  if (nyquist) found.push_back(*nyquist / curve.velocity_at_nyquist());
   std::erase_if(found, [](double level) { return !(level > 0.0) || !std::isfinite(level); });
   found.push_back(0.0);
   std::sort(found.begin(), found.end());

@@ -197,8 +197,9 @@ class RingTracer {
 
   // The last arc may be the start of the first.
   void close(BoundaryRing& ring) const {
-    if (ring.arcs.size() < 2) return;
+    if (ring.arcs.empty()) return;
     join(ring.arcs.back().points.back(), ring.arcs.front().points.front());
+    if (ring.arcs.size() < 2) return;
     BoundaryArc& first = ring.arcs.front();
     BoundaryArc& last = ring.arcs.back();
     if (!continues(last, first.kind, first.points.front())) return;

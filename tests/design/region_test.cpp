@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <string>
+#include <string_view>
 
 #include "lhifam.hpp"
 #include "property/random_devices.hpp"
@@ -235,6 +236,22 @@ void expect_confirmed_family(std::size_t count, const Make& make) {
 }
 
 TEST(RegionProperty, OfHardlyDampedDevices) { expect_confirmed_family(cases(), hardly_damped); }
+
+// The Nyquist line bounds many of these.
+TEST(RegionProperty, OfEveryKindNoneIsRefused) {
+  for (const std::string_view kind : test::device_kinds) {
+    for (std::size_t seed = 0; seed < 1 + cases() / 10; ++seed) {
+      SCOPED_TRACE(std::string(kind) + " seed " + std::to_string(seed));
+      test::RandomDevices random(7919 * (1000 + seed) + 13);
+      const Device device(random.device(kind));
+      const WallRegion walls = region(device, walls_alone);
+      EXPECT_FALSE(walls.trust.refused());
+      if (walls.trust.refused()) continue;
+      expect_closed(walls);
+      expect_confirmed(device, walls);
+    }
+  }
+}
 
 TEST(RegionProperty, OfSevenToTenBodies) { expect_confirmed_family(1 + cases() / 10, long_chain); }
 
