@@ -216,7 +216,7 @@ Simulation simulate(const Device& device, const SimulationOptions& options, cons
   } else {
     judge(result, sensed, device, result.loop.user_force);
   }
-  compare_with_linear(result, device);
+  compare_with_linear(result, device, sensed);
   result.trust = result.linear.critical.trust;
   result.remarks = simulation_remarks(result, device, options, sensed);
   if (setup.moved_start) result.remarks.insert(result.remarks.begin(), *setup.moved_start);

@@ -13,7 +13,7 @@
 namespace zwidth::internal {
 namespace {
 
-constexpr double steps_of_chatter = 2.0;  // encoder steps: an oscillation of so much is of the encoder's making
+constexpr double steps_of_chatter = 2.0;  // encoder steps: a swing of so much, either way, is of the encoder's making
 
 Remark note(std::string what, std::string consequence, std::string remedy = {}) {
   return {Remark::Severity::note, std::move(what), std::move(consequence), std::move(remedy)};
@@ -55,11 +55,14 @@ bool must_grow(const Simulation& result) {
          std::all_of(result.nonlinear_parts.begin(), result.nonlinear_parts.end(), is_encoder);
 }
 
-bool chatters(const Simulation& result, const Device& device) {
+/// Whether the motion at the end is so small, or so steady a drift, that the encoder's steps are what moves the force.
+bool chatters(const Simulation& result, const Device& device, std::span<const double> sensed) {
   if (!result.force_ripple) return false;
-  const double allowed = steps_of_chatter * device.parameters().sensor.resolution;
-  const bool hardly_swings = !result.oscillation || result.oscillation->amplitude <= allowed;
-  return result.verdict == LoopVerdict::drifts || (hardly_swings && result.verdict != LoopVerdict::unstable);
+  if (result.verdict == LoopVerdict::drifts) return true;
+  if (result.verdict != LoopVerdict::settles && result.verdict != LoopVerdict::limit_cycle) return false;
+  const auto end = sensed.last(sensed.size() / 4);
+  const auto [low, high] = std::minmax_element(end.begin(), end.end());
+  return *high - *low <= 2.0 * steps_of_chatter * device.parameters().sensor.resolution;
 }
 
 void remark_wall(std::vector<Remark>& remarks, const Simulation& result, const Device& device) {
@@ -144,7 +147,7 @@ void remark_run(std::vector<Remark>& remarks, const Simulation& result, const De
 
 }  // namespace
 
-void compare_with_linear(Simulation& result, const Device& device) {
+void compare_with_linear(Simulation& result, const Device& device, std::span<const double> sensed) {
   result.nonlinear_parts = nonlinear_parts(result, device);
   const bool is_quiet = result.verdict == LoopVerdict::settles || result.verdict == LoopVerdict::forced;
   if (is_quiet && must_grow(result)) result.verdict = LoopVerdict::undecided;
@@ -152,7 +155,7 @@ void compare_with_linear(Simulation& result, const Device& device) {
     const bool moves_on = result.verdict == LoopVerdict::limit_cycle || result.verdict == LoopVerdict::unstable;
     result.linear.agrees = *result.linear.wall_stable != moves_on;
   }
-  result.encoder_chatters = chatters(result, device);
+  result.encoder_chatters = chatters(result, device, sensed);
 }
 
 std::vector<Remark> simulation_remarks(const Simulation& result, const Device& device, const SimulationOptions& options,

@@ -215,6 +215,16 @@ TEST(ForceRipple, OfALargeOscillationIsNoChatter) {
   EXPECT_FALSE(result.encoder_chatters);
 }
 
+// Too few swings to judge: nothing is said about the encoder either.
+TEST(ForceRipple, OfAnUndecidedRunIsNoChatter) {
+  DeviceParameters device = lhifam_with_wall(500.0);
+  device.sensor.resolution = 3.14e-6;
+  const Simulation result = simulate(Device(device));
+  EXPECT_EQ(result.verdict, LoopVerdict::undecided);
+  EXPECT_TRUE(result.force_ripple);
+  EXPECT_FALSE(result.encoder_chatters);
+}
+
 TEST(SimulationRemarks, SayWhatTheVerdictDoesNot) {
   const Device device(lhifam_parameters());
   HybridLoopOptions loop = starting_at(spring_wall(5000.0), {2e-3, 2e-3});
