@@ -129,7 +129,7 @@ MeasuredResponse frequency_response(const Recording& recording, const FrequencyR
   FrequencyResponse response = frequency_response(recording.channels[0].samples, recording.channels[1].samples,
                                                   recording.sampling_period, options, progress);
   if (response.points.empty()) {
-    throw Error(ErrorCode::invalid_argument, "no line of the response lies in the band asked for; widen it");
+    throw Error(ErrorCode::invalid_argument, "no line is left in the band asked for; widen it");
   }
   std::vector<Remark> remarks = recording.remarks;
   const std::array roles{SignalRole::force, role_of(options.output)};
