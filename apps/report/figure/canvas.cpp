@@ -63,9 +63,8 @@ void Canvas::text(double x, double y, std::string_view content, const TextStyle&
   const std::string_view anchor = style.anchor == Anchor::left     ? "left"
                                   : style.anchor == Anchor::centre ? "center"
                                                                    : "right";
-  commands(fmt::format("set label {} at {} {} front {} font ',{}' textcolor rgb '{}'", gnuplot_string(content),
-                       position(x, y), anchor, style.markup == Markup::none ? "noenhanced" : "enhanced", style.size,
-                       style.colour));
+  commands(fmt::format("set label {} at {} {} front noenhanced font ',{}' textcolor rgb '{}'", gnuplot_string(content),
+                       position(x, y), anchor, style.size, style.colour));
 }
 
 void Canvas::line(double x1, double y1, double x2, double y2, const LineStyle& style) {

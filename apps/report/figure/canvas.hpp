@@ -14,14 +14,10 @@ enum class FigureFormat { svg, png, pdf };
 
 enum class Anchor { left, centre, right };
 
-/// Whether a text is drawn as it is, or K_{CR} with its subscript: for our own words, never for a text of a file.
-enum class Markup { none, subscripts };
-
 struct TextStyle {
   Anchor anchor = Anchor::left;
   double size = 13.0;  ///< px
   std::string_view colour = "#1a1a1a";
-  Markup markup = Markup::none;
 };
 
 struct LineStyle {
@@ -39,7 +35,7 @@ struct Box {
 };
 
 /// A figure under construction: a gnuplot script laid out in px from the top left corner, so that what stands where is
-/// decided here and nothing overlaps by gnuplot's own choice. Text is drawn as it is unless its style says so.
+/// decided here and nothing overlaps by gnuplot's own choice. Text is drawn as it is: no markup, no escapes.
 class Canvas {
  public:
   Canvas(std::string title, double width, double height);

@@ -111,8 +111,7 @@ class CurveFigure {
   }
 
   [[nodiscard]] std::vector<LegendEntry> legend() const {
-    std::vector<LegendEntry> entries{
-        {"bold: K_{CR}, the crossover that limits", limit_style, {}, {}, Markup::subscripts}};
+    std::vector<LegendEntry> entries{{"bold: K_CR, the crossover that limits", limit_style}};
     if (!any_user().empty()) entries.push_back({"with any passive user", any_user_style});
     for (int mode = 0; mode <= modes_; ++mode) {
       if (branches(mode).empty()) continue;
@@ -278,8 +277,8 @@ class MapFigure {
         frame_height / (frame.bottom + 62.0), high > 10.0 * low ? "set logscale cb\n" : "", low,
         high > low ? high : 1.001 * low));
     x_label(canvas, frame, axis_title(sweep_.axes[0], motion_));
-    canvas.text(772.0, frame.top - 10.0, fmt::format("K_{{CR}} ({}{})", stiffness.prefix, units_of(motion_).stiffness),
-                {Anchor::left, 12.0, ink, Markup::subscripts});
+    canvas.text(772.0, frame.top - 10.0, fmt::format("K_CR ({}{})", stiffness.prefix, units_of(motion_).stiffness),
+                {Anchor::left, 12.0});
     canvas.plot(frame, fmt::format("$map using 1:2:($3/{:g}) with image notitle", stiffness.size));
     return canvas.draw(format);
   }

@@ -69,7 +69,7 @@ void Heading::draw(Canvas& canvas) const {
     }
     for (std::size_t i = 0; i < each.lines.size(); ++i) {
       canvas.text(each.left + text_after, each.y + row_height * static_cast<double>(i), each.lines[i],
-                  {Anchor::left, text_size, ink, entry.markup});
+                  {Anchor::left, text_size});
     }
   }
 }

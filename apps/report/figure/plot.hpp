@@ -28,7 +28,6 @@ struct LegendEntry {
   LineStyle line = {};
   std::string_view fill = {};  ///< colour of an area behind the line; empty: none
   std::string marker = {};     ///< a point style of gnuplot instead of the line; empty: none
-  Markup markup = Markup::none;
 };
 
 /// The point style of a ring in this colour.
