@@ -34,7 +34,7 @@ NotchOptions notch_options(const NotchArguments& arguments) {
 }
 
 /// The option that sets a member of NotchOptions.
-const char* option_of(const std::string& member) {
+const char* notch_option_of(const std::string& member) {
   if (member == "drift") return "--drift-percent";
   if (member == "gain_margin") return "--gain-margin-db";
   if (member == "phase_margin") return "--phase-margin-deg";
@@ -44,7 +44,8 @@ const char* option_of(const std::string& member) {
 
 NotchDesign designed(const Device& device, NotchOptions options, const std::string& file) {
   if (const auto problem = find_problem(options, device)) {
-    throw BadInput(fmt::format("{}: {}: {}; {}", option_of(problem->member), file, problem->what, problem->allowed));
+    throw BadInput(
+        fmt::format("{}: {}: {}; {}", notch_option_of(problem->member), file, problem->what, problem->allowed));
   }
   ProgressLine line("designing the notch");
   options.progress = line.progress();

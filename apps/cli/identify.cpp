@@ -121,12 +121,12 @@ void run_inverse_dynamics(const IdentifyArguments& arguments, Outputs& outputs) 
   outputs.put("--output-device", [&] { return device; });
   outputs.commit();
   if (arguments.json) {
-    write_standard_output(results::line(rigid_body_json(identified)));
+    write_standard_output(results::line(report::rigid_body_json(identified)));
   } else if (arguments.output_device == "-") {
     write_warnings(identified.remarks);
     write_standard_output(device);
   } else {
-    write_standard_output(rigid_body_text(identified) + device_hint(arguments));
+    write_standard_output(report::rigid_body_text(identified) + device_hint(arguments));
   }
 }
 

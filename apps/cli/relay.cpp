@@ -85,9 +85,10 @@ RelayResult recorded(const RelayArguments& arguments, std::optional<Device> devi
     if (problem->member != "device") refuse(*problem, options_of_relay);
     throw BadInput(fmt::format("{}: {}; {}", arguments.devices.files.front(), problem->what, problem->allowed));
   }
-  return relay(RelayRecord{motion.recording.source, motion.force(), motion.motion(), motion.recording.sampling_period,
-                           motion.recording.remarks},
-               options);
+  return relay(
+      RelayRecord{motion.recording.source, motion.recording.channels.at(0).samples,
+                  motion.recording.channels.at(1).samples, motion.recording.sampling_period, motion.recording.remarks},
+      options);
 }
 
 std::string drawn(const RelayResult& result, report::FigureFormat format) {

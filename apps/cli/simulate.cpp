@@ -115,9 +115,8 @@ void run_simulate(const SimulateArguments& arguments) {
     throw BadInput(file + ": " + error.what());
   }
   outputs.put("--csv", [&] { return results::simulation_csv(device, result); });
-  outputs.draw("--figure", [&](report::FigureFormat format) {
-    return report::draw_simulation_figure(device, result, format);
-  });
+  outputs.draw("--figure",
+               [&](report::FigureFormat format) { return report::draw_simulation_figure(device, result, format); });
   outputs.commit();
   if (arguments.json) {
     write_warnings(result.remarks);

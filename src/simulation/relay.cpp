@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include "simulation/relay_explanation.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/quantity.hpp"
+#include "zwidth/signal/recording.hpp"
 
 namespace zwidth {
 using namespace internal;
@@ -138,6 +140,13 @@ RelayResult relay(RelayRecord record, const RelayRecordOptions& options) {
   trial.position = std::move(record.position);
   result.trials.push_back(std::move(trial));
   result.remarks = std::move(record.remarks);
+  const RelayTrial& recorded = result.trials.front();
+  for (const auto& [name, samples, role] : {std::tuple("force", &recorded.force, SignalRole::force),
+                                            std::tuple("position", &recorded.position, SignalRole::position)}) {
+    for (Remark& remark : check_signal({name, *samples}, result.sampling_period, role)) {
+      result.remarks.push_back(std::move(remark));
+    }
+  }
   result.device = options.device;
   conclude(result);
   return result;
