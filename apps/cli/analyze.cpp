@@ -90,6 +90,7 @@ void check_walls(const AnalyzeOptions& options, const std::vector<report::Analys
 
 void run_analyze(const AnalyzeOptions& options) {
   Outputs outputs;
+  if (options.report && options.report->empty()) throw WorkFailed("--report: is empty; name a file");
   outputs.add("--report", options.report.value_or(""));
   outputs.keep(options.devices.files, "device file");
   const std::vector<report::AnalysedDevice> analysed = analysed_devices(options);
@@ -123,7 +124,7 @@ void add_analyze(CLI::App& app) {
       ->type_name("RANGES")
       ->check([](const std::string& text) { return text.empty() ? "is empty" : ""; });
   command->add_flag("--require-stable", options->require_stable,
-                    "Fail (exit status 1) where a wall is not stable, or the answer is not sound");
+                    "Fail (exit status 1) where a wall is not stable, or not surely");
   command->footer(
       "Examples:\n"
       "  zwidth analyze devices/lhifam.toml\n"

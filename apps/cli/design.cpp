@@ -218,7 +218,7 @@ void add_design(CLI::App& app) {
   command->add_option("-o,--output", arguments->output, "Of a sweep: .csv; of it or of a notch: .svg, .png or .pdf")
       ->type_name("FILE");
   command->add_flag("--any-user", arguments->any_user,
-                    "Of a sweep: the limit over all passive users too; of a target: that limit");
+                    "Of a sweep: also the limit over all passive users; of a target: it");
   CLI::Option* compare =
       command->add_option("--compare", arguments->compare, "Judge several values of one key side by side");
   compare->type_name("KEY=V,V")->excludes(sweep);

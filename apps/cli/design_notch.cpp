@@ -73,7 +73,7 @@ void add_notch_options(CLI::App& command, NotchArguments& arguments) {
       ->group(group);
   command
       .add_option("--gain-margin-db", arguments.gain_margin_db,
-                  "Least gain margin of the designed wall, alone and of the whole force (default 6.02)")
+                  "Least gain margin, of K alone and of the whole force (default 6.02)")
       ->type_name("DB")
       ->check(CLI::Range(0.0, 100.0))
       ->group(group);

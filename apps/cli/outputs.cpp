@@ -40,7 +40,7 @@ void Outputs::add(const std::string& option, const std::string& path, Ending end
   }
   for (const Output& other : outputs_) {
     if (same_file(path, other.path)) {
-      throw BadInput(fmt::format("{}: {}: is the file of {}; name another", option, path, other.option));
+      throw BadInput(fmt::format("{}: {}: is the same file as that of {}; name another", option, path, other.option));
     }
   }
   outputs_.push_back(std::move(output));

@@ -180,8 +180,8 @@ void add_simulate(CLI::App& app) {
   add_motion_arguments(*command, arguments->motion);
   add_fault_options(*command, *arguments);
   command->footer(
-      "Without any motion every body starts at rest 1 mm (1 mrad) inside the wall, further in where friction or the\n"
-      "encoder would hide that.\n"
+      "Without any motion every body starts at rest 1 mm (1 mrad) inside the wall, further in where\n"
+      "friction or the encoder would hide that.\n"
       "\n"
       "Examples:\n"
       "  zwidth simulate devices/lhifam.toml --set wall.stiffness=5000\n"

@@ -81,8 +81,9 @@ void add_structure_arguments(CLI::App& command, StructureArguments& arguments) {
       ->group(structure_group);
   command
       .add_option("--free", arguments.free,
-                  "Keys to fit; all (the default): masses, dampings, link stiffnesses; stiffness to ground, delay "
-                  "and lag where the structure has them; a delay where the record shows one")
+                  "Keys to fit; all (the default): masses, dampings, link stiffnesses;\n"
+                  "stiffness to ground, delay and lag where the structure has them;\n"
+                  "a delay where the record shows one")
       ->type_name("KEYS")
       ->delimiter(',')
       ->allow_extra_args(false)

@@ -29,6 +29,7 @@ constexpr double narrowest_half_width = 1e-5;  // of an undamped mode, relative
 constexpr double step_down = 0.8;
 constexpr int most_steps = 120;
 constexpr int bisections = 34;
+constexpr double resolved = 1e-8;  // relative, of the stiffest wall
 constexpr double rounding = 1e-9;  // of margins that stand exactly at what is required
 
 bool loop_keeps(const FilteredPlant& plant, Wall wall, double stiffness, const RequiredMargins& margins) {
@@ -118,7 +119,7 @@ std::optional<double> short_of_phase(std::complex<double> minus_one_over_plant, 
 
 }  // namespace
 
-double stiffest_wall(const Device& device, const RequiredMargins& margins) {
+double stiffest_wall(const Device& device, const RequiredMargins& margins, double at_most) {
   const FilteredPlant plant = filtered_plant(device);
   const double top = stable_below(device, plant, margins) / margins.gain;
   if (!(top > 0.0)) return 0.0;
@@ -126,13 +127,13 @@ double stiffest_wall(const Device& device, const RequiredMargins& margins) {
   if (!std::isfinite(top)) return margins.phase == 0.0 ? infinity : 0.0;  // no stiffness to begin the walk at
   // Nothing more is asked: the boundary itself.
   if (margins.phase == 0.0 && (wall.damping == 0.0 || margins.gain == 1.0)) return top;
-  double high = top * (1.0 - rounding);
+  double high = std::min(top * (1.0 - rounding), at_most);
   if (loop_keeps(plant, wall, high, margins)) return high;
   double low = high;
   for (int i = 0; i < most_steps; ++i) {
     low *= step_down;
     if (loop_keeps(plant, wall, low, margins)) {
-      for (int step = 0; step < bisections; ++step) {
+      for (int step = 0; step < bisections && high - low > resolved * high; ++step) {
         const double middle = 0.5 * (low + high);
         (loop_keeps(plant, wall, middle, margins) ? low : high) = middle;
       }

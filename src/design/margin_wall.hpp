@@ -4,6 +4,7 @@
 // searches.
 
 #include <complex>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -25,7 +26,9 @@ struct RequiredMargins {
 /// The stiffest K with gain * K inside the stable interval that begins at 0 (of every user where asked) and the margins
 /// of the loop kept at K; its softer neighbours keep them too, and all of them down to 0 where no gap is met on the way
 /// (gaps narrower than the steps of the walk are passed over). Infinite where nothing bounds it, 0 where there is none.
-[[nodiscard]] double stiffest_wall(const Device& device, const RequiredMargins& margins);
+/// With `at_most` the walk begins no higher: for searches that know about where it ends.
+[[nodiscard]] double stiffest_wall(const Device& device, const RequiredMargins& margins,
+                                   double at_most = std::numeric_limits<double>::infinity());
 
 /// Whether that wall keeps the margins; stable, strictly.
 [[nodiscard]] bool keeps_margins(const Device& device, double stiffness, const RequiredMargins& margins);

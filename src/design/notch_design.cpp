@@ -32,7 +32,8 @@ constexpr std::uintmax_t max_refinements = 20;  // of the drift around a local m
 constexpr double shaved = 1e-6;                 // off the least over the drift: what lies between its refined samples
 constexpr double step_down = 0.99;
 constexpr int most_steps_down = 200;
-constexpr double same_limit = 1e-9;  // relative, of two any-user limits
+constexpr double bound_by_phase = 0.1;  // of the stiffness that the gain margin allows
+constexpr double same_limit = 1e-9;     // relative, of two any-user limits
 
 bool can_be_held(const Device& device) {
   return device.has_bodies() && device.bodies().size() <= most_bodies_for_any_user;
@@ -172,6 +173,12 @@ void add_states(const Device& device, NotchDesign& design) {
 void remark_on(const NotchOptions& options, NotchDesign& design) {
   if (design.without == 0.0 && !design.notch) {
     design.remarks.push_back({Remark::Severity::warning, "no wall keeps the margins asked, with or without a notch",
+                              "a spring alone on a lightly damped device has little phase margin",
+                              "add a damper to the wall, or ask for less phase margin"});
+  } else if (design.state_without && design.state_without->analysis.critical.status == StiffnessStatus::finite &&
+             design.with < bound_by_phase * design.state_without->analysis.critical.stiffness / options.gain_margin) {
+    design.remarks.push_back({Remark::Severity::warning,
+                              "the phase margin asked allows only a small part of what the gain margin does",
                               "a spring alone on a lightly damped device has little phase margin",
                               "add a damper to the wall, or ask for less phase margin"});
   } else if (!design.notch && std::isfinite(design.without)) {

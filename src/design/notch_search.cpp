@@ -29,6 +29,7 @@ constexpr double same_on_grid = 2e-3;  // relative, of two any-user limits on a 
 // Pattern search.
 constexpr double coarsest = 0.08;
 constexpr double finest = 1e-3;
+constexpr double coarsest_exact = 0.02;
 constexpr std::array weight{1.0, 4.0, 4.0};  // width and depth matter less than the centre
 constexpr int most_moves = 100;
 
@@ -58,11 +59,11 @@ void NotchSearch::add(const Device& device) {
   LoopGrid grid(device, keep_any_user_ || margins_.any_user);
   const LoopGrid::Response none(grid.size(), 1.0);
   const double any_user = keep_any_user_ ? grid.any_user(none) * (1.0 - same_on_grid) : 0.0;
-  scenarios_.push_back({std::move(grid), any_user});
+  scenarios_.push_back({device, std::move(grid), any_user});
 }
 
 // Over the scenarios; some value not above `enough` as soon as it is seen to be that.
-double NotchSearch::least(const Point& at, double enough) const {
+double NotchSearch::least(const Point& at, double enough, Route route) const {
   const WallFilter notch = notch_at(at);
   double result = infinity;
   for (const Scenario& scenario : scenarios_) {
@@ -70,6 +71,12 @@ double NotchSearch::least(const Point& at, double enough) const {
     result = std::min(result, scenario.grid.stiffest(factor, margins_));
     if (result <= enough) return result;
     if (scenario.any_user > 0.0 && scenario.grid.any_user(factor) < scenario.any_user) return 0.0;
+    if (route == Route::on_grid) continue;
+    DeviceParameters notched = scenario.device.parameters();
+    notched.wall.filters.push_back(notch);
+    const double about = 1.02 * scenario.grid.stiffest(factor, margins_);  // a grid may miss a dip, but not invent one
+    result = std::min(result, stiffest_wall(Device(std::move(notched)), margins_, about));
+    if (result <= enough) return result;
   }
   return result;
 }
@@ -88,7 +95,7 @@ std::vector<NotchSearch::Point> NotchSearch::candidates(const std::function<void
       for (const double width : widths_on_grid) {
         for (const double depth : depths_on_grid) {
           const Point at{std::log(factor * mode), std::log(width), std::log(depth)};
-          const double value = least(at, most);
+          const double value = least(at, most, Route::on_grid);
           if (value > most) most = value, best = at;
         }
       }
@@ -98,8 +105,8 @@ std::vector<NotchSearch::Point> NotchSearch::candidates(const std::function<void
   return points;
 }
 
-std::pair<double, NotchSearch::Point> NotchSearch::refine(Point at) const {
-  double value = least(at, 0.0);
+std::pair<double, NotchSearch::Point> NotchSearch::climb(Point at, double coarsest, double finest, Route route) const {
+  double value = least(at, 0.0, route);
   int moves = 0;
   for (double step = coarsest; step > finest && moves < most_moves;) {
     Point best = at;
@@ -109,7 +116,7 @@ std::pair<double, NotchSearch::Point> NotchSearch::refine(Point at) const {
           inside({at[0] + step * weight[0] * (i % 3 - 1), at[1] + step * weight[1] * (i / 3 % 3 - 1),
                   at[2] + step * weight[2] * (i / 9 - 1)});
       if (neighbour == at || !is_near(neighbour)) continue;
-      const double there = least(neighbour, best_value);
+      const double there = least(neighbour, best_value, route);
       if (there > best_value) best_value = there, best = neighbour;
     }
     if (best_value > value) {
@@ -120,6 +127,11 @@ std::pair<double, NotchSearch::Point> NotchSearch::refine(Point at) const {
     }
   }
   return {value, at};
+}
+
+std::pair<double, NotchSearch::Point> NotchSearch::refine(Point at) const {
+  const Point on_grid = climb(at, coarsest, finest, Route::on_grid).second;
+  return climb(on_grid, coarsest_exact, finest, Route::exact);
 }
 
 bool NotchSearch::is_near(const Point& at) const {

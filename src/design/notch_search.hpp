@@ -30,15 +30,19 @@ class NotchSearch {
   /// The best of a grid around each mode; `on_step` takes the fraction done.
   [[nodiscard]] std::vector<Point> candidates(const std::function<void(double)>& on_step) const;
 
-  /// Pattern search: the best of the 26 neighbours of a cube, halved where none is better; with its stiffest wall.
+  /// Pattern search: the best of the 26 neighbours of a cube, halved where none is better; at first on the grids, then
+  /// exactly, since a grid may miss a narrow dip. With its stiffest wall.
   [[nodiscard]] std::pair<double, Point> refine(Point at) const;
 
  private:
   struct Scenario {
+    Device device;
     LoopGrid grid;
     double any_user = 0.0;  // without the notch, on the grid; 0: not to be kept
   };
-  [[nodiscard]] double least(const Point& at, double enough) const;
+  enum class Route { on_grid, exact };
+  [[nodiscard]] double least(const Point& at, double enough, Route route) const;
+  [[nodiscard]] std::pair<double, Point> climb(Point at, double coarsest, double finest, Route route) const;
   [[nodiscard]] bool is_near(const Point& at) const;
   [[nodiscard]] Point inside(const Point& at) const;
 

@@ -128,6 +128,7 @@ TEST_F(Analyze, TextLeadsWithTheAnswer) {
   const Outcome outcome = run("zwidth analyze devices/lhifam.toml");
   EXPECT_EQ(outcome.status, 0);
   EXPECT_THAT(outcome.output, HasSubstr("\n  critical stiffness  8.849 kN/m (78.94 dB re 1 N/m)\n"
+                                        "  any passive user    5.776 kN/m, worst at 41.36 Hz\n"
                                         "  oscillates at       6.143 Hz (38.6 rad/s)\n"));
 }
 
