@@ -137,12 +137,17 @@ std::optional<Regression> regress(const Eigen::MatrixXcd& columns, const Eigen::
   right << weights.cwiseProduct(target.real()), weights.cwiseProduct(target.imag());
   const Eigen::VectorXd scale = left.colwise().norm().cwiseMax(1e-300).cwiseInverse();
   left = left * scale.asDiagonal();
-  const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition(left);
+  // The pseudo-inverse of the small triangle: that of the tall matrix takes as many solutions as there are lines.
+  const Eigen::HouseholderQR<Eigen::MatrixXd> tall(left);
+  const Eigen::Index size = columns.cols();
+  const Eigen::MatrixXd triangle = tall.matrixQR().topRows(size).triangularView<Eigen::Upper>();
+  const Eigen::MatrixXd inverse = Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>(triangle).pseudoInverse();
+  const Eigen::VectorXd turned = tall.householderQ().adjoint() * right;
+  const Eigen::VectorXd solution = inverse * turned.head(size);
   Regression found;
-  found.values = scale.cwiseProduct(decomposition.solve(right));
+  found.values = scale.cwiseProduct(solution);
   found.rest = target - columns * found.values;
-  const Eigen::MatrixXd inverse = decomposition.pseudoInverse();
-  const double left_over = (right - left * decomposition.solve(right)).squaredNorm();
+  const double left_over = (right - left * solution).squaredNorm();
   const double freedom = std::max(1.0, static_cast<double>(2 * n - columns.cols()));
   // A Hann window makes neighbouring lines share: 1.94 times the variance of independent ones.
   constexpr double shared = 1.94;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "identification/plausibility.hpp"
+#include "signal/clipping.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth {

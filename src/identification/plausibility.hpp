@@ -13,9 +13,6 @@ namespace zwidth::internal {
 /// Units that are probably not SI: whole numbers in a channel, a sampling period of seconds.
 [[nodiscard]] std::vector<Remark> implausible_recording(const Recording& recording);
 
-/// Whether the signal stands at an extreme value again and again, as no motion of a linear device does.
-[[nodiscard]] bool is_clipped(const Channel& channel, double sampling_period, SignalRole role);
-
 /// Numbers of the fitted device that are powers of ten from those of the structure (where its values are known) or from
 /// what the record allows.
 [[nodiscard]] std::vector<Remark> implausible_device(const Device& fitted, const Device* known,

@@ -11,6 +11,7 @@
 #include "identification/fit_judgement.hpp"
 #include "identification/percent.hpp"
 #include "identification/plausibility.hpp"
+#include "signal/clipping.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth {

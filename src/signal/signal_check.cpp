@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "identification/plausibility.hpp"
+#include "signal/clipping.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/signal/recording.hpp"
 
