@@ -1,13 +1,13 @@
 #include "identification/rigid_band.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <numbers>
 #include <vector>
 
 #include "identification/motion_bandwidth.hpp"
-#include "identification/response_features.hpp"
 #include "signal/fourier.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/identification/frequency_response.hpp"
@@ -32,9 +32,60 @@ double excited_up_to(std::span<const double> force) {
   return 0.5;
 }
 
-/// Where the inertance first turns back, among lines that force and motion share.
+/// One line of log w^2 |P|.
+struct Level {
+  double frequency = 0.0;
+  double level = 0.0;
+  double variance = 0.0;
+};
+
+/// The middle one of each three neighbours: a line between those that the force hardly excites is no mode.
+std::vector<Level> smoothed_levels(const std::vector<ResponsePoint>& points) {
+  std::vector<Level> levels;
+  for (const ResponsePoint& point : points) {
+    levels.push_back({point.frequency, std::log(std::abs(point.value) * point.frequency * point.frequency),
+                      point.variance / std::norm(point.value)});
+  }
+  std::vector<Level> smoothed;
+  for (std::size_t i = 1; i + 1 < levels.size(); ++i) {
+    std::array<Level, 3> three{levels[i - 1], levels[i], levels[i + 1]};
+    std::ranges::sort(three, {}, &Level::level);
+    smoothed.push_back({levels[i].frequency, three[1].level, three[1].variance});
+  }
+  return smoothed;
+}
+
+/// Where the levels first turn back by 3 dB and by more than the noise at both ends explains: a peak after a rise, or a
+/// dip before one. A curve that only begins to fall, or a start that rises out of friction, is none.
+std::optional<double> first_turn(const std::vector<Level>& levels) {
+  constexpr double least_turn = 0.35;  // nepers
+  constexpr double deviations = 5.0;
+  Level highest = levels.front();
+  Level lowest = levels.front();
+  bool has_risen = false;
+  bool has_fallen = false;
+  for (const Level& now : levels) {
+    if (now.level > highest.level) highest = now;
+    if (now.level < lowest.level) lowest = now;
+    const auto differs = [&](const Level& from) {
+      const double turn = std::max(least_turn, deviations * std::sqrt(from.variance + now.variance));
+      return std::abs(now.level - from.level) > turn;
+    };
+    if (differs(lowest)) {
+      if (has_fallen) return lowest.frequency;
+      if (!has_risen) highest = now;
+      has_risen = true;
+    } else if (differs(highest)) {
+      if (has_risen) return highest.frequency;
+      if (!has_fallen) lowest = now;
+      has_fallen = true;
+    }
+  }
+  return std::nullopt;
+}
+
 std::optional<double> first_mode(std::span<const double> force, std::span<const double> position) {
-  constexpr double least_coherence = 0.7;
+  constexpr double least_coherence = 0.9;
   constexpr std::size_t least_lines = 20;
   FrequencyResponseOptions options;
   options.excitation = FrequencyResponseOptions::Excitation::aperiodic;
@@ -47,11 +98,7 @@ std::optional<double> first_mode(std::span<const double> force, std::span<const 
     return std::nullopt;
   }
   if (points.size() < least_lines) return std::nullopt;
-  const ResponseFeatures features = response_features(points);
-  std::optional<double> first;
-  for (const std::vector<double>* extremes : {&features.resonances, &features.antiresonances}) {
-    if (!extremes->empty() && (!first || extremes->front() < *first)) first = extremes->front();
-  }
+  std::optional<double> first = first_turn(smoothed_levels(points));
   if (first) *first /= 2.0 * std::numbers::pi;
   return first;
 }
