@@ -25,6 +25,8 @@ constexpr double refused_model_error = 0.5;
 constexpr double doubtful_model_error = 0.05;
 // Beyond the noise, and beside it: what is left over shows clearly, so the structure is another one.
 constexpr double clear_model_error = 0.01;
+// Half of that where the residuals are this many times the noise.
+constexpr double clear_misfit = 5.0;
 
 double hertz(double frequency) { return frequency / (2.0 * std::numbers::pi); }
 
@@ -87,7 +89,8 @@ class Judge {
                                       hertz(*fit_.missing_mode)));
     }
     const double noise = median_noise(judged_.fit.response);
-    const bool is_clear = fit_.model_error > std::max(clear_model_error, noise);
+    const bool stands_out = fit_.misfit && *fit_.misfit > clear_misfit;
+    const bool is_clear = fit_.model_error > std::max(stands_out ? 0.5 * clear_model_error : clear_model_error, noise);
     if (fit_.model_error > doubtful_model_error || is_clear) {
       result_.trust.doubt(
           fmt::format("the structure leaves {} of the response unexplained beyond the noise: friction, backlash, or "

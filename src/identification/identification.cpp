@@ -41,6 +41,46 @@ std::optional<OptionProblem> find_fit_problem(const ParameterFitOptions& options
   return std::nullopt;
 }
 
+/// Delay and lag are each between 0 and their sum, which is all that a band below the limit shows of them: how they
+/// share it counts as a number from that range, neither as known nor as open beyond it.
+void share_lateness(ParameterFit& fit) {
+  DeviceParameters parameters = fit.device.parameters();
+  const double late = parameters.loop.delay + parameters.actuator.time_constant;
+  if (!parameters.uncertainty || !(late > 0.0)) return;
+  Uncertainty& uncertainty = *parameters.uncertainty;
+  const auto place = [&](const char* key) {
+    return static_cast<std::size_t>(std::ranges::find(uncertainty.parameters, std::string(key)) -
+                                    uncertainty.parameters.begin());
+  };
+  const std::size_t delay = place(delay_key);
+  std::size_t lag = place(lag_key);
+  std::size_t count = uncertainty.parameters.size();
+  if (delay == count) return;
+  auto& covariance = uncertainty.covariance;
+  const double of_difference = late * late / 3.0;  // variance of a uniform number from -late to late
+  if (lag == count) {
+    if (count == max_uncertain_parameters) return;
+    uncertainty.parameters.emplace_back(lag_key);
+    for (auto& row : covariance) row.push_back(0.0);
+    covariance.emplace_back(++count, 0.0);
+    const double shared = 0.25 * of_difference;
+    covariance[delay][delay] += shared;
+    covariance[lag][lag] += shared;
+    covariance[delay][lag] = covariance[lag][delay] = -shared;
+  } else {  // as if the difference had been measured so
+    std::vector<double> with_difference;
+    for (const auto& row : covariance) with_difference.push_back(row[delay] - row[lag]);
+    const double open = with_difference[delay] - with_difference[lag];
+    for (std::size_t i = 0; i < count; ++i) {
+      for (std::size_t j = 0; j < count; ++j) {
+        covariance[i][j] -= with_difference[i] * with_difference[j] / (open + of_difference);
+      }
+    }
+    for (std::size_t i = 0; i < count; ++i) covariance[i][i] = std::max(covariance[i][i], 0.0);
+  }
+  fit.device = Device(std::move(parameters));
+}
+
 /// A structure on its way to the device: the record, the fit so far, and what is free.
 class Fitting {
  public:
@@ -75,9 +115,10 @@ class Fitting {
     std::optional<RecordFit> wider;
     for (const std::vector<const char*>& keys : {std::vector{delay_key, lag_key}, std::vector{delay_key}}) {
       wider = with_free(keys, ParameterFitOptions::Start::from_structure);
-      if (wider && wider->fit.device.parameters().uncertainty) break;
+      if (wider && determines(*wider, keys)) break;
     }
     if (!wider || !wider->fit.device.parameters().uncertainty) return;
+    share_lateness(wider->fit);
     if (may_free()) {
       fit_ = std::move(wider);
       return;
@@ -112,6 +153,13 @@ class Fitting {
   }
 
  private:
+  [[nodiscard]] static bool determines(const RecordFit& fit, const std::vector<const char*>& keys) {
+    const auto& uncertainty = fit.fit.device.parameters().uncertainty;
+    return uncertainty && std::ranges::all_of(keys, [&](const char* key) {
+             return std::ranges::count(uncertainty->parameters, std::string(key)) > 0;
+           });
+  }
+
   [[nodiscard]] bool may_free() const { return options_.loop_delay == IdentifyOptions::LoopDelay::from_data; }
   [[nodiscard]] bool is_free(const std::string& key) const { return std::ranges::count(fit_options_.free, key) > 0; }
 
