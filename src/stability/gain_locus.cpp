@@ -11,8 +11,23 @@
 namespace zwidth::internal {
 namespace {
 
-// Close enough to z = 1 for a limit; the error is its square.
-constexpr double cancelled_angle = 1e-7;
+// Where an integrator is left at z = 1 the plant is s / (r delta^n) there.
+struct AtRest {
+  double s = 0.0;
+  double r = 1.0;
+};
+
+AtRest at_rest(const FilteredPlant& plant) {
+  AtRest result;
+  for (const SampledTerm& term : plant.terms) {
+    if (term.integrators == 0) continue;
+    const auto zeros = static_cast<std::size_t>(term.integrators);
+    result.s = term.numerator[0];
+    for (const FilterSection& section : plant.filters) result.s *= static_gain(section);
+    result.r = zeros < term.degree ? term.denominator[zeros] : 1.0;
+  }
+  return result;
+}
 
 // delta^power; |delta|² = x is left out of every pair of factors: delta²/x = -z.
 template <typename Real>
@@ -160,7 +175,9 @@ double GainLocus::gain(double angle) const {
   // The damper's zero at z = 1 and an integrator cancel: the limit.
   if (angle == 0.0 && gain_ == Gain::damping && integrators_ > 0) {
     if (integrators_kept_ > 0) return 0.0;
-    angle = cancelled_angle;
+    // P v -> s / (r delta) delta/T. In closed form: no angle is small beside every pole of a heavy user.
+    const auto [s, r] = at_rest(plant_);
+    return -plant_.period * r / s;
   }
   if (angle >= std::numbers::pi && nyquist_zeros(plant_) > 0) return std::numeric_limits<double>::infinity();
   const CirclePoint<double> point = circle_point(angle);
@@ -191,16 +208,8 @@ int GainLocus::initially_unstable(double phase_near_zero) const {
   if (integrators_kept_ == 0) return unstable;
   // Near z = 1, delta^n r + kappa s = 0: the poles leave at the angles of (-kappa s / r)^(1/n).
   const int n = damper_closed() ? 1 : integrators_kept_;
-  double s = 0.0;
-  double r = 1.0;
-  for (const SampledTerm& term : plant_.terms) {
-    if (term.integrators == 0) continue;
-    const auto zeros = static_cast<std::size_t>(term.integrators);
-    s = term.numerator[0];
-    for (const FilterSection& section : plant_.filters) s *= static_gain(section);
-    r = zeros < term.degree ? term.denominator[zeros] : 1.0;
-    if (damper_closed()) r = (zeros == 1 ? r * c_ : 0.0) + damping_ * c_ / plant_.period * s;
-  }
+  auto [s, r] = at_rest(plant_);
+  if (damper_closed()) r = (integrators_ == 1 ? r * c_ : 0.0) + damping_ * c_ / plant_.period * s;
   for (int i = 0; i < n; ++i) {
     const double turn = s * r > 0.0 ? 2.0 * i + 1.0 : 2.0 * i;
     const double cosine = std::cos(std::numbers::pi * turn / n);
