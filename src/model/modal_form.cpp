@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
 
 #include "model/device_matrices.hpp"
 #include "model/exact_partial_fractions.hpp"
@@ -12,6 +11,7 @@
 #include "model/pencil.hpp"
 #include "model/pole_search.hpp"
 #include "model/pole_starts.hpp"
+#include "model/poles_at_zero.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth {
@@ -150,40 +150,6 @@ ModalForm expand_poles(const Pencil& pencil, const PencilX& extended, std::vecto
   return exact_modal_form(exact(), leading(extended.lag), labels);
 }
 
-// How many poles at s = 0 the structure implies: one for every set of bodies that no spring ties to ground, directly or
-// through others, and one more for every set of those sets that no damper ties to ground either.
-std::size_t poles_at_zero(const Device& device) {
-  const std::size_t n = device.bodies().size();
-  const Operator& user = device.parameters().user;
-  // Label of each body's set; ground is label n.
-  std::vector<std::size_t> set(n + 1);
-  std::iota(set.begin(), set.end(), std::size_t{0});
-  const auto join = [&set](std::size_t a, std::size_t b) {
-    const std::size_t low = std::min(set[a], set[b]);
-    const std::size_t high = std::max(set[a], set[b]);
-    std::replace(set.begin(), set.end(), low, high);
-  };
-  const auto sets_off_ground = [&set] {
-    std::size_t count = 0;
-    for (std::size_t label = 0; label < set.size(); ++label) {
-      if (label != set.back() && std::find(set.begin(), set.end(), label) != set.end()) ++count;
-    }
-    return count;
-  };
-  for (std::size_t i = 0; i < n; ++i)
-    if (device.bodies()[i].stiffness > 0.0) join(i, n);
-  if (user.stiffness > 0.0) join(device.loop().held, n);
-  for (const Link& link : device.links())
-    if (link.stiffness > 0.0) join(link.first, link.second);
-  const std::size_t without_spring = sets_off_ground();
-  for (std::size_t i = 0; i < n; ++i)
-    if (device.bodies()[i].damping > 0.0) join(i, n);
-  if (user.damping > 0.0) join(device.loop().held, n);
-  for (const Link& link : device.links())
-    if (link.damping > 0.0) join(link.first, link.second);
-  return without_spring + sets_off_ground();
-}
-
 template <typename Real>
 BodyPencil<Real> body_pencil(const Device& device, Path path, double lag) {
   DeviceMatrices<Real> matrices = device_matrices<Real>(device);
@@ -291,12 +257,14 @@ ModalForm expand_bodies(const Device& device, Path path, double lag) {
   }
   const double nyquist = std::numbers::pi / device.loop().sampling_period;
   const auto exact = [&] { return exact_fraction(device, path); };
-  if (matrices.mass.size() <= 2) {
-    return expand_poles(small_device_pencil<double>(device, path, lag),
-                        small_device_pencil<Extended>(device, path, lag), std::move(start), labels, nyquist, exact);
-  }
-  return expand_poles(body_pencil<double>(device, path, lag), body_pencil<Extended>(device, path, lag),
-                      std::move(start), labels, nyquist, exact);
+  ModalForm form =
+      matrices.mass.size() <= 2
+          ? expand_poles(small_device_pencil<double>(device, path, lag),
+                         small_device_pencil<Extended>(device, path, lag), std::move(start), labels, nyquist, exact)
+          : expand_poles(body_pencil<double>(device, path, lag), body_pencil<Extended>(device, path, lag),
+                         std::move(start), labels, nyquist, exact);
+  cancel_at_zero(form, poles_at_zero_seen(device, path));
+  return form;
 }
 
 ModalForm expand_transfer_function(const TransferFunction& transfer_function, double lag, double nyquist) {
