@@ -1,6 +1,7 @@
 #include "stability/pole_count.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <complex>
@@ -20,6 +21,8 @@ using Complex = std::complex<double>;
 
 // A pole this close to the circle, over |z - 1|, may be on either side: its eigenvalue is rounded.
 constexpr double rounding = 1e-12;
+// The same for a pole at z = 1 itself, such as the place of a body that dampers alone tie to the rest.
+constexpr double rounding_at_one = 1e-13;
 
 // Eigenvalues cost the cube of the states, the winding number their product with the angles.
 constexpr std::size_t most_states_for_eigenvalues = 40;
@@ -105,7 +108,7 @@ std::optional<int> PoleCount::by_eigenvalues(double stiffness) const {
   for (const Complex& delta : closed_loop_poles_minus_one(plant_, wall)) {
     // |1 + d| - 1 = (2 Re d + |d|²) / (|1 + d| + 1)
     const double excess = (2.0 * delta.real() + std::norm(delta)) / (std::abs(1.0 + delta) + 1.0);
-    if (!(std::abs(excess) > rounding * std::abs(delta))) return std::nullopt;
+    if (!(std::abs(excess) > std::max(rounding * std::abs(delta), rounding_at_one))) return std::nullopt;
     if (excess > 0.0) ++outside;
   }
   return outside;

@@ -54,5 +54,25 @@ TEST(CriticalStiffnessReference, EveryCrossoverOfEveryDevice) {
   }
 }
 
+// The second computation contradicts none of them, and is in doubt of none.
+TEST(CriticalStiffnessReference, EveryDeviceIsConfirmed) {
+  std::ifstream file(ZWIDTH_SOURCE_DIR "/tests/reference/critical_stiffness.json");
+  const nlohmann::json cases = nlohmann::json::parse(file);
+  ASSERT_EQ(cases.size(), 150U);
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    const Device device = test::device_from_json(cases[i].at("device"));
+    SCOPED_TRACE("case " + std::to_string(i) + ", " + device.name());
+    const CriticalStiffness result = critical_stiffness(device);
+    EXPECT_TRUE(result.trust.sound()) << (result.trust.reasons.empty() ? "" : result.trust.reasons.front());
+    const double critical = cases[i].at("critical_stiffness");
+    if (critical == 0.0) {
+      EXPECT_EQ(result.status, StiffnessStatus::none_stable);
+      EXPECT_EQ(result.stiffness, 0.0);
+    } else {
+      expect_close(result.stiffness, critical, "critical stiffness");
+    }
+  }
+}
+
 }  // namespace
 }  // namespace zwidth
