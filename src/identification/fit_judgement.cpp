@@ -78,6 +78,11 @@ class Judge {
                       "and are force and position those of one experiment?",
                       percent(fit_.model_error)));
     }
+    if (is_drowned(judged_.fit.response, fit_.estimates.size())) {
+      result_.trust.refuse(
+          "the response hardly stands out of its noise anywhere; excite more strongly, and check that force and "
+          "position are those of one experiment");
+    }
     if (std::ranges::none_of(fit_.estimates, &ParameterEstimate::identifiable)) {
       result_.trust.refuse("the record determines no parameter of the structure; free fewer, or excite more strongly");
     }
@@ -212,6 +217,14 @@ std::vector<std::string> undetermined(const ParameterFit& fit, const IdentifyOpt
     for (const char* number : {"mass", "damping"}) keys.push_back(fmt::format("body.{}.{}", body, number));
   }
   return keys;
+}
+
+bool is_drowned(const FrequencyResponse& response, std::size_t numbers) {
+  constexpr double clear = 3.0;
+  const auto standing_out = std::ranges::count_if(response.points, [](const ResponsePoint& point) {
+    return std::norm(point.value) > clear * clear * point.variance;
+  });
+  return 2 * static_cast<std::size_t>(standing_out) < numbers;  // each is two numbers
 }
 
 CriticalStiffness limit_of(const Device& device) { return critical_stiffness(device); }

@@ -9,6 +9,9 @@
 
 namespace zwidth::internal {
 
+/// Whether fewer points of a response stand out of their noise (by three deviations) than so many numbers need.
+[[nodiscard]] bool is_drowned(const FrequencyResponse& response, std::size_t numbers);
+
 /// What is to be judged.
 struct JudgedFit {
   const RecordFit& fit;

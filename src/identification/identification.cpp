@@ -94,7 +94,14 @@ class Fitting {
         measured.response.points.size() > fit_options_.free.size() + 1) {
       fit_options_.free.emplace_back(delay_key);
     }
+    if (is_drowned(measured.response, fit_options_.free.size())) {  // then nothing is worth a second fit
+      fit_ = RecordFit{fit_parameters(structure, measured.response, fit_options_), measured.response};
+      is_hopeless_ = true;
+      return;
+    }
     fit_ = whole_fit(structure, measured.response, fit_options_);
+    is_hopeless_ = fit_->fit.model_error_if_turned.has_value();
+    if (is_hopeless_) return;
     if (may_free()) {
       free_what_shows();
     } else {
@@ -110,6 +117,7 @@ class Fitting {
 
   /// Where the limit lies above the band, delay and lag count with what the data leave open of them.
   void widen_above_the_band() {
+    if (is_hopeless_) return;
     const CriticalStiffness critical = limit_of(fit_->fit.device);
     if (!critical.limit || critical.limit->frequency <= fit_->fit.frequencies.back()) return;
     std::optional<RecordFit> wider;
@@ -129,7 +137,7 @@ class Fitting {
   }
 
   [[nodiscard]] std::optional<ShownFriction> friction() const {
-    if (!recording_ || options_.response.output != OutputQuantity::position) return std::nullopt;
+    if (is_hopeless_ || !recording_ || options_.response.output != OutputQuantity::position) return std::nullopt;
     std::optional<FrictionEvidence> found;
     try {
       found = find_friction({fit_->fit.device, fit_options_.locked, keys_of(fit_->fit), recording_->sampling_period,
@@ -240,6 +248,7 @@ class Fitting {
   std::optional<RecordFit> fit_;
   std::vector<Remark> remarks_;
   std::optional<double> ignored_delay_;
+  bool is_hopeless_ = false;  ///< to be refused, whatever else is fitted
 };
 
 void judge_delay(const Fitting& fitting, Judgement& judgement) {

@@ -122,17 +122,20 @@ double stiffness_at(const FitModel& model, const Eigen::VectorXd& x) {
 }
 
 /// The model error of the response with its sign turned round, where it fits much better: a position that falls as the
-/// force rises.
-std::optional<double> error_if_turned(const FitModel& model, std::vector<ResponsePoint> points, double model_error,
+/// force rises. Where noise hides most of the response, the misfit tells better than the model error.
+std::optional<double> error_if_turned(const FitModel& model, std::vector<ResponsePoint> points, const ParameterFit& fit,
                                       double robust_threshold) {
   constexpr double suspicious = 0.3;
   constexpr double much_better = 0.3;
-  if (model_error < suspicious) return std::nullopt;
+  if (fit.model_error < suspicious) return std::nullopt;
   for (ResponsePoint& point : points) point.value = -point.value;
   try {
-    const double turned = solve(model, points, promising_starts(model, points), robust_threshold).model_error;
-    if (turned > much_better * model_error) return std::nullopt;
-    return turned;
+    const Solution turned = solve(model, points, promising_starts(model, points), robust_threshold);
+    const std::optional<double> left = misfit(points, model.response_at(turned.x, fit.frequencies));
+    const bool misses_less = left && fit.misfit && *left < much_better * *fit.misfit;
+    const bool explains_more = turned.model_error <= much_better * fit.model_error;
+    if (!explains_more && !(misses_less && turned.model_error < fit.model_error)) return std::nullopt;
+    return turned.model_error;
   } catch (const Error&) {  // then it fits no better
     return std::nullopt;
   }
@@ -259,7 +262,7 @@ ParameterFit fit_parameters(const Device& structure, const FrequencyResponse& re
     fit.fitted.push_back(at_solution.values(static_cast<Eigen::Index>(i)));
     fit.residuals.push_back(points[i].value - fit.fitted.back());
   }
-  fit.model_error_if_turned = error_if_turned(model, points, fit.model_error, options.robust_threshold);
+  fit.model_error_if_turned = error_if_turned(model, points, fit, options.robust_threshold);
   add_remarks(fit, model, points);
   return fit;
 }
