@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <utility>
 
 #include "zwidth/error.hpp"
 #include "zwidth/model/parameter.hpp"
@@ -37,7 +38,7 @@ double distance(const Point& a, const Point& b) {
 
 class Way {
  public:
-  Way(const Device& device, const std::string& key) : parameters_(device.parameters()), key_(key) {
+  Way(const Device& device, std::string key) : parameters_(device.parameters()), key_(std::move(key)) {
     parameters_.uncertainty.reset();
   }
 

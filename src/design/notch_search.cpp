@@ -106,6 +106,7 @@ std::vector<NotchSearch::Point> NotchSearch::candidates(const std::function<void
 }
 
 std::pair<double, NotchSearch::Point> NotchSearch::climb(Point at, double coarsest, double finest, Route route) const {
+  const auto offset = [](int third) { return static_cast<double>(third - 1); };
   double value = least(at, 0.0, route);
   int moves = 0;
   for (double step = coarsest; step > finest && moves < most_moves;) {
@@ -113,8 +114,8 @@ std::pair<double, NotchSearch::Point> NotchSearch::climb(Point at, double coarse
     double best_value = value;
     for (int i = 0; i < 27; ++i) {
       const Point neighbour =
-          inside({at[0] + step * weight[0] * (i % 3 - 1), at[1] + step * weight[1] * (i / 3 % 3 - 1),
-                  at[2] + step * weight[2] * (i / 9 - 1)});
+          inside({at[0] + step * weight[0] * offset(i % 3), at[1] + step * weight[1] * offset(i / 3 % 3),
+                  at[2] + step * weight[2] * offset(i / 9)});
       if (neighbour == at || !is_near(neighbour)) continue;
       const double there = least(neighbour, best_value, route);
       if (there > best_value) best_value = there, best = neighbour;

@@ -54,6 +54,7 @@ std::vector<StableComponent> components_of(std::vector<TracedRing> rings) {
                                       [](const BoundaryArc& arc) { return arc.kind == BoundaryKind::no_stiffness; });
   }
   std::vector<StableComponent> components;
+  components.reserve(by_number.size());
   for (auto& [number, component] : by_number) components.push_back(std::move(component));
   std::sort(components.begin(), components.end(),
             [](const StableComponent& a, const StableComponent& b) { return a.area > b.area; });

@@ -38,6 +38,7 @@ double unit_of(std::string_view key, const std::vector<ResponsePoint>& points) {
   const int order = ends_with_mass(key) ? 2 : key.ends_with(".damping") ? 1 : 0;
   if (key == "loop.delay" || key == "actuator.time_constant") return 1.0 / points.back().frequency;
   std::vector<double> sizes;
+  sizes.reserve(points.size());
   for (const ResponsePoint& point : points) {
     sizes.push_back(1.0 / (std::abs(point.value) * std::pow(point.frequency, order)));
   }

@@ -152,7 +152,7 @@ void check_reversals(const Terms& terms, const std::vector<std::size_t>& kept) {
 
 /// The slope of a smooth signal between two samples, and its value: cubic through values and slopes.
 double interpolated(const std::vector<double>& values, const std::vector<double>& slopes, double at, double step) {
-  const double last = static_cast<double>(values.size() - 2);
+  const auto last = static_cast<double>(values.size() - 2);
   const auto k = static_cast<std::size_t>(std::clamp(std::floor(at), 0.0, last));
   const double u = std::clamp(at - static_cast<double>(k), 0.0, 1.0);
   const double difference = values[k + 1] - values[k];

@@ -20,7 +20,7 @@ constexpr double least_start = 1e-4;
 /// So there are no bounds, at which Ceres is slow.
 class SearchCoordinates {
  public:
-  SearchCoordinates(const FitModel& model, const Eigen::VectorXd& start) : model_(model), y(start) {
+  SearchCoordinates(const FitModel& model, Eigen::VectorXd start) : model_(model), y(std::move(start)) {
     for (Eigen::Index i = 0; i < y.size(); ++i) {
       if (may_be_zero(i)) y(i) = searched(std::max(y(i), least_start), bound(i));
     }

@@ -19,10 +19,10 @@ bool is_in_counts(const std::vector<double>& samples) {
   const auto [lowest, highest] = std::minmax_element(samples.begin(), samples.end());
   if (*highest - *lowest < least_range) return false;
   if (!std::ranges::all_of(samples, [](double x) { return x == std::round(x); })) return false;
-  constexpr std::size_t least_values = 20;
+  constexpr std::ptrdiff_t least_values = 20;
   std::vector<double> values = samples;
   std::ranges::sort(values);
-  return static_cast<std::size_t>(std::ranges::unique(values).begin() - values.begin()) >= least_values;
+  return std::unique(values.begin(), values.end()) - values.begin() >= least_values;
 }
 
 /// "ms" for a ratio of about 1000, "us" for a million, ...; nothing for a ratio that no unit explains.

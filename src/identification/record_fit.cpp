@@ -64,6 +64,7 @@ namespace internal {
 
 Device device_in_experiment(const Device& fitted, const std::vector<std::string>& locked, double sampling_period) {
   std::vector<std::size_t> bodies;
+  bodies.reserve(locked.size());
   for (const std::string& name : locked) bodies.push_back(fitted.body_index(name));
   DeviceParameters parameters = locked_device(fitted, bodies).parameters();
   parameters.loop.sampling_period = sampling_period;

@@ -23,6 +23,7 @@ double median(std::vector<double> values) {
 template <typename Points, typename Of>
 double typical(const Points& points, Of of) {
   std::vector<double> values;
+  values.reserve(points.size());
   for (const ResponsePoint& point : points) values.push_back(of(point));
   return median(std::move(values));
 }

@@ -47,10 +47,10 @@ using ComplexBallPolynomial = FlintValue<acb_poly_struct, acb_poly_init, acb_pol
 // The midpoint in double-double.
 inline Extended rounded(const arb_struct* ball) {
   const double high = arf_get_d(arb_midref(ball), ARF_RND_NEAR);
-  if (!std::isfinite(high)) return Extended(high);
+  if (!std::isfinite(high)) return {high};
   RealBall low;
   arf_set_d(arb_midref(low), high);
-  arf_sub(arb_midref(low), arb_midref(ball), arb_midref(low), 2 * 53, ARF_RND_NEAR);
+  arf_sub(arb_midref(low), arb_midref(ball), arb_midref(low), slong{2} * 53, ARF_RND_NEAR);
   return Extended(high) + Extended(arf_get_d(arb_midref(low), ARF_RND_NEAR));
 }
 

@@ -103,7 +103,7 @@ class PolynomialMatrix {
   void determinant(IntegerPolynomial& result) const { fmpz_poly_mat_det(result, matrix_); }
 
  private:
-  fmpz_poly_mat_t matrix_;
+  fmpz_poly_mat_t matrix_ = {};
 };
 
 }  // namespace

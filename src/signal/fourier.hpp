@@ -19,6 +19,8 @@ class FourierTransform {
   /// Requires size >= 1.
   explicit FourierTransform(std::size_t size);
   ~FourierTransform();
+  FourierTransform(const FourierTransform&) = delete;
+  FourierTransform& operator=(const FourierTransform&) = delete;
   FourierTransform(FourierTransform&&) noexcept;
   FourierTransform& operator=(FourierTransform&&) noexcept;
 

@@ -18,6 +18,7 @@ class AnyUserSearch {
   explicit AnyUserSearch(const Device& device);
   AnyUserSearch(const AnyUserSearch&) = delete;
   AnyUserSearch& operator=(const AnyUserSearch&) = delete;
+  ~AnyUserSearch() = default;
 
   [[nodiscard]] AnyUserLimit limit(VirtualDamper damper);
 
