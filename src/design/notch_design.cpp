@@ -6,7 +6,6 @@
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -20,8 +19,6 @@ using namespace internal;
 namespace {
 
 using std::numbers::pi;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 constexpr std::size_t drifts_verified = 41;
 constexpr int rounds = 4;              // of search and verification
@@ -66,7 +63,7 @@ struct Verified {
 class Verification {
  public:
   Verification(const Device& device, const NotchOptions& options, bool keep_any_user)
-      : device_(device), options_(options), margins_(required(options)) {
+      : device_(device), margins_(required(options)) {
     const std::size_t count = options.drift > 0.0 ? drifts_verified : 1;
     for (std::size_t i = 0; i < count; ++i) {
       const double share =
@@ -147,7 +144,6 @@ class Verification {
 
  private:
   const Device& device_;
-  const NotchOptions& options_;
   RequiredMargins margins_;
   std::vector<Verified> drifts_;
   std::vector<NotchAtDrift> without_;

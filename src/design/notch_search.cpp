@@ -105,11 +105,12 @@ std::vector<NotchSearch::Point> NotchSearch::candidates(const std::function<void
   return points;
 }
 
-std::pair<double, NotchSearch::Point> NotchSearch::climb(Point at, double coarsest, double finest, Route route) const {
+std::pair<double, NotchSearch::Point> NotchSearch::climb(Point at, double first_step, double last_step,
+                                                         Route route) const {
   const auto offset = [](int third) { return static_cast<double>(third - 1); };
   double value = least(at, 0.0, route);
   int moves = 0;
-  for (double step = coarsest; step > finest && moves < most_moves;) {
+  for (double step = first_step; step > last_step && moves < most_moves;) {
     Point best = at;
     double best_value = value;
     for (int i = 0; i < 27; ++i) {

@@ -42,7 +42,7 @@ class NotchSearch {
   };
   enum class Route { on_grid, exact };
   [[nodiscard]] double least(const Point& at, double enough, Route route) const;
-  [[nodiscard]] std::pair<double, Point> climb(Point at, double coarsest, double finest, Route route) const;
+  [[nodiscard]] std::pair<double, Point> climb(Point at, double first_step, double last_step, Route route) const;
   [[nodiscard]] bool is_near(const Point& at) const;
   [[nodiscard]] Point inside(const Point& at) const;
 
