@@ -102,7 +102,7 @@ TEST_F(Identify, RefusesWhatItCannotUse) {
   expect_refusal(locked + "--json --output-device -", "standard output, which --json takes");
   expect_refusal(locked + "--output-device recordings/locked_chirp.csv", "would overwrite the recording");
   expect_refusal(locked + "--output-device devices/lhifam.toml", "would overwrite the structure");
-  expect_refusal(locked + "--output-device a.svg --figure a.svg", "is the file of --output-device");
+  expect_refusal(locked + "--output-device a.svg --figure a.svg", "is the same file as that of --output-device");
   expect_refusal("zwidth identify recordings/locked_chirp.csv --structure two-body --force force --acceleration force",
                  "column 'force' is named as the force and as the motion");
   expect_refusal(locked + "--highest-hz 12 --lowest-hz 11.9", "");

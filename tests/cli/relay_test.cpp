@@ -123,7 +123,8 @@ TEST_F(Relay, RefusesWhatMakesNoSense) {
   expect_refused(set_a + "--amplitude 5 --steady 0", "--steady: is 0");
   expect_refused(set_a + "--amplitude 5 --figure x.gif", "--figure: x.gif: unknown extension");
   expect_refused("devices/lhifam.toml --amplitude 5 --csv devices/lhifam.toml", "--csv: devices/lhifam.toml: would");
-  expect_refused(set_a + "--amplitude 5 --csv q.svg --figure q.svg", "--figure: q.svg: is the file of --csv");
+  expect_refused(set_a + "--amplitude 5 --csv q.svg --figure q.svg",
+                 "--figure: q.svg: is the same file as that of --csv");
   expect_refused(set_a + "--amplitude 5 --force f", "--force: is about a recording");
   expect_refused(set_a + "--amplitude 5 --motion rotary", "--motion: the device file says it");
 }
