@@ -86,7 +86,7 @@ class Fitting {
  public:
   Fitting(const MeasuredResponse& measured, const Recording* recording, const Device& structure,
           const IdentifyOptions& options)
-      : recording_(recording), structure_(structure), options_(options), fit_options_(options.fit) {
+      : recording_(recording), options_(options), fit_options_(options.fit) {
     for (std::string& key : fit_options_.free) key = full_parameter_key(structure.parameters(), key);
     if (fit_options_.free.empty()) fit_options_.free = fittable_parameters(structure, fit_options_.locked);
     const bool is_unknown = options.structure_values == IdentifyOptions::StructureValues::placeholders;
@@ -242,7 +242,6 @@ class Fitting {
   }
 
   const Recording* recording_;
-  const Device& structure_;
   const IdentifyOptions& options_;
   ParameterFitOptions fit_options_;
   std::optional<RecordFit> fit_;

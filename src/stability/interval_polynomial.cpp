@@ -32,7 +32,7 @@ Tables make_tables() {
     tables.nodes[row] = std::cos(angle);
     tables.weights[row] = (i % 2 == 0 ? 1.0 : -1.0) * std::sin(angle);
     const Real t = Real(0.5) * (Real(1.0) + Real(tables.nodes[row]));
-    Real binomial = 1.0;
+    Real binomial = 1.0L;
     for (int j = 0; j < points; ++j) {
       bernstein(i, j) = binomial * std::pow(t, Real(j)) * std::pow(Real(1.0) - t, Real(degree - j));
       binomial *= Real(degree - j) / Real(j + 1);

@@ -179,7 +179,7 @@ std::complex<double> UserDiscs::kept_motion(double frequency) const {
   const auto n = static_cast<Eigen::Index>(matrices_.mass.size());
   Eigen::Matrix<Number, Eigen::Dynamic, Eigen::Dynamic> bordered(n + 1, n + 1);
   bordered.setZero();
-  Real size = 0.0;
+  Real size = 0.0L;
   for (Eigen::Index i = 0; i < n; ++i) {
     for (Eigen::Index j = 0; j < n; ++j) {
       const auto entry = static_cast<std::size_t>(i * n + j);
