@@ -65,8 +65,9 @@ void add_resonances(const Device& device, std::vector<double>& angles) {
 std::vector<double> grid_of(const Device& device) {
   std::vector<double> angles;
   const int decades = static_cast<int>(std::ceil(std::log10(pi / lowest_angle)));
-  angles.reserve(static_cast<std::size_t>(decades * points_per_decade + points_near_nyquist));
-  for (int i = 0; i < decades * points_per_decade; ++i) {
+  const int below = decades * points_per_decade;
+  angles.reserve(static_cast<std::size_t>(below) + static_cast<std::size_t>(points_near_nyquist));
+  for (int i = 0; i < below; ++i) {
     angles.push_back(pi * std::pow(10.0, -static_cast<double>(i) / points_per_decade));
   }
   for (int i = 0; i < points_near_nyquist; ++i) {

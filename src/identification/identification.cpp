@@ -69,6 +69,7 @@ void share_lateness(ParameterFit& fit) {
     covariance[delay][lag] = covariance[lag][delay] = -shared;
   } else {  // as if the difference had been measured so
     std::vector<double> with_difference;
+    with_difference.reserve(count);
     for (const auto& row : covariance) with_difference.push_back(row[delay] - row[lag]);
     const double open = with_difference[delay] - with_difference[lag];
     for (std::size_t i = 0; i < count; ++i) {

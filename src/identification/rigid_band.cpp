@@ -42,6 +42,7 @@ struct Level {
 /// The middle one of each three neighbours: a line between those that the force hardly excites is no mode.
 std::vector<Level> smoothed_levels(const std::vector<ResponsePoint>& points) {
   std::vector<Level> levels;
+  levels.reserve(points.size());
   for (const ResponsePoint& point : points) {
     levels.push_back({point.frequency, std::log(std::abs(point.value) * point.frequency * point.frequency),
                       point.variance / std::norm(point.value)});

@@ -259,6 +259,7 @@ AnyUserLimit AnyUserSearch::limit(VirtualDamper damper) {
   const auto nobody = [&] { return free.limit && free.stiffness <= least.stiffness; };
   if (nobody()) least = {free.limit->frequency, free.stiffness};
   std::vector<double> stiffnesses;
+  stiffnesses.reserve(samples.size());
   for (const Sample& each : samples) stiffnesses.push_back(each.stiffness);
   const bool is_nothing = least.stiffness <= nothing * typical_of(stiffnesses);
   if (is_nothing) least.stiffness = 0.0;
