@@ -47,7 +47,9 @@ class DesignNotch : public Workspace {
 
 TEST_F(DesignNotch, WritesADeviceThatAnalyzeConfirms) {
   write("soft.toml", mode_limited);
-  const auto design = answer("zwidth design soft.toml --notch --drift-percent 10 --gain-margin-db 0 --phase-margin-deg 0 --lower-any-user --json --write notched.toml");
+  const auto design = answer(
+      "zwidth design soft.toml --notch --drift-percent 10 --gain-margin-db 0 --phase-margin-deg 0 --lower-any-user "
+      "--json --write notched.toml");
   ASSERT_FALSE(design["notch"].is_null());
   const double with = design["stiffness_with"].get<double>();
   EXPECT_GT(with, 1.5 * design["stiffness_without"].get<double>());
@@ -65,7 +67,9 @@ TEST_F(DesignNotch, WritesADeviceThatAnalyzeConfirms) {
 // In time: 2 % below the promised stiffness the notched wall settles, without the notch it grows.
 TEST_F(DesignNotch, SimulationAgrees) {
   write("soft.toml", mode_limited);
-  const auto design = answer("zwidth design soft.toml --notch --drift-percent 10 --gain-margin-db 0 --phase-margin-deg 0 --lower-any-user --json --write notched.toml");
+  const auto design = answer(
+      "zwidth design soft.toml --notch --drift-percent 10 --gain-margin-db 0 --phase-margin-deg 0 --lower-any-user "
+      "--json --write notched.toml");
   const std::string wall =
       " --set wall.stiffness=" + std::to_string(0.98 * design["stiffness_with"].get<double>()) + " --duration 3 --json";
   EXPECT_EQ(answer("zwidth simulate notched.toml" + wall)["verdict"], "settles");
@@ -83,7 +87,9 @@ TEST_F(DesignNotch, SaysWhereNoNotchHelps) {
 
 TEST_F(DesignNotch, PrintsATableToPasteAndDraws) {
   write("soft.toml", mode_limited);
-  const Outcome outcome = run("zwidth design soft.toml --notch --drift-percent 5 --gain-margin-db 6 --phase-margin-deg 0 --lower-any-user -o notch.svg");
+  const Outcome outcome =
+      run("zwidth design soft.toml --notch --drift-percent 5 --gain-margin-db 6 --phase-margin-deg 0 --lower-any-user "
+          "-o notch.svg");
   ASSERT_EQ(outcome.status, 0) << outcome.errors;
   EXPECT_THAT(outcome.output, HasSubstr("[[wall.filter]]\n  type = \"notch\""));
   EXPECT_THAT(outcome.output, HasSubstr("What it changes"));

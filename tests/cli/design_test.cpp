@@ -116,8 +116,8 @@ TEST_F(Design, TargetsAreConfirmedByAnalyze) {
   EXPECT_EQ(document["trust"]["verdict"], "sound");
   const auto& cheapest = document["targets"][0];
   EXPECT_EQ(cheapest["parameter"], "loop.sampling_period");
-  const Outcome analysis = run("zwidth analyze devices/lhifam.toml --json --set loop.sampling_period=" +
-                               cheapest["value_needed"].dump());
+  const Outcome analysis =
+      run("zwidth analyze devices/lhifam.toml --json --set loop.sampling_period=" + cheapest["value_needed"].dump());
   EXPECT_NEAR(nlohmann::json::parse(analysis.output)["critical_stiffness"].get<double>() / 12e3, 1.0, 1e-9);
   const Outcome text = run("zwidth design devices/lhifam.toml --target 12000");
   EXPECT_THAT(text.output, HasSubstr("What reaches it"));

@@ -50,8 +50,8 @@ std::vector<ResponseLine> thinned(std::vector<ResponseLine> points) {
     const auto end = std::find_if(first, points.end(), [&, column = column_of(*first)](const ResponseLine& point) {
       return column_of(point) != column;
     });
-    auto [least, most] =
-        std::minmax_element(first, end, [](const ResponseLine& a, const ResponseLine& b) { return a.magnitude < b.magnitude; });
+    auto [least, most] = std::minmax_element(
+        first, end, [](const ResponseLine& a, const ResponseLine& b) { return a.magnitude < b.magnitude; });
     if (most < least) std::swap(least, most);
     kept.push_back(*least);
     if (most != least) kept.push_back(*most);

@@ -201,11 +201,11 @@ class RegionFigure {
     for (const ComparedApproximation& each : walls_.approximations) {
       const Formula formula = each.formula.formula;
       const LineStyle style = style_of(formula);
-      what += each.formula.largest_damping == 0.0
-                  ? fmt::format("${} {} with points {} notitle, ", results::name_of(formula), columns,
-                                point_marker(formula))
-                  : fmt::format("${} {} with lines {} notitle, ", results::name_of(formula), columns,
-                                gnuplot_line(style));
+      what +=
+          each.formula.largest_damping == 0.0
+              ? fmt::format("${} {} with points {} notitle, ", results::name_of(formula), columns,
+                            point_marker(formula))
+              : fmt::format("${} {} with lines {} notitle, ", results::name_of(formula), columns, gnuplot_line(style));
     }
     canvas.plot(frame, what + "NaN notitle");
   }
