@@ -29,7 +29,7 @@ class CrowdedPolesProperty : public testing::TestWithParam<std::string_view> {};
 // K_CR to 1e-7, stability everywhere below it, and every crossover to 1e-6 with the poles that it claims.
 TEST_P(CrowdedPolesProperty, CountsInManyDigitsConfirmEveryCrossover) {
   constexpr double step_at_limit = 1e-7;
-  // Beyond 1e8 times K_CR the terms cancel so far that a crossover's K keeps four digits (docs/completeness.md, section 6).
+  // Beyond 1e8 times K_CR the terms cancel so far that a crossover's K keeps four digits (docs/completeness.md: where the arithmetic ends).
   const auto step_of = [](const Crossover& crossover, double limit) {
     return crossover.stiffness > 1e8 * limit ? 1e-4 : 1e-6;
   };
