@@ -37,7 +37,8 @@ class ReturnDifference {
   ReturnDifference(const DiscreteStateSpace& plant, const Wall& wall, double stiffness)
       : delay_samples_(static_cast<double>(plant.delay_samples)), stiffness_(stiffness) {
     const Eigen::VectorXd scales = balancing_scales(plant.Phi);
-    phi_ = scales.cwiseInverse().asDiagonal() * plant.Phi * scales.asDiagonal();
+    const Eigen::MatrixXd phi = scales.cwiseInverse().asDiagonal() * plant.Phi * scales.asDiagonal();
+    phi_ = phi.cast<Complex>();
     gamma1_ = scales.cwiseInverse().asDiagonal() * plant.Gamma1;
     gamma2_ = scales.cwiseInverse().asDiagonal() * plant.Gamma2;
     output_ = plant.C * scales.asDiagonal();
@@ -47,7 +48,7 @@ class ReturnDifference {
     for (const WallFilter& filter : wall.filters) filters_.push_back(filter_section(filter, plant.period));
   }
 
-  [[nodiscard]] Complex operator()(double angle) const {
+  [[nodiscard]] Complex operator()(double angle) {
     const double half = std::sin(0.5 * angle);
     const Complex circle(-2.0 * half * half, std::sin(angle));  // e^{j angle} - 1
     const Complex delta = circle + (radius - 1.0) * (1.0 + circle);
@@ -55,10 +56,10 @@ class ReturnDifference {
     Complex wall = stiffness_ + rate_ * delta / (z - pole_);
     for (const FilterSection& filter : filters_) wall *= response_of(filter, delta);
     wall *= std::polar(std::exp(-delay_samples_ * std::log(radius)), -delay_samples_ * angle);
-    Eigen::MatrixXcd matrix = -phi_.cast<Complex>();
-    matrix.diagonal().array() += delta;
-    matrix += (wall * gamma1_ + (wall / z) * gamma2_) * output_;
-    return matrix.partialPivLu().determinant();
+    matrix_ = -phi_;
+    matrix_.diagonal().array() += delta;
+    matrix_.noalias() += (wall * gamma1_ + (wall / z) * gamma2_) * output_;
+    return factors_.compute(matrix_).determinant();
   }
 
  private:
@@ -71,10 +72,12 @@ class ReturnDifference {
     return n / d;
   }
 
-  Eigen::MatrixXd phi_;
+  Eigen::MatrixXcd phi_;
   Eigen::VectorXcd gamma1_;
   Eigen::VectorXcd gamma2_;
   Eigen::RowVectorXcd output_;
+  Eigen::MatrixXcd matrix_;  // of one angle, and its factors: no allocation for each
+  Eigen::PartialPivLU<Eigen::MatrixXcd> factors_;
   std::vector<FilterSection> filters_;
   double delay_samples_;
   double stiffness_;
@@ -115,10 +118,11 @@ std::optional<int> PoleCount::by_eigenvalues(double stiffness) const {
 }
 
 std::optional<int> PoleCount::by_winding(double stiffness) const {
-  const ReturnDifference f(plant_, device_.parameters().wall, stiffness);
-  const double turns = winding_number(f, steps_per_state * states_);
+  ReturnDifference f(plant_, device_.parameters().wall, stiffness);
+  const std::optional<double> turns = winding_number(f, steps_per_state * states_);
+  if (!turns) return std::nullopt;
   // All poles of f lie inside: the delays, the velocity's low-pass, the filters; f ~ delta^n far outside.
-  const double outside = static_cast<double>(plant_.Phi.rows()) - turns;
+  const double outside = static_cast<double>(plant_.Phi.rows()) - *turns;
   constexpr double whole = 0.1;  // turns are whole but for rounding
   if (!(std::abs(outside - std::round(outside)) < whole)) return std::nullopt;
   return static_cast<int>(std::lround(outside));

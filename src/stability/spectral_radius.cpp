@@ -3,6 +3,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <optional>
 
 #include "stability/winding_number.hpp"
 
@@ -67,9 +68,10 @@ class Characteristic {
 };
 
 bool holds_all_poles(const Characteristic& p, double radius, std::size_t delay_samples) {
-  const double turns = winding_number([&](double angle) { return p(radius, angle); }, 8 * p.order());
+  const auto f = [&](double angle) { return p(radius, angle); };
+  const std::optional<double> turns = winding_number(f, 8 * p.order());
   // Half the circle turns p by pi per zero inside; p / z^L by L less.
-  return std::lround(turns + static_cast<double>(delay_samples)) >= static_cast<long>(p.order());
+  return turns && std::lround(*turns + static_cast<double>(delay_samples)) >= static_cast<long>(p.order());
 }
 
 }  // namespace
