@@ -205,7 +205,7 @@ void add_export(CLI::App& app) {
                    "critical stiffness where there is no such limit; of the lower end\n"
                    "of the 95 % interval where the device has one;\n"
                    "chai3d: of both ceilings (default 0.5)")
-      ->type_name("S");
+      ->type_name("FACTOR");
   command->add_flag("--accept-doubt", arguments->accept_doubt,
                     "c: write the wall of a device that is doubtful (its file says why)");
   command->footer(

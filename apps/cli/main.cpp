@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "cli/commit.hpp"
+#include "cli/option_units.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
 #include "cli/usage_error.hpp"
@@ -66,6 +67,7 @@ int run(int argument_count, char** arguments) {
   add_reproduce(app);
   add_simulate(app);
   for (CLI::App* command : app.get_subcommands({})) command->group("Commands");
+  accept_units(app);
   app.get_formatter()->label("SUBCOMMAND", "COMMAND");
   app.get_formatter()->label("REQUIRED", "");
   if (argument_count < 2) {

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <numbers>
+#include <optional>
 #include <set>
 #include <utility>
 #include <vector>
@@ -57,6 +60,7 @@ class DeviceReader {
   void read_motion() {
     const auto motion = root_.text("motion");
     if (motion == "rotary") device_.motion = Motion::rotary;
+    reading_.set_motion(device_.motion);
     if (motion && motion != "linear" && motion != "rotary") {
       root_.refuse("motion", fmt::format("is {}", in_quotes(*motion)), "must be \"linear\" or \"rotary\"");
     }
@@ -70,10 +74,10 @@ class DeviceReader {
       if (!body.name.empty()) reader.rename(fmt::format("body.{}", body.name));
       reader.refuse_keys_not_of(DeviceTable::body);
       if (!reader.has("name")) reader.refuse("name", "is missing", "must be given as text in quotes");
-      body.mass = reader.required_positive_number(mass_key(reader, device_.motion));
-      body.damping = reader.number("damping").value_or(0.0);
-      body.stiffness = reader.number("stiffness").value_or(0.0);
-      body.coulomb = reader.number("coulomb").value_or(0.0);
+      body.mass = reader.required_positive_number(mass_key(reader, device_.motion), Measure::mass);
+      body.damping = reader.number("damping", Measure::damping).value_or(0.0);
+      body.stiffness = reader.number("stiffness", Measure::stiffness).value_or(0.0);
+      body.coulomb = reader.number("coulomb", Measure::force).value_or(0.0);
       names_.push_back(body.name);
       device_.bodies.push_back(std::move(body));
     }
@@ -92,8 +96,8 @@ class DeviceReader {
         link.first = body_index(reader, "between", between[0]);
         link.second = body_index(reader, "between", between[1]);
       }
-      link.stiffness = reader.number("stiffness").value_or(0.0);
-      link.damping = reader.number("damping").value_or(0.0);
+      link.stiffness = reader.number("stiffness", Measure::stiffness).value_or(0.0);
+      link.damping = reader.number("damping", Measure::damping).value_or(0.0);
       if (!reader.has("stiffness") && !reader.has("damping")) {
         reader.refuse("stiffness", "is missing", "must be given, or damping, or both");
       }
@@ -129,32 +133,49 @@ class DeviceReader {
     device_.loop.actuated = loop_body(reader, "actuated", 0);
     device_.loop.sensed = loop_body(reader, "sensed", 0);
     device_.loop.held = loop_body(reader, "held", device_.bodies.empty() ? 0 : device_.bodies.size() - 1);
-    device_.loop.sampling_period = reader.required_positive_number("sampling_period");
-    device_.loop.delay = reader.number("delay").value_or(0.0);
+    device_.loop.sampling_period = reader.required_positive_number("sampling_period", Measure::time);
+    device_.loop.delay = reader.number("delay", Measure::time).value_or(0.0);
   }
 
   void read_surroundings() {
     if (const toml::table* table = root_.table(DeviceTable::actuator)) {
       TableReader reader = table_reader(DeviceTable::actuator, *table);
-      device_.actuator.time_constant = reader.number("time_constant").value_or(0.0);
-      device_.actuator.force_limit = reader.number("force_limit");
+      device_.actuator.time_constant = reader.number("time_constant", Measure::time).value_or(0.0);
+      device_.actuator.force_limit = reader.number("force_limit", Measure::force);
     }
     if (const toml::table* table = root_.table(DeviceTable::sensor)) {
       TableReader reader = table_reader(DeviceTable::sensor, *table);
-      device_.sensor.resolution = reader.number("resolution").value_or(0.0);
+      device_.sensor.resolution = reader.number("resolution", Measure::position).value_or(0.0);
     }
     if (const toml::table* table = root_.table(DeviceTable::wall)) {
       TableReader reader = table_reader(DeviceTable::wall, *table);
-      device_.wall.stiffness = reader.number("stiffness");
-      device_.wall.damping = reader.number("damping").value_or(0.0);
-      device_.wall.velocity_filter_hz = reader.number("velocity_filter_hz").value_or(0.0);
+      device_.wall.stiffness = reader.number("stiffness", Measure::stiffness);
+      device_.wall.damping = reader.number("damping", Measure::damping).value_or(0.0);
+      read_velocity_filter(reader);
       read_filters(reader);
     }
     if (const toml::table* table = root_.table(DeviceTable::user)) {
       TableReader reader = table_reader(DeviceTable::user, *table);
-      device_.user.mass = reader.number(mass_key(reader, device_.motion)).value_or(0.0);
-      device_.user.damping = reader.number("damping").value_or(0.0);
-      device_.user.stiffness = reader.number("stiffness").value_or(0.0);
+      device_.user.mass = reader.number(mass_key(reader, device_.motion), Measure::mass).value_or(0.0);
+      device_.user.damping = reader.number("damping", Measure::damping).value_or(0.0);
+      device_.user.stiffness = reader.number("stiffness", Measure::stiffness).value_or(0.0);
+    }
+  }
+
+  /// The low-pass by its cutoff, or by the time constant of backward Euler, whose pole is tau/(tau + T):
+  ///     exp(-2 pi f T) = tau/(tau + T)   for   f = ln(1 + T/tau) / (2 pi T)
+  void read_velocity_filter(TableReader& wall) {
+    device_.wall.velocity_filter_hz = wall.number("velocity_filter_hz", Measure::frequency_hz).value_or(0.0);
+    const std::optional<double> tau = wall.number("velocity_filter_tau", Measure::time);
+    if (!tau) return;
+    const double period = device_.loop.sampling_period;
+    if (wall.has("velocity_filter_hz")) {
+      wall.refuse("velocity_filter_tau", "is given beside velocity_filter_hz, which is the same filter",
+                  "must be one of the two");
+    } else if (!(*tau == 0.0 || (*tau >= 1e-30 && *tau <= 1e30))) {
+      wall.refuse("velocity_filter_tau", fmt::format("is {}", *tau), "must be 0 or from 1e-30 to 1e30 (in s)");
+    } else if (*tau > 0.0 && period > 0.0) {
+      device_.wall.velocity_filter_hz = std::log1p(period / *tau) / (2.0 * std::numbers::pi * period);
     }
   }
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <vector>
 
+#include "io/key_synonyms.hpp"
 #include "io/prose.hpp"
 #include "zwidth/io/message_words.hpp"
 
@@ -28,7 +29,7 @@ const std::array<TableKeys, 11>& all_tables() {
       {"loop", {"actuated", "sensed", "held", "sampling_period", "delay"}},
       {"actuator", {"time_constant", "force_limit"}},
       {"sensor", {"resolution"}},
-      {"wall", {"stiffness", "damping", "velocity_filter_hz", "filter"}},
+      {"wall", {"stiffness", "damping", "velocity_filter_hz", "velocity_filter_tau", "filter"}},
       {"filter", {"type", "frequency_hz", "order", "damping_ratio", "depth", "ratio", "numerator", "denominator"}},
       {"operator", {"mass", "inertia", "damping", "stiffness"}},
       {"transfer_function", {"numerator", "denominator"}},
@@ -65,6 +66,7 @@ std::string header_of(DeviceTable table) {
 bool is_key_of(DeviceTable table, std::string_view key) { return std::ranges::count(keys_of(table), key) > 0; }
 
 std::string remedy_for_unknown_key(DeviceTable table, std::string_view key) {
+  if (auto remedy = remedy_for_synonym(table, key)) return *std::move(remedy);
   std::vector<std::string> homes;
   for (std::size_t i = 0; i < all_tables().size(); ++i) {
     const auto other = static_cast<DeviceTable>(i);

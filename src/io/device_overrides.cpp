@@ -153,22 +153,31 @@ tl::expected<Target, InputError> find_target(toml::table& document, std::string_
                                 fmt::format("write {}=VALUE", first)));
 }
 
+/// A word, or a number and something of a unit.
+bool is_bare_text(std::string_view text) {
+  const auto is_letter = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == '%' || (c & 0x80);
+  };
+  if (text.empty() || text.find_first_of("\"\\") != std::string_view::npos) return false;
+  if (is_letter(text.front())) return true;
+  return std::string_view(".+-0123456789").find(text.front()) != std::string_view::npos &&
+         std::ranges::any_of(text, is_letter);
+}
+
 /// A TOML document with the one key "value", or why the text is no TOML value.
 tl::expected<toml::table, InputError> parse_value(std::string_view key, std::string_view text) {
   auto document = parse_toml(fmt::format("value = {}", text), override_source);
-  // A bare word is text: it starts like a word, which no number, array or quoted text does.
-  const auto first = text.empty() ? '\0' : text.front();
-  const bool is_word =
-      (first >= 'a' && first <= 'z') || (first >= 'A' && first <= 'Z') || first == '_' || (first & 0x80);
-  if (!document && is_word && text.find_first_of("\"\\") == std::string_view::npos) {
+  // A bare word is text, and so is a number with a unit: neither starts like an array or quoted text.
+  if (!document && is_bare_text(text)) {
     document = parse_toml(fmt::format("value = \"{}\"", text), override_source);
   }
   if (!document && document.error().what == number_out_of_range) {
     return tl::unexpected(refusal(key, document.error().what, document.error().allowed));
   }
   if (!document || document->size() != 1) {
-    return tl::unexpected(refusal(key, fmt::format("cannot read the value {}", in_quotes(text)),
-                                  "must be a TOML value such as 0.25e-3, \"handle\" or [1, 2]"));
+    return tl::unexpected(
+        refusal(key, fmt::format("cannot read the value {}", in_quotes(text)),
+                "must be a TOML value such as 0.25e-3, \"handle\" or [1, 2], or a number with its unit"));
   }
   return std::move(*document);
 }
@@ -187,9 +196,13 @@ std::optional<InputError> apply_override(toml::table& document, const std::strin
   const auto target = find_target(document, key);
   if (!target) return target.error();
   if (!target->table) return std::nullopt;
-  // mass and inertia are one quantity: the override replaces whichever the file gave.
-  if (target->key == "mass") target->table->erase("inertia");
-  if (target->key == "inertia") target->table->erase("mass");
+  // Two keys of one quantity: the override replaces whichever the file gave.
+  constexpr std::pair<std::string_view, std::string_view> aliases[] = {{"mass", "inertia"},
+                                                                       {"velocity_filter_hz", "velocity_filter_tau"}};
+  for (const auto& [one, other] : aliases) {
+    if (target->key == one) target->table->erase(other);
+    if (target->key == other) target->table->erase(one);
+  }
   value->get("value")->visit(
       [&](auto& node) { target->table->insert_or_assign(toml::key(target->key, override_region()), std::move(node)); });
   return std::nullopt;

@@ -94,17 +94,23 @@ void TableReader::refuse_type(const toml::node& node, std::string_view key, std:
   reading_.refuse(node.source(), full_key(key), description(node), std::string(allowed));
 }
 
-std::optional<double> TableReader::number(std::string_view key) {
+std::optional<double> TableReader::number(std::string_view key, std::optional<Measure> measure) {
   const toml::node* node = find(key);
   if (!node) return std::nullopt;
-  const auto value = as_number(*node);
-  if (!value) refuse_type(*node, key, "must be a number");
-  return value;
+  if (const auto value = as_number(*node)) return value;
+  if (!measure || !node->is_string()) {
+    refuse_type(*node, key, measure ? allowed_numbers(*measure, reading_.motion()) : "must be a number");
+    return std::nullopt;
+  }
+  auto value = number_with_unit(node->as_string()->get(), *measure, reading_.motion());
+  if (value) return *value;
+  reading_.refuse(node->source(), full_key(key), std::move(value.error().what), std::move(value.error().allowed));
+  return std::nullopt;
 }
 
-double TableReader::required_positive_number(std::string_view key) {
+double TableReader::required_positive_number(std::string_view key, Measure measure) {
   if (!has(key)) refuse(key, "is missing", "must be given as a number > 0");
-  return number(key).value_or(0.0);
+  return number(key, measure).value_or(0.0);
 }
 
 std::optional<std::string> TableReader::text(std::string_view key) {

@@ -9,6 +9,7 @@
 #include "io/device_keys.hpp"
 #include "io/toml.hpp"
 #include "zwidth/io/device_file.hpp"
+#include "zwidth/io/number_with_unit.hpp"
 
 namespace zwidth::internal {
 
@@ -18,6 +19,10 @@ namespace zwidth::internal {
 class DeviceReading {
  public:
   explicit DeviceReading(std::string_view source) : source_(source) {}
+
+  /// Of which motion the units are from now on.
+  void set_motion(Motion motion) { motion_ = motion; }
+  [[nodiscard]] Motion motion() const { return motion_; }
 
   /// Keeps the first refusal only.
   void refuse(const toml::source_region& place, std::string key, std::string what, std::string allowed);
@@ -30,6 +35,7 @@ class DeviceReading {
 
  private:
   std::string source_;
+  Motion motion_ = Motion::linear;
   std::map<std::string, toml::source_region> places_;
   std::optional<InputError> error_;
 };
@@ -47,9 +53,10 @@ class TableReader {
   void rename(std::string key);
 
   [[nodiscard]] bool has(std::string_view key) const { return table_.contains(key); }
-  [[nodiscard]] std::optional<double> number(std::string_view key);
+  /// In SI units; a text with its unit too, where something is measured.
+  [[nodiscard]] std::optional<double> number(std::string_view key, std::optional<Measure> measure = std::nullopt);
   /// Refused when missing; that it is positive is for find_problem() to check.
-  [[nodiscard]] double required_positive_number(std::string_view key);
+  [[nodiscard]] double required_positive_number(std::string_view key, Measure measure);
   [[nodiscard]] std::optional<std::string> text(std::string_view key);
   /// All elements, each required to be what the name says; empty (and refused) when the key is missing.
   [[nodiscard]] std::vector<double> required_numbers(std::string_view key);

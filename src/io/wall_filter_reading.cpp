@@ -69,7 +69,7 @@ void read_low_pass(TableReader& reader, WallFilter& filter) {
     return;
   }
   filter.order = order == 1.0 ? 1 : 2;
-  filter.damping_ratio = reader.number("damping_ratio").value_or(filter.damping_ratio);
+  filter.damping_ratio = reader.number("damping_ratio", Measure::ratio).value_or(filter.damping_ratio);
   if (filter.order == 1 && reader.has("damping_ratio")) {
     reader.refuse("damping_ratio", "stands beside order 1, which has none", "must be left out, or set order = 2");
   }
@@ -86,23 +86,23 @@ WallFilter read_wall_filter(TableReader& reader) {
   refuse_keys_of_other_types(reader, *kind);
   switch (*kind) {
     case low_pass:
-      filter.frequency_hz = reader.required_positive_number("frequency_hz");
+      filter.frequency_hz = reader.required_positive_number("frequency_hz", Measure::frequency_hz);
       read_low_pass(reader, filter);
       break;
     case notch:
-      filter.frequency_hz = reader.required_positive_number("frequency_hz");
-      filter.damping_ratio = reader.number("damping_ratio").value_or(filter.damping_ratio);
-      filter.depth = reader.number("depth").value_or(filter.depth);
+      filter.frequency_hz = reader.required_positive_number("frequency_hz", Measure::frequency_hz);
+      filter.damping_ratio = reader.number("damping_ratio", Measure::ratio).value_or(filter.damping_ratio);
+      filter.depth = reader.number("depth", Measure::ratio).value_or(filter.depth);
       break;
     case lead_lag:
-      filter.frequency_hz = reader.required_positive_number("frequency_hz");
-      filter.ratio = reader.required_positive_number("ratio");
+      filter.frequency_hz = reader.required_positive_number("frequency_hz", Measure::frequency_hz);
+      filter.ratio = reader.required_positive_number("ratio", Measure::ratio);
       break;
     case biquad:
     case digital:
       filter.numerator = reader.required_numbers("numerator");
       filter.denominator = reader.required_numbers("denominator");
-      filter.frequency_hz = reader.number("frequency_hz").value_or(0.0);
+      filter.frequency_hz = reader.number("frequency_hz", Measure::frequency_hz).value_or(0.0);
       break;
   }
   return filter;

@@ -26,6 +26,8 @@ const std::string no_device =
     "1:1: body: is missing: the device has no [[body]] and no [transfer_function]; must be one or more bodies, or a "
     "transfer function";
 
+const std::string a_damping = "must be a number of N s/m, or a text with its unit such as \"5 N s/m\"";
+
 class RefusedText : public testing::TestWithParam<BadText> {};
 
 TEST_P(RefusedText, IsNamedWithItsPlace) {
@@ -80,7 +82,8 @@ const BadText texts[] = {
     {"key_of_several_tables", body("") + loop("stiffness = 1"),
      "7:1: loop.stiffness: unknown key \"stiffness\"; it belongs in [[body]] or [[link]] or [wall] or [operator]"},
     {"unheard_of_key", body("") + loop() + "[wall]\ncolour = 3\n",
-     "9:1: wall.colour: unknown key \"colour\"; the keys of [wall] are stiffness, damping, velocity_filter_hz, filter"},
+     "9:1: wall.colour: unknown key \"colour\"; the keys of [wall] are stiffness, damping, velocity_filter_hz, "
+     "velocity_filter_tau, filter"},
     {"key_with_newline", "\"a\\nb\" = 1\n",
      "1:1: a\\x0Ab: unknown key \"a\\x0Ab\"; the keys of the top level are name, motion, body, link, loop, actuator, "
      "sensor, wall, operator, transfer_function, uncertainty"},
@@ -88,10 +91,51 @@ const BadText texts[] = {
      fmt::format("1:1: {0}...: unknown key \"{0}...\"; the keys of the top level are name, motion, body, link, loop, "
                  "actuator, sensor, wall, operator, transfer_function, uncertainty",
                  std::string(60, 'k'))},
-    {"text_for_number", body("damping = \"x\""), "4:11: body.a.damping: is the text \"x\"; must be a number"},
-    {"date_for_number", body("damping = 1979-05-27"), "4:11: body.a.damping: is a date or time; must be a number"},
-    {"truth_for_number", body("damping = true"), "4:11: body.a.damping: is true; must be a number"},
-    {"array_for_number", body("damping = [1]"), "4:11: body.a.damping: is an array; must be a number"},
+    {"text_for_number", body("damping = \"x\""), "4:11: body.a.damping: is the text \"x\"; " + a_damping},
+    {"date_for_number", body("damping = 1979-05-27"), "4:11: body.a.damping: is a date or time; " + a_damping},
+    {"truth_for_number", body("damping = true"), "4:11: body.a.damping: is true; " + a_damping},
+    {"array_for_number", body("damping = [1]"), "4:11: body.a.damping: is an array; " + a_damping},
+    {"unit_of_another_kind", body("damping = \"5 N/m\""),
+     "4:11: body.a.damping: \"N/m\" is no unit of a damping; " + a_damping},
+    {"unit_of_rotary_motion", body("stiffness = \"5 N m/deg\""),
+     "4:13: body.a.stiffness: \"N m/deg\" is no unit of a stiffness; must be a number of N/m, or a text with its unit "
+     "such as \"5 N/mm\""},
+    {"number_without_unit", body("damping = \"5\""), "4:11: body.a.damping: \"5\" has no unit; " + a_damping},
+    {"no_unit", body("damping = \"5 N s/mile\""),
+     "4:11: body.a.damping: cannot read the unit \"N s/mile\"; " + a_damping},
+    {"temperature", body("damping = \"5 N s/m @ 3\""),
+     "4:11: body.a.damping: cannot read the unit \"N s/m @ 3\"; " + a_damping},
+    {"period_as_a_frequency", body("") + "[loop]\nsampling_period = \"2.5 kHz\"\n",
+     "6:19: loop.sampling_period: \"kHz\" is no unit of a time; a period is 1/frequency: \"0.0004 s\""},
+    {"counts_as_a_step", "motion = \"rotary\"\n" + body("") + loop() + "[sensor]\nresolution = \"4096 counts/turn\"\n",
+     "10:14: sensor.resolution: \"counts/turn\" is no unit of an angle; a step is its inverse, such as \"1 "
+     "turn/4096\""},
+    {"unit_out_of_range", body("damping = \"1e400 N s/m\""),
+     "4:11: body.a.damping: the number is out of range; must be 0 or from 1e-30 to 1e30 in magnitude (coefficients: "
+     "1e-100 to 1e100)"},
+    {"negative_with_unit", body("damping = \"-3 N s/mm\"") + loop(),
+     "4:11: body.a.damping: is -3000; must be a finite number >= 0"},
+    {"unit_of_an_order",
+     body("") + loop() + "[[wall.filter]]\ntype = \"low_pass\"\nfrequency_hz = 3\norder = \"2 s\"\n",
+     "11:9: wall.filter.0.order: is the text \"2 s\"; must be a number"},
+    {"sampling_frequency", body("") + "[loop]\nsampling_frequency = 2000\n",
+     "6:1: loop.sampling_frequency: unknown key \"sampling_frequency\"; write sampling_period of [loop], which is "
+     "1/frequency: 2 kHz is \"500 us\" or 0.5e-3 (s)"},
+    {"sample_time_at_the_top", "Ts = 1e-3\n" + body("") + loop(),
+     "1:1: Ts: unknown key \"Ts\"; did you mean \"sampling_period\" of [loop]? A number of s, or a text with its unit "
+     "such as \"500 us\""},
+    {"friction", body("friction = 1"),
+     "4:1: body.a.friction: unknown key \"friction\"; write damping for viscous friction (N s/m), coulomb for dry "
+     "friction (N)"},
+    {"damping_ratio_of_a_link", "[[link]]\nbetween = [\"a\", \"b\"]\ndamping_ratio = 0.1\n",
+     "3:1: link.0.damping_ratio: unknown key \"damping_ratio\"; write damping in N s/m (N m s/rad): 2 damping_ratio "
+     "sqrt(stiffness m), m = m1 m2/(m1 + m2) of its two bodies"},
+    {"both_velocity_filters", body("") + loop() + "[wall]\nvelocity_filter_hz = 3\nvelocity_filter_tau = 1e-3\n",
+     "10:23: wall.velocity_filter_tau: is given beside velocity_filter_hz, which is the same filter; must be one of "
+     "the "
+     "two"},
+    {"negative_time_constant", body("") + loop() + "[wall]\nvelocity_filter_tau = -1e-3\n",
+     "9:23: wall.velocity_filter_tau: is -0.001; must be 0 or from 1e-30 to 1e30 (in s)"},
     {"number_for_text", "name = 3\n", "1:8: name: is the number 3; must be text in quotes"},
     {"number_for_table", "loop = 1.5\n", "1:8: loop: is the number 1.5; must be a table, [loop]"},
     {"table_for_tables", "[body]\nname = \"a\"\n", "1:1: body: is a table; must be tables, [[body]]"},

@@ -86,7 +86,8 @@ TEST_P(RefusedOverride, IsNamed) {
   EXPECT_EQ(device.error().str(), GetParam().message);
 }
 
-const std::string must_be_value = "must be a TOML value such as 0.25e-3, \"handle\" or [1, 2]";
+const std::string must_be_value =
+    "must be a TOML value such as 0.25e-3, \"handle\" or [1, 2], or a number with its unit";
 
 const BadOverride overrides[] = {
     {"no_equals", "loop.delay", "an override: \"loop.delay\" is not KEY=VALUE; write for instance loop.delay=0.25e-3"},
@@ -111,7 +112,15 @@ const BadOverride overrides[] = {
      "an override: body.mass: could be in any of 2 [[body]]; write for instance body.0.mass"},
     {"no_such_link", "link.1.damping=1",
      "an override: link.1.damping: there is no link \"1\"; must be link.0 to link.0"},
-    {"text_for_number", "body.handle.mass=abc", "an override: body.handle.mass: is the text \"abc\"; must be a number"},
+    {"text_for_number", "body.handle.mass=abc",
+     "an override: body.handle.mass: is the text \"abc\"; must be a number of kg, or a text with its unit such as "
+     "\"220 g\""},
+    {"unit_of_another_kind", "loop.delay=2 mm",
+     "an override: loop.delay: \"mm\" is no unit of a time; must be a number of s, or a text with its unit such as "
+     "\"1.5 ms\""},
+    {"quoted_unit_of_another_kind", "loop.delay=\"2 mm\"",
+     "an override: loop.delay: \"mm\" is no unit of a time; must be a number of s, or a text with its unit such as "
+     "\"1.5 ms\""},
     {"impossible_value", "body.motor.mass=-3", "an override: body.motor.mass: is -3; must be a finite number > 0"},
     {"impossible_link", "link.stiffness=-1", "an override: link.0.stiffness: is -1; must be a finite number >= 0"},
     {"value_for_table", "wall=3", "an override: wall: is the number 3; must be a table, [wall]"},
@@ -123,6 +132,20 @@ const BadOverride overrides[] = {
 
 INSTANTIATE_TEST_SUITE_P(Overrides, RefusedOverride, testing::ValuesIn(overrides),
                          [](const auto& test) { return test.param.name; });
+
+TEST(Overrides, TakeUnits) {
+  const auto delay = [](const std::string& value) {
+    const std::vector<std::string> assignment{"loop.delay=" + value};
+    const auto device = parse_device(small_device_text, "f.toml", assignment);
+    return device ? device->loop().delay : -1.0;
+  };
+  EXPECT_EQ(delay("0.25e-3"), 0.25e-3);
+  EXPECT_EQ(delay("0.25 ms"), 0.25e-3);
+  EXPECT_EQ(delay("0.25ms"), 0.25e-3);
+  EXPECT_EQ(delay("250 us"), 0.25e-3);
+  EXPECT_EQ(delay("\"250 us\""), 0.25e-3);
+  EXPECT_EQ(delay(" 250 \u00b5s "), 0.25e-3);
+}
 
 TEST(Overrides, AddNoBodyOrLink) {
   const std::vector<std::string> assignment{"link.stiffness=3"};

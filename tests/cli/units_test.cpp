@@ -1,0 +1,48 @@
+// Units on the command line.
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "cli/workspace.hpp"
+
+namespace zwidth::cli {
+namespace {
+
+class UnitsOnTheCommandLine : public Workspace {
+ protected:
+  /// Both commands succeed and print the same.
+  void expect_same(const std::string& one, const std::string& other) const {
+    const Outcome first = run(one);
+    const Outcome second = run(other);
+    EXPECT_EQ(first.status, 0) << one << "\n" << first.errors;
+    EXPECT_EQ(second.status, 0) << other << "\n" << second.errors;
+    EXPECT_EQ(first.output, second.output) << one << "\n" << other;
+  }
+};
+
+TEST_F(UnitsOnTheCommandLine, AreTheSameNumbers) {
+  expect_same("zwidth analyze devices/lhifam.toml --json --set 'loop.delay=250 us' --set 'wall.stiffness=5 N/mm'",
+              "zwidth analyze devices/lhifam.toml --json --set loop.delay=250e-6 --set wall.stiffness=5000");
+  expect_same("zwidth simulate devices/lhifam.toml --json --set wall.stiffness=5kN/m --duration '300 ms' --jitter 10us",
+              "zwidth simulate devices/lhifam.toml --json --set wall.stiffness=5e3 --duration 0.3 --jitter 1e-5");
+  expect_same("zwidth bode devices/lhifam.toml --json --from '60 rpm' --to 100",
+              "zwidth bode devices/lhifam.toml --json --from 6.283185307179586 --to 100");
+  expect_same("zwidth excite --amplitude 1 --rate '0.5 kHz' --duration 500ms --json",
+              "zwidth excite --amplitude 1 --rate 500 --duration 0.5 --json");
+}
+
+TEST_F(UnitsOnTheCommandLine, OfTheWrongKindAreRefused) {
+  expect_refusal(
+      "zwidth simulate devices/lhifam.toml --duration '300 mm'",
+      "simulate: --duration: \"mm\" is no unit of a time; must be a number of s, or a text with its unit such "
+      "as \"1.5 ms\"");
+  expect_refusal("zwidth analyze devices/lhifam.toml --set 'wall.stiffness=5 N m/deg'",
+                 "--set: wall.stiffness: \"N m/deg\" is no unit of a stiffness");
+  expect_refusal("zwidth excite --amplitude 1 --rate '1 ms'", "excite: --rate: \"ms\" is no unit of a frequency");
+  expect_refusal("zwidth excite --amplitude 1 --rate abc", "excite: Could not convert: --rate = abc");
+}
+
+}  // namespace
+}  // namespace zwidth::cli
