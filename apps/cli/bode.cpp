@@ -1,18 +1,20 @@
+#include "zwidth/stability/bode.hpp"
+
 #include <fmt/format.h>
 
-#include <cmath>
 #include <memory>
-#include <numbers>
+#include <string_view>
+#include <utility>
 
 #include "cli/device_arguments.hpp"
+#include "cli/option_refusal.hpp"
 #include "cli/outputs.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
-#include "report/device_bode.hpp"
-#include "report/text/explanation.hpp"
-#include "report/text/quantity.hpp"
-#include "report/text/text_table.hpp"
-#include "results/json.hpp"
+#include "report/figure/device_bode_figure.hpp"
+#include "report/text/analysis_tables.hpp"
+#include "report/text/trust_text.hpp"
+#include "results/bode_json.hpp"
 
 namespace zwidth::cli {
 namespace {
@@ -21,51 +23,24 @@ using report::AnalysedDevice;
 
 struct BodeArguments {
   DeviceArguments devices;
-  report::BodeOptions bode;
+  BodeOptions bode;
   std::string output;
   bool json = false;
 };
 
-void check(const BodeArguments& arguments, const std::vector<AnalysedDevice>& devices) {
-  const auto check_frequency = [](std::string_view name, std::optional<double> value) {
-    if (value && !(std::isfinite(*value) && *value > 0.0)) {
-      throw BadInput(fmt::format("{}: is {}; a frequency in rad/s > 0", name, *value));
-    }
-  };
-  check_frequency("--from", arguments.bode.from);
-  check_frequency("--to", arguments.bode.to);
-  const report::FrequencyRange range = report::bode_range(devices, arguments.bode);
-  for (const AnalysedDevice& each : devices) {
-    const double nyquist = std::numbers::pi / each.device.loop().sampling_period;
-    if (range.from >= nyquist) {
-      throw BadInput(
-          fmt::format("--from: is {} rad/s; below the Nyquist frequency, {:.6g} rad/s", range.from, nyquist));
-    }
-  }
-  if (range.from >= range.to) {
-    throw BadInput(fmt::format("--to: is {:.6g} rad/s; above --from, {:.6g} rad/s", range.to, range.from));
-  }
-}
+constexpr std::pair<std::string_view, std::string_view> options_of_bode[] = {
+    {"from", "--from"}, {"to", "--to"}, {"points", "--points"}};
 
-std::string crossover_table(const std::vector<AnalysedDevice>& devices) {
+std::string crossovers_text(const std::vector<AnalysedDevice>& devices) {
   std::string text;
   for (const AnalysedDevice& each : devices) {
-    using Align = report::TextTable::Align;
     const CriticalStiffness& critical = each.analysis.critical;
-    const std::string_view unit = report::units_of(each.device.parameters().motion).stiffness;
-    report::TextTable table{{Align::right, Align::right, Align::right, Align::right, Align::left},
-                            {{"rad/s", "Hz", fmt::format("K ({})", unit), "K (dB)", "belongs to"}}};
-    for (const Crossover& crossover : critical.crossovers) {
-      const bool limits = critical.limit && critical.limit->frequency == crossover.frequency;
-      table.rows.push_back(
-          {report::number(crossover.frequency), report::number(report::hertz(crossover.frequency)),
-           report::number(crossover.stiffness), fmt::format("{:.2f}", report::decibels(crossover.stiffness)),
-           report::mechanism_name(each.analysis, crossover.limited_by) +
-               (crossover.frequency == 0.0 ? ", a real pole at rest" : "") + (limits ? "  <- critical" : "")});
+    text += each.device.name() + "\n" + report::trust_lines(each.analysis.trust);
+    if (!critical.crossovers.empty()) {
+      text += report::layout(report::crossover_table(each));
+    } else if (critical.status != StiffnessStatus::refused) {
+      text += "  No phase crossover: no wall stiffness makes the loop oscillate.\n";
     }
-    text += fmt::format("{}\n", each.device.name());
-    text += critical.crossovers.empty() ? "  No phase crossover: no wall stiffness makes the loop oscillate.\n"
-                                        : report::layout(table);
     text += '\n';
   }
   return text + "A figure or the numbers: add --output FILE.svg, FILE.png, FILE.pdf or FILE.csv, or --json.\n";
@@ -93,18 +68,21 @@ void run_bode(const BodeArguments& arguments) {
   outputs.add("--output", arguments.output, Ending::figure_or_csv);
   outputs.keep(arguments.devices.files, "device file");
   const std::vector<AnalysedDevice> devices = analyze_devices(arguments.devices, limit_and_wall_only());
-  check(arguments, devices);
+  for (const AnalysedDevice& each : devices) {
+    if (const auto problem = find_problem(arguments.bode, each.device)) refuse(*problem, options_of_bode);
+  }
+  const auto bode_of = [&](const AnalysedDevice& each) { return bode(each.device, each.analysis, arguments.bode); };
   if (!arguments.output.empty()) check_devices(devices, outputs.figure("--output").has_value());
-  outputs.put("--output", [&] { return bode_csv(devices.front(), arguments.bode); });
+  outputs.put("--output", [&] { return results::bode_csv(bode_of(devices.front())); });
   outputs.draw("--output",
                [&](report::FigureFormat format) { return draw(device_bode_figure(devices, arguments.bode), format); });
   outputs.commit();
   if (arguments.json) {
     std::string lines;
-    for (const AnalysedDevice& each : devices) lines += results::line(bode_json(each, arguments.bode));
+    for (const AnalysedDevice& each : devices) lines += results::line(results::bode_json(each.device, bode_of(each)));
     write_standard_output(lines);
   } else if (arguments.output.empty()) {
-    write_standard_output(crossover_table(devices));
+    write_standard_output(crossovers_text(devices));
   }
 }
 
@@ -121,8 +99,7 @@ void add_bode(CLI::App& app) {
   command
       ->add_option("--points", arguments->bode.points, "Frequencies on the logarithmic axis, more where a curve bends")
       ->capture_default_str()
-      ->type_name("N")
-      ->check(CLI::Range(2, 100000));
+      ->type_name("N");
   command->add_flag("--json", arguments->json, "Print the numbers, one JSON document per device, one per line");
   command->footer(
       "Examples:\n"

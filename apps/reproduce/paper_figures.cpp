@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "report/device_bode.hpp"
 #include "report/figure/bode_figure.hpp"
 #include "report/figure/delay_figure.hpp"
+#include "report/figure/device_bode_figure.hpp"
 #include "report/figure/identification_figure.hpp"
 #include "report/text/quantity.hpp"
 #include "reproduce/paper_devices.hpp"
@@ -25,7 +25,7 @@ constexpr std::size_t figure_points = 400;
 AnalysedDevice analysed(DeviceParameters parameters) { return analysed_device(Device(std::move(parameters))); }
 
 /// Curves of continuous responses, sharing their frequencies.
-void add_curves(BodeFigure& figure, std::span<const DrawnResponse> responses, std::span<const std::string> names,
+void add_curves(BodeFigure& figure, std::span<const DelayedResponse> responses, std::span<const std::string> names,
                 std::span<const Mode> modes) {
   const std::vector<double> frequencies = bode_frequencies(responses, figure.range, modes, 0.0, figure_points);
   for (std::size_t i = 0; i < responses.size(); ++i) {
@@ -42,8 +42,9 @@ PaperFigure figure_03() {
   BodeFigure figure;
   figure.title = "Figure 3: G_d(s), G_c(s) and G_m(s) of LHIfAM (Table I)";
   figure.range = {10.0, 1e4};
-  const std::array responses{drawn_response(form(loop.held, loop.held)), drawn_response(form(loop.actuated, loop.held)),
-                             drawn_response(form(loop.actuated, loop.actuated))};
+  const std::array responses{delayed_response(form(loop.held, loop.held)),
+                             delayed_response(form(loop.actuated, loop.held)),
+                             delayed_response(form(loop.actuated, loop.actuated))};
   const std::array<std::string, 3> names{"G_d: force and position at the handle",
                                          "G_c: force at one, position of the other",
                                          "G_m: force and position at the motor"};
@@ -85,7 +86,7 @@ PaperFigure figure_08() {
 
 PaperFigure figure_07() {
   const std::array devices{analysed(paper_lhifam()), analysed(paper_lhifam_rigid())};
-  BodeFigure figure = device_bode_figure(devices, {});
+  BodeFigure figure = device_bode_figure(devices);
   figure.title = "Figure 7: Z[H G_m] of LHIfAM (Table I) and its margins";
   figure.curves[0].name = "A: Z[H G_m], two bodies, eq. 7";
   figure.curves[1].name = "B: Z[H G], one rigid body, eq. 2";
@@ -99,7 +100,7 @@ PaperFigure figure_07() {
 
 PaperFigure figure_09() {
   const std::array devices{analysed(paper_lhifam_reduced_pretension())};
-  BodeFigure figure = device_bode_figure(devices, {});
+  BodeFigure figure = device_bode_figure(devices);
   figure.title = "Figure 9: Z[H G_m] of LHIfAM with reduced cable pretension";
   figure.notes.emplace_back(inferred);
   return {"figure_09.svg", figure.title, "Now the resonance sets the margin. " + std::string(inferred),
@@ -112,7 +113,7 @@ PaperFigure figure_10() {
   BodeFigure figure;
   figure.title = "Figure 10: G_m(s) e^(-t_d s) for two delays";
   figure.range = {1.0, std::round(std::numbers::pi / device.loop().sampling_period)};
-  const std::array responses{drawn_response(form), drawn_response(form, 1e-3), drawn_response(form, 4e-3)};
+  const std::array responses{delayed_response(form), delayed_response(form, 1e-3), delayed_response(form, 4e-3)};
   const std::array<std::string, 3> names{"no delay", "t_d = 1 ms", "t_d' = 4 ms"};
   add_curves(figure, responses, names, form.modes);
   figure.notes.emplace_back(inferred);
@@ -154,7 +155,7 @@ PaperFigure figure_10_delays() {
 
 PaperFigure figure_14() {
   const std::array devices{analysed(handle_sensed(paper_lhifam_reduced_pretension()))};
-  BodeFigure figure = device_bode_figure(devices, {});
+  BodeFigure figure = device_bode_figure(devices);
   figure.title = "Figure 14: Z[H G_c], handle sensed, reduced cable pretension";
   figure.notes.emplace_back(inferred);
   return {"figure_14.svg", figure.title,

@@ -5,13 +5,13 @@
 #include <array>
 #include <numbers>
 
-#include "report/bode_points.hpp"
 #include "report/figure/relay_figure.hpp"
 #include "report/figure/response_points_figure.hpp"
 #include "report/text/quantity.hpp"
 #include "reproduce/friction_scan_figure.hpp"
 #include "reproduce/paper_devices.hpp"
 #include "reproduce/table_2.hpp"
+#include "zwidth/stability/bode_points.hpp"
 
 namespace zwidth::report {
 namespace {
@@ -47,7 +47,7 @@ PaperFigure figure_11() {
 PaperFigure figure_12() {
   const Table2& table = table_2();
   const Device device(paper_lhifam_reduced_pretension());
-  const std::array responses{drawn_response(filtered_plant(device))};
+  const std::array responses{delayed_response(filtered_plant(device))};
   constexpr FrequencyRange range{2.0 * std::numbers::pi, 2.0 * std::numbers::pi * 100.0};
   const std::vector<double> frequencies = bode_frequencies(responses, range, modal_form(device).modes, 1e-3, 400);
   GainPoints printed{"Table II, printed (36 trials)", {}};

@@ -60,6 +60,8 @@
 #include "zwidth/simulation/simulate.hpp"
 #include "zwidth/stability/analysis.hpp"
 #include "zwidth/stability/any_user.hpp"
+#include "zwidth/stability/bode.hpp"
+#include "zwidth/stability/bode_points.hpp"
 #include "zwidth/stability/closed_loop.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
 #include "zwidth/stability/stiffness_interval.hpp"

@@ -42,7 +42,7 @@ std::vector<double> numbers_of(const std::string& line) {
 TEST_F(Figures, BodeListsCrossoversWithoutAnOutput) {
   const Outcome outcome = run("zwidth bode devices/lhifam.toml");
   EXPECT_EQ(outcome.status, 0) << outcome.errors;
-  EXPECT_THAT(outcome.output, HasSubstr("<- critical"));
+  EXPECT_THAT(outcome.output, HasSubstr("<- limits"));
   EXPECT_THAT(outcome.output, HasSubstr("--output"));
 }
 
@@ -145,7 +145,8 @@ TEST_F(Figures, BodeRefusals) {
   expect_refusal("zwidth bode devices/lhifam.toml --output a.jpg", 2, "unknown extension; .svg, .png, .pdf or .csv");
   expect_refusal("zwidth bode devices/lhifam.toml --from 0 -o a.svg", 2, "--from: is 0; a frequency in rad/s > 0");
   expect_refusal("zwidth bode devices/lhifam.toml --to nan -o a.svg", 2, "--to: is nan");
-  expect_refusal("zwidth bode devices/lhifam.toml --from 100 --to 10 -o a.svg", 2, "above --from");
+  expect_refusal("zwidth bode devices/lhifam.toml --from 100 --to 10 -o a.svg", 2,
+                 "--to: is 10 rad/s; above the lowest frequency, 100 rad/s");
   expect_refusal("zwidth bode devices/lhifam.toml --from 4000 --to 5000 -o a.svg", 2, "below the Nyquist frequency");
   expect_refusal("zwidth bode devices/lhifam.toml --points 1 -o a.svg", 2, "--points");
   expect_refusal("zwidth bode devices/lhifam.toml devices/lhifam_rigid.toml -o a.csv", 2, "one device");
@@ -182,7 +183,7 @@ TEST_F(Figures, ACrossoverAtRestIsListedAndNotPlotted) {
     EXPECT_THAT(contents(name), Not(HasSubstr("inf"))) << name;
   }
   EXPECT_THAT(contents("a.csv"), Not(HasSubstr("nan")));
-  EXPECT_THAT(run("zwidth bode rest.toml").output, HasSubstr("a real pole at rest  <- critical"));
+  EXPECT_THAT(run("zwidth bode rest.toml").output, HasSubstr("<- limits, a real pole at rest"));
 }
 
 TEST_F(Figures, OptionsOfTheFigureNeedOne) {

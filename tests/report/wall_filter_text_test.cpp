@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "export/export_c.hpp"
-#include "report/device_bode.hpp"
 #include "report/example_analyses.hpp"
+#include "report/figure/device_bode_figure.hpp"
 #include "report/page/html_report.hpp"
 #include "report/text/analysis_text.hpp"
 #include "report/text/explanation.hpp"
@@ -43,7 +43,7 @@ TEST(WallFilterText, StandsInEveryReport) {
   const AnalysedDevice analysed = filtered_lhifam();
   EXPECT_THAT(analysis_text({&analysed, 1}), HasSubstr(filters));
   EXPECT_THAT(html_report({&analysed, 1}), HasSubstr(filters));
-  const BodeFigure figure = device_bode_figure({&analysed, 1}, {});
+  const BodeFigure figure = device_bode_figure({&analysed, 1});
   EXPECT_THAT(figure.notes, ::testing::Contains(HasSubstr(filters)));
   EXPECT_THAT(figure.curves[0].name, HasSubstr("Through the filters, F Z[H G e^(-t_d s)]"));
   const WallRegion walls = zwidth::region(analysed.device);

@@ -5,10 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "report/bode_points.hpp"
 #include "report/figure/canvas.hpp"
 #include "zwidth/model/device.hpp"
-#include "zwidth/stability/critical_stiffness.hpp"
+#include "zwidth/stability/bode_points.hpp"
 
 namespace zwidth::report {
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "report/bode_points.hpp"
 #include "report/figure/canvas.hpp"
+#include "zwidth/stability/bode_points.hpp"
 
 namespace zwidth::report {
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "report/device_bode.hpp"
+#include "report/figure/device_bode_figure.hpp"
 #include "report/figure/stiffness_axis_figure.hpp"
 #include "report/page/html_page.hpp"
 #include "report/text/analysis_tables.hpp"
@@ -73,7 +73,7 @@ std::string modes(const AnalysedDevice& analysed) {
 }
 
 std::string figures(const AnalysedDevice& analysed, std::size_t index) {
-  const std::string bode = draw(device_bode_figure({&analysed, 1}, {}), FigureFormat::svg);
+  const std::string bode = draw(device_bode_figure({&analysed, 1}), FigureFormat::svg);
   return html_figure(draw_stiffness_axis(analysed, FigureFormat::svg), fmt::format("axis{}", index),
                      "Wall stiffness, logarithmic. Numbers are those of the table of crossovers.") +
          html_figure(
@@ -93,7 +93,7 @@ std::string comparison(std::span<const AnalysedDevice> devices) {
     return each.device.parameters().motion == devices.front().device.parameters().motion;
   };
   if (sampled_curves == devices.size() && std::all_of(devices.begin(), devices.end(), same_motion)) {
-    text += html_figure(draw(device_bode_figure(devices, {}), FigureFormat::svg), "comparison",
+    text += html_figure(draw(device_bode_figure(devices), FigureFormat::svg), "comparison",
                         "What the sampled wall sees of each device, every crossover marked.");
   }
   return text;

@@ -1,11 +1,14 @@
-#include "report/bode_points.hpp"
+#include "zwidth/stability/bode_points.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
-namespace zwidth::report {
+#include "stability/damper_response.hpp"
+
+namespace zwidth {
+using namespace internal;
 namespace {
 
 using std::numbers::pi;
@@ -24,7 +27,7 @@ constexpr double least_ratio = 1e-6;
 constexpr std::size_t most_frequencies = 20000;
 
 /// Whether the chord over [low, high] strays from the response at their middle.
-bool bends(const DrawnResponse& response, double low, double middle, double high) {
+bool bends(const DelayedResponse& response, double low, double middle, double high) {
   const std::complex<double> at_low = response.value(low);
   const std::complex<double> at_middle = response.value(middle);
   const std::complex<double> at_high = response.value(high);
@@ -33,13 +36,6 @@ bool bends(const DrawnResponse& response, double low, double middle, double high
   const double second = turn(at_middle, at_high);
   return !(std::abs(stray_db) < bend_db / 4) || std::abs(first) > 60 || std::abs(second) > 60 ||
          std::abs(first - second) > bend_degrees;
-}
-
-/// B v(e^{jwT}): the backward difference behind its low-pass, as in Wall.
-std::complex<double> velocity_response(const VirtualDamper& damper, double period, double frequency) {
-  const std::complex<double> shift = std::polar(1.0, -frequency * period);  // z^-1
-  const double pole = damper.velocity_filter_hz > 0.0 ? std::exp(-2.0 * pi * damper.velocity_filter_hz * period) : 0.0;
-  return damper.damping * (1.0 - shift) / period * (1.0 - pole) / (1.0 - pole * shift);
 }
 
 void add_mode(std::vector<double>& frequencies, const Mode& mode, double period) {
@@ -53,33 +49,24 @@ void add_mode(std::vector<double>& frequencies, const Mode& mode, double period)
 
 }  // namespace
 
-DrawnResponse drawn_response(ModalForm form, double delay) {
+DelayedResponse delayed_response(ModalForm form, double delay) {
   return {[form = std::move(form)](double frequency) { return response(form, frequency); }, delay, 0.0};
 }
 
-DrawnResponse drawn_response(FilteredPlant plant, VirtualDamper damper) {
+DelayedResponse delayed_response(FilteredPlant plant, VirtualDamper damper) {
   const double delay = static_cast<double>(plant.delay_samples) * plant.period;
   plant.delay_samples = 0;
   return {[plant = std::move(plant), damper, delay](double frequency) {
             const std::complex<double> undelayed = response(plant, frequency);
             if (damper.damping == 0.0) return undelayed;
             const std::complex<double> loop =
-                velocity_response(damper, plant.period, frequency) * undelayed * std::polar(1.0, -frequency * delay);
+                damper_response(damper, plant.period, frequency) * undelayed * std::polar(1.0, -frequency * delay);
             return undelayed / (1.0 + loop);
           },
           delay, damper.damping == 0.0 ? 0.0 : delay};
 }
 
-FrequencyRange default_range(double period, std::span<const double> events) {
-  const double nyquist = pi / period;
-  double lowest = nyquist;
-  for (const double event : events) lowest = std::min(lowest, event);
-  // Whole decades read best on a logarithmic axis.
-  const double from = std::pow(10.0, std::floor(std::log10(std::min(lowest / 3.0, nyquist / 1000.0))));
-  return {from, nyquist};
-}
-
-std::vector<double> bode_frequencies(std::span<const DrawnResponse> responses, FrequencyRange range,
+std::vector<double> bode_frequencies(std::span<const DelayedResponse> responses, FrequencyRange range,
                                      std::span<const Mode> modes, double period, std::size_t points) {
   std::vector<double> frequencies;
   for (const Mode& mode : modes) add_mode(frequencies, mode, period);
@@ -90,7 +77,7 @@ std::vector<double> bode_frequencies(std::span<const DrawnResponse> responses, F
     frequencies.push_back(range.from * std::exp(span * static_cast<double>(i) / static_cast<double>(intervals)));
   }
   frequencies.push_back(range.to);
-  for (const DrawnResponse& response : responses) {
+  for (const DelayedResponse& response : responses) {
     constexpr double part_of_turn = 0.5;  // rad between samples
     if (response.loop_delay == 0.0) continue;
     const double step = std::max(part_of_turn / response.loop_delay, range.to / (0.5 * most_frequencies));
@@ -108,7 +95,7 @@ std::vector<double> bode_frequencies(std::span<const DrawnResponse> responses, F
     if (high / low - 1.0 < least_ratio) continue;
     const double middle = std::sqrt(low * high);
     const bool any = std::any_of(responses.begin(), responses.end(),
-                                 [&](const DrawnResponse& response) { return bends(response, low, middle, high); });
+                                 [&](const DelayedResponse& response) { return bends(response, low, middle, high); });
     if (!any) continue;
     frequencies.push_back(middle);
     waiting.emplace_back(low, middle);
@@ -116,7 +103,7 @@ std::vector<double> bode_frequencies(std::span<const DrawnResponse> responses, F
   }
   // At the pole of an undamped mode there is no value, at an undamped zero no decibel.
   std::erase_if(frequencies, [&](double frequency) {
-    return std::any_of(responses.begin(), responses.end(), [&](const DrawnResponse& response) {
+    return std::any_of(responses.begin(), responses.end(), [&](const DelayedResponse& response) {
       return !std::isfinite(decibels(response.value(frequency)));
     });
   });
@@ -124,7 +111,7 @@ std::vector<double> bode_frequencies(std::span<const DrawnResponse> responses, F
   return frequencies;
 }
 
-std::vector<BodePoint> bode_points(const DrawnResponse& response, std::span<const double> frequencies) {
+std::vector<BodePoint> bode_points(const DelayedResponse& response, std::span<const double> frequencies) {
   std::vector<std::complex<double>> values;
   values.reserve(frequencies.size());
   for (const double frequency : frequencies) values.push_back(response.value(frequency));
@@ -151,4 +138,4 @@ std::vector<BodePoint> bode_points(const DrawnResponse& response, std::span<cons
   return points;
 }
 
-}  // namespace zwidth::report
+}  // namespace zwidth

@@ -1,0 +1,102 @@
+#include "zwidth/stability/bode.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "zwidth/error.hpp"
+
+namespace zwidth {
+namespace {
+
+constexpr std::size_t least_points = 2;
+constexpr std::size_t most_points = 100000;
+
+double nyquist_of(const Device& device) { return std::numbers::pi / device.loop().sampling_period; }
+
+std::optional<OptionProblem> find_problem(const char* member, const std::optional<double>& frequency) {
+  if (!frequency || (std::isfinite(*frequency) && *frequency > 0.0)) return std::nullopt;
+  return OptionProblem{member, fmt::format("is {}", *frequency), "a frequency in rad/s > 0"};
+}
+
+}  // namespace
+
+std::optional<OptionProblem> find_problem(const BodeOptions& options) {
+  if (auto problem = find_problem("from", options.from)) return problem;
+  if (auto problem = find_problem("to", options.to)) return problem;
+  if (options.from && options.to && *options.from >= *options.to) {
+    return OptionProblem{"to", fmt::format("is {:.6g} rad/s", *options.to),
+                         fmt::format("above the lowest frequency, {:.6g} rad/s", *options.from)};
+  }
+  if (options.points < least_points || options.points > most_points) {
+    return OptionProblem{"points", fmt::format("is {}", options.points),
+                         fmt::format("{} to {}", least_points, most_points)};
+  }
+  return std::nullopt;
+}
+
+std::optional<OptionProblem> find_problem(const BodeOptions& options, const Device& device) {
+  if (auto problem = find_problem(options)) return problem;
+  if (options.from && *options.from >= nyquist_of(device)) {
+    return OptionProblem{"from", fmt::format("is {} rad/s", *options.from),
+                         fmt::format("below the Nyquist frequency, {:.6g} rad/s", nyquist_of(device))};
+  }
+  return std::nullopt;
+}
+
+FrequencyRange bode_range(const Device& device, const Analysis& analysis, const BodeOptions& options) {
+  const double nyquist = nyquist_of(device);
+  double lowest = nyquist;
+  for (const Crossover& crossover : analysis.critical.crossovers) {
+    if (crossover.frequency > 0.0) lowest = std::min(lowest, crossover.frequency);
+  }
+  for (const Mode& mode : analysis.modes) lowest = std::min(lowest, mode.frequency);
+  // Whole decades read best on a logarithmic axis.
+  constexpr double decade = 10.0;
+  const double from = std::pow(decade, std::floor(std::log10(std::min(lowest / 3.0, nyquist / 1000.0))));
+  FrequencyRange range{options.from.value_or(from), options.to.value_or(nyquist)};
+  if (range.from >= range.to) range.from = range.to / decade;
+  return range;
+}
+
+Bode bode(const Device& device, const BodeOptions& options) {
+  return bode(device, analyze(device, limit_and_wall_only()), options);
+}
+
+Bode bode(const Device& device, Analysis analysis, const BodeOptions& options) {
+  if (const auto problem = find_problem(options, device)) {
+    throw Error(ErrorCode::invalid_argument,
+                fmt::format("`{}` {}; {}", problem->member, problem->what, problem->allowed));
+  }
+  const double lowest = bode_range(device, analysis).from;
+  Bode bode{bode_range(device, analysis, options), {}, {}, std::move(analysis)};
+  ModalForm form = modal_form(device);
+  std::vector<Mode> modes = form.modes;
+  if (form.suspended_rigid_body) modes.push_back(*form.suspended_rigid_body);
+  const std::array responses{delayed_response(filtered_plant(device), virtual_damper(device)),
+                             delayed_response(std::move(form))};
+  // The phase is unwrapped from well below everything, whatever part is asked for.
+  std::vector<double> frequencies = bode_frequencies(responses, {std::min(bode.range.from, lowest), bode.range.to},
+                                                     modes, device.loop().sampling_period, options.points);
+  const auto start = std::ranges::lower_bound(frequencies, bode.range.from);
+  const auto has_value = [&](const DelayedResponse& each) {
+    const double magnitude = std::abs(each.value(bode.range.from));
+    return magnitude > 0.0 && std::isfinite(magnitude);
+  };
+  if ((start == frequencies.end() || *start != bode.range.from) && std::ranges::all_of(responses, has_value)) {
+    frequencies.insert(start, bode.range.from);
+  }
+  const auto above_nyquist = std::ranges::upper_bound(frequencies, nyquist_of(device));
+  bode.sampled = bode_points(responses[0], {frequencies.begin(), above_nyquist});
+  bode.continuous = bode_points(responses[1], frequencies);
+  const auto outside = [&](const BodePoint& point) { return point.frequency < bode.range.from; };
+  std::erase_if(bode.continuous, outside);
+  std::erase_if(bode.sampled, outside);
+  return bode;
+}
+
+}  // namespace zwidth
