@@ -1,20 +1,21 @@
 #include <fmt/format.h>
 
-#include <cmath>
-#include <map>
 #include <memory>
-#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "cli/device_arguments.hpp"
+#include "cli/option_refusal.hpp"
 #include "cli/outputs.hpp"
 #include "cli/remark_lines.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
-#include "report/excitation_summary.hpp"
 #include "report/figure/excitation_figure.hpp"
+#include "report/text/excitation_text.hpp"
 #include "report/text/remark_line.hpp"
 #include "results/excitation_json.hpp"
-#include "zwidth/error.hpp"
 
 namespace zwidth::cli {
 namespace {
@@ -22,70 +23,44 @@ namespace {
 struct ExciteArguments {
   ExcitationOptions excitation;
   std::string kind = "linear-chirp";
-  std::optional<double> rate;
   std::string device;
   std::vector<std::string> overrides;
-  std::optional<double> stroke;
   bool beyond_limits = false;
   std::string output;
   std::string figure;
   bool json = false;
 };
 
-const std::map<std::string, ExcitationKind>& excitation_kinds() {
-  static const std::map<std::string, ExcitationKind> names{{"linear-chirp", ExcitationKind::linear_chirp},
-                                                           {"log-chirp", ExcitationKind::logarithmic_chirp},
-                                                           {"multisine", ExcitationKind::multisine},
-                                                           {"noise", ExcitationKind::noise},
-                                                           {"relay", ExcitationKind::relay}};
-  return names;
-}
+/// Options by the member of ExcitationOptions that they set.
+constexpr std::pair<std::string_view, std::string_view> options_of_excitation[] = {
+    {"amplitude", "--amplitude"}, {"lowest_hz", "--lowest-hz"}, {"highest_hz", "--highest-hz"},
+    {"duration", "--duration"},   {"rate", "--rate"},           {"fade_in", "--fade-in"},
+    {"periods", "--periods"},     {"stroke_limit", "--stroke"}};
 
-std::optional<Device> read_device(const ExciteArguments& arguments) {
-  if (arguments.device.empty()) return std::nullopt;
-  const DeviceArguments device{{arguments.device}, arguments.overrides};
-  return read_devices(device).front();
-}
-
-/// Makes the signal and plays it through the device. Throws BadInput for options that make no signal.
-report::CheckedExcitation checked_excitation(const ExciteArguments& arguments) {
-  const std::optional<Device> device = read_device(arguments);
-  report::CheckedExcitation checked;
-  checked.options = arguments.excitation;
-  checked.options.kind = excitation_kinds().at(arguments.kind);
-  if (arguments.rate) {
-    checked.options.rate = *arguments.rate;
-  } else if (device) {
-    checked.options.rate = 1.0 / device->loop().sampling_period;
+/// Makes the signal, and plays it through the device where there is one.
+Excitation made_excitation(const ExciteArguments& arguments) {
+  ExcitationOptions options = arguments.excitation;
+  options.kind = results::Json(arguments.kind).get<ExcitationKind>();
+  if (arguments.device.empty()) {
+    if (const auto problem = find_problem(options)) refuse(*problem, options_of_excitation);
+    return excite(options);
   }
-  try {
-    checked.excitation = excite(checked.options);
-    if (device) {
-      checked.motion = device->parameters().motion;
-      checked.device = device->name();
-      checked.check =
-          check_excitation(checked.excitation, checked.options.rate, *device, arguments.stroke.value_or(0.0));
-    }
-  } catch (const Error& error) {
-    throw BadInput(error.what());
-  }
-  return checked;
+  const Device device = std::move(read_devices({{arguments.device}, arguments.overrides}).front());
+  if (const auto problem = find_problem(options, device)) refuse(*problem, options_of_excitation);
+  return excite(options, device);
 }
 
-void check_limits(const ExciteArguments& arguments, const report::CheckedExcitation& checked) {
-  if (!checked.check || checked.check->exceeded.empty()) return;
-  if (arguments.beyond_limits) return write_warnings(checked.check->exceeded);
+void check_limits(const ExciteArguments& arguments, const Excitation& excitation) {
+  if (!excitation.check || excitation.check->exceeded.empty()) return;
+  if (arguments.beyond_limits) return write_warnings(excitation.check->exceeded);
   std::string problems;
-  for (const Remark& remark : checked.check->exceeded) problems += report::remark_line(remark) + "\n";
+  for (const Remark& remark : excitation.check->exceeded) problems += report::remark_line(remark) + "\n";
   throw WorkFailed(problems + "nothing is written; --beyond-limits writes it all the same");
 }
 
 void check(const ExciteArguments& arguments) {
   if (arguments.json && arguments.output == "-") {
     throw BadInput("--json: standard output is taken by --output -; name a file for the samples");
-  }
-  if (arguments.stroke && !(std::isfinite(*arguments.stroke) && *arguments.stroke > 0.0)) {
-    throw BadInput(fmt::format("--stroke: is {}; a length in m (rotary: rad) above 0", *arguments.stroke));
   }
 }
 
@@ -95,29 +70,24 @@ void run_excite(const ExciteArguments& arguments) {
   outputs.add("--figure", arguments.figure, Ending::figure);
   outputs.keep(arguments.device, "device file");
   check(arguments);
-  const report::CheckedExcitation checked = checked_excitation(arguments);
-  check_limits(arguments, checked);
-  const double rate = checked.options.rate;
-  const auto samples = [&](const report::Sink& sink) {
-    results::write_excitation_csv(checked.excitation, rate, checked.motion, sink);
-  };
+  const Excitation excitation = made_excitation(arguments);
+  check_limits(arguments, excitation);
+  const auto samples = [&](const report::Sink& sink) { results::write_excitation_csv(excitation, sink); };
   const bool only_asked_for_others = arguments.output.empty() && (arguments.json || !arguments.figure.empty());
   const bool to_standard_output = arguments.output == "-" || (arguments.output.empty() && !only_asked_for_others);
   outputs.put("--output", samples);
-  outputs.draw("--figure", [&](report::FigureFormat format) {
-    return draw_excitation(report::excitation_title(checked.options), checked.excitation, rate, checked.motion, format);
-  });
+  outputs.draw("--figure", [&](report::FigureFormat format) { return report::draw_excitation(excitation, format); });
   outputs.commit();
   if (to_standard_output) samples(write_standard_output);
   if (arguments.json) {
-    write_standard_output(results::line(results::excitation_json(checked)));
+    write_standard_output(results::line(results::excitation_json(excitation)));
   } else if (to_standard_output) {
-    write_standard_error(excitation_text(checked));
+    write_standard_error(report::excitation_text(excitation));
   } else {
-    write_standard_output(excitation_text(checked));
+    write_standard_output(report::excitation_text(excitation));
   }
-  write_warnings(checked.excitation.remarks);
-  if (checked.check) write_warnings(checked.check->remarks);
+  write_warnings(excitation.remarks);
+  if (excitation.check) write_warnings(excitation.check->remarks);
 }
 
 /// Options that only some kinds of signal have are refused with the others.
@@ -149,7 +119,7 @@ void add_excite(CLI::App& app) {
       ->capture_default_str();
   add("--highest-hz", excitation.highest_hz, "Upper end of the band", "HZ")->capture_default_str();
   add("--duration", excitation.duration, "Length of the signal", "S")->capture_default_str();
-  add("--rate", arguments->rate, "Samples per second; else the device's, else 1000", "HZ");
+  add("--rate", excitation.rate, "Samples per second; else the device's, else 1000", "HZ");
   add("--fade-in", excitation.fade_in, "Raised cosine at the start, and at the end but for a multisine", "S")
       ->capture_default_str();
   add("--periods", excitation.periods, "Whole periods of a multisine in the duration", "N")->capture_default_str();
@@ -159,7 +129,7 @@ void add_excite(CLI::App& app) {
   add("--set", arguments->overrides, "Override a key of the device file; may be repeated", "KEY=VALUE")
       ->allow_extra_args(false)
       ->needs(device);
-  add("--stroke", arguments->stroke, "How far the sensed body may move from its start, m (rotary: rad)", "X")
+  add("--stroke", excitation.stroke_limit, "How far the sensed body may move from its start, m (rotary: rad)", "X")
       ->needs(device);
   command->add_flag("--beyond-limits", arguments->beyond_limits, "Warn of an exceeded limit instead of failing")
       ->needs(device);

@@ -158,10 +158,9 @@ std::string exported_chai3d(const ExportArguments& arguments) {
 std::string exported(const ExportArguments& arguments) {
   if (arguments.format == "c") return exported_c(arguments);
   if (arguments.format == "chai3d") return exported_chai3d(arguments);
-  const auto devices = analyze_devices(arguments.devices, limit_and_wall_only());
-  const report::ExportedModel model = report::exported_model(devices.front());
-  if (arguments.format == "octave") return export_octave(model);
-  if (arguments.format == "python") return export_python(model);
+  const DeviceModel model = device_model(read_devices(arguments.devices).front());
+  if (arguments.format == "octave") return report::export_octave(model);
+  if (arguments.format == "python") return report::export_python(model);
   return results::line(results::export_json(model));
 }
 

@@ -12,9 +12,7 @@
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
 #include "report/figure/frf_figure.hpp"
-#include "report/measured_frf.hpp"
 #include "report/text/frf_text.hpp"
-#include "results/frf_csv.hpp"
 #include "results/frf_json.hpp"
 
 namespace zwidth::cli {
@@ -22,7 +20,7 @@ namespace {
 
 struct FrfArguments {
   ResponseArguments response;
-  report::FrfUnits units;
+  results::FrfUnits units;
   std::string csv;
   std::string output;
   bool json = false;
@@ -39,17 +37,16 @@ void run_frf(const FrfArguments& arguments) {
   if (arguments.points && !arguments.json) throw BadInput("--points: is for JSON; add --json, or use --csv FILE");
   outputs.keep(recording.file, "recording");
 
-  const report::MeasuredFrf frf =
-      report::measured_frf(measured_response(response_source(arguments.response)), arguments.units);
-  outputs.put("--csv", [&] { return report::frf_csv(frf.response); });
-  outputs.draw("--output", [&](report::FigureFormat format) { return report::draw(frf, format); });
+  const MeasuredResponse frf = measured_response(response_source(arguments.response));
+  outputs.put("--csv", [&] { return results::frf_csv(frf.response); });
+  outputs.draw("--output", [&](report::FigureFormat format) { return report::draw_frf(frf, arguments.units, format); });
   outputs.commit();
   if (arguments.json) {
     write_warnings(frf.remarks);
-    const auto content = arguments.points ? report::FrfContent::with_lines : report::FrfContent::summary;
-    write_standard_output(results::line(report::frf_json(frf, content)));
+    const auto content = arguments.points ? results::FrfContent::with_lines : results::FrfContent::summary;
+    write_standard_output(results::line(results::frf_json(frf, arguments.units, content)));
   } else {
-    write_standard_output(report::frf_text(frf));
+    write_standard_output(report::frf_text(frf, arguments.units));
   }
 }
 

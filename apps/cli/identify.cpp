@@ -81,14 +81,14 @@ IdentifyOptions identify_options(const IdentifyArguments& arguments, const Devic
   return options;
 }
 
-report::IdentifiedDevice identified_device(const IdentifyArguments& arguments) {
+Identification identified_device(const IdentifyArguments& arguments) {
   const ResponseSource source = response_source(arguments.response);
   const Device device = structure(arguments.structure, source.sampling_period());
   const IdentifyOptions options = identify_options(arguments, device, source.options);
   try {
     ProgressLine line("identifying");
-    return report::identified_device(source.recording ? identify(*source.recording, device, options, line.progress())
-                                                      : identify(source.table, device, options));
+    return source.recording ? identify(*source.recording, device, options, line.progress())
+                            : identify(source.table, device, options);
   } catch (const Error& error) {
     if (error.code() == ErrorCode::did_not_converge) throw WorkFailed(source.name + ": " + error.what());
     throw BadInput(source.name + ": " + error.what());
@@ -96,7 +96,7 @@ report::IdentifiedDevice identified_device(const IdentifyArguments& arguments) {
 }
 
 /// The device file, its warnings as comments at the top: whoever reads it later is told as well.
-std::string device_text(const report::IdentifiedDevice& identified) {
+std::string device_text(const Identification& identified) {
   std::string text;
   for (const Remark& remark : identified.remarks) {
     if (remark.severity != Remark::Severity::warning) continue;
@@ -121,12 +121,12 @@ void run_inverse_dynamics(const IdentifyArguments& arguments, Outputs& outputs) 
   outputs.put("--output-device", [&] { return device; });
   outputs.commit();
   if (arguments.json) {
-    write_standard_output(results::line(report::rigid_body_json(identified)));
+    write_standard_output(results::line(results::identification_json(identified)));
   } else if (arguments.output_device == "-") {
     write_warnings(identified.remarks);
     write_standard_output(device);
   } else {
-    write_standard_output(report::rigid_body_text(identified) + device_hint(arguments));
+    write_standard_output(report::identification_text(identified) + device_hint(arguments));
   }
 }
 
@@ -138,19 +138,20 @@ void run_identify(const IdentifyArguments& arguments) {
   Outputs outputs;
   check(arguments, outputs);
   if (arguments.method == "inverse-dynamics") return run_inverse_dynamics(arguments, outputs);
-  const report::IdentifiedDevice identified = identified_device(arguments);
+  const Identification identified = identified_device(arguments);
   const std::string device = device_text(identified);
   outputs.put("--output-device", [&] { return device; });
-  outputs.draw("--figure", [&](report::FigureFormat format) { return draw_identification(identified, format); });
+  outputs.draw("--figure",
+               [&](report::FigureFormat format) { return report::draw_identification(identified, format); });
   outputs.commit();
   if (arguments.json) {
-    const auto points = arguments.points ? report::PointsInJson::included : report::PointsInJson::left_out;
-    write_standard_output(results::line(identification_json(identified, points)));
+    const auto points = arguments.points ? results::PointsInJson::included : results::PointsInJson::left_out;
+    write_standard_output(results::line(results::identification_json(identified, points)));
   } else if (arguments.output_device == "-") {
     write_warnings(identified.remarks);
     write_standard_output(device);
   } else {
-    write_standard_output(identification_text(identified) + device_hint(arguments));
+    write_standard_output(report::identification_text(identified) + device_hint(arguments));
   }
 }
 

@@ -5,8 +5,7 @@
 
 #include "cli/recording_arguments.hpp"
 #include "cli/structure_arguments.hpp"
-#include "report/identified_rigid_body.hpp"
-#include "zwidth/identification/inverse_dynamics.hpp"
+#include "zwidth/identification/rigid_body_identification.hpp"
 
 namespace zwidth::cli {
 

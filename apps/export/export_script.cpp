@@ -328,15 +328,15 @@ struct Words {
 };
 
 /// Behind the device's name in the first comment.
-std::string doubt_of(const ExportedModel& model) {
-  const auto note = trust_note(model.analysed.analysis.trust);
+std::string doubt_of(const DeviceModel& model) {
+  const auto note = trust_note(model.analysis.trust);
   return note ? ". " + *note : std::string();
 }
 
-std::string filled_in(std::string_view data, const ExportedModel& model, const Notation& notation, const Words& words,
+std::string filled_in(std::string_view data, const DeviceModel& model, const Notation& notation, const Words& words,
                       const std::string& name) {
-  const Wall& wall = model.analysed.device.parameters().wall;
-  const Device& device = model.analysed.device;
+  const Wall& wall = model.device.parameters().wall;
+  const Device& device = model.device;
   const DiscreteStateSpace& discrete = model.discrete;
   const auto matrix = [&](const Eigen::MatrixXd& values) { return literal(values, notation); };
   return fmt::format(
@@ -351,27 +351,18 @@ std::string filled_in(std::string_view data, const ExportedModel& model, const N
       fmt::arg("missing", wall.stiffness ? "" : ", not given"),
       fmt::arg("a", velocity_filter_pole(wall, discrete.period)),
       fmt::arg("filters", filter_list(wall, discrete.period, notation, words.list_start, words.list_end)),
-      fmt::arg("crossovers", matrix(crossover_rows(model.analysed.analysis.critical))));
+      fmt::arg("crossovers", matrix(crossover_rows(model.analysis.critical))));
 }
 
 }  // namespace
 
-ExportedModel exported_model(AnalysedDevice analysed) {
-  const Device& device = analysed.device;
-  ContinuousStateSpace continuous = state_space(device);
-  DiscreteStateSpace discrete = sample(continuous, {device.loop().sampling_period, device.loop().delay});
-  ModalForm modal = modal_form(device);
-  SampledPlant sampled = sampled_plant(device);
-  return {std::move(analysed), std::move(continuous), std::move(discrete), std::move(modal), std::move(sampled)};
-}
-
-std::string export_octave(const ExportedModel& model) {
-  return filled_in(octave_data, model, octave, {"[]", "{", "}"}, octave_string(model.analysed.device.name())) +
+std::string export_octave(const DeviceModel& model) {
+  return filled_in(octave_data, model, octave, {"[]", "{", "}"}, octave_string(model.device.name())) +
          std::string(octave_body);
 }
 
-std::string export_python(const ExportedModel& model) {
-  return filled_in(python_data, model, python, {"None", "[", "]"}, python_string(model.analysed.device.name())) +
+std::string export_python(const DeviceModel& model) {
+  return filled_in(python_data, model, python, {"None", "[", "]"}, python_string(model.device.name())) +
          std::string(python_body);
 }
 

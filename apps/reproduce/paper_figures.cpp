@@ -58,7 +58,7 @@ PaperFigure figure_03() {
 /// Figs. 4 and 8: the cable's response and the model fitted to it.
 PaperFigure locked_chirp(int number, const DeviceParameters& device, std::string_view cable, std::string_view comment) {
   const PaperChirp chirp;
-  const IdentifiedDevice identified = identified_cable(device, chirp);
+  const Identification identified = identified_cable(device, chirp);
   const ParameterEstimate& stiffness = identified.fit.estimates[0];
   const ParameterEstimate& damping = identified.fit.estimates[1];
   IdentificationLabels labels;

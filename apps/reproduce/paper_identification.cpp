@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "report/synthetic_record.hpp"
 #include "report/text/quantity.hpp"
 #include "zwidth/identification/excitation.hpp"
 #include "zwidth/identification/record_fit.hpp"
+#include "zwidth/simulation/synthetic_record.hpp"
 
 namespace zwidth::report {
 
@@ -21,7 +21,7 @@ std::string paper_chirp_text(const PaperChirp& chirp, const DeviceParameters& de
                      quantity(device.sensor.resolution, "m"), chirp.seed);
 }
 
-IdentifiedDevice identified_cable(const DeviceParameters& parameters, const PaperChirp& chirp) {
+Identification identified_cable(const DeviceParameters& parameters, const PaperChirp& chirp) {
   const Device device(parameters);
   const std::size_t handle = device.loop().held;
 
@@ -30,9 +30,9 @@ IdentifiedDevice identified_cable(const DeviceParameters& parameters, const Pape
   options.lowest_hz = chirp.lowest_hz;
   options.highest_hz = chirp.highest_hz;
   options.duration = chirp.duration;
-  options.rate = 1.0 / device.loop().sampling_period;
-  std::vector<double> force = excite(options).samples;
-  const auto rest = static_cast<std::size_t>(std::round(chirp.rest * options.rate));
+  const Excitation excitation = excite(options, device);
+  std::vector<double> force = excitation.samples;
+  const auto rest = static_cast<std::size_t>(std::round(chirp.rest * excitation.rate));
   force.insert(force.begin(), rest, 0.0);
   force.insert(force.end(), rest, 0.0);
   const SyntheticRecord record =
@@ -44,8 +44,7 @@ IdentifiedDevice identified_cable(const DeviceParameters& parameters, const Pape
   fit_options.highest = 2.0 * std::numbers::pi * chirp.highest_hz;
   fit_options.locked = {device.bodies()[handle].name};
   RecordFit fit = fit_record(device, record.force, record.position, record.sampling_period, {}, fit_options);
-  AnalysedDevice analysed = analysed_device(fit.fit.device);
-  return {"a synthetic chirp", std::move(fit.response), std::move(fit.fit), std::move(analysed), {}};
+  return {"a synthetic chirp", std::move(fit.response), std::move(fit.fit)};
 }
 
 }  // namespace zwidth::report

@@ -3,8 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "report/identified_device.hpp"
-#include "zwidth/model/device.hpp"
+#include "zwidth/identification/identification.hpp"
 
 namespace zwidth::report {
 
@@ -23,7 +22,8 @@ struct PaperChirp {
 [[nodiscard]] std::string paper_chirp_text(const PaperChirp& chirp, const DeviceParameters& device);
 
 /// The cable of a device of the paper identified from a synthetic record: handle locked, chirp on the motor, masses and
-/// damping to ground known, stiffness and damping of the cable fitted without a guess.
-[[nodiscard]] IdentifiedDevice identified_cable(const DeviceParameters& device, const PaperChirp& chirp = {});
+/// damping to ground known, stiffness and damping of the cable fitted without a guess; not
+/// judged, nor analysed.
+[[nodiscard]] Identification identified_cable(const DeviceParameters& device, const PaperChirp& chirp = {});
 
 }  // namespace zwidth::report

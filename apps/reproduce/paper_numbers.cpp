@@ -79,7 +79,7 @@ struct PrintedCable {
 /// The cable fitted to a synthetic record of a device whose cable is known.
 Rows locked_chirp(const PrintedCable& printed, const DeviceParameters& device) {
   const PaperChirp chirp;
-  const IdentifiedDevice identified = identified_cable(device, chirp);
+  const Identification identified = identified_cable(device, chirp);
   const std::string reason =
       fmt::format("Synthetic, handle locked: {}. {}", paper_chirp_text(chirp, device), printed.reason);
   const auto ours = [](const ParameterEstimate& estimate, double unit, std::string_view unit_name) {

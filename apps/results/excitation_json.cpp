@@ -7,30 +7,18 @@
 
 namespace zwidth::results {
 
-NLOHMANN_JSON_SERIALIZE_ENUM(ExcitationKind, {{ExcitationKind::linear_chirp, "linear-chirp"},
-                                              {ExcitationKind::logarithmic_chirp, "log-chirp"},
-                                              {ExcitationKind::multisine, "multisine"},
-                                              {ExcitationKind::noise, "noise"},
-                                              {ExcitationKind::relay, "relay"}})
-
-namespace {
-
-Json check_json(const report::CheckedExcitation& checked) {
-  if (!checked.check) return nullptr;
-  return {{"device", checked.device},
-          {"largest_motion", checked.check->peak_stroke},
-          {"within_limits", checked.check->exceeded.empty()},
-          {"exceeded", checked.check->exceeded},
-          {"remarks", checked.check->remarks}};
+static void to_json(Json& json, const ExcitationCheck& check) {
+  json = {{"device", check.device},
+          {"largest_motion", check.peak_stroke},
+          {"within_limits", check.exceeded.empty()},
+          {"exceeded", check.exceeded},
+          {"remarks", check.remarks}};
 }
 
-}  // namespace
-
-Json excitation_json(const report::CheckedExcitation& checked) {
-  const ExcitationOptions& options = checked.options;
-  const Excitation& excitation = checked.excitation;
-  const CrestFactor crest = crest_factor(excitation.samples);
-  const Units units = units_of(checked.motion);
+Json excitation_json(const Excitation& excitation) {
+  const ExcitationOptions& options = excitation.options;
+  const CrestFactor& crest = excitation.crest;
+  const Units units = units_of(excitation.motion);
   std::optional<double> highest;
   if (options.kind != ExcitationKind::relay) highest = options.highest_hz;
   Json json = document("zwidth.excitation/1");
@@ -38,23 +26,22 @@ Json excitation_json(const report::CheckedExcitation& checked) {
   json["units"] = {{"force", units.force}, {"motion", units.length}};
   json["lowest_hz"] = options.lowest_hz;
   json["highest_hz"] = highest;
-  json["rate_hz"] = options.rate;
+  json["rate_hz"] = excitation.rate;
   json["samples"] = excitation.samples.size();
-  json["duration_s"] = static_cast<double>(excitation.samples.size()) / options.rate;
+  json["duration_s"] = static_cast<double>(excitation.samples.size()) / excitation.rate;
   json["period_samples"] = excitation.period > 0 ? Json(excitation.period) : Json(nullptr);
   json["peak_force"] = crest.peak;
   json["rms_force"] = crest.rms;
   json["crest_factor"] = crest.factor;
   json["remarks"] = excitation.remarks;
-  json["check"] = check_json(checked);
+  json["check"] = excitation.check;
   return json;
 }
 
-void write_excitation_csv(const Excitation& excitation, double rate, Motion motion,
-                          const std::function<void(std::string_view)>& sink) {
-  Csv csv(sink, {"time_s", motion == Motion::rotary ? "torque_N_m" : "force_N"});
+void write_excitation_csv(const Excitation& excitation, const std::function<void(std::string_view)>& sink) {
+  Csv csv(sink, {"time_s", excitation.motion == Motion::rotary ? "torque_N_m" : "force_N"});
   for (std::size_t k = 0; k < excitation.samples.size(); ++k) {
-    csv.row(Shortest{static_cast<double>(k) / rate}, Rounded{excitation.samples[k], 9});
+    csv.row(Shortest{static_cast<double>(k) / excitation.rate}, Rounded{excitation.samples[k], 9});
   }
   csv.flush();
 }

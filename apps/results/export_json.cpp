@@ -62,9 +62,9 @@ Json state_names(const Device& device) {
   return names;
 }
 
-Json with_delay_states_json(const DiscreteStateSpace& discrete) {
-  if (discrete.delay_samples > most_delay_states) return nullptr;
-  const DiscreteStateSpace augmented = with_delay_states(discrete);
+Json with_delay_states_json(const DeviceModel& model) {
+  if (!model.with_delay_states) return nullptr;
+  const DiscreteStateSpace& augmented = *model.with_delay_states;
   return {{"Phi", rows(augmented.Phi)},
           {"F", rows(plus_identity(augmented.Phi))},
           {"Gamma", rows(augmented.Gamma1)},
@@ -85,11 +85,11 @@ Json wall_json(const Device& device) {
 
 }  // namespace
 
-Json export_json(const report::ExportedModel& model) {
-  const Device& device = model.analysed.device;
+Json export_json(const DeviceModel& model) {
+  const Device& device = model.device;
   const DiscreteStateSpace& discrete = model.discrete;
   const Units units = units_of(device.parameters().motion);
-  const CriticalStiffness& critical = model.analysed.analysis.critical;
+  const CriticalStiffness& critical = model.analysis.critical;
   return {{"schema", "zwidth.model/1"},
           {"device", device.name()},
           {"units", {{"force", units.force}, {"position", units.length}, {"time", "s"}}},
@@ -109,7 +109,7 @@ Json export_json(const report::ExportedModel& model) {
             {"Gamma2", rows(discrete.Gamma2)},
             {"C", rows(discrete.C)},
             {"delay_samples", discrete.delay_samples}}},
-          {"with_delay_states", with_delay_states_json(discrete)},
+          {"with_delay_states", with_delay_states_json(model)},
           {"modal_terms", modal_terms(model.modal)},
           {"sampled_terms",
            {{"equation", "z^-l sum N(d)/D(d), d = z - 1, coefficients ascending"},

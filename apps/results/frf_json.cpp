@@ -1,51 +1,54 @@
 #include "results/frf_json.hpp"
 
-#include <cmath>
+#include <numbers>
 #include <optional>
-#include <type_traits>
+#include <vector>
 
-#include "report/text/quantity.hpp"
+#include "results/csv.hpp"
+#include "results/identification_json.hpp"
+#include "results/units.hpp"
 
-namespace zwidth::report {
+namespace zwidth::results {
+
+static void to_json(Json& json, const Interval& interval) { json = Json::array({interval.lower, interval.upper}); }
+
 namespace {
 
-using Json = results::Json;
-
-/// A number, or null where there is none: JSON has no infinity.
-Json number_or_null(std::optional<double> value) {
-  return value && std::isfinite(*value) ? Json(*value) : Json(nullptr);
+/// "N m" and "m/s" in brackets below a fraction's line.
+std::string in_brackets(const std::string& unit) {
+  return unit.find_first_of(" /*") == std::string::npos ? unit : "(" + unit + ")";
 }
 
-Json in_hertz(const Interval& interval) {
-  return Json::array({number_or_null(hertz(interval.lower)), number_or_null(hertz(interval.upper))});
+Interval in_hertz(const Interval& interval) { return {hertz(interval.lower), hertz(interval.upper)}; }
+
+std::optional<double> degrees(std::optional<double> radians) {
+  if (!radians) return std::nullopt;
+  return *radians * 180.0 / std::numbers::pi;
 }
 
-Json to_json(const Interval& interval) {
-  return Json::array({number_or_null(interval.lower), number_or_null(interval.upper)});
-}
+}  // namespace
 
-Json to_json(const MeasuredCrossover& crossover) {
-  return {{"frequency_rad_s", crossover.frequency},
+static void to_json(Json& json, const MeasuredCrossover& crossover) {
+  json = {{"frequency_rad_s", crossover.frequency},
           {"stiffness", crossover.stiffness},
           {"limited_by", nullptr},
           {"poles_leaving", crossover.poles_leaving},
           {"frequency_hz", hertz(crossover.frequency)},
           {"frequency_interval_hz", in_hertz(crossover.frequency_interval)},
-          {"stiffness_interval", to_json(crossover.stiffness_interval)}};
+          {"stiffness_interval", crossover.stiffness_interval}};
 }
 
-template <typename Value>
-Json column(const std::vector<ResponseLine>& points, Value&& value) {
-  Json array = Json::array();
-  for (const ResponseLine& point : points) array.push_back(number_or_null(value(point)));
-  return array;
-}
+namespace {
 
 void add_lines(Json& document, const FrequencyResponse& response) {
-  const std::vector<ResponseLine> points = response_lines(response);
-  document["frequency_hz"] = column(points, [](const ResponseLine& p) { return hertz(p.frequency); });
+  const std::vector<ResponseLine> lines = response_lines(response);
+  Json frequencies = Json::array();
+  for (const ResponseLine& line : lines) frequencies.push_back(hertz(line.frequency));
+  document["frequency_hz"] = std::move(frequencies);
   const auto add = [&](const char* key, auto member) {
-    document[key] = column(points, [member](const ResponseLine& p) { return p.*member; });
+    Json column = Json::array();
+    for (const ResponseLine& line : lines) column.push_back(line.*member);
+    document[key] = std::move(column);
   };
   add("magnitude", &ResponseLine::magnitude);
   add("magnitude_lower", &ResponseLine::magnitude_lower);
@@ -56,66 +59,65 @@ void add_lines(Json& document, const FrequencyResponse& response) {
   add("coherence", &ResponseLine::coherence);
 }
 
+/// What is null where it is not found: all but the frequency is that of `limit`.
+void add_limit(Json& document, const MeasuredStiffness* stiffness) {
+  const bool found = stiffness && stiffness->status == MeasuredStiffnessStatus::found && stiffness->limit;
+  const auto limit = found ? stiffness->limit : std::nullopt;
+  const auto frequency = limit ? std::optional(limit->frequency) : std::nullopt;
+  const auto value = limit ? std::optional(limit->stiffness) : std::nullopt;
+  document["critical_stiffness"] = value;
+  document["critical_stiffness_db"] = decibels(value);
+  document["critical_stiffness_interval"] = limit ? stiffness_interval(*stiffness) : std::nullopt;
+  document["critical_frequency_rad_s"] = frequency;
+  document["critical_frequency_hz"] = hertz(frequency);
+  document["critical_frequency_interval_hz"] =
+      limit ? std::optional(in_hertz(limit->frequency_interval)) : std::nullopt;
+}
+
 }  // namespace
 
-const char* name_of(MeasuredStiffnessStatus status) {
-  switch (status) {
-    case MeasuredStiffnessStatus::found:
-      return "found";
-    case MeasuredStiffnessStatus::not_in_band:
-      return "not_in_band";
-    case MeasuredStiffnessStatus::undetermined:
-      break;
-  }
-  return "undetermined";
-}
+std::string FrfUnits::stiffness() const { return force + "/" + in_brackets(position); }
+std::string FrfUnits::compliance() const { return position + "/" + in_brackets(force); }
 
-results::Json remarks_json(const std::vector<Remark>& remarks) { return remarks; }
-
-results::Json frf_json(const MeasuredFrf& frf, FrfContent content) {
-  const FrequencyResponse& response = frf.response;
-  Json document;
-  document["schema"] = "zwidth.frf/1";
-  document["recording"] = frf.recording;
-  document["units"] = {
-      {"force", frf.units.force}, {"position", frf.units.position}, {"stiffness", frf.units.stiffness()}};
-  const MeasuredStiffness* stiffness = frf.stiffness ? &*frf.stiffness : nullptr;
-  const bool found = stiffness && stiffness->status == MeasuredStiffnessStatus::found && stiffness->limit;
-  document["status"] = stiffness ? Json(name_of(stiffness->status)) : Json(nullptr);
-  if (found) {
-    const MeasuredCrossover& limit = *stiffness->limit;
-    document["critical_stiffness"] = limit.stiffness;
-    document["critical_stiffness_db"] = decibels(limit.stiffness);
-    document["critical_stiffness_interval"] = to_json(*stiffness_interval(*stiffness));
-    document["critical_frequency_rad_s"] = limit.frequency;
-    document["critical_frequency_hz"] = hertz(limit.frequency);
-    document["critical_frequency_interval_hz"] = in_hertz(limit.frequency_interval);
-  } else {
-    for (const char* key : {"critical_stiffness", "critical_stiffness_db", "critical_stiffness_interval",
-                            "critical_frequency_rad_s", "critical_frequency_hz", "critical_frequency_interval_hz"}) {
-      document[key] = nullptr;
-    }
-  }
-  document["limited_by"] = nullptr;
-  document["softest_proven"] = stiffness && stiffness->limit ? to_json(*stiffness->limit) : Json(nullptr);
-  document["crossovers"] = Json::array();
-  document["doubtful_bands_hz"] = Json::array();
+Json frf_json(const MeasuredResponse& measured, const FrfUnits& units, FrfContent content) {
+  const FrequencyResponse& response = measured.response;
+  const MeasuredStiffness* stiffness = measured.stiffness ? &*measured.stiffness : nullptr;
+  Json json = document("zwidth.frf/1");
+  json["recording"] = measured.source;
+  json["units"] = {{"force", units.force}, {"position", units.position}, {"stiffness", units.stiffness()}};
+  json["status"] = stiffness ? Json(stiffness->status) : Json(nullptr);
+  add_limit(json, stiffness);
+  json["limited_by"] = nullptr;
+  json["softest_proven"] = stiffness ? stiffness->limit : std::nullopt;
+  json["crossovers"] = stiffness ? Json(stiffness->crossovers) : Json::array();
+  json["doubtful_bands_hz"] = Json::array();
   if (stiffness) {
-    for (const MeasuredCrossover& crossover : stiffness->crossovers) {
-      document["crossovers"].push_back(to_json(crossover));
-    }
-    for (const Interval& band : stiffness->doubtful_bands) document["doubtful_bands_hz"].push_back(in_hertz(band));
+    for (const Interval& band : stiffness->doubtful_bands) json["doubtful_bands_hz"].push_back(in_hertz(band));
   }
-  document["measured_band_hz"] = stiffness ? in_hertz(stiffness->measured_band) : Json(nullptr);
-  document["excited_band_hz"] = in_hertz({response.points.front().frequency, response.points.back().frequency});
-  document["lines"] = response.points.size();
-  document["averages"] = response.averages > 0.0 ? number_or_null(response.averages) : Json(nullptr);
-  document["sampling_period_s"] = number_or_null(response.sampling_period);
-  if (content == FrfContent::with_lines) add_lines(document, response);
-  document["basis"] = {{"virtual_damping", 0.0}, {"velocity_filter_hz", 0.0}, {"filters", 0}};
-  document["trust"] = frf.trust;
-  document["remarks"] = remarks_json(frf.remarks);
-  return document;
+  json["measured_band_hz"] = stiffness ? std::optional(in_hertz(stiffness->measured_band)) : std::nullopt;
+  json["excited_band_hz"] = in_hertz({response.points.front().frequency, response.points.back().frequency});
+  json["lines"] = response.points.size();
+  json["averages"] = response.averages > 0.0 ? std::optional(response.averages) : std::nullopt;
+  json["sampling_period_s"] = response.sampling_period;
+  if (content == FrfContent::with_lines) add_lines(json, response);
+  json["basis"] = StiffnessBasis{};
+  json["trust"] = measured.trust;
+  json["remarks"] = measured.remarks;
+  return json;
 }
 
-}  // namespace zwidth::report
+std::string frf_csv(const FrequencyResponse& response) {
+  Csv csv({"frequency_rad_s", "frequency_hz", "magnitude", "magnitude_lower", "magnitude_upper", "phase_deg",
+           "phase_lower_deg", "phase_upper_deg", "coherence", "real", "imaginary"});
+  const std::vector<ResponseLine> lines = response_lines(response);
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const ResponseLine& line = lines[i];
+    const std::complex<double>& value = response.points[i].value;
+    csv.row(line.frequency, hertz(line.frequency), line.magnitude, line.magnitude_lower, line.magnitude_upper,
+            degrees(line.phase), degrees(line.phase_lower), degrees(line.phase_upper), line.coherence, value.real(),
+            value.imag());
+  }
+  return csv.text();
+}
+
+}  // namespace zwidth::results

@@ -1,9 +1,23 @@
 #pragma once
 
-#include "report/measured_frf.hpp"
-#include "results/json.hpp"
+#include <string>
 
-namespace zwidth::report {
+#include "results/json.hpp"
+#include "zwidth/identification/measured_response.hpp"
+
+namespace zwidth::results {
+
+NLOHMANN_JSON_SERIALIZE_ENUM(MeasuredStiffnessStatus, {{MeasuredStiffnessStatus::found, "found"},
+                                                       {MeasuredStiffnessStatus::not_in_band, "not_in_band"},
+                                                       {MeasuredStiffnessStatus::undetermined, "undetermined"}})
+
+/// Names of the units of a measured response.
+struct FrfUnits {
+  std::string force = "N";
+  std::string position = "m";
+  [[nodiscard]] std::string stiffness() const;   ///< "N/m", "N m/rad"
+  [[nodiscard]] std::string compliance() const;  ///< "m/N", "rad/(N m)"
+};
 
 enum class FrfContent {
   summary,     ///< all but the lines
@@ -11,12 +25,11 @@ enum class FrfContent {
 };
 
 /// The measured response as a JSON document, schema "zwidth.frf/1": see docs/frf_json.md.
-[[nodiscard]] results::Json frf_json(const MeasuredFrf& frf, FrfContent content);
+[[nodiscard]] Json frf_json(const MeasuredResponse& measured, const FrfUnits& units = {},
+                            FrfContent content = FrfContent::summary);
 
-/// "found", "not_in_band", "undetermined".
-[[nodiscard]] const char* name_of(MeasuredStiffnessStatus status);
+/// The lines of the response as comma-separated values with a header; a bound that does not exist is empty.
+/// `zwidth frf --table` reads it back.
+[[nodiscard]] std::string frf_csv(const FrequencyResponse& response);
 
-/// [{"severity": "note" | "warning", "what": ..., "meaning": ...}, ...]
-[[nodiscard]] results::Json remarks_json(const std::vector<Remark>& remarks);
-
-}  // namespace zwidth::report
+}  // namespace zwidth::results

@@ -1,90 +1,97 @@
 #include "results/identification_json.hpp"
 
-#include <cmath>
 #include <complex>
+#include <span>
 
-#include "report/text/quantity.hpp"
 #include "results/analysis_json.hpp"
+#include "results/units.hpp"
 
-namespace zwidth::report {
-namespace {
+namespace zwidth::results {
 
-using Json = results::Json;
-
-Json number_or_null(std::optional<double> value) {
-  return value && std::isfinite(*value) ? Json(*value) : Json(nullptr);
+void to_json(Json& json, const StiffnessBasis& basis) {
+  json = {{"virtual_damping", basis.virtual_damping},
+          {"velocity_filter_hz", basis.velocity_filter_hz},
+          {"filters", basis.filters}};
 }
 
-Json points_json(const IdentifiedDevice& identified) {
+static void to_json(Json& json, const StrongCorrelation& strong) {
+  json = {{"parameters", {strong.first, strong.second}}, {"correlation", strong.correlation}};
+}
+
+namespace {
+
+/// {"key", "value", "unit", "identifiable", "standard_deviation", "interval"}; null for what does not exist.
+Json estimates_json(std::span<const ParameterEstimate> estimates, Motion motion) {
+  Json all = Json::array();
+  for (const ParameterEstimate& each : estimates) {
+    all.push_back({{"key", each.key},
+                   {"value", each.value},
+                   {"unit", parameter_unit(each.key, motion)},
+                   {"identifiable", each.identifiable},
+                   {"standard_deviation", each.standard_deviation},
+                   {"interval", each.lower ? Json::array({*each.lower, *each.upper}) : Json(nullptr)}});
+  }
+  return all;
+}
+
+Json pair(const std::complex<double>& value) { return Json::array({value.real(), value.imag()}); }
+
+Json points_json(const ParameterFit& fit) {
   Json frequencies = Json::array();
   Json measured = Json::array();
   Json fitted = Json::array();
-  const ParameterFit& fit = identified.fit;
   for (std::size_t i = 0; i < fit.frequencies.size(); ++i) {
-    const std::complex<double> value = fit.fitted[i] + fit.residuals[i];
     frequencies.push_back(hertz(fit.frequencies[i]));
-    measured.push_back({value.real(), value.imag()});
-    fitted.push_back({fit.fitted[i].real(), fit.fitted[i].imag()});
+    measured.push_back(pair(fit.fitted[i] + fit.residuals[i]));
+    fitted.push_back(pair(fit.fitted[i]));
   }
   return {{"frequency_hz", frequencies}, {"measured", measured}, {"fitted", fitted}};
 }
 
 }  // namespace
 
-results::Json estimate_json(const ParameterEstimate& estimate, Motion motion) {
-  const Json interval = estimate.lower ? Json::array({*estimate.lower, *estimate.upper}) : Json(nullptr);
-  return {{"key", estimate.key},
-          {"value", estimate.value},
-          {"unit", unit_of_parameter(estimate.key, motion)},
-          {"identifiable", estimate.identifiable},
-          {"standard_deviation", number_or_null(estimate.standard_deviation)},
-          {"interval", interval}};
-}
-
-results::Json identification_json(const IdentifiedDevice& identified, PointsInJson points) {
+Json identification_json(const Identification& identified, PointsInJson points) {
   const ParameterFit& fit = identified.fit;
-  const Motion motion = fit.device.parameters().motion;
-  const Json analysis = results::analysis_json(identified.analysed.device, identified.analysed.analysis);
-  Json document;
-  document["schema"] = "zwidth.identification/1";
-  document["source"] = identified.source;
-  document["device"] = fit.device.name();
-  document["units"] = analysis["units"];
-  document["recorded_sampling_period_s"] = number_or_null(identified.response.sampling_period);
-  document["band_hz"] = {hertz(fit.frequencies.front()), hertz(fit.frequencies.back())};
-  document["point_count"] = fit.frequencies.size();
-  document["parameters"] = Json::array();
-  for (const ParameterEstimate& estimate : fit.estimates)
-    document["parameters"].push_back(estimate_json(estimate, motion));
-  document["correlations"] = Json::array();
-  for (const StrongCorrelation& each : fit.correlations) {
-    document["correlations"].push_back({{"parameters", {each.first, each.second}}, {"correlation", each.correlation}});
+  const Json analysis = analysis_json(fit.device, identified.analysis);
+  Json json = document("zwidth.identification/1");
+  json["source"] = identified.source;
+  json["device"] = fit.device.name();
+  json["units"] = analysis["units"];
+  json["recorded_sampling_period_s"] = identified.response.sampling_period;
+  json["band_hz"] = {hertz(fit.frequencies.front()), hertz(fit.frequencies.back())};
+  json["point_count"] = fit.frequencies.size();
+  json["parameters"] = estimates_json(fit.estimates, fit.device.parameters().motion);
+  json["correlations"] = fit.correlations;
+  json["unidentifiable"] = Json::array();
+  for (const UnidentifiableCombination& each : fit.unidentifiable) json["unidentifiable"].push_back(each.parameters);
+  json["misfit"] = fit.misfit;
+  json["model_error"] = fit.model_error;
+  json["held_to_measured_critical_point"] = fit.stiffness_without_hold.has_value();
+  json["critical_stiffness_without_hold"] = fit.stiffness_without_hold;
+  for (const char* key :
+       {"status", "critical_stiffness", "critical_stiffness_interval", "critical_frequency_hz", "limited_by"}) {
+    json[key] = identified.trust.refused() ? Json(nullptr) : analysis[key];
   }
-  document["unidentifiable"] = Json::array();
-  for (const UnidentifiableCombination& each : fit.unidentifiable) {
-    document["unidentifiable"].push_back(each.parameters);
-  }
-  document["misfit"] = number_or_null(fit.misfit);
-  document["model_error"] = fit.model_error;
-  document["held_to_measured_critical_point"] = fit.stiffness_without_hold.has_value();
-  document["critical_stiffness_without_hold"] = number_or_null(fit.stiffness_without_hold);
-  for (const char* key : {"status", "critical_stiffness", "critical_stiffness_interval", "critical_frequency_hz",
-                          "limited_by", "modes"}) {
-    document[key] = analysis[key];
-  }
-  if (identified.trust.refused()) {
-    for (const char* key :
-         {"status", "critical_stiffness", "critical_stiffness_interval", "critical_frequency_hz", "limited_by"}) {
-      document[key] = nullptr;
-    }
-  }
-  document["basis"] = {{"virtual_damping", identified.basis.virtual_damping},
-                       {"velocity_filter_hz", identified.basis.velocity_filter_hz},
-                       {"filters", identified.basis.filters}};
-  document["trust"] = identified.trust;
-  document["remarks"] = identified.remarks;
-  if (points == PointsInJson::included) document["points"] = points_json(identified);
-  return document;
+  json["modes"] = analysis["modes"];
+  json["basis"] = identified.basis;
+  json["trust"] = identified.trust;
+  json["remarks"] = identified.remarks;
+  if (points == PointsInJson::included) json["points"] = points_json(fit);
+  return json;
 }
 
-}  // namespace zwidth::report
+Json identification_json(const RigidBodyIdentification& identified) {
+  const RigidBodyFit& fit = identified.fit;
+  Json json = document("zwidth.inverse_dynamics/1");
+  json["source"] = identified.source;
+  json["parameters"] = estimates_json(estimates(fit), identified.device.parameters().motion);
+  json["relative_residual"] = fit.relative_residual;
+  json["cutoff_hz"] = fit.cutoff_hz;
+  json["decimation"] = fit.decimation;
+  json["equations"] = fit.equations;
+  json["trust"] = identified.trust;
+  json["remarks"] = identified.remarks;
+  return json;
+}
+
+}  // namespace zwidth::results

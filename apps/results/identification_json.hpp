@@ -1,16 +1,20 @@
 #pragma once
 
-#include "report/identified_device.hpp"
 #include "results/json.hpp"
+#include "zwidth/identification/identification.hpp"
+#include "zwidth/identification/rigid_body_identification.hpp"
 
-namespace zwidth::report {
+namespace zwidth::results {
 
 enum class PointsInJson { left_out, included };
 
-/// {"key", "value", "unit", "identifiable", "standard_deviation", "interval"}; null for what does not exist.
-[[nodiscard]] results::Json estimate_json(const ParameterEstimate& estimate, Motion motion);
+/// {"virtual_damping", "velocity_filter_hz", "filters"}: what a critical stiffness is given with.
+void to_json(Json& json, const StiffnessBasis& basis);
 
 /// The document of `identify --json`, schema zwidth.identification/1 (docs/identification.md).
-[[nodiscard]] results::Json identification_json(const IdentifiedDevice& identified, PointsInJson points);
+[[nodiscard]] Json identification_json(const Identification& identified, PointsInJson points = PointsInJson::left_out);
 
-}  // namespace zwidth::report
+/// That of inverse dynamics, schema zwidth.inverse_dynamics/1 (docs/inverse_dynamics.md).
+[[nodiscard]] Json identification_json(const RigidBodyIdentification& identified);
+
+}  // namespace zwidth::results

@@ -14,11 +14,12 @@ std::optional<double> hertz(std::optional<double> frequency) {
 
 std::string parameter_unit(const std::string& key, Motion motion) {
   const Units units = units_of(motion);
-  if (key.ends_with(".mass")) return std::string(units.mass);
-  if (key.ends_with(".damping")) return std::string(units.damping);
+  if (key.ends_with("mass")) return std::string(units.mass);
+  if (key.ends_with(".damping") || key == "viscous") return std::string(units.damping);
   if (key.ends_with(".stiffness")) return std::string(units.stiffness);
+  if (key.ends_with("coulomb") || key == "offset") return std::string(units.force);
   if (key.ends_with("_hz")) return "Hz";
-  if (key.starts_with("loop.") || key == "actuator.time_constant") return "s";
+  if (key.starts_with("loop.") || key == "actuator.time_constant" || key == "delay") return "s";
   return {};
 }
 

@@ -16,7 +16,7 @@ using zwidth::hertz;
 
 [[nodiscard]] std::optional<double> hertz(std::optional<double> frequency);
 
-/// "kg", "N s/m", "s", "Hz": the unit of a device file's key; empty for a ratio.
+/// "kg", "N s/m", "s", "Hz": the unit of a device file's key, or of a rigid body's fit ("viscous"); empty for a ratio.
 [[nodiscard]] std::string parameter_unit(const std::string& key, Motion motion);
 
 /// {"stiffness": "N/m", "damping": "N s/m"}: the units of a document about walls.

@@ -1,15 +1,16 @@
+#include "identification/excitation_check.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "zwidth/error.hpp"
-#include "zwidth/identification/excitation.hpp"
 #include "zwidth/model/state_space.hpp"
+#include "zwidth/quantity.hpp"
 #include "zwidth/sampling/forced_response.hpp"
 
-namespace zwidth {
+namespace zwidth::internal {
 namespace {
 
 constexpr auto warning = Remark::Severity::warning;
@@ -28,32 +29,26 @@ double played_stroke(const std::vector<double>& force, DiscreteStateSpace system
 
 }  // namespace
 
-ExcitationCheck check_excitation(const Excitation& excitation, double rate, const Device& device, double stroke_limit) {
-  if (!(std::isfinite(rate) && rate > 0.0)) {
-    throw Error(ErrorCode::invalid_argument, fmt::format("rate is {}; a frequency in Hz > 0", rate));
-  }
-  if (!(stroke_limit >= 0.0)) {
-    throw Error(ErrorCode::invalid_argument, fmt::format("stroke limit is {}; 0 (none) or more", stroke_limit));
-  }
+ExcitationCheck check_excitation(const Excitation& excitation, const Device& device) {
   const DeviceParameters& parameters = device.parameters();
-  const bool rotary = parameters.motion == Motion::rotary;
-  const std::string_view force_unit = rotary ? "N m" : "N";
-  const std::string_view length_unit = rotary ? "rad" : "m";
-
+  const Units units = units_of(parameters.motion);
+  const double period = 1.0 / excitation.rate;
   ExcitationCheck check;
-  check.peak_force = crest_factor(excitation.samples).peak;
-  check.peak_stroke = played_stroke(excitation.samples, sample(state_space(device), {1.0 / rate, device.loop().delay}));
+  check.device = device.name();
+  check.peak_force = excitation.crest.peak;
+  check.peak_stroke = played_stroke(excitation.samples, sample(state_space(device), {period, device.loop().delay}));
   const auto limit = parameters.actuator.force_limit;
   if (limit && check.peak_force > *limit) {
     check.exceeded.push_back({warning,
                               fmt::format("the peak force, {:.4g} {}, is beyond the actuator's limit, {:.4g} {}",
-                                          check.peak_force, force_unit, *limit, force_unit),
+                                          check.peak_force, units.force, *limit, units.force),
                               "the actuator would saturate; lower the amplitude"});
   }
-  if (stroke_limit > 0.0 && check.peak_stroke > stroke_limit) {
+  const auto stroke = excitation.options.stroke_limit;
+  if (stroke && check.peak_stroke > *stroke) {
     check.exceeded.push_back({warning,
                               fmt::format("the device moves {:.4g} {} from its start, beyond the stroke of {:.4g} {}",
-                                          check.peak_stroke, length_unit, stroke_limit, length_unit),
+                                          check.peak_stroke, units.length, *stroke, units.length),
                               "lower the amplitude, raise the lowest frequency, or lock a body"});
   }
   // Below this many encoder steps of peak motion a record is mostly rounding.
@@ -62,7 +57,7 @@ ExcitationCheck check_excitation(const Excitation& excitation, double rate, cons
   if (check.peak_stroke < least_steps * resolution) {
     check.remarks.push_back({warning,
                              fmt::format("the device moves at most {:.4g} {}, {:.2g} steps of its encoder",
-                                         check.peak_stroke, length_unit, check.peak_stroke / resolution),
+                                         check.peak_stroke, units.length, check.peak_stroke / resolution),
                              "the record would be mostly rounding; raise the amplitude"});
   }
   const bool friction =
@@ -74,4 +69,4 @@ ExcitationCheck check_excitation(const Excitation& excitation, double rate, cons
   return check;
 }
 
-}  // namespace zwidth
+}  // namespace zwidth::internal

@@ -9,7 +9,6 @@
 #include <random>
 
 #include "signal/fourier.hpp"
-#include "zwidth/error.hpp"
 #include "zwidth/identification/excitation.hpp"
 
 namespace zwidth::internal {
@@ -24,24 +23,15 @@ struct Lines {
   [[nodiscard]] std::size_t count() const { return last - first + 1; }
 };
 
+/// Empty (last < first) where the band holds none.
 Lines lines_in(RelativeBand band, std::size_t size) {
   const auto n = static_cast<double>(size);
-  if (n > max_transformed_samples) {
-    throw Error(ErrorCode::invalid_argument,
-                fmt::format("{} samples in one transform; at most {:g} for noise or one period of a multisine", size,
-                            max_transformed_samples));
-  }
   // A band's end that is a line but for rounding counts as that line.
   constexpr double rounding = 1e-9;
   const double first = std::max(1.0, std::ceil(band.lowest * n * (1.0 - rounding)));
   // At Nyquist a line has no phase of its own.
   const double last = std::min(std::floor(band.highest * n * (1.0 + rounding)), std::ceil(0.5 * n) - 1.0);
-  if (last < first) {
-    throw Error(ErrorCode::invalid_argument,
-                "the band holds no line of the spectrum: lines lie 1/period apart (noise: 1/duration) and below half "
-                "the rate; make the band wider or the period longer");
-  }
-  return {static_cast<std::size_t>(first), static_cast<std::size_t>(last)};
+  return {static_cast<std::size_t>(first), static_cast<std::size_t>(std::max(last, 0.0))};
 }
 
 /// The signal whose lines in the band are these, up to a factor: Re sum_k line_k e^{2 pi j i k / size}.
@@ -56,6 +46,18 @@ std::vector<double> signal_of(const std::vector<Complex>& lines, std::size_t fir
 }
 
 }  // namespace
+
+std::optional<OptionProblem> find_problem(std::size_t size, RelativeBand band) {
+  if (static_cast<double>(size) > max_transformed_samples) {
+    return OptionProblem{"duration", fmt::format("makes {} samples in one transform", size),
+                         fmt::format("at most {:g} for noise or one period of a multisine", max_transformed_samples)};
+  }
+  const Lines lines = lines_in(band, size);
+  if (lines.first <= lines.last) return std::nullopt;
+  return OptionProblem{"highest_hz", "ends a band that holds no line of the spectrum",
+                       "lines lie 1/period apart (noise: 1/duration) and below half the rate; make the band wider or "
+                       "the period longer"};
+}
 
 std::vector<double> schroeder_multisine(std::size_t size, RelativeBand band) {
   const Lines lines = lines_in(band, size);

@@ -2,7 +2,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
+
+#include "zwidth/option_problem.hpp"
 
 namespace zwidth::internal {
 
@@ -12,12 +15,16 @@ struct RelativeBand {
   double highest = 0.0;
 };
 
+/// Why a signal of `size` samples cannot be made of the lines in the band: it holds none, or one transform would be
+/// larger than max_transformed_samples.
+[[nodiscard]] std::optional<OptionProblem> find_problem(std::size_t size, RelativeBand band);
+
 /// One period of a sum of cosines of equal amplitude at every line k/size in the band (below Nyquist), with Schroeder's
-/// phases for a low crest factor. Throws Error (invalid_argument) where the band holds no line, or size is above
-/// max_transformed_samples. Source: Schroeder 1970, eq. 11.
+/// phases for a low crest factor. Requires that find_problem(size, band) finds none.
+/// Source: Schroeder 1970, eq. 11.
 [[nodiscard]] std::vector<double> schroeder_multisine(std::size_t size, RelativeBand band);
 
-/// Gaussian noise of constant power density in the band and none outside. Requires and throws as above.
+/// Gaussian noise of constant power density in the band and none outside. Requires the same.
 [[nodiscard]] std::vector<double> band_limited_noise(std::size_t size, RelativeBand band, std::uint64_t seed);
 
 }  // namespace zwidth::internal

@@ -209,6 +209,10 @@ ParameterEstimate estimate(std::string key, double value, double deviation, doub
 
 }  // namespace
 
+std::vector<ParameterEstimate> estimates(const RigidBodyFit& fit) {
+  return {fit.mass, fit.viscous, fit.coulomb, fit.offset, fit.delay};
+}
+
 RigidBodyFit identify_rigid_body(std::span<const double> force, std::span<const double> position,
                                  double sampling_period, const InverseDynamicsOptions& options,
                                  const Progress& progress) {

@@ -129,11 +129,11 @@ TEST_F(Excite, DrawsTheSignal) {
 
 TEST_F(Excite, Refusals) {
   expect_refusal("", 2, "--amplitude is required");
-  expect_refusal("--amplitude 0", 2, "amplitude is 0; a force > 0");
-  expect_refusal("--amplitude nan", 2, "amplitude is nan");
-  expect_refusal("--amplitude 1 --highest-hz 600", 2, "highest frequency is 600; from the lowest, 10 Hz, to half");
+  expect_refusal("--amplitude 0", 2, "--amplitude: is 0; a force > 0");
+  expect_refusal("--amplitude nan", 2, "--amplitude: is nan");
+  expect_refusal("--amplitude 1 --highest-hz 600", 2, "--highest-hz: is 600; from the lowest, 10 Hz, to half");
   expect_refusal("--amplitude 1 --duration 1e9", 2, "2 to 1e+08 samples");
-  expect_refusal("--amplitude 1 --fade-in 11", 2, "fade-in is 11");
+  expect_refusal("--amplitude 1 --fade-in 11", 2, "--fade-in: is 11");
   expect_refusal("--amplitude 1 --kind sweep", 2, "--kind");
   expect_refusal("--amplitude 1 --periods 3", 2, "--periods: is for a multisine; --kind is linear-chirp");
   expect_refusal("--amplitude 1 --seed 3", 2, "--seed: is for noise");

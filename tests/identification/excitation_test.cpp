@@ -56,7 +56,7 @@ TEST(Excitation, LinearChirpPassesEveryFrequencyAtItsTime) {
   options.highest_hz = 50.0;
   options.rate = 1e5;
   options.duration = 4.0;
-  const std::vector<double> zeros = rising_zeros(excite(options).samples, options.rate);
+  const std::vector<double> zeros = rising_zeros(excite(options).samples, 1e5);
   // Cycle n begins where f1 t + (f2 - f1) t^2 / (2 D) = n.
   ASSERT_EQ(zeros.size(), 109U);  // 110 cycles in all, the first from t = 0, the last complete at the end
   const double slope = 45.0 / 4.0;
@@ -73,7 +73,7 @@ TEST(Excitation, LogarithmicChirpSpendsEqualTimeInEachOctave) {
   options.highest_hz = 64.0;
   options.rate = 1e5;
   options.duration = 5.0;  // five octaves: one each second
-  const std::vector<double> zeros = rising_zeros(excite(options).samples, options.rate);
+  const std::vector<double> zeros = rising_zeros(excite(options).samples, 1e5);
   for (std::size_t i = 1; i < zeros.size(); ++i) {
     // The mean frequency of a cycle is that of a logarithmic chirp at some time within it.
     const double octaves = std::log2(1.0 / (zeros[i] - zeros[i - 1]) / 2.0);
@@ -90,13 +90,13 @@ TEST(Excitation, PowerStaysInTheBand) {
     ExcitationOptions options;
     options.kind = kind;
     options.fade_in = 0.5;
-    const PowerSplit split = split_power(excite(options).samples, options.rate, 9.0, 202.0);
+    const PowerSplit split = split_power(excite(options).samples, 1000.0, 9.0, 202.0);
     EXPECT_LT(split.below + split.above, 1e-3);
   }
   for (const ExcitationKind kind : {ExcitationKind::multisine, ExcitationKind::noise}) {
     ExcitationOptions options;
     options.kind = kind;
-    const PowerSplit split = split_power(excite(options).samples, options.rate, 9.999, 200.001);
+    const PowerSplit split = split_power(excite(options).samples, 1000.0, 9.999, 200.001);
     EXPECT_LT(split.below + split.above, 1e-25);
   }
 }
@@ -148,7 +148,7 @@ TEST(Excitation, NoiseIsGaussianAndFlatAndTheSameForASeed) {
   for (const double each : noise) fourth += std::pow(each / crest.rms, 4.0) / static_cast<double>(noise.size());
   // 38 000 independent values: the kurtosis of 3 is met to sqrt(24 / 38000) = 0.025.
   EXPECT_NEAR(fourth, 3.0, 0.1);
-  const PowerSplit halves = split_power(noise, options.rate, 10.0, 105.0);
+  const PowerSplit halves = split_power(noise, 1000.0, 10.0, 105.0);
   EXPECT_NEAR(halves.inside, 0.5, 0.02);  // 9500 lines in each half: 1 %
   options.seed = 2;
   EXPECT_NE(noise, excite(options).samples);
@@ -247,6 +247,50 @@ TEST(Excitation, RefusesWhatMakesNoSignal) {
   });
 }
 
+TEST(Excitation, ProblemsNameTheMember) {
+  const auto member = [](auto change) {
+    ExcitationOptions options;
+    change(options);
+    const auto problem = find_problem(options);
+    return problem ? problem->member : "none";
+  };
+  EXPECT_EQ(member([](auto&) {}), "none");
+  EXPECT_EQ(member([](auto& options) { options.amplitude = 0.0; }), "amplitude");
+  EXPECT_EQ(member([](auto& options) { options.rate = -1.0; }), "rate");
+  EXPECT_EQ(member([](auto& options) { options.duration = 1e9; }), "duration");
+  EXPECT_EQ(member([](auto& options) { options.lowest_hz = 501.0; }), "lowest_hz");
+  EXPECT_EQ(member([](auto& options) { options.highest_hz = 501.0; }), "highest_hz");
+  EXPECT_EQ(member([](auto& options) { options.fade_in = 10.1; }), "fade_in");
+  EXPECT_EQ(member([](auto& options) { options.stroke_limit = 0.0; }), "stroke_limit");
+  for (const ExcitationKind kind : {ExcitationKind::multisine, ExcitationKind::noise}) {
+    EXPECT_EQ(member([&](auto& options) {
+                options.kind = kind;
+                options.lowest_hz = 10.01;
+                options.highest_hz = 10.04;
+              }),
+              "highest_hz");
+  }
+  EXPECT_EQ(member([](auto& options) {
+              options.kind = ExcitationKind::multisine;
+              options.periods = 0;
+            }),
+            "periods");
+}
+
+// A band beyond half of 1000 Hz is one of a device that samples faster.
+TEST(Excitation, TakesTheDevicesRateWhereItHasNone) {
+  DeviceParameters parameters = test::rigid_parameters();
+  parameters.loop.sampling_period = 1e-4;
+  ExcitationOptions options;
+  options.highest_hz = 2000.0;
+  EXPECT_EQ(find_problem(options)->member, "highest_hz");
+  EXPECT_FALSE(find_problem(options, Device(parameters)));
+  EXPECT_EQ(excite(options, Device(parameters)).rate, 1e4);
+  options.rate = 5000.0;
+  EXPECT_EQ(excite(options, Device(parameters)).rate, 5000.0);
+  EXPECT_EQ(excite({}).rate, 1000.0);
+}
+
 TEST(Excitation, LessThanACycleIsWarnedOf) {
   ExcitationOptions options;
   options.lowest_hz = 0.04;
@@ -266,23 +310,25 @@ TEST(ExcitationCheck, StrokeOfARigidBodyIsTheClosedForm) {
   options.lowest_hz = 5.0;
   options.rate = 2000.0;  // not the device's own
   options.duration = 1.0;
-  const Excitation excitation = excite(options);
+  options.stroke_limit = 0.05;
   const double period_travel = 4.0 * 0.1 * 0.1 / 2.0;
-  const ExcitationCheck check = check_excitation(excitation, options.rate, Device(parameters), 0.05);
+  const ExcitationCheck check = *excite(options, Device(parameters)).check;
   EXPECT_EQ(check.peak_force, 4.0);
   EXPECT_NEAR(check.peak_stroke, 5.0 * period_travel, 1e-6);
   ASSERT_EQ(check.exceeded.size(), 2U);
   EXPECT_EQ(check.exceeded[0].what, "the peak force, 4 N, is beyond the actuator's limit, 3 N");
   EXPECT_EQ(check.exceeded[1].what, "the device moves 0.1 m from its start, beyond the stroke of 0.05 m");
   parameters.actuator.force_limit = 4.0;
-  EXPECT_TRUE(check_excitation(excitation, options.rate, Device(parameters), 0.2).exceeded.empty());
+  options.stroke_limit = 0.2;
+  EXPECT_TRUE(excite(options, Device(parameters)).check->exceeded.empty());
 }
 
 TEST(ExcitationCheck, AnUnstableDeviceLeavesEveryStroke) {
   const Device device(test::transfer_function_parameters({1.0}, {1.0, 0.0, -1e6}, 1e-3));
   ExcitationOptions options;
   options.duration = 2.0;
-  const ExcitationCheck check = check_excitation(excite(options), options.rate, device, 1.0);
+  options.stroke_limit = 1.0;
+  const ExcitationCheck check = *excite(options, device).check;
   EXPECT_EQ(check.peak_stroke, std::numeric_limits<double>::infinity());
   EXPECT_EQ(check.exceeded.size(), 1U);
 }
@@ -291,7 +337,7 @@ TEST(ExcitationCheck, DoubtsAboutEncoderAndFrictionAreSaid) {
   DeviceParameters parameters = test::lhifam_parameters();
   parameters.sensor.resolution = 1e-3;
   parameters.bodies[0].coulomb = 0.5;
-  const ExcitationCheck check = check_excitation(excite({}), 1000.0, Device(parameters));
+  const ExcitationCheck check = *excite({}, Device(parameters)).check;
   EXPECT_TRUE(check.exceeded.empty());
   ASSERT_EQ(check.remarks.size(), 2U);
   EXPECT_NE(check.remarks[0].what.find("steps of its encoder"), std::string::npos);

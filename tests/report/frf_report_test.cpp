@@ -7,13 +7,16 @@
 #include <sstream>
 
 #include "report/figure/frf_figure.hpp"
-#include "report/measured_frf.hpp"
 #include "report/text/frf_text.hpp"
-#include "results/frf_csv.hpp"
 #include "results/frf_json.hpp"
 
 namespace zwidth::report {
 namespace {
+
+using results::frf_csv;
+using results::frf_json;
+using results::FrfContent;
+using results::FrfUnits;
 
 using ::testing::HasSubstr;
 
@@ -34,9 +37,8 @@ FrequencyResponse falling_phase(double relative_deviation) {
 
 const double stiffness_at_21_hz = 5.4 * std::pow(2.0 * std::numbers::pi * 21.0, 2);
 
-MeasuredFrf example(double relative_deviation = 1e-3) {
-  return measured_frf(
-      judged_response("run.csv", falling_phase(relative_deviation), {{Remark::Severity::note, "a note", ""}}), {});
+MeasuredResponse example(double relative_deviation = 1e-3) {
+  return judged_response("run.csv", falling_phase(relative_deviation), {{Remark::Severity::note, "a note", ""}});
 }
 
 TEST(FrfUnits, AreQuotientsWithBracketsWhereNeeded) {
@@ -61,7 +63,7 @@ TEST(FrfPoints, UnwrapThePhaseAndLeaveOpenBoundsOut) {
 }
 
 TEST(FrfJson, HoldsTheAnswerAndOnlyOnRequestTheLines) {
-  const auto document = frf_json(example(), FrfContent::summary);
+  const auto document = frf_json(example());
   EXPECT_EQ(document["status"], "found");
   EXPECT_NEAR(document["critical_stiffness"], stiffness_at_21_hz, 1e-3 * stiffness_at_21_hz);
   EXPECT_NEAR(document["critical_frequency_hz"], 21.0, 1e-6);
@@ -69,16 +71,16 @@ TEST(FrfJson, HoldsTheAnswerAndOnlyOnRequestTheLines) {
   EXPECT_EQ(document["crossovers"].size(), 1U);
   EXPECT_EQ(document["remarks"][0]["what"], "a note");
   EXPECT_FALSE(document.contains("magnitude"));
-  const auto with_lines = frf_json(example(), FrfContent::with_lines);
+  const auto with_lines = frf_json(example(), {}, FrfContent::with_lines);
   EXPECT_EQ(with_lines["magnitude"].size(), 41U);
   EXPECT_EQ(with_lines["phase_upper_rad"].size(), 41U);
 }
 
 TEST(FrfJson, AnUndeterminedStiffnessIsNullAndBoundedAbove) {
-  MeasuredFrf frf = example();
+  MeasuredResponse frf = example();
   frf.stiffness->status = MeasuredStiffnessStatus::undetermined;
   frf.stiffness->doubtful_bands = {{6.0, 12.0}};
-  const auto document = frf_json(frf, FrfContent::summary);
+  const auto document = frf_json(frf);
   EXPECT_EQ(document["status"], "undetermined");
   EXPECT_TRUE(document["critical_stiffness"].is_null());
   EXPECT_TRUE(document["critical_stiffness_interval"].is_null());
@@ -90,12 +92,11 @@ TEST(FrfJson, AnUndeterminedStiffnessIsNullAndBoundedAbove) {
 TEST(FrfJson, ASingleLineAndAContinuousResponseHaveNoStiffness) {
   FrequencyResponse response = falling_phase(1e-3);
   response.points.resize(1);
-  EXPECT_TRUE(
-      frf_json(measured_frf(judged_response("run.csv", response, {}), {}), FrfContent::with_lines)["status"].is_null());
+  EXPECT_TRUE(frf_json(judged_response("run.csv", response), {}, FrfContent::with_lines)["status"].is_null());
   response = falling_phase(1e-3);
   response.sampling_period.reset();
-  const MeasuredFrf continuous = measured_frf(judged_response("run.csv", response, {}), {});
-  EXPECT_TRUE(frf_json(continuous, FrfContent::summary)["critical_stiffness"].is_null());
+  const MeasuredResponse continuous = judged_response("run.csv", response);
+  EXPECT_TRUE(frf_json(continuous)["critical_stiffness"].is_null());
   EXPECT_THAT(frf_text(continuous), HasSubstr("not to be had"));
 }
 
@@ -124,12 +125,12 @@ TEST(FrfCsv, HasOneRowPerLineWithAllDigits) {
 }
 
 TEST(FrfFigure, IsDrawnWithDoubtsUnknownBoundsAndManyLines) {
-  MeasuredFrf frf = example();
-  EXPECT_THAT(draw(frf, FigureFormat::svg), HasSubstr("Coherence"));
+  MeasuredResponse frf = example();
+  EXPECT_THAT(draw_frf(frf, {}, FigureFormat::svg), HasSubstr("Coherence"));
   frf.stiffness->doubtful_bands = {{6.0, 12.0}};
   frf.response.averages = 1.0;
   frf.response.points[4].value = 0.0;
-  EXPECT_THAT(draw(frf, FigureFormat::svg), HasSubstr("</svg>"));
+  EXPECT_THAT(draw_frf(frf, {}, FigureFormat::svg), HasSubstr("</svg>"));
 
   FrequencyResponse fine = falling_phase(1e-3);
   std::vector<ResponsePoint> many;
@@ -139,7 +140,7 @@ TEST(FrfFigure, IsDrawnWithDoubtsUnknownBoundsAndManyLines) {
   }
   many[50000].value *= 1e3;  // a peak of one line is still seen
   fine.points = many;
-  const std::string figure = draw(MeasuredFrf{"run.csv", {}, fine, std::nullopt, {}}, FigureFormat::svg);
+  const std::string figure = draw_frf({"run.csv", fine, std::nullopt, {}, {}}, {}, FigureFormat::svg);
   EXPECT_LT(figure.size(), 1000000U);
 }
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "report/figure/plot.hpp"
-#include "report/text/quantity.hpp"
+#include "report/text/excitation_text.hpp"
 #include "zwidth/signal/power_density.hpp"
 
 namespace zwidth::report {
@@ -77,19 +77,20 @@ std::span<const double> one_period(const Excitation& excitation) {
 
 }  // namespace
 
-std::string draw_excitation(const std::string& title, const Excitation& excitation, double rate, Motion motion,
-                            FigureFormat format) {
+std::string draw_excitation(const Excitation& excitation, FigureFormat format) {
+  const std::string title = excitation_title(excitation.options);
+  const double rate = excitation.rate;
   const Heading heading(title, {});
   const Box time_frame{frame_left, frame_right, heading.bottom() + 16.0, heading.bottom() + 186.0};
   const Box density_frame{frame_left, frame_right, time_frame.bottom + 70.0, time_frame.bottom + 280.0};
-  const std::string_view unit = motion == Motion::rotary ? "N m" : "N";
+  const bool is_rotary = excitation.motion == Motion::rotary;
   Canvas canvas(title, canvas_width, density_frame.bottom + 60.0);
   heading.draw(canvas);
   const std::string signal = add_signal(canvas, excitation.samples, rate);
   const double duration = static_cast<double>(excitation.samples.size()) / rate;
   x_label(canvas, time_frame, "Time (s)");
   canvas.commands(fmt::format("{}\nset xrange [0:{:.9g}]\nset offsets 0, 0, graph 0.05, graph 0.05\n{}", axes_look(),
-                              duration, y_label(fmt::format("Force ({})", unit))));
+                              duration, y_label(is_rotary ? "Force (N m)" : "Force (N)")));
   canvas.plot(time_frame, signal + ", NaN notitle");
 
   const std::span<const double> period = one_period(excitation);
@@ -108,7 +109,7 @@ std::string draw_excitation(const std::string& title, const Excitation& excitati
       "set logscale x\nset format x '%g'\nset mxtics 10\nset grid mxtics\nset offsets 0, 0, 0, 0\n"
       "set xrange [{:.9g}:{:.9g}]\nset yrange [{:g}:{:g}]\nset ytics 20\nset ylabel 'Power density (dB re 1 {}/Hz)'",
       std::max(points.empty() ? 0.001 * rate : (period.empty() ? 1.0 : 0.5) * points.front().frequency_hz, 1e-4 * rate),
-      0.5 * rate, top - shown_decibels, top, motion == Motion::rotary ? "(N m)²" : "N²"));
+      0.5 * rate, top - shown_decibels, top, is_rotary ? "(N m)²" : "N²"));
   const double bottom = top - shown_decibels;
   const std::string curve = fmt::format("$density with lines {}", gnuplot_line(curve_style));
   const std::string stems = fmt::format("$density using 1:({0:g}):(0):($2>{0:g}?$2-{0:g}:0) with vectors nohead {1}",

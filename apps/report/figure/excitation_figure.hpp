@@ -7,9 +7,8 @@
 
 namespace zwidth::report {
 
-/// The excitation over time (of many samples: its envelope) above its power density over frequency.
+/// Entitled by excitation_title(): the excitation over time (of many samples: its envelope) above its power density over frequency.
 /// Throws OutputFailed as gnuplot does.
-[[nodiscard]] std::string draw_excitation(const std::string& title, const Excitation& excitation, double rate,
-                                          Motion motion, FigureFormat format);
+[[nodiscard]] std::string draw_excitation(const Excitation& excitation, FigureFormat format);
 
 }  // namespace zwidth::report

@@ -68,7 +68,7 @@ struct ListLine {
 
 class Layout {
  public:
-  Layout(const MeasuredFrf& frf, const std::vector<ListLine>& list, double heading_bottom)
+  Layout(const MeasuredResponse& frf, const std::vector<ListLine>& list, double heading_bottom)
       : low_(hertz(frf.response.points.front().frequency) / 1.05),
         high_(hertz(frf.response.points.back().frequency) * 1.05) {
     const double top = heading_bottom + 8.0;
@@ -99,18 +99,17 @@ class Layout {
   double high_;
 };
 
-bool is_critical(const MeasuredFrf& frf, const MeasuredCrossover& crossover) {
+bool is_critical(const MeasuredResponse& frf, const MeasuredCrossover& crossover) {
   return frf.stiffness->status == MeasuredStiffnessStatus::found && frf.stiffness->limit &&
          frf.stiffness->limit->frequency == crossover.frequency;
 }
 
-std::vector<MeasuredCrossover> crossovers_of(const MeasuredFrf& frf) {
+std::vector<MeasuredCrossover> crossovers_of(const MeasuredResponse& frf) {
   return frf.stiffness ? frf.stiffness->crossovers : std::vector<MeasuredCrossover>{};
 }
 
 /// What stands below the frames: the crossovers, then the warnings.
-std::vector<ListLine> list_of(const MeasuredFrf& frf) {
-  const std::string unit = frf.units.stiffness();
+std::vector<ListLine> list_of(const MeasuredResponse& frf, const std::string& unit) {
   std::vector<ListLine> list;
   const auto add = [&list](const std::string& text, std::string_view colour = ink) {
     for (std::string& line : Canvas::broken(text, 12.0, frame_right - frame_left, 3)) {
@@ -192,7 +191,7 @@ double tick_step(const Axis& axis, double step, double most_ticks) {
   return step;
 }
 
-void draw_marks(Canvas& canvas, const MeasuredFrf& frf, const Layout& layout, const Box& frame) {
+void draw_marks(Canvas& canvas, const MeasuredResponse& frf, const Layout& layout, const Box& frame) {
   constexpr double apart = 20.0;
   const std::vector<MeasuredCrossover> crossovers = crossovers_of(frf);
   double last_tag = -apart;
@@ -208,7 +207,7 @@ void draw_marks(Canvas& canvas, const MeasuredFrf& frf, const Layout& layout, co
   }
 }
 
-void draw_doubts(Canvas& canvas, const MeasuredFrf& frf, const Layout& layout, const Box& frame) {
+void draw_doubts(Canvas& canvas, const MeasuredResponse& frf, const Layout& layout, const Box& frame) {
   if (!frf.stiffness) return;
   for (const Interval& band : frf.stiffness->doubtful_bands) {
     const double left = layout.x(band.lower);
@@ -236,14 +235,14 @@ std::string band_and_curve(int curve, int lower, int upper) {
 
 }  // namespace
 
-std::string draw(const MeasuredFrf& frf, FigureFormat format) {
+std::string draw_frf(const MeasuredResponse& frf, const results::FrfUnits& units, FigureFormat format) {
   const std::vector<ResponseLine> points = thinned(response_lines(frf.response));
-  const Heading heading(std::filesystem::path(frf.recording).filename().string(), {},
+  const Heading heading(std::filesystem::path(frf.source).filename().string(), {},
                         "Measured response, from commanded force to sensed position");
-  const std::vector<ListLine> list = list_of(frf);
+  const std::vector<ListLine> list = list_of(frf, units.stiffness());
   const Layout layout(frf, list, heading.bottom());
   const bool has_marks = !crossovers_of(frf).empty();
-  Canvas canvas(frf.recording, canvas_width, layout.height);
+  Canvas canvas(frf.source, canvas_width, layout.height);
   const Axis magnitude = magnitude_axis(points, has_marks);
   add_data(canvas, points, magnitude.low);
 
@@ -260,7 +259,7 @@ std::string draw(const MeasuredFrf& frf, FigureFormat format) {
   draw_marks(canvas, frf, layout, layout.magnitude);
   canvas.commands(
       fmt::format("set yrange [{}:{}]\nset ytics {}\nset ylabel 'Magnitude (dB re 1 {})' offset 0.5,0 font ',12'",
-                  magnitude.low, magnitude.high, tick_step(magnitude, 10.0, 10.0), frf.units.compliance()));
+                  magnitude.low, magnitude.high, tick_step(magnitude, 10.0, 10.0), units.compliance()));
   canvas.plot(layout.magnitude, band_and_curve(2, 3, 4));
 
   const Axis phase = phase_axis(points);

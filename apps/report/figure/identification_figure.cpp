@@ -32,7 +32,7 @@ struct Row {
 /// The angle nearest to `near`, by whole turns.
 double unwrapped(double phase, double near) { return phase + 360.0 * std::round((near - phase) / 360.0); }
 
-std::vector<Row> rows(const IdentifiedDevice& identified) {
+std::vector<Row> rows(const Identification& identified) {
   const ParameterFit& fit = identified.fit;
   std::vector<Row> result;
   double last = -180.0;
@@ -78,14 +78,14 @@ std::string plots(int measured, int low, int high, int fitted) {
 
 }  // namespace
 
-std::string draw_identification(const IdentifiedDevice& identified, FigureFormat format) {
+std::string draw_identification(const Identification& identified, FigureFormat format) {
   IdentificationLabels labels;
   labels.title = fmt::format("{}, identified from {}", display_name(identified.fit.device),
                              std::filesystem::path(identified.source).filename().string());
   return draw_identification(identified, labels, format);
 }
 
-std::string draw_identification(const IdentifiedDevice& identified, const IdentificationLabels& labels,
+std::string draw_identification(const Identification& identified, const IdentificationLabels& labels,
                                 FigureFormat format) {
   const std::vector<Row> data = rows(identified);
   const Heading heading(labels.title,

@@ -34,8 +34,7 @@ std::string found(const MeasuredStiffness& stiffness, const std::string& unit) {
                                                  in_hertz(limit.frequency_interval)));
 }
 
-std::string answer(const MeasuredFrf& frf) {
-  const std::string unit = frf.units.stiffness();
+std::string answer(const MeasuredResponse& frf, const std::string& unit) {
   if (!frf.stiffness) return labelled("  critical stiffness", "not to be had from this response");
   const MeasuredStiffness& stiffness = *frf.stiffness;
   switch (stiffness.status) {
@@ -52,12 +51,12 @@ std::string answer(const MeasuredFrf& frf) {
                                               : "unknown: noise hides the phase");
 }
 
-std::string crossovers(const MeasuredFrf& frf) {
+std::string crossovers(const MeasuredResponse& frf, const std::string& unit) {
   if (!frf.stiffness || frf.stiffness->crossovers.empty()) return "";
   const MeasuredStiffness& stiffness = *frf.stiffness;
   using Align = TextTable::Align;
   TextTable table{{Align::right, Align::right, Align::right, Align::right, Align::left},
-                  {{"Hz", "95 %", fmt::format("K ({})", frf.units.stiffness()), "95 %", "as K rises"}}};
+                  {{"Hz", "95 %", fmt::format("K ({})", unit), "95 %", "as K rises"}}};
   for (const MeasuredCrossover& crossover : stiffness.crossovers) {
     const bool limits = stiffness.status == MeasuredStiffnessStatus::found && stiffness.limit &&
                         stiffness.limit->frequency == crossover.frequency;
@@ -86,15 +85,16 @@ std::string remarks_text(std::span<const Remark> remarks) {
   return lines;
 }
 
-std::string frf_text(const MeasuredFrf& frf) {
+std::string frf_text(const MeasuredResponse& frf, const results::FrfUnits& units) {
   const FrequencyResponse& response = frf.response;
   std::string measured = fmt::format("{} lines, {}", response.points.size(),
                                      in_hertz({response.points.front().frequency, response.points.back().frequency}));
   if (response.sampling_period) measured += fmt::format(", T = {}", quantity(*response.sampling_period, "s"));
   const std::string basis =
       frf.trust.refused() ? "" : labelled("  basis", "the bare stiffness, without a virtual damper");
-  return shortened(frf.recording, width) + "\n" + answer(frf) + basis + trust_lines(frf.trust) +
-         labelled("  measured", measured) + "\n" + crossovers(frf) + "Remarks\n" + remarks_text(frf.remarks);
+  return shortened(frf.source, width) + "\n" + answer(frf, units.stiffness()) + basis + trust_lines(frf.trust) +
+         labelled("  measured", measured) + "\n" + crossovers(frf, units.stiffness()) + "Remarks\n" +
+         remarks_text(frf.remarks);
 }
 
 }  // namespace zwidth::report

@@ -3,10 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 
 #include "report/text/explanation.hpp"
+#include "report/text/frf_text.hpp"
 #include "report/text/quantity.hpp"
-#include "report/text/remark_line.hpp"
 #include "report/text/text_table.hpp"
 #include "report/text/trust_text.hpp"
 
@@ -35,23 +36,29 @@ std::string correlations(const ParameterFit& fit) {
   return text.empty() ? "" : "\n" + text;
 }
 
-std::string remarks(const std::vector<Remark>& all) {
-  std::string text;
-  for (const Remark& remark : all) {
-    const std::string label = remark.severity == Remark::Severity::warning ? "  ! " : "  - ";
-    text += wrap(remark_line(remark), width, 4).replace(0, label.size(), label);
+/// "without a virtual damper", "with the wall's damper of 5 N s/m closed": what a K_CR is given with.
+std::string basis_text(const StiffnessBasis& basis, Motion motion) {
+  std::string text = "without a virtual damper";
+  if (basis.virtual_damping > 0.0) {
+    text =
+        fmt::format("with the wall's damper of {} closed", quantity(basis.virtual_damping, units_of(motion).damping));
+    if (basis.velocity_filter_hz > 0.0) {
+      text += fmt::format(" behind its {} filter", quantity(basis.velocity_filter_hz, "Hz"));
+    }
   }
-  return text.empty() ? "" : "\nRemarks\n" + text;
+  if (basis.filters > 0) text += fmt::format(", through the wall's {} filter(s)", basis.filters);
+  return text;
 }
 
-}  // namespace
+std::string remarks(const std::vector<Remark>& all) { return all.empty() ? "" : "\nRemarks\n" + remarks_text(all); }
 
+/// Value, unit, standard deviation and 95 % interval of each parameter.
 TextTable estimate_table(std::span<const ParameterEstimate> estimates, Motion motion) {
   using Align = TextTable::Align;
   TextTable table{{Align::left, Align::right, Align::left, Align::right, Align::right, Align::right},
                   {{"parameter", "value", "unit", "+-1 sigma", "95 % from", "to"}}};
   for (const ParameterEstimate& each : estimates) {
-    std::vector<std::string> row = {each.key, number(each.value), std::string(unit_of_parameter(each.key, motion))};
+    std::vector<std::string> row = {each.key, number(each.value), parameter_unit(each.key, motion)};
     if (each.standard_deviation) {
       row.insert(row.end(), {number(*each.standard_deviation), number(*each.lower), number(*each.upper)});
     } else {
@@ -62,9 +69,11 @@ TextTable estimate_table(std::span<const ParameterEstimate> estimates, Motion mo
   return table;
 }
 
-std::string identification_text(const IdentifiedDevice& identified) {
+}  // namespace
+
+std::string identification_text(const Identification& identified) {
   const ParameterFit& fit = identified.fit;
-  const Analysis& analysis = identified.analysed.analysis;
+  const AnalysedDevice analysed{fit.device, identified.analysis};
   std::string text = fmt::format("{}, identified from {}\n", display_name(fit.device), identified.source);
   text += layout(estimate_table(fit.estimates, fit.device.parameters().motion)) + correlations(fit) + "\n" +
           wrap(fit_quality(fit), width, 0) + "\n";
@@ -72,12 +81,25 @@ std::string identification_text(const IdentifiedDevice& identified) {
   if (identified.trust.refused()) return text + remarks(identified.remarks);
   const Motion motion = fit.device.parameters().motion;
   text += wrap(fmt::format("Critical stiffness of this device, {}: {}.", basis_text(identified.basis, motion),
-                           critical_stiffness_text(analysis.critical, motion)),
+                           critical_stiffness_text(identified.analysis.critical, motion)),
                width, 0);
-  if (const auto interval = interval_note(identified.analysed)) {
+  if (const auto interval = interval_note(analysed)) {
     text += wrap("95 % interval: " + *interval + ".", width, 0);
   }
-  if (const auto limit = what_limits(identified.analysed)) text += wrap("Limited by " + *limit + ".", width, 0);
+  if (const auto limit = what_limits(analysed)) text += wrap("Limited by " + *limit + ".", width, 0);
+  return text + remarks(identified.remarks);
+}
+
+std::string identification_text(const RigidBodyIdentification& identified) {
+  const RigidBodyFit& fit = identified.fit;
+  std::string text = fmt::format("A rigid body, identified from {}\n", identified.source);
+  text += layout(estimate_table(estimates(fit), identified.device.parameters().motion)) + "\n";
+  text += trust_lines(identified.trust);
+  text += wrap(fmt::format("Inverse dynamics: low-pass of {:.4g} Hz without phase, every {}. sample, {} equations; the "
+                           "residual force is {:.3g} % of the force (both rms). Intervals allow for residuals that are "
+                           "correlated in time.",
+                           fit.cutoff_hz, fit.decimation, fit.equations, 100.0 * fit.relative_residual),
+               width, 0);
   return text + remarks(identified.remarks);
 }
 

@@ -1,17 +1,14 @@
 #pragma once
 
-#include <span>
 #include <string>
 
-#include "report/identified_device.hpp"
-#include "report/text/text_table.hpp"
+#include "zwidth/identification/identification.hpp"
+#include "zwidth/identification/rigid_body_identification.hpp"
 
 namespace zwidth::report {
 
-/// Value, unit, standard deviation and 95 % interval of each parameter.
-[[nodiscard]] TextTable estimate_table(std::span<const ParameterEstimate> estimates, Motion motion);
-
-/// The parameters with their intervals, what they make of the critical stiffness, and every remark.
-[[nodiscard]] std::string identification_text(const IdentifiedDevice& identified);
+/// The parameters with their intervals, what they make of the critical stiffness or how they were found, and every remark.
+[[nodiscard]] std::string identification_text(const Identification& identified);
+[[nodiscard]] std::string identification_text(const RigidBodyIdentification& identified);
 
 }  // namespace zwidth::report

@@ -33,6 +33,9 @@ struct RigidBodyFit {
   std::vector<Remark> remarks;
 };
 
+/// Mass, viscous and Coulomb friction, offset and delay, in this order.
+[[nodiscard]] std::vector<ParameterEstimate> estimates(const RigidBodyFit& fit);
+
 /// Identifies mass, viscous and Coulomb friction and offset from force and position, feedback or not.
 ///
 ///     L[F](t - delay) = mass L[a] + viscous L[v] + coulomb L[sign v] + offset

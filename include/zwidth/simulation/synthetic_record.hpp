@@ -6,7 +6,7 @@
 
 #include "zwidth/model/device.hpp"
 
-namespace zwidth::report {
+namespace zwidth {
 
 /// An experiment as a recorder would keep it, computed instead of measured.
 struct SyntheticRecord {
@@ -26,4 +26,4 @@ struct SyntheticNoise {
 [[nodiscard]] SyntheticRecord synthetic_record(const Device& device, std::span<const double> command,
                                                const SyntheticNoise& noise);
 
-}  // namespace zwidth::report
+}  // namespace zwidth

@@ -1,16 +1,22 @@
-#include "report/synthetic_record.hpp"
+#include "zwidth/simulation/synthetic_record.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "reproduce/paper_devices.hpp"
+#include "lhifam.hpp"
 #include "zwidth/model/state_space.hpp"
 #include "zwidth/sampling/forced_response.hpp"
 
-namespace zwidth::report {
+namespace zwidth {
 namespace {
+
+DeviceParameters encoded_lhifam() {
+  DeviceParameters device = test::lhifam_parameters();
+  device.sensor.resolution = 3.14e-6;
+  return device;
+}
 
 std::vector<double> sine(std::size_t size) {
   std::vector<double> force(size);
@@ -23,7 +29,7 @@ std::vector<double> exact_positions(const Device& device, const std::vector<doub
 }
 
 TEST(SyntheticRecord, ReadsTheExactMotionToTheNearestEncoderStep) {
-  const Device device(paper_lhifam());
+  const Device device(encoded_lhifam());
   const std::vector<double> force = sine(3000);
   const std::vector<double> exact = exact_positions(device, force);
   const SyntheticRecord record = synthetic_record(device, force, {});
@@ -38,7 +44,7 @@ TEST(SyntheticRecord, ReadsTheExactMotionToTheNearestEncoderStep) {
 }
 
 TEST(SyntheticRecord, NoiseMovesTheDeviceAndNotTheRecordedCommand) {
-  DeviceParameters parameters = paper_lhifam_rigid();
+  DeviceParameters parameters = test::rigid_parameters();
   parameters.sensor.resolution = 0.0;
   const Device device(parameters);
   const std::vector<double> rest(100000, 0.0);
@@ -58,11 +64,11 @@ TEST(SyntheticRecord, NoiseMovesTheDeviceAndNotTheRecordedCommand) {
 }
 
 TEST(SyntheticRecord, ASeedIsOneRecord) {
-  const Device device(paper_lhifam());
+  const Device device(encoded_lhifam());
   const std::vector<double> force = sine(500);
   EXPECT_EQ(synthetic_record(device, force, {1.0, 3}).position, synthetic_record(device, force, {1.0, 3}).position);
   EXPECT_NE(synthetic_record(device, force, {1.0, 3}).position, synthetic_record(device, force, {1.0, 4}).position);
 }
 
 }  // namespace
-}  // namespace zwidth::report
+}  // namespace zwidth

@@ -1,4 +1,4 @@
-#include "report/synthetic_record.hpp"
+#include "zwidth/simulation/synthetic_record.hpp"
 
 #include <cmath>
 #include <random>
@@ -6,7 +6,7 @@
 #include "zwidth/model/state_space.hpp"
 #include "zwidth/sampling/forced_response.hpp"
 
-namespace zwidth::report {
+namespace zwidth {
 
 SyntheticRecord synthetic_record(const Device& device, std::span<const double> command, const SyntheticNoise& noise) {
   const Loop& loop = device.loop();
@@ -23,4 +23,4 @@ SyntheticRecord synthetic_record(const Device& device, std::span<const double> c
   return record;
 }
 
-}  // namespace zwidth::report
+}  // namespace zwidth
