@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cli/design_notch.hpp"
+#include "cli/design_recommend.hpp"
 #include "cli/device_arguments.hpp"
 #include "cli/outputs.hpp"
 #include "cli/progress_line.hpp"
@@ -38,6 +39,7 @@ struct DesignArguments {
   std::vector<double> user;  // mass, damping, stiffness
   std::string output;
   NotchArguments notch;
+  RecommendArguments recommend;
   std::optional<double> target;
   bool any_user = false;
   bool json = false;
@@ -188,6 +190,10 @@ void run_target(const DesignArguments& arguments) {
 }
 
 void run_design(const CLI::App& command, const DesignArguments& arguments) {
+  if (arguments.recommend.wanted) {
+    return run_recommend(command, arguments.devices, arguments.recommend, arguments.notch, arguments.json);
+  }
+  if (arguments.recommend.ripple) throw BadInput("--ripple: is for a recommendation; add --recommend");
   if (arguments.notch.wanted) {
     if (!arguments.sweeps.empty() || !arguments.compare.empty()) {
       throw BadInput("--notch: excludes --sweep and --compare");
@@ -208,8 +214,8 @@ void run_design(const CLI::App& command, const DesignArguments& arguments) {
 
 void add_design(CLI::App& app) {
   auto arguments = std::make_shared<DesignArguments>();
-  CLI::App* command =
-      app.add_subcommand("design", "What to change: slopes of every number, sweeps, comparisons, targets, a notch");
+  CLI::App* command = app.add_subcommand(
+      "design", "What to change: slopes of every number, sweeps, targets, a notch, the wall to render");
   add_device_arguments(*command, arguments->devices, FileCount::several);
   command->add_flag("--json", arguments->json, "Print one JSON document per answer, on one line");
   CLI::Option* sweep = command->add_option("--sweep", arguments->sweeps,
@@ -233,6 +239,7 @@ void add_design(CLI::App& app) {
       ->allow_extra_args(false)
       ->needs(compare);
   add_notch_options(*command, arguments->notch);
+  add_recommend_options(*command, arguments->recommend);
   command->footer(
       "Examples:\n"
       "  zwidth design devices/lhifam.toml\n"
@@ -240,6 +247,7 @@ void add_design(CLI::App& app) {
       "  zwidth design devices/lhifam.toml --sweep loop.delay=0:4e-3:9 --sweep link.damping=5:50:9 -o m.svg\n"
       "  zwidth design devices/lhifam.toml --compare sensed=motor,handle --operator 0.5,6,135\n"
       "  zwidth design devices/lhifam.toml --target 12000\n"
+      "  zwidth design devices/lhifam.toml --recommend --ripple 0.1\n"
       "  zwidth design devices/lhifam_reduced_pretension.toml --notch --drift-percent 10 --output notch.svg");
   command->callback([arguments, command] { run_design(*command, *arguments); });
 }

@@ -25,6 +25,10 @@ constexpr std::array options_of_notch{"--goal",           "--drift-percent",  "-
 NotchOptions notch_options(const NotchArguments& arguments) {
   NotchOptions options;
   if (arguments.goal == "any-user") options.goal = StiffnessGoal::any_user_limit;
+  if (arguments.goal && *arguments.goal != "any-user" && *arguments.goal != "critical-stiffness") {
+    throw BadInput(
+        fmt::format("--goal: {} is for --recommend; of a notch critical-stiffness or any-user", *arguments.goal));
+  }
   if (arguments.drift_percent) options.drift = *arguments.drift_percent / 100.0;
   if (arguments.gain_margin_db) options.gain_margin = std::pow(10.0, *arguments.gain_margin_db / 20.0);
   if (arguments.phase_margin_deg) options.phase_margin = *arguments.phase_margin_deg * std::numbers::pi / 180.0;
@@ -63,8 +67,11 @@ void add_notch_options(CLI::App& command, NotchArguments& arguments) {
   const char* group = "Notch";
   command.add_flag("--notch", arguments.wanted, "Design the notch in the wall's force that makes the wall stiffest")
       ->group(group);
-  command.add_option("--goal", arguments.goal, "What it is to raise: critical-stiffness (default) or any-user")
-      ->check(CLI::IsMember({"critical-stiffness", "any-user"}))
+  command
+      .add_option("--goal", arguments.goal,
+                  "Of a notch: critical-stiffness (default) or any-user; of --recommend: stiffness (default), width, "
+                  "critical-damping")
+      ->check(CLI::IsMember({"critical-stiffness", "any-user", "stiffness", "width", "critical-damping"}))
       ->type_name("GOAL")
       ->group(group);
   command.add_option("--drift-percent", arguments.drift_percent, "How far the modes' frequencies may shift, both ways")
@@ -79,7 +86,7 @@ void add_notch_options(CLI::App& command, NotchArguments& arguments) {
       ->group(group);
   command
       .add_option("--phase-margin-deg", arguments.phase_margin_deg,
-                  "Least phase margin of the designed wall (default 30)")
+                  "Least phase margin of the designed or recommended wall (default 30)")
       ->type_name("DEG")
       ->check(CLI::Range(0.0, 90.0))
       ->group(group);
@@ -87,14 +94,17 @@ void add_notch_options(CLI::App& command, NotchArguments& arguments) {
       ->group(group);
   command.add_flag("--lower-any-user", arguments.lower_any_user, "The notch may lower the limit with any passive user")
       ->group(group);
-  command.add_option("--write", arguments.write, "Write the device file with the notch (and the designed wall) in it")
+  command
+      .add_option("--write", arguments.write,
+                  "Write the device file with the notch and the designed or recommended wall in it")
       ->type_name("FILE")
       ->group(group);
 }
 
 void refuse_notch_options(const CLI::App& command) {
   for (const char* option : options_of_notch) {
-    if (command.count(option) > 0) throw BadInput(fmt::format("{}: is for a notch; add --notch", option));
+    if (command.count(option) > 0)
+      throw BadInput(fmt::format("{}: is for a notch or a recommendation; add --notch or --recommend", option));
   }
 }
 

@@ -8,10 +8,10 @@
 
 namespace zwidth::cli {
 
-/// What `design --notch` asks for.
+/// What `design --notch` asks for; goal, margins and `write` are of --recommend too.
 struct NotchArguments {
   bool wanted = false;
-  std::string goal = "critical-stiffness";
+  std::optional<std::string> goal;
   std::optional<double> drift_percent;  // not given: the library's
   std::optional<double> gain_margin_db;
   std::optional<double> phase_margin_deg;
@@ -23,7 +23,7 @@ struct NotchArguments {
 /// Declares --notch and its options; `arguments` must outlive the parsing.
 void add_notch_options(CLI::App& command, NotchArguments& arguments);
 
-/// Throws BadInput for options of --notch that stand without it.
+/// Throws BadInput for options of --notch that stand without it (and without --recommend).
 void refuse_notch_options(const CLI::App& command);
 
 /// Where the answer goes beside the screen.

@@ -29,6 +29,7 @@ constexpr double narrowest_half_width = 1e-5;  // of an undamped mode, relative
 constexpr double step_down = 0.8;
 constexpr int most_steps = 120;
 constexpr int bisections = 34;
+constexpr int bisections_on_grid = 8;
 constexpr double resolved = 1e-8;  // relative, of the stiffest wall
 constexpr double rounding = 1e-9;  // of margins that stand exactly at what is required
 
@@ -177,7 +178,18 @@ LoopGrid::Response LoopGrid::filter(const WallFilter& filter) const {
   return factor;
 }
 
+LoopGrid::Response LoopGrid::damper(VirtualDamper damper) const {
+  Response response;
+  response.reserve(angles_.size());
+  for (const double angle : angles_) response.push_back(damper_response(damper, period_, angle / period_));
+  return response;
+}
+
 double LoopGrid::stiffest(const Response& factor, const RequiredMargins& margins) const {
+  return stiffest(factor, damper_, margins);
+}
+
+double LoopGrid::stiffest(const Response& factor, const Response& damper, const RequiredMargins& margins) const {
   const double cosine = std::cos(margins.phase);
   LeastCrossover alone(1.0);
   LeastCrossover half(std::sqrt(margins.gain));
@@ -187,30 +199,88 @@ double LoopGrid::stiffest(const Response& factor, const RequiredMargins& margins
     const std::complex<double> seen = plant_[i] * factor[i];
     if (seen == 0.0) continue;
     const std::complex<double> required = -1.0 / seen;
-    alone.add(required, damper_[i]);
-    half.add(required, damper_[i]);
-    whole.add(required, damper_[i]);
+    alone.add(required, damper[i]);
+    half.add(required, damper[i]);
+    whole.add(required, damper[i]);
     if (margins.phase > 0.0) {
-      if (const auto stiffness = short_of_phase(required, damper_[i], cosine)) least = std::min(least, *stiffness);
+      if (const auto stiffness = short_of_phase(required, damper[i], cosine)) least = std::min(least, *stiffness);
     }
     if (i + 1 == angles_.size()) {
-      alone.add_nyquist(required.real(), damper_[i].real());
-      half.add_nyquist(required.real(), damper_[i].real());
-      whole.add_nyquist(required.real(), damper_[i].real());
+      alone.add_nyquist(required.real(), damper[i].real());
+      half.add_nyquist(required.real(), damper[i].real());
+      whole.add_nyquist(required.real(), damper[i].real());
     }
   }
   least = std::min({least, alone.value() / margins.gain, half.value(), whole.value()});
-  return margins.any_user ? std::min(least, any_user(factor) / margins.gain) : least;
+  return margins.any_user ? std::min(least, any_user(factor, damper, 1.0) / margins.gain) : least;
 }
 
-double LoopGrid::any_user(const Response& factor) const {
+double LoopGrid::any_user(const Response& factor) const { return any_user(factor, damper_, 1.0); }
+
+double LoopGrid::any_user(const Response& factor, const Response& damper, double scale) const {
   double least = infinity;
   for (std::size_t i = 0; i < discs_.size(); ++i) {
     const double size = std::abs(factor[i]);
     const UserDiscs::Disc seen{discs_[i].centre * factor[i], discs_[i].radius * size, discs_[i].power * size * size};
-    least = std::min(least, least_stiffness(seen, damper_[i]));
+    least = std::min(least, least_stiffness(seen, scale * damper[i]));
   }
   return least;
+}
+
+bool LoopGrid::keeps_phase(const Response& factor, const Response& damper, double stiffness,
+                           double phase_margin) const {
+  std::complex<double> last;
+  double last_norm = 0.0;
+  for (std::size_t i = 0; i < angles_.size(); ++i) {
+    const std::complex<double> loop = plant_[i] * factor[i] * (stiffness + damper[i]);
+    const double norm = std::norm(loop);
+    if (i > 0 && (norm > 1.0) != (last_norm > 1.0) && norm > 0.0 && last_norm > 0.0) {
+      const double share = std::log(last_norm) / (std::log(last_norm) - std::log(norm));
+      const double angle = std::arg(-last) + share * std::arg(loop * std::conj(last));
+      if (std::abs(std::remainder(angle, 2.0 * pi)) < phase_margin) return false;
+    }
+    last = loop;
+    last_norm = norm;
+  }
+  return true;
+}
+
+double LoopGrid::stiffest_in_phase(const Response& factor, const Response& damper, double at_most,
+                                   double phase_margin) const {
+  if (phase_margin == 0.0 || !std::isfinite(at_most) || keeps_phase(factor, damper, at_most, phase_margin)) {
+    return at_most;
+  }
+  double high = at_most;
+  for (int i = 0; i < most_steps; ++i) {
+    double low = step_down * high;
+    if (keeps_phase(factor, damper, low, phase_margin)) {
+      for (int step = 0; step < bisections_on_grid; ++step) {
+        const double middle = 0.5 * (low + high);
+        (keeps_phase(factor, damper, middle, phase_margin) ? low : high) = middle;
+      }
+      return low;
+    }
+    high = low;
+  }
+  return 0.0;
+}
+
+double LoopGrid::largest_damping(const Response& factor, const Response& unit_damper) const {
+  LeastCrossover free(1.0);
+  double least = infinity;
+  for (std::size_t i = 0; i < angles_.size(); ++i) {
+    const std::complex<double> seen = plant_[i] * factor[i] * unit_damper[i];
+    if (seen == 0.0) continue;
+    free.add(-1.0 / seen, 0.0);
+    if (i + 1 == angles_.size()) free.add_nyquist((-1.0 / seen).real(), 0.0);
+    if (discs_.empty()) continue;
+    const std::complex<double> turned = factor[i] * unit_damper[i];
+    const double size = std::abs(turned);
+    least = std::min(
+        least,
+        least_stiffness({discs_[i].centre * turned, discs_[i].radius * size, discs_[i].power * size * size}, 0.0));
+  }
+  return std::min(least, free.value());
 }
 
 }  // namespace zwidth::internal

@@ -46,12 +46,27 @@ class LoopGrid {
   /// F at the grid's frequencies.
   [[nodiscard]] Response filter(const WallFilter& filter) const;
 
-  /// Of the wall's force behind this factor more: stiffest_wall(), as far as the grid tells.
+  /// B v of that damper at the grid's frequencies.
+  [[nodiscard]] Response damper(VirtualDamper damper) const;
+
+  /// Of the wall's force behind this factor more: stiffest_wall(), as far as the grid tells; with the device's own
+  /// damper, or with this one.
   [[nodiscard]] double stiffest(const Response& factor, const RequiredMargins& margins) const;
+  [[nodiscard]] double stiffest(const Response& factor, const Response& damper, const RequiredMargins& margins) const;
   /// The any-user limit behind this factor more; infinite where the grid has no users.
   [[nodiscard]] double any_user(const Response& factor) const;
+  /// With `scale` times this damper.
+  [[nodiscard]] double any_user(const Response& factor, const Response& damper, double scale) const;
+  /// The stiffest wall down from `at_most` whose gain crossovers, between the grid's points too, keep the phase margin.
+  [[nodiscard]] double stiffest_in_phase(const Response& factor, const Response& damper, double at_most,
+                                         double phase_margin) const;
+  /// The least B at which the damper alone is critical, of the device or of one that somebody holds; `unit_damper`: v.
+  [[nodiscard]] double largest_damping(const Response& factor, const Response& unit_damper) const;
 
  private:
+  [[nodiscard]] bool keeps_phase(const Response& factor, const Response& damper, double stiffness,
+                                 double phase_margin) const;
+
   double period_ = 0.0;
   std::vector<double> angles_;
   Response plant_;                      // seen through the wall's own filters

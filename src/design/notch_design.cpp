@@ -42,18 +42,6 @@ Device with_filter(const Device& device, const WallFilter& filter) {
   return Device(std::move(parameters));
 }
 
-// Where the wall sees the modes: themselves, or their aliases below Nyquist.
-std::vector<double> seen_modes(const Device& device) {
-  const double spacing = 2.0 * pi / device.loop().sampling_period;
-  std::vector<double> frequencies;
-  for (const Mode& mode : modal_form(device).modes) {
-    if (mode.damping_ratio >= 1.0) continue;
-    const double seen = std::abs(std::remainder(mode.frequency, spacing));
-    if (seen > 1e-3 * spacing) frequencies.push_back(seen);
-  }
-  return frequencies;
-}
-
 // One of the drifts at which a proposal is recomputed exactly.
 struct Verified {
   Device device;

@@ -39,6 +39,17 @@ RequiredMargins required(const NotchOptions& options) {
   return {options.gain_margin, options.phase_margin, options.goal == StiffnessGoal::any_user_limit};
 }
 
+std::vector<double> seen_modes(const Device& device) {
+  const double spacing = 2.0 * pi / device.loop().sampling_period;
+  std::vector<double> frequencies;
+  for (const Mode& mode : modal_form(device).modes) {
+    if (mode.damping_ratio >= 1.0) continue;
+    const double seen = std::abs(std::remainder(mode.frequency, spacing));
+    if (seen > 1e-3 * spacing) frequencies.push_back(seen);
+  }
+  return frequencies;
+}
+
 WallFilter NotchSearch::notch_at(const Point& at) {
   WallFilter notch;
   notch.kind = WallFilter::Kind::notch;
@@ -132,8 +143,11 @@ std::pair<double, NotchSearch::Point> NotchSearch::climb(Point at, double first_
 }
 
 std::pair<double, NotchSearch::Point> NotchSearch::refine(Point at) const {
-  const Point on_grid = climb(at, coarsest, finest, Route::on_grid).second;
-  return climb(on_grid, coarsest_exact, finest, Route::exact);
+  return climb(refine_on_grid(at).second, coarsest_exact, finest, Route::exact);
+}
+
+std::pair<double, NotchSearch::Point> NotchSearch::refine_on_grid(Point at) const {
+  return climb(at, coarsest, finest, Route::on_grid);
 }
 
 bool NotchSearch::is_near(const Point& at) const {

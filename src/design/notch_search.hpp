@@ -13,6 +13,9 @@ namespace zwidth::internal {
 /// The margins that a notch is designed for.
 [[nodiscard]] RequiredMargins required(const NotchOptions& options);
 
+/// Where the wall sees the device's vibration modes, rad/s: themselves, or their aliases below Nyquist.
+[[nodiscard]] std::vector<double> seen_modes(const Device& device);
+
 /// Searches the notch that makes the least stiffest wall over some drifts of a device greatest, on grids of
 /// frequencies.
 class NotchSearch {
@@ -33,6 +36,8 @@ class NotchSearch {
   /// Pattern search: the best of the 26 neighbours of a cube, halved where none is better; at first on the grids, then
   /// exactly, since a grid may miss a narrow dip. With its stiffest wall.
   [[nodiscard]] std::pair<double, Point> refine(Point at) const;
+  /// On the grids alone.
+  [[nodiscard]] std::pair<double, Point> refine_on_grid(Point at) const;
 
  private:
   struct Scenario {

@@ -1,0 +1,105 @@
+#include "cli/design_recommend.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <string>
+
+#include "cli/outputs.hpp"
+#include "cli/standard_output.hpp"
+#include "cli/subcommand.hpp"
+#include "report/text/trust_text.hpp"
+#include "report/text/wall_recommendation_text.hpp"
+#include "results/wall_recommendation_json.hpp"
+#include "zwidth/error.hpp"
+#include "zwidth/io/device_file.hpp"
+
+namespace zwidth::cli {
+namespace {
+
+RecommendationOptions recommendation_options(const RecommendArguments& arguments, const NotchArguments& shared) {
+  static const std::map<std::string, WallGoal> goals{{"stiffness", WallGoal::stiffness},
+                                                     {"width", WallGoal::width},
+                                                     {"critical-damping", WallGoal::critical_damping}};
+  RecommendationOptions options;
+  if (shared.goal) {
+    const auto goal = goals.find(*shared.goal);
+    if (goal == goals.end()) {
+      throw BadInput(fmt::format("--goal: {} is for a notch; of a recommendation stiffness, width or critical-damping",
+                                 *shared.goal));
+    }
+    options.goal = goal->second;
+  }
+  if (shared.gain_margin_db) options.gain_margin = std::pow(10.0, *shared.gain_margin_db / 20.0);
+  if (shared.phase_margin_deg) options.phase_margin = *shared.phase_margin_deg * std::numbers::pi / 180.0;
+  options.ripple = arguments.ripple;
+  return options;
+}
+
+/// The option that sets a member of RecommendationOptions.
+const char* recommend_option_of(const std::string& member) {
+  if (member == "gain_margin") return "--gain-margin-db";
+  if (member == "phase_margin") return "--phase-margin-deg";
+  if (member == "ripple") return "--ripple";
+  return "--goal";
+}
+
+WallRecommendation recommended(const Device& device, const RecommendationOptions& options, const std::string& file) {
+  if (const auto problem = find_problem(options, device)) {
+    throw BadInput(
+        fmt::format("{}: {}: {}; {}", recommend_option_of(problem->member), file, problem->what, problem->allowed));
+  }
+  try {
+    return recommend_wall(device, options);
+  } catch (const Error& error) {
+    throw WorkFailed(file + ": " + error.what());
+  }
+}
+
+}  // namespace
+
+void add_recommend_options(CLI::App& command, RecommendArguments& arguments) {
+  const char* group = "Recommendation";
+  command.add_flag("--recommend", arguments.wanted, "The wall to render: K, B, velocity filter, notch, for any user")
+      ->group(group);
+  command.add_option("--ripple", arguments.ripple, "Greatest force per encoder count of that wall, N or N m")
+      ->type_name("FORCE")
+      ->group(group);
+}
+
+void run_recommend(const CLI::App& command, const DeviceArguments& devices, const RecommendArguments& arguments,
+                   const NotchArguments& shared, bool json) {
+  if (devices.files.size() != 1) throw BadInput("--recommend: takes one device file");
+  for (const char* option : {"--notch", "--sweep", "--compare", "--target", "--output", "--any-user"}) {
+    if (command.count(option) > 0) throw BadInput(fmt::format("--recommend: excludes {}", option));
+  }
+  for (const char* option : {"--drift-percent", "--far-from-modes", "--lower-any-user"}) {
+    if (command.count(option) > 0) throw BadInput(fmt::format("{}: is for a notch; add --notch", option));
+  }
+  const RecommendationOptions options = recommendation_options(arguments, shared);
+  Outputs outputs;
+  outputs.add("--write", shared.write);
+  outputs.keep(devices.files, "device file");
+  const std::string& file = devices.files.front();
+  const Device device = read_devices(devices).front();
+  const WallRecommendation recommendation = recommended(device, options, file);
+  if (recommendation.status == WallRecommendation::Status::refused) {
+    if (json) write_standard_output(results::line(results::wall_recommendation_json(device, options, recommendation)));
+    throw WorkFailed(file + ": " + report::verdict_text(recommendation.trust));
+  }
+  if (!shared.write.empty() && !recommendation.wall) {
+    throw WorkFailed(fmt::format("{}: {} is not written: {}", file, shared.write, recommendation.reason));
+  }
+  outputs.put("--write", [&] {
+    DeviceParameters walled = device.parameters();
+    walled.wall = recommendation.wall->wall;
+    return write_device(walled);
+  });
+  outputs.commit();
+  write_standard_output(json ? results::line(results::wall_recommendation_json(device, options, recommendation))
+                             : report::wall_recommendation_text(device, options, recommendation));
+}
+
+}  // namespace zwidth::cli

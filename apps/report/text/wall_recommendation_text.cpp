@@ -1,0 +1,193 @@
+#include "report/text/wall_recommendation_text.hpp"
+
+#include <fmt/format.h>
+
+#include <numbers>
+
+#include "report/text/explanation.hpp"
+#include "report/text/quantity.hpp"
+#include "report/text/remark_line.hpp"
+#include "report/text/text_table.hpp"
+#include "report/text/trust_text.hpp"
+#include "report/text/wall_filter_text.hpp"
+
+namespace zwidth::report {
+namespace {
+
+constexpr std::size_t width = 100;
+constexpr std::size_t label_width = 22;
+
+std::string bound_text(WallBound bound) {
+  switch (bound) {
+    case WallBound::none:
+      return "nothing: more gains nothing";
+    case WallBound::any_user:
+      return "the gain margin with some passive user";
+    case WallBound::gain_margin:
+      return "the gain margin";
+    case WallBound::phase_margin:
+      return "the phase margin";
+    case WallBound::ripple:
+      return "the force per encoder count";
+    case WallBound::contact_damping:
+      return "the contact would swing";
+    case WallBound::uncertainty:
+      return "the device is not known better";
+  }
+  return "";
+}
+
+std::string short_text(WallBound bound) {
+  switch (bound) {
+    case WallBound::none:
+      return "-";
+    case WallBound::any_user:
+      return "any user";
+    case WallBound::gain_margin:
+      return "gain";
+    case WallBound::phase_margin:
+      return "phase";
+    case WallBound::ripple:
+      return "ripple";
+    case WallBound::contact_damping:
+      return "contact";
+    case WallBound::uncertainty:
+      return "uncertainty";
+  }
+  return "";
+}
+
+std::string goal_text(WallGoal goal) {
+  if (goal == WallGoal::width) return "greatest K B";
+  return goal == WallGoal::stiffness ? "greatest K" : "greatest K whose contact does not swing";
+}
+
+class Writer {
+ public:
+  Writer(const Device& device, const RecommendationOptions& options, const WallRecommendation& answer)
+      : device_(device), options_(options), answer_(answer), units_(units_of(device.parameters().motion)) {}
+
+  [[nodiscard]] std::string text() const {
+    std::string text = shortened(display_name(device_), width) + "\n";
+    if (const auto note = trust_note(answer_.trust)) text += line("trust", *note);
+    if (answer_.trust.refused()) return text;
+    text += line("asked for", asked());
+    if (!answer_.wall) {
+      text += line("no wall", answer_.reason);
+    } else {
+      text += wall_lines(*answer_.wall);
+    }
+    for (const Remark& remark : answer_.remarks) text += wrap(remark_line(remark), width, 4).replace(0, 4, "  - ");
+    if (!answer_.wall) return text;
+    if (!answer_.alternatives.empty()) text += "\n" + trade_off();
+    text += "\nFor the device file\n" + for_the_file(answer_.wall->wall);
+    return text +
+           wrap("\nA local optimum, found by search; every wall here is computed exactly, and its poles are counted "
+                "by a second computation, alone and with users. Friction and the force limit are left out.",
+                width, 0);
+  }
+
+ private:
+  [[nodiscard]] static std::string line(std::string_view label, std::string_view content) {
+    return wrap(content, width, label_width).replace(0, 2 + label.size(), fmt::format("  {}", label));
+  }
+  [[nodiscard]] std::string stiffness(double value) const { return quantity(value, units_.stiffness); }
+  [[nodiscard]] std::string damping(double value) const { return fmt::format("{} {}", number(value), units_.damping); }
+  [[nodiscard]] static std::string degrees(double angle) {
+    return fmt::format("{:.3g} degrees", angle * 180.0 / std::numbers::pi);
+  }
+
+  [[nodiscard]] std::string asked() const {
+    std::string text = fmt::format("{}; gain margin {:.3g} dB of K alone and of the whole force with any passive user, "
+                                   "phase margin {}",
+                                   goal_text(options_.goal), decibels(options_.gain_margin),
+                                   degrees(options_.phase_margin));
+    if (options_.ripple) text += fmt::format(", at most {} per encoder count", quantity(*options_.ripple, units_.force));
+    return text;
+  }
+
+  [[nodiscard]] std::string wall_lines(const RecommendedWall& each) const {
+    const Wall& wall = each.wall;
+    const WallBounds& bounds = each.bounded_by;
+    std::string text =
+        line("stiffness K", fmt::format("{}; bounded by {}", stiffness(*wall.stiffness), bound_text(bounds.stiffness)));
+    text += line("damping B", fmt::format("{}; with more: {}", damping(wall.damping),
+                                          bound_text(bounds.damping.value_or(WallBound::none))));
+    std::string filter = wall.velocity_filter_hz > 0.0 ? quantity(wall.velocity_filter_hz, "Hz") : std::string("none");
+    if (bounds.velocity_filter) filter += fmt::format("; with a faster one: {}", bound_text(*bounds.velocity_filter));
+    text += line("velocity filter", filter);
+    if (const auto filters = wall_filters_text(wall)) text += line("filters", *filters);
+    text += line("margins", margins(each));
+    if (each.any_user_limit) {
+      text += line("any passive user", fmt::format("K up to {} with this damper", stiffness(*each.any_user_limit)));
+    }
+    if (each.contact_damping_ratio) {
+      text += line("damping of contact", fmt::format("{:.3g} of critical, nobody holding", *each.contact_damping_ratio));
+    }
+    if (each.force_per_count) {
+      const ForcePerCount& force = *each.force_per_count;
+      text += line("force per count",
+                   fmt::format("{}: K q = {}, damper {}", quantity(force.largest, units_.force),
+                               quantity(force.stiffness, units_.force), quantity(force.damping, units_.force)));
+    }
+    return text;
+  }
+
+  [[nodiscard]] static std::string margins(const RecommendedWall& each) {
+    const auto gain = [](const std::optional<double>& margin) {
+      return margin ? fmt::format("{:.3g} dB", decibels(*margin)) : std::string("no limit");
+    };
+    return fmt::format("whole force {}, K alone {}, phase {}", gain(each.margins.gain_margin),
+                       gain(each.margins.stiffness_margin),
+                       each.margins.phase_margin ? degrees(*each.margins.phase_margin) : std::string("no limit"));
+  }
+
+  [[nodiscard]] std::vector<std::string> row(const RecommendedWall& each) const {
+    const WallMargins& margins = each.margins;
+    return {each.what,
+            stiffness(*each.wall.stiffness),
+            number(each.wall.damping),
+            each.wall.velocity_filter_hz > 0.0 ? quantity(each.wall.velocity_filter_hz, "Hz") : "-",
+            each.notch ? quantity(each.notch->frequency_hz, "Hz") : "-",
+            margins.gain_margin ? fmt::format("{:.3g} dB", decibels(*margins.gain_margin)) : "-",
+            margins.phase_margin ? fmt::format("{:.3g}°", *margins.phase_margin * 180.0 / std::numbers::pi) : "-",
+            each.force_per_count ? quantity(each.force_per_count->largest, units_.force) : "-",
+            short_text(each.bounded_by.stiffness)};
+  }
+
+  [[nodiscard]] std::string trade_off() const {
+    using Align = TextTable::Align;
+    TextTable table{{Align::left, Align::right, Align::right, Align::right, Align::right, Align::right, Align::right,
+                     Align::right, Align::left},
+                    {{"", "K", "B", "filter", "notch", "gain", "phase", "per count", "K bounded by"}}};
+    table.rows.push_back(row(*answer_.wall));
+    for (const RecommendedWall& each : answer_.alternatives) table.rows.push_back(row(each));
+    return "The trade-off: other walls that keep what is asked\n" + layout(table);
+  }
+
+  [[nodiscard]] std::string for_the_file(const Wall& wall) const {
+    std::string text = fmt::format("  [wall]\n  stiffness = {}\n  damping = {}\n", *wall.stiffness, wall.damping);
+    if (wall.velocity_filter_hz > 0.0) text += fmt::format("  velocity_filter_hz = {}\n", wall.velocity_filter_hz);
+    if (answer_.wall->notch) {
+      const WallFilter& notch = *answer_.wall->notch;
+      text += fmt::format(
+          "  [[wall.filter]]\n  type = \"notch\"\n  frequency_hz = {}\n  damping_ratio = {}\n  depth = {}\n",
+          notch.frequency_hz, notch.damping_ratio, notch.depth);
+    }
+    return text;
+  }
+
+  const Device& device_;
+  const RecommendationOptions& options_;
+  const WallRecommendation& answer_;
+  Units units_;
+};
+
+}  // namespace
+
+std::string wall_recommendation_text(const Device& device, const RecommendationOptions& options,
+                                     const WallRecommendation& recommendation) {
+  return Writer(device, options, recommendation).text();
+}
+
+}  // namespace zwidth::report

@@ -1,0 +1,108 @@
+#pragma once
+
+#include <cstddef>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "zwidth/model/device.hpp"
+#include "zwidth/option_problem.hpp"
+#include "zwidth/remark.hpp"
+#include "zwidth/stability/force_per_count.hpp"
+#include "zwidth/stability/wall_margins.hpp"
+#include "zwidth/trust.hpp"
+
+namespace zwidth {
+
+/// What the wall is to be best at.
+enum class WallGoal {
+  stiffness,         ///< greatest K
+  width,             ///< greatest K B
+  critical_damping,  ///< greatest K of those whose contact does not swing: contact_damping_ratio() of 1
+};
+
+struct RecommendationOptions {
+  WallGoal goal = WallGoal::stiffness;
+  /// Least factor by which the stiffness alone, and the whole force, may grow before any passive user (or nobody)
+  /// destabilises the loop; >= 1.
+  double gain_margin = 2.0;                      // 6 dB
+  double phase_margin = std::numbers::pi / 6.0;  ///< least, of the device as it is (with its [operator]); 0 to pi/2 rad
+  /// Greatest force per encoder count, N or N m (force_per_count()); > 0. Absent: not bounded.
+  std::optional<double> ripple = {};
+  bool notch = true;        ///< a notch near a mode may be added to the wall's filters
+  std::size_t draws = 100;  ///< of the device's uncertainty, where it has one
+};
+
+/// Checks every member's range; of the device: critical damping needs bodies.
+[[nodiscard]] std::optional<OptionProblem> find_problem(const RecommendationOptions& options, const Device& device);
+
+/// What keeps a number of a wall from being better.
+enum class WallBound {
+  none,             ///< nothing: it is as good as it can be, or more of it gains nothing
+  any_user,         ///< the gain margin with some passive user
+  gain_margin,      ///< the gain margin of the device as it is
+  phase_margin,     ///< its phase margin
+  ripple,           ///< the force per encoder count
+  contact_damping,  ///< the contact would swing
+  uncertainty,      ///< the device is not known better
+};
+
+struct WallBounds {
+  WallBound stiffness = WallBound::none;  ///< met first with more K
+  /// What bounds K, and lower, with more B, and with a faster velocity filter or none; absent of an alternative (and
+  /// where there is no such filter).
+  std::optional<WallBound> damping = {};
+  std::optional<WallBound> velocity_filter = {};
+};
+
+/// A wall and what stands behind it. Checked, see recommend_wall().
+struct RecommendedWall {
+  std::string what;  ///< "recommended", "no velocity filter", "stiffest": how it differs from the others
+  Wall wall;         ///< with the filters that the device's wall has, and the notch behind them
+  std::optional<WallFilter> notch;  ///< that of wall.filters which was added
+  WallBounds bounded_by;
+  WallMargins margins;  ///< of the device as it is
+  /// any_user_limit() at this B, at least gain_margin times K; the whole force may grow by gain_margin too. Absent for a transfer function and above most_bodies_for_any_user.
+  std::optional<double> any_user_limit;
+  std::optional<double> contact_damping_ratio;
+  std::optional<ForcePerCount> force_per_count;  ///< absent without an encoder resolution
+};
+
+struct WallRecommendation {
+  enum class Status {
+    found,
+    none,       ///< no wall keeps what is asked
+    unbounded,  ///< no stiffness is too much: there is nothing to recommend
+    refused,    ///< see trust
+  };
+  Status status = Status::none;
+  std::optional<RecommendedWall> wall;        ///< only where found
+  std::string reason;                         ///< why there is none; empty where found
+  std::vector<RecommendedWall> alternatives;  ///< the trade-off: other goals, dampers, filters
+  Trust trust;
+  std::vector<Remark> remarks;
+};
+
+/// The damping ratio of a device on its wall: the least of the closed-loop poles z = e^{sT} up to twice the natural
+/// frequency of the rigid device on it, |s| <= 2 sqrt((K + k)/m); 1 where none of them swings. Vibration modes that
+/// low count too. Absent for a transfer function, without wall.stiffness > 0, and where no pole is that low.
+[[nodiscard]] std::optional<double> contact_damping_ratio(const Device& device);
+
+/// The wall to render: K, B, velocity filter, and a notch where it is worth 5 % of the goal.
+///
+///     gain_margin K < any_user_limit(B),   f K < any_user_limit(f B) for f = sqrt(gain_margin), gain_margin
+///     margins of the device as it is >= gain_margin, phase_margin
+///     force per count <= ripple
+///
+/// The device's own wall.stiffness, damping and velocity_filter_hz are left out; its filters stay. A search on a grid
+/// of frequencies over B and the filters, from none down to twice the frequency at which the device oscillates or a
+/// hundredth of the sampling rate: a local optimum. What is proposed is computed exactly, and then checked by a second route that shares nothing with
+/// it: closed-loop poles by matrix exponential of the loop, of the loop grown by the gain margin and of that held by
+/// passive users, and the phase margin from the state space; where the two contradict, the answer is `refused`.
+/// Of an uncertain device the wall keeps all of this in 97.5 % of `draws` devices drawn from its uncertainty. Where
+/// any_user_limit() is not available the device as it is decides, and a remark says so.
+/// Throws Error (invalid_argument) where find_problem() finds one.
+[[nodiscard]] WallRecommendation recommend_wall(const Device& device, const RecommendationOptions& options = {});
+
+}  // namespace zwidth

@@ -1,0 +1,125 @@
+#include "design/wall_check.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "design/wall_limits.hpp"
+#include "stability/damper_response.hpp"
+#include "stability/guarded_stiffness.hpp"
+#include "stability/pole_count.hpp"
+#include "zwidth/model/state_space.hpp"
+
+namespace zwidth::internal {
+namespace {
+
+using std::numbers::pi;
+
+constexpr double lowest_angle = 1e-5;
+constexpr int points_per_decade = 60;
+constexpr int bisections = 30;
+constexpr double tolerance = 1e-4;  // rad, of a phase margin from two routes
+constexpr std::array masses_of_users{0.0, 0.1, 1.0, 10.0, 1e3};          // times the device's
+constexpr std::array springs_of_users{0.0, 0.1, 1.0, 10.0, 100.0, 1e4};  // times the wall's
+
+Device grown(const Device& walled, double spring, double damper) {
+  const Wall& wall = walled.parameters().wall;
+  return with_wall(walled, spring * *wall.stiffness, {damper * wall.damping, wall.velocity_filter_hz});
+}
+
+void check_stable(const Device& walled, Trust& trust) {
+  if (trust.refused()) return;
+  const double stiffness = *walled.parameters().wall.stiffness;
+  distrust(agreement(PoleCount(walled), stiffness, true), stiffness, trust);
+}
+
+/// With users on a grid of masses and springs: poles outside the circle contradict; those too near it to tell do not.
+void check_users(const Device& walled, Trust& trust) {
+  double mass = 0.0;
+  for (const Body& body : walled.bodies()) mass += body.mass;
+  const double stiffness = *walled.parameters().wall.stiffness;
+  for (const double heavy : masses_of_users) {
+    for (const double stiff : springs_of_users) {
+      if (trust.refused()) return;
+      DeviceParameters held = walled.parameters();
+      held.user = {heavy * mass, 0.0, stiff * stiffness};
+      if (find_problem(held)) continue;
+      const Device device(std::move(held));
+      const std::optional<int> outside = PoleCount(device).in_double(stiffness);
+      if (!outside || *outside == 0) continue;
+      distrust(agreement(PoleCount(device), stiffness, true), stiffness, trust);
+    }
+  }
+}
+
+/// The loop by the state space alone, without modal form.
+class StateSpaceLoop {
+ public:
+  explicit StateSpaceLoop(const Device& walled)
+      : wall_(walled.parameters().wall),
+        damper_(virtual_damper(walled)),
+        system_(sample(state_space(walled), {walled.loop().sampling_period, walled.loop().delay})) {
+    for (const WallFilter& filter : wall_.filters) sections_.push_back(filter_section(filter, system_.period));
+  }
+
+  [[nodiscard]] std::complex<double> at(double angle) const {
+    std::complex<double> value = response(system_, angle / system_.period) *
+                                 (*wall_.stiffness + damper_response(damper_, system_.period, angle / system_.period));
+    for (const FilterSection& section : sections_) value *= response(section, angle);
+    return value;
+  }
+
+ private:
+  Wall wall_;
+  VirtualDamper damper_;
+  DiscreteStateSpace system_;
+  std::vector<FilterSection> sections_;
+};
+
+/// Gain crossovers between the points of a grid, each refined by bisection.
+void check_phase(const Device& walled, double phase_margin, Trust& trust) {
+  const StateSpaceLoop loop(walled);
+  const auto count = static_cast<int>(std::ceil(points_per_decade * std::log10(pi / lowest_angle)));
+  double last_angle = 0.0;
+  double last_gain = 0.0;
+  for (int i = count; i >= 0; --i) {
+    const double angle = pi * std::pow(10.0, -static_cast<double>(i) / points_per_decade);
+    const double gain = std::abs(loop.at(angle));
+    if (i < count && (gain > 1.0) != (last_gain > 1.0)) {
+      double low = last_angle;
+      double high = angle;
+      for (int step = 0; step < bisections; ++step) {
+        const double middle = std::sqrt(low * high);
+        ((std::abs(loop.at(middle)) > 1.0) == (last_gain > 1.0) ? low : high) = middle;
+      }
+      const double margin = std::abs(std::arg(-loop.at(low)));
+      if (margin < phase_margin - tolerance) {
+        trust.refuse(fmt::format(
+            "two computations contradict each other on the phase margin of the wall found: {:.3g} degrees at {:.4g} Hz",
+            margin * 180.0 / pi, low / (2.0 * pi * walled.loop().sampling_period)));
+        return;
+      }
+    }
+    last_angle = angle;
+    last_gain = gain;
+  }
+}
+
+}  // namespace
+
+void check_wall(const Device& walled, const RecommendationOptions& options, bool any_user, Trust& trust) {
+  check_stable(walled, trust);
+  for (const Device& each : {grown(walled, options.gain_margin, 1.0),
+                             grown(walled, options.gain_margin, options.gain_margin)}) {
+    check_stable(each, trust);
+    if (any_user) check_users(each, trust);
+  }
+  if (!trust.refused()) check_phase(walled, options.phase_margin, trust);
+}
+
+}  // namespace zwidth::internal

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "zwidth/design/wall_recommendation.hpp"
+
+namespace zwidth::internal {
+
+// Holds a device with a proposed wall against what was asked, by a route that shares nothing with the one that found it:
+// matrix exponential and closed-loop poles of the loop, of the loop grown by the gain margin and of both held by passive
+// users; gain crossovers of the state space's response on a grid, refined, for the phase margin. What contradicts is
+// refused in `trust`.
+void check_wall(const Device& walled, const RecommendationOptions& options, bool any_user, Trust& trust);
+
+}  // namespace zwidth::internal

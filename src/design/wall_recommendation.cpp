@@ -1,0 +1,370 @@
+#include "zwidth/design/wall_recommendation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "design/lower_end.hpp"
+#include "design/notch_search.hpp"
+#include "design/wall_check.hpp"
+#include "design/wall_limits.hpp"
+#include "design/wall_search.hpp"
+#include "zwidth/error.hpp"
+#include "zwidth/model/device_trust.hpp"
+#include "zwidth/quantity.hpp"
+#include "zwidth/stability/analysis.hpp"
+
+namespace zwidth {
+using namespace internal;
+namespace {
+
+constexpr std::size_t searched_exactly = 3;  // velocity filters, the most promising, beside none
+constexpr double worth_a_damper = 1e-3;      // relative gain of the goal
+constexpr double worth_a_filter = 0.02;
+constexpr double worth_a_notch = 0.05;
+constexpr double same_limit = 1e-9;          // relative, of two any-user limits
+constexpr double more_damping = 1.05;        // where the bound of B is looked for
+constexpr double first_damping = 1e-3;       // times K/w, where B is 0
+constexpr double faster = 1.25;              // where the bound of the velocity filter is
+constexpr double fastest = 0.45;             // of the sampling rate
+constexpr double to_be_distinct = 0.01;      // relative, of an alternative
+
+Device without_wall(const Device& device) {
+  DeviceParameters parameters = device.parameters();
+  parameters.wall.stiffness.reset();
+  parameters.wall.damping = 0.0;
+  parameters.wall.velocity_filter_hz = 0.0;
+  // An uncertain number of the wall that is left out says nothing.
+  if (find_problem(parameters)) parameters.uncertainty.reset();
+  return Device(std::move(parameters));
+}
+
+bool is_uncertain(const Device& device) {
+  const auto& uncertainty = device.parameters().uncertainty;
+  return uncertainty && !uncertainty->parameters.empty();
+}
+
+/// One wall on its way: with the filters of its limits closed.
+struct Candidate {
+  VirtualDamper damper;
+  WallLimits::Stiffest stiffest;
+  double value = 0.0;
+  std::optional<WallFilter> notch;
+};
+
+class Recommendation {
+ public:
+  Recommendation(const Device& device, const RecommendationOptions& options)
+      : device_(without_wall(device)), options_(options), limits_(device_, options), search_(limits_, options) {}
+
+  [[nodiscard]] WallRecommendation answer() {
+    WallRecommendation result;
+    remark_on_bounds(result);
+    std::optional<Candidate> best = best_without_notch();
+    if (best && !std::isfinite(best->stiffest.stiffness)) {
+      result.status = WallRecommendation::Status::unbounded;
+      result.reason = "no stiffness is too much for this device: its force does not move what is sensed";
+      return result;
+    }
+    const std::optional<Candidate> plain = best;
+    if (options_.notch) best = with_notch(best);
+    if (best && is_uncertain(device_)) best = lowered(*best, options_.goal, result);
+    if (!best) {
+      result.reason = result.reason.empty() ? why_none() : result.reason;
+      return result;
+    }
+    Trust trust;
+    RecommendedWall wall = described("recommended", *best, trust);
+    result.trust.inherit(trust);
+    if (trust.refused()) {
+      result.status = WallRecommendation::Status::refused;
+      return result;
+    }
+    wall.bounded_by = bounds_of(*best);
+    result.status = WallRecommendation::Status::found;
+    result.wall = std::move(wall);
+    if (!options_.ripple && result.wall->force_per_count) {
+      result.remarks.push_back({Remark::Severity::note, "no greatest force per encoder count was asked",
+                                fmt::format("one step of the encoder moves the force by {}",
+                                            quantity(result.wall->force_per_count->largest,
+                                                     units_of(device_.parameters().motion).force)),
+                                "ask for a ripple where that can be felt or heard"});
+    }
+    add_alternatives(*best, plain, result);
+    return result;
+  }
+
+ private:
+  [[nodiscard]] WallLimits& limits_of(const std::optional<WallFilter>& notch) {
+    if (!notch) return limits_;
+    if (!notched_) notched_ = std::make_unique<WallLimits>(with_filter(device_, *notch), options_);
+    return *notched_;
+  }
+
+  [[nodiscard]] Candidate exact(VirtualDamper damper, const std::optional<WallFilter>& notch, WallGoal goal) {
+    Candidate candidate{damper, limits_of(notch).stiffest(damper), 0.0, notch};
+    candidate.value = WallSearch::value_of(goal, candidate.stiffest.stiffness, damper.damping);
+    return candidate;
+  }
+
+  /// The best of no velocity filter and the most promising ones, recomputed exactly.
+  [[nodiscard]] std::optional<Candidate> best_without_notch() {
+    for (const double cutoff : search_.velocity_filters()) found_.push_back(search_.best(cutoff, options_.goal));
+    const auto by_value = [](const auto& a, const auto& b) { return a.value > b.value; };
+    std::stable_sort(found_.begin() + 1, found_.end(), by_value);
+    std::optional<Candidate> best;
+    if (const Candidate spring = exact({}, {}, options_.goal); spring.value > 0.0) best = spring;
+    for (std::size_t i = 0; i < std::min(found_.size(), searched_exactly + 1); ++i) {
+      const Candidate candidate = exact(found_[i].damper, {}, options_.goal);
+      if (i == 0 && candidate.stiffest.stiffness > 0.0) unfiltered_ = candidate;
+      if (!(candidate.value > 0.0)) continue;
+      const double worth = i == 0 ? worth_a_damper : worth_a_filter;
+      if (!best || candidate.value > best->value * (1.0 + worth)) best = candidate;
+    }
+    if (best && best->damper.velocity_filter_hz > 0.0 && std::isfinite(best->value)) {
+      const Candidate near =
+          exact(search_.best_near({best->damper, best->value}, options_.goal).damper, {}, options_.goal);
+      if (near.value > best->value) best = near;
+    }
+    return best;
+  }
+
+  /// A notch near a mode behind the best damper, B searched again; only where it is worth it and no user minds.
+  [[nodiscard]] std::optional<Candidate> with_notch(const std::optional<Candidate>& best) {
+    if (!best) return best;
+    const std::vector<double> modes = seen_modes(device_);
+    if (modes.empty() || device_.parameters().wall.filters.size() >= max_wall_filters) return best;
+    const NotchOptions notch_options{
+        .goal = limits_.has_users() ? StiffnessGoal::any_user_limit : StiffnessGoal::critical_stiffness,
+        .gain_margin = options_.gain_margin,
+        .phase_margin = options_.phase_margin};
+    NotchSearch search(notch_options, modes, device_.loop().sampling_period, limits_.has_users());
+    search.add(with_wall(device_, best->stiffest.stiffness, best->damper));
+    std::pair<double, NotchSearch::Point> found{0.0, {}};
+    for (const NotchSearch::Point& start : search.candidates([](double) {})) {
+      found = std::max(found, search.refine_on_grid(start));
+    }
+    if (!(found.first > best->stiffest.stiffness * (1.0 + worth_a_notch))) return best;
+    const WallFilter notch = NotchSearch::notch_at(found.second);
+    const WallSearch again(limits_of(notch), options_);
+    const Candidate candidate =
+        exact(again.best(best->damper.velocity_filter_hz, options_.goal).damper, notch, options_.goal);
+    const bool lower_any_user =
+        limits_.has_users() &&
+        limits_of(notch).limit(candidate.damper) < limits_.limit(candidate.damper) * (1.0 - same_limit);
+    if (lower_any_user || !(candidate.value > best->value * (1.0 + worth_a_notch))) return best;
+    return candidate;
+  }
+
+  /// What the uncertainty leaves of it.
+  [[nodiscard]] std::optional<Candidate> lowered(Candidate candidate, WallGoal goal, WallRecommendation& result) {
+    auto& draws = candidate.notch ? notched_draws_ : draws_;
+    if (!draws) draws = std::make_unique<LowerEnd>(device_, candidate.notch, options_);
+    const LowerEnd::Kept kept = draws->lowered(candidate.stiffest.stiffness, candidate.damper, goal);
+    if (!(kept.stiffness > 0.0)) {
+      result.reason =
+          "the uncertainty of the device leaves no wall: in more than 2.5 % of the devices drawn from it none keeps "
+          "what is asked; identify the device from more or longer recordings";
+      return std::nullopt;
+    }
+    if (kept.stiffness < candidate.stiffest.stiffness) {
+      candidate.stiffest = {kept.stiffness, WallBound::uncertainty};
+      candidate.damper = kept.damper;
+      // Softer at the same margins or less damped: the device as it is must still keep them.
+      if (!limits_of(candidate.notch).keeps(kept.stiffness, kept.damper)) {
+        result.reason = "at the lower end of the uncertainty no wall keeps the margins asked";
+        return std::nullopt;
+      }
+    }
+    return candidate;
+  }
+
+  [[nodiscard]] WallBound bound_with(const Candidate& candidate, VirtualDamper damper) {
+    const WallLimits::Stiffest there = limits_of(candidate.notch).stiffest(damper);
+    return there.stiffness < candidate.stiffest.stiffness ? there.bound : WallBound::none;
+  }
+
+  [[nodiscard]] WallBounds bounds_of(const Candidate& candidate) {
+    WallBounds bounds;
+    bounds.stiffness = candidate.stiffest.bound;
+    VirtualDamper damper = candidate.damper;
+    const double period = device_.loop().sampling_period;
+    damper.damping = damper.damping > 0.0 ? more_damping * damper.damping
+                                          : first_damping * candidate.stiffest.stiffness * period;
+    bounds.damping = bound_with(candidate, damper);
+    if (candidate.damper.velocity_filter_hz > 0.0 && candidate.damper.damping > 0.0) {
+      const double cutoff = faster * candidate.damper.velocity_filter_hz;
+      bounds.velocity_filter =
+          bound_with(candidate, {candidate.damper.damping, cutoff < fastest / period ? cutoff : 0.0});
+    }
+    return bounds;
+  }
+
+  /// With everything that stands behind it; `trust` says what the check found.
+  [[nodiscard]] RecommendedWall described(std::string what, const Candidate& candidate, Trust& trust) {
+    WallLimits& limits = limits_of(candidate.notch);
+    VirtualDamper damper = candidate.damper;
+    if (damper.damping == 0.0) damper.velocity_filter_hz = 0.0;
+    const Device walled = with_wall(limits.device(), candidate.stiffest.stiffness, damper);
+    RecommendedWall wall;
+    wall.what = std::move(what);
+    wall.wall = walled.parameters().wall;
+    wall.notch = candidate.notch;
+    check_wall(walled, options_, limits.has_users(), trust);
+    if (trust.refused()) return wall;
+    if (!limits.keeps(candidate.stiffest.stiffness, damper)) {
+      trust.refuse("the wall found does not keep the margins asked when they are computed again");
+      return wall;
+    }
+    wall.bounded_by.stiffness = candidate.stiffest.bound;
+    wall.margins = wall_margins(walled);
+    if (limits.has_users()) wall.any_user_limit = limits.limit(damper);
+    wall.contact_damping_ratio = contact_damping_ratio(walled);
+    wall.force_per_count = force_per_count(walled);
+    return wall;
+  }
+
+  void add(std::string what, std::optional<Candidate> candidate, WallRecommendation& result) {
+    if (candidate && is_uncertain(device_)) {
+      WallRecommendation ignored;
+      candidate = lowered(*candidate, options_.goal, ignored);
+    }
+    if (!candidate || !(candidate->stiffest.stiffness > 0.0) || !std::isfinite(candidate->stiffest.stiffness)) return;
+    const auto is_like = [&](const RecommendedWall& other) {
+      const auto near = [](double a, double b) { return std::abs(a - b) <= to_be_distinct * std::max(a, b); };
+      return near(*other.wall.stiffness, candidate->stiffest.stiffness) &&
+             near(other.wall.damping, candidate->damper.damping) && other.notch == candidate->notch;
+    };
+    if (is_like(*result.wall) || std::ranges::any_of(result.alternatives, is_like)) return;
+    Trust trust;
+    RecommendedWall wall = described(what, *candidate, trust);
+    if (trust.refused()) {
+      result.trust.doubt(fmt::format("an alternative ({}) is left out: {}", what, trust.reasons.front()));
+      return;
+    }
+    result.trust.inherit(trust);
+    result.alternatives.push_back(std::move(wall));
+  }
+
+  [[nodiscard]] Candidate with_share(const Candidate& best, double share) {
+    return exact({share * best.damper.damping, best.damper.velocity_filter_hz}, best.notch, options_.goal);
+  }
+
+  void add_alternatives(const Candidate& best, const std::optional<Candidate>& plain, WallRecommendation& result) {
+    add("no virtual damper", exact({0.0, 0.0}, {}, options_.goal), result);
+    for (const double share : {0.5, 1.5}) {
+      if (best.damper.damping == 0.0) break;
+      add(share < 1.0 ? "half the damping" : "half as much damping again", with_share(best, share), result);
+    }
+    add("no velocity filter", unfiltered_, result);
+    if (best.notch) add("no notch", plain, result);
+    for (const auto& [goal, what] : {std::pair{WallGoal::stiffness, "stiffest"}, {WallGoal::width, "greatest K B"},
+                                     {WallGoal::critical_damping, "contact critically damped"}}) {
+      if (goal == options_.goal || (goal == WallGoal::critical_damping && !device_.has_bodies())) continue;
+      add(what, other_goal(goal, best), result);
+    }
+  }
+
+  /// Another goal behind the same filters.
+  [[nodiscard]] std::optional<Candidate> other_goal(WallGoal goal, const Candidate& best) {
+    RecommendationOptions options = options_;
+    options.goal = goal;
+    WallLimits& limits = limits_of(best.notch);
+    WallSearch::Found found = WallSearch(limits, options).best(best.damper.velocity_filter_hz, goal);
+    Candidate candidate{found.damper, limits.stiffest(found.damper, goal), 0.0, best.notch};
+    return candidate;
+  }
+
+  [[nodiscard]] std::string why_none() {
+    if (limits_.has_users() && limits_.limit({}) == 0.0) {
+      return "some passive user destabilises any wall, however soft: nothing damps a motion that the user can drive "
+             "(the device's own damping, not the wall's, is what bears a user)";
+    }
+    if (!limits_.has_users() && critical_stiffness(filtered_plant(device_)).status == StiffnessStatus::none_stable) {
+      return "no wall is stable from K = 0 on, with any damper tried";
+    }
+    if (options_.goal == WallGoal::critical_damping) return "no wall keeps the margins asked without a swinging contact";
+    return "no wall keeps the margins asked, with any damper and velocity filter tried; ask for less phase margin";
+  }
+
+  void remark_on_bounds(WallRecommendation& result) const {
+    if (!(device_.parameters().sensor.resolution > 0.0)) {
+      result.remarks.push_back({options_.ripple ? Remark::Severity::warning : Remark::Severity::note,
+                                "the force per encoder count could not be bounded",
+                                "the device has no encoder resolution: stiffness and damping may be too coarse to feel",
+                                "give sensor.resolution"});
+    }
+    if (!limits_.has_users()) {
+      result.remarks.push_back({Remark::Severity::warning,
+                                "the limit for any passive user is not available: the device as it is decides",
+                                "whoever holds the device may destabilise this wall",
+                                "describe the device by bodies and links"});
+    }
+    if (!device_.parameters().wall.filters.empty()) {
+      result.remarks.push_back({Remark::Severity::note, "the filters of the device's wall stay in it",
+                                "every number has them closed", "take them out of the file for a wall without"});
+    }
+  }
+
+  Device device_;
+  const RecommendationOptions& options_;
+  WallLimits limits_;
+  WallSearch search_;
+  std::unique_ptr<WallLimits> notched_;
+  std::unique_ptr<LowerEnd> draws_;
+  std::unique_ptr<LowerEnd> notched_draws_;
+  std::vector<WallSearch::Found> found_;
+  std::optional<Candidate> unfiltered_;
+};
+
+WallRecommendation refused(Trust trust) {
+  WallRecommendation result;
+  result.status = WallRecommendation::Status::refused;
+  result.trust = std::move(trust);
+  return result;
+}
+
+}  // namespace
+
+std::optional<OptionProblem> find_problem(const RecommendationOptions& options, const Device& device) {
+  if (!(options.gain_margin >= 1.0) || !std::isfinite(options.gain_margin)) {
+    return OptionProblem{"gain_margin", fmt::format("is {}", options.gain_margin), "must be a factor >= 1"};
+  }
+  if (!(options.phase_margin >= 0.0 && options.phase_margin <= 0.5 * std::numbers::pi)) {
+    return OptionProblem{"phase_margin", fmt::format("is {}", options.phase_margin), "must be from 0 to pi/2 rad"};
+  }
+  if (options.ripple && !(*options.ripple > 0.0 && std::isfinite(*options.ripple))) {
+    return OptionProblem{"ripple", fmt::format("is {}", *options.ripple), "must be a force > 0"};
+  }
+  if (options.draws == 0) return OptionProblem{"draws", "is 0", "must be at least 1"};
+  if (options.goal == WallGoal::critical_damping && !device.has_bodies()) {
+    return OptionProblem{"goal", "is critical damping", "needs a device of bodies: a transfer function has no mass"};
+  }
+  return std::nullopt;
+}
+
+WallRecommendation recommend_wall(const Device& device, const RecommendationOptions& options) {
+  if (const auto problem = find_problem(options, device)) {
+    throw Error(ErrorCode::invalid_argument,
+                fmt::format("{} {}; {}", problem->member, problem->what, problem->allowed));
+  }
+  Trust trust = trust_of(device);
+  if (trust.refused()) return refused(std::move(trust));
+  try {
+    trust.inherit(critical_stiffness(without_wall(device)).trust);
+    if (trust.refused()) return refused(std::move(trust));
+    WallRecommendation result = Recommendation(device, options).answer();
+    trust.inherit(result.trust);
+    result.trust = trust;
+    return result;
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::did_not_converge) throw;
+    trust.refuse(error.what());
+    return refused(std::move(trust));
+  }
+}
+
+}  // namespace zwidth

@@ -1,0 +1,139 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <cstdlib>
+#include <numbers>
+#include <string>
+
+#include "property/random_devices.hpp"
+#include "zwidth/design/wall_recommendation.hpp"
+#include "zwidth/model/state_space.hpp"
+#include "zwidth/stability/any_user.hpp"
+#include "zwidth/stability/closed_loop.hpp"
+#include "zwidth/stability/worst_user.hpp"
+
+namespace zwidth::test {
+namespace {
+
+constexpr std::uint64_t seed = 20261122;
+constexpr std::array kinds = {"rigid",      "two_mass",         "user_side",     "three_mass",    "light_damping",
+                              "grounded",   "fractional_delay", "slow_sampling", "fast_sampling", "operator",
+                              "rotary",     "actuator_lag",     "overdamped",    "stiff_link",    "wall_filter",
+                              "long_delay", "filtered_damper"};
+
+/// The closed loop of the wall grown by these factors, with this user, by eigenvalues: largest |z| - 1.
+double excess(const Device& device, const Wall& wall, double spring, double damper, const Operator& user) {
+  DeviceParameters parameters = device.parameters();
+  parameters.user = user;
+  parameters.wall = wall;
+  parameters.wall.stiffness = spring * *wall.stiffness;
+  parameters.wall.damping = damper * wall.damping;
+  const Device held(parameters);
+  return stability_excess(sample(state_space(held), {held.loop().sampling_period, held.loop().delay}),
+                          held.parameters().wall);
+}
+
+/// Least phase from -1 where |L| = 1, by a dense scan of the plant's state space.
+double scanned_phase_margin(const Device& device, const Wall& wall) {
+  const double period = device.loop().sampling_period;
+  const DiscreteStateSpace plant = sample(state_space(device), {period, device.loop().delay});
+  const double a = wall.velocity_filter_hz > 0.0 ? std::exp(-2.0 * std::numbers::pi * wall.velocity_filter_hz * period) : 0.0;
+  double least = std::numbers::pi;
+  std::complex<double> last = 0.0;
+  for (int i = 3000; i >= 0; --i) {
+    const double angle = std::numbers::pi * std::pow(10.0, -i / 600.0);
+    const std::complex<double> back = std::polar(1.0, -angle);
+    std::complex<double> loop = *wall.stiffness + wall.damping / period * (1.0 - back) * (1.0 - a) / (1.0 - a * back);
+    for (const WallFilter& filter : wall.filters) loop *= response(filter_section(filter, period), angle);
+    loop *= response(plant, angle / period);
+    if (last != 0.0 && (std::abs(loop) > 1.0) != (std::abs(last) > 1.0)) {
+      const double share = std::log(std::abs(last)) / (std::log(std::abs(last)) - std::log(std::abs(loop)));
+      const double phase = std::arg(-last) + share * std::arg(loop / last);
+      least = std::min(least, std::abs(std::remainder(phase, 2.0 * std::numbers::pi)));
+    }
+    last = loop;
+  }
+  return least;
+}
+
+std::size_t cases() {
+  const char* asked = std::getenv("ZWIDTH_PROPERTY_CASES");
+  return asked ? std::clamp<std::size_t>(std::strtoul(asked, nullptr, 10), 1, 300) : 300;
+}
+
+TEST(WallRecommendationProperty, RandomDevicesKeepWhatWasAsked) {
+  std::size_t found = 0;
+  std::size_t refused = 0;
+  std::size_t notches = 0;
+  for (std::size_t i = 0; i < cases(); ++i) {
+    RandomDevices random(seed + i);
+    const char* kind = kinds[i % kinds.size()];
+    SCOPED_TRACE(std::string(kind) + ", seed " + std::to_string(seed + i));
+    DeviceParameters parameters = random.device(kind);
+    if (random.chance(0.7)) parameters.sensor.resolution = random.log_uniform(1e-7, 1e-4);
+    const Device device(parameters);
+    RecommendationOptions options;
+    options.goal = std::array{WallGoal::stiffness, WallGoal::width, WallGoal::critical_damping}[random.index(3)];
+    if (random.chance(0.5)) options.ripple = random.log_uniform(1e-3, 1.0);
+    if (random.chance(0.3)) options.gain_margin = random.uniform(1.2, 4.0);
+    if (random.chance(0.3)) options.phase_margin = random.uniform(0.0, 1.0);
+    const WallRecommendation answer = recommend_wall(device, options);
+    if (answer.status == WallRecommendation::Status::refused) ++refused;
+    EXPECT_EQ(answer.wall.has_value(), answer.status == WallRecommendation::Status::found);
+    if (!answer.wall) {
+      EXPECT_TRUE(!answer.reason.empty() || answer.trust.refused());
+      continue;
+    }
+    ++found;
+    std::vector<RecommendedWall> walls = answer.alternatives;
+    walls.push_back(*answer.wall);
+    for (const RecommendedWall& each : walls) {
+      SCOPED_TRACE(each.what);
+      const Wall& wall = each.wall;
+      const Operator own = device.parameters().user;
+      const double gain = options.gain_margin;
+      ASSERT_GT(*wall.stiffness, 0.0);
+      if (each.notch) {
+        ++notches;
+        DeviceParameters without = device.parameters();
+        without.wall.damping = wall.damping;
+        without.wall.velocity_filter_hz = wall.velocity_filter_hz;
+        const Device plain(without);
+        // Not lowered by the notch.
+        if (each.what == "recommended") {
+          EXPECT_GE(*each.any_user_limit, any_user_limit(plain, virtual_damper(plain)).stiffness * (1.0 - 1e-6));
+        }
+      }
+      // Stable by eigenvalues, with the stiffness alone and the whole force grown by the margin.
+      EXPECT_LT(excess(device, wall, 1.0, 1.0, own), 0.0);
+      EXPECT_LT(excess(device, wall, 1.0 / gain, 1.0 / gain, own), 0.0);
+      EXPECT_LT(excess(device, wall, gain, 1.0, own), 0.0);
+      EXPECT_LT(excess(device, wall, gain, gain, own), 0.0);
+      EXPECT_LT(excess(device, wall, std::sqrt(gain), std::sqrt(gain), own), 0.0);
+      EXPECT_GE(scanned_phase_margin(device, wall), options.phase_margin - 0.02);
+      if (options.ripple && device.parameters().sensor.resolution > 0.0) {
+        ASSERT_TRUE(each.force_per_count);
+        EXPECT_LE(each.force_per_count->largest, *options.ripple * (1.0 + 1e-9));
+      }
+      // Any user: passive ones drawn at random, by eigenvalues, none of them destabilises the grown wall.
+      for (int k = 0; k < 20; ++k) {
+        const Operator user{random.chance(0.7) ? random.log_uniform(1e-3, 1e3) : 0.0,
+                            random.chance(0.3) ? random.log_uniform(1e-3, 1e3) : 0.0,
+                            random.chance(0.7) ? *wall.stiffness * random.log_uniform(1e-3, 1e4) : 0.0};
+        // A heavy user's own pole is as near the circle as rounding.
+        EXPECT_LT(excess(device, wall, gain, gain, user), 1e-11) << user.mass << " " << user.damping << " " << user.stiffness;
+        EXPECT_LT(excess(device, wall, gain, 1.0, user), 1e-11) << user.mass << " " << user.damping << " " << user.stiffness;
+      }
+    }
+  }
+  RecordProperty("found", static_cast<int>(found));
+  EXPECT_GT(found, cases() / 2);
+  EXPECT_LE(refused, cases() / 50);
+  std::printf("%zu of %zu found, %zu refused, %zu walls with a notch\n", found, cases(), refused, notches);
+}
+
+}  // namespace
+}  // namespace zwidth::test
