@@ -39,6 +39,27 @@ Error no_convergence() {
           "bodies, free fewer parameters, or start from values that are nearly right"};
 }
 
+/// Mean square of the misfit over the deviations that go with a model error, each point's share bounded.
+double mean_misfit(const FitModel& model, const std::vector<ResponsePoint>& points, const Eigen::VectorXd& x,
+                   double model_error) {
+  constexpr double most = 100.0;
+  const FitData data = fit_data(points, model_error);
+  const Eigen::VectorXcd values = model.response_at(x, data.frequencies);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double off = std::abs(values(static_cast<Eigen::Index>(i)) - data.measured[i]) / data.deviations[i];
+    sum += std::isfinite(off) ? std::min(off * off, most) : most;
+  }
+  return sum / static_cast<double>(points.size());
+}
+
+/// From one position of a coordinate to another, in equal ratios of its value.
+double part_of_the_way(const Coordinate& coordinate, double from, double to, double share) {
+  if (coordinate.kind == Coordinate::Kind::logarithmic) return from + share * (to - from);
+  constexpr double least = 1e-12;
+  return std::max(from, least) * std::pow(std::max(to, least) / std::max(from, least), share);
+}
+
 }  // namespace
 
 Start start_at(const FitModel& model, const Eigen::VectorXd& x) {
@@ -109,6 +130,32 @@ Solution solve(const FitModel& model, const std::vector<ResponsePoint>& points, 
     if (is_done) break;
   }
   return best;
+}
+
+Solution drawn_back(const FitModel& model, const std::vector<ResponsePoint>& points, const Solution& solution,
+                    const Eigen::VectorXd& towards, const std::vector<bool>& determined, double robust_threshold) {
+  constexpr double allowed = 1.02;  // growth of the mean square
+  const Start start = start_at(model, solution.x, towards, determined);
+  Solution drawn = solve(model, points, {start}, robust_threshold);
+  const double most = allowed * mean_misfit(model, points, solution.x, solution.model_error);
+  const auto explains = [&](const Eigen::VectorXd& x) {
+    return mean_misfit(model, points, x, solution.model_error) <= most;
+  };
+  if (explains(drawn.x)) return drawn;
+  // All at once they pull the others off: one after the other, the others standing still.
+  drawn = solution;
+  for (Eigen::Index i = 0; i < towards.size(); ++i) {
+    if (determined[static_cast<std::size_t>(i)]) continue;
+    constexpr double shares[] = {1.0, 0.9, 0.7, 0.5};
+    for (const double share : shares) {
+      Eigen::VectorXd x = drawn.x;
+      x(i) = part_of_the_way(model.coordinates()[static_cast<std::size_t>(i)], x(i), towards(i), share);
+      if (!explains(x)) continue;
+      drawn.x = x;
+      break;
+    }
+  }
+  return drawn;
 }
 
 }  // namespace zwidth::internal

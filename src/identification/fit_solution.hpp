@@ -38,4 +38,10 @@ struct Solution {
 [[nodiscard]] Solution solve(const FitModel& model, const std::vector<ResponsePoint>& points,
                              const std::vector<Start>& starts, double robust_threshold);
 
+/// The solution with what the data leave open drawn to another position, as far as the data allow: where they are
+/// explained worse there, the solution itself.
+[[nodiscard]] Solution drawn_back(const FitModel& model, const std::vector<ResponsePoint>& points,
+                                  const Solution& solution, const Eigen::VectorXd& towards,
+                                  const std::vector<bool>& determined, double robust_threshold);
+
 }  // namespace zwidth::internal

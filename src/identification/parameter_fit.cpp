@@ -219,7 +219,7 @@ ParameterFit fit_parameters(const Device& structure, const FrequencyResponse& re
   const Identifiability known = identifiability_at(model, points, solution);
   if (std::ranges::count(known.determined, false) > 0) {
     // What the data leave open depends on the start: it goes to the structure's values as far as the data allow.
-    solution = solve(model, points, {start_at(model, solution.x, own, known.determined)}, options.robust_threshold);
+    solution = drawn_back(model, points, solution, own, known.determined, options.robust_threshold);
   }
   std::optional<double> without_hold;
   std::vector<Remark> about_the_hold;
