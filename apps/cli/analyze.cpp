@@ -103,7 +103,7 @@ void run_analyze(const AnalyzeOptions& options) {
       lines += results::line(results::analysis_json(each.device, each.analysis));
     write_standard_output(lines);
   } else {
-    write_standard_output(report::analysis_text(analysed));
+    write_text(report::analysis_text(analysed));
     if (options.report) write_standard_output("\nThe report is in " + *options.report + "\n");
   }
   if (options.require_stable) require_stable(options, analysed);

@@ -82,7 +82,7 @@ void run_bode(const BodeArguments& arguments) {
     for (const AnalysedDevice& each : devices) lines += results::line(results::bode_json(each.device, bode_of(each)));
     write_standard_output(lines);
   } else if (arguments.output.empty()) {
-    write_standard_output(crossovers_text(devices));
+    write_text(crossovers_text(devices));
   }
 }
 

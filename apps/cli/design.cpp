@@ -21,6 +21,7 @@
 #include "report/text/design_target_text.hpp"
 #include "report/text/design_text.hpp"
 #include "report/text/sweep_text.hpp"
+#include "report/text/text_medium.hpp"
 #include "results/design_json.hpp"
 #include "results/design_target_json.hpp"
 #include "zwidth/design/design_target.hpp"
@@ -65,7 +66,7 @@ void run_sensitivities(const DesignArguments& arguments) {
     if (arguments.json) {
       text += results::line(results::design_json(devices[i], answer));
     } else {
-      text += (i > 0 ? "\n" : "") + report::design_text(devices[i], answer);
+      text += (i > 0 ? "\n" : "") + report::for_medium(report::design_text(devices[i], answer));
     }
   }
   write_standard_output(text);
@@ -109,7 +110,7 @@ void run_sweep(const DesignArguments& arguments) {
   outputs.draw("--output", [&](report::FigureFormat format) { return report::draw_sweep(device, sweep, format); });
   outputs.commit();
   write_standard_output(arguments.json ? results::line(results::sweep_json(device, sweep))
-                                       : report::sweep_text(device, sweep));
+                                       : report::for_medium(report::sweep_text(device, sweep)));
 }
 
 std::vector<std::string> listed_values(const std::string& argument, std::size_t equals) {
@@ -169,7 +170,7 @@ void run_comparison(const DesignArguments& arguments) {
   }
   const auto comparison = worked(arguments.devices.files.front(), [&] { return compare_designs(key, variants, user); });
   write_standard_output(arguments.json ? results::line(results::comparison_json(comparison))
-                                       : report::comparison_text(comparison));
+                                       : report::for_medium(report::comparison_text(comparison)));
 }
 
 void run_target(const DesignArguments& arguments) {
@@ -186,7 +187,7 @@ void run_target(const DesignArguments& arguments) {
   const DesignTargets targets =
       worked(arguments.devices.files.front(), [&] { return design_targets(device, options); });
   write_standard_output(arguments.json ? results::line(results::design_target_json(device, options, targets))
-                                       : report::design_target_text(device, options, targets));
+                                       : report::for_medium(report::design_target_text(device, options, targets)));
 }
 
 void run_design(const CLI::App& command, const DesignArguments& arguments) {

@@ -12,6 +12,7 @@
 #include "cli/subcommand.hpp"
 #include "report/figure/notch_figure.hpp"
 #include "report/text/notch_text.hpp"
+#include "report/text/text_medium.hpp"
 #include "results/design_json.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/io/device_file.hpp"
@@ -124,7 +125,7 @@ void run_notch(const DeviceArguments& devices, const NotchArguments& arguments, 
                [&](report::FigureFormat format) { return report::draw_notch(device, options, notch, format); });
   outputs.commit();
   write_standard_output(output.json ? results::line(results::notch_json(device, options, notch))
-                                    : report::notch_text(device, options, notch));
+                                    : report::for_medium(report::notch_text(device, options, notch)));
 }
 
 }  // namespace zwidth::cli

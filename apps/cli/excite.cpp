@@ -84,7 +84,7 @@ void run_excite(const ExciteArguments& arguments) {
   } else if (to_standard_output) {
     write_standard_error(report::excitation_text(excitation));
   } else {
-    write_standard_output(report::excitation_text(excitation));
+    write_text(report::excitation_text(excitation));
   }
   write_warnings(excitation.remarks);
   if (excitation.check) write_warnings(excitation.check->remarks);

@@ -30,7 +30,7 @@ struct FrfArguments {
 void run_frf(const FrfArguments& arguments) {
   const RecordingArguments& recording = arguments.response.recording;
   if (recording.list && arguments.json) throw BadInput("--json: --list prints text; leave one of them out");
-  if (recording.list) return write_standard_output(contents_text(recording));
+  if (recording.list) return write_text(contents_text(recording));
   Outputs outputs;
   outputs.add("--csv", arguments.csv);
   outputs.add("--output", arguments.output, Ending::figure);
@@ -46,7 +46,7 @@ void run_frf(const FrfArguments& arguments) {
     const auto content = arguments.points ? results::FrfContent::with_lines : results::FrfContent::summary;
     write_standard_output(results::line(results::frf_json(frf, arguments.units, content)));
   } else {
-    write_standard_output(report::frf_text(frf, arguments.units));
+    write_text(report::frf_text(frf, arguments.units));
   }
 }
 

@@ -126,13 +126,13 @@ void run_inverse_dynamics(const IdentifyArguments& arguments, Outputs& outputs) 
     write_warnings(identified.remarks);
     write_standard_output(device);
   } else {
-    write_standard_output(report::identification_text(identified) + device_hint(arguments));
+    write_text(report::identification_text(identified) + device_hint(arguments));
   }
 }
 
 void run_identify(const IdentifyArguments& arguments) {
   if (arguments.response.recording.list) {
-    write_standard_output(contents_text(arguments.response.recording));
+    write_text(contents_text(arguments.response.recording));
     return;
   }
   Outputs outputs;
@@ -151,7 +151,7 @@ void run_identify(const IdentifyArguments& arguments) {
     write_warnings(identified.remarks);
     write_standard_output(device);
   } else {
-    write_standard_output(report::identification_text(identified) + device_hint(arguments));
+    write_text(report::identification_text(identified) + device_hint(arguments));
   }
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "cli/commit.hpp"
+#include "cli/generate.hpp"
 #include "cli/option_units.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
@@ -68,6 +69,7 @@ int run(int argument_count, char** arguments) {
   add_simulate(app);
   for (CLI::App* command : app.get_subcommands({})) command->group("Commands");
   accept_units(app);
+  add_generate(app);
   app.get_formatter()->label("SUBCOMMAND", "COMMAND");
   app.get_formatter()->label("REQUIRED", "");
   if (argument_count < 2) {
@@ -77,9 +79,11 @@ int run(int argument_count, char** arguments) {
   try {
     app.parse(argument_count, arguments);
     return done;
+  } catch (const Generated&) {
+    return done;
   } catch (const CLI::CallForHelp&) {
     const auto parsed = app.get_subcommands();
-    write_standard_output(parsed.empty() ? app.help() : parsed.front()->help("zwidth"));
+    write_text(parsed.empty() ? app.help() : parsed.front()->help("zwidth"));
     return done;
   } catch (const CLI::CallForVersion& version) {
     write_standard_output(std::string(version.what()) + "\n");

@@ -13,6 +13,7 @@
 #include "cli/subcommand.hpp"
 #include "report/figure/region_figure.hpp"
 #include "report/text/region_text.hpp"
+#include "report/text/text_medium.hpp"
 #include "report/text/trust_text.hpp"
 #include "results/region_csv.hpp"
 #include "results/region_json.hpp"
@@ -46,7 +47,7 @@ void run_region(const RegionArguments& arguments) {
   outputs.draw("--output", [&](report::FigureFormat format) { return report::draw_region(device, walls, format); });
   outputs.commit();
   write_standard_output(arguments.json ? results::line(results::region_json(device, walls))
-                                       : report::region_text(device, walls));
+                                       : report::for_medium(report::region_text(device, walls)));
 }
 
 }  // namespace

@@ -19,6 +19,7 @@
 #include "cli/subcommand.hpp"
 #include "report/figure/relay_figure.hpp"
 #include "report/text/relay_text.hpp"
+#include "report/text/text_medium.hpp"
 #include "results/relay_csv.hpp"
 #include "results/relay_json.hpp"
 
@@ -114,7 +115,8 @@ void run_relay(const RelayArguments& arguments) {
   outputs.put("--csv", [&] { return results::relay_csv(result); });
   outputs.draw("--figure", [&](report::FigureFormat format) { return drawn(result, format); });
   outputs.commit();
-  write_standard_output(arguments.json ? results::line(results::relay_json(result)) : report::relay_text(result));
+  write_standard_output(arguments.json ? results::line(results::relay_json(result))
+                                       : report::for_medium(report::relay_text(result)));
 }
 
 /// Options of what is not done would be ignored: refused instead.
@@ -217,7 +219,7 @@ void add_relay(CLI::App& app) {
       "  zwidth relay devices/lhifam.toml --delay 4e-3 --recording run.csv --force 2 --position 3 --json");
   command->callback([arguments, command] {
     if (arguments->recording.list && !arguments->recording.file.empty()) {
-      return write_standard_output(contents_text(arguments->recording));
+      return write_text(contents_text(arguments->recording));
     }
     check_options(*command, *arguments);
     run_relay(*arguments);

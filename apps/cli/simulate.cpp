@@ -122,7 +122,7 @@ void run_simulate(const SimulateArguments& arguments) {
     write_warnings(result.remarks);
     write_standard_output(results::line(results::simulation_json(device, result)));
   } else {
-    write_standard_output(report::simulation_text(device, result));
+    write_text(report::simulation_text(device, result));
   }
 }
 

@@ -52,6 +52,9 @@ std::string usage_error(const CLI::App& app, const CLI::ParseError& error) {
       if (argument != "--") return unknown_argument(app, *level, argument);
     }
   }
+  if (parsed.empty() && dynamic_cast<const CLI::RequiredError*>(&error) == nullptr) {
+    return fmt::format("{}; see zwidth --help", error.what());
+  }
   if (parsed.empty()) {
     return fmt::format("no command given; commands are {}", fmt::join(command_names(app), ", "));
   }

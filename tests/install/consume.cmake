@@ -33,3 +33,11 @@ execute_process(COMMAND ${work_dir}/consumer/build/wall WORKING_DIRECTORY ${sour
 if(NOT result EQUAL 0 OR NOT output MATCHES "8848\\.7")
   message(FATAL_ERROR "README's example answered (${result}):\n${output}${error}")
 endif()
+
+# Beside the program: its manual pages and completions.
+foreach(file man/man1/zwidth.1 man/man1/zwidth-analyze.1 bash-completion/completions/zwidth zsh/site-functions/_zwidth
+    fish/vendor_completions.d/zwidth.fish)
+  if(EXISTS ${work_dir}/prefix/bin/zwidth AND NOT EXISTS ${work_dir}/prefix/share/${file})
+    message(FATAL_ERROR "share/${file} is not installed")
+  endif()
+endforeach()

@@ -165,7 +165,7 @@ std::vector<std::string> wrapped(const std::vector<std::string>& notes) {
   constexpr std::size_t width = 105;
   std::vector<std::string> lines;
   for (const std::string& note : notes) {
-    std::istringstream text(wrap(note, width, 0));
+    std::istringstream text(broken(note, width, 0));
     for (std::string line; std::getline(text, line);) lines.push_back(line);
   }
   return lines;

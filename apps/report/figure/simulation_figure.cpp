@@ -122,7 +122,7 @@ std::string draw_simulation_figure(const Device& device, const Simulation& resul
   const Trajectory& kept = result.trajectory;
   const Units units = units_of(device.parameters().motion);
   std::vector<std::string> lines;
-  std::istringstream sentence(wrap(verdict_sentence(device, result), 115, 0));
+  std::istringstream sentence(broken(verdict_sentence(device, result), 115, 0));
   for (std::string line; std::getline(sentence, line);) lines.push_back(line);
   const double list_top = forces.bottom + 64.0;
   Canvas canvas("Simulation", canvas_width, list_top + row_height * static_cast<double>(lines.size()));

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "report/text/text_medium.hpp"
+
 namespace zwidth::report {
 namespace {
 
@@ -25,7 +27,11 @@ std::size_t byte_of(std::string_view text, std::size_t index) {
 
 }  // namespace
 
-std::string layout(const TextTable& table) {
+std::string layout(const TextTable& with_all_letters) {
+  TextTable table = with_all_letters;
+  for (auto& row : table.rows) {
+    for (std::string& cell : row) cell = for_medium(cell);
+  }
   std::vector<std::size_t> widths(table.alignment.size(), 0);
   for (const auto& row : table.rows) {
     for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], length(row[i]));
@@ -54,6 +60,11 @@ std::size_t width_of(std::string_view lines) {
 }
 
 std::string wrap(std::string_view text, std::size_t width, std::size_t indent) {
+  const std::size_t of_medium = text_medium().line_length;
+  return broken(for_medium(text), of_medium > 0 ? of_medium : width, indent);
+}
+
+std::string broken(std::string_view text, std::size_t width, std::size_t indent) {
   std::string wrapped;
   std::string line;
   const auto end_line = [&] { wrapped += std::string(indent, ' ') + line + "\n"; };

@@ -14,13 +14,16 @@ struct TextTable {
   std::vector<std::vector<std::string>> rows;  ///< the first holds the headings; each as long as `alignment`
 };
 
-/// Lays the table out with two spaces before each column; no trailing spaces.
+/// Lays the table out with two spaces before each column; no trailing spaces. In the letters of the text_medium().
 [[nodiscard]] std::string layout(const TextTable& table);
 
 /// Characters of the longest line.
 [[nodiscard]] std::size_t width_of(std::string_view lines);
 
 /// Breaks text at spaces into lines of at most `width` characters, each after `indent` spaces.
+[[nodiscard]] std::string broken(std::string_view text, std::size_t width, std::size_t indent);
+
+/// The same for who reads the text: in lines as long as the text_medium() has them, or else of `width`, and its letters.
 [[nodiscard]] std::string wrap(std::string_view text, std::size_t width, std::size_t indent);
 
 /// At most `width` characters of UTF-8 text. What is cut out, in the middle, leaves an ellipsis: names that are alike

@@ -1,0 +1,190 @@
+// Completions and manual pages: what the program's own help says, in the shells and in man.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "cli/workspace.hpp"
+
+namespace zwidth::cli {
+namespace {
+
+using ::testing::AnyOf;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+using Words = std::set<std::string>;
+
+Words words_in(const std::string& lines) {
+  std::istringstream stream(lines);
+  Words words;
+  for (std::string line; std::getline(stream, line);) words.insert(line);
+  return words;
+}
+
+class GeneratedFiles : public Workspace {
+ protected:
+  /// Names of the commands, from the program's own help.
+  [[nodiscard]] std::vector<std::string> commands() const {
+    std::vector<std::string> names;
+    std::istringstream help(run("zwidth --help").output);
+    bool in_list = false;
+    for (std::string line; std::getline(help, line);) {
+      if (line.empty()) in_list = false;
+      if (in_list) names.push_back(line.substr(2, line.find(' ', 2) - 2));
+      if (line == "Commands:") in_list = true;
+    }
+    return names;
+  }
+
+  /// The options that the help of a command begins a line with.
+  [[nodiscard]] Words options(const std::string& command) const {
+    Words found;
+    std::istringstream help(run("zwidth " + command + " --help").output);
+    for (std::string line; std::getline(help, line) && line != "Examples:";) {
+      if (!line.starts_with("  -")) continue;
+      std::istringstream names(line.substr(2, line.find(' ', 2) - 2));
+      for (std::string name; std::getline(names, name, ',');) found.insert(name);
+    }
+    return found;
+  }
+
+  /// What bash offers for the last of the words.
+  [[nodiscard]] Words completed(const std::string& words) const {
+    const Outcome outcome = run("source <(zwidth --generate bash)\nCOMP_WORDS=(" + words +
+                                ")\nCOMP_CWORD=$((${#COMP_WORDS[@]} - 1))\n_zwidth\n"
+                                "(( ${#COMPREPLY[@]} == 0 )) || printf '%s\\n' \"${COMPREPLY[@]}\"");
+    EXPECT_EQ(outcome.status, 0) << words;
+    EXPECT_THAT(outcome.errors, IsEmpty()) << words;
+    return words_in(outcome.output);
+  }
+};
+
+TEST_F(GeneratedFiles, BashCompletesWhatTheHelpHas) {
+  const auto names = commands();
+  ASSERT_GT(names.size(), 5U);
+  EXPECT_EQ(completed("zwidth ''"), Words(names.begin(), names.end()));
+  EXPECT_EQ(completed("zwidth an"), Words{"analyze"});
+  for (const std::string& command : names) {
+    const Words from_help = options(command);
+    ASSERT_GE(from_help.size(), 2U) << command;
+    EXPECT_EQ(completed("zwidth " + command + " -"), from_help) << command;
+  }
+  EXPECT_EQ(completed("zwidth simulate devices/lhifam.toml --cont"), Words{"--contact"});
+}
+
+TEST_F(GeneratedFiles, BashCompletesValuesAndFiles) {
+  const Words kinds{"bilateral", "unilateral"};
+  EXPECT_EQ(completed("zwidth simulate --contact ''"), kinds);
+  EXPECT_EQ(completed("zwidth simulate --contact ="), kinds);  // --contact=
+  EXPECT_EQ(completed("zwidth simulate --contact = uni"), Words{"unilateral"});
+  EXPECT_EQ(completed("zwidth simulate --duration ''"), Words{});
+  write("a b.toml", "");
+  EXPECT_EQ(completed("zwidth analyze 'a '"), Words{"a b.toml"});
+  EXPECT_EQ(completed("zwidth analyze devices/lhifam_r"),
+            (Words{"devices/lhifam_reduced_pretension.toml", "devices/lhifam_rigid.toml"}));
+  EXPECT_EQ(completed("zwidth excite --device devices/emp"), Words{"devices/emps.toml"});
+}
+
+TEST_F(GeneratedFiles, BashTakesThemAtAPrompt) {
+  // Through readline, as a user types it: TAB after the unfinished command.
+  const Outcome outcome =
+      run("zwidth --generate bash > completion; printf 'source completion\\nzwidth simu\\t--vers\\nexit\\n' | "
+          "bash --norc -i 2>&1 || true");
+  EXPECT_THAT(outcome.output, HasSubstr("zwidth simulate --vers"));
+}
+
+TEST_F(GeneratedFiles, OtherShellsReadTheirs) {
+  for (const std::string shell : {"zsh", "fish"}) {
+    if (run("command -v " + shell).status != 0) GTEST_SKIP() << "there is no " << shell << " here";
+    const Outcome outcome = run("zwidth --generate " + shell + " > file && " + shell + " -n file");
+    EXPECT_EQ(outcome.status, 0) << outcome.errors;
+    EXPECT_THAT(outcome.errors, IsEmpty());
+  }
+  const Outcome fish = run("fish -c \"source file; complete -C 'zwidth simulate --contact '\" | cut -f1");
+  EXPECT_EQ(words_in(fish.output), (Words{"bilateral", "unilateral"})) << fish.errors;
+  const Outcome zsh = run("zsh -fc 'autoload -Uz compinit && compinit -u -D && source <(zwidth --generate zsh)'");
+  EXPECT_EQ(zsh.status, 0);
+  EXPECT_THAT(zsh.errors, IsEmpty());
+}
+
+TEST_F(GeneratedFiles, ManualPagesRenderAndHaveEveryOption) {
+  if (run("command -v groff").status != 0) GTEST_SKIP() << "there is no groff here";
+  for (const std::string& command : commands()) {
+    const Outcome page = run("zwidth --generate man-" + command + " > page.1 && groff -man -ww -Tascii -P-cbou page.1");
+    EXPECT_EQ(page.status, 0) << command;
+    EXPECT_THAT(page.errors, IsEmpty()) << command;
+    for (const std::string& option : options(command)) {
+      EXPECT_THAT(page.output, AnyOf(HasSubstr("       " + option), HasSubstr(", " + option))) << command;
+    }
+    EXPECT_THAT(page.output, HasSubstr("\nEXAMPLES\n       zwidth " + command)) << command;
+    const Outcome man = run("command -v man > /dev/null || exit 0; MANWIDTH=100 man --warnings -l page.1 > /dev/null");
+    EXPECT_EQ(man.status, 0) << command;
+    EXPECT_THAT(man.errors, IsEmpty()) << command;
+  }
+  const Outcome program = run("zwidth --generate man | groff -man -ww -Tascii -P-cbou");
+  EXPECT_THAT(program.errors, IsEmpty());
+  for (const std::string& command : commands()) EXPECT_THAT(program.output, HasSubstr("zwidth-" + command + "(1)"));
+}
+
+TEST_F(GeneratedFiles, AnotherKindIsRefused) {
+  expect_refusal("zwidth --generate tcsh", "--generate: tcsh not in {bash,zsh,fish,man,");
+}
+
+/// What a user reads in a locale without UTF-8 has ASCII letters alone; what a program reads does not change.
+TEST_F(GeneratedFiles, TextIsAsciiWhereTheLocaleIs) {
+  const std::string rotary = "devices/quanser_torsion.toml --set wall.stiffness=5 --set 'name=\"D\u00edaz\"'";
+  const std::vector<std::string> answers = {"analyze " + rotary,
+                                            "design " + rotary,
+                                            "region " + rotary,
+                                            "simulate " + rotary,
+                                            "bode " + rotary,
+                                            "relay " + rotary + " --amplitude 1",
+                                            "analyze devices/quanser_torsion.toml devices/lhifam.toml",
+                                            "frf recordings/locked_chirp.csv --force force --position position",
+                                            "excite --amplitude 2 --json",
+                                            "design " + rotary + " --sweep loop.delay=0:8e-3:3",
+                                            "design devices/lhifam.toml --target 12000"};
+  for (const std::string& command : answers) {
+    const Outcome plain = run("LC_ALL=C zwidth " + command);
+    EXPECT_EQ(plain.status, 0) << command << plain.errors;
+    for (const std::string* text : {&plain.output, &plain.errors}) {
+      EXPECT_TRUE(std::ranges::all_of(*text, [](char c) { return static_cast<unsigned char>(c) < 0x80; }))
+          << command << "\n"
+          << *text;
+    }
+  }
+  EXPECT_THAT(run("LC_ALL=C.UTF-8 zwidth analyze " + rotary).output, HasSubstr("500 \u00b5s"));
+  EXPECT_THAT(run("LC_ALL=C zwidth analyze " + rotary).output, HasSubstr("500 us"));
+  EXPECT_EQ(run("LC_ALL=C zwidth analyze --json " + rotary).output,
+            run("LC_ALL=C.UTF-8 zwidth analyze --json " + rotary).output);
+  const Outcome refused = run("LC_ALL=C zwidth analyze devices/lhifam.toml --set 'loop.delay=5 \u00b5m'");
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.errors, HasSubstr("\"um\" is no unit of a time"));
+}
+
+TEST_F(GeneratedFiles, ParagraphsAreAsLongAsTheTerminal) {
+  const auto longest = [&](const std::string& environment) {
+    std::istringstream lines(run(environment + "zwidth analyze devices/lhifam.toml --set wall.stiffness=5000").output);
+    std::size_t most = 0;
+    for (std::string line; std::getline(lines, line) && !line.starts_with("Phase crossovers");) {
+      most = std::max(most, line.size());
+    }
+    return most;
+  };
+  EXPECT_LE(longest("COLUMNS=60 "), 60U);
+  EXPECT_GT(longest("COLUMNS=60 "), 40U);
+  EXPECT_LE(longest("COLUMNS=80 "), 80U);
+  EXPECT_GT(longest("COLUMNS=80 "), 60U);
+  EXPECT_LE(longest("COLUMNS=500 "), 100U);
+  EXPECT_GT(longest(""), 100U);  // to a file or a pipe: no line is broken
+  EXPECT_GT(longest("COLUMNS=wide "), 100U);
+}
+
+}  // namespace
+}  // namespace zwidth::cli
