@@ -70,8 +70,8 @@ void add_notch_options(CLI::App& command, NotchArguments& arguments) {
       ->group(group);
   command
       .add_option("--goal", arguments.goal,
-                  "Of a notch: critical-stiffness (default) or any-user; of --recommend: stiffness (default), width, "
-                  "critical-damping")
+                  "Of a notch: critical-stiffness (default), any-user.\n"
+                  "Of --recommend: stiffness (default), width, critical-damping")
       ->check(CLI::IsMember({"critical-stiffness", "any-user", "stiffness", "width", "critical-damping"}))
       ->type_name("GOAL")
       ->group(group);
@@ -97,7 +97,7 @@ void add_notch_options(CLI::App& command, NotchArguments& arguments) {
       ->group(group);
   command
       .add_option("--write", arguments.write,
-                  "Write the device file with the notch and the designed or recommended wall in it")
+                  "Write the device file with the notch and the wall in it")
       ->type_name("FILE")
       ->group(group);
 }
