@@ -19,11 +19,9 @@ using enum zwidth::WallGoal;
 BENCHMARK_CAPTURE(recommendation, rigid, "emps.toml", stiffness, 0.0)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(recommendation, two_mass, "lhifam.toml", stiffness, 0.0)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(recommendation, two_mass_ripple, "lhifam.toml", stiffness, 0.1)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(recommendation, two_mass_damped, "lhifam.toml", critical_damping, 0.0)
-    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(recommendation, two_mass_damped, "lhifam.toml", critical_damping, 0.0)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(recommendation, handle_sensed, "lhifam_handle_sensed.toml", stiffness, 0.1)
     ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(recommendation, two_mass_drive, "two_mass_drive.toml", stiffness, 0.0)
-    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(recommendation, two_mass_drive, "two_mass_drive.toml", stiffness, 0.0)->Unit(benchmark::kMillisecond);
 
 }  // namespace

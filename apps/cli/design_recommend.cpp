@@ -20,9 +20,8 @@ namespace zwidth::cli {
 namespace {
 
 RecommendationOptions recommendation_options(const RecommendArguments& arguments, const NotchArguments& shared) {
-  static const std::map<std::string, WallGoal> goals{{"stiffness", WallGoal::stiffness},
-                                                     {"width", WallGoal::width},
-                                                     {"critical-damping", WallGoal::critical_damping}};
+  static const std::map<std::string, WallGoal> goals{
+      {"stiffness", WallGoal::stiffness}, {"width", WallGoal::width}, {"critical-damping", WallGoal::critical_damping}};
   RecommendationOptions options;
   if (shared.goal) {
     const auto goal = goals.find(*shared.goal);

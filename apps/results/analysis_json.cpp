@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 
+#include "results/force_per_count_json.hpp"
 #include "results/stability_json.hpp"
 #include "results/units.hpp"
 #include "results/wall_filter_json.hpp"
@@ -32,6 +33,15 @@ Json user_family_json(const Analysis& analysis) {
           {"worst_user", {{"mass", user.mass}, {"damping", user.damping}, {"stiffness", user.stiffness}}},
           {"critical_stiffness", answer.worst.critical_stiffness},
           {"free_critical_stiffness", answer.free.stiffness}};
+}
+
+Json quantisation_json(const std::optional<QuantisationPassivity>& bound) {
+  if (!bound) return nullptr;
+  return {{"stiffness", bound->stiffness},
+          {"friction_stiffness", bound->friction_stiffness},
+          {"damping_stiffness", bound->damping_stiffness},
+          {"not_met", bound->not_met},
+          {"source", "Abbott & Okamura 2005"}};
 }
 
 Json virtual_damper_json(const Wall& wall) {
@@ -64,6 +74,8 @@ Json analysis_json(const Device& analysed, const Analysis& analysis) {
   json["virtual_damper"] = virtual_damper_json(device.wall);
   json["wall_filters"] = wall_filters_json(device.wall, device.loop.sampling_period);
   json["wall"] = analysis.wall;
+  json["force_per_count"] = analysis.force_per_count;
+  json["quantisation_passivity"] = quantisation_json(analysis.quantisation);
   json["critical_stiffness_interval"] = analysis.interval;
   json["other_mechanism_share"] = analysis.interval ? Json(analysis.interval->other_mechanism) : Json(nullptr);
   json["uncertainty_warning"] = uncertainty_warning(device);

@@ -58,6 +58,14 @@ static void to_json(Json& json, const ComparedApproximation& compared) {
 
 namespace {
 
+/// Of any wall (K, B) of the region: K per_stiffness + B per_damping.
+Json force_per_count_json(const WallRegion& walls, const Wall& wall) {
+  if (!walls.force_per_count) return nullptr;
+  return {{"per_stiffness", walls.force_per_count->per_stiffness},
+          {"per_damping", walls.force_per_count->per_damping},
+          {"exact", wall.filters.empty()}};
+}
+
 const char* status_of(const WallRegion& region) {
   if (region.trust.refused()) return "refused";
   if (!region.region.bounded) return "unbounded";
@@ -83,6 +91,7 @@ Json region_json(const Device& device, const WallRegion& walls) {
   json["components"] = region.components;
   json["any_user"] = walls.any_user;
   json["approximations"] = walls.approximations;
+  json["force_per_count"] = force_per_count_json(walls, parameters.wall);
   json["trust"] = walls.trust;
   json["remarks"] = walls.remarks;
   return json;

@@ -68,6 +68,7 @@
 #include "zwidth/stability/critical_stiffness.hpp"
 #include "zwidth/stability/device_model.hpp"
 #include "zwidth/stability/force_per_count.hpp"
+#include "zwidth/stability/quantisation_passivity.hpp"
 #include "zwidth/stability/stiffness_interval.hpp"
 #include "zwidth/stability/user_family.hpp"
 #include "zwidth/stability/wall_margins.hpp"

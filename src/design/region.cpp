@@ -93,6 +93,9 @@ WallRegion region(const Device& device, const RegionOptions& options) {
   const ModalForm form = modal_form(device);
   result.modes = form.modes;
   result.suspended_rigid_body = form.suspended_rigid_body;
+  if (const double resolution = device.parameters().sensor.resolution; resolution > 0.0) {
+    result.force_per_count = force_per_count_rates(device.parameters().wall, device.loop().sampling_period, resolution);
+  }
   if (options.any_user && device.has_bodies() && result.region.most_damped &&
       result.region.most_damped->damping > 0.0) {
     if (device.bodies().size() <= most_bodies_for_any_user) {

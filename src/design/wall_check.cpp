@@ -23,7 +23,7 @@ using std::numbers::pi;
 constexpr double lowest_angle = 1e-5;
 constexpr int points_per_decade = 60;
 constexpr int bisections = 30;
-constexpr double tolerance = 1e-4;  // rad, of a phase margin from two routes
+constexpr double tolerance = 1e-4;                                       // rad, of a phase margin from two routes
 constexpr std::array masses_of_users{0.0, 0.1, 1.0, 10.0, 1e3};          // times the device's
 constexpr std::array springs_of_users{0.0, 0.1, 1.0, 10.0, 100.0, 1e4};  // times the wall's
 
@@ -114,8 +114,8 @@ void check_phase(const Device& walled, double phase_margin, Trust& trust) {
 
 void check_wall(const Device& walled, const RecommendationOptions& options, bool any_user, Trust& trust) {
   check_stable(walled, trust);
-  for (const Device& each : {grown(walled, options.gain_margin, 1.0),
-                             grown(walled, options.gain_margin, options.gain_margin)}) {
+  for (const Device& each :
+       {grown(walled, options.gain_margin, 1.0), grown(walled, options.gain_margin, options.gain_margin)}) {
     check_stable(each, trust);
     if (any_user) check_users(each, trust);
   }

@@ -119,8 +119,7 @@ WallLimits::Stiffest WallLimits::stiffest(VirtualDamper damper, WallGoal goal) {
   }
   const double resolution = device_.parameters().sensor.resolution;
   if (options_.ripple && resolution > 0.0) {
-    const ForcePerCountRates rates =
-        force_per_count_rates(wall_of(device_, 0.0, damper), system_.period, resolution);
+    const ForcePerCountRates rates = force_per_count_rates(wall_of(device_, 0.0, damper), system_.period, resolution);
     take(std::max(0.0, *options_.ripple - damper.damping * rates.per_damping) / rates.per_stiffness, WallBound::ripple);
   }
   if (!(least.stiffness > 0.0) || !std::isfinite(least.stiffness)) return least;
@@ -167,8 +166,8 @@ namespace zwidth {
 std::optional<double> contact_damping_ratio(const Device& device) {
   const Wall& wall = device.parameters().wall;
   if (!device.has_bodies() || !(wall.stiffness.value_or(0.0) > 0.0)) return std::nullopt;
-  return internal::least_ratio(
-      device, sample(state_space(device), {device.loop().sampling_period, device.loop().delay}), wall);
+  return internal::least_ratio(device,
+                               sample(state_space(device), {device.loop().sampling_period, device.loop().delay}), wall);
 }
 
 }  // namespace zwidth

@@ -25,12 +25,12 @@ constexpr std::size_t searched_exactly = 3;  // velocity filters, the most promi
 constexpr double worth_a_damper = 1e-3;      // relative gain of the goal
 constexpr double worth_a_filter = 0.02;
 constexpr double worth_a_notch = 0.05;
-constexpr double same_limit = 1e-9;          // relative, of two any-user limits
-constexpr double more_damping = 1.05;        // where the bound of B is looked for
-constexpr double first_damping = 1e-3;       // times K/w, where B is 0
-constexpr double faster = 1.25;              // where the bound of the velocity filter is
-constexpr double fastest = 0.45;             // of the sampling rate
-constexpr double to_be_distinct = 0.01;      // relative, of an alternative
+constexpr double same_limit = 1e-9;      // relative, of two any-user limits
+constexpr double more_damping = 1.05;    // where the bound of B is looked for
+constexpr double first_damping = 1e-3;   // times K/w, where B is 0
+constexpr double faster = 1.25;          // where the bound of the velocity filter is
+constexpr double fastest = 0.45;         // of the sampling rate
+constexpr double to_be_distinct = 0.01;  // relative, of an alternative
 
 Device without_wall(const Device& device) {
   DeviceParameters parameters = device.parameters();
@@ -87,11 +87,11 @@ class Recommendation {
     result.status = WallRecommendation::Status::found;
     result.wall = std::move(wall);
     if (!options_.ripple && result.wall->force_per_count) {
-      result.remarks.push_back({Remark::Severity::note, "no greatest force per encoder count was asked",
-                                fmt::format("one step of the encoder moves the force by {}",
-                                            quantity(result.wall->force_per_count->largest,
-                                                     units_of(device_.parameters().motion).force)),
-                                "ask for a ripple where that can be felt or heard"});
+      result.remarks.push_back(
+          {Remark::Severity::note, "no greatest force per encoder count was asked",
+           fmt::format("one step of the encoder moves the force by {}",
+                       quantity(result.wall->force_per_count->largest, units_of(device_.parameters().motion).force)),
+           "ask for a ripple where that can be felt or heard"});
     }
     add_alternatives(*best, plain, result);
     return result;
@@ -152,9 +152,8 @@ class Recommendation {
     const WallSearch again(limits_of(notch), options_);
     const Candidate candidate =
         exact(again.best(best->damper.velocity_filter_hz, options_.goal).damper, notch, options_.goal);
-    const bool lower_any_user =
-        limits_.has_users() &&
-        limits_of(notch).limit(candidate.damper) < limits_.limit(candidate.damper) * (1.0 - same_limit);
+    const bool lower_any_user = limits_.has_users() && limits_of(notch).limit(candidate.damper) <
+                                                           limits_.limit(candidate.damper) * (1.0 - same_limit);
     if (lower_any_user || !(candidate.value > best->value * (1.0 + worth_a_notch))) return best;
     return candidate;
   }
@@ -192,8 +191,8 @@ class Recommendation {
     bounds.stiffness = candidate.stiffest.bound;
     VirtualDamper damper = candidate.damper;
     const double period = device_.loop().sampling_period;
-    damper.damping = damper.damping > 0.0 ? more_damping * damper.damping
-                                          : first_damping * candidate.stiffest.stiffness * period;
+    damper.damping =
+        damper.damping > 0.0 ? more_damping * damper.damping : first_damping * candidate.stiffest.stiffness * period;
     bounds.damping = bound_with(candidate, damper);
     if (candidate.damper.velocity_filter_hz > 0.0 && candidate.damper.damping > 0.0) {
       const double cutoff = faster * candidate.damper.velocity_filter_hz;
@@ -261,7 +260,8 @@ class Recommendation {
     }
     add("no velocity filter", unfiltered_, result);
     if (best.notch) add("no notch", plain, result);
-    for (const auto& [goal, what] : {std::pair{WallGoal::stiffness, "stiffest"}, {WallGoal::width, "greatest K B"},
+    for (const auto& [goal, what] : {std::pair{WallGoal::stiffness, "stiffest"},
+                                     {WallGoal::width, "greatest K B"},
                                      {WallGoal::critical_damping, "contact critically damped"}}) {
       if (goal == options_.goal || (goal == WallGoal::critical_damping && !device_.has_bodies())) continue;
       add(what, other_goal(goal, best), result);
@@ -286,7 +286,8 @@ class Recommendation {
     if (!limits_.has_users() && critical_stiffness(filtered_plant(device_)).status == StiffnessStatus::none_stable) {
       return "no wall is stable from K = 0 on, with any damper tried";
     }
-    if (options_.goal == WallGoal::critical_damping) return "no wall keeps the margins asked without a swinging contact";
+    if (options_.goal == WallGoal::critical_damping)
+      return "no wall keeps the margins asked without a swinging contact";
     return "no wall keeps the margins asked, with any damper and velocity filter tried; ask for less phase margin";
   }
 
@@ -298,10 +299,9 @@ class Recommendation {
                                 "give sensor.resolution"});
     }
     if (!limits_.has_users()) {
-      result.remarks.push_back({Remark::Severity::warning,
-                                "the limit for any passive user is not available: the device as it is decides",
-                                "whoever holds the device may destabilise this wall",
-                                "describe the device by bodies and links"});
+      result.remarks.push_back(
+          {Remark::Severity::warning, "the limit for any passive user is not available: the device as it is decides",
+           "whoever holds the device may destabilise this wall", "describe the device by bodies and links"});
     }
     if (!device_.parameters().wall.filters.empty()) {
       result.remarks.push_back({Remark::Severity::note, "the filters of the device's wall stay in it",

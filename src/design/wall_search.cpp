@@ -13,16 +13,16 @@ using std::numbers::pi;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-constexpr std::array shares_of_damping{0.0, 0.001, 0.003, 0.01, 0.02, 0.05, 0.1, 0.2, 0.3,
-                                       0.4, 0.5,   0.6,   0.7,  0.8,  0.9,  0.97};
+constexpr std::array shares_of_damping{0.0, 0.001, 0.003, 0.01, 0.02, 0.05, 0.1, 0.2,
+                                       0.3, 0.4,   0.5,   0.6,  0.7,  0.8,  0.9, 0.97};
 constexpr double worth_a_damper = 1e-3;  // relative, of the goal
-constexpr int refinements = 12;  // golden sections around the best of them
+constexpr int refinements = 12;          // golden sections around the best of them
 constexpr double golden = 0.61803398874989485;
 constexpr double damper_over_spring = 10.0;  // B w over K at the crossover, where the damper alone is never critical
 constexpr std::size_t filters_tried = 7;
-constexpr double fastest_filter = 0.4;      // of the sampling rate
-constexpr double slowest_filter = 2.0;      // times the frequency at which the device oscillates
-constexpr double slow_filter = 0.01;        // of the sampling rate: as slow a one is tried in any case
+constexpr double fastest_filter = 0.4;  // of the sampling rate
+constexpr double slowest_filter = 2.0;  // times the frequency at which the device oscillates
+constexpr double slow_filter = 0.01;    // of the sampling rate: as slow a one is tried in any case
 constexpr double between_filters = 1.8;
 constexpr int filter_refinements = 4;
 constexpr int contact_bisections = 14;
@@ -58,9 +58,8 @@ double WallSearch::value_of(WallGoal goal, double stiffness, double damping) {
 
 std::vector<double> WallSearch::velocity_filters() const {
   const double fastest = fastest_filter / period_;
-  const double slowest =
-      std::min(slow_filter / period_,
-               critical_frequency_ > 0.0 ? slowest_filter * critical_frequency_ / (2.0 * pi) : infinity);
+  const double slowest = std::min(
+      slow_filter / period_, critical_frequency_ > 0.0 ? slowest_filter * critical_frequency_ / (2.0 * pi) : infinity);
   std::vector<double> filters{0.0};
   for (std::size_t i = 0; i < filters_tried && slowest < fastest; ++i) {
     filters.push_back(fastest * std::pow(slowest / fastest, static_cast<double>(i) / (filters_tried - 1)));
@@ -121,7 +120,8 @@ WallSearch::Found WallSearch::best_near(const Found& start, WallGoal goal) const
     for (const Found& each : {left, right}) {
       if (each.value > found.value) found = each;
     }
-    (left.value < right.value ? low : high) = std::log((left.value < right.value ? left : right).damper.velocity_filter_hz);
+    (left.value < right.value ? low : high) =
+        std::log((left.value < right.value ? left : right).damper.velocity_filter_hz);
   }
   return found;
 }

@@ -207,6 +207,8 @@ Analysis analyze(const Device& device, const AnalysisOptions& options) {
   if (analysis.trust.refused()) return analysis;
   if (device.parameters().wall.stiffness) judge_wall(device, poles, analysis);
   if (analysis.trust.refused()) return analysis;
+  analysis.force_per_count = force_per_count(device);
+  analysis.quantisation = quantisation_passivity(device);
   const std::optional<Uncertainty>& uncertainty = device.parameters().uncertainty;
   if (uncertainty && !uncertainty->parameters.empty() && options.draws > 0) {
     analysis.interval = stiffness_interval(device, options.draws);

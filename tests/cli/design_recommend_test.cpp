@@ -21,9 +21,9 @@ class DesignRecommend : public Workspace {
 };
 
 TEST_F(DesignRecommend, WritesADeviceThatAnalyzeConfirms) {
-  const auto recommended =
-      answer("zwidth design devices/lhifam.toml --recommend --ripple 0.1 --gain-margin-db 8 --phase-margin-deg 40 --json "
-             "--write walled.toml");
+  const auto recommended = answer(
+      "zwidth design devices/lhifam.toml --recommend --ripple 0.1 --gain-margin-db 8 --phase-margin-deg 40 --json "
+      "--write walled.toml");
   ASSERT_EQ(recommended["schema"], "zwidth.wall_recommendation/1");
   ASSERT_EQ(recommended["status"], "found");
   const auto analysis = answer("zwidth analyze walled.toml --json");
@@ -34,8 +34,7 @@ TEST_F(DesignRecommend, WritesADeviceThatAnalyzeConfirms) {
   EXPECT_GE(wall["stiffness_margin_db"].get<double>(), 8.0 - 1e-6);
   EXPECT_GE(wall["phase_margin_rad"].get<double>(), 40.0 * 3.14159265 / 180.0 - 1e-6);
   EXPECT_EQ(analysis["any_user"]["critical_stiffness"], recommended["margins"]["any_user_critical_stiffness"]);
-  EXPECT_GE(analysis["any_user"]["critical_stiffness"].get<double>(),
-            2.5118864315 * wall["stiffness"].get<double>());
+  EXPECT_GE(analysis["any_user"]["critical_stiffness"].get<double>(), 2.5118864315 * wall["stiffness"].get<double>());
   EXPECT_LE(recommended["force_per_count"]["largest"].get<double>(), 0.1);
   EXPECT_GE(recommended["alternatives"].size(), 3U);
 }

@@ -95,7 +95,8 @@ TEST(WallRecommendation, ATransferFunctionIsWarnedAbout) {
   EXPECT_FALSE(answer.wall->any_user_limit);
   bool warned = false;
   for (const Remark& each : answer.remarks) {
-    warned = warned || (each.severity == Remark::Severity::warning && each.what.find("any passive user") != std::string::npos);
+    warned = warned ||
+             (each.severity == Remark::Severity::warning && each.what.find("any passive user") != std::string::npos);
   }
   EXPECT_TRUE(warned);
 }

@@ -40,7 +40,8 @@ double excess(const Device& device, const Wall& wall, double spring, double damp
 double scanned_phase_margin(const Device& device, const Wall& wall) {
   const double period = device.loop().sampling_period;
   const DiscreteStateSpace plant = sample(state_space(device), {period, device.loop().delay});
-  const double a = wall.velocity_filter_hz > 0.0 ? std::exp(-2.0 * std::numbers::pi * wall.velocity_filter_hz * period) : 0.0;
+  const double a =
+      wall.velocity_filter_hz > 0.0 ? std::exp(-2.0 * std::numbers::pi * wall.velocity_filter_hz * period) : 0.0;
   double least = std::numbers::pi;
   std::complex<double> last = 0.0;
   for (int i = 3000; i >= 0; --i) {
@@ -124,8 +125,10 @@ TEST(WallRecommendationProperty, RandomDevicesKeepWhatWasAsked) {
                             random.chance(0.3) ? random.log_uniform(1e-3, 1e3) : 0.0,
                             random.chance(0.7) ? *wall.stiffness * random.log_uniform(1e-3, 1e4) : 0.0};
         // A heavy user's own pole is as near the circle as rounding.
-        EXPECT_LT(excess(device, wall, gain, gain, user), 1e-11) << user.mass << " " << user.damping << " " << user.stiffness;
-        EXPECT_LT(excess(device, wall, gain, 1.0, user), 1e-11) << user.mass << " " << user.damping << " " << user.stiffness;
+        EXPECT_LT(excess(device, wall, gain, gain, user), 1e-11)
+            << user.mass << " " << user.damping << " " << user.stiffness;
+        EXPECT_LT(excess(device, wall, gain, 1.0, user), 1e-11)
+            << user.mass << " " << user.damping << " " << user.stiffness;
       }
     }
   }

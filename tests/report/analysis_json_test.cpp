@@ -43,6 +43,8 @@ TEST(AnalysisJson, KeysStandInTheirDocumentedOrder) {
                                              "virtual_damper",
                                              "wall_filters",
                                              "wall",
+                                             "force_per_count",
+                                             "quantisation_passivity",
                                              "critical_stiffness_interval",
                                              "other_mechanism_share",
                                              "uncertainty_warning",

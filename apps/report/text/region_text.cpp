@@ -69,6 +69,13 @@ class Writer {
     lines += line("largest B", fmt::format("{} at K = {}", damping(region.most_damped->damping),
                                            stiffness(region.most_damped->stiffness)));
     lines += line("Z-width (area)", fmt::format("{:.4g} {} x {}", region.area, units_.stiffness, units_.damping));
+    if (const auto& force = walls_.force_per_count) {
+      const auto at = [&](const BoundaryPoint& point) {
+        return quantity(point.stiffness * force->per_stiffness + point.damping * force->per_damping, units_.force);
+      };
+      lines += line("force per count", fmt::format("{} at the largest K, {} at the largest B: one step of the encoder",
+                                                   at(*region.stiffest), at(*region.most_damped)));
+    }
     const double filter = device_.parameters().wall.velocity_filter_hz;
     lines += line("velocity filter", filter > 0.0 ? quantity(filter, "Hz") : std::string("none"));
     if (const auto filters = wall_filters_text(device_.parameters().wall)) {

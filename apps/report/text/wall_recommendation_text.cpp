@@ -82,9 +82,10 @@ class Writer {
     if (!answer_.alternatives.empty()) text += "\n" + trade_off();
     text += "\nFor the device file\n" + for_the_file(answer_.wall->wall);
     return text +
-           wrap("\nA local optimum, found by search; every wall here is computed exactly, and its poles are counted "
-                "by a second computation, alone and with users. Friction and the force limit are left out.",
-                width, 0);
+           wrap(
+               "\nA local optimum, found by search; every wall here is computed exactly, and its poles are counted "
+               "by a second computation, alone and with users. Friction and the force limit are left out.",
+               width, 0);
   }
 
  private:
@@ -98,11 +99,12 @@ class Writer {
   }
 
   [[nodiscard]] std::string asked() const {
-    std::string text = fmt::format("{}; gain margin {:.3g} dB of K alone and of the whole force with any passive user, "
-                                   "phase margin {}",
-                                   goal_text(options_.goal), decibels(options_.gain_margin),
-                                   degrees(options_.phase_margin));
-    if (options_.ripple) text += fmt::format(", at most {} per encoder count", quantity(*options_.ripple, units_.force));
+    std::string text = fmt::format(
+        "{}; gain margin {:.3g} dB of K alone and of the whole force with any passive user, "
+        "phase margin {}",
+        goal_text(options_.goal), decibels(options_.gain_margin), degrees(options_.phase_margin));
+    if (options_.ripple)
+      text += fmt::format(", at most {} per encoder count", quantity(*options_.ripple, units_.force));
     return text;
   }
 
@@ -122,7 +124,8 @@ class Writer {
       text += line("any passive user", fmt::format("K up to {} with this damper", stiffness(*each.any_user_limit)));
     }
     if (each.contact_damping_ratio) {
-      text += line("damping of contact", fmt::format("{:.3g} of critical, nobody holding", *each.contact_damping_ratio));
+      text +=
+          line("damping of contact", fmt::format("{:.3g} of critical, nobody holding", *each.contact_damping_ratio));
     }
     if (each.force_per_count) {
       const ForcePerCount& force = *each.force_per_count;

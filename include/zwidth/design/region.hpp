@@ -10,6 +10,7 @@
 #include "zwidth/model/modal_form.hpp"
 #include "zwidth/option_problem.hpp"
 #include "zwidth/remark.hpp"
+#include "zwidth/stability/force_per_count.hpp"
 #include "zwidth/trust.hpp"
 
 namespace zwidth {
@@ -36,6 +37,7 @@ struct WallRegion {
   /// Absent unless asked for; for a transfer function, above most_bodies_for_any_user, or where no wall is stable.
   std::optional<AnyUserRegion> any_user;
   std::vector<ComparedApproximation> approximations;  ///< none for a transfer function, or unless asked for
+  std::optional<ForcePerCountRates> force_per_count;  ///< of any wall here; absent without an encoder resolution
   std::vector<Mode> modes;                            ///< vibration modes, that BoundaryPoint::limited_by numbers
   std::optional<Mode> suspended_rigid_body;           ///< where springs tie the device to ground
   Trust trust;                                        ///< the device's, and what the check of the walls found

@@ -58,8 +58,8 @@ struct WallBounds {
 
 /// A wall and what stands behind it. Checked, see recommend_wall().
 struct RecommendedWall {
-  std::string what;  ///< "recommended", "no velocity filter", "stiffest": how it differs from the others
-  Wall wall;         ///< with the filters that the device's wall has, and the notch behind them
+  std::string what;                 ///< "recommended", "no velocity filter", "stiffest": how it differs from the others
+  Wall wall;                        ///< with the filters that the device's wall has, and the notch behind them
   std::optional<WallFilter> notch;  ///< that of wall.filters which was added
   WallBounds bounded_by;
   WallMargins margins;  ///< of the device as it is

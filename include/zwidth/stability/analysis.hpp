@@ -10,6 +10,8 @@
 #include "zwidth/remark.hpp"
 #include "zwidth/stability/any_user.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
+#include "zwidth/stability/force_per_count.hpp"
+#include "zwidth/stability/quantisation_passivity.hpp"
 #include "zwidth/stability/stiffness_interval.hpp"
 #include "zwidth/stability/user_family.hpp"
 #include "zwidth/stability/wall_margins.hpp"
@@ -62,11 +64,13 @@ struct AnalysisOptions {
 /// The whole answer for one device. Where it is refused (trust), no stiffness, margin or interval is held.
 struct Analysis {
   CriticalStiffness critical;
-  std::vector<Mode> modes;                      ///< vibration modes, by rising frequency
-  std::optional<Mode> suspended_rigid_body;     ///< where springs tie the device to ground
-  std::optional<RigidApproximation> rigid;      ///< absent for a transfer function
-  std::optional<QCriterion> q_criterion;        ///< only where as_two_mass() applies, no wall filters
-  std::optional<WallMargins> wall;              ///< absent without wall.stiffness
+  std::vector<Mode> modes;                            ///< vibration modes, by rising frequency
+  std::optional<Mode> suspended_rigid_body;           ///< where springs tie the device to ground
+  std::optional<RigidApproximation> rigid;            ///< absent for a transfer function
+  std::optional<QCriterion> q_criterion;              ///< only where as_two_mass() applies, no wall filters
+  std::optional<WallMargins> wall;                    ///< absent without wall.stiffness
+  std::optional<ForcePerCount> force_per_count;       ///< of that wall; absent without an encoder resolution too
+  std::optional<QuantisationPassivity> quantisation;  ///< absent without Coulomb friction and an encoder resolution
   std::optional<StiffnessInterval> interval;    ///< of the critical stiffness; absent without uncertain parameters
   std::optional<AnyUserLimit> any_user;         ///< absent unless asked for, and where there is none (see options)
   std::optional<WorstUser> worst_user;          ///< absent unless asked for, and where any_user is 0 or infinite
