@@ -59,6 +59,7 @@ int run(int argument_count, char** arguments) {
   add_analyze(app);
   add_bode(app);
   add_design(app);
+  add_diagnose(app);
   add_excite(app);
   add_export(app);
   add_frf(app);

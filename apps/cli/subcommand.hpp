@@ -21,6 +21,7 @@ struct WorkFailed : std::runtime_error {
 void add_analyze(CLI::App& app);
 void add_bode(CLI::App& app);
 void add_design(CLI::App& app);
+void add_diagnose(CLI::App& app);
 void add_excite(CLI::App& app);
 void add_export(CLI::App& app);
 void add_frf(CLI::App& app);

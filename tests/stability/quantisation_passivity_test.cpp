@@ -29,7 +29,8 @@ TEST(QuantisationPassivity, SaysWhatTheDeviceIsNot) {
   DeviceParameters parameters = rigid();
   parameters.loop.delay = 1e-3;
   parameters.wall.damping = 1.0;
-  EXPECT_EQ(quantisation_passivity(Device(parameters))->not_met, (std::vector<std::string>{"a delay", "a virtual damper"}));
+  EXPECT_EQ(quantisation_passivity(Device(parameters))->not_met,
+            (std::vector<std::string>{"a delay", "a virtual damper"}));
 }
 
 TEST(QuantisationPassivity, NeedsFrictionAndAnEncoder) {

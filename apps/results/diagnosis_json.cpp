@@ -1,0 +1,51 @@
+#include "results/diagnosis_json.hpp"
+
+#include <numbers>
+
+#include "results/stability_json.hpp"
+#include "results/units.hpp"
+
+namespace zwidth::results {
+
+static void to_json(Json& json, const OscillationCandidate& candidate) {
+  const bool has_frequency = candidate.frequency > 0.0;
+  json = {{"cause", candidate.cause},
+          {"fits", candidate.fits},
+          {"frequency_rad_s", has_frequency ? std::optional(candidate.frequency) : std::nullopt},
+          {"frequency_hz", has_frequency ? hertz(std::optional(candidate.frequency)) : std::nullopt},
+          {"stiffness", candidate.stiffness},
+          {"amplitude", candidate.amplitude},
+          {"limited_by", candidate.limited_by},
+          {"why", candidate.why}};
+}
+
+static void to_json(Json& json, const DiagnosisChange& change) {
+  json = {{"what", change.what},
+          {"parameter", change.key},
+          {"value_now", change.value_now},
+          {"value_then", change.value_then},
+          {"limit_now", change.limit_now},
+          {"limit_then", change.limit_then},
+          {"amplitude_now", change.amplitude_now},
+          {"amplitude_then", change.amplitude_then},
+          {"ends_it", change.ends_it}};
+}
+
+Json diagnosis_json(const Device& device, const DiagnosisOptions& options, const Diagnosis& diagnosis) {
+  Json json = document("zwidth.diagnosis/1");
+  json["device"] = device.name();
+  json["units"] = wall_units(device.parameters().motion);
+  json["oscillates_rad_s"] = options.frequency;
+  json["oscillates_hz"] = hertz(std::optional(options.frequency));
+  json["amplitude"] = options.amplitude;
+  json["stiffness"] = diagnosis.stiffness;
+  json["damping"] = diagnosis.damping;
+  json["cause"] = diagnosis.cause;
+  json["candidates"] = diagnosis.candidates;
+  json["changes"] = diagnosis.changes;
+  json["trust"] = diagnosis.trust;
+  json["remarks"] = diagnosis.remarks;
+  return json;
+}
+
+}  // namespace zwidth::results

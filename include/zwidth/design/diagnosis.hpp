@@ -1,0 +1,85 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "zwidth/model/device.hpp"
+#include "zwidth/option_problem.hpp"
+#include "zwidth/remark.hpp"
+#include "zwidth/stability/critical_stiffness.hpp"
+#include "zwidth/trust.hpp"
+
+namespace zwidth {
+
+/// What may keep a device oscillating at its wall.
+enum class OscillationCause {
+  device,        ///< the loop of the device that nobody holds is unstable
+  with_operator, ///< the loop with the device's own [operator] is, that without is not
+  passive_user,  ///< some passive user's grasp makes it unstable
+  quantisation,  ///< the encoder's steps: a limit cycle of about a step
+  friction,      ///< Coulomb friction holds a body still: a limit cycle of the rest
+};
+
+struct DiagnosisOptions {
+  double frequency = 0.0;                ///< observed, rad/s; above 0, at most pi/T
+  std::optional<double> amplitude = {};  ///< observed, of the sensed position, m or rad; > 0
+  std::optional<double> stiffness = {};  ///< K of the wall; absent: the device's own wall.stiffness, or unknown
+  std::optional<double> damping = {};    ///< B; absent: the device's own wall.damping
+};
+
+/// Checks every member's range for the device.
+[[nodiscard]] std::optional<OptionProblem> find_problem(const DiagnosisOptions& options, const Device& device);
+
+struct OscillationCandidate {
+  OscillationCause cause = OscillationCause::device;
+  bool fits = false;
+  double frequency = 0.0;                ///< rad/s, where it would oscillate, nearest to the one observed
+  std::optional<double> stiffness;       ///< K from which on it may
+  std::optional<double> amplitude;       ///< of the sensed position; of quantisation and friction
+  std::optional<Mechanism> limited_by;   ///< of a linear crossover
+  std::string why;                       ///< why it fits or not
+};
+
+/// One change of the device or the wall alone, recomputed.
+struct DiagnosisChange {
+  std::string what;  ///< "damping of every body + 20 %"
+  std::string key;   ///< of the device file; "body.*.damping" for all bodies, "wall.filter" for a filter more
+  double value_now = 0.0;
+  double value_then = 0.0;  ///< of wall.filter: the centre of a notch, Hz
+  /// The stiffness up to which the cause is absent: K_CR, that with friction holding, or the any-user limit; absent of
+  /// quantisation, whose amplitude the change alters.
+  std::optional<double> limit_now;
+  std::optional<double> limit_then;  ///< infinite where unbounded
+  std::optional<double> amplitude_now;
+  std::optional<double> amplitude_then;
+  std::optional<bool> ends_it;  ///< absent where K is not known
+};
+
+struct Diagnosis {
+  std::optional<double> stiffness;               ///< K taken; absent: unknown
+  double damping = 0.0;                          ///< B taken
+  std::vector<OscillationCandidate> candidates;  ///< the likeliest first
+  std::optional<OscillationCause> cause;         ///< of the first, where it fits; absent: none does
+  std::vector<DiagnosisChange> changes;          ///< what moves it, by falling limit; none where there is no cause
+  Trust trust;                                   ///< where refused, nothing is held
+  std::vector<Remark> remarks;
+};
+
+/// Which mechanism an oscillation at a given frequency is, and what moves it.
+///
+///     device, with_operator   a closed-loop pole |z| > 1 of the wall (K, B) at e^{jwT}, or a phase crossover below K; K
+///                             unknown: a phase crossover
+///     passive_user            K above the least K(w) with |1 + C c_T| = |C| r_T (any_user_limit())
+///     quantisation            1 + N t C P = 0 at a phase crossover t > 1 of the stable loop; the encoder rests between two
+///                             steps q, a relay of +-q/2: amplitude 2 q/(pi t)
+///     friction                the loop is stable while bodies slide, and unstable with the first harmonic of their
+///                             Coulomb friction, a damping 4 F_c/(pi V): V where it is just critical
+///
+/// The last two are first harmonics, approximate. A swing of up to three steps of the encoder of a loop that is stable
+/// without them is theirs whatever its frequency: steps that are far from a sine swing far from the crossover. Where the
+/// amplitude is not given the frequency alone tells; two causes that fit nearly as well make the answer doubtful.
+/// Throws Error (invalid_argument) where find_problem() finds one, (did_not_converge) as its parts do.
+[[nodiscard]] Diagnosis diagnose(const Device& device, const DiagnosisOptions& options);
+
+}  // namespace zwidth

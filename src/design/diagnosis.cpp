@@ -1,0 +1,149 @@
+#include "zwidth/design/diagnosis.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "design/diagnosis_changes.hpp"
+#include "design/oscillation_causes.hpp"
+#include "design/wall_limits.hpp"
+#include "zwidth/error.hpp"
+#include "zwidth/model/device_trust.hpp"
+
+namespace zwidth {
+using namespace internal;
+namespace {
+
+using std::numbers::pi;
+
+constexpr double of_a_user = 0.05;        // |ln f| that a user's grasp counts as: it fits a whole band
+constexpr double of_a_crossover = 0.25;   // of apart, where K is not known
+constexpr double of_a_step = 0.02;        // the same, of a cycle of about a step of the encoder
+constexpr double ambiguous = 0.1;         // |ln f| of two causes beside each other
+
+/// What the loop is looked at with: B, and K where it is known.
+ObservedLoop observed(const Device& device, const DiagnosisOptions& options) {
+  DeviceParameters parameters = device.parameters();
+  parameters.uncertainty.reset();
+  if (options.stiffness) parameters.wall.stiffness = options.stiffness;
+  if (options.damping) parameters.wall.damping = *options.damping;
+  const std::optional<double> stiffness = parameters.wall.stiffness;
+  return {Device(std::move(parameters)), options.frequency, options.amplitude, stiffness};
+}
+
+/// How badly a candidate that fits does so; what is proven comes before what is possible.
+double mismatch(const OscillationCandidate& candidate, const ObservedLoop& loop) {
+  const double apart = std::abs(std::log(candidate.frequency / loop.frequency));
+  switch (candidate.cause) {
+    case OscillationCause::device:
+    case OscillationCause::with_operator:
+      return loop.stiffness ? apart - 1.0 : of_a_crossover * apart;  // unstable with this wall: nothing else is needed
+    case OscillationCause::passive_user:
+      return of_a_user;
+    case OscillationCause::quantisation:
+      // So small a swing is the encoder's; where it is not known, the frequency alone tells.
+      return loop.amplitude ? std::min(apart, of_a_step) : apart;
+    case OscillationCause::friction:
+      return apart;
+  }
+  return apart;
+}
+
+void rank(std::vector<OscillationCandidate>& candidates, const ObservedLoop& loop) {
+  std::ranges::stable_sort(candidates, [&](const OscillationCandidate& a, const OscillationCandidate& b) {
+    if (a.fits != b.fits) return a.fits;
+    return a.fits && mismatch(a, loop) < mismatch(b, loop);
+  });
+}
+
+/// With the operator the loop oscillates, and without it too, at nearly the same frequency: the operator does nothing.
+void compare_with_nobody(OscillationCandidate& held, const OscillationCandidate& nobody) {
+  if (!held.fits || !nobody.fits) return;
+  held.fits = false;
+  held.why += "; it does so without the operator too";
+}
+
+void collect(const ObservedLoop& loop, Diagnosis& diagnosis) {
+  std::vector<OscillationCandidate>& candidates = diagnosis.candidates;
+  if (is_held(loop.device)) {
+    candidates.push_back(linear_candidate(loop, OscillationCause::device, without_operator(loop.device)));
+    candidates.push_back(linear_candidate(loop, OscillationCause::with_operator, loop.device));
+    compare_with_nobody(candidates[1], candidates[0]);
+    if (loop.stiffness && is_stable(loop.device) && candidates[0].fits) {
+      candidates[0].fits = false;
+      candidates[0].why += ", but the operator of the file keeps it stable";
+    }
+  } else {
+    candidates.push_back(linear_candidate(loop, OscillationCause::device, loop.device));
+  }
+  if (auto friction = friction_candidate(loop)) candidates.push_back(*std::move(friction));
+  if (auto steps = quantisation_candidate(loop)) candidates.push_back(*std::move(steps));
+  if (can_be_held(loop.device)) candidates.push_back(user_candidate(loop));
+  rank(candidates, loop);
+}
+
+void remark_on(const ObservedLoop& loop, Diagnosis& diagnosis) {
+  const std::vector<OscillationCandidate>& candidates = diagnosis.candidates;
+  if (!loop.stiffness) {
+    diagnosis.remarks.push_back({Remark::Severity::note, "the stiffness of the wall is not known",
+                                 "the mechanisms are told by frequency alone; cycles of friction and of the encoder are "
+                                 "left out",
+                                 "give the stiffness and the damping of the wall"});
+  }
+  if (!diagnosis.cause || candidates.size() < 2 || !candidates[1].fits) return;
+  if (mismatch(candidates[1], loop) - mismatch(candidates[0], loop) > ambiguous) return;
+  diagnosis.trust.doubt("two mechanisms fit the frequency nearly as well: give the amplitude of the oscillation too, or "
+                        "let go of the device and see whether it goes on");
+}
+
+}  // namespace
+
+std::optional<OptionProblem> find_problem(const DiagnosisOptions& options, const Device& device) {
+  const double nyquist = pi / device.loop().sampling_period;
+  if (!(options.frequency > 0.0 && options.frequency <= nyquist * (1.0 + 1e-9))) {
+    return OptionProblem{"frequency", fmt::format("is {:.6g} Hz", options.frequency / (2.0 * pi)),
+                         fmt::format("must be above 0, at most half the sampling rate, {:.6g} Hz: what is faster is "
+                                     "seen as an alias",
+                                     nyquist / (2.0 * pi))};
+  }
+  const auto finite = [](double value) { return std::isfinite(value) && value >= 0.0; };
+  if (options.amplitude && !(finite(*options.amplitude) && *options.amplitude > 0.0)) {
+    return OptionProblem{"amplitude", fmt::format("is {}", *options.amplitude), "must be > 0"};
+  }
+  if (options.stiffness && !(finite(*options.stiffness) && *options.stiffness > 0.0)) {
+    return OptionProblem{"stiffness", fmt::format("is {}", *options.stiffness), "must be > 0"};
+  }
+  if (options.damping && !finite(*options.damping)) {
+    return OptionProblem{"damping", fmt::format("is {}", *options.damping), "must be >= 0"};
+  }
+  return std::nullopt;
+}
+
+Diagnosis diagnose(const Device& device, const DiagnosisOptions& options) {
+  if (const auto problem = find_problem(options, device)) {
+    throw Error(ErrorCode::invalid_argument,
+                fmt::format("{} {}; {}", problem->member, problem->what, problem->allowed));
+  }
+  Diagnosis diagnosis;
+  diagnosis.trust = trust_of(device);
+  if (diagnosis.trust.refused()) return diagnosis;
+  ObservedLoop loop = observed(device, options);
+  if (loop.stiffness && *loop.stiffness == 0.0) loop.stiffness.reset();
+  diagnosis.stiffness = loop.stiffness;
+  diagnosis.damping = loop.device.parameters().wall.damping;
+  diagnosis.trust.inherit(critical_stiffness(loop.device).trust);
+  if (diagnosis.trust.refused()) return diagnosis;
+  collect(loop, diagnosis);
+  if (!diagnosis.candidates.empty() && diagnosis.candidates.front().fits) {
+    diagnosis.cause = diagnosis.candidates.front().cause;
+    diagnosis.changes = changes_of(loop, diagnosis.candidates.front());
+  }
+  remark_on(loop, diagnosis);
+  return diagnosis;
+}
+
+}  // namespace zwidth

@@ -1,0 +1,310 @@
+#include "design/oscillation_causes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "design/wall_limits.hpp"
+#include "stability/damper_response.hpp"
+#include "stability/disc_stiffness.hpp"
+#include "stability/user_discs.hpp"
+#include "zwidth/model/state_space.hpp"
+#include "zwidth/quantity.hpp"
+#include "zwidth/stability/closed_loop.hpp"
+
+namespace zwidth::internal {
+namespace {
+
+using std::numbers::pi;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double near = 0.15;          // |ln| of two frequencies of one linear oscillation
+constexpr double near_harmonic = 0.4;  // of one that first harmonics tell
+constexpr double counts_of_quantisation = 3.0;  // largest amplitude, in encoder steps
+// Of a predicted amplitude. A body that hardly slips swings less than its first harmonic says.
+constexpr double most_of_amplitude = 3.0;
+constexpr double least_of_amplitude = 0.1;
+constexpr double growing = 1e-9;                // |z| - 1 of a pole that grows
+constexpr double beside_user = 0.1;             // relative, frequencies around the one observed
+constexpr double of_user_limit = 0.98;
+constexpr int shares = 80;
+constexpr int bisections = 40;
+
+double apart(double a, double b) { return std::abs(std::log(a / b)); }
+
+std::vector<std::complex<double>> poles_of(const Device& device) {
+  return closed_loop_poles_minus_one(sample(state_space(device), {device.loop().sampling_period, device.loop().delay}),
+                                     device.parameters().wall);
+}
+
+double excess_of(std::complex<double> delta) {
+  return (2.0 * delta.real() + std::norm(delta)) / (std::abs(1.0 + delta) + 1.0);
+}
+
+/// Frequency of the pole that is least stable, rad/s.
+double critical_pole_frequency(const Device& device) {
+  double most = -infinity;
+  double frequency = 0.0;
+  for (const std::complex<double>& delta : poles_of(device)) {
+    if (excess_of(delta) <= most) continue;
+    most = excess_of(delta);
+    frequency = std::abs(std::arg(1.0 + delta)) / device.loop().sampling_period;
+  }
+  return frequency;
+}
+
+std::string hertz_text(double frequency) { return quantity(hertz(frequency), "Hz"); }
+
+/// The wall's C(z) = K + B v as a filter: what multiplies it scales the whole force.
+WallFilter controller(const Wall& wall, double period) {
+  const double a = wall.velocity_filter_hz > 0.0 ? std::exp(-2.0 * pi * wall.velocity_filter_hz * period) : 0.0;
+  const double gain = wall.damping * (1.0 - a) / period;
+  WallFilter filter;
+  filter.kind = WallFilter::Kind::digital;
+  filter.numerator = {*wall.stiffness + gain, -(*wall.stiffness * a + gain)};
+  filter.denominator = {1.0, -a};
+  return filter;
+}
+
+/// Of the sensed position, where the bodies that rub move at V = 4/(pi share): by the ratio of the responses to the
+/// actuator; the geometric mean over the bodies that rub.
+double friction_amplitude(const Device& device, double share, double frequency) {
+  const auto response_of = [&](std::size_t body) {
+    DeviceParameters parameters = device.parameters();
+    parameters.loop.sensed = body;
+    const Device seen(std::move(parameters));
+    return std::abs(response(sample(state_space(seen), {device.loop().sampling_period, 0.0}), frequency));
+  };
+  const double sensed = response_of(device.loop().sensed);
+  double logarithm = 0.0;
+  double rubbing = 0.0;
+  for (std::size_t i = 0; i < device.bodies().size(); ++i) {
+    if (!(device.bodies()[i].coulomb > 0.0)) continue;
+    logarithm += std::log(4.0 / (pi * share) / frequency * sensed / response_of(i));
+    rubbing += 1.0;
+  }
+  return std::exp(logarithm / rubbing);
+}
+
+}  // namespace
+
+bool is_held(const Device& device) {
+  const Operator& user = device.parameters().user;
+  return user.mass > 0.0 || user.damping > 0.0 || user.stiffness > 0.0;
+}
+
+Device without_operator(const Device& device) {
+  DeviceParameters parameters = device.parameters();
+  parameters.user = {};
+  return Device(std::move(parameters));
+}
+
+bool is_stable(const Device& device) {
+  return std::ranges::all_of(poles_of(device), [](const auto& delta) { return excess_of(delta) <= growing; });
+}
+
+Device with_friction_as_damping(const Device& device, double share) {
+  DeviceParameters parameters = device.parameters();
+  for (Body& body : parameters.bodies) body.damping += share * body.coulomb;
+  return Device(std::move(parameters));
+}
+
+std::vector<double> friction_shares(const Device& device) {
+  // From hardly any damping to what holds the bodies still at any frequency below Nyquist.
+  double mass = 0.0;
+  double friction = 0.0;
+  for (const Body& body : device.bodies()) mass += body.mass, friction += body.coulomb;
+  const double highest = 1e3 * mass / device.loop().sampling_period / friction;
+  std::vector<double> result;
+  for (int i = 0; i < shares; ++i) result.push_back(highest * std::pow(1e-9, 1.0 - static_cast<double>(i) / (shares - 1)));
+  return result;
+}
+
+OscillationCandidate linear_candidate(const ObservedLoop& loop, OscillationCause cause, const Device& device) {
+  OscillationCandidate candidate;
+  candidate.cause = cause;
+  const CriticalStiffness critical = critical_stiffness(filtered_plant(device), virtual_damper(device));
+  const Crossover* nearest = nullptr;
+  for (const Crossover& each : critical.crossovers) {
+    if (each.frequency <= 0.0 || (loop.stiffness && each.stiffness > *loop.stiffness)) continue;
+    if (nearest == nullptr || apart(each.frequency, loop.frequency) < apart(nearest->frequency, loop.frequency)) {
+      nearest = &each;
+    }
+  }
+  if (nearest != nullptr) {
+    candidate.frequency = nearest->frequency;
+    candidate.stiffness = nearest->stiffness;
+    candidate.limited_by = nearest->limited_by;
+  }
+  if (!loop.stiffness) {
+    if (nearest == nullptr) {
+      candidate.why = "no stiffness puts a pole on the unit circle";
+      return candidate;
+    }
+    candidate.fits = apart(nearest->frequency, loop.frequency) <= near;
+    candidate.why = fmt::format("a phase crossover at {}: unstable from {} on", hertz_text(nearest->frequency),
+                                quantity(nearest->stiffness, units_of(device.parameters().motion).stiffness));
+    if (critical.limit && critical.stiffness < nearest->stiffness) {
+      candidate.why += fmt::format(", but walls from {} on already oscillate at {}",
+                                   quantity(critical.stiffness, units_of(device.parameters().motion).stiffness),
+                                   hertz_text(critical.limit->frequency));
+    }
+    return candidate;
+  }
+  double unstable = 0.0;
+  for (const std::complex<double>& delta : poles_of(device)) {
+    const double frequency = std::abs(std::arg(1.0 + delta)) / device.loop().sampling_period;
+    if (excess_of(delta) <= growing || frequency == 0.0) continue;
+    if (unstable == 0.0 || apart(frequency, loop.frequency) < apart(unstable, loop.frequency)) unstable = frequency;
+  }
+  if (unstable == 0.0) {
+    candidate.why = "the loop is stable with this wall";
+    if (!candidate.stiffness && critical.limit) {
+      candidate.frequency = critical.limit->frequency;
+      candidate.stiffness = critical.limit->stiffness;
+      candidate.limited_by = critical.limit->limited_by;
+    }
+    return candidate;
+  }
+  // A force limit lets it settle between the frequency at which it grows and the crossover.
+  const double low = std::min(unstable, candidate.frequency > 0.0 ? candidate.frequency : unstable);
+  const double high = std::max(unstable, candidate.frequency);
+  const bool between = loop.frequency >= low && loop.frequency <= high;
+  if (apart(unstable, loop.frequency) < apart(std::max(candidate.frequency, 1e-300), loop.frequency)) {
+    candidate.frequency = unstable;
+  }
+  candidate.fits = between || apart(candidate.frequency, loop.frequency) <= near;
+  candidate.why = fmt::format("the loop is unstable with this wall: it grows at {}", hertz_text(unstable));
+  return candidate;
+}
+
+OscillationCandidate user_candidate(const ObservedLoop& loop) {
+  const UserDiscs discs(loop.device);
+  const VirtualDamper damper = virtual_damper(loop.device);
+  const double period = loop.device.loop().sampling_period;
+  OscillationCandidate candidate;
+  candidate.cause = OscillationCause::passive_user;
+  candidate.frequency = loop.frequency;
+  double least = infinity;
+  for (const double share : {0.0, -beside_user, beside_user}) {
+    const double at = std::min(loop.frequency * (1.0 + share), pi / period);
+    least = std::min(least, least_stiffness(discs.at(at), damper_response(damper, period, at)));
+    if (share == 0.0 && loop.stiffness && least <= *loop.stiffness) break;
+  }
+  const std::string_view unit = units_of(loop.device.parameters().motion).stiffness;
+  if (!std::isfinite(least)) {
+    candidate.why = "no passive user can make a wall of any stiffness oscillate there";
+    return candidate;
+  }
+  candidate.stiffness = least;
+  candidate.fits = !loop.stiffness || *loop.stiffness >= of_user_limit * least;
+  candidate.why = fmt::format("some passive user can make walls from {} on oscillate there", quantity(least, unit));
+  return candidate;
+}
+
+std::optional<OscillationCandidate> quantisation_candidate(const ObservedLoop& loop) {
+  const DeviceParameters& parameters = loop.device.parameters();
+  const double step = parameters.sensor.resolution;
+  if (!(step > 0.0) || !loop.stiffness || !(*loop.stiffness > 0.0)) return std::nullopt;
+  OscillationCandidate candidate;
+  candidate.cause = OscillationCause::quantisation;
+  if (!is_stable(loop.device)) {
+    candidate.why = "the loop is unstable without the encoder's steps";
+    return candidate;
+  }
+  const double period = loop.device.loop().sampling_period;
+  const FilteredPlant open = filtered_plant(filtered_plant(loop.device), {controller(parameters.wall, period)});
+  const CriticalStiffness scaled = critical_stiffness(open);
+  const Crossover* nearest = nullptr;
+  for (const Crossover& each : scaled.crossovers) {
+    if (each.stiffness <= 1.0 || each.frequency <= 0.0) continue;
+    if (nearest == nullptr || apart(each.frequency, loop.frequency) < apart(nearest->frequency, loop.frequency)) {
+      nearest = &each;
+    }
+  }
+  if (nearest == nullptr) {
+    candidate.why = "the loop has no phase crossover above its gain for the steps to swing at";
+    return candidate;
+  }
+  candidate.frequency = nearest->frequency;
+  candidate.limited_by = nearest->limited_by;
+  candidate.amplitude = 2.0 * step / (pi * nearest->stiffness);
+  double friction = 0.0;
+  for (const Body& body : loop.device.bodies()) friction += body.coulomb;
+  const double relay =
+      0.5 * step *
+      std::abs(*loop.stiffness + damper_response(virtual_damper(loop.device), period, nearest->frequency));
+  const Units units = units_of(parameters.motion);
+  if (friction >= relay) {
+    candidate.why = fmt::format("friction of {} holds against half a step's force of {}",
+                                quantity(friction, units.force), quantity(relay, units.force));
+    return candidate;
+  }
+  if (loop.amplitude && *loop.amplitude > counts_of_quantisation * step) {
+    candidate.why = fmt::format("it swings by {}, far more than a step of {}", quantity(*loop.amplitude, units.length),
+                                quantity(step, units.length));
+    return candidate;
+  }
+  // Steps far from a sine swing far from the crossover, but not by more than a step or two.
+  candidate.fits = loop.amplitude || apart(nearest->frequency, loop.frequency) <= near_harmonic;
+  candidate.why = fmt::format("at rest between two steps the encoder is a relay: a cycle at the phase crossover {}",
+                              hertz_text(nearest->frequency));
+  return candidate;
+}
+
+std::optional<OscillationCandidate> friction_candidate(const ObservedLoop& loop) {
+  const bool rubs =
+      std::ranges::any_of(loop.device.bodies(), [](const Body& body) { return body.coulomb > 0.0; });
+  if (!rubs || !loop.stiffness) return std::nullopt;
+  OscillationCandidate candidate;
+  candidate.cause = OscillationCause::friction;
+  if (!is_stable(loop.device)) {
+    candidate.why = "the loop is unstable without friction";
+    return candidate;
+  }
+  double sliding = 0.0;
+  std::optional<double> best;
+  for (const double share : friction_shares(loop.device)) {
+    if (is_stable(with_friction_as_damping(loop.device, share))) {
+      sliding = share;
+      continue;
+    }
+    if (sliding < 0.0) continue;  // unstable over a whole range: its lower end is the cycle that holds itself
+    double low = sliding;
+    double high = share;
+    for (int i = 0; i < bisections; ++i) {
+      const double middle = low > 0.0 ? std::sqrt(low * high) : 0.5 * high;
+      (is_stable(with_friction_as_damping(loop.device, middle)) ? low : high) = middle;
+    }
+    const double frequency = critical_pole_frequency(with_friction_as_damping(loop.device, high));
+    if (frequency > 0.0 && (!best || apart(frequency, loop.frequency) < apart(candidate.frequency, loop.frequency))) {
+      best = high;
+      candidate.frequency = frequency;
+    }
+    sliding = -1.0;
+  }
+  if (!best) {
+    candidate.why = "friction that holds a body still leaves the loop stable";
+    return candidate;
+  }
+  candidate.amplitude = friction_amplitude(with_friction_as_damping(loop.device, *best), *best, candidate.frequency);
+  const double share = loop.amplitude.value_or(*candidate.amplitude) / *candidate.amplitude;
+  if (share > most_of_amplitude || share < least_of_amplitude) {
+    const std::string_view unit = units_of(loop.device.parameters().motion).length;
+    candidate.why = fmt::format("its cycle at {} would swing by {}, not by {}", hertz_text(candidate.frequency),
+                                quantity(*candidate.amplitude, unit), quantity(*loop.amplitude, unit));
+    return candidate;
+  }
+  candidate.fits = apart(candidate.frequency, loop.frequency) <= near_harmonic;
+  candidate.why = fmt::format(
+      "the loop is stable while its bodies slide and unstable where friction holds them: a cycle at about {}",
+      hertz_text(candidate.frequency));
+  return candidate;
+}
+
+}  // namespace zwidth::internal

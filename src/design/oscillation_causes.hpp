@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "zwidth/design/diagnosis.hpp"
+
+namespace zwidth::internal {
+
+// The device with B in its wall, and K where it is known; without its uncertainty.
+struct ObservedLoop {
+  Device device;
+  double frequency = 0.0;  // observed, rad/s
+  std::optional<double> amplitude;
+  std::optional<double> stiffness;
+};
+
+[[nodiscard]] bool is_held(const Device& device);
+[[nodiscard]] Device without_operator(const Device& device);
+
+// Whether the loop is stable at its K, by eigenvalues.
+[[nodiscard]] bool is_stable(const Device& device);
+
+// The device with the first harmonic of its Coulomb friction at that share: body.damping + share * body.coulomb.
+[[nodiscard]] Device with_friction_as_damping(const Device& device, double share);
+
+// Of the linear loop with or without the operator.
+[[nodiscard]] OscillationCandidate linear_candidate(const ObservedLoop& loop, OscillationCause cause,
+                                                    const Device& device);
+[[nodiscard]] OscillationCandidate user_candidate(const ObservedLoop& loop);
+// Absent without an encoder, or where K is not known.
+[[nodiscard]] std::optional<OscillationCandidate> quantisation_candidate(const ObservedLoop& loop);
+// Absent without friction, or where K is not known.
+[[nodiscard]] std::optional<OscillationCandidate> friction_candidate(const ObservedLoop& loop);
+
+// Shares of friction as damping from sliding to sticking, relative to the device's own damping or spring.
+[[nodiscard]] std::vector<double> friction_shares(const Device& device);
+
+}  // namespace zwidth::internal

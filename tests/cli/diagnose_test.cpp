@@ -1,0 +1,58 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "cli/workspace.hpp"
+
+namespace zwidth::cli {
+namespace {
+
+using ::testing::HasSubstr;
+
+class Diagnose : public Workspace {
+ protected:
+  [[nodiscard]] nlohmann::json answer(const std::string& command) {
+    const Outcome outcome = run(command);
+    EXPECT_EQ(outcome.status, 0) << outcome.errors;
+    return nlohmann::json::parse(outcome.output);
+  }
+};
+
+TEST_F(Diagnose, GivesCauseAndChangesAsJsonAndText) {
+  const std::string command = "zwidth diagnose devices/lhifam.toml --oscillates-hz 6.3 --stiffness 9500";
+  const auto json = answer(command + " --json");
+  EXPECT_EQ(json["schema"], "zwidth.diagnosis/1");
+  EXPECT_EQ(json["cause"], "device");
+  EXPECT_EQ(json["stiffness"], 9500.0);
+  EXPECT_EQ(json["candidates"][0]["limited_by"]["kind"], "rigid_body");
+  EXPECT_FALSE(json["changes"].empty());
+  const Outcome text = run(command);
+  EXPECT_THAT(text.output, HasSubstr("the device itself"));
+  EXPECT_THAT(text.output, HasSubstr("What moves it"));
+}
+
+// A simulated run, recorded, tells frequency and amplitude.
+TEST_F(Diagnose, ReadsTheFrequencyFromARecording) {
+  const Outcome simulated =
+      run("zwidth simulate devices/lhifam.toml --set wall.stiffness=9200 --duration 4 --csv run.csv");
+  ASSERT_EQ(simulated.status, 0) << simulated.errors;
+  const Outcome columns = run("zwidth diagnose devices/lhifam.toml --recording run.csv --list");
+  ASSERT_EQ(columns.status, 0) << columns.errors;
+  const auto json = answer(
+      "zwidth diagnose devices/lhifam.toml --recording run.csv --position measured --stiffness 9200 --json");
+  EXPECT_EQ(json["cause"], "device");
+  EXPECT_NEAR(json["oscillates_hz"].get<double>(), 6.25, 0.15);
+  EXPECT_GT(json["amplitude"].get<double>(), 1e-4);
+}
+
+TEST_F(Diagnose, RefusesWhatItCannotMean) {
+  expect_refusal("zwidth diagnose devices/lhifam.toml", "--oscillates-hz: give the frequency");
+  expect_refusal("zwidth diagnose devices/lhifam.toml --oscillates-hz 600", "--oscillates-hz: devices/lhifam.toml: is 600");
+  expect_refusal("zwidth diagnose devices/lhifam.toml --oscillates-hz 6 --position 2", "--position: is about a recording");
+  expect_refusal("zwidth diagnose devices/lhifam.toml --oscillates-hz 6 --stiffness -1", "--stiffness: devices/lhifam.toml");
+}
+
+}  // namespace
+}  // namespace zwidth::cli

@@ -1,0 +1,92 @@
+#include "zwidth/design/diagnosis.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "lhifam.hpp"
+#include "zwidth/error.hpp"
+#include "zwidth/stability/any_user.hpp"
+
+namespace zwidth {
+namespace {
+
+using std::numbers::pi;
+
+// theory, section 2: K_CR = 8848.7 at 38.6 rad/s; any user: 5776 at 260 rad/s.
+const Device& lhifam() {
+  static const Device device(test::lhifam_parameters());
+  return device;
+}
+
+TEST(Diagnosis, NamesTheDeviceItself) {
+  const Diagnosis diagnosis = diagnose(lhifam(), {.frequency = 39.5, .stiffness = 9200.0});
+  EXPECT_EQ(diagnosis.cause, OscillationCause::device);
+  EXPECT_EQ(diagnosis.candidates.front().limited_by->kind, Mechanism::Kind::rigid_body);
+  EXPECT_NEAR(*diagnosis.candidates.front().stiffness, 8848.70869499712, 1e-6);
+}
+
+TEST(Diagnosis, NamesAUserWhereTheDeviceAloneIsStable) {
+  const Diagnosis diagnosis = diagnose(lhifam(), {.frequency = 259.9, .stiffness = 5900.0});
+  EXPECT_EQ(diagnosis.cause, OscillationCause::passive_user);
+  EXPECT_NEAR(*diagnosis.candidates.front().stiffness, 5776.09, 0.1);
+}
+
+TEST(Diagnosis, NamesNothingWhereNothingFits) {
+  // Softer than any user's limit, no encoder, no friction.
+  const Diagnosis diagnosis = diagnose(lhifam(), {.frequency = 259.9, .stiffness = 5000.0});
+  EXPECT_FALSE(diagnosis.cause);
+  EXPECT_TRUE(diagnosis.changes.empty());
+  for (const OscillationCandidate& each : diagnosis.candidates) {
+    EXPECT_FALSE(each.fits);
+    EXPECT_FALSE(each.why.empty());
+  }
+}
+
+TEST(Diagnosis, ChangesAreWhatTheLibraryComputes) {
+  const Diagnosis diagnosis = diagnose(lhifam(), {.frequency = 259.9, .stiffness = 5900.0});
+  const auto damped = std::ranges::find(diagnosis.changes, "body.*.damping", &DiagnosisChange::key);
+  ASSERT_NE(damped, diagnosis.changes.end());
+  DeviceParameters parameters = test::lhifam_parameters();
+  for (Body& body : parameters.bodies) body.damping *= 1.2;
+  EXPECT_DOUBLE_EQ(*damped->limit_then, any_user_limit(Device(parameters)).stiffness);
+  EXPECT_EQ(*damped->ends_it, *damped->limit_then > 5900.0);
+  EXPECT_TRUE(std::ranges::is_sorted(diagnosis.changes, std::greater<>(),
+                                     [](const DiagnosisChange& each) { return *each.limit_then; }));
+}
+
+TEST(Diagnosis, WithoutAStiffnessACrossoverIsNamedAndWhatComesFirst) {
+  const Diagnosis diagnosis = diagnose(lhifam(), {.frequency = 618.0});
+  ASSERT_TRUE(diagnosis.cause);
+  EXPECT_EQ(diagnosis.cause, OscillationCause::device);
+  EXPECT_EQ(diagnosis.candidates.front().limited_by->mode, 1);
+  EXPECT_NE(diagnosis.candidates.front().why.find("already oscillate"), std::string::npos);
+  EXPECT_FALSE(diagnosis.remarks.empty());
+}
+
+TEST(Diagnosis, ADoubtfulDeviceIsDoubtfulAndARefusedOneHoldsNothing) {
+  DeviceParameters parameters = test::lhifam_parameters();
+  parameters.uncertainty.emplace();
+  parameters.uncertainty->warning = "a guess";
+  EXPECT_EQ(diagnose(Device(parameters), {.frequency = 39.5, .stiffness = 9200.0}).trust.verdict,
+            Trust::Verdict::doubtful);
+  parameters.uncertainty->verdict = Trust::Verdict::refused;
+  const Diagnosis refused = diagnose(Device(parameters), {.frequency = 39.5, .stiffness = 9200.0});
+  EXPECT_TRUE(refused.trust.refused());
+  EXPECT_TRUE(refused.candidates.empty());
+  EXPECT_FALSE(refused.cause);
+}
+
+TEST(Diagnosis, NamesTheMemberOutsideItsRange) {
+  EXPECT_EQ(find_problem(DiagnosisOptions{.frequency = 0.0}, lhifam())->member, "frequency");
+  EXPECT_EQ(find_problem(DiagnosisOptions{.frequency = 1.01e3 * pi}, lhifam())->member, "frequency");
+  EXPECT_EQ(find_problem(DiagnosisOptions{.frequency = 10.0, .amplitude = -1.0}, lhifam())->member, "amplitude");
+  EXPECT_EQ(find_problem(DiagnosisOptions{.frequency = 10.0, .stiffness = 0.0}, lhifam())->member, "stiffness");
+  EXPECT_EQ(find_problem(DiagnosisOptions{.frequency = 10.0, .damping = -1.0}, lhifam())->member, "damping");
+  EXPECT_THROW(static_cast<void>(diagnose(lhifam(), {})), Error);
+}
+
+}  // namespace
+}  // namespace zwidth
