@@ -10,6 +10,7 @@
 #include "cli/outputs.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
+#include "report/text/text_medium.hpp"
 #include "report/text/trust_text.hpp"
 #include "report/text/wall_recommendation_text.hpp"
 #include "results/wall_recommendation_json.hpp"
@@ -98,7 +99,7 @@ void run_recommend(const CLI::App& command, const DeviceArguments& devices, cons
   });
   outputs.commit();
   write_standard_output(json ? results::line(results::wall_recommendation_json(device, options, recommendation))
-                             : report::wall_recommendation_text(device, options, recommendation));
+                             : report::for_medium(report::wall_recommendation_text(device, options, recommendation)));
 }
 
 }  // namespace zwidth::cli

@@ -99,5 +99,13 @@ TEST(Markup, EscapesWhatHtmlWouldRead) {
             "&lt;script&gt;&#39;x&#39; &amp; &quot;y&quot; &lt;/script&gt;");
 }
 
+TEST(Gnuplot, SymbolsHaveSubscriptsAndNamesStandAsTheyAre) {
+  EXPECT_EQ(gnuplot_text("motor_2, 5 kN/m^2"), "'motor_2, 5 kN/m^2' noenhanced");
+  EXPECT_EQ(gnuplot_text("K_CR (kN/m)"), "'K_{CR} (kN/m)' enhanced");
+  EXPECT_EQ(gnuplot_text("K_CR of it's a_b {c}^@&~\\"), "'K_{CR} of it''s a\\_b \\{c\\}\\^\\@\\&\\~\\\\' enhanced");
+  EXPECT_EQ(gnuplot_text("Z[H G e^(-t_d s)]"), "'Z[H G e^{-t_d s}]' enhanced");
+  EXPECT_EQ(gnuplot_text("MAX_K_CR, t_delay"), "'MAX_K_CR, t_delay' noenhanced");
+}
+
 }  // namespace
 }  // namespace zwidth::report

@@ -257,9 +257,9 @@ std::string draw(const BodeFigure& given, FigureFormat format) {
   draw_nyquist(canvas, figure, layout, layout.magnitude);
   const double centre = 0.5 * (frame_left + frame_right);
   canvas.text(centre, layout.magnitude.top - 38.0, "Frequency (Hz)", {Anchor::centre, 12.0});
-  canvas.commands(
-      fmt::format("set yrange [{}:{}]\nset ytics {}\nset ylabel 'Magnitude (dB re 1 {})' offset 0.5,0 font ',12'",
-                  magnitude.low, magnitude.high, tick_step(magnitude, 10.0, 10.0), compliance));
+  canvas.commands(fmt::format("set yrange [{}:{}]\nset ytics {}\n{}", magnitude.low, magnitude.high,
+                              tick_step(magnitude, 10.0, 10.0),
+                              y_label(fmt::format("Magnitude (dB re 1 {})", compliance))));
   canvas.plot(layout.magnitude, plots(figure, 2, "magnitudes"));
 
   Interval phase = extent(figure, &BodePoint::phase_deg);

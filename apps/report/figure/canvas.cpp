@@ -15,20 +15,21 @@ namespace {
 std::string terminal(FigureFormat format, double width, double height) {
   constexpr double px_per_inch = 96.0;
   constexpr double sharp_on_paper = 2.0;
+  // Text is drawn as it is but for symbols: gnuplot_text() says of each which.
   // Our font sizes are px; the Cairo terminals count in points.
   constexpr double point_per_px = 0.75;
   constexpr double pdf_font_scale = 0.56;  // as measured: pdfcairo scales once more
   switch (format) {
     case FigureFormat::svg:
-      return fmt::format("svg size {},{} dynamic noenhanced font 'Helvetica,13' background '#ffffff'", width, height);
+      return fmt::format("svg size {},{} dynamic enhanced font 'Helvetica,13' background '#ffffff'", width, height);
     case FigureFormat::png:
       return fmt::format(
-          "pngcairo size {0},{1} noenhanced font 'Helvetica,13' fontscale {3} linewidth {2} pointscale {2} background "
+          "pngcairo size {0},{1} enhanced font 'Helvetica,13' fontscale {3} linewidth {2} pointscale {2} background "
           "'#ffffff'",
           sharp_on_paper * width, sharp_on_paper * height, sharp_on_paper, sharp_on_paper * point_per_px);
     case FigureFormat::pdf:
       return fmt::format(
-          "pdfcairo size {}in,{}in noenhanced font 'Helvetica,13' fontscale {} linewidth 1.5 background '#ffffff'",
+          "pdfcairo size {}in,{}in enhanced font 'Helvetica,13' fontscale {} linewidth 1.5 background '#ffffff'",
           width / px_per_inch, height / px_per_inch, pdf_font_scale);
   }
   return {};
@@ -63,8 +64,11 @@ void Canvas::text(double x, double y, std::string_view content, const TextStyle&
   const std::string_view anchor = style.anchor == Anchor::left     ? "left"
                                   : style.anchor == Anchor::centre ? "center"
                                                                    : "right";
-  commands(fmt::format("set label {} at {} {} front noenhanced font ',{}' textcolor rgb '{}'", gnuplot_string(content),
-                       position(x, y), anchor, style.size, style.colour));
+  // The mode stands behind the position: gnuplot_text() has both.
+  const std::string shown = gnuplot_text(content);
+  const std::size_t mode = shown.rfind(' ');
+  commands(fmt::format("set label {} at {} {} front {} font ',{}' textcolor rgb '{}'", shown.substr(0, mode),
+                       position(x, y), anchor, shown.substr(mode + 1), style.size, style.colour));
 }
 
 void Canvas::line(double x1, double y1, double x2, double y2, const LineStyle& style) {

@@ -35,7 +35,8 @@ struct Box {
 };
 
 /// A figure under construction: a gnuplot script laid out in px from the top left corner, so that what stands where is
-/// decided here and nothing overlaps by gnuplot's own choice. Text is drawn as it is: no markup, no escapes.
+/// decided here and nothing overlaps by gnuplot's own choice. Text is drawn as it is, but symbols such as K_CR have their
+/// subscripts: no markup, no escapes.
 class Canvas {
  public:
   Canvas(std::string title, double width, double height);

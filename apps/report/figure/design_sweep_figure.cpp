@@ -26,6 +26,12 @@ constexpr std::size_t most_cells = 240;  // of the map, each way
 
 constexpr LineStyle limit_style{"#1a1a1a", 3.4, "1"};  // in the legend; drawn in its mechanism's colour
 constexpr LineStyle jump_style{"#1a1a1a", 1.0, "(2,3)"};
+constexpr LineStyle branch_edge{"#1a1a1a", 1.3, "1"};
+/// Of a map: even steps are seen as even, and stay so in grey (viridis, Smith and van der Walt).
+constexpr std::string_view even_colours =
+    "0 '#440154', 1 '#482878', 2 '#3e4989', 3 '#31688e', 4 '#26828e', 5 '#1f9e89', 6 '#35b779', 7 '#6ece58', 8 "
+    "'#b5de2b', "
+    "9 '#fde725'";
 constexpr LineStyle any_user_style{"#15803d", 1.8, "(8,5)"};
 constexpr std::array<std::string_view, 6> colours = {"#0b4f9e", "#c2410c", "#7e22ce", "#0e7490", "#a16207", "#9d174d"};
 
@@ -44,6 +50,21 @@ std::string axis_title(const SweepAxis& axis, Motion motion) {
 }
 
 bool is_logarithmic(const SweepAxis& axis) { return axis.spacing == SweepAxis::Spacing::logarithmic; }
+
+/// How far apart two crossovers at neighbouring points are; at Nyquist both or none.
+double distance(const Crossover& a, const Crossover& b) {
+  if (a.frequency == b.frequency) return 0.0;
+  if (a.frequency == 0.0 || b.frequency == 0.0 || (a.poles_leaving > 0) != (b.poles_leaving > 0) ||
+      std::abs(a.poles_leaving) != std::abs(b.poles_leaving)) {
+    return std::numeric_limits<double>::infinity();
+  }
+  return std::abs(std::log(a.frequency / b.frequency)) + 0.1 * std::abs(std::log(a.stiffness / b.stiffness));
+}
+
+/// Whether the limits of two neighbouring points are one branch.
+bool goes_on(const SweepPoint& here, const SweepPoint& next) {
+  return here.limit && next.limit && distance(*here.limit, *next.limit) < same_branch;
+}
 
 class CurveFigure {
  public:
@@ -144,16 +165,6 @@ class CurveFigure {
     return {low / room_below, high * room_above};
   }
 
-  /// How far apart two crossovers at neighbouring points are; at Nyquist both or none.
-  [[nodiscard]] double distance(const Crossover& a, const Crossover& b) const {
-    if (a.frequency == b.frequency) return 0.0;
-    if (a.frequency == 0.0 || b.frequency == 0.0 || (a.poles_leaving > 0) != (b.poles_leaving > 0) ||
-        std::abs(a.poles_leaving) != std::abs(b.poles_leaving)) {
-      return std::numeric_limits<double>::infinity();
-    }
-    return std::abs(std::log(a.frequency / b.frequency)) + 0.1 * std::abs(std::log(a.stiffness / b.stiffness));
-  }
-
   [[nodiscard]] const Crossover* nearest(const Crossover& to, const std::vector<Crossover>& among) const {
     const Crossover* best = nullptr;
     for (const Crossover& each : among) {
@@ -185,18 +196,11 @@ class CurveFigure {
     return rows;
   }
 
-  /// Whether the limit at a point and the next is one branch.
-  [[nodiscard]] bool goes_on(std::size_t i) const {
-    const SweepPoint& here = sweep_.points[i];
-    const SweepPoint& next = sweep_.points[i + 1];
-    return here.limit && next.limit && distance(*here.limit, *next.limit) < same_branch;
-  }
-
   [[nodiscard]] std::string limits(int mode) const {
     std::string rows;
     for (std::size_t i = 0; i + 1 < sweep_.points.size(); ++i) {
       const SweepPoint& here = sweep_.points[i];
-      if (!goes_on(i) || here.limit->limited_by.mode != mode) continue;
+      if (!goes_on(here, sweep_.points[i + 1]) || here.limit->limited_by.mode != mode) continue;
       rows += segment(i, here.stiffness, sweep_.points[i + 1].stiffness);
     }
     return rows;
@@ -208,7 +212,7 @@ class CurveFigure {
     for (std::size_t i = 0; i + 1 < sweep_.points.size(); ++i) {
       const SweepPoint& here = sweep_.points[i];
       const SweepPoint& next = sweep_.points[i + 1];
-      if (here.limit && next.limit && !goes_on(i)) rows += segment(i, here.stiffness, next.stiffness);
+      if (here.limit && next.limit && !goes_on(here, next)) rows += segment(i, here.stiffness, next.stiffness);
     }
     return rows;
   }
@@ -242,7 +246,12 @@ class MapFigure {
         units_{parameter_axis_unit(sweep_.axes[0], motion_), parameter_axis_unit(sweep_.axes[1], motion_)} {}
 
   [[nodiscard]] std::string draw(FigureFormat format) const {
-    const Heading heading(title_, {});
+    const std::vector<std::size_t> first = thinned(sweep_.values[0].size());
+    const std::vector<std::size_t> second = thinned(sweep_.values[1].size());
+    const std::string jumps = edges_between_branches(first, second);
+    std::vector<LegendEntry> legend;
+    if (!jumps.empty()) legend.push_back({"another crossover limits beyond this line: K_CR may jump", branch_edge});
+    const Heading heading(title_, legend);
     const double top = heading.bottom() + 26.0;
     const Box frame{frame_left, 760.0, top, top + frame_height};
     Canvas canvas(title_, canvas_width, frame.bottom + 62.0);
@@ -250,11 +259,9 @@ class MapFigure {
     double low = std::numeric_limits<double>::infinity();
     double high = 0.0;
     std::string rows;
-    const std::vector<std::size_t> first = thinned(sweep_.values[0].size());
-    const std::vector<std::size_t> second = thinned(sweep_.values[1].size());
     for (const std::size_t j : second) {
       for (const std::size_t i : first) {
-        const SweepPoint& point = sweep_.points[i * sweep_.values[1].size() + j];
+        const SweepPoint& point = point_at(i, j);
         const bool drawn = point.limit.has_value();
         if (drawn) low = std::min(low, point.stiffness), high = std::max(high, point.stiffness);
         fmt::format_to(std::back_inserter(rows), "{:.9g} {:.9g} {}\n", place(0, i), place(1, j),
@@ -269,17 +276,23 @@ class MapFigure {
     data_block(canvas, "map", rows);
     canvas.commands(fmt::format(
         "{}\nunset grid\nunset logscale\n{}{}set xrange [{:.9g}:{:.9g}]\nset yrange [{:.9g}:{:.9g}]\n{}\n"
-        "set palette defined (0 '#30123b', 1 '#3e9bfe', 2 '#46f884', 3 '#e1dd37', 4 '#f05b12', 5 '#7a0403')\n"
+        "set palette defined ({}) maxcolors 0\n"
         "set colorbox user origin screen {:.5f},{:.5f} size screen 0.02,{:.5f}\n{}set cbrange [{:.9g}:{:.9g}]\n"
         "set format cb '%g'",
         axes_look(), tics("x", 0), tics("y", 1), edges(0).first, edges(0).second, edges(1).first, edges(1).second,
-        y_label(axis_title(sweep_.axes[1], motion_)), 780.0 / canvas_width, 62.0 / (frame.bottom + 62.0),
+        y_label(axis_title(sweep_.axes[1], motion_)), even_colours, 780.0 / canvas_width, 62.0 / (frame.bottom + 62.0),
         frame_height / (frame.bottom + 62.0), high > 10.0 * low ? "set logscale cb\n" : "", low,
         high > low ? high : 1.001 * low));
     x_label(canvas, frame, axis_title(sweep_.axes[0], motion_));
     canvas.text(772.0, frame.top - 10.0, fmt::format("K_CR ({}{})", stiffness.prefix, units_of(motion_).stiffness),
                 {Anchor::left, 12.0});
-    canvas.plot(frame, fmt::format("$map using 1:2:($3/{:g}) with image notitle", stiffness.size));
+    std::string what = fmt::format("$map using 1:2:($3/{:g}) with image notitle", stiffness.size);
+    if (!jumps.empty()) {
+      data_block(canvas, "jumps", jumps);
+      what += fmt::format(", $jumps with lines {} notitle, $jumps with lines {} notitle",
+                          gnuplot_line({"#ffffff", 3.0, "1"}), gnuplot_line(branch_edge));
+    }
+    canvas.plot(frame, what);
     return canvas.draw(format);
   }
 
@@ -289,6 +302,32 @@ class MapFigure {
     std::vector<std::size_t> indices;
     for (std::size_t i = 0; i < shown; ++i) indices.push_back(i * (count - 1) / (shown - 1));
     return indices;
+  }
+
+  [[nodiscard]] const SweepPoint& point_at(std::size_t i, std::size_t j) const {
+    return sweep_.points[i * sweep_.values[1].size() + j];
+  }
+
+  /// The sides of cells across which another crossover limits.
+  [[nodiscard]] std::string edges_between_branches(const std::vector<std::size_t>& first,
+                                                   const std::vector<std::size_t>& second) const {
+    std::string rows;
+    const double width = (place(0, first.back()) - place(0, first.front())) / static_cast<double>(first.size() - 1);
+    const double height = (place(1, second.back()) - place(1, second.front())) / static_cast<double>(second.size() - 1);
+    const auto differ = [](const SweepPoint& a, const SweepPoint& b) { return a.limit && b.limit && !goes_on(a, b); };
+    const auto add = [&rows](double x1, double y1, double x2, double y2) {
+      rows += fmt::format("{:.9g} {:.9g}\n{:.9g} {:.9g}\n\n", x1, y1, x2, y2);
+    };
+    for (std::size_t i = 0; i < first.size(); ++i) {
+      for (std::size_t j = 0; j < second.size(); ++j) {
+        const SweepPoint& here = point_at(first[i], second[j]);
+        const double x = place(0, first[i]) + 0.5 * width;
+        const double y = place(1, second[j]) + 0.5 * height;
+        if (i + 1 < first.size() && differ(here, point_at(first[i + 1], second[j]))) add(x, y - height, x, y);
+        if (j + 1 < second.size() && differ(here, point_at(first[i], second[j + 1]))) add(x - width, y, x, y);
+      }
+    }
+    return rows;
   }
 
   /// Cells of an image are equal: logarithmic axes are drawn in decades.

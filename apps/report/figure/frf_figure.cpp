@@ -257,9 +257,9 @@ std::string draw_frf(const MeasuredResponse& frf, const results::FrfUnits& units
 
   draw_doubts(canvas, frf, layout, layout.magnitude);
   draw_marks(canvas, frf, layout, layout.magnitude);
-  canvas.commands(
-      fmt::format("set yrange [{}:{}]\nset ytics {}\nset ylabel 'Magnitude (dB re 1 {})' offset 0.5,0 font ',12'",
-                  magnitude.low, magnitude.high, tick_step(magnitude, 10.0, 10.0), units.compliance()));
+  canvas.commands(fmt::format("set yrange [{}:{}]\nset ytics {}\n{}", magnitude.low, magnitude.high,
+                              tick_step(magnitude, 10.0, 10.0),
+                              y_label(fmt::format("Magnitude (dB re 1 {})", units.compliance()))));
   canvas.plot(layout.magnitude, band_and_curve(2, 3, 4));
 
   const Axis phase = phase_axis(points);

@@ -3,15 +3,18 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <boost/process/child.hpp>
 #include <boost/process/cmd.hpp>
 #include <boost/process/io.hpp>
+#include <cctype>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <memory>
 #include <system_error>
 #include <thread>
+#include <utility>
 
 #include "report/output_file.hpp"
 
@@ -128,6 +131,31 @@ std::string gnuplot_string(std::string_view text) {
     quoted += byte < 0x20 || byte == 0x7f ? ' ' : character;
   }
   return quoted + "'";
+}
+
+std::string gnuplot_text(std::string_view text) {
+  constexpr std::pair<std::string_view, std::string_view> symbols[] = {
+      {"K_CR", "K_{CR}"}, {"e^(-t_d s)", "e^{-t_d s}"}, {"t_d", "t_{d}"}};
+  const auto is_of_word = [](char c) { return c == '_' || std::isalnum(static_cast<unsigned char>(c)) != 0; };
+  std::string enhanced;
+  bool has_symbol = false;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::string_view rest = text.substr(at);
+    const auto* const symbol = std::ranges::find_if(symbols, [&](const auto& each) {
+      const std::size_t end = at + each.first.size();
+      return rest.starts_with(each.first) && (at == 0 || !is_of_word(text[at - 1])) &&
+             (end >= text.size() || !is_of_word(text[end]));
+    });
+    if (symbol != std::end(symbols)) {
+      enhanced += symbol->second;
+      at += symbol->first.size();
+      has_symbol = true;
+      continue;
+    }
+    if (std::string_view("_^{}@&~\\").find(text[at]) != std::string_view::npos) enhanced += '\\';
+    enhanced += text[at++];
+  }
+  return has_symbol ? gnuplot_string(enhanced) + " enhanced" : gnuplot_string(text) + " noenhanced";
 }
 
 }  // namespace zwidth::report

@@ -17,4 +17,8 @@ namespace zwidth::report {
 /// Control characters become spaces.
 [[nodiscard]] std::string gnuplot_string(std::string_view text);
 
+/// `text` as it is drawn: the string and gnuplot's mode of it. Symbols of the texts ("K_CR", "t_d") get their subscripts;
+/// all else, such as an underscore of a name, stands as it is.
+[[nodiscard]] std::string gnuplot_text(std::string_view text);
+
 }  // namespace zwidth::report

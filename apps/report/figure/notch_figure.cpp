@@ -38,9 +38,10 @@ void draw_drift(Canvas& canvas, const Box& frame, double drift, const NotchDesig
            fmt::format("Stiffest wall ({}{})", unit.prefix, units.stiffness)));
   x_label(canvas, frame, "Shift of the modes (%)");
   const char* style = notch.over_drift.size() > 1 ? "lines" : "points pt 7";
-  canvas.plot(frame, fmt::format("$drift using 1:($2/{3}) with {0} {1} notitle, $drift using 1:($3/{3}) with {0} {2} "
-                                 "notitle",
-                                 style, gnuplot_line(without_style), gnuplot_line(with_style), unit.size));
+  const std::string with =
+      fmt::format(", $drift using 1:($3/{}) with {} {} notitle", unit.size, style, gnuplot_line(with_style));
+  canvas.plot(frame, fmt::format("$drift using 1:($2/{}) with {} {} notitle{}", unit.size, style,
+                                 gnuplot_line(without_style), notch.notch ? with : ""));
 }
 
 void draw_gain(Canvas& canvas, const Box& frame, double period, const NotchDesign& notch) {
@@ -87,7 +88,7 @@ std::string draw_notch(const Device& device, const NotchOptions& options, const 
   const double top = heading.bottom() + 26.0;
   Canvas canvas(title, canvas_width, top + 366.0);
   heading.draw(canvas);
-  draw_drift(canvas, {frame_left, 440.0, top, top + 304.0}, options.drift, notch, units);
+  draw_drift(canvas, {frame_left, notch.notch ? 440.0 : frame_right, top, top + 304.0}, options.drift, notch, units);
   if (notch.notch)
     draw_gain(canvas, {530.0, frame_right - 46.0, top, top + 304.0}, device.loop().sampling_period, notch);
   return canvas.draw(format);

@@ -89,7 +89,7 @@ std::string_view axes_look() {
 }
 
 std::string y_label(std::string_view text) {
-  return fmt::format("set ylabel {} noenhanced font ',12' offset 0.5,0", gnuplot_string(text));
+  return fmt::format("set ylabel {} font ',12' offset 0.5,0", gnuplot_text(text));
 }
 
 void x_label(Canvas& canvas, const Box& frame, std::string_view text) {

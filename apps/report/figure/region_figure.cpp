@@ -64,6 +64,10 @@ class RegionFigure {
         (frame_right - frame_left - gap * static_cast<double>(panels.size() - 1)) / static_cast<double>(panels.size());
     for (std::size_t i = 0; i < panels.size(); ++i) {
       const double left = frame_left + static_cast<double>(i) * (width + gap);
+      if (i > 0) {
+        canvas.text(left, top - 12.0, "Zoom: the corner at the origin of the panel on the left",
+                    {Anchor::left, 12.0, grey});
+      }
       draw_panel(canvas, {left, left + width, top, top + frame_height}, panels[i]);
     }
     return canvas.draw(format);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <sstream>
 #include <vector>
 
@@ -17,8 +18,8 @@
 namespace zwidth::report {
 namespace {
 
-constexpr Box positions{84.0, 876.0, 64.0, 284.0};
-constexpr Box forces{84.0, 876.0, 336.0, 516.0};
+constexpr double positions_height = 220.0;
+constexpr double forces_height = 180.0;
 constexpr double text_size = 12.0;
 constexpr double head_room = 0.06;  // of the axis
 constexpr std::string_view wall_colour = "#e8e8e8";
@@ -89,7 +90,6 @@ void draw_frame(Canvas& canvas, const Box& frame, const std::vector<Curve>& curv
     canvas.commands(rows + "EOD");
     what += fmt::format("{} with lines {}, ", name, gnuplot_line(styles[i]));
   }
-  draw_legend(canvas, frame, curves);
   canvas.commands(fmt::format("set xrange [{}:{}]\nset yrange [{}:{}]\nset ytics autofreq\n{}", time.front(),
                               std::max(time.back(), time.front() + 1e-12), axis.low / drawn.size,
                               axis.high / drawn.size,
@@ -97,14 +97,11 @@ void draw_frame(Canvas& canvas, const Box& frame, const std::vector<Curve>& curv
   canvas.plot(frame, what + "NaN notitle");
 }
 
-void shade_wall(Canvas& canvas, const Simulation& result, const Axis& axis) {
+/// How high the wall begins in the frame, in parts of it; none where it is not in the picture.
+std::optional<double> wall_surface(const Simulation& result, const Axis& axis) {
   const ControllerOptions& wall = result.loop.controller;
-  if (wall.kind != ControllerOptions::Kind::wall || wall.position >= axis.high) return;
-  const double part = std::max(0.0, (wall.position - axis.low) / (axis.high - axis.low));
-  const double surface = positions.bottom - part * (positions.bottom - positions.top);
-  canvas.rectangle({positions.left, positions.right, positions.top, surface}, wall_colour);
-  canvas.text(positions.right - 6.0, positions.top - 14.0, "shaded: inside the wall",
-              {Anchor::right, text_size, "#555555"});
+  if (wall.kind != ControllerOptions::Kind::wall || wall.position >= axis.high) return std::nullopt;
+  return std::max(0.0, (wall.position - axis.low) / (axis.high - axis.low));
 }
 
 std::vector<Curve> position_curves(const Device& device, const Simulation& result) {
@@ -121,23 +118,35 @@ std::vector<Curve> position_curves(const Device& device, const Simulation& resul
 std::string draw_simulation_figure(const Device& device, const Simulation& result, FigureFormat format) {
   const Trajectory& kept = result.trajectory;
   const Units units = units_of(device.parameters().motion);
+  const std::vector<Curve> moved = position_curves(device, result);
+  const std::optional<double> surface = wall_surface(result, axis_of(moved));
+  std::vector<LegendEntry> legend;
+  for (std::size_t i = 0; i < moved.size(); ++i) legend.push_back({moved[i].name, styles[i]});
+  if (surface) legend.push_back({"inside the wall", {wall_colour}, wall_colour});
+  const std::string title = "Simulated motion of " + display_name(device);
+  const Heading heading(title, legend);
+  const Box positions{frame_left, frame_right, heading.bottom() + 14.0, heading.bottom() + 14.0 + positions_height};
+  const Box forces{frame_left, frame_right, positions.bottom + 52.0, positions.bottom + 52.0 + forces_height};
   std::vector<std::string> lines;
   std::istringstream sentence(broken(verdict_sentence(device, result), 115, 0));
   for (std::string line; std::getline(sentence, line);) lines.push_back(line);
   const double list_top = forces.bottom + 64.0;
-  Canvas canvas("Simulation", canvas_width, list_top + row_height * static_cast<double>(lines.size()));
-  canvas.text(positions.left, 18.0, Canvas::fitted(display_name(device), 16.0, positions.right - positions.left),
-              {Anchor::left, 16.0});
+  Canvas canvas(title, canvas_width, list_top + row_height * static_cast<double>(lines.size()));
+  heading.draw(canvas);
   for (std::size_t i = 0; i < lines.size(); ++i) {
     canvas.text(positions.left, list_top + row_height * static_cast<double>(i), lines[i], {Anchor::left, text_size});
   }
   canvas.commands(axes_look());
-  const std::vector<Curve> moved = position_curves(device, result);
-  shade_wall(canvas, result, axis_of(moved));
+  if (surface) {
+    canvas.rectangle({positions.left, positions.right, positions.top,
+                      positions.bottom - *surface * (positions.bottom - positions.top)},
+                     wall_colour);
+  }
   draw_frame(canvas, positions, moved, kept.time, "Position", units.length);
   std::vector<Curve> pushed{{"commanded force", &kept.command}};
   if (result.loop.user_force.kind != UserForce::Kind::none) pushed.push_back({"user's force", &kept.user_force});
   x_label(canvas, forces, "Time (s)");
+  draw_legend(canvas, forces, pushed);
   draw_frame(canvas, forces, pushed, kept.time, "Force", units.force);
   return canvas.draw(format);
 }
