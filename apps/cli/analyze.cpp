@@ -25,7 +25,7 @@ namespace {
 
 struct AnalyzeOptions {
   DeviceArguments devices;
-  bool json = false;
+  OutputArguments output;
   std::optional<std::string> report;
   bool worst_user = false;
   bool require_stable = false;
@@ -97,7 +97,7 @@ void run_analyze(const AnalyzeOptions& options) {
   if (options.require_stable) check_walls(options, analysed);
   outputs.put("--report", [&] { return report::html_report(analysed); });
   outputs.commit();
-  if (options.json) {
+  if (options.output.json) {
     std::string lines;
     for (const report::AnalysedDevice& each : analysed)
       lines += results::line(results::analysis_json(each.device, each.analysis));
@@ -115,7 +115,7 @@ void add_analyze(CLI::App& app) {
   auto options = std::make_shared<AnalyzeOptions>();
   CLI::App* command = app.add_subcommand("analyze", "Critical stiffness, what limits it, and the margins of a wall");
   add_device_arguments(*command, options->devices, FileCount::several);
-  command->add_flag("--json", options->json, "Print one JSON document per device, one per line");
+  add_output_options(*command, options->output, {.json = "Print one JSON document per device, one per line"});
   command->add_option("--report", options->report, "Also write one self-contained page with figures")
       ->type_name("OUT.html");
   command->add_flag("--worst-user", options->worst_user,

@@ -24,8 +24,7 @@ using report::AnalysedDevice;
 struct BodeArguments {
   DeviceArguments devices;
   BodeOptions bode;
-  std::string output;
-  bool json = false;
+  OutputArguments output{.ending = Ending::figure_or_csv};
 };
 
 constexpr std::pair<std::string_view, std::string_view> options_of_bode[] = {
@@ -64,24 +63,23 @@ void check_devices(const std::vector<AnalysedDevice>& devices, bool in_one_figur
 }
 
 void run_bode(const BodeArguments& arguments) {
-  Outputs outputs;
-  outputs.add("--output", arguments.output, Ending::figure_or_csv);
+  Outputs outputs(arguments.output);
   outputs.keep(arguments.devices.files, "device file");
   const std::vector<AnalysedDevice> devices = analyze_devices(arguments.devices, limit_and_wall_only());
   for (const AnalysedDevice& each : devices) {
     if (const auto problem = find_problem(arguments.bode, each.device)) refuse(*problem, options_of_bode);
   }
   const auto bode_of = [&](const AnalysedDevice& each) { return bode(each.device, each.analysis, arguments.bode); };
-  if (!arguments.output.empty()) check_devices(devices, outputs.figure("--output").has_value());
+  if (!arguments.output.figure.empty()) check_devices(devices, outputs.figure("--output").has_value());
   outputs.put("--output", [&] { return results::bode_csv(bode_of(devices.front())); });
   outputs.draw("--output",
                [&](report::FigureFormat format) { return draw(device_bode_figure(devices, arguments.bode), format); });
   outputs.commit();
-  if (arguments.json) {
+  if (arguments.output.json) {
     std::string lines;
     for (const AnalysedDevice& each : devices) lines += results::line(results::bode_json(each.device, bode_of(each)));
     write_standard_output(lines);
-  } else if (arguments.output.empty()) {
+  } else if (arguments.output.figure.empty()) {
     write_text(crossovers_text(devices));
   }
 }
@@ -92,15 +90,15 @@ void add_bode(CLI::App& app) {
   auto arguments = std::make_shared<BodeArguments>();
   CLI::App* command = app.add_subcommand("bode", "Frequency responses with every crossover marked");
   add_device_arguments(*command, arguments->devices, FileCount::several);
-  command->add_option("-o,--output", arguments->output, "Figure (.svg, .png, .pdf) or numbers (.csv) to write")
-      ->type_name("FILE");
+  add_output_options(*command, arguments->output,
+                     {.json = "Print the numbers, one JSON document per device, one per line",
+                      .figure = "Figure (.svg, .png, .pdf) or numbers (.csv) to write"});
   command->add_option("--from", arguments->bode.from, "Lowest frequency, rad/s")->type_name("W");
   command->add_option("--to", arguments->bode.to, "Highest frequency, rad/s; Nyquist unless given")->type_name("W");
   command
       ->add_option("--points", arguments->bode.points, "Frequencies on the logarithmic axis, more where a curve bends")
       ->capture_default_str()
       ->type_name("N");
-  command->add_flag("--json", arguments->json, "Print the numbers, one JSON document per device, one per line");
   command->footer(
       "Examples:\n"
       "  zwidth bode devices/lhifam.toml\n"
@@ -109,7 +107,7 @@ void add_bode(CLI::App& app) {
       "  zwidth bode devices/lhifam.toml --set loop.delay=0.25e-3 --output lhifam.csv --points 1000");
   command->callback([arguments, command] {
     for (const char* option : {"--from", "--to", "--points"}) {
-      if (command->count(option) > 0 && arguments->output.empty() && !arguments->json) {
+      if (command->count(option) > 0 && arguments->output.figure.empty() && !arguments->output.json) {
         throw BadInput(fmt::format("{}: is for a figure or its numbers; add --output FILE or --json", option));
       }
     }

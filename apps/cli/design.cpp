@@ -17,10 +17,7 @@
 #include "cli/subcommand.hpp"
 #include "cli/sweep_argument.hpp"
 #include "report/figure/design_sweep_figure.hpp"
-#include "report/text/comparison_text.hpp"
-#include "report/text/design_target_text.hpp"
 #include "report/text/design_text.hpp"
-#include "report/text/sweep_text.hpp"
 #include "report/text/text_medium.hpp"
 #include "results/design_json.hpp"
 #include "results/design_target_json.hpp"
@@ -38,12 +35,11 @@ struct DesignArguments {
   std::vector<std::string> sweeps;
   std::string compare;
   std::vector<double> user;  // mass, damping, stiffness
-  std::string output;
+  OutputArguments output{.ending = Ending::figure_or_csv};
   NotchArguments notch;
   RecommendArguments recommend;
   std::optional<double> target;
   bool any_user = false;
-  bool json = false;
 };
 
 /// Runs work on the device of `file`; an Error of it is the work's failure.
@@ -57,13 +53,13 @@ auto worked(const std::string& file, const Work& work) {
 }
 
 void run_sensitivities(const DesignArguments& arguments) {
-  if (!arguments.output.empty())
+  if (!arguments.output.figure.empty())
     throw BadInput("--output: is for a sweep or a notch; add --sweep KEY=FIRST:LAST:COUNT or --notch");
   const std::vector<Device> devices = read_devices(arguments.devices);
   std::string text;
   for (std::size_t i = 0; i < devices.size(); ++i) {
     const Design answer = worked(arguments.devices.files[i], [&] { return design(devices[i]); });
-    if (arguments.json) {
+    if (arguments.output.json) {
       text += results::line(results::design_json(devices[i], answer));
     } else {
       text += (i > 0 ? "\n" : "") + report::for_medium(report::design_text(devices[i], answer));
@@ -92,8 +88,7 @@ void check_sweep(const Device& device, const std::vector<SweepAxis>& axes) {
 void run_sweep(const DesignArguments& arguments) {
   std::vector<SweepAxis> axes;
   for (const std::string& each : arguments.sweeps) axes.push_back(sweep_axis(each));
-  Outputs outputs;
-  outputs.add("--output", arguments.output, Ending::figure_or_csv);
+  Outputs outputs(arguments.output);
   outputs.keep(arguments.devices.files, "device file");
   const Device device = only_device(arguments, "--sweep");
   check_sweep(device, axes);
@@ -109,8 +104,8 @@ void run_sweep(const DesignArguments& arguments) {
   outputs.put("--output", [&] { return results::sweep_csv(sweep); });
   outputs.draw("--output", [&](report::FigureFormat format) { return report::draw_sweep(device, sweep, format); });
   outputs.commit();
-  write_standard_output(arguments.json ? results::line(results::sweep_json(device, sweep))
-                                       : report::for_medium(report::sweep_text(device, sweep)));
+  write_standard_output(arguments.output.json ? results::line(results::sweep_json(device, sweep))
+                                              : report::for_medium(report::sweep_text(device, sweep)));
 }
 
 std::vector<std::string> listed_values(const std::string& argument, std::size_t equals) {
@@ -128,7 +123,7 @@ std::vector<std::string> listed_values(const std::string& argument, std::size_t 
 }
 
 void run_comparison(const DesignArguments& arguments) {
-  if (!arguments.output.empty()) throw BadInput("--output: is for a sweep, not for --compare");
+  if (!arguments.output.figure.empty()) throw BadInput("--output: is for a sweep, not for --compare");
   const std::size_t equals = arguments.compare.find('=');
   std::string key = arguments.compare.substr(0, equals);
   if (equals == std::string::npos || key.empty()) {
@@ -169,12 +164,12 @@ void run_comparison(const DesignArguments& arguments) {
     }
   }
   const auto comparison = worked(arguments.devices.files.front(), [&] { return compare_designs(key, variants, user); });
-  write_standard_output(arguments.json ? results::line(results::comparison_json(comparison))
-                                       : report::for_medium(report::comparison_text(comparison)));
+  write_standard_output(arguments.output.json ? results::line(results::comparison_json(comparison))
+                                              : report::for_medium(report::comparison_text(comparison)));
 }
 
 void run_target(const DesignArguments& arguments) {
-  if (!arguments.output.empty()) throw BadInput("--output: is for a sweep, not for --target");
+  if (!arguments.output.figure.empty()) throw BadInput("--output: is for a sweep, not for --target");
   const Device device = only_device(arguments, "--target");
   DesignTargetOptions options{.stiffness = *arguments.target};
   if (arguments.any_user) options.goal = StiffnessGoal::any_user_limit;
@@ -186,13 +181,14 @@ void run_target(const DesignArguments& arguments) {
   options.progress = line.progress();
   const DesignTargets targets =
       worked(arguments.devices.files.front(), [&] { return design_targets(device, options); });
-  write_standard_output(arguments.json ? results::line(results::design_target_json(device, options, targets))
-                                       : report::for_medium(report::design_target_text(device, options, targets)));
+  write_standard_output(arguments.output.json
+                            ? results::line(results::design_target_json(device, options, targets))
+                            : report::for_medium(report::design_target_text(device, options, targets)));
 }
 
 void run_design(const CLI::App& command, const DesignArguments& arguments) {
   if (arguments.recommend.wanted) {
-    return run_recommend(command, arguments.devices, arguments.recommend, arguments.notch, arguments.json);
+    return run_recommend(command, arguments.devices, arguments.recommend, arguments.notch, arguments.output.json);
   }
   if (arguments.recommend.ripple) throw BadInput("--ripple: is for a recommendation; add --recommend");
   if (arguments.notch.wanted) {
@@ -201,7 +197,7 @@ void run_design(const CLI::App& command, const DesignArguments& arguments) {
     }
     if (arguments.devices.files.size() != 1) throw BadInput("--notch: takes one device file");
     if (arguments.target) throw BadInput("--notch: excludes --target");
-    return run_notch(arguments.devices, arguments.notch, {arguments.output, arguments.json});
+    return run_notch(arguments.devices, arguments.notch, arguments.output);
   }
   refuse_notch_options(command);
   if (!arguments.sweeps.empty()) return run_sweep(arguments);
@@ -218,12 +214,12 @@ void add_design(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "design", "What to change: slopes of every number, sweeps, targets, a notch, the wall to render");
   add_device_arguments(*command, arguments->devices, FileCount::several);
-  command->add_flag("--json", arguments->json, "Print one JSON document per answer, on one line");
+  add_output_options(*command, arguments->output,
+                     {.json = "Print one JSON document per answer, on one line",
+                      .figure = "Of a sweep: .csv; of it or of a notch: .svg, .png or .pdf"});
   CLI::Option* sweep = command->add_option("--sweep", arguments->sweeps,
                                            "Follow a number: KEY=FIRST:LAST:COUNT, or with :log; two: twice");
   sweep->type_name("KEY=A:B:N")->allow_extra_args(false);
-  command->add_option("-o,--output", arguments->output, "Of a sweep: .csv; of it or of a notch: .svg, .png or .pdf")
-      ->type_name("FILE");
   command->add_flag("--any-user", arguments->any_user,
                     "Of a sweep: also the limit over all passive users; of a target: it");
   CLI::Option* compare =

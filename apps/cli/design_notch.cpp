@@ -11,7 +11,7 @@
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
 #include "report/figure/notch_figure.hpp"
-#include "report/text/notch_text.hpp"
+#include "report/text/design_text.hpp"
 #include "report/text/text_medium.hpp"
 #include "results/design_json.hpp"
 #include "zwidth/error.hpp"
@@ -95,9 +95,7 @@ void add_notch_options(CLI::App& command, NotchArguments& arguments) {
       ->group(group);
   command.add_flag("--lower-any-user", arguments.lower_any_user, "The notch may lower the limit with any passive user")
       ->group(group);
-  command
-      .add_option("--write", arguments.write,
-                  "Write the device file with the notch and the wall in it")
+  command.add_option("--write", arguments.write, "Write the device file with the notch and the wall in it")
       ->type_name("FILE")
       ->group(group);
 }
@@ -109,7 +107,7 @@ void refuse_notch_options(const CLI::App& command) {
   }
 }
 
-void run_notch(const DeviceArguments& devices, const NotchArguments& arguments, const NotchOutput& output) {
+void run_notch(const DeviceArguments& devices, const NotchArguments& arguments, const OutputArguments& output) {
   Outputs outputs;
   outputs.add("--output", output.figure, Ending::figure);
   outputs.add("--write", arguments.write);

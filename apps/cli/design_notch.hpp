@@ -5,6 +5,7 @@
 #include <string>
 
 #include "cli/device_arguments.hpp"
+#include "cli/outputs.hpp"
 
 namespace zwidth::cli {
 
@@ -26,13 +27,7 @@ void add_notch_options(CLI::App& command, NotchArguments& arguments);
 /// Throws BadInput for options of --notch that stand without it (and without --recommend).
 void refuse_notch_options(const CLI::App& command);
 
-/// Where the answer goes beside the screen.
-struct NotchOutput {
-  std::string figure;  ///< empty: none
-  bool json = false;
-};
-
 /// Designs the notch and prints the answer. Throws BadInput and WorkFailed.
-void run_notch(const DeviceArguments& devices, const NotchArguments& arguments, const NotchOutput& output);
+void run_notch(const DeviceArguments& devices, const NotchArguments& arguments, const OutputArguments& output);
 
 }  // namespace zwidth::cli

@@ -26,9 +26,8 @@ struct ExciteArguments {
   std::string device;
   std::vector<std::string> overrides;
   bool beyond_limits = false;
-  std::string output;
-  std::string figure;
-  bool json = false;
+  std::string samples;  ///< the file
+  OutputArguments output{.figure_option = "--figure"};
 };
 
 /// Options by the member of ExcitationOptions that they set.
@@ -59,27 +58,28 @@ void check_limits(const ExciteArguments& arguments, const Excitation& excitation
 }
 
 void check(const ExciteArguments& arguments) {
-  if (arguments.json && arguments.output == "-") {
+  if (arguments.output.json && arguments.samples == "-") {
     throw BadInput("--json: standard output is taken by --output -; name a file for the samples");
   }
 }
 
 void run_excite(const ExciteArguments& arguments) {
   Outputs outputs;
-  if (arguments.output != "-") outputs.add("--output", arguments.output);
-  outputs.add("--figure", arguments.figure, Ending::figure);
+  if (arguments.samples != "-") outputs.add("--output", arguments.samples);
+  outputs.add(arguments.output);
   outputs.keep(arguments.device, "device file");
   check(arguments);
   const Excitation excitation = made_excitation(arguments);
   check_limits(arguments, excitation);
   const auto samples = [&](const report::Sink& sink) { results::write_excitation_csv(excitation, sink); };
-  const bool only_asked_for_others = arguments.output.empty() && (arguments.json || !arguments.figure.empty());
-  const bool to_standard_output = arguments.output == "-" || (arguments.output.empty() && !only_asked_for_others);
+  const bool only_asked_for_others =
+      arguments.samples.empty() && (arguments.output.json || !arguments.output.figure.empty());
+  const bool to_standard_output = arguments.samples == "-" || (arguments.samples.empty() && !only_asked_for_others);
   outputs.put("--output", samples);
   outputs.draw("--figure", [&](report::FigureFormat format) { return report::draw_excitation(excitation, format); });
   outputs.commit();
   if (to_standard_output) samples(write_standard_output);
-  if (arguments.json) {
+  if (arguments.output.json) {
     write_standard_output(results::line(results::excitation_json(excitation)));
   } else if (to_standard_output) {
     write_standard_error(report::excitation_text(excitation));
@@ -133,9 +133,10 @@ void add_excite(CLI::App& app) {
       ->needs(device);
   command->add_flag("--beyond-limits", arguments->beyond_limits, "Warn of an exceeded limit instead of failing")
       ->needs(device);
-  add("-o,--output", arguments->output, "CSV to write; else, without --figure and --json, standard output", "FILE");
-  add("--figure", arguments->figure, "Signal and power density as .svg, .png or .pdf", "FILE");
-  command->add_flag("--json", arguments->json, "Print the summary as JSON on standard output");
+  add("-o,--output", arguments->samples, "CSV to write; else, without --figure and --json, standard output", "FILE");
+  add_output_options(*command, arguments->output,
+                     {.json = "Print the summary as JSON on standard output",
+                      .figure = "Signal and power density as .svg, .png or .pdf"});
   command->footer(
       "An exceeded force limit or stroke is a failure: status 1, and nothing is written.\n"
       "\n"

@@ -21,27 +21,24 @@ namespace {
 struct FrfArguments {
   ResponseArguments response;
   results::FrfUnits units;
-  std::string csv;
-  std::string output;
-  bool json = false;
+  OutputArguments output;
   bool points = false;
 };
 
 void run_frf(const FrfArguments& arguments) {
   const RecordingArguments& recording = arguments.response.recording;
-  if (recording.list && arguments.json) throw BadInput("--json: --list prints text; leave one of them out");
+  if (recording.list && arguments.output.json) throw BadInput("--json: --list prints text; leave one of them out");
   if (recording.list) return write_text(contents_text(recording));
-  Outputs outputs;
-  outputs.add("--csv", arguments.csv);
-  outputs.add("--output", arguments.output, Ending::figure);
-  if (arguments.points && !arguments.json) throw BadInput("--points: is for JSON; add --json, or use --csv FILE");
+  Outputs outputs(arguments.output);
+  if (arguments.points && !arguments.output.json)
+    throw BadInput("--points: is for JSON; add --json, or use --csv FILE");
   outputs.keep(recording.file, "recording");
 
   const MeasuredResponse frf = measured_response(response_source(arguments.response));
   outputs.put("--csv", [&] { return results::frf_csv(frf.response); });
   outputs.draw("--output", [&](report::FigureFormat format) { return report::draw_frf(frf, arguments.units, format); });
   outputs.commit();
-  if (arguments.json) {
+  if (arguments.output.json) {
     write_warnings(frf.remarks);
     const auto content = arguments.points ? results::FrfContent::with_lines : results::FrfContent::summary;
     write_standard_output(results::line(results::frf_json(frf, arguments.units, content)));
@@ -63,10 +60,10 @@ void add_frf(CLI::App& app) {
   command->add_option("--position-unit", arguments->units.position, "Unit of the position")
       ->type_name("UNIT")
       ->capture_default_str();
-  command->add_flag("--json", arguments->json, "Print one JSON document on one line");
+  add_output_options(
+      *command, arguments->output,
+      {.csv = "Also write the lines of the response", .figure = "Also draw a figure: .svg, .png or .pdf"});
   command->add_flag("--points", arguments->points, "With --json: the lines of the response too");
-  command->add_option("--csv", arguments->csv, "Also write the lines of the response")->type_name("FILE");
-  command->add_option("-o,--output", arguments->output, "Also draw a figure: .svg, .png or .pdf")->type_name("FILE");
   command->footer(
       "Examples:\n"
       "  zwidth frf recordings/locked_chirp.csv --list\n"

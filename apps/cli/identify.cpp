@@ -37,8 +37,7 @@ struct IdentifyArguments {
   bool from_structure = false;
   bool no_hold = false;
   std::string output_device;
-  std::string figure;
-  bool json = false;
+  OutputArguments output{.figure_option = "--figure"};
   bool points = false;
 };
 
@@ -53,10 +52,10 @@ void check_method(const CLI::App& command, const IdentifyArguments& arguments) {
 /// Declares the outputs in `outputs`. Throws BadInput for what cannot be written or read together.
 void check(const IdentifyArguments& arguments, Outputs& outputs) {
   if (arguments.output_device != "-") outputs.add("--output-device", arguments.output_device);
-  outputs.add("--figure", arguments.figure, Ending::figure);
+  outputs.add(arguments.output);
   outputs.keep(arguments.response.recording.file, "recording");
   outputs.keep(arguments.structure.structure, "structure");
-  if (arguments.output_device == "-" && arguments.json) {
+  if (arguments.output_device == "-" && arguments.output.json) {
     throw BadInput("--output-device: - is standard output, which --json takes; name a file");
   }
   if (arguments.response.recording.file == "-" && arguments.structure.structure == "-") {
@@ -120,7 +119,7 @@ void run_inverse_dynamics(const IdentifyArguments& arguments, Outputs& outputs) 
   const std::string device = write_device(identified.device.parameters());
   outputs.put("--output-device", [&] { return device; });
   outputs.commit();
-  if (arguments.json) {
+  if (arguments.output.json) {
     write_standard_output(results::line(results::identification_json(identified)));
   } else if (arguments.output_device == "-") {
     write_warnings(identified.remarks);
@@ -144,7 +143,7 @@ void run_identify(const IdentifyArguments& arguments) {
   outputs.draw("--figure",
                [&](report::FigureFormat format) { return report::draw_identification(identified, format); });
   outputs.commit();
-  if (arguments.json) {
+  if (arguments.output.json) {
     const auto points = arguments.points ? results::PointsInJson::included : results::PointsInJson::left_out;
     write_standard_output(results::line(results::identification_json(identified, points)));
   } else if (arguments.output_device == "-") {
@@ -173,9 +172,9 @@ void add_identify(CLI::App& app) {
   command->add_flag("--no-hold", arguments->no_hold, "Do not hold an imperfect fit to the measured critical stiffness");
   command->add_option("--output-device", arguments->output_device, "Write the fitted device; - is standard output")
       ->type_name("FILE.toml");
-  command->add_option("--figure", arguments->figure, "Draw data, band and fit (.svg, .png, .pdf)")->type_name("FILE");
-  CLI::Option* json = command->add_flag("--json", arguments->json, "Print one JSON document on one line");
-  command->add_flag("--points", arguments->points, "Measured and fitted response in the JSON document")->needs(json);
+  add_output_options(*command, arguments->output, {.figure = "Draw data, band and fit (.svg, .png, .pdf)"});
+  command->add_flag("--points", arguments->points, "Measured and fitted response in the JSON document")
+      ->needs(command->get_option("--json"));
   command->footer(
       "Examples:\n"
       "  zwidth identify recordings/locked_chirp.csv --force force --position position \\\n"

@@ -28,6 +28,19 @@ bool same_file(const std::string& one, const std::string& other) {
 
 }  // namespace
 
+void add_output_options(CLI::App& command, OutputArguments& arguments, const OutputHelp& help) {
+  command.add_flag("--json", arguments.json, help.json);
+  if (!help.csv.empty()) command.add_option("--csv", arguments.csv, help.csv)->type_name("FILE");
+  if (help.figure.empty()) return;
+  const std::string names = arguments.figure_option == "--output" ? "-o,--output" : arguments.figure_option;
+  command.add_option(names, arguments.figure, help.figure)->type_name("FILE");
+}
+
+void Outputs::add(const OutputArguments& arguments) {
+  add("--csv", arguments.csv);
+  add(arguments.figure_option, arguments.figure, arguments.ending);
+}
+
 void Outputs::add(const std::string& option, const std::string& path, Ending ending) {
   if (path.empty()) return;
   Output output{option, path, std::nullopt};

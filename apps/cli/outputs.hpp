@@ -1,5 +1,6 @@
 #pragma once
 
+#include <CLI/App.hpp>
 #include <functional>
 #include <optional>
 #include <string>
@@ -14,10 +15,33 @@ namespace zwidth::cli {
 /// What the ending of a file name may be.
 enum class Ending { any, figure, figure_or_csv };
 
+/// Where an answer goes, as the command line says it.
+struct OutputArguments {
+  bool json = false;
+  std::string csv = {};                    ///< --csv; empty: none
+  std::string figure = {};                 ///< empty: none
+  std::string figure_option = "--output";  ///< the option that names it
+  Ending ending = Ending::figure;          ///< of that file
+};
+
+/// What the help says of each; empty: the command has no such option.
+struct OutputHelp {
+  std::string json = "Print one JSON document on one line";
+  std::string csv = {};
+  std::string figure = {};
+};
+
+/// Declares --json, --csv and the figure's option (--output is -o too); `arguments` must outlive the parsing.
+void add_output_options(CLI::App& command, OutputArguments& arguments, const OutputHelp& help);
+
 /// The files that a command writes, each asked for with an option: checked before the work, written after it, all or
 /// none of them.
 class Outputs {
  public:
+  Outputs() = default;
+  explicit Outputs(const OutputArguments& arguments) { add(arguments); }
+
+  void add(const OutputArguments& arguments);
   /// Declares an output; an empty `path` is not asked for. Throws BadInput where its ending is not allowed, or where it
   /// is the file of another output: the second would replace the first.
   void add(const std::string& option, const std::string& path, Ending ending = Ending::any);

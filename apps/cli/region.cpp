@@ -15,7 +15,6 @@
 #include "report/text/region_text.hpp"
 #include "report/text/text_medium.hpp"
 #include "report/text/trust_text.hpp"
-#include "results/region_csv.hpp"
 #include "results/region_json.hpp"
 
 namespace zwidth::cli {
@@ -23,22 +22,18 @@ namespace {
 
 struct RegionArguments {
   DeviceArguments devices;
-  std::string csv;
-  std::string output;
+  OutputArguments output;
   std::optional<std::size_t> raster;
-  bool json = false;
 };
 
 void run_region(const RegionArguments& arguments) {
-  Outputs outputs;
-  outputs.add("--csv", arguments.csv);
-  outputs.add("--output", arguments.output, Ending::figure);
+  Outputs outputs(arguments.output);
   outputs.keep(arguments.devices.files, "device file");
-  if (arguments.raster && arguments.csv.empty()) throw BadInput("--raster: is for a csv file; add --csv FILE");
+  if (arguments.raster && arguments.output.csv.empty()) throw BadInput("--raster: is for a csv file; add --csv FILE");
   const Device device = std::move(read_devices(arguments.devices).front());
   const WallRegion walls = region(device);
   if (walls.trust.refused()) {
-    if (arguments.json) write_standard_output(results::line(results::region_json(device, walls)));
+    if (arguments.output.json) write_standard_output(results::line(results::region_json(device, walls)));
     throw WorkFailed(arguments.devices.files.front() + ": " + report::verdict_text(walls.trust));
   }
   outputs.put("--csv", [&] {
@@ -46,8 +41,8 @@ void run_region(const RegionArguments& arguments) {
   });
   outputs.draw("--output", [&](report::FigureFormat format) { return report::draw_region(device, walls, format); });
   outputs.commit();
-  write_standard_output(arguments.json ? results::line(results::region_json(device, walls))
-                                       : report::for_medium(report::region_text(device, walls)));
+  write_standard_output(arguments.output.json ? results::line(results::region_json(device, walls))
+                                              : report::for_medium(report::region_text(device, walls)));
 }
 
 }  // namespace
@@ -57,12 +52,11 @@ void add_region(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("region", "Every stable wall, stiff and damped: the region in the plane of K and B");
   add_device_arguments(*command, arguments->devices, FileCount::one);
-  command->add_flag("--json", arguments->json, "Print the region as one JSON document on one line");
-  command->add_option("--csv", arguments->csv, "Also write the boundary's points")->type_name("FILE");
+  add_output_options(*command, arguments->output,
+                     {.csv = "Also write the boundary's points", .figure = "Also draw a figure: .svg, .png or .pdf"});
   command->add_option("--raster", arguments->raster, "With --csv: N x N walls, each stable or not, instead")
       ->type_name("N")
       ->check(CLI::Range(2, 2000));
-  command->add_option("-o,--output", arguments->output, "Also draw a figure: .svg, .png or .pdf")->type_name("FILE");
   command->footer(
       "Examples:\n"
       "  zwidth region devices/lhifam.toml\n"

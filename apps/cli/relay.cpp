@@ -20,7 +20,6 @@
 #include "report/figure/relay_figure.hpp"
 #include "report/text/relay_text.hpp"
 #include "report/text/text_medium.hpp"
-#include "results/relay_csv.hpp"
 #include "results/relay_json.hpp"
 
 namespace zwidth::cli {
@@ -32,9 +31,7 @@ struct RelayArguments {
   RelayOptions experiment;  ///< what needs no translation is parsed straight into it
   double delay = 0.0;       ///< s, added to the device's
   std::string motion = "linear";
-  std::string csv;
-  std::string figure;
-  bool json = false;
+  OutputArguments output{.figure_option = "--figure"};
 };
 
 constexpr const char* simulation_group = "Simulation";
@@ -104,9 +101,7 @@ std::string drawn(const RelayResult& result, report::FigureFormat format) {
 }
 
 void run_relay(const RelayArguments& arguments) {
-  Outputs outputs;
-  outputs.add("--csv", arguments.csv);
-  outputs.add("--figure", arguments.figure, Ending::figure);
+  Outputs outputs(arguments.output);
   outputs.keep(arguments.devices.files, "device file");
   outputs.keep(arguments.recording.file, "recording");
   std::optional<Device> device = delayed_device(arguments);
@@ -115,8 +110,8 @@ void run_relay(const RelayArguments& arguments) {
   outputs.put("--csv", [&] { return results::relay_csv(result); });
   outputs.draw("--figure", [&](report::FigureFormat format) { return drawn(result, format); });
   outputs.commit();
-  write_standard_output(arguments.json ? results::line(results::relay_json(result))
-                                       : report::for_medium(report::relay_text(result)));
+  write_standard_output(arguments.output.json ? results::line(results::relay_json(result))
+                                              : report::for_medium(report::relay_text(result)));
 }
 
 /// Options of what is not done would be ignored: refused instead.
@@ -172,9 +167,6 @@ void add_simulation_options(CLI::App& command, RelayArguments& arguments) {
       ->type_name("N")
       ->capture_default_str()
       ->group(simulation_group);
-  command.add_option("--csv", arguments.csv, "Also write force and position of all trials")
-      ->type_name("FILE")
-      ->group(simulation_group);
 }
 
 }  // namespace
@@ -205,9 +197,10 @@ void add_relay(CLI::App& app) {
       ->type_name("KIND")
       ->capture_default_str()
       ->check(CLI::IsMember({"linear", "rotary"}));
-  command->add_flag("--json", arguments->json, "Print one JSON document on one line");
-  command->add_option("--figure", arguments->figure, "Also draw force and position: .svg, .png or .pdf")
-      ->type_name("FILE");
+  add_output_options(*command, arguments->output,
+                     {.csv = "Also write force and position of all trials",
+                      .figure = "Also draw force and position: .svg, .png or .pdf"});
+  command->get_option("--csv")->group(simulation_group);
   add_simulation_options(*command, *arguments);
   add_recording_options(*command, arguments->recording);
   command->footer(

@@ -21,7 +21,6 @@
 #include "cli/subcommand.hpp"
 #include "report/figure/simulation_figure.hpp"
 #include "report/text/simulation_text.hpp"
-#include "results/simulation_csv.hpp"
 #include "results/simulation_json.hpp"
 #include "zwidth/error.hpp"
 
@@ -43,9 +42,7 @@ struct SimulateArguments {
   std::uint64_t seed = 1;
   double divergence = 1e3;
   std::size_t every = 1;
-  std::string csv;
-  std::string figure;
-  bool json = false;
+  OutputArguments output{.figure_option = "--figure"};
 };
 
 /// Options by the member of SimulationOptions that they set.
@@ -65,7 +62,7 @@ constexpr std::pair<std::string_view, std::string_view> options_of_simulation[] 
 };
 
 std::size_t kept_points(const SimulateArguments& arguments, double samples) {
-  if (!arguments.csv.empty()) {
+  if (!arguments.output.csv.empty()) {
     if (samples / static_cast<double>(arguments.every) > most_rows) {
       throw BadInput(fmt::format("--csv: would have {:.0f} rows; at most {:.0f}: thin them with --every N",
                                  samples / static_cast<double>(arguments.every), most_rows));
@@ -88,7 +85,7 @@ SimulationOptions options_of(const SimulateArguments& arguments, const Device& d
   options.duration = arguments.duration;
   options.divergence = arguments.divergence;
   if (const auto problem = find_problem(options, device)) refuse(*problem, options_of_simulation);
-  if (arguments.csv.empty() && arguments.figure.empty()) {
+  if (arguments.output.csv.empty() && arguments.output.figure.empty()) {
     options.keep_every = 0;
   } else {
     if (!options.duration) options.duration = default_duration(device, options);
@@ -98,9 +95,7 @@ SimulationOptions options_of(const SimulateArguments& arguments, const Device& d
 }
 
 void run_simulate(const SimulateArguments& arguments) {
-  Outputs outputs;
-  outputs.add("--csv", arguments.csv);
-  outputs.add("--figure", arguments.figure, Ending::figure);
+  Outputs outputs(arguments.output);
   outputs.keep(arguments.device.files, "device file");
   outputs.keep(arguments.motion.user_force, "recording");
   const Device device = read_devices(arguments.device).front();
@@ -118,7 +113,7 @@ void run_simulate(const SimulateArguments& arguments) {
   outputs.draw("--figure",
                [&](report::FigureFormat format) { return report::draw_simulation_figure(device, result, format); });
   outputs.commit();
-  if (arguments.json) {
+  if (arguments.output.json) {
     write_warnings(result.remarks);
     write_standard_output(results::line(results::simulation_json(device, result)));
   } else {
@@ -170,9 +165,8 @@ void add_simulate(CLI::App& app) {
       ->add_option("--divergence", arguments->divergence, "End the run as unstable this far from the start, m or rad")
       ->type_name("X")
       ->capture_default_str();
-  command->add_flag("--json", arguments->json, "Print one JSON document on one line");
-  command->add_option("--csv", arguments->csv, "Also write the motion")->type_name("FILE");
-  command->add_option("--figure", arguments->figure, "Also draw the motion: .svg, .png or .pdf")->type_name("FILE");
+  add_output_options(*command, arguments->output,
+                     {.csv = "Also write the motion", .figure = "Also draw the motion: .svg, .png or .pdf"});
   command->add_option("--every", arguments->every, "Keep every N-th sample for --csv and --figure")
       ->type_name("N")
       ->capture_default_str()
@@ -191,7 +185,7 @@ void add_simulate(CLI::App& app) {
       "  zwidth simulate devices/lhifam.toml --set wall.stiffness=9000 --figure grows.svg --csv grows.csv\n"
       "  zwidth simulate devices/lhifam.toml --set wall.stiffness=5000 --lost-samples 0.05 --jitter 2e-4");
   command->callback([arguments, command] {
-    if (command->count("--every") > 0 && arguments->csv.empty() && arguments->figure.empty()) {
+    if (command->count("--every") > 0 && arguments->output.csv.empty() && arguments->output.figure.empty()) {
       throw BadInput("--every: is for --csv and --figure; add one");
     }
     run_simulate(*arguments);

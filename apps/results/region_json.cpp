@@ -2,7 +2,10 @@
 
 #include <cmath>
 #include <optional>
+#include <string>
+#include <vector>
 
+#include "results/csv.hpp"
 #include "results/stability_json.hpp"
 #include "results/units.hpp"
 #include "results/wall_filter_json.hpp"
@@ -72,6 +75,15 @@ const char* status_of(const WallRegion& region) {
   return region.region.components.empty() ? "none_stable" : "bounded";
 }
 
+std::vector<double> middles(double largest, std::size_t count) {
+  constexpr double beyond = 1.1;
+  std::vector<double> values(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    values[i] = beyond * largest * (static_cast<double>(i) + 0.5) / static_cast<double>(count);
+  }
+  return values;
+}
+
 }  // namespace
 
 Json region_json(const Device& device, const WallRegion& walls) {
@@ -95,6 +107,31 @@ Json region_json(const Device& device, const WallRegion& walls) {
   json["trust"] = walls.trust;
   json["remarks"] = walls.remarks;
   return json;
+}
+
+std::string region_csv(const StableRegion& region) {
+  Csv csv({"component", "boundary", "stiffness", "damping", "frequency_rad_s", "mode"});
+  for (std::size_t i = 0; i < region.components.size(); ++i) {
+    for (const BoundaryArc& arc : region.components[i].outline.arcs) {
+      for (const BoundaryPoint& point : arc.points) {
+        const std::string mode = point.limited_by ? std::to_string(point.limited_by->mode) : "";
+        csv.row(i + 1, name_of(arc.kind), point.stiffness, point.damping, point.frequency, mode);
+      }
+    }
+  }
+  return csv.text();
+}
+
+std::string region_raster_csv(const WallRegion& walls, std::size_t count) {
+  Csv csv({"stiffness", "damping", "stable"});
+  if (!walls.walls || !walls.region.stiffest) return csv.text();
+  const std::vector<double> stiffnesses = middles(walls.region.stiffest->stiffness, count);
+  const std::vector<double> dampings = middles(walls.region.most_damped->damping, count);
+  const std::vector<std::uint8_t> stable = stable_on_grid(*walls.walls, stiffnesses, dampings);
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t j = 0; j < count; ++j) csv.row(stiffnesses[j], dampings[i], stable[i * count + j]);
+  }
+  return csv.text();
 }
 
 }  // namespace zwidth::results

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "results/json.hpp"
 #include "zwidth/simulation/relay.hpp"
 
@@ -16,5 +18,8 @@ NLOHMANN_JSON_SERIALIZE_ENUM(RelayResult::Source, {{RelayResult::Source::simulat
 /// The document of `relay --json`, schema zwidth.relay/1: trials, their mean, predictions, explanation, trust, remarks.
 /// What does not exist is null.
 [[nodiscard]] Json relay_json(const RelayResult& result);
+
+/// "time_s,force_1,position_1,force_2,...": the records of all trials side by side, 17 significant digits.
+[[nodiscard]] std::string relay_csv(const RelayResult& result);
 
 }  // namespace zwidth::results

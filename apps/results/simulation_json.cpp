@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "results/csv.hpp"
 #include "results/stability_json.hpp"
 #include "results/units.hpp"
 #include "results/wall_filter_json.hpp"
@@ -123,6 +124,27 @@ Json simulation_json(const Device& device, const Simulation& result) {
   json["trust"] = result.trust;
   json["remarks"] = result.remarks;
   return json;
+}
+
+std::string simulation_csv(const Device& device, const Simulation& result) {
+  const Trajectory& kept = result.trajectory;
+  Csv rows;
+  for (const char* name : {"time_s", "measured", "command", "user_force"}) rows.cell(name);
+  for (const Body& body : device.bodies()) {
+    rows.cell(body.name + ".position");
+    rows.cell(body.name + ".velocity");
+  }
+  if (!device.has_bodies()) rows.cell("position");
+  rows.end_row();
+  for (std::size_t k = 0; k < kept.time.size(); ++k) {
+    for (const auto* column : {&kept.time, &kept.measured, &kept.command, &kept.user_force}) rows.cell((*column)[k]);
+    for (std::size_t i = 0; i < kept.position.size(); ++i) {
+      rows.cell(kept.position[i][k]);
+      if (i < kept.velocity.size()) rows.cell(kept.velocity[i][k]);
+    }
+    rows.end_row();
+  }
+  return rows.text();
 }
 
 }  // namespace zwidth::results

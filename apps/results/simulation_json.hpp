@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "results/json.hpp"
 #include "zwidth/simulation/simulate.hpp"
 
@@ -22,5 +24,9 @@ NLOHMANN_JSON_SERIALIZE_ENUM(NonlinearPart, {{NonlinearPart::coulomb_friction, "
 /// The document of `simulate --json`, schema zwidth.simulation/1, keys in their documented order. What does not exist
 /// is null; NaN and infinities never appear.
 [[nodiscard]] Json simulation_json(const Device& device, const Simulation& result);
+
+/// The kept points of the run as comma-separated values with a header: time_s, measured, command, user_force, then
+/// position and velocity of every body ("handle.position"), of a transfer function its output. SI units and radians.
+[[nodiscard]] std::string simulation_csv(const Device& device, const Simulation& result);
 
 }  // namespace zwidth::results

@@ -11,7 +11,6 @@
 #include "report/figure/region_figure.hpp"
 #include "report/json_keys.hpp"
 #include "report/text/region_text.hpp"
-#include "results/region_csv.hpp"
 #include "results/region_json.hpp"
 
 namespace zwidth::report {

@@ -8,7 +8,6 @@
 #include "lhifam.hpp"
 #include "report/figure/relay_figure.hpp"
 #include "report/text/relay_text.hpp"
-#include "results/relay_csv.hpp"
 #include "results/relay_json.hpp"
 #include "zwidth/simulation/relay.hpp"
 

@@ -10,7 +10,6 @@
 #include "report/example_analyses.hpp"
 #include "report/figure/simulation_figure.hpp"
 #include "report/text/simulation_text.hpp"
-#include "results/simulation_csv.hpp"
 #include "results/simulation_json.hpp"
 
 namespace zwidth::report {

@@ -215,18 +215,6 @@ void draw_doubts(Canvas& canvas, const MeasuredResponse& frf, const Layout& layo
   }
 }
 
-/// Ticks of a logarithmic axis at 1, 2 and 5 of every decade: a measured band may span less than one.
-std::string frequency_tics(double low, double high) {
-  std::string tics;
-  for (double decade = std::pow(10.0, std::floor(std::log10(low))); decade <= high; decade *= 10.0) {
-    for (const double step : {1.0, 2.0, 5.0}) {
-      const double at = step * decade;
-      if (at >= low && at <= high) tics += fmt::format("{}{:.6g}", tics.empty() ? "" : ", ", at);
-    }
-  }
-  return tics;
-}
-
 /// A band between two columns and the curve over it.
 std::string band_and_curve(int curve, int lower, int upper) {
   return fmt::format("$lines using 1:{}:{} with filledcurves lc rgb '{}', $lines using 1:{} with lines {}", lower,
@@ -251,9 +239,9 @@ std::string draw_frf(const MeasuredResponse& frf, const results::FrfUnits& units
     canvas.text(frame_left, layout.list_top + row_height * static_cast<double>(i), list[i].text,
                 {Anchor::left, 12.0, list[i].colour});
   }
-  canvas.commands(fmt::format(
-      "{}\nset logscale x\nset xrange [{}:{}]\nset xtics ({})\nset format x ''\nset style fill solid 1.0 noborder",
-      axes_look(), layout.low_hz(), layout.high_hz(), frequency_tics(layout.low_hz(), layout.high_hz())));
+  canvas.commands(
+      fmt::format("{}\nset logscale x\nset xrange [{}:{}]\n{}\nset format x ''\nset style fill solid 1.0 noborder",
+                  axes_look(), layout.low_hz(), layout.high_hz(), frequency_ticks(layout.low_hz(), layout.high_hz())));
 
   draw_doubts(canvas, frf, layout, layout.magnitude);
   draw_marks(canvas, frf, layout, layout.magnitude);

@@ -59,16 +59,6 @@ std::vector<Row> rows(const Identification& identified) {
   return result;
 }
 
-/// Labels at 1, 2 and 5 of every decade: a measured band is often less than one.
-std::string frequency_ticks(double from, double to) {
-  std::string labels;
-  for (double decade = std::pow(10.0, std::floor(std::log10(from))); decade <= to; decade *= 10.0) {
-    for (const double step : {1.0, 2.0, 5.0})
-      labels += fmt::format("{}'{:.6g}' {:.6g}", labels.empty() ? "" : ", ", step * decade, step * decade);
-  }
-  return "set xtics (" + labels + ")";
-}
-
 std::string plots(int measured, int low, int high, int fitted) {
   return fmt::format(
       "$rows using 1:{}:{} with filledcurves lc rgb '{}', $rows using 1:{} with points pt 7 ps 0.25 lc rgb '{}', "
@@ -112,7 +102,7 @@ std::string draw_identification(const Identification& identified, const Identifi
       10.0 * std::ceil((highest + 1.0) / 10.0), y_label(fmt::format("Magnitude (dB re 1 {})", compliance))));
   canvas.plot(magnitude_frame, plots(2, 3, 4, 8));
   x_label(canvas, phase_frame, "Frequency (Hz)");
-  canvas.commands("set autoscale y\nset ytics 90\nset ylabel 'Phase (degrees)'");
+  canvas.commands("set autoscale y\nset ytics 90\nset ylabel 'Phase (degrees)'\nset format x '%g'");
   canvas.commands(frequency_ticks(data.front().hz, data.back().hz));
   canvas.plot(phase_frame, plots(5, 6, 7, 9));
   return canvas.draw(format);

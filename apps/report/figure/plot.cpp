@@ -92,6 +92,17 @@ std::string y_label(std::string_view text) {
   return fmt::format("set ylabel {} font ',12' offset 0.5,0", gnuplot_text(text));
 }
 
+std::string frequency_ticks(double low, double high) {
+  std::string ticks;
+  for (double decade = std::pow(10.0, std::floor(std::log10(low))); decade <= high; decade *= 10.0) {
+    for (const double step : {1.0, 2.0, 5.0}) {
+      const double at = step * decade;
+      if (at >= low && at <= high) ticks += fmt::format("{}{:.6g}", ticks.empty() ? "" : ", ", at);
+    }
+  }
+  return "set xtics (" + ticks + ")";
+}
+
 void x_label(Canvas& canvas, const Box& frame, std::string_view text) {
   canvas.text(0.5 * (frame.left + frame.right), frame.bottom + 42.0, text, {Anchor::centre, text_size});
 }

@@ -71,6 +71,9 @@ struct AxisUnit {
 /// `set ylabel` with the text as it is.
 [[nodiscard]] std::string y_label(std::string_view text);
 
+/// `set xtics` at 1, 2 and 5 of every decade, Hz: a measured band is often less than one.
+[[nodiscard]] std::string frequency_ticks(double low, double high);
+
 /// The text below the frame's bottom axis.
 void x_label(Canvas& canvas, const Box& frame, std::string_view text);
 

@@ -1,11 +1,10 @@
-#include "report/text/comparison_text.hpp"
-
 #include <fmt/format.h>
 
 #include <cmath>
 #include <optional>
 #include <vector>
 
+#include "report/text/design_text.hpp"
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
 #include "report/text/text_table.hpp"

@@ -1,9 +1,8 @@
-#include "report/text/design_target_text.hpp"
-
 #include <fmt/format.h>
 
 #include <cmath>
 
+#include "report/text/design_text.hpp"
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
 #include "report/text/remark_line.hpp"

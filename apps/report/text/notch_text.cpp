@@ -1,11 +1,10 @@
-#include "report/text/notch_text.hpp"
-
 #include <fmt/format.h>
 
 #include <cmath>
 #include <numbers>
 #include <vector>
 
+#include "report/text/design_text.hpp"
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
 #include "report/text/remark_line.hpp"

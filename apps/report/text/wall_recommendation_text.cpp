@@ -1,9 +1,8 @@
-#include "report/text/wall_recommendation_text.hpp"
-
 #include <fmt/format.h>
 
 #include <numbers>
 
+#include "report/text/design_text.hpp"
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
 #include "report/text/remark_line.hpp"
