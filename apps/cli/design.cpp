@@ -86,11 +86,11 @@ void check_sweep(const Device& device, const std::vector<SweepAxis>& axes) {
 }
 
 void run_sweep(const DesignArguments& arguments) {
-  std::vector<SweepAxis> axes;
-  for (const std::string& each : arguments.sweeps) axes.push_back(sweep_axis(each));
   Outputs outputs(arguments.output);
   outputs.keep(arguments.devices.files, "device file");
   const Device device = only_device(arguments, "--sweep");
+  std::vector<SweepAxis> axes;
+  for (const std::string& each : arguments.sweeps) axes.push_back(sweep_axis(each, device.parameters().motion));
   check_sweep(device, axes);
   // The figure of one parameter shows the any-user limit beside it.
   const bool is_curve = outputs.figure("--output").has_value() && axes.size() == 1;

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "cli/input_problem.hpp"
+#include "cli/option_units.hpp"
 #include "cli/subcommand.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/io/device_file.hpp"
@@ -34,6 +35,7 @@ std::vector<Device> read_devices(const DeviceArguments& arguments) {
     }
   }
   if (!problems.empty()) throw BadInput(problems);
+  for (const Device& device : devices) check_option_units(device.parameters().motion);
   return devices;
 }
 

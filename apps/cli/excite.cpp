@@ -129,7 +129,7 @@ void add_excite(CLI::App& app) {
   add("--set", arguments->overrides, "Override a key of the device file; may be repeated", "KEY=VALUE")
       ->allow_extra_args(false)
       ->needs(device);
-  add("--stroke", excitation.stroke_limit, "How far the sensed body may move from its start, m (rotary: rad)", "X")
+  add("--stroke", excitation.stroke_limit, "How far the sensed body may move from its start, m (rotary: rad)", "M")
       ->needs(device);
   command->add_flag("--beyond-limits", arguments->beyond_limits, "Warn of an exceeded limit instead of failing")
       ->needs(device);

@@ -6,23 +6,48 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
+#include "cli/subcommand.hpp"
 #include "zwidth/io/number_with_unit.hpp"
 
 namespace zwidth::cli {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, Measure>, 3> measured_values{
-    {{"S", Measure::time}, {"HZ", Measure::frequency_hz}, {"W", Measure::angular_frequency}}};
+constexpr std::array<std::pair<std::string_view, Measure>, 8> measured_values{{{"S", Measure::time},
+                                                                               {"HZ", Measure::frequency_hz},
+                                                                               {"W", Measure::angular_frequency},
+                                                                               {"M", Measure::position},
+                                                                               {"F", Measure::force},
+                                                                               {"FORCE", Measure::force},
+                                                                               {"K", Measure::stiffness},
+                                                                               {"B", Measure::damping}}};
+
+/// An option with a unit, given before the device and so its motion is known.
+struct GivenUnit {
+  std::string option;
+  std::string text;
+  Measure measure = Measure::time;
+};
+
+std::vector<GivenUnit>& given_units() {
+  static std::vector<GivenUnit> given;
+  return given;
+}
+
+std::string problem_text(const UnitProblem& problem) { return problem.what + "; " + problem.allowed; }
 
 /// A number with a unit as the number in SI units; all else as it is, for CLI11 to judge.
-std::string without_unit(const std::string& text, Measure measure) {
+std::string without_unit(const std::string& text, Measure measure, const std::string& option) {
   const bool has_unit = text.find_first_of("0123456789") != std::string::npos &&
                         text.find_first_not_of("0123456789.+-eE") != std::string::npos;
   if (!has_unit) return text;
-  const auto value = number_with_unit(text, measure, Motion::linear);  // of these, the same in rotary motion
-  if (!value) throw CLI::ValidationError(value.error().what + "; " + value.error().allowed);
-  return fmt::format("{}", *value);
+  given_units().push_back({option, text, measure});
+  const auto linear = number_with_unit(text, measure, Motion::linear);
+  if (linear) return fmt::format("{}", *linear);
+  const auto rotary = number_with_unit(text, measure, Motion::rotary);
+  if (rotary) return fmt::format("{}", *rotary);
+  throw CLI::ValidationError(problem_text(linear.error()));
 }
 
 }  // namespace
@@ -30,11 +55,21 @@ std::string without_unit(const std::string& text, Measure measure) {
 void accept_units(CLI::App& app) {
   for (CLI::App* command : app.get_subcommands({})) {
     for (CLI::Option* option : command->get_options()) {
-      for (const auto& [type, measure] : measured_values) {
-        if (option->get_type_name() != type) continue;
-        option->transform([unit = measure](const std::string& text) { return without_unit(text, unit); });
+      const std::string type = option->get_type_name();
+      for (const auto& [name, measure] : measured_values) {
+        if (type.substr(0, type.find(':')) != name) continue;
+        option->transform([unit = measure, called = option->get_name()](const std::string& text) {
+          return without_unit(text, unit, called);
+        });
       }
     }
+  }
+}
+
+void check_option_units(Motion motion) {
+  for (const GivenUnit& each : given_units()) {
+    const auto value = number_with_unit(each.text, each.measure, motion);
+    if (!value) throw BadInput(each.option + ": " + problem_text(value.error()));
   }
 }
 

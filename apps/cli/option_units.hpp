@@ -2,10 +2,15 @@
 
 #include <CLI/App.hpp>
 
+#include "zwidth/model/device.hpp"
+
 namespace zwidth::cli {
 
-/// Lets every option of the program's commands whose value is shown as S (s), HZ or W (rad/s) take a text with a unit
-/// too: --duration "300 ms", --rate "2 kHz", --from "1 Hz".
+/// Lets every option of the program's commands whose value is shown as S (s), HZ, W (rad/s), M (m or rad), F or FORCE, K
+/// (stiffness) or B (damping) take a text with a unit too: --duration "300 ms", --rate "2 kHz", --target "12 kN/m".
 void accept_units(CLI::App& app);
+
+/// Throws BadInput where an option was given in a unit of the other motion than the device's.
+void check_option_units(Motion motion);
 
 }  // namespace zwidth::cli

@@ -12,6 +12,7 @@
 
 #include "cli/device_arguments.hpp"
 #include "cli/option_refusal.hpp"
+#include "cli/option_units.hpp"
 #include "cli/outputs.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/recording_arguments.hpp"
@@ -77,6 +78,7 @@ RelayResult recorded(const RelayArguments& arguments, std::optional<Device> devi
   RelayRecordOptions options;
   options.device = std::move(device);
   options.motion = arguments.motion == "rotary" ? Motion::rotary : Motion::linear;
+  if (!options.device) check_option_units(options.motion);
   options.hysteresis = arguments.experiment.relay.hysteresis;
   options.analysis = arguments.experiment.analysis;
   if (const auto problem = find_problem(options, motion.recording.sampling_period)) {
@@ -142,7 +144,7 @@ void check_options(const CLI::App& command, const RelayArguments& arguments) {
 void add_simulation_options(CLI::App& command, RelayArguments& arguments) {
   RelayOptions& experiment = arguments.experiment;
   command.add_option("--amplitude", experiment.relay.amplitude, "Force of the relay, N or N m; needed")
-      ->type_name("N")
+      ->type_name("F")
       ->group(simulation_group);
   command.add_option("--start", experiment.start_offset, "Where all bodies start, at rest, m or rad")
       ->type_name("M")

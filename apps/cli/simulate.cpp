@@ -160,10 +160,10 @@ void add_simulate(CLI::App& app) {
       ->check(CLI::IsMember({"bilateral", "unilateral"}));
   command
       ->add_option("--wall-position", arguments->wall_position, "Where the wall begins, m or rad; it fills all beyond")
-      ->type_name("X");
+      ->type_name("M");
   command
       ->add_option("--divergence", arguments->divergence, "End the run as unstable this far from the start, m or rad")
-      ->type_name("X")
+      ->type_name("M")
       ->capture_default_str();
   add_output_options(*command, arguments->output,
                      {.csv = "Also write the motion", .figure = "Also draw the motion: .svg, .png or .pdf"});

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -111,6 +112,28 @@ std::optional<std::string> inverse_remedy(double number, const std::string& unit
 }  // namespace
 
 std::string_view si_unit(Measure measure, Motion motion) { return unit_of(measure, motion).si; }
+
+std::optional<Measure> measure_of(std::string_view key) {
+  constexpr std::pair<std::string_view, Measure> keys[] = {{"mass", Measure::mass},
+                                                           {"inertia", Measure::mass},
+                                                           {"damping", Measure::damping},
+                                                           {"stiffness", Measure::stiffness},
+                                                           {"coulomb", Measure::force},
+                                                           {"force_limit", Measure::force},
+                                                           {"resolution", Measure::position},
+                                                           {"sampling_period", Measure::time},
+                                                           {"delay", Measure::time},
+                                                           {"time_constant", Measure::time},
+                                                           {"velocity_filter_hz", Measure::frequency_hz},
+                                                           {"velocity_filter_tau", Measure::time},
+                                                           {"frequency_hz", Measure::frequency_hz},
+                                                           {"damping_ratio", Measure::ratio},
+                                                           {"depth", Measure::ratio},
+                                                           {"ratio", Measure::ratio}};
+  const std::string_view last = key.substr(key.rfind('.') + 1);  // npos + 1 is 0
+  const auto* const found = std::ranges::find(keys, last, [](const auto& each) { return each.first; });
+  return found == std::end(keys) ? std::nullopt : std::optional(found->second);
+}
 
 std::string allowed_numbers(Measure measure, Motion motion) {
   const MeasuredUnit& unit = unit_of(measure, motion);

@@ -31,6 +31,24 @@ TEST_F(UnitsOnTheCommandLine, AreTheSameNumbers) {
               "zwidth bode devices/lhifam.toml --json --from 6.283185307179586 --to 100");
   expect_same("zwidth excite --amplitude 1 --rate '0.5 kHz' --duration 500ms --json",
               "zwidth excite --amplitude 1 --rate 500 --duration 0.5 --json");
+  expect_same("zwidth design devices/lhifam.toml --json --target '12 kN/m'",
+              "zwidth design devices/lhifam.toml --json --target 12000");
+  expect_same("zwidth design devices/quanser_torsion.toml --json --sweep 'link.stiffness=0.01 N m/deg:2 N m/rad:3'",
+              "zwidth design devices/quanser_torsion.toml --json --sweep link.stiffness=0.5729577951308232:2:3");
+  expect_same(
+      "zwidth relay devices/quanser_torsion.toml --json --amplitude '500 mN m' --start '1 deg' --duration 2s",
+      "zwidth relay devices/quanser_torsion.toml --json --amplitude 0.5 --start 0.017453292519943295 --duration 2");
+}
+
+TEST_F(UnitsOnTheCommandLine, OfTheOtherMotionAreRefused) {
+  expect_refusal("zwidth design devices/lhifam.toml --target '12 N m/rad'",
+                 "--target: \"N m/rad\" is no unit of a stiffness; must be a number of N/m");
+  expect_refusal("zwidth relay devices/quanser_torsion.toml --amplitude 5N",
+                 "--amplitude: \"N\" is no unit of a torque; must be a number of N m");
+  expect_refusal("zwidth simulate devices/lhifam.toml --set wall.stiffness=5000 --wall-position '3 deg'",
+                 "--wall-position: \"deg\" is no unit of a length");
+  expect_refusal("zwidth design devices/lhifam.toml --sweep 'loop.delay=0 m:4 ms:3'",
+                 "--sweep: \"loop.delay=0 m:4 ms:3\": FIRST: \"m\" is no unit of a time");
 }
 
 TEST_F(UnitsOnTheCommandLine, OfTheWrongKindAreRefused) {

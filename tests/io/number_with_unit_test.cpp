@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "zwidth/io/device_file.hpp"
+#include "zwidth/model/parameter.hpp"
 
 namespace zwidth {
 namespace {
@@ -318,6 +319,23 @@ stiffness = 9
   ASSERT_TRUE(numbers.has_value()) << numbers.error().str();
   EXPECT_EQ(write_device(units->parameters()), write_device(numbers->parameters()));
   EXPECT_EQ(write_device(units->parameters()).find("kg"), std::string::npos);
+}
+
+TEST(NumberWithUnit, EveryNumberOfADeviceMeasuresSomething) {
+  const auto device = parse_device(
+      "[[body]]\nname = \"a b.c\"\nmass = 1\n[loop]\nsampling_period = 1e-3\n[actuator]\nforce_limit = 1\n[wall]\n"
+      "stiffness = 1\n[[wall.filter]]\ntype = \"notch\"\nfrequency_hz = 60\n[[wall.filter]]\ntype = \"lead_lag\"\n"
+      "frequency_hz = 60\nratio = 2\n",
+      "device.toml");
+  ASSERT_TRUE(device.has_value()) << device.error().str();
+  for (const std::string& key : parameter_keys(device->parameters())) {
+    const auto measure = measure_of(key);
+    ASSERT_TRUE(measure.has_value()) << key;
+    const std::string value = fmt::format("1 {}", *measure == ratio ? "count" : si_unit(*measure, linear));
+    EXPECT_EQ(number_with_unit(value, *measure, linear).value_or(0.0), 1.0) << key;
+  }
+  EXPECT_EQ(measure_of("delay"), time);
+  EXPECT_FALSE(measure_of("loop.sensed").has_value());
 }
 
 TEST(DeviceFile, ATimeConstantOfTheVelocityFilterIsBackwardEulers) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <tl/expected.hpp>
@@ -28,6 +29,9 @@ struct UnitProblem {
 
 /// The SI unit of a plain number: "N m/rad"; empty for a ratio.
 [[nodiscard]] std::string_view si_unit(Measure measure, Motion motion);
+
+/// What the number of a device's key measures: "loop.delay" a time; none of a key that is no number.
+[[nodiscard]] std::optional<Measure> measure_of(std::string_view key);
 
 /// What a text must be instead: "must be a number of N m/rad, or a text with its unit such as \"0.4 N m/deg\"".
 [[nodiscard]] std::string allowed_numbers(Measure measure, Motion motion);
