@@ -11,6 +11,7 @@
 #include "cli/progress_line.hpp"
 #include "cli/recording_arguments.hpp"
 #include "cli/remark_lines.hpp"
+#include "cli/outputs.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
 #include "report/text/diagnosis_text.hpp"
@@ -28,7 +29,7 @@ struct DiagnoseArguments {
   std::optional<double> oscillates_hz;
   DiagnosisOptions options;
   RecordingArguments recording;
-  bool json = false;
+  OutputArguments output;
 };
 
 /// Frequency and amplitude as the recording shows them.
@@ -85,9 +86,9 @@ void run_diagnose(const CLI::App& command, DiagnoseArguments arguments) {
   } catch (const Error& error) {
     throw WorkFailed(file + ": " + error.what());
   }
-  if (arguments.json) write_standard_output(results::line(results::diagnosis_json(device, options, *diagnosis)));
+  if (arguments.output.json) write_standard_output(results::line(results::diagnosis_json(device, options, *diagnosis)));
   if (diagnosis->trust.refused()) throw WorkFailed(file + ": " + report::verdict_text(diagnosis->trust));
-  if (!arguments.json) write_standard_output(report::diagnosis_text(device, options, *diagnosis));
+  if (!arguments.output.json) write_standard_output(report::diagnosis_text(device, options, *diagnosis));
 }
 
 }  // namespace
@@ -106,7 +107,7 @@ void add_diagnose(CLI::App& app) {
       ->type_name("A");
   command->add_option("--recording", arguments->recording.file, "Take frequency and amplitude from its last half")
       ->type_name("FILE");
-  command->add_flag("--json", arguments->json, "Print one JSON document on one line");
+  add_output_options(*command, arguments->output, {});
   add_recording_options(*command, arguments->recording);
   command->footer(
       "Examples:\n"
