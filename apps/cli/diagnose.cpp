@@ -8,10 +8,10 @@
 
 #include "cli/device_arguments.hpp"
 #include "cli/input_problem.hpp"
+#include "cli/outputs.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/recording_arguments.hpp"
 #include "cli/remark_lines.hpp"
-#include "cli/outputs.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
 #include "report/text/diagnosis_text.hpp"
@@ -76,9 +76,10 @@ void run_diagnose(const CLI::App& command, DiagnoseArguments arguments) {
     options.frequency = 2.0 * std::numbers::pi * *arguments.oscillates_hz;
   }
   if (const auto problem = find_problem(options, device)) {
-    throw BadInput(fmt::format("{}: {}: {}; {}", recorded && problem->member == "frequency" ? "--recording"
-                                                 : diagnose_option_of(problem->member),
-                               file, problem->what, problem->allowed));
+    throw BadInput(
+        fmt::format("{}: {}: {}; {}",
+                    recorded && problem->member == "frequency" ? "--recording" : diagnose_option_of(problem->member),
+                    file, problem->what, problem->allowed));
   }
   std::optional<Diagnosis> diagnosis;
   try {

@@ -10,7 +10,7 @@
 #include <map>
 #include <utility>
 
-#include "design/ring_tracer.hpp"
+#include "design/boundary_tracer.hpp"
 #include "stability/mechanism_at.hpp"
 #include "zwidth/error.hpp"
 
@@ -20,12 +20,12 @@ namespace {
 
 constexpr std::uintmax_t max_steps = 100;
 
-// By Green's theorem; positive where the ring runs counter-clockwise.
-double signed_area(const BoundaryRing& ring) {
-  if (ring.arcs.empty()) return 0.0;
+// By Green's theorem; positive where the boundary runs counter-clockwise.
+double signed_area(const ClosedBoundary& boundary) {
+  if (boundary.arcs.empty()) return 0.0;
   double twice = 0.0;
-  const BoundaryPoint* last = &ring.arcs.back().points.back();
-  for (const BoundaryArc& arc : ring.arcs) {
+  const BoundaryPoint* last = &boundary.arcs.back().points.back();
+  for (const BoundaryArc& arc : boundary.arcs) {
     for (const BoundaryPoint& point : arc.points) {
       twice += last->stiffness * point.damping - point.stiffness * last->damping;
       last = &point;
@@ -34,22 +34,22 @@ double signed_area(const BoundaryRing& ring) {
   return 0.5 * twice;
 }
 
-// A component has one ring; another could only be a sliver between two routes to the same curve.
+// A component has one boundary; another could only be a sliver between two routes to the same curve.
 constexpr double sliver = 1e-9;
 
-std::vector<StableComponent> components_of(std::vector<TracedRing> rings) {
+std::vector<StableComponent> components_of(std::vector<TracedBoundary> boundaries) {
   std::map<std::size_t, StableComponent> by_number;
   double largest = 0.0;
-  for (const TracedRing& traced : rings) largest = std::max(largest, signed_area(traced.ring));
-  for (TracedRing& traced : rings) {
-    const double area = signed_area(traced.ring);
+  for (const TracedBoundary& traced : boundaries) largest = std::max(largest, signed_area(traced.boundary));
+  for (TracedBoundary& traced : boundaries) {
+    const double area = signed_area(traced.boundary);
     if (std::abs(area) <= sliver * largest) continue;
     StableComponent& component = by_number[traced.component];
     if (area < 0.0 || !component.outline.arcs.empty()) {
       throw Error(ErrorCode::did_not_converge, "the outline of the stable walls does not close");
     }
     component.area = area;
-    component.outline = std::move(traced.ring);
+    component.outline = std::move(traced.boundary);
     component.from_zero = std::any_of(component.outline.arcs.begin(), component.outline.arcs.end(),
                                       [](const BoundaryArc& arc) { return arc.kind == BoundaryKind::no_stiffness; });
   }
@@ -115,7 +115,7 @@ StableRegion stable_region(const StableWalls& walls, OutlineOptions options) {
     region.critical_stiffness = undamped.front().upper.value_or(std::numeric_limits<double>::infinity());
   }
   if (!region.bounded) return region;
-  region.components = components_of(trace_rings(structure, options.deviation));
+  region.components = components_of(trace_boundaries(structure, options.deviation));
   for (const StableComponent& component : region.components) region.area += component.area;
   find_extremes(region, structure.curve, options.deviation);
   return region;

@@ -138,24 +138,24 @@ class RegionFigure {
     return fmt::format("{:.9g} {:.9g}\n", damping, stiffness);
   }
 
-  static std::string ring_rows(const BoundaryRing& ring) {
+  static std::string boundary_rows(const ClosedBoundary& boundary) {
     std::string rows;
-    for (const BoundaryArc& arc : ring.arcs) {
+    for (const BoundaryArc& arc : boundary.arcs) {
       for (const BoundaryPoint& point : arc.points) rows += row(point.damping, point.stiffness);
     }
     return rows;
   }
 
-  /// Data blocks: rings as closed outlines, `edges` as the boundary without the axes.
+  /// Data blocks: boundaries as closed outlines, `edges` as the boundary without the axes.
   void data(Canvas& canvas) const {
     const StableRegion& region = walls_.region;
     std::string outlines;
     std::string edges;
     for (const StableComponent& component : region.components) {
-      outlines += ring_rows(component.outline) + "\n";
+      outlines += boundary_rows(component.outline) + "\n";
       for (const BoundaryArc& arc : component.outline.arcs) {
         if (arc.kind == BoundaryKind::no_stiffness || arc.kind == BoundaryKind::no_damping) continue;
-        edges += ring_rows({{arc}}) + "\n";
+        edges += boundary_rows({{arc}}) + "\n";
       }
     }
     data_block(canvas, "outlines", outlines);

@@ -56,7 +56,8 @@ std::string changes_text(const Device& device, const Diagnosis& diagnosis) {
                   {{"change", "now", "then", by_amplitude ? "swing" : "limit of K", "ends it"}}};
   for (const DiagnosisChange& each : diagnosis.changes) {
     std::string effect = "-";
-    if (each.limit_then) effect = std::isfinite(*each.limit_then) ? quantity(*each.limit_then, units.stiffness) : "none";
+    if (each.limit_then)
+      effect = std::isfinite(*each.limit_then) ? quantity(*each.limit_then, units.stiffness) : "none";
     if (by_amplitude && each.amplitude_then) effect = quantity(*each.amplitude_then, units.length);
     table.rows.push_back({each.what, value_text(each, each.value_now, motion),
                           value_text(each, each.value_then, motion), effect,
@@ -78,16 +79,17 @@ std::string diagnosis_text(const Device& device, const DiagnosisOptions& options
   std::string text = shortened(display_name(device), width) + "\n";
   if (const auto note = trust_note(diagnosis.trust)) text += line("trust", *note);
   if (diagnosis.trust.refused()) return text;
-  text += line("oscillates", fmt::format("at {}{}, wall of {} and {} {}", quantity(hertz(options.frequency), "Hz"),
-                                         options.amplitude
-                                             ? fmt::format(" by {}", quantity(*options.amplitude, units.length))
-                                             : std::string(),
-                                         diagnosis.stiffness ? quantity(*diagnosis.stiffness, units.stiffness)
-                                                             : std::string("unknown stiffness"),
-                                         number(diagnosis.damping), units.damping));
+  text +=
+      line("oscillates",
+           fmt::format(
+               "at {}{}, wall of {} and {} {}", quantity(hertz(options.frequency), "Hz"),
+               options.amplitude ? fmt::format(" by {}", quantity(*options.amplitude, units.length)) : std::string(),
+               diagnosis.stiffness ? quantity(*diagnosis.stiffness, units.stiffness) : std::string("unknown stiffness"),
+               number(diagnosis.damping), units.damping));
   if (diagnosis.cause) {
     const OscillationCandidate& cause = diagnosis.candidates.front();
-    text += line("cause", fmt::format("{}{}: {}", cause_text(cause.cause), mechanism_text(cause.limited_by), cause.why));
+    text +=
+        line("cause", fmt::format("{}{}: {}", cause_text(cause.cause), mechanism_text(cause.limited_by), cause.why));
   } else {
     text += line("cause", "none fits: nothing that is modelled here oscillates there with this wall");
   }

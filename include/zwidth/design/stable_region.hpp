@@ -31,13 +31,13 @@ struct BoundaryArc {
 };
 
 /// A closed boundary, counter-clockwise in (K, B): the stable walls lie on its left.
-struct BoundaryRing {
+struct ClosedBoundary {
   std::vector<BoundaryArc> arcs;
 };
 
 /// A connected part of the stable region. It has no holes (docs/region.md).
 struct StableComponent {
-  BoundaryRing outline;
+  ClosedBoundary outline;
   double area = 0.0;       ///< in (K, B), of the polygon
   bool from_zero = false;  ///< it reaches K = 0: the wall may be softened to nothing
 };

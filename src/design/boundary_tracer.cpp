@@ -1,4 +1,4 @@
-#include "design/ring_tracer.hpp"
+#include "design/boundary_tracer.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,10 +15,10 @@ using Node = BoundaryBranch::Node;
 
 constexpr int max_depth = 16;
 
-class RingTracer {
+class BoundaryTracer {
  public:
-  RingTracer(const RegionStructure& structure, double deviation)
-      : structure_(structure), links_(structure), deviation_(deviation) {
+  BoundaryTracer(const RegionStructure& structure, double deviation)
+      : structure_(structure), adjacency_(structure), deviation_(deviation) {
     for (const RegionSlab& slab : structure.slabs) {
       for (const RegionCell& cell : slab.cells) {
         steps_left_ += 2;
@@ -27,23 +27,23 @@ class RingTracer {
     }
   }
 
-  TracedRing trace(const EdgeEnd& start, std::vector<std::vector<bool>>& visited) {
-    TracedRing traced;
-    traced.component = links_.component(start);
+  TracedBoundary trace(const EdgeEnd& start, std::vector<std::vector<bool>>& visited) {
+    TracedBoundary traced;
+    traced.component = adjacency_.component(start);
     EdgeEnd from = start;
     do {
       if (from.right) visited[from.slab][from.cell] = true;
       EdgeEnd to = from;
       to.top = !to.top;
-      add_edge(traced.ring, from, to);
-      from = links_.partner(to);
-      if (links_.damping(to) == 0.0) {
-        add(traced.ring, BoundaryKind::no_damping, {plain(to), plain(from)});
+      add_edge(traced.boundary, from, to);
+      from = adjacency_.partner(to);
+      if (adjacency_.damping(to) == 0.0) {
+        add(traced.boundary, BoundaryKind::no_damping, {plain(to), plain(from)});
       } else if (apart(place(to), place(from)) > joint) {
-        add(traced.ring, BoundaryKind::oscillation, level_points(to, from));
+        add(traced.boundary, BoundaryKind::oscillation, level_points(to, from));
       }
     } while (!(from == start) && steps_left_-- > 0);
-    close(traced.ring);
+    close(traced.boundary);
     return traced;
   }
 
@@ -60,10 +60,12 @@ class RingTracer {
     }
   }
 
-  [[nodiscard]] WallPoint place(const EdgeEnd& end) const { return {links_.point(end).stiffness, links_.damping(end)}; }
+  [[nodiscard]] WallPoint place(const EdgeEnd& end) const {
+    return {adjacency_.point(end).stiffness, adjacency_.damping(end)};
+  }
 
   [[nodiscard]] BoundaryPoint plain(const EdgeEnd& end) const {
-    return {std::max(links_.point(end).stiffness, 0.0), links_.damping(end), std::nullopt, std::nullopt};
+    return {std::max(adjacency_.point(end).stiffness, 0.0), adjacency_.damping(end), std::nullopt, std::nullopt};
   }
 
   [[nodiscard]] BoundaryPoint at_angle(const WallPoint& wall, double angle) const {
@@ -108,14 +110,14 @@ class RingTracer {
   // The curve from one end to the other.
   [[nodiscard]] std::vector<BoundaryPoint> curve_points(const EdgeEnd& from, const EdgeEnd& to) const {
     const auto node = [this](const EdgeEnd& end) {
-      const auto point = links_.point(end);
-      return Node{point.angle, {point.stiffness, links_.damping(end)}};
+      const auto point = adjacency_.point(end);
+      return Node{point.angle, {point.stiffness, adjacency_.damping(end)}};
     };
     const Node first = node(from);
     const Node last = node(to);
     // The branch's own nodes keep sharp bends from being overlooked.
     std::vector<Node> stops{first};
-    std::vector<Node> nodes = structure_.branches[links_.edge(from).branch].nodes();
+    std::vector<Node> nodes = structure_.branches[adjacency_.edge(from).branch].nodes();
     if (last.angle < first.angle) std::reverse(nodes.begin(), nodes.end());
     for (const Node& each : nodes) {
       const bool between = (each.angle - first.angle) * (each.angle - last.angle) < 0.0;
@@ -131,13 +133,13 @@ class RingTracer {
 
   // From one end to the other along a branch of constant B: the product of the loop's poles is 1 there.
   [[nodiscard]] std::vector<BoundaryPoint> level_points(const EdgeEnd& from, const EdgeEnd& to) const {
-    const double level = links_.damping(from);
+    const double level = adjacency_.damping(from);
     for (const BoundaryBranch& branch : structure_.branches) {
       const auto on_level = [&](const Node& node) { return std::abs(node.wall.damping - level) <= same_level * level; };
       const std::vector<Node>& nodes = branch.nodes();
       if (!std::all_of(nodes.begin(), nodes.end(), on_level)) continue;
-      const Node first = at_stiffness(nodes.front(), nodes.back(), links_.point(from).stiffness);
-      const Node last = at_stiffness(nodes.front(), nodes.back(), links_.point(to).stiffness);
+      const Node first = at_stiffness(nodes.front(), nodes.back(), adjacency_.point(from).stiffness);
+      const Node last = at_stiffness(nodes.front(), nodes.back(), adjacency_.point(to).stiffness);
       if (apart(first.wall, place(from)) > joint || apart(last.wall, place(to)) > joint) continue;
       return {at_angle(first.wall, first.angle), at_angle(last.wall, last.angle)};
     }
@@ -156,18 +158,18 @@ class RingTracer {
     return b;
   }
 
-  void add_edge(BoundaryRing& ring, const EdgeEnd& from, const EdgeEnd& to) const {
-    const BoundaryKind kind = links_.edge(from).kind;
+  void add_edge(ClosedBoundary& boundary, const EdgeEnd& from, const EdgeEnd& to) const {
+    const BoundaryKind kind = adjacency_.edge(from).kind;
     if (kind == BoundaryKind::oscillation) {
-      add(ring, kind, curve_points(from, to));
+      add(boundary, kind, curve_points(from, to));
     } else if (kind == BoundaryKind::no_stiffness) {
-      add(ring, kind, {plain(from), plain(to)});
+      add(boundary, kind, {plain(from), plain(to)});
     } else {
       const auto end = [this](const EdgeEnd& each) {
-        const auto point = links_.point(each);
-        return at_angle({point.stiffness, links_.damping(each)}, point.angle);
+        const auto point = adjacency_.point(each);
+        return at_angle({point.stiffness, adjacency_.damping(each)}, point.angle);
       };
-      add(ring, kind, {end(from), end(to)});
+      add(boundary, kind, {end(from), end(to)});
     }
   }
 
@@ -183,29 +185,29 @@ class RingTracer {
   }
 
   // Goes on with the last arc where the kind and the place are the same.
-  void add(BoundaryRing& ring, BoundaryKind kind, std::vector<BoundaryPoint> points) const {
-    if (!ring.arcs.empty()) join(points.front(), ring.arcs.back().points.back());
+  void add(ClosedBoundary& boundary, BoundaryKind kind, std::vector<BoundaryPoint> points) const {
+    if (!boundary.arcs.empty()) join(points.front(), boundary.arcs.back().points.back());
     if (points.size() == 2 && apart(wall(points[0]), wall(points[1])) == 0.0) return;
-    if (!ring.arcs.empty() && continues(ring.arcs.back(), kind, points.front())) {
-      auto& last = ring.arcs.back().points;
+    if (!boundary.arcs.empty() && continues(boundary.arcs.back(), kind, points.front())) {
+      auto& last = boundary.arcs.back().points;
       if (kind != BoundaryKind::oscillation) last.pop_back();
       last.insert(last.end(), points.begin() + 1, points.end());
     } else {
-      ring.arcs.push_back({kind, std::move(points)});
+      boundary.arcs.push_back({kind, std::move(points)});
     }
   }
 
   // The last arc may be the start of the first.
-  void close(BoundaryRing& ring) const {
-    if (ring.arcs.empty()) return;
-    join(ring.arcs.back().points.back(), ring.arcs.front().points.front());
-    if (ring.arcs.size() < 2) return;
-    BoundaryArc& first = ring.arcs.front();
-    BoundaryArc& last = ring.arcs.back();
+  void close(ClosedBoundary& boundary) const {
+    if (boundary.arcs.empty()) return;
+    join(boundary.arcs.back().points.back(), boundary.arcs.front().points.front());
+    if (boundary.arcs.size() < 2) return;
+    BoundaryArc& first = boundary.arcs.front();
+    BoundaryArc& last = boundary.arcs.back();
     if (!continues(last, first.kind, first.points.front())) return;
     last.points.insert(last.points.end(), first.points.begin() + 1, first.points.end());
     first = std::move(last);
-    ring.arcs.pop_back();
+    boundary.arcs.pop_back();
   }
 
   [[nodiscard]] static bool continues(const BoundaryArc& arc, BoundaryKind kind, const BoundaryPoint& point) {
@@ -223,7 +225,7 @@ class RingTracer {
   static constexpr double rounding = 1e-14;
 
   const RegionStructure& structure_;
-  RegionLinks links_;
+  CellAdjacency adjacency_;
   double deviation_;
   double stiffness_extent_ = 0.0;
   double damping_extent_ = 0.0;
@@ -232,18 +234,18 @@ class RingTracer {
 
 }  // namespace
 
-std::vector<TracedRing> trace_rings(const RegionStructure& structure, double deviation) {
-  RingTracer tracer(structure, deviation);
+std::vector<TracedBoundary> trace_boundaries(const RegionStructure& structure, double deviation) {
+  BoundaryTracer tracer(structure, deviation);
   std::vector<std::vector<bool>> visited;
   for (const RegionSlab& slab : structure.slabs) visited.emplace_back(slab.cells.size(), false);
-  std::vector<TracedRing> rings;
-  // Every ring goes up a right side somewhere.
+  std::vector<TracedBoundary> boundaries;
+  // Every boundary goes up a right side somewhere.
   for (std::size_t slab = 0; slab < visited.size(); ++slab) {
     for (std::size_t cell = 0; cell < visited[slab].size(); ++cell) {
-      if (!visited[slab][cell]) rings.push_back(tracer.trace({slab, cell, true, false}, visited));
+      if (!visited[slab][cell]) boundaries.push_back(tracer.trace({slab, cell, true, false}, visited));
     }
   }
-  return rings;
+  return boundaries;
 }
 
 }  // namespace zwidth::internal

@@ -1,4 +1,4 @@
-#include "design/region_links.hpp"
+#include "design/cell_adjacency.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -13,7 +13,7 @@ constexpr double usual_place = 1e-7;  // where none does: a boundary runs along 
 
 }  // namespace
 
-RegionLinks::RegionLinks(const RegionStructure& structure) : structure_(structure) {
+CellAdjacency::CellAdjacency(const RegionStructure& structure) : structure_(structure) {
   std::size_t cells = 0;
   for (const RegionSlab& slab : structure.slabs) {
     first_cell_.push_back(cells);
@@ -25,32 +25,32 @@ RegionLinks::RegionLinks(const RegionStructure& structure) : structure_(structur
   for (std::size_t slab = 0; slab <= structure.slabs.size(); ++slab) link_bottom_of(slab);
 }
 
-const RegionEdge& RegionLinks::edge(const EdgeEnd& end) const {
+const RegionEdge& CellAdjacency::edge(const EdgeEnd& end) const {
   const RegionCell& cell = structure_.slabs[end.slab].cells[end.cell];
   return end.right ? *cell.right : cell.left;
 }
 
-double RegionLinks::damping(const EdgeEnd& end) const {
+double CellAdjacency::damping(const EdgeEnd& end) const {
   const RegionSlab& slab = structure_.slabs[end.slab];
   return end.top ? slab.upper : slab.lower;
 }
 
-RegionStructure::EdgePoint RegionLinks::point(const EdgeEnd& end) const {
+RegionStructure::EdgePoint CellAdjacency::point(const EdgeEnd& end) const {
   return structure_.edge_at(edge(end), damping(end));
 }
 
-std::size_t RegionLinks::root(std::size_t cell) const {
+std::size_t CellAdjacency::root(std::size_t cell) const {
   while (parents_[cell] != cell) cell = parents_[cell];
   return cell;
 }
 
-void RegionLinks::pair(const EdgeEnd& a, const EdgeEnd& b) {
+void CellAdjacency::pair(const EdgeEnd& a, const EdgeEnd& b) {
   partners_[index(a)] = b;
   partners_[index(b)] = a;
 }
 
 // The ends at one level: of the slab that begins there and of the one that ends there.
-std::vector<RegionLinks::Placed> RegionLinks::ends_at_bottom_of(std::size_t slab) const {
+std::vector<CellAdjacency::Placed> CellAdjacency::ends_at_bottom_of(std::size_t slab) const {
   std::vector<Placed> ends;
   const auto add = [&](std::size_t of, bool top) {
     for (std::size_t cell = 0; cell < structure_.slabs[of].cells.size(); ++cell) {
@@ -67,7 +67,7 @@ std::vector<RegionLinks::Placed> RegionLinks::ends_at_bottom_of(std::size_t slab
 
 // Numbers ends that are in the same place, which `ends` by rising K is sorted into, right sides first; answers those
 // that stay open where a cell that is born or dies in one place closes on itself.
-std::vector<RegionLinks::Placed> RegionLinks::open_ends(std::vector<Placed>& ends, double tolerance) {
+std::vector<CellAdjacency::Placed> CellAdjacency::open_ends(std::vector<Placed>& ends, double tolerance) {
   std::sort(ends.begin(), ends.end(), [](const Placed& a, const Placed& b) { return a.stiffness < b.stiffness; });
   for (std::size_t i = 1; i < ends.size(); ++i) {
     ends[i].cluster = ends[i - 1].cluster + (ends[i].stiffness - ends[i - 1].stiffness > tolerance ? 1 : 0);
@@ -91,7 +91,7 @@ std::vector<RegionLinks::Placed> RegionLinks::open_ends(std::vector<Placed>& end
 // as its neighbour by rising K. Where more than two meet, a cell that is born or dies there closes on itself, and of
 // the others right sides go on as right sides. Where a boundary runs along the level its ends are left over: they are
 // joined along it.
-void RegionLinks::link_bottom_of(std::size_t slab) {
+void CellAdjacency::link_bottom_of(std::size_t slab) {
   std::vector<Placed> ends = ends_at_bottom_of(slab);
   if (ends.empty()) return;
   const double damping = this->damping(ends.front().end);
@@ -133,7 +133,7 @@ void RegionLinks::link_bottom_of(std::size_t slab) {
 }
 
 // Cells that share more than an end are connected.
-void RegionLinks::join(std::size_t upper_slab, double tolerance) {
+void CellAdjacency::join(std::size_t upper_slab, double tolerance) {
   const auto range = [this](std::size_t slab, std::size_t cell, bool top) {
     return std::pair{point({slab, cell, false, top}).stiffness, point({slab, cell, true, top}).stiffness};
   };

@@ -16,10 +16,10 @@ struct EdgeEnd {
   friend bool operator==(const EdgeEnd&, const EdgeEnd&) = default;
 };
 
-// How the cells of neighbouring slabs join into rings and components. No cell may be unbounded.
-class RegionLinks {
+// How the cells of neighbouring slabs join into boundaries and components. No cell may be unbounded.
+class CellAdjacency {
  public:
-  explicit RegionLinks(const RegionStructure& structure);
+  explicit CellAdjacency(const RegionStructure& structure);
 
   // The end that the boundary goes on with.
   [[nodiscard]] const EdgeEnd& partner(const EdgeEnd& end) const { return partners_[index(end)]; }
