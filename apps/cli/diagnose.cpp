@@ -104,7 +104,7 @@ void add_diagnose(CLI::App& app) {
   command->add_option("--damping", arguments->options.damping, "B of the wall; else the file's")->type_name("B");
   command
       ->add_option("--amplitude", arguments->options.amplitude,
-                   "Of the sensed position, m or rad: tells the encoder's steps from a user")
+                   "Of the sensed position, m or rad: tells encoder steps from a user")
       ->type_name("A");
   command->add_option("--recording", arguments->recording.file, "Take frequency and amplitude from its last half")
       ->type_name("FILE");
