@@ -20,10 +20,10 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double of_a_user = 0.05;        // |ln f| that a user's grasp counts as: it fits a whole band
-constexpr double of_a_crossover = 0.25;   // of apart, where K is not known
-constexpr double of_a_step = 0.02;        // the same, of a cycle of about a step of the encoder
-constexpr double ambiguous = 0.1;         // |ln f| of two causes beside each other
+constexpr double of_a_user = 0.05;       // |ln f| that a user's grasp counts as: it fits a whole band
+constexpr double of_a_crossover = 0.25;  // of apart, where K is not known
+constexpr double of_a_step = 0.02;       // the same, of a cycle of about a step of the encoder
+constexpr double ambiguous = 0.1;        // |ln f| of two causes beside each other
 
 /// What the loop is looked at with: B, and K where it is known.
 ObservedLoop observed(const Device& device, const DiagnosisOptions& options) {
@@ -89,15 +89,17 @@ void collect(const ObservedLoop& loop, Diagnosis& diagnosis) {
 void remark_on(const ObservedLoop& loop, Diagnosis& diagnosis) {
   const std::vector<OscillationCandidate>& candidates = diagnosis.candidates;
   if (!loop.stiffness) {
-    diagnosis.remarks.push_back({Remark::Severity::note, "the stiffness of the wall is not known",
-                                 "the mechanisms are told by frequency alone; cycles of friction and of the encoder are "
-                                 "left out",
-                                 "give the stiffness and the damping of the wall"});
+    diagnosis.remarks.push_back(
+        {Remark::Severity::note, "the stiffness of the wall is not known",
+         "the mechanisms are told by frequency alone; cycles of friction and of the encoder are "
+         "left out",
+         "give the stiffness and the damping of the wall"});
   }
   if (!diagnosis.cause || candidates.size() < 2 || !candidates[1].fits) return;
   if (mismatch(candidates[1], loop) - mismatch(candidates[0], loop) > ambiguous) return;
-  diagnosis.trust.doubt("two mechanisms fit the frequency nearly as well: give the amplitude of the oscillation too, or "
-                        "let go of the device and see whether it goes on");
+  diagnosis.trust.doubt(
+      "two mechanisms fit the frequency nearly as well: give the amplitude of the oscillation too, or "
+      "let go of the device and see whether it goes on");
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ namespace {
 constexpr double more = 1.2;
 constexpr double half = 0.5;
 constexpr double finer = 0.25;
-constexpr double softer = 0.5;  // of the limit: 6 dB
+constexpr double softer = 0.5;                                                    // of the limit: 6 dB
 constexpr std::array dampers{0.5, 0.8, 1.25, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0};  // times B, or the device's damping
 constexpr std::size_t most_links = 3;
 constexpr std::size_t shares_looked_at = 4;  // every fourth share of friction

@@ -23,14 +23,14 @@ namespace {
 using std::numbers::pi;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double near = 0.15;          // |ln| of two frequencies of one linear oscillation
-constexpr double near_harmonic = 0.4;  // of one that first harmonics tell
+constexpr double near = 0.15;                   // |ln| of two frequencies of one linear oscillation
+constexpr double near_harmonic = 0.4;           // of one that first harmonics tell
 constexpr double counts_of_quantisation = 3.0;  // largest amplitude, in encoder steps
 // Of a predicted amplitude. A body that hardly slips swings less than its first harmonic says.
 constexpr double most_of_amplitude = 3.0;
 constexpr double least_of_amplitude = 0.1;
-constexpr double growing = 1e-9;                // |z| - 1 of a pole that grows
-constexpr double beside_user = 0.1;             // relative, frequencies around the one observed
+constexpr double growing = 1e-9;     // |z| - 1 of a pole that grows
+constexpr double beside_user = 0.1;  // relative, frequencies around the one observed
 constexpr double of_user_limit = 0.98;
 constexpr int shares = 80;
 constexpr int bisections = 40;
@@ -121,7 +121,8 @@ std::vector<double> friction_shares(const Device& device) {
   for (const Body& body : device.bodies()) mass += body.mass, friction += body.coulomb;
   const double highest = 1e3 * mass / device.loop().sampling_period / friction;
   std::vector<double> result;
-  for (int i = 0; i < shares; ++i) result.push_back(highest * std::pow(1e-9, 1.0 - static_cast<double>(i) / (shares - 1)));
+  for (int i = 0; i < shares; ++i)
+    result.push_back(highest * std::pow(1e-9, 1.0 - static_cast<double>(i) / (shares - 1)));
   return result;
 }
 
@@ -237,8 +238,7 @@ std::optional<OscillationCandidate> quantisation_candidate(const ObservedLoop& l
   double friction = 0.0;
   for (const Body& body : loop.device.bodies()) friction += body.coulomb;
   const double relay =
-      0.5 * step *
-      std::abs(*loop.stiffness + damper_response(virtual_damper(loop.device), period, nearest->frequency));
+      0.5 * step * std::abs(*loop.stiffness + damper_response(virtual_damper(loop.device), period, nearest->frequency));
   const Units units = units_of(parameters.motion);
   if (friction >= relay) {
     candidate.why = fmt::format("friction of {} holds against half a step's force of {}",
@@ -258,16 +258,12 @@ std::optional<OscillationCandidate> quantisation_candidate(const ObservedLoop& l
 }
 
 std::optional<OscillationCandidate> friction_candidate(const ObservedLoop& loop) {
-  const bool rubs =
-      std::ranges::any_of(loop.device.bodies(), [](const Body& body) { return body.coulomb > 0.0; });
+  const bool rubs = std::ranges::any_of(loop.device.bodies(), [](const Body& body) { return body.coulomb > 0.0; });
   if (!rubs || !loop.stiffness) return std::nullopt;
   OscillationCandidate candidate;
   candidate.cause = OscillationCause::friction;
-  if (!is_stable(loop.device)) {
-    candidate.why = "the loop is unstable without friction";
-    return candidate;
-  }
-  double sliding = 0.0;
+  // A loop that is unstable even while its bodies slide may still have a small cycle on which they hardly do.
+  double sliding = is_stable(loop.device) ? 0.0 : -1.0;
   std::optional<double> best;
   for (const double share : friction_shares(loop.device)) {
     if (is_stable(with_friction_as_damping(loop.device, share))) {
@@ -289,7 +285,7 @@ std::optional<OscillationCandidate> friction_candidate(const ObservedLoop& loop)
     sliding = -1.0;
   }
   if (!best) {
-    candidate.why = "friction that holds a body still leaves the loop stable";
+    candidate.why = "friction that holds a body still makes no stable loop unstable";
     return candidate;
   }
   candidate.amplitude = friction_amplitude(with_friction_as_damping(loop.device, *best), *best, candidate.frequency);
@@ -302,7 +298,8 @@ std::optional<OscillationCandidate> friction_candidate(const ObservedLoop& loop)
   }
   candidate.fits = apart(candidate.frequency, loop.frequency) <= near_harmonic;
   candidate.why = fmt::format(
-      "the loop is stable while its bodies slide and unstable where friction holds them: a cycle at about {}",
+      "the loop is stable with its bodies sliding by this little and unstable where friction holds them: a cycle at "
+      "about {}",
       hertz_text(candidate.frequency));
   return candidate;
 }

@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t fewest_samples = 64;
 constexpr std::size_t most_samples = std::size_t{1} << 17U;
 constexpr std::size_t slowest_line = 4;
-constexpr std::size_t lobe = 3;            // lines to either side that a windowed sine fills
+constexpr std::size_t lobe = 3;              // lines to either side that a windowed sine fills
 constexpr double power_of_hann = 3.0 / 8.0;  // mean square of the window
 
 /// Least-squares straight line taken out.

@@ -40,8 +40,8 @@ TEST_F(Diagnose, ReadsTheFrequencyFromARecording) {
   ASSERT_EQ(simulated.status, 0) << simulated.errors;
   const Outcome columns = run("zwidth diagnose devices/lhifam.toml --recording run.csv --list");
   ASSERT_EQ(columns.status, 0) << columns.errors;
-  const auto json = answer(
-      "zwidth diagnose devices/lhifam.toml --recording run.csv --position measured --stiffness 9200 --json");
+  const auto json =
+      answer("zwidth diagnose devices/lhifam.toml --recording run.csv --position measured --stiffness 9200 --json");
   EXPECT_EQ(json["cause"], "device");
   EXPECT_NEAR(json["oscillates_hz"].get<double>(), 6.25, 0.15);
   EXPECT_GT(json["amplitude"].get<double>(), 1e-4);
@@ -49,9 +49,12 @@ TEST_F(Diagnose, ReadsTheFrequencyFromARecording) {
 
 TEST_F(Diagnose, RefusesWhatItCannotMean) {
   expect_refusal("zwidth diagnose devices/lhifam.toml", "--oscillates-hz: give the frequency");
-  expect_refusal("zwidth diagnose devices/lhifam.toml --oscillates-hz 600", "--oscillates-hz: devices/lhifam.toml: is 600");
-  expect_refusal("zwidth diagnose devices/lhifam.toml --oscillates-hz 6 --position 2", "--position: is about a recording");
-  expect_refusal("zwidth diagnose devices/lhifam.toml --oscillates-hz 6 --stiffness -1", "--stiffness: devices/lhifam.toml");
+  expect_refusal("zwidth diagnose devices/lhifam.toml --oscillates-hz 600",
+                 "--oscillates-hz: devices/lhifam.toml: is 600");
+  expect_refusal("zwidth diagnose devices/lhifam.toml --oscillates-hz 6 --position 2",
+                 "--position: is about a recording");
+  expect_refusal("zwidth diagnose devices/lhifam.toml --oscillates-hz 6 --stiffness -1",
+                 "--stiffness: devices/lhifam.toml");
 }
 
 }  // namespace

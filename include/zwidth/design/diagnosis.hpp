@@ -14,11 +14,11 @@ namespace zwidth {
 
 /// What may keep a device oscillating at its wall.
 enum class OscillationCause {
-  device,        ///< the loop of the device that nobody holds is unstable
-  with_operator, ///< the loop with the device's own [operator] is, that without is not
-  passive_user,  ///< some passive user's grasp makes it unstable
-  quantisation,  ///< the encoder's steps: a limit cycle of about a step
-  friction,      ///< Coulomb friction holds a body still: a limit cycle of the rest
+  device,         ///< the loop of the device that nobody holds is unstable
+  with_operator,  ///< the loop with the device's own [operator] is, that without is not
+  passive_user,   ///< some passive user's grasp makes it unstable
+  quantisation,   ///< the encoder's steps: a limit cycle of about a step
+  friction,       ///< Coulomb friction holds a body still: a limit cycle of the rest
 };
 
 struct DiagnosisOptions {
@@ -34,11 +34,11 @@ struct DiagnosisOptions {
 struct OscillationCandidate {
   OscillationCause cause = OscillationCause::device;
   bool fits = false;
-  double frequency = 0.0;                ///< rad/s, where it would oscillate, nearest to the one observed
-  std::optional<double> stiffness;       ///< K from which on it may
-  std::optional<double> amplitude;       ///< of the sensed position; of quantisation and friction
-  std::optional<Mechanism> limited_by;   ///< of a linear crossover
-  std::string why;                       ///< why it fits or not
+  double frequency = 0.0;               ///< rad/s, where it would oscillate, nearest to the one observed
+  std::optional<double> stiffness;      ///< K from which on it may
+  std::optional<double> amplitude;      ///< of the sensed position; of quantisation and friction
+  std::optional<Mechanism> limited_by;  ///< of a linear crossover
+  std::string why;                      ///< why it fits or not
 };
 
 /// One change of the device or the wall alone, recomputed.
