@@ -15,6 +15,7 @@
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
 #include "report/text/diagnosis_text.hpp"
+#include "report/text/text_medium.hpp"
 #include "report/text/trust_text.hpp"
 #include "results/diagnosis_json.hpp"
 #include "zwidth/design/diagnosis.hpp"
@@ -89,7 +90,7 @@ void run_diagnose(const CLI::App& command, DiagnoseArguments arguments) {
   }
   if (arguments.output.json) write_standard_output(results::line(results::diagnosis_json(device, options, *diagnosis)));
   if (diagnosis->trust.refused()) throw WorkFailed(file + ": " + report::verdict_text(diagnosis->trust));
-  if (!arguments.output.json) write_standard_output(report::diagnosis_text(device, options, *diagnosis));
+  if (!arguments.output.json) write_standard_output(report::for_medium(report::diagnosis_text(device, options, *diagnosis)));
 }
 
 }  // namespace
@@ -104,7 +105,7 @@ void add_diagnose(CLI::App& app) {
   command->add_option("--damping", arguments->options.damping, "B of the wall; else the file's")->type_name("B");
   command
       ->add_option("--amplitude", arguments->options.amplitude,
-                   "Of the sensed position, m or rad: tells encoder steps from a user")
+                   "Of the sensed position, m or rad: tells small causes from great")
       ->type_name("A");
   command->add_option("--recording", arguments->recording.file, "Take frequency and amplitude from its last half")
       ->type_name("FILE");

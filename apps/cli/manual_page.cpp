@@ -105,7 +105,7 @@ std::string manual_page(const std::vector<CommandDescription>& commands, const C
   for (const CommandDescription& each : commands) {
     if (each.name == command.name) continue;
     const std::string name = each.name == program.name ? each.name : program.name + "-" + each.name;
-    others.push_back(fmt::format(".BR {} (1)", escaped(name)));
+    others.push_back(fmt::format(".BR \\%{} (1)", escaped(name)));  // \%: no hyphen in it
   }
   return text + fmt::format("{}\n", fmt::join(others, ",\n"));
 }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <numbers>
 #include <span>
 #include <string>
 #include <string_view>
@@ -20,11 +21,13 @@
 #include "results/analysis_json.hpp"
 #include "results/bode_json.hpp"
 #include "results/design_json.hpp"
+#include "results/diagnosis_json.hpp"
 #include "results/excitation_json.hpp"
 #include "results/export_json.hpp"
 #include "results/region_json.hpp"
 #include "results/relay_json.hpp"
 #include "results/simulation_json.hpp"
+#include "results/wall_recommendation_json.hpp"
 #include "zwidth/io/device_file.hpp"
 
 namespace zwidth::cli {
@@ -103,6 +106,22 @@ Answer ceilings(const Device& device) {
   return {report::export_chai3d(device, wall, 0.5)};
 }
 
+/// A third of the way to Nyquist.
+double heard_hz(const Device& device) { return 1.0 / (6.0 * device.loop().sampling_period); }
+
+Answer diagnosed(const Device& device) {
+  const DiagnosisOptions options{.frequency = 2.0 * std::numbers::pi * heard_hz(device)};
+  const Diagnosis diagnosis = diagnose(device, options);
+  return {results::line(results::diagnosis_json(device, options, diagnosis)), diagnosis.trust.refused() ? 1 : 0};
+}
+
+Answer recommended(const Device& device) {
+  const RecommendationOptions options{.ripple = 0.2};
+  const WallRecommendation wall = recommend_wall(device, options);
+  return {results::line(results::wall_recommendation_json(device, options, wall)),
+          wall.status == WallRecommendation::Status::refused ? 1 : 0};
+}
+
 const std::array commands = {
     Command{"Analyze", [](const Device&) -> std::string { return "analyze FILE --json"; },
             [](const Device& device) { return json_line(results::analysis_json(device, analyze(device))); }},
@@ -120,6 +139,12 @@ const std::array commands = {
     Command{"Design", [](const Device&) -> std::string { return "design FILE --json"; },
             [](const Device& device) { return json_line(results::design_json(device, design(device))); },
             two_body_kinds},
+    Command{"Recommend", [](const Device&) -> std::string { return "design FILE --recommend --ripple 0.2 --json"; },
+            recommended, quick_kinds, of_another_format},
+    Command{
+        "Diagnose",
+        [](const Device& device) { return fmt::format("diagnose FILE --oscillates-hz {} --json", heard_hz(device)); },
+        diagnosed, quick_kinds},
     Command{"Simulate",
             [](const Device& device) {
               const SimulationOptions options = short_simulation(device);

@@ -68,6 +68,7 @@ std::size_t cases() {
 TEST(WallRecommendationProperty, RandomDevicesKeepWhatWasAsked) {
   std::size_t found = 0;
   std::size_t refused = 0;
+  std::size_t doubted = 0;
   std::size_t notches = 0;
   for (std::size_t i = 0; i < cases(); ++i) {
     RandomDevices random(seed + i);
@@ -83,6 +84,7 @@ TEST(WallRecommendationProperty, RandomDevicesKeepWhatWasAsked) {
     if (random.chance(0.3)) options.phase_margin = random.uniform(0.0, 1.0);
     const WallRecommendation answer = recommend_wall(device, options);
     if (answer.status == WallRecommendation::Status::refused) ++refused;
+    if (!answer.trust.sound()) ++doubted;
     EXPECT_EQ(answer.wall.has_value(), answer.status == WallRecommendation::Status::found);
     if (!answer.wall) {
       EXPECT_TRUE(!answer.reason.empty() || answer.trust.refused());
@@ -135,7 +137,9 @@ TEST(WallRecommendationProperty, RandomDevicesKeepWhatWasAsked) {
   RecordProperty("found", static_cast<int>(found));
   EXPECT_GT(found, cases() / 2);
   EXPECT_LE(refused, cases() / 50);
-  std::printf("%zu of %zu found, %zu refused, %zu walls with a notch\n", found, cases(), refused, notches);
+  EXPECT_LE(doubted, cases() / 10);
+  std::printf("%zu of %zu found, %zu refused, %zu not sound, %zu walls with a notch\n", found, cases(), refused,
+              doubted, notches);
 }
 
 }  // namespace

@@ -57,7 +57,7 @@ std::string changes_text(const Device& device, const Diagnosis& diagnosis) {
   for (const DiagnosisChange& each : diagnosis.changes) {
     std::string effect = "-";
     if (each.limit_then)
-      effect = std::isfinite(*each.limit_then) ? quantity(*each.limit_then, units.stiffness) : "none";
+      effect = std::isfinite(*each.limit_then) ? quantity(*each.limit_then, units.stiffness) : "no limit";
     if (by_amplitude && each.amplitude_then) effect = quantity(*each.amplitude_then, units.length);
     table.rows.push_back({each.what, value_text(each, each.value_now, motion),
                           value_text(each, each.value_then, motion), effect,
