@@ -3,13 +3,12 @@
 #include <udunits2.h>
 
 #include <algorithm>
-#include <array>
+#include <charconv>
 #include <cmath>
 #include <memory>
 #include <mutex>
+#include <new>
 #include <utility>
-
-#include "zwidth/error.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -26,31 +25,31 @@ constexpr NamedUnit units[] = {
     {"g", nullptr},
     {"s", nullptr},
     {"rad", nullptr},
-    {"kg", "1000 g"},
+    {"kg", "1000*g"},
     {"N", "kg m s^-2"},
-    {"turn", "6.283185307179586476925 rad"},
+    {"turn", "6.283185307179586476925*rad"},
     {"Hz", "turn s^-1"},
     {"meter", "m"},
     {"metre", "m"},
-    {"micron", "1e-6 m"},
-    {"in", "0.0254 m"},
-    {"inch", "0.0254 m"},
-    {"ft", "0.3048 m"},
+    {"micron", "1e-6*m"},
+    {"in", "0.0254*m"},
+    {"inch", "0.0254*m"},
+    {"ft", "0.3048*m"},
     {"gram", "g"},
     {"kilogram", "kg"},
-    {"lb", "0.45359237 kg"},
-    {"oz", "0.028349523125 kg"},
+    {"lb", "0.45359237*kg"},
+    {"oz", "0.028349523125*kg"},
     {"sec", "s"},
     {"second", "s"},
-    {"min", "60 s"},
-    {"minute", "60 s"},
+    {"min", "60*s"},
+    {"minute", "60*s"},
     {"newton", "N"},
     {"Nm", "N m"},
-    {"Nmm", "0.001 N m"},
+    {"Nmm", "0.001*N m"},
     {"Nms", "N m s"},
-    {"kgf", "9.80665 N"},
-    {"lbf", "4.4482216152605 N"},
-    {"ozf", "0.27801385095378125 N"},
+    {"kgf", "9.80665*N"},
+    {"lbf", "4.4482216152605*N"},
+    {"ozf", "0.27801385095378125*N"},
     {"radian", "rad"},
     {"deg", "turn/360"},
     {"degree", "turn/360"},
@@ -58,7 +57,7 @@ constexpr NamedUnit units[] = {
     {"arcsec", "turn/1296000"},
     {"rev", "turn"},
     {"revolution", "turn"},
-    {"rpm", "turn/60 s^-1"},
+    {"rpm", "turn/60/s"},
     {"hertz", "Hz"},
     {"count", "1"},
     {"tick", "1"},
@@ -72,13 +71,13 @@ constexpr NamedUnit units[] = {
     {"degrees", "turn/360"},
     {"radians", "rad"},
     {"seconds", "s"},
-    {"minutes", "60 s"},
+    {"minutes", "60*s"},
     {"meters", "m"},
     {"metres", "m"},
     {"newtons", "N"},
     {"grams", "g"},
     {"kilograms", "kg"},
-    {"inches", "0.0254 m"},
+    {"inches", "0.0254*m"},
 };
 
 constexpr std::pair<const char*, double> prefixes[] = {
@@ -91,8 +90,110 @@ struct FreeUnit {
 };
 using Unit = std::unique_ptr<ut_unit, FreeUnit>;
 
-/// udunits' state (its parser, status and handler of messages) is one for the whole process: one thread at a time, and
-/// messages go nowhere meanwhile.
+bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '%'; }
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// The unit of a name, with a prefix or without; null: there is none.
+Unit named_unit(ut_system* system, const std::string& name) {
+  Unit unit(ut_get_unit_by_symbol(system, name.c_str()));
+  for (const auto& [prefix, factor] : prefixes) {
+    if (unit || !name.starts_with(prefix)) continue;
+    const Unit plain(ut_get_unit_by_symbol(system, name.c_str() + std::string_view(prefix).size()));
+    if (plain) unit.reset(ut_scale(factor, plain.get()));
+  }
+  return unit;
+}
+
+/// Reads products of powers; null where the text is none. Not udunits' own parser, which takes dates, offsets and
+/// logarithms too, reads "kg cm 2" as 2 kg cm and "m^4294967297" as m, and loses memory on some errors.
+class UnitReader {
+ public:
+  UnitReader(ut_system* system, std::string_view text) : system_(system), rest_(text) {}
+
+  [[nodiscard]] Unit whole() {
+    Unit unit = product();
+    skip_spaces();
+    return rest_.empty() ? std::move(unit) : nullptr;
+  }
+
+ private:
+  bool skip_spaces() {
+    const std::size_t before = rest_.size();
+    rest_.remove_prefix(std::min(rest_.find_first_not_of(' '), rest_.size()));
+    return rest_.size() < before;
+  }
+
+  bool take(std::string_view sign) {
+    if (!rest_.starts_with(sign)) return false;
+    rest_.remove_prefix(sign.size());
+    return true;
+  }
+
+  /// Whether the text goes on with a word, which is taken.
+  bool take_word(std::string_view word) {
+    return rest_.size() > word.size() && rest_[word.size()] == ' ' && take(word);
+  }
+
+  Unit product() {
+    skip_spaces();
+    Unit all = power(true);
+    while (all) {
+      const bool has_space = skip_spaces();
+      if (rest_.empty() || rest_.front() == ')') break;
+      const bool divides = take("/") || take_word("per");
+      const bool by_sign = divides || take("*");
+      const bool multiplies = by_sign || take(".") || take("-") || has_space;
+      if (!multiplies) return nullptr;
+      skip_spaces();
+      // A number without a sign before it is a slip: "kg cm 2".
+      const Unit next = power(by_sign);
+      if (!next) return nullptr;
+      all.reset(divides ? ut_divide(all.get(), next.get()) : ut_multiply(all.get(), next.get()));
+    }
+    return all;
+  }
+
+  /// A name, a number or a product in brackets, and its power.
+  Unit power(bool may_be_number) {
+    if (rest_.empty()) return nullptr;
+    if (is_digit(rest_.front())) return may_be_number ? number() : nullptr;
+    Unit unit;
+    if (take("(")) {
+      unit = product();
+      if (!take(")")) return nullptr;
+    } else {
+      const auto end = std::ranges::find_if_not(rest_, is_letter);
+      const std::string name(rest_.begin(), end);
+      rest_.remove_prefix(name.size());
+      unit = named_unit(system_, name);
+    }
+    if (!unit) return nullptr;
+    const bool has_sign = take("^") || take("**");
+    const bool has_digit =
+        rest_.size() > 1 && rest_.front() == '-' ? is_digit(rest_[1]) : !rest_.empty() && is_digit(rest_.front());
+    if (!has_digit) return has_sign ? nullptr : std::move(unit);
+    const int sign = take("-") ? -1 : 1;
+    const int exponent = sign * (rest_.front() - '0');
+    rest_.remove_prefix(1);
+    if (!rest_.empty() && (is_digit(rest_.front()) || is_letter(rest_.front()))) return nullptr;
+    return Unit(ut_raise(unit.get(), exponent));
+  }
+
+  Unit number() {
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(rest_.data(), rest_.data() + rest_.size(), value);
+    if (error != std::errc{} || !(value > 0.0) || !std::isfinite(value)) return nullptr;
+    rest_.remove_prefix(static_cast<std::size_t>(end - rest_.data()));
+    const Unit one(ut_get_dimensionless_unit_one(system_));
+    return Unit(ut_scale(value, one.get()));
+  }
+
+  ut_system* system_;
+  std::string_view rest_;
+};
+
+/// udunits' state (status, handler of messages, what units remember) is one for the whole process: one thread at a
+/// time, and messages go nowhere meanwhile.
 class Udunits {
  public:
   Udunits() : lock_(mutex()), handler_(ut_set_error_message_handler(ut_ignore)) {}
@@ -100,7 +201,7 @@ class Udunits {
   Udunits(const Udunits&) = delete;
   Udunits& operator=(const Udunits&) = delete;
 
-  [[nodiscard]] Unit parsed(const std::string& text) const { return Unit(ut_parse(system(), text.c_str(), UT_ASCII)); }
+  [[nodiscard]] Unit parsed(std::string_view text) const { return UnitReader(system(), text).whole(); }
 
  private:
   static std::mutex& mutex() {
@@ -116,9 +217,8 @@ class Udunits {
   static ut_system* built_system() {
     ut_system* const system = ut_new_system();
     if (!system) throw std::bad_alloc();
-    for (const auto& [prefix, factor] : prefixes) ut_add_symbol_prefix(system, prefix, factor);
     for (const NamedUnit& each : units) {
-      const Unit unit(each.meaning ? ut_parse(system, each.meaning, UT_ASCII) : ut_new_base_unit(system));
+      const Unit unit = each.meaning ? UnitReader(system, each.meaning).whole() : Unit(ut_new_base_unit(system));
       if (!unit || ut_map_symbol_to_unit(each.name, UT_ASCII, unit.get()) != UT_SUCCESS) throw std::bad_alloc();
     }
     return system;
@@ -127,48 +227,6 @@ class Udunits {
   std::lock_guard<std::mutex> lock_;
   ut_error_message_handler handler_;
 };
-
-bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
-/// udunits' words for offsets, times of a calendar and logarithms: none of them is a factor.
-bool has_word_of_no_factor(std::string_view text) {
-  constexpr std::array words{"after", "from", "ref", "re", "since", "lg", "ln"};
-  std::string word;
-  for (std::size_t i = 0; i <= text.size(); ++i) {
-    if (i < text.size() && is_letter(text[i])) {
-      word += static_cast<char>(text[i] | 0x20);  // small letters: udunits takes either
-    } else {
-      if (std::ranges::count(words, word) > 0) return true;
-      word.clear();
-    }
-  }
-  return false;
-}
-
-/// Whether a whole number has more digits than udunits holds: it would read another exponent.
-bool has_long_number(std::string_view text) {
-  constexpr std::size_t most_digits = 9;
-  for (std::size_t begin = 0; begin < text.size();) {
-    std::size_t end = begin;
-    while (end < text.size() && is_digit(text[end])) ++end;
-    const bool is_fraction = begin > 0 && text[begin - 1] == '.';
-    if (end - begin > most_digits && !is_fraction) return true;
-    begin = std::max(end, begin + 1);
-  }
-  return false;
-}
-
-/// Whether a number stands where a slip may have put it: "kg cm 2" is no "kg cm^2", "turn 4096" no "turn/4096".
-bool has_stray_number(std::string_view text) {
-  char before = '\0';  // the last character but spaces
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const bool begins = is_digit(text[i]) && (i == 0 || text[i - 1] == ' ');
-    if (begins && before != '\0' && std::string_view("/*^(").find(before) == std::string_view::npos) return true;
-    if (text[i] != ' ') before = text[i];
-  }
-  return false;
-}
 
 }  // namespace
 
@@ -187,13 +245,12 @@ std::optional<std::string> ascii_unit(std::string_view text) {
       continue;
     }
     const char c = text.front();
-    if (!is_letter(c) && !is_digit(c) && std::string_view(" .*/^()-+%").find(c) == std::string_view::npos) {
+    if (!is_letter(c) && !is_digit(c) && std::string_view(" .*/^()-").find(c) == std::string_view::npos) {
       return std::nullopt;
     }
     ascii += c;
     text.remove_prefix(1);
   }
-  if (has_word_of_no_factor(ascii) || has_stray_number(ascii) || has_long_number(ascii)) return std::nullopt;
   return ascii;
 }
 

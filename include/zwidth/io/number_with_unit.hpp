@@ -20,7 +20,7 @@ struct UnitProblem {
 
 /// The number in SI units (angles in radians, Measure::frequency_hz in Hz) that a text such as "22 kg cm^2" states.
 ///
-/// The unit is a product of powers with a plain scale factor, in udunits' notation: "N m/deg", "mN.m", "1 turn/4096".
+/// The unit is a product of powers with a plain scale factor: "N m/deg", "mN.m", "1 turn/4096".
 /// A turn, a count of 1 and forces of a weight are known beside the SI's units; of a rotary motion, the radian may be
 /// left out ("N m s"). A decimal prefix loses nothing: "400 us" is the double nearest to 4e-4.
 ///
