@@ -83,7 +83,7 @@ TEST(Canvas, FormatsAreToldByExtension) {
 
 TEST(Canvas, LongTextIsCutBetweenLetters) {
   EXPECT_EQ(Canvas::fitted("short", 12, 400), "short");
-  const std::string cut = Canvas::fitted(std::string(50, 'x') + "µµµµ", 12, 380);
+  const std::string cut = Canvas::fitted(std::string(50, 'x').append("µµµµ"), 12, 380);
   EXPECT_THAT(cut, ::testing::EndsWith("…"));
   EXPECT_LE(Canvas::text_width(cut, 12), 380);
 }
