@@ -177,6 +177,7 @@ ContinuousMotion::Pattern ContinuousMotion::make_pattern(const Eigen::MatrixXd& 
     RecurringStep step{exponential(matrix * h), {}};
     if (friction_.empty()) {
       pattern.steps.push_back(std::move(step));
+      pattern.steps.resize(pattern.steps.size() + most_halvings);
       continue;
     }
     const Pieces pieces = pieces_of(matrix, h);
@@ -188,6 +189,12 @@ ContinuousMotion::Pattern ContinuousMotion::make_pattern(const Eigen::MatrixXd& 
       step.bend.push_back(h * h / 8.0 * largest_over(row, pieces));
     }
     pattern.steps.push_back(std::move(step));
+    for (std::size_t halving = 1; halving <= most_halvings; ++halving) {
+      const double part = h / std::pow(2.0, static_cast<double>(halving));
+      RecurringStep shorter{exponential(matrix * part), pattern.steps.back().bend};
+      for (Eigen::VectorXd& bend : shorter.bend) bend /= 4.0;  // h² of a shorter time
+      pattern.steps.push_back(std::move(shorter));
+    }
   }
   return pattern;
 }
@@ -281,13 +288,18 @@ bool ContinuousMotion::nothing_happens(const RecurringStep& step) const noexcept
   return true;
 }
 
-void ContinuousMotion::advance_recurring(std::size_t which) noexcept {
-  const RecurringStep& step = pattern().steps[which];
+void ContinuousMotion::advance_recurring(std::size_t which) noexcept { advance_part(which, 0); }
+
+void ContinuousMotion::advance_part(std::size_t which, std::size_t halvings) noexcept {
+  const RecurringStep& step = pattern().steps[which * (most_halvings + 1) + halvings];
   multiply_(step.transition.data(), state_.data(), next_.data(), size_);
   if (nothing_happens(step)) {
     state_.swap(next_);
+  } else if (halvings < most_halvings) {
+    advance_part(which, halvings + 1);
+    advance_part(which, halvings + 1);
   } else {
-    advance(lengths_[which]);
+    advance(lengths_[which] / std::pow(2.0, static_cast<double>(halvings)));
   }
 }
 

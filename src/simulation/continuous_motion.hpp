@@ -48,8 +48,11 @@ class ContinuousMotion {
 
   void set_command(double force) noexcept { state_.data()[command_] = force; }
   void set_outside(double w0, double w1) noexcept;
-  /// Positions and velocities of all bodies; the lagged force and the command become 0. A body at rest sticks if it
-  /// can.
+  /// Of the actuator, where it has a lag.
+  void set_lagged_force(double force) noexcept {
+    if (lag_ != no_state) state_.data()[lag_] = force;
+  }
+  /// Positions and velocities of all bodies. A body at rest sticks if the forces then set allow it.
   void set_motion(const double* positions, const double* velocities) noexcept;
 
   [[nodiscard]] double command() const noexcept { return state_.data()[command_]; }
@@ -71,6 +74,8 @@ class ContinuousMotion {
   [[nodiscard]] std::size_t overloaded() const noexcept { return overloaded_; }
 
  private:
+  /// Halvings of a recurring length before an event within it is looked for by a series.
+  static constexpr std::size_t most_halvings = 3;
   static constexpr int degree = 18;  // of the Taylor series: 1/19! < 1e-17 where |A| h <= 1
 
   /// A body with Coulomb friction.
@@ -82,7 +87,7 @@ class ContinuousMotion {
     int direction = 0;             // of sliding; 0: sticks
     bool fresh = false;            // began to slide at this instant: its velocity is exactly 0
   };
-  /// A step of recurring length in one pattern of sticking bodies.
+  /// A step of recurring length, or of half, a quarter, ... of one, in one pattern of sticking bodies.
   struct RecurringStep {
     Eigen::MatrixXd transition;         // e^{Ah}
     std::vector<Eigen::VectorXd> bend;  // per friction body: h²/8 sup |c A² e^{At}|, by component of the state
@@ -90,12 +95,13 @@ class ContinuousMotion {
   struct Pattern {
     Eigen::MatrixXd matrix;  // A
     double norm = 0.0;       // of A, balanced
-    std::vector<RecurringStep> steps;
+    std::vector<RecurringStep> steps;  // by length and halvings
   };
 
   [[nodiscard]] Eigen::MatrixXd matrix_of(const Device& device, OutsideForce outside, unsigned stuck) const;
   [[nodiscard]] Pattern make_pattern(const Eigen::MatrixXd& matrix, unsigned stuck) const;
   [[nodiscard]] const Pattern& pattern() const noexcept { return patterns_[stuck_]; }
+  void advance_part(std::size_t which, std::size_t halvings) noexcept;
   [[nodiscard]] bool nothing_happens(const RecurringStep& step) const noexcept;
   void expand(double length) noexcept;                           // series_ of the state over `length`
   void evaluate_series(double fraction) noexcept;                // state_ = series at fraction of its length

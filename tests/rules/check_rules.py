@@ -18,7 +18,7 @@ LIBRARY = {
     "stability": ["model", "sampling"],
     "io": ["model", "signal"],
     "simulation": ["model", "signal", "sampling", "control", "stability"],
-    "identification": ["model", "signal", "sampling", "stability"],
+    "identification": ["model", "signal", "sampling", "stability", "simulation"],
     "design": ["model", "sampling", "stability"],
 }
 APPS = {

@@ -1,0 +1,89 @@
+#include "identification/shot_covariance.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "identification/correlated_residuals.hpp"
+
+namespace zwidth::internal {
+namespace {
+
+/// The columns less their least-squares share in the span of `of_states`, which may be of deficient rank.
+Eigen::MatrixXd without_states(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& of_states) {
+  const Eigen::VectorXd scale = of_states.colwise().norm().cwiseMax(1e-300).cwiseInverse();
+  const Eigen::MatrixXd scaled = of_states * scale.asDiagonal();
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(scaled);
+  constexpr double rank_tolerance = 1e-9;
+  qr.setThreshold(rank_tolerance);
+  Eigen::MatrixXd turned = qr.householderQ().adjoint() * columns;
+  turned.topRows(qr.rank()).setZero();
+  return qr.householderQ() * turned;
+}
+
+/// Covariance from sums of the scores over stretches of the record: what stays correlated for longer than the noise's
+/// autoregression (rounding of slow motion, friction that is not quite Coulomb's) counts.
+Eigen::MatrixXd covariance_of_stretches(const Eigen::MatrixXd& regressors, const Eigen::VectorXd& residuals) {
+  constexpr Eigen::Index stretches_wanted = 100;
+  const Eigen::Index p = regressors.cols();
+  const Eigen::Index length = std::max<Eigen::Index>(1, regressors.rows() / std::max(stretches_wanted, 4 * p));
+  Eigen::MatrixXd middle = Eigen::MatrixXd::Zero(p, p);
+  double stretches = 0.0;
+  for (Eigen::Index begin = 0; begin < regressors.rows(); begin += length, stretches += 1.0) {
+    const Eigen::Index count = std::min(length, regressors.rows() - begin);
+    const Eigen::VectorXd score =
+        regressors.middleRows(begin, count).transpose() * residuals.segment(begin, count);
+    middle += score * score.transpose();
+  }
+  const Eigen::MatrixXd inverse = (regressors.transpose() * regressors).ldlt().solve(Eigen::MatrixXd::Identity(p, p));
+  return stretches / (stretches - static_cast<double>(p)) * inverse * middle * inverse;
+}
+
+/// Each variance at least that of the other; correlations stay.
+void widen(Eigen::MatrixXd& covariance, const Eigen::MatrixXd& least) {
+  for (Eigen::Index j = 0; j < covariance.cols(); ++j) {
+    const double ratio = least(j, j) / covariance(j, j);
+    if (!(ratio > 1.0)) continue;
+    covariance.row(j) *= std::sqrt(ratio);
+    covariance.col(j) *= std::sqrt(ratio);
+  }
+}
+
+}  // namespace
+
+ShotCovariance shot_covariance(const ShotSlopes& slopes) {
+  Eigen::Index rows = 0;
+  for (const Eigen::VectorXd& each : slopes.residuals) rows += each.size();
+  const Eigen::Index size = slopes.of_parameters.front().cols();
+  Eigen::MatrixXd regressors(rows, size);
+  Eigen::VectorXd residuals(rows);
+  Eigen::Index row = 0;
+  for (std::size_t i = 0; i < slopes.residuals.size(); ++i) {
+    const Eigen::Index count = slopes.residuals[i].size();
+    regressors.middleRows(row, count) = without_states(slopes.of_parameters[i], slopes.of_states[i]);
+    residuals.segment(row, count) = slopes.residuals[i];
+    row += count;
+  }
+  ShotCovariance result{.known = {}, .covariance = Eigen::MatrixXd::Zero(size, size)};
+  const ResponseWithSlopes at_solution{Eigen::VectorXcd::Ones(rows), regressors.cast<std::complex<double>>()};
+  FitData data;
+  data.deviations.assign(static_cast<std::size_t>(rows), 1.0);
+  result.known = identifiability(at_solution, data);
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index i = 0; i < size; ++i) {
+    if (result.known.determined[static_cast<std::size_t>(i)]) kept.push_back(i);
+  }
+  if (kept.empty()) return result;
+  Eigen::MatrixXd determined = regressors(Eigen::all, kept);
+  const Eigen::VectorXd scale = determined.colwise().norm().cwiseInverse();
+  determined = determined * scale.asDiagonal();
+  Eigen::MatrixXd covariance = covariance_with_correlated_residuals(determined, residuals);
+  widen(covariance, covariance_of_stretches(determined, residuals));
+  const double mean_square = residuals.squaredNorm() / static_cast<double>(rows);
+  if (mean_square < 1.0) covariance /= mean_square;
+  result.covariance(kept, kept) = scale.asDiagonal() * covariance * scale.asDiagonal();
+  return result;
+}
+
+}  // namespace zwidth::internal

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "identification/identifiability.hpp"
+#include "identification/shot_fit.hpp"
+
+namespace zwidth::internal {
+
+/// What the records determine of x, and how well.
+struct ShotCovariance {
+  Identifiability known;       ///< of the coordinates and the constant forces
+  Eigen::MatrixXd covariance;  ///< of x; 0 for what is not determined
+};
+
+/// With the states eliminated: x's slopes less what the shots' own states explain of them; then
+/// covariance_with_correlated_residuals(), no variance less than that of the scores' sums over stretches of the record,
+/// nor than for white noise of deviation 1 (the encoder's floor).
+[[nodiscard]] ShotCovariance shot_covariance(const ShotSlopes& slopes);
+
+}  // namespace zwidth::internal

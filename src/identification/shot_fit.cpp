@@ -1,0 +1,326 @@
+#include "identification/shot_fit.hpp"
+
+#include <ceres/ceres.h>
+#include <tbb/parallel_for.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+namespace zwidth::internal {
+namespace {
+
+/// Of the logarithm of a mass or a stiffness: one over its deviation beforehand.
+constexpr double pull_strength = 0.3;
+
+bool is_logarithmic(const ShotModel& model, Eigen::Index i) {
+  const auto k = static_cast<std::size_t>(i);
+  return k < model.coordinates().size() && model.coordinates()[k].kind == Coordinate::Kind::logarithmic;
+}
+
+/// What Ceres varies, and the residuals and slopes there: one playing of the records gives those of all shots.
+class SharedShots : public ceres::EvaluationCallback {
+ public:
+  SharedShots(const ShotModel& model, const std::vector<Shot>& shots, const std::vector<ShotNoise>& noise,
+              const ShotFit& start)
+      : x(start.x), states(start.states), model_(model), shots_(shots), noise_(noise) {}
+
+  void PrepareForEvaluation(bool with_slopes, bool is_new_position) override {
+    if (!is_new_position && is_evaluated_ && (has_slopes_ || !with_slopes)) return;
+    is_evaluated_ = true;
+    has_slopes_ = with_slopes;
+    if (with_slopes) {
+      std::optional<ShotSlopes> slopes = shot_slopes(model_, shots_, noise_, x, states);
+      is_valid_ = slopes.has_value();
+      if (is_valid_) now_ = *std::move(slopes);
+      return;
+    }
+    std::optional<ShotPositions> residuals = shot_residuals(model_, shots_, x, states);
+    is_valid_ = residuals.has_value();
+    if (!is_valid_) return;
+    now_.residuals.resize(shots_.size());
+    for (std::size_t i = 0; i < shots_.size(); ++i) {
+      now_.residuals[i] = whitened(noise_[shots_[i].record], (*residuals)[i]);
+    }
+  }
+
+  [[nodiscard]] bool is_valid() const { return is_valid_; }
+  [[nodiscard]] const ShotSlopes& now() const { return now_; }
+
+  Eigen::VectorXd x;
+  std::vector<Eigen::VectorXd> states;
+
+ private:
+  const ShotModel& model_;
+  const std::vector<Shot>& shots_;
+  const std::vector<ShotNoise>& noise_;
+  ShotSlopes now_;
+  bool is_evaluated_ = false;
+  bool has_slopes_ = false;
+  bool is_valid_ = false;
+};
+
+using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+class ShotMisfit : public ceres::CostFunction {
+ public:
+  ShotMisfit(const SharedShots& shared, std::size_t shot, int rows, int parameters, int states)
+      : shared_(shared), shot_(shot) {
+    set_num_residuals(rows);
+    *mutable_parameter_block_sizes() = {parameters, states};
+  }
+
+  bool Evaluate(const double* const*, double* residuals, double** jacobians) const override {
+    if (!shared_.is_valid()) return false;
+    const ShotSlopes& now = shared_.now();
+    Eigen::Map<Eigen::VectorXd>(residuals, num_residuals()) = now.residuals[shot_];
+    if (!jacobians) return true;
+    if (jacobians[0]) {
+      Eigen::Map<RowMajor>(jacobians[0], num_residuals(), parameter_block_sizes()[0]) = now.of_parameters[shot_];
+    }
+    if (jacobians[1]) {
+      Eigen::Map<RowMajor>(jacobians[1], num_residuals(), parameter_block_sizes()[1]) = now.of_states[shot_];
+    }
+    return true;
+  }
+
+ private:
+  const SharedShots& shared_;
+  std::size_t shot_;
+};
+
+class PriorMisfit : public ceres::CostFunction {
+ public:
+  PriorMisfit(const ShotModel& model, Eigen::VectorXd towards) : towards_(std::move(towards)) {
+    for (Eigen::Index i = 0; i < towards_.size(); ++i) {
+      // A constant force is at most about as large as the recorded one.
+      const bool is_bias = i >= static_cast<Eigen::Index>(model.coordinates().size());
+      strength_.push_back(is_logarithmic(model, i) || is_bias ? pull_strength : 0.0);
+    }
+    set_num_residuals(static_cast<int>(towards_.size()));
+    mutable_parameter_block_sizes()->push_back(num_residuals());
+  }
+
+  bool Evaluate(const double* const* x, double* residuals, double** jacobians) const override {
+    for (Eigen::Index i = 0; i < towards_.size(); ++i) {
+      residuals[i] = strength_[static_cast<std::size_t>(i)] * (x[0][i] - towards_(i));
+    }
+    if (!jacobians || !jacobians[0]) return true;
+    Eigen::Map<RowMajor> slopes(jacobians[0], num_residuals(), num_residuals());
+    slopes.setZero();
+    for (Eigen::Index i = 0; i < towards_.size(); ++i) slopes(i, i) = strength_[static_cast<std::size_t>(i)];
+    return true;
+  }
+
+ private:
+  Eigen::VectorXd towards_;
+  std::vector<double> strength_;
+};
+
+/// Whether an element of x is at its bound without being held there.
+bool is_at_bound(const ShotModel& model, const Eigen::VectorXd& x, const std::vector<bool>& held) {
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    if (model.is_bounded(i) && x(i) <= 0.0 && !held[static_cast<std::size_t>(i)]) return true;
+  }
+  return false;
+}
+
+void hold_at_bounds(const ShotModel& model, ShotFit& fit) {
+  for (Eigen::Index i = 0; i < fit.x.size(); ++i) {
+    if (model.is_bounded(i) && fit.x(i) <= 0.0) fit.held[static_cast<std::size_t>(i)] = true;
+  }
+}
+
+/// Ends the search where an element of x has come to its bound.
+class StopAtBound : public ceres::IterationCallback {
+ public:
+  StopAtBound(const ShotModel& model, const Eigen::VectorXd& x, const std::vector<bool>& held)
+      : model_(model), x_(x), held_(held) {}
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
+    const bool stops = summary.iteration > 0 && is_at_bound(model_, x_, held_);
+    return stops ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
+  }
+
+ private:
+  const ShotModel& model_;
+  const Eigen::VectorXd& x_;
+  const std::vector<bool>& held_;
+};
+
+/// Until the search rests, the iterations run out, or, where asked for, an element of x has come to its
+/// bound.
+bool search(const ShotModel& model, const std::vector<Shot>& shots, const std::vector<ShotNoise>& noise, ShotFit& fit,
+            const Eigen::VectorXd& towards, const ShotFitOptions& options, int& iterations) {
+  SharedShots shared(model, shots, noise, fit);
+  ceres::Problem::Options problem_options;
+  problem_options.evaluation_callback = &shared;
+  ceres::Problem problem(problem_options);
+  const auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
+  for (std::size_t i = 0; i < shots.size(); ++i) {
+    const auto order = static_cast<int>(noise[shots[i].record].filter.size()) - 1;
+    problem.AddResidualBlock(new ShotMisfit(shared, i, static_cast<int>(shots[i].count) - order,
+                                            static_cast<int>(shared.x.size()), static_cast<int>(model.states())),
+                             nullptr, shared.x.data(), shared.states[i].data());
+    ordering->AddElementToGroup(shared.states[i].data(), 0);
+  }
+  ordering->AddElementToGroup(shared.x.data(), 1);
+  problem.AddResidualBlock(new PriorMisfit(model, towards), nullptr, shared.x.data());
+  std::vector<int> held;
+  for (std::size_t i = 0; i < fit.held.size(); ++i) {
+    if (fit.held[i]) held.push_back(static_cast<int>(i));
+  }
+  if (!held.empty()) {
+    problem.SetManifold(shared.x.data(), new ceres::SubsetManifold(static_cast<int>(shared.x.size()), held));
+  }
+  StopAtBound stop(model, shared.x, fit.held);
+  for (Eigen::Index i = 0; i < fit.x.size(); ++i) {
+    if (model.is_bounded(i)) problem.SetParameterLowerBound(shared.x.data(), static_cast<int>(i), 0.0);
+  }
+  ceres::Solver::Options solver;
+  if (options.holds_bounds) {
+    solver.callbacks.push_back(&stop);
+    solver.update_state_every_iteration = true;
+  }
+  solver.line_search_interpolation_type = ceres::BISECTION;  // at bounds: others take a Jacobian per step
+  solver.linear_solver_type = ceres::DENSE_SCHUR;
+  solver.linear_solver_ordering = ordering;
+  solver.max_num_iterations = options.most_iterations - iterations;
+  solver.function_tolerance = options.tolerance;
+  solver.parameter_tolerance = 1e-9;
+  solver.gradient_tolerance = 1e-14;
+  solver.logging_type = ceres::SILENT;
+  solver.num_threads = 1;
+  ceres::Solver::Summary summary;
+  ceres::Solve(solver, &problem, &summary);
+  if (!summary.IsSolutionUsable()) return false;
+  iterations += static_cast<int>(summary.iterations.size());
+  fit.x = shared.x;
+  fit.states = shared.states;
+  fit.settled = summary.termination_type == ceres::CONVERGENCE;
+  return true;
+}
+
+}  // namespace
+
+Eigen::VectorXd whitened(const ShotNoise& noise, const Eigen::VectorXd& residual) {
+  const auto order = static_cast<Eigen::Index>(noise.filter.size()) - 1;
+  const Eigen::Index rows = residual.size() - order;
+  Eigen::VectorXd white = Eigen::VectorXd::Zero(rows);
+  for (Eigen::Index j = 0; j <= order; ++j) {
+    white += noise.filter[static_cast<std::size_t>(j)] / noise.deviation * residual.segment(order - j, rows);
+  }
+  return white;
+}
+
+std::vector<ShotNoise> shot_noise(const std::vector<Shot>& shots, const ShotPositions& residuals,
+                                  const std::vector<double>& steps, std::size_t order) {
+  std::vector<ShotNoise> noise(steps.size());
+  const auto size = static_cast<Eigen::Index>(order);
+  for (std::size_t record = 0; record < steps.size(); ++record) {
+    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(size + 1, size + 1);
+    Eigen::Index rows = 0;
+    for (std::size_t i = 0; i < shots.size(); ++i) {
+      if (shots[i].record != record) continue;
+      const Eigen::VectorXd& r = residuals[i];
+      const Eigen::Index count = r.size() - size;
+      Eigen::MatrixXd past(count, size + 1);
+      for (Eigen::Index j = 0; j <= size; ++j) past.col(j) = r.segment(size - j, count);
+      normal += past.transpose() * past;
+      rows += count;
+    }
+    // White noise far below the residuals keeps the filter finite where they are exact.
+    constexpr double least = 1e-10;
+    normal.diagonal().array() += least * normal(0, 0) + 1e-300;
+    const Eigen::VectorXd solution =
+        normal.bottomRightCorner(size, size).ldlt().solve(normal.bottomLeftCorner(size, 1));
+    ShotNoise& own = noise[record];
+    double gain = 1.0;
+    for (Eigen::Index j = 0; j < size; ++j) {
+      own.filter.push_back(-solution(j));
+      gain += solution(j) * solution(j);
+    }
+    double squares = 0.0;
+    own.deviation = 1.0;
+    for (std::size_t i = 0; i < shots.size(); ++i) {
+      if (shots[i].record == record) squares += whitened(own, residuals[i]).squaredNorm();
+    }
+    const double rounding = steps[record] * steps[record] / 12.0 * gain;
+    own.deviation = std::sqrt(std::max({squares / static_cast<double>(rows), rounding, 1e-300}));
+  }
+  return noise;
+}
+
+std::optional<ShotPositions> shot_residuals(const ShotModel& model, const std::vector<Shot>& shots,
+                                            const Eigen::VectorXd& x, const std::vector<Eigen::VectorXd>& states) {
+  std::optional<ShotPositions> played = model.play(x, shots, states);
+  if (!played) return std::nullopt;
+  for (std::size_t i = 0; i < shots.size(); ++i) {
+    (*played)[i] -= Eigen::Map<const Eigen::VectorXd>(model.records()[shots[i].record].position.data() + shots[i].first,
+                                                      static_cast<Eigen::Index>(shots[i].count));
+  }
+  return played;
+}
+
+std::optional<ShotSlopes> shot_slopes(const ShotModel& model, const std::vector<Shot>& shots,
+                                      const std::vector<ShotNoise>& noise, const Eigen::VectorXd& x,
+                                      const std::vector<Eigen::VectorXd>& states) {
+  const std::optional<ShotPositions> own = shot_residuals(model, shots, x, states);
+  if (!own) return std::nullopt;
+  const Eigen::Index parameters = model.parameters();
+  const auto coordinates = static_cast<Eigen::Index>(model.coordinates().size());
+  const Eigen::Index all = coordinates + 1 + model.states();  // the constant forces of all records move together
+  ShotSlopes slopes;
+  for (std::size_t i = 0; i < shots.size(); ++i) {
+    const ShotNoise& filter = noise[shots[i].record];
+    slopes.residuals.push_back(whitened(filter, (*own)[i]));
+    slopes.of_parameters.push_back(Eigen::MatrixXd::Zero(slopes.residuals[i].size(), parameters));
+    slopes.of_states.push_back(Eigen::MatrixXd::Zero(slopes.residuals[i].size(), model.states()));
+  }
+  std::vector<char> is_valid(static_cast<std::size_t>(all), 0);
+  tbb::parallel_for(Eigen::Index{0}, all, [&](Eigen::Index column) {
+    Eigen::VectorXd at = x;
+    std::vector<Eigen::VectorXd> from = states;
+    const double step = model.difference_step(column, column < coordinates ? x(column) : 0.0);
+    if (column < coordinates) {
+      at(column) += step;
+    } else if (column == coordinates) {
+      at.tail(parameters - coordinates).array() += step;
+    } else {
+      for (Eigen::VectorXd& each : from) each(column - coordinates - 1) += step;
+    }
+    const std::optional<ShotPositions> moved = shot_residuals(model, shots, at, from);
+    if (!moved) return;
+    for (std::size_t i = 0; i < shots.size(); ++i) {
+      const Eigen::VectorXd slope = whitened(noise[shots[i].record], ((*moved)[i] - (*own)[i]) / step);
+      if (column > coordinates) {
+        slopes.of_states[i].col(column - coordinates - 1) = slope;
+      } else {
+        const bool is_constant_force = column == coordinates;
+        slopes.of_parameters[i].col(
+            is_constant_force ? coordinates + static_cast<Eigen::Index>(shots[i].record) : column) = slope;
+      }
+    }
+    is_valid[static_cast<std::size_t>(column)] = 1;
+  });
+  if (std::ranges::count(is_valid, 0) > 0) return std::nullopt;
+  return slopes;
+}
+
+std::optional<ShotFit> fit_shots(const ShotModel& model, const std::vector<Shot>& shots,
+                                 const std::vector<ShotNoise>& noise, ShotFit start, const Eigen::VectorXd& towards,
+                                 const ShotFitOptions& options) {
+  start.held.resize(static_cast<std::size_t>(start.x.size()), false);
+  int iterations = 0;
+  bool is_done = false;
+  while (!is_done && iterations < options.most_iterations) {  // each round holds one more
+    if (!search(model, shots, noise, start, towards, options, iterations)) return std::nullopt;
+    is_done = !options.holds_bounds || !is_at_bound(model, start.x, start.held);
+    if (options.holds_bounds) hold_at_bounds(model, start);
+  }
+  start.settled = start.settled && is_done;
+  return start;
+}
+
+}  // namespace zwidth::internal

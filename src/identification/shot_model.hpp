@@ -1,0 +1,77 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "identification/fit_model.hpp"
+#include "zwidth/model/device.hpp"
+
+namespace zwidth::internal {
+
+/// A record of force and position as a fit in time sees it.
+struct MotionRecord {
+  std::span<const double> force;
+  std::span<const double> position;
+  double sampling_period = 0.0;  ///< s
+};
+
+/// A part of a record that is played from a state of its own.
+struct Shot {
+  std::size_t record = 0;
+  std::size_t first = 0;  ///< sample
+  std::size_t count = 0;
+};
+
+/// Positions of the sensed body, one vector per shot.
+using ShotPositions = std::vector<Eigen::VectorXd>;
+
+/// The structure moved exactly under the recorded forces, friction included.
+///
+/// x: the coordinates of the free parameters, then a constant force per record in its unit. A shot's state: position of
+/// the sensed body, positions of the others less that one, velocities of all, each in its unit.
+class ShotModel {
+ public:
+  ShotModel(Device structure, std::vector<MotionRecord> records, std::vector<Coordinate> coordinates,
+            std::vector<std::string> locked);
+
+  [[nodiscard]] const std::vector<Coordinate>& coordinates() const noexcept { return coordinates_; }
+  [[nodiscard]] const std::vector<MotionRecord>& records() const noexcept { return records_; }
+  [[nodiscard]] Eigen::Index parameters() const noexcept {
+    return static_cast<Eigen::Index>(coordinates_.size() + records_.size());
+  }
+  [[nodiscard]] Eigen::Index states() const noexcept { return 2 * static_cast<Eigen::Index>(bodies_); }
+  /// By which an element of x, or of a state, is moved for a slope. Positions bend over a unit; where bodies stick and
+  /// slip they have kinks, over which a difference must average as the noise does: far above their rounding of 1e-12.
+  /// A lag that vanishes differs from a delay only in the second order: there the step is longer.
+  [[nodiscard]] double difference_step(Eigen::Index i, double x) const;
+  /// Whether the element of x may not be negative.
+  [[nodiscard]] bool is_bounded(Eigen::Index i) const;
+  /// N or N m per unit of a constant force in x.
+  [[nodiscard]] double force_unit(std::size_t record) const { return force_units_[record]; }
+
+  [[nodiscard]] Eigen::VectorXd position_of(const DeviceParameters& parameters) const;
+  [[nodiscard]] DeviceParameters parameters_at(const Eigen::VectorXd& x) const;
+
+  /// A state for each shot from the recorded position alone: no link stretched, all bodies at the sensed one's velocity.
+  [[nodiscard]] std::vector<Eigen::VectorXd> recorded_states(const std::vector<Shot>& shots) const;
+
+  /// Nothing where the parameters make no device that can be followed in time.
+  [[nodiscard]] std::optional<ShotPositions> play(const Eigen::VectorXd& x, const std::vector<Shot>& shots,
+                                                  const std::vector<Eigen::VectorXd>& states) const;
+
+ private:
+  Device structure_;
+  std::vector<MotionRecord> records_;
+  std::vector<Coordinate> coordinates_;
+  std::vector<std::string> locked_;
+  std::vector<double> force_units_;
+  std::vector<double> position_units_;
+  std::vector<double> velocity_units_;
+  std::size_t bodies_ = 0;
+};
+
+}  // namespace zwidth::internal

@@ -1,0 +1,332 @@
+#include "zwidth/identification/time_domain.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "identification/fit_judgement.hpp"
+#include "identification/shot_covariance.hpp"
+#include "identification/shot_fit.hpp"
+#include "identification/time_domain_judgement.hpp"
+#include "identification/time_domain_start.hpp"
+#include "zwidth/error.hpp"
+#include "zwidth/model/parameter.hpp"
+
+namespace zwidth {
+using namespace internal;
+namespace {
+
+constexpr std::size_t least_samples = 512;
+// 97.5 % quantile of the normal distribution.
+constexpr double two_sided = 1.959963984540054;
+
+void check(std::span<const Recording> recordings, const Device& structure, const TimeDomainOptions& options) {
+  if (const auto problem = find_problem(options)) {
+    throw Error(ErrorCode::invalid_argument,
+                fmt::format("{} {}; {}", problem->member, problem->what, problem->allowed));
+  }
+  if (recordings.empty()) throw Error(ErrorCode::invalid_argument, "there is no recording; must be at least one");
+  if (!structure.has_bodies()) {
+    throw Error(ErrorCode::invalid_argument, "the structure is a transfer function; it must be a device of bodies");
+  }
+  for (const Recording& each : recordings) {
+    if (each.channels.size() != 2) {
+      throw Error(ErrorCode::invalid_argument,
+                  fmt::format("{} has {} channels; must be two: force and position", each.source,
+                              each.channels.size()));
+    }
+    const std::size_t size = each.channels[0].samples.size();
+    const std::size_t order = options.noise_order;
+    if (size < std::max(least_samples, 8 * order) || each.channels[1].samples.size() != size) {
+      throw Error(ErrorCode::invalid_argument, fmt::format("{} has {} samples; must be at least {}, of both channels",
+                                                           each.source, size, std::max(least_samples, 8 * order)));
+    }
+  }
+}
+
+/// The records cut into shots of about `length` s, the first after the forces on their way at its start.
+std::vector<Shot> cut(const std::vector<MotionRecord>& records, const Device& device, double length,
+                      std::size_t least) {
+  std::vector<Shot> shots;
+  for (std::size_t r = 0; r < records.size(); ++r) {
+    const MotionRecord& record = records[r];
+    constexpr double settled = 5.0;  // time constants
+    constexpr double most_skipped = 0.1;
+    const double late = 2.0 * device.loop().delay + settled * device.parameters().actuator.time_constant;
+    const auto size = static_cast<double>(record.force.size());
+    const auto skip = static_cast<std::size_t>(std::min(most_skipped * size, late / record.sampling_period + 2.0));
+    const std::size_t left = record.force.size() - skip;
+    const auto wanted = std::max(static_cast<double>(least), length / record.sampling_period);
+    const auto count = static_cast<std::size_t>(std::max(1.0, std::floor(static_cast<double>(left) / wanted + 0.5)));
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t begin = skip + left * i / count;
+      shots.push_back({r, begin, skip + left * (i + 1) / count - begin});
+    }
+  }
+  return shots;
+}
+
+/// A few of the shots of each record, spread over it.
+std::vector<Shot> some_of(const std::vector<Shot>& shots, std::size_t records, std::size_t each) {
+  std::vector<Shot> some;
+  for (std::size_t r = 0; r < records; ++r) {
+    std::vector<Shot> own;
+    std::ranges::copy_if(shots, std::back_inserter(own), [&](const Shot& shot) { return shot.record == r; });
+    const std::size_t count = std::min(each, own.size());
+    for (std::size_t i = 0; i < count; ++i) some.push_back(own[(2 * i + 1) * own.size() / (2 * count)]);
+  }
+  return some;
+}
+
+/// A fit with the noise that its residuals have.
+struct Fitted {
+  ShotFit fit;
+  std::vector<ShotNoise> noise;
+};
+
+class Search {
+ public:
+  Search(const ShotModel& model, std::vector<double> steps, std::size_t order)
+      : model_(model), steps_(std::move(steps)), order_(order) {}
+
+  /// From a device, with states from the record.
+  [[nodiscard]] std::optional<Fitted> from(const Eigen::VectorXd& x, const std::vector<Shot>& shots) const {
+    const ShotFit start{x, model_.recorded_states(shots)};
+    std::vector<ShotNoise> white(steps_.size());
+    for (std::size_t r = 0; r < steps_.size(); ++r) {
+      const auto& position = model_.records()[r].position;
+      double squares = 0.0;
+      for (std::size_t k = 1; k < position.size(); ++k) squares += std::pow(position[k] - position[k - 1], 2);
+      white[r].deviation = std::sqrt(squares / static_cast<double>(position.size())) + 1e-300;
+    }
+    constexpr int few = 8;
+    constexpr double coarse = 1e-3;
+    const auto rough = fit_shots(model_, shots, white, start, x, {few, coarse});
+    if (!rough) return std::nullopt;
+    return with_noise(*rough, shots, x, {few, 1e-3});
+  }
+
+  /// Noise from the residuals, then a fit under that noise.
+  [[nodiscard]] std::optional<Fitted> with_noise(const ShotFit& start, const std::vector<Shot>& shots,
+                                                 const Eigen::VectorXd& towards, const ShotFitOptions& options) const {
+    const auto residuals = shot_residuals(model_, shots, start.x, start.states);
+    if (!residuals) return std::nullopt;
+    std::vector<ShotNoise> noise = shot_noise(shots, *residuals, steps_, order_);
+    auto fit = fit_shots(model_, shots, noise, start, towards, options);
+    if (!fit) return std::nullopt;
+    return Fitted{*std::move(fit), std::move(noise)};
+  }
+
+  /// Log of the innovations' size, over all samples: what maximum likelihood makes small.
+  [[nodiscard]] double badness(const Fitted& fitted, const std::vector<Shot>& shots) const {
+    const auto residuals = shot_residuals(model_, shots, fitted.fit.x, fitted.fit.states);
+    if (!residuals) return std::numeric_limits<double>::infinity();
+    const std::vector<ShotNoise> noise = shot_noise(shots, *residuals, steps_, order_);
+    double sum = 0.0;
+    for (const Shot& shot : shots) sum += static_cast<double>(shot.count) * std::log(noise[shot.record].deviation);
+    return sum;
+  }
+
+ private:
+  const ShotModel& model_;
+  std::vector<double> steps_;
+  std::size_t order_;
+};
+
+/// Lets go what is held at its bound although the data pull it away from there; whether there is any.
+bool release(ShotFit& fit, const ShotSlopes& slopes) {
+  bool any = false;
+  for (std::size_t k = 0; k < fit.held.size(); ++k) {
+    if (!fit.held[k]) continue;
+    double gradient = 0.0;
+    double squares = 0.0;
+    for (std::size_t i = 0; i < slopes.residuals.size(); ++i) {
+      const auto column = slopes.of_parameters[i].col(static_cast<Eigen::Index>(k));
+      gradient += column.dot(slopes.residuals[i]);
+      squares += column.squaredNorm();
+    }
+    constexpr double significant = 2.0;
+    if (!(gradient < -significant * std::sqrt(squares))) continue;
+    fit.held[k] = false;
+    any = true;
+  }
+  return any;
+}
+
+bool stands_still(const Eigen::VectorXd& before, const Eigen::VectorXd& after, const Eigen::MatrixXd& covariance) {
+  constexpr double notable = 0.1;  // of a standard deviation
+  return ((after - before).array().abs() <= notable * covariance.diagonal().array().sqrt() ||
+          covariance.diagonal().array() == 0.0)
+      .all();
+}
+
+ParameterEstimate estimate(const Coordinate& coordinate, double x, bool determined, double variance) {
+  // Known to a factor of e only: nothing that a number could be given for.
+  constexpr double open = 1.0;
+  ParameterEstimate result{coordinate.key, coordinate.value(x), determined, {}, {}, {}};
+  const bool is_open = coordinate.kind == Coordinate::Kind::logarithmic && variance > open;
+  if (!determined || is_open || !std::isfinite(variance)) {
+    result.identifiable = false;
+    return result;
+  }
+  const double deviation = coordinate.slope(x) * std::sqrt(variance);
+  result.standard_deviation = deviation;
+  result.lower = std::max(0.0, result.value - two_sided * deviation);
+  result.upper = result.value + two_sided * deviation;
+  return result;
+}
+
+void describe_parameters(TimeDomainIdentification& result, const ShotModel& model, const Eigen::VectorXd& x,
+                         const ShotCovariance& known) {
+  DeviceParameters fitted = model.parameters_at(x);
+  Uncertainty uncertainty;
+  std::vector<Eigen::Index> kept;
+  for (std::size_t i = 0; i < model.coordinates().size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    const Coordinate& coordinate = model.coordinates()[i];
+    result.estimates.push_back(
+        estimate(coordinate, x(at), known.known.determined[i], known.covariance(at, at)));
+    if (!result.estimates.back().identifiable) continue;
+    kept.push_back(at);
+    uncertainty.parameters.push_back(coordinate.key);
+  }
+  for (const Eigen::Index i : kept) {
+    const Coordinate& row = model.coordinates()[static_cast<std::size_t>(i)];
+    uncertainty.covariance.emplace_back();
+    for (const Eigen::Index j : kept) {
+      const Coordinate& column = model.coordinates()[static_cast<std::size_t>(j)];
+      uncertainty.covariance.back().push_back(row.slope(x(i)) * known.covariance(i, j) * column.slope(x(j)));
+      constexpr double strong = 0.95;
+      const double scale = std::sqrt(known.covariance(i, i) * known.covariance(j, j));
+      if (j <= i || !(std::abs(known.covariance(i, j)) > strong * scale)) continue;
+      result.correlations.push_back({row.key, column.key, known.covariance(i, j) / scale});
+    }
+  }
+  if (!kept.empty() && kept.size() <= max_uncertain_parameters) fitted.uncertainty = std::move(uncertainty);
+  for (const std::vector<std::size_t>& combination : known.known.combinations) {
+    UnidentifiableCombination each;
+    for (const std::size_t k : combination) {
+      if (k < model.coordinates().size()) each.parameters.push_back(model.coordinates()[k].key);
+    }
+    if (!each.parameters.empty()) result.unidentifiable.push_back(std::move(each));
+  }
+  result.device = Device(std::move(fitted));
+}
+
+void describe_motions(TimeDomainIdentification& result, std::span<const Recording> recordings, const ShotModel& model,
+                      const std::vector<Shot>& shots, const Fitted& fitted, const Eigen::MatrixXd& covariance) {
+  const auto residuals = shot_residuals(model, shots, fitted.fit.x, fitted.fit.states);
+  for (std::size_t r = 0; r < recordings.size(); ++r) {
+    const auto bias = static_cast<Eigen::Index>(model.coordinates().size() + r);
+    FittedMotion motion{.source = recordings[r].source,
+                        .sampling_period = recordings[r].sampling_period,
+                        .constant_force = fitted.fit.x(bias) * model.force_unit(r),
+                        .constant_force_deviation = std::sqrt(covariance(bias, bias)) * model.force_unit(r),
+                        .noise = fitted.noise[r].deviation};
+    motion.residuals.assign(recordings[r].channels[0].samples.size(), 0.0);
+    for (std::size_t i = 0; residuals && i < shots.size(); ++i) {
+      if (shots[i].record != r) continue;
+      for (std::size_t k = 0; k < shots[i].count; ++k) {
+        motion.residuals[shots[i].first + k] = -(*residuals)[i](static_cast<Eigen::Index>(k));
+      }
+    }
+    result.motions.push_back(std::move(motion));
+  }
+}
+
+}  // namespace
+
+std::optional<OptionProblem> find_problem(const TimeDomainOptions& options) {
+  if (!(std::isfinite(options.segment) && options.segment > 0.0)) {
+    return OptionProblem{"segment", fmt::format("is {} s", options.segment), "must be finite and > 0"};
+  }
+  constexpr std::size_t most_order = 200;
+  if (options.noise_order > most_order) {
+    return OptionProblem{"noise_order", fmt::format("is {}", options.noise_order),
+                         fmt::format("must be at most {}", most_order)};
+  }
+  if (options.free.size() > max_free_parameters) {
+    return OptionProblem{"free", fmt::format("has {} keys", options.free.size()),
+                         fmt::format("must be at most {}", max_free_parameters)};
+  }
+  return std::nullopt;
+}
+
+TimeDomainIdentification identify_in_time(std::span<const Recording> recordings, const Device& structure,
+                                          const TimeDomainOptions& options, const Progress& progress) {
+  check(recordings, structure, options);
+  const auto done = [&](double share) {
+    if (progress) progress(share);
+  };
+  const TimeDomainStart start = time_domain_start(recordings, structure, options);
+  done(0.2);
+  std::vector<MotionRecord> records;
+  std::vector<double> steps;
+  for (const Recording& each : recordings) {
+    records.push_back({each.channels[0].samples, each.channels[1].samples, each.sampling_period});
+    steps.push_back(encoder_step(records.back().position));
+  }
+  const ShotModel model(start.device, records, time_domain_coordinates(start, recordings), options.locked);
+  const Search search(model, steps, options.noise_order);
+  const std::size_t least = std::max<std::size_t>(256, 8 * options.noise_order);
+
+  // Which friction to start from: short shots, a few of them.
+  constexpr double part = 0.2;
+  constexpr std::size_t few = 3;
+  const std::vector<Shot> short_shots =
+      some_of(cut(records, start.device, part * options.segment, least), records.size(), few);
+  std::optional<Fitted> best;
+  double least_badness = std::numeric_limits<double>::infinity();
+  for (const DeviceParameters& each : starting_frictions(start, recordings)) {
+    std::optional<Fitted> found = search.from(model.position_of(each), short_shots);
+    if (!found) continue;
+    const double badness = search.badness(*found, short_shots);
+    if (best && badness >= least_badness) continue;
+    least_badness = badness;
+    best = std::move(found);
+  }
+  if (!best) {
+    throw Error(ErrorCode::did_not_converge,
+                "no device near the linear fit can be played through the record; is the structure right?");
+  }
+  done(0.5);
+
+  const std::vector<Shot> shots = cut(records, start.device, options.segment, least);
+  const Eigen::VectorXd towards = best->fit.x;
+  std::optional<ShotFit> whole = fit_shots(model, shots, best->noise, {towards, model.recorded_states(shots)}, towards,
+                                           {.most_iterations = 20, .tolerance = 1e-6});
+  std::optional<ShotCovariance> known;
+  std::optional<Fitted> fitted;
+  constexpr int most_rounds = 5;
+  for (int round = 0; whole && round < most_rounds; ++round) {
+    const Eigen::VectorXd before = whole->x;
+    fitted = search.with_noise(*whole, shots, towards, {.most_iterations = 12, .tolerance = 2e-7, .holds_bounds = true});
+    if (!fitted) break;
+    whole = fitted->fit;
+    const auto slopes = shot_slopes(model, shots, fitted->noise, fitted->fit.x, fitted->fit.states);
+    if (!slopes) break;
+    known = shot_covariance(*slopes);
+    done(0.5 + 0.1 * (round + 1));
+    const bool is_still = stands_still(before, fitted->fit.x, known->covariance);
+    if (!release(*whole, *slopes) && is_still) break;
+  }
+  if (!known) {
+    throw Error(ErrorCode::did_not_converge, "the fit lost itself where no device can be played; is the structure right?");
+  }
+
+  TimeDomainIdentification result{.device = structure};
+  result.lowest = start.lowest;
+  result.highest = start.highest;
+  result.settled = fitted->fit.settled;
+  result.remarks = start.remarks;
+  describe_parameters(result, model, fitted->fit.x, *known);
+  describe_motions(result, recordings, model, shots, *fitted, known->covariance);
+  judge_in_time(result, {recordings, structure, options, start.is_turned});
+  done(1.0);
+  return result;
+}
+
+}  // namespace zwidth

@@ -1,0 +1,206 @@
+#include "identification/time_domain_judgement.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "identification/fit_judgement.hpp"
+#include "identification/fit_weights.hpp"
+#include "identification/friction_test.hpp"
+#include "identification/percent.hpp"
+#include "zwidth/error.hpp"
+#include "zwidth/identification/frequency_response.hpp"
+#include "zwidth/model/parameter.hpp"
+#include "zwidth/sampling/sampled_plant.hpp"
+
+namespace zwidth::internal {
+namespace {
+
+constexpr double refused_share = 0.5;
+// Of the response: what moves a critical stiffness by about as much.
+constexpr double doubtful_share = 0.05;
+
+double hertz(double frequency) { return frequency / (2.0 * std::numbers::pi); }
+
+/// The least relative error e of the fitted device's linear response that explains what the residuals have of the
+/// force; 0 where noise does.
+double unexplained_response(const Device& fitted, const Recording& recording, const FittedMotion& motion,
+                            const std::vector<std::string>& locked) {
+  FrequencyResponseOptions options;
+  options.excitation = FrequencyResponseOptions::Excitation::aperiodic;
+  try {
+    const FrequencyResponse left =
+        frequency_response(recording.channels[0].samples, motion.residuals, recording.sampling_period, options);
+    const SampledPlant plant = sampled_plant(device_in_experiment(fitted, locked, recording.sampling_period));
+    std::vector<ResponsePoint> points;
+    std::vector<std::complex<double>> values;
+    for (ResponsePoint point : left.points) {
+      values.push_back(response(plant, point.frequency));
+      point.value += values.back();
+      points.push_back(point);
+    }
+    if (points.empty()) return 0.0;
+    return model_error_of(points, Eigen::Map<const Eigen::VectorXcd>(values.data(),
+                                                                     static_cast<Eigen::Index>(values.size())));
+  } catch (const Error&) {  // a residual of nothing has no response
+    return 0.0;
+  }
+}
+
+/// Mean squares of the changes of the residuals near the velocity's reversals and elsewhere; friction that is not
+/// Coulomb's (rising before it slips, or falling with speed) shows there.
+double reversal_ratio(const Recording& recording, const FittedMotion& motion) {
+  const std::vector<double>& position = recording.channels[1].samples;
+  constexpr std::size_t reach = 4;
+  double near = 0.0;
+  double far = 0.0;
+  std::size_t near_count = 0;
+  std::size_t far_count = 0;
+  const auto rises = [&](std::size_t k) { return position[k + reach] - position[k - reach] > 0.0; };
+  for (std::size_t k = 2 * reach; k + 2 * reach < position.size(); ++k) {
+    const double change = motion.residuals[k + 1] - 2.0 * motion.residuals[k] + motion.residuals[k - 1];
+    const bool turns = rises(k - reach) != rises(k + reach);
+    (turns ? near : far) += change * change;
+    ++(turns ? near_count : far_count);
+  }
+  constexpr std::size_t enough = 100;
+  if (near_count < enough || far_count < enough || !(far > 0.0)) return 1.0;
+  return near / static_cast<double>(near_count) / (far / static_cast<double>(far_count));
+}
+
+class Judge {
+ public:
+  Judge(TimeDomainIdentification& fit, const JudgedTimeFit& judged) : fit_(fit), judged_(judged) {}
+
+  void judge() {
+    refuse_what_is_none();
+    judge_misfit();
+    judge_search();
+    const std::vector<std::string> open = open_numbers();
+    if (!open.empty()) {
+      trust_.doubt(fmt::format("the data do not determine {}: taken as they stand in the start of the search",
+                               fmt::join(open, ", ")));
+    }
+    fit_.analysis = analyze(fit_.device, {.any_user = false});
+    judge_band();
+    judge_interval();
+    fit_.device = with_trust(fit_.device, trust_);
+    fit_.analysis = analyze(fit_.device, {.any_user = false});
+    const Wall& wall = fit_.device.parameters().wall;
+    fit_.basis = {wall.damping, wall.velocity_filter_hz, wall.filters.size()};
+    fit_.trust = trust_;
+    describe();
+  }
+
+ private:
+  void refuse_what_is_none() {
+    if (judged_.is_turned) trust_.refuse("the position falls as the force rises: scale one of them by -1");
+    if (std::ranges::none_of(fit_.estimates, &ParameterEstimate::identifiable)) {
+      trust_.refuse("the recordings determine no parameter of the structure; free fewer, or excite more strongly");
+    }
+  }
+
+  void judge_misfit() {
+    for (std::size_t r = 0; r < fit_.motions.size(); ++r) {
+      FittedMotion& motion = fit_.motions[r];
+      const Recording& recording = judged_.recordings[r];
+      motion.unexplained = unexplained_response(fit_.device, recording, motion, judged_.options.locked);
+      if (motion.unexplained > refused_share) {
+        trust_.refuse(fmt::format("the fitted device leaves {} of the response of {} unexplained; is the structure "
+                                  "right, and are force and position those of one experiment?",
+                                  percent(motion.unexplained), motion.source));
+      } else if (motion.unexplained > doubtful_share) {
+        trust_.doubt(fmt::format("the fitted device leaves {} of the response of {} unexplained beyond the noise: a "
+                                 "body that it lacks, or backlash",
+                                 percent(motion.unexplained), motion.source));
+      }
+      constexpr double clear = 3.0;
+      const double ratio = reversal_ratio(recording, motion);
+      if (ratio > clear) {
+        trust_.doubt(fmt::format("the residuals of {} are {:.2g} times larger where the motion turns than elsewhere: "
+                                 "the friction is not Coulomb's, or there is backlash",
+                                 motion.source, std::sqrt(ratio)));
+      }
+    }
+  }
+
+  void judge_search() {
+    if (fit_.settled) return;
+    trust_.doubt(
+        "the search for the parameters was stopped while it still improved; free fewer parameters, or start from "
+        "values that are nearly right");
+  }
+
+  [[nodiscard]] std::vector<std::string> open_numbers() const {
+    std::vector<std::string> keys;
+    for (const ParameterEstimate& each : fit_.estimates) {
+      // The linear device's limit does not hang on friction.
+      if (!each.identifiable && !each.key.ends_with(".coulomb")) keys.push_back(each.key);
+    }
+    if (judged_.options.structure_values == IdentifyOptions::StructureValues::known) return keys;
+    for (const std::string& body : judged_.options.locked) {
+      for (const char* number : {"mass", "damping"}) keys.push_back(fmt::format("body.{}.{}", body, number));
+    }
+    return keys;
+  }
+
+  void judge_band() {
+    const auto& limit = fit_.analysis.critical.limit;
+    if (!limit || !(fit_.highest > 0.0)) return;
+    if (limit->frequency >= fit_.lowest && limit->frequency <= fit_.highest) return;
+    const bool is_above = limit->frequency > fit_.highest;
+    trust_.doubt(fmt::format(
+        "the crossover that limits, near {:.4g} Hz, lies {} the measured band, {:.4g} to {:.4g} Hz: {}; excite {} "
+        "frequencies",
+        hertz(limit->frequency), is_above ? "above" : "below", hertz(fit_.lowest), hertz(fit_.highest),
+        is_above ? "delay, lag and modes there are not in the data" : "dampings and springs there are not in the data",
+        is_above ? "higher" : "lower"));
+  }
+
+  void judge_interval() {
+    constexpr double widest = 2.0;
+    const auto& interval = fit_.analysis.interval;
+    if (!interval || !(interval->upper > widest * interval->lower)) return;
+    trust_.doubt(fmt::format(
+        "the data leave the critical stiffness open within a factor of {:.2g}; excite more strongly or for longer",
+        interval->lower > 0.0 ? interval->upper / interval->lower : std::numeric_limits<double>::infinity()));
+  }
+
+  void describe() {
+    const char* unit = fit_.device.parameters().motion == Motion::rotary ? "N m" : "N";
+    for (const ParameterEstimate& each : fit_.estimates) {
+      if (!each.key.ends_with(".coulomb") || !each.lower || !(*each.lower > 0.0)) continue;
+      fit_.remarks.push_back({Remark::Severity::note,
+                              fmt::format("dry friction of {:.3g} {} ({})", each.value, unit, each.key),
+                              "the critical stiffness is that of the device without it: small motion is damped by it"});
+    }
+    for (const FittedMotion& each : fit_.motions) {
+      constexpr double significant = 4.0;
+      if (std::abs(each.constant_force) <= significant * each.constant_force_deviation) continue;
+      fit_.remarks.push_back({Remark::Severity::note,
+                              fmt::format("a constant force of {:.3g} {} beside the recorded one in {}",
+                                          each.constant_force, unit, each.source),
+                              "an offset of the actuator, gravity, or friction that differs by direction; the fit "
+                              "allows for it"});
+    }
+    for (const std::string& reason : trust_.reasons) {
+      fit_.remarks.push_back({Remark::Severity::warning, reason, "the critical stiffness may be wrong"});
+    }
+  }
+
+  TimeDomainIdentification& fit_;
+  const JudgedTimeFit& judged_;
+  Trust trust_;
+};
+
+}  // namespace
+
+void judge_in_time(TimeDomainIdentification& fit, const JudgedTimeFit& judged) { Judge(fit, judged).judge(); }
+
+}  // namespace zwidth::internal

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <span>
+
+#include "zwidth/identification/time_domain.hpp"
+
+namespace zwidth::internal {
+
+struct JudgedTimeFit {
+  std::span<const Recording> recordings;
+  const Device& structure;
+  const TimeDomainOptions& options;
+  bool is_turned = false;  ///< the position falls as the force rises
+};
+
+/// Analysis, basis, trust and remarks of a fit whose parameters and motions are given, and each motion's `unexplained`.
+void judge_in_time(TimeDomainIdentification& fit, const JudgedTimeFit& judged);
+
+}  // namespace zwidth::internal

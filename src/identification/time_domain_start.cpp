@@ -1,0 +1,185 @@
+#include "identification/time_domain_start.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <set>
+
+#include "simulation/continuous_motion.hpp"
+#include "zwidth/error.hpp"
+#include "zwidth/model/parameter.hpp"
+
+namespace zwidth::internal {
+namespace {
+
+constexpr const char* delay_key = "loop.delay";
+constexpr const char* lag_key = "actuator.time_constant";
+
+/// Root mean squares of a record.
+struct Sizes {
+  double force = 0.0;
+  double velocity = 0.0;
+  double position = 0.0;  ///< about its mean
+};
+
+Sizes sizes_of(const Recording& recording) {
+  const std::vector<double>& force = recording.channels[0].samples;
+  const std::vector<double>& position = recording.channels[1].samples;
+  constexpr std::size_t reach = 4;  // samples: the encoder's steps count less
+  Sizes sizes;
+  double mean = 0.0;
+  for (const double each : position) mean += each / static_cast<double>(position.size());
+  for (std::size_t k = 0; k < force.size(); ++k) {
+    sizes.force += force[k] * force[k];
+    sizes.position += std::pow(position[k] - mean, 2);
+    if (k >= reach) sizes.velocity += std::pow(position[k] - position[k - reach], 2);
+  }
+  const auto n = static_cast<double>(force.size());
+  sizes.force = std::sqrt(sizes.force / n);
+  sizes.position = std::sqrt(sizes.position / n);
+  sizes.velocity = std::sqrt(sizes.velocity / n) / (recording.sampling_period * static_cast<double>(reach));
+  return sizes;
+}
+
+const Recording& strongest(std::span<const Recording> recordings) {
+  return *std::ranges::max_element(
+      recordings, {}, [](const Recording& each) { return sizes_of(each).force; });
+}
+
+bool is_friction(const std::string& key) { return key.ends_with(".coulomb"); }
+
+void check_free(const Device& structure, const std::vector<std::string>& free) {
+  std::set<std::string> seen;
+  std::size_t rubbing = 0;
+  for (const std::string& key : free) {
+    const bool shows = key.starts_with("body.") || key.starts_with("link.") || key == delay_key || key == lag_key;
+    if (!shows || !parameter(structure.parameters(), key)) {
+      throw Error(ErrorCode::invalid_argument,
+                  fmt::format("{} is no number of the structure's bodies, links, delay or lag; it cannot be free", key));
+    }
+    if (!seen.insert(key).second) throw Error(ErrorCode::invalid_argument, key + " is given twice as free");
+    if (is_friction(key)) ++rubbing;
+  }
+  if (rubbing > ContinuousMotion::max_friction_bodies) {
+    throw Error(ErrorCode::invalid_argument,
+                fmt::format("Coulomb friction is free on {} bodies; it can be on at most {}", rubbing,
+                            ContinuousMotion::max_friction_bodies));
+  }
+}
+
+}  // namespace
+
+TimeDomainStart time_domain_start(std::span<const Recording> recordings, const Device& structure,
+                                  const TimeDomainOptions& options) {
+  IdentifyOptions linear;
+  linear.structure_values = options.structure_values;
+  linear.loop_delay = options.loop_delay;
+  linear.fit.locked = options.locked;
+  linear.fit.critical_point = ParameterFitOptions::CriticalPoint::free;
+  std::vector<std::string> given;
+  for (const std::string& key : options.free) given.push_back(full_parameter_key(structure.parameters(), key));
+  check_free(structure, given);
+  std::ranges::copy_if(given, std::back_inserter(linear.fit.free), [](const auto& key) { return !is_friction(key); });
+  if (!given.empty()) linear.loop_delay = IdentifyOptions::LoopDelay::as_given;
+
+  TimeDomainStart start{.device = structure, .free = given};
+  if (given.empty() || !linear.fit.free.empty()) {
+    const Identification found = identify(strongest(recordings), structure, linear);
+    start.device = found.fit.device;
+    start.lowest = found.fit.frequencies.front();
+    start.highest = found.fit.frequencies.back();
+    start.is_turned = found.fit.model_error_if_turned.has_value();
+    if (given.empty()) {
+      for (const ParameterEstimate& each : found.fit.estimates) start.free.push_back(each.key);
+    }
+  }
+  if (given.empty()) {
+    const auto is_free = [&](const char* key) { return std::ranges::count(start.free, std::string(key)) > 0; };
+    if (options.loop_delay == IdentifyOptions::LoopDelay::from_data && !is_free(delay_key)) {
+      start.free.emplace_back(delay_key);
+    }
+    for (const Body& body : structure.bodies()) {
+      const bool is_locked = std::ranges::count(options.locked, body.name) > 0;
+      if (!is_locked) start.free.push_back("body." + body.name + ".coulomb");
+    }
+    check_free(structure, start.free);
+  }
+  return start;
+}
+
+std::vector<DeviceParameters> starting_frictions(const TimeDomainStart& start, std::span<const Recording> recordings) {
+  const Sizes sizes = sizes_of(strongest(recordings));
+  std::vector<std::size_t> rubbing;
+  DeviceParameters parameters = start.device.parameters();
+  parameters.uncertainty.reset();
+  for (std::size_t i = 0; i < parameters.bodies.size(); ++i) {
+    const bool is_free = std::ranges::count(start.free, "body." + parameters.bodies[i].name + ".coulomb") > 0;
+    if (is_free) rubbing.push_back(i);
+  }
+  if (rubbing.empty()) return {parameters};
+  std::vector<DeviceParameters> starts;
+  for (const double share : {0.03, 0.2}) {  // of the force
+    DeviceParameters each = parameters;
+    const double friction = share * sizes.force / static_cast<double>(rubbing.size());
+    for (const std::size_t body : rubbing) {
+      constexpr double least = 0.1;
+      const double taken = std::sqrt(2.0 / std::numbers::pi) * friction / sizes.velocity;
+      each.bodies[body].coulomb = friction;
+      each.bodies[body].damping = std::max(least * each.bodies[body].damping, each.bodies[body].damping - taken);
+    }
+    starts.push_back(std::move(each));
+  }
+  return starts;
+}
+
+std::vector<Coordinate> time_domain_coordinates(const TimeDomainStart& start, std::span<const Recording> recordings) {
+  const Recording& recording = strongest(recordings);
+  const Sizes sizes = sizes_of(recording);
+  std::vector<Coordinate> coordinates;
+  for (const std::string& key : start.free) {
+    Coordinate coordinate{key, Coordinate::Kind::not_negative, 1.0};
+    const bool is_mass = key.ends_with(".mass");
+    const bool is_link = key.starts_with("link.");
+    if (is_mass || (is_link && key.ends_with(".stiffness"))) coordinate.kind = Coordinate::Kind::logarithmic;
+    const double value = parameter(start.device.parameters(), key).value_or(0.0);
+    if (coordinate.kind == Coordinate::Kind::logarithmic) {
+      coordinate.unit = value;
+    } else if (key == delay_key || key == lag_key) {
+      coordinate.unit = recording.sampling_period;
+    } else if (is_friction(key)) {
+      coordinate.unit = 0.1 * sizes.force;
+    } else if (key.ends_with(".damping")) {
+      coordinate.unit = std::max(value, 0.01 * sizes.force / sizes.velocity);
+    } else {
+      coordinate.unit = std::max(value, 0.01 * sizes.force / sizes.position);
+    }
+    coordinates.push_back(std::move(coordinate));
+  }
+  return coordinates;
+}
+
+double encoder_step(std::span<const double> position) {
+  double step = std::numeric_limits<double>::infinity();
+  double largest = 0.0;
+  for (std::size_t k = 1; k < position.size(); ++k) largest = std::max(largest, std::abs(position[k] - position[k - 1]));
+  constexpr double rounding = 1e-6;
+  for (std::size_t k = 1; k < position.size(); ++k) {
+    const double change = std::abs(position[k] - position[k - 1]);
+    if (change > rounding * largest) step = std::min(step, change);
+  }
+  if (!std::isfinite(step)) return 0.0;
+  constexpr double whole = 0.02;
+  constexpr double nearly_all = 0.98;
+  std::size_t in_steps = 0;
+  for (std::size_t k = 1; k < position.size(); ++k) {
+    const double steps = std::abs(position[k] - position[k - 1]) / step;
+    if (std::abs(steps - std::round(steps)) < whole) ++in_steps;
+  }
+  const auto all = static_cast<double>(position.size() - 1);
+  return static_cast<double>(in_steps) >= nearly_all * all ? step : 0.0;
+}
+
+}  // namespace zwidth::internal

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "identification/fit_model.hpp"
+#include "zwidth/identification/time_domain.hpp"
+
+namespace zwidth::internal {
+
+/// Where a fit in time begins.
+struct TimeDomainStart {
+  Device device;                  ///< from the linear fit of the recording with the largest force
+  std::vector<std::string> free;  ///< keys in full
+  double lowest = 0.0;            ///< rad/s: band of that recording's response
+  double highest = 0.0;
+  bool is_turned = false;  ///< the position falls as the force rises
+  std::vector<Remark> remarks{};
+};
+
+/// Throws Error as identify_in_time() does.
+[[nodiscard]] TimeDomainStart time_domain_start(std::span<const Recording> recordings, const Device& structure,
+                                                const TimeDomainOptions& options);
+
+/// The start with several frictions of the bodies whose friction is free; the dampings less what a linear fit takes the
+/// friction for, sqrt(2/pi) F_c / s at a Gaussian velocity of deviation s.
+[[nodiscard]] std::vector<DeviceParameters> starting_frictions(const TimeDomainStart& start,
+                                                               std::span<const Recording> recordings);
+
+/// How each free parameter is searched: its unit is the start's value, or what it typically is.
+[[nodiscard]] std::vector<Coordinate> time_domain_coordinates(const TimeDomainStart& start,
+                                                              std::span<const Recording> recordings);
+
+/// The encoder's step where the position holds whole steps only; else 0.
+[[nodiscard]] double encoder_step(std::span<const double> position);
+
+}  // namespace zwidth::internal
