@@ -82,13 +82,15 @@ int main(int argc, char** argv) {
   std::ranges::sort(count.errors);
   std::ranges::sort(count.seconds);
   const auto within = std::ranges::count_if(count.errors, [](double error) { return error <= 0.05; });
-  std::printf("%d devices: %d answered (%d sound, of which %d with the lower end above the truth), %d refused, %d failed\n",
-              count.all, count.answered, count.sound, count.sound_unsafe, count.refused, count.failed);
+  std::printf(
+      "%d devices: %d answered (%d sound, of which %d with the lower end above the truth), %d refused, %d failed\n",
+      count.all, count.answered, count.sound, count.sound_unsafe, count.refused, count.failed);
   if (count.errors.empty()) return 0;
-  std::printf("interval holds the truth %d/%d; within 5 %% %d/%d; median error %.2g %%, largest %.2g %%; median %.2f s, "
-              "longest %.2f s\n",
-              count.held, count.answered, static_cast<int>(within), count.answered,
-              100.0 * count.errors[count.errors.size() / 2], 100.0 * count.errors.back(),
-              count.seconds[count.seconds.size() / 2], count.seconds.back());
+  std::printf(
+      "interval holds the truth %d/%d; within 5 %% %d/%d; median error %.2g %%, largest %.2g %%; median %.2f s, "
+      "longest %.2f s\n",
+      count.held, count.answered, static_cast<int>(within), count.answered,
+      100.0 * count.errors[count.errors.size() / 2], 100.0 * count.errors.back(),
+      count.seconds[count.seconds.size() / 2], count.seconds.back());
   return 0;
 }

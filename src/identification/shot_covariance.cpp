@@ -32,8 +32,7 @@ Eigen::MatrixXd covariance_of_stretches(const Eigen::MatrixXd& regressors, const
   double stretches = 0.0;
   for (Eigen::Index begin = 0; begin < regressors.rows(); begin += length, stretches += 1.0) {
     const Eigen::Index count = std::min(length, regressors.rows() - begin);
-    const Eigen::VectorXd score =
-        regressors.middleRows(begin, count).transpose() * residuals.segment(begin, count);
+    const Eigen::VectorXd score = regressors.middleRows(begin, count).transpose() * residuals.segment(begin, count);
     middle += score * score.transpose();
   }
   const Eigen::MatrixXd inverse = (regressors.transpose() * regressors).ldlt().solve(Eigen::MatrixXd::Identity(p, p));

@@ -298,8 +298,8 @@ std::optional<ShotSlopes> shot_slopes(const ShotModel& model, const std::vector<
         slopes.of_states[i].col(column - coordinates - 1) = slope;
       } else {
         const bool is_constant_force = column == coordinates;
-        slopes.of_parameters[i].col(
-            is_constant_force ? coordinates + static_cast<Eigen::Index>(shots[i].record) : column) = slope;
+        slopes.of_parameters[i].col(is_constant_force ? coordinates + static_cast<Eigen::Index>(shots[i].record)
+                                                      : column) = slope;
       }
     }
     is_valid[static_cast<std::size_t>(column)] = 1;

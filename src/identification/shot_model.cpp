@@ -14,9 +14,9 @@ namespace zwidth::internal {
 namespace {
 
 /// Stick-slip instants are met in parts of 1/rate: more of them per period would take for ever.
-constexpr double most_parts_per_period = 1e3;
+constexpr double most_parts_per_period = 60.0;
 /// Sampling periods.
-constexpr double shortest_lag = 0.01;
+constexpr double shortest_lag = 0.05;
 
 /// A lag far below the sampling period is too fast to follow, and no other than that much delay.
 Device without_short_lag(const Device& device) {
@@ -211,14 +211,14 @@ std::optional<ShotPositions> ShotModel::play(const Eigen::VectorXd& x, const std
   try {
     const Device fitted(parameters_at(x));
     for (std::size_t r = 0; r < records_.size(); ++r) {
-      const Device device =
-          without_short_lag(device_in_experiment(fitted, locked_, records_[r].sampling_period));
+      const Device device = without_short_lag(device_in_experiment(fitted, locked_, records_[r].sampling_period));
       const double constant = x(static_cast<Eigen::Index>(coordinates_.size() + r)) * force_units_[r];
       Player player(device, records_[r], constant);
       if (!player.can_be_followed()) return std::nullopt;
       for (std::size_t i = 0; i < shots.size(); ++i) {
         if (shots[i].record != r) continue;
-        if (!player.play(shots[i], states[i], position_units_[r], velocity_units_[r], positions[i])) return std::nullopt;
+        if (!player.play(shots[i], states[i], position_units_[r], velocity_units_[r], positions[i]))
+          return std::nullopt;
         if (!positions[i].allFinite()) return std::nullopt;
       }
     }

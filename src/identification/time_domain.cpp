@@ -34,9 +34,8 @@ void check(std::span<const Recording> recordings, const Device& structure, const
   }
   for (const Recording& each : recordings) {
     if (each.channels.size() != 2) {
-      throw Error(ErrorCode::invalid_argument,
-                  fmt::format("{} has {} channels; must be two: force and position", each.source,
-                              each.channels.size()));
+      throw Error(ErrorCode::invalid_argument, fmt::format("{} has {} channels; must be two: force and position",
+                                                           each.source, each.channels.size()));
     }
     const std::size_t size = each.channels[0].samples.size();
     const std::size_t order = options.noise_order;
@@ -187,8 +186,7 @@ void describe_parameters(TimeDomainIdentification& result, const ShotModel& mode
   for (std::size_t i = 0; i < model.coordinates().size(); ++i) {
     const auto at = static_cast<Eigen::Index>(i);
     const Coordinate& coordinate = model.coordinates()[i];
-    result.estimates.push_back(
-        estimate(coordinate, x(at), known.known.determined[i], known.covariance(at, at)));
+    result.estimates.push_back(estimate(coordinate, x(at), known.known.determined[i], known.covariance(at, at)));
     if (!result.estimates.back().identifiable) continue;
     kept.push_back(at);
     uncertainty.parameters.push_back(coordinate.key);
@@ -274,7 +272,7 @@ TimeDomainIdentification identify_in_time(std::span<const Recording> recordings,
   const std::size_t least = std::max<std::size_t>(256, 8 * options.noise_order);
 
   // Which friction to start from: short shots, a few of them.
-  constexpr double part = 0.2;
+  constexpr double part = 0.1;
   constexpr std::size_t few = 3;
   const std::vector<Shot> short_shots =
       some_of(cut(records, start.device, part * options.segment, least), records.size(), few);
@@ -303,7 +301,8 @@ TimeDomainIdentification identify_in_time(std::span<const Recording> recordings,
   constexpr int most_rounds = 5;
   for (int round = 0; whole && round < most_rounds; ++round) {
     const Eigen::VectorXd before = whole->x;
-    fitted = search.with_noise(*whole, shots, towards, {.most_iterations = 12, .tolerance = 2e-7, .holds_bounds = true});
+    fitted =
+        search.with_noise(*whole, shots, towards, {.most_iterations = 12, .tolerance = 2e-7, .holds_bounds = true});
     if (!fitted) break;
     whole = fitted->fit;
     const auto slopes = shot_slopes(model, shots, fitted->noise, fitted->fit.x, fitted->fit.states);
@@ -314,7 +313,8 @@ TimeDomainIdentification identify_in_time(std::span<const Recording> recordings,
     if (!release(*whole, *slopes) && is_still) break;
   }
   if (!known) {
-    throw Error(ErrorCode::did_not_converge, "the fit lost itself where no device can be played; is the structure right?");
+    throw Error(ErrorCode::did_not_converge,
+                "the fit lost itself where no device can be played; is the structure right?");
   }
 
   TimeDomainIdentification result{.device = structure};

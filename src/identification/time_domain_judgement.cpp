@@ -46,8 +46,8 @@ double unexplained_response(const Device& fitted, const Recording& recording, co
       points.push_back(point);
     }
     if (points.empty()) return 0.0;
-    return model_error_of(points, Eigen::Map<const Eigen::VectorXcd>(values.data(),
-                                                                     static_cast<Eigen::Index>(values.size())));
+    return model_error_of(points,
+                          Eigen::Map<const Eigen::VectorXcd>(values.data(), static_cast<Eigen::Index>(values.size())));
   } catch (const Error&) {  // a residual of nothing has no response
     return 0.0;
   }
@@ -112,20 +112,23 @@ class Judge {
       const Recording& recording = judged_.recordings[r];
       motion.unexplained = unexplained_response(fit_.device, recording, motion, judged_.options.locked);
       if (motion.unexplained > refused_share) {
-        trust_.refuse(fmt::format("the fitted device leaves {} of the response of {} unexplained; is the structure "
-                                  "right, and are force and position those of one experiment?",
-                                  percent(motion.unexplained), motion.source));
+        trust_.refuse(
+            fmt::format("the fitted device leaves {} of the response of {} unexplained; is the structure "
+                        "right, and are force and position those of one experiment?",
+                        percent(motion.unexplained), motion.source));
       } else if (motion.unexplained > doubtful_share) {
-        trust_.doubt(fmt::format("the fitted device leaves {} of the response of {} unexplained beyond the noise: a "
-                                 "body that it lacks, or backlash",
-                                 percent(motion.unexplained), motion.source));
+        trust_.doubt(
+            fmt::format("the fitted device leaves {} of the response of {} unexplained beyond the noise: a "
+                        "body that it lacks, or backlash",
+                        percent(motion.unexplained), motion.source));
       }
-      constexpr double clear = 3.0;
+      constexpr double clear = 6.0;
       const double ratio = reversal_ratio(recording, motion);
       if (ratio > clear) {
-        trust_.doubt(fmt::format("the residuals of {} are {:.2g} times larger where the motion turns than elsewhere: "
-                                 "the friction is not Coulomb's, or there is backlash",
-                                 motion.source, std::sqrt(ratio)));
+        trust_.doubt(
+            fmt::format("the residuals of {} are {:.2g} times larger where the motion turns than elsewhere: "
+                        "the friction is not Coulomb's, or there is backlash",
+                        motion.source, std::sqrt(ratio)));
       }
     }
   }

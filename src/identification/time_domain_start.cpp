@@ -45,8 +45,17 @@ Sizes sizes_of(const Recording& recording) {
 }
 
 const Recording& strongest(std::span<const Recording> recordings) {
-  return *std::ranges::max_element(
-      recordings, {}, [](const Recording& each) { return sizes_of(each).force; });
+  return *std::ranges::max_element(recordings, {}, [](const Recording& each) { return sizes_of(each).force; });
+}
+
+/// Of a damping ratio of 3 % between the link's bodies.
+double typical_link_damping(const Device& device, const std::string& key) {
+  constexpr double ratio = 0.03;
+  const auto dot = key.find('.');
+  const Link& link = device.links().at(std::stoul(key.substr(dot + 1)));
+  const double first = device.bodies()[link.first].mass;
+  const double second = device.bodies()[link.second].mass;
+  return 2.0 * ratio * std::sqrt(link.stiffness * first * second / (first + second));
 }
 
 bool is_friction(const std::string& key) { return key.ends_with(".coulomb"); }
@@ -57,8 +66,9 @@ void check_free(const Device& structure, const std::vector<std::string>& free) {
   for (const std::string& key : free) {
     const bool shows = key.starts_with("body.") || key.starts_with("link.") || key == delay_key || key == lag_key;
     if (!shows || !parameter(structure.parameters(), key)) {
-      throw Error(ErrorCode::invalid_argument,
-                  fmt::format("{} is no number of the structure's bodies, links, delay or lag; it cannot be free", key));
+      throw Error(
+          ErrorCode::invalid_argument,
+          fmt::format("{} is no number of the structure's bodies, links, delay or lag; it cannot be free", key));
     }
     if (!seen.insert(key).second) throw Error(ErrorCode::invalid_argument, key + " is given twice as free");
     if (is_friction(key)) ++rubbing;
@@ -151,6 +161,8 @@ std::vector<Coordinate> time_domain_coordinates(const TimeDomainStart& start, st
       coordinate.unit = recording.sampling_period;
     } else if (is_friction(key)) {
       coordinate.unit = 0.1 * sizes.force;
+    } else if (is_link) {
+      coordinate.unit = std::max(value, typical_link_damping(start.device, key));
     } else if (key.ends_with(".damping")) {
       coordinate.unit = std::max(value, 0.01 * sizes.force / sizes.velocity);
     } else {
@@ -164,7 +176,8 @@ std::vector<Coordinate> time_domain_coordinates(const TimeDomainStart& start, st
 double encoder_step(std::span<const double> position) {
   double step = std::numeric_limits<double>::infinity();
   double largest = 0.0;
-  for (std::size_t k = 1; k < position.size(); ++k) largest = std::max(largest, std::abs(position[k] - position[k - 1]));
+  for (std::size_t k = 1; k < position.size(); ++k)
+    largest = std::max(largest, std::abs(position[k] - position[k - 1]));
   constexpr double rounding = 1e-6;
   for (std::size_t k = 1; k < position.size(); ++k) {
     const double change = std::abs(position[k] - position[k - 1]);

@@ -93,8 +93,8 @@ class ContinuousMotion {
     std::vector<Eigen::VectorXd> bend;  // per friction body: h²/8 sup |c A² e^{At}|, by component of the state
   };
   struct Pattern {
-    Eigen::MatrixXd matrix;  // A
-    double norm = 0.0;       // of A, balanced
+    Eigen::MatrixXd matrix;            // A
+    double norm = 0.0;                 // of A, balanced
     std::vector<RecurringStep> steps;  // by length and halvings
   };
 

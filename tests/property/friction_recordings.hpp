@@ -12,6 +12,14 @@
 
 namespace zwidth::test {
 
+namespace detail {
+inline double largest(const std::vector<double>& values) {
+  double most = 0.0;
+  for (const double each : values) most = std::max(most, std::abs(each));
+  return most;
+}
+}  // namespace detail
+
 /// A chain with dry friction under held forces, by fourth-order Runge-Kutta steps that end where a body comes to rest or
 /// breaks away (found by bisection). Shares nothing with the library's motion.
 class FrictionChain {
@@ -49,8 +57,8 @@ class FrictionChain {
     if (i == device_.loop.actuated) force += s[2 * n_];
     for (const Link& link : device_.links) {
       if (link.first != i && link.second != i) continue;
-      const double pull = link.stiffness * (s[link.first] - s[link.second]) +
-                          link.damping * (s[n_ + link.first] - s[n_ + link.second]);
+      const double pull =
+          link.stiffness * (s[link.first] - s[link.second]) + link.damping * (s[n_ + link.first] - s[n_ + link.second]);
       force += link.first == i ? -pull : pull;
     }
     return force;
@@ -173,8 +181,8 @@ inline FrictionRecordings friction_recordings(std::uint64_t seed) {
     made.friction_share = draw.logarithmic(0.01, 0.2);
     const std::size_t where = bodies == 1 ? 0 : draw.below(3);  // 2: half on each
     ExcitationOptions excitation;
-    excitation.kind = std::array{ExcitationKind::multisine, ExcitationKind::noise,
-                                 ExcitationKind::logarithmic_chirp}[draw.below(3)];
+    excitation.kind =
+        std::array{ExcitationKind::multisine, ExcitationKind::noise, ExcitationKind::logarithmic_chirp}[draw.below(3)];
     excitation.amplitude = draw.logarithmic(1.0, 20.0);
     excitation.duration = 20.0;
     excitation.rate = 1000.0;
@@ -201,8 +209,7 @@ inline FrictionRecordings friction_recordings(std::uint64_t seed) {
       const double resolution = moved * draw.logarithmic(0.005, 0.2);
       const double noise = moved * draw.logarithmic(0.002, 0.05);
       for (double& each : position) each = resolution * std::round((each + noise * draw.normal()) / resolution);
-      made.recordings.push_back(
-          {"seed " + std::to_string(seed), 1e-3, {{"force", force}, {"position", position}}, {}});
+      made.recordings.push_back({"seed " + std::to_string(seed), 1e-3, {{"force", force}, {"position", position}}, {}});
     }
     made.truth = truth;
     made.structure.name = "structure";

@@ -25,7 +25,7 @@ struct TimeDomainOptions {
   IdentifyOptions::StructureValues structure_values = IdentifyOptions::StructureValues::known;
   /// Whether delay and lag are fitted too where `free` is empty, or the structure's taken as they are.
   IdentifyOptions::LoopDelay loop_delay = IdentifyOptions::LoopDelay::from_data;
-  double segment = 4.0;         ///< s; each begins in a state of its own
+  double segment = 10.0;         ///< s; each begins in a state of its own
   std::size_t noise_order = 24;  ///< of the autoregression that describes the noise; 0: white
 };
 
@@ -39,8 +39,8 @@ struct FittedMotion {
   double constant_force = 0.0;            ///< N or N m, beside the recorded one
   double constant_force_deviation = 0.0;  ///< one standard deviation
   double noise = 0.0;                     ///< m or rad, root mean square: what one sample has that those before do not
-  double unexplained = 0.0;               ///< share of the linear response that the fitted device leaves, e of identify()
-  std::vector<double> residuals{};        ///< recorded - fitted, by sample; 0 before the first segment
+  double unexplained = 0.0;         ///< share of the linear response that the fitted device leaves, e of identify()
+  std::vector<double> residuals{};  ///< recorded - fitted, by sample; 0 before the first segment
 };
 
 /// A device with dry friction identified from records, and the critical stiffness of its linear part.
@@ -52,9 +52,9 @@ struct TimeDomainIdentification {
   std::vector<FittedMotion> motions{};  ///< by recording
   double lowest = 0.0;                  ///< rad/s, excited band of all recordings
   double highest = 0.0;
-  bool settled = true;         ///< the search came to rest
-  Analysis analysis = {};      ///< of the device, as analyze() gives it, without users
-  StiffnessBasis basis = {};   ///< of analysis.critical
+  bool settled = true;        ///< the search came to rest
+  Analysis analysis = {};     ///< of the device, as analyze() gives it, without users
+  StiffnessBasis basis = {};  ///< of analysis.critical
   std::vector<Remark> remarks{};
   Trust trust = {};  ///< of analysis.critical
 };

@@ -1,0 +1,138 @@
+#include "zwidth/identification/time_domain.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <string>
+
+#include "property/friction_recordings.hpp"
+#include "zwidth/error.hpp"
+#include "zwidth/io/device_file.hpp"
+#include "zwidth/model/device_trust.hpp"
+#include "zwidth/stability/critical_stiffness.hpp"
+
+namespace zwidth {
+namespace {
+
+/// A rigid device with 12 % friction, 250 us of delay, recorded at 1 kHz with little noise.
+DeviceParameters rubbing_body() {
+  DeviceParameters device;
+  device.name = "rubbing";
+  device.bodies = {{"motor", 0.4, 1.3, 0.0, 0.6}};
+  device.loop = {0, 0, 0, 1e-3, 0.25e-3};
+  return device;
+}
+
+Recording record_of(const DeviceParameters& device, double amplitude, std::uint64_t seed, double duration = 8.0) {
+  ExcitationOptions excitation;
+  excitation.kind = ExcitationKind::noise;
+  excitation.amplitude = amplitude;
+  excitation.lowest_hz = 0.5;
+  excitation.highest_hz = 150.0;
+  excitation.duration = duration;
+  excitation.seed = seed;
+  const std::vector<double> force = excite(excitation).samples;
+  std::vector<double> position = test::FrictionChain(device).positions(force);
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal;
+  constexpr double resolution = 2e-7;
+  for (double& each : position) {
+    each = resolution * std::round((each + 0.5 * resolution * normal(random)) / resolution);
+  }
+  return {"seed " + std::to_string(seed), 1e-3, {{"force", force}, {"position", position}}, {}};
+}
+
+Device structure_of(const DeviceParameters& device) {
+  DeviceParameters structure = device;
+  structure.bodies[0].mass = 1.0;
+  structure.bodies[0].damping = 1.0;
+  structure.bodies[0].coulomb = 0.0;
+  structure.loop.delay = 0.0;
+  return Device(structure);
+}
+
+TimeDomainOptions placeholders() {
+  TimeDomainOptions options;
+  options.structure_values = IdentifyOptions::StructureValues::placeholders;
+  return options;
+}
+
+TEST(TimeDomainProperty, SeparatesFrictionFromDamping) {
+  const DeviceParameters truth = rubbing_body();
+  const Recording recording = record_of(truth, 5.0, 7);
+  const TimeDomainIdentification found = identify_in_time({&recording, 1}, structure_of(truth), placeholders());
+  const Body& body = found.device.bodies()[0];
+  EXPECT_NEAR(body.mass, 0.4, 0.4e-3);
+  EXPECT_NEAR(body.damping, 1.3, 0.03);
+  EXPECT_NEAR(body.coulomb, 0.6, 0.006);
+  EXPECT_NEAR(found.device.loop().delay, 0.25e-3, 5e-6);
+  DeviceParameters linear = truth;
+  linear.bodies[0].coulomb = 0.0;
+  const double stiffness = critical_stiffness(Device(linear)).stiffness;
+  EXPECT_NEAR(found.analysis.critical.stiffness, stiffness, 0.03 * stiffness);
+  ASSERT_TRUE(found.analysis.interval);
+  EXPECT_TRUE(found.trust.sound()) << found.trust.reasons.front();
+  // The linear fit of the same record takes the friction for damping.
+  IdentifyOptions options;
+  options.structure_values = IdentifyOptions::StructureValues::placeholders;
+  EXPECT_GT(identify(recording, structure_of(truth), options).analysis.critical.stiffness, 1.1 * stiffness);
+}
+
+TEST(TimeDomainProperty, TwoRecordingsShareTheDevice) {
+  const DeviceParameters truth = rubbing_body();
+  const std::vector<Recording> recordings = {record_of(truth, 5.0, 7), record_of(truth, 2.5, 8)};
+  const TimeDomainIdentification found = identify_in_time(recordings, structure_of(truth), placeholders());
+  ASSERT_EQ(found.motions.size(), 2U);
+  EXPECT_EQ(found.motions[1].residuals.size(), recordings[1].channels[0].samples.size());
+  EXPECT_NEAR(found.device.bodies()[0].coulomb, 0.6, 0.006);
+  EXPECT_NEAR(found.device.bodies()[0].damping, 1.3, 0.03);
+}
+
+TEST(TimeDomainProperty, RefusesATurnedPosition) {
+  const DeviceParameters truth = rubbing_body();
+  Recording recording = record_of(truth, 5.0, 7);
+  for (double& each : recording.channels[1].samples) each = -each;
+  const TimeDomainIdentification found = identify_in_time({&recording, 1}, structure_of(truth), placeholders());
+  EXPECT_TRUE(found.trust.refused());
+  EXPECT_EQ(trust_of(found.device).verdict, Trust::Verdict::refused);
+}
+
+TEST(TimeDomain, FileKeepsFrictionAndUncertainty) {
+  const DeviceParameters truth = rubbing_body();
+  const Recording recording = record_of(truth, 5.0, 7, 2.0);
+  const TimeDomainIdentification found = identify_in_time({&recording, 1}, structure_of(truth), placeholders());
+  const auto read = parse_device(write_device(found.device.parameters()), "fitted.toml");
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->bodies()[0].coulomb, found.device.bodies()[0].coulomb);
+  ASSERT_TRUE(read->parameters().uncertainty);
+  EXPECT_EQ(read->parameters().uncertainty->parameters, found.device.parameters().uncertainty->parameters);
+}
+
+TEST(TimeDomain, NamesWhatIsWrong) {
+  const DeviceParameters truth = rubbing_body();
+  const Recording recording = record_of(truth, 5.0, 7);
+  const auto message = [&](const TimeDomainOptions& options) {
+    try {
+      (void)identify_in_time({&recording, 1}, structure_of(truth), options);
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string("none");
+  };
+  TimeDomainOptions options;
+  options.segment = 0.0;
+  EXPECT_EQ(find_problem(options)->member, "segment");
+  options = {};
+  options.noise_order = 1000;
+  EXPECT_EQ(find_problem(options)->member, "noise_order");
+  options = {};
+  options.free = {"wall.stiffness"};
+  EXPECT_NE(message(options).find("wall.stiffness"), std::string::npos);
+  options.free = {"body.motor.coulomb", "body.motor.coulomb"};
+  EXPECT_NE(message(options).find("twice"), std::string::npos);
+  EXPECT_THROW((void)identify_in_time({}, structure_of(truth)), Error);
+}
+
+}  // namespace
+}  // namespace zwidth
