@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cli/device_arguments.hpp"
+#include "cli/identify_in_time.hpp"
 #include "cli/identify_rigid_body.hpp"
 #include "cli/outputs.hpp"
 #include "cli/progress_line.hpp"
@@ -34,6 +35,7 @@ struct IdentifyArguments {
   InverseDynamicsOptions inverse_dynamics;
   ResponseArguments response;
   StructureArguments structure;
+  TimeDomainArguments in_time;
   bool from_structure = false;
   bool no_hold = false;
   std::string output_device;
@@ -42,8 +44,11 @@ struct IdentifyArguments {
 };
 
 void check_method(const CLI::App& command, const IdentifyArguments& arguments) {
+  const bool is_in_time = arguments.method == "time-domain";
+  if (!is_in_time) refuse_time_domain_options(command);
   if (arguments.method == "inverse-dynamics") return check_inverse_dynamics_options(command);
   refuse_inverse_dynamics_options(command);
+  if (is_in_time) check_time_domain_options(command);
   if (arguments.structure.structure.empty() && !arguments.response.recording.list) {
     throw BadInput("--structure: missing; a device file, or rigid, two-body or three-body");
   }
@@ -54,6 +59,7 @@ void check(const IdentifyArguments& arguments, Outputs& outputs) {
   if (arguments.output_device != "-") outputs.add("--output-device", arguments.output_device);
   outputs.add(arguments.output);
   outputs.keep(arguments.response.recording.file, "recording");
+  for (const std::string& file : arguments.in_time.more) outputs.keep(file, "recording");
   outputs.keep(arguments.structure.structure, "structure");
   if (arguments.output_device == "-" && arguments.output.json) {
     throw BadInput("--output-device: - is standard output, which --json takes; name a file");
@@ -95,16 +101,16 @@ Identification identified_device(const IdentifyArguments& arguments) {
 }
 
 /// The device file, its warnings as comments at the top: whoever reads it later is told as well.
-std::string device_text(const Identification& identified) {
+std::string device_text(const Device& device, const std::vector<Remark>& remarks) {
   std::string text;
-  for (const Remark& remark : identified.remarks) {
+  for (const Remark& remark : remarks) {
     if (remark.severity != Remark::Severity::warning) continue;
     std::string line = "WARNING: " + report::remark_line(remark);
     std::replace_if(
         line.begin(), line.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
     text += "# " + line + "\n";
   }
-  return text + write_device(identified.fit.device.parameters());
+  return text + write_device(device.parameters());
 }
 
 std::string device_hint(const IdentifyArguments& arguments) {
@@ -129,6 +135,23 @@ void run_inverse_dynamics(const IdentifyArguments& arguments, Outputs& outputs) 
   }
 }
 
+/// `identify --method time-domain`.
+void run_in_time(const IdentifyArguments& arguments, Outputs& outputs) {
+  const TimeDomainIdentification identified =
+      fitted_in_time(arguments.response.recording, arguments.structure, arguments.in_time);
+  const std::string device = device_text(identified.device, identified.remarks);
+  outputs.put("--output-device", [&] { return device; });
+  outputs.commit();
+  if (arguments.json) {
+    write_standard_output(results::line(results::identification_json(identified)));
+  } else if (arguments.output_device == "-") {
+    write_warnings(identified.remarks);
+    write_standard_output(device);
+  } else {
+    write_text(report::identification_text(identified) + device_hint(arguments));
+  }
+}
+
 void run_identify(const IdentifyArguments& arguments) {
   if (arguments.response.recording.list) {
     write_text(contents_text(arguments.response.recording));
@@ -137,8 +160,9 @@ void run_identify(const IdentifyArguments& arguments) {
   Outputs outputs;
   check(arguments, outputs);
   if (arguments.method == "inverse-dynamics") return run_inverse_dynamics(arguments, outputs);
+  if (arguments.method == "time-domain") return run_in_time(arguments, outputs);
   const Identification identified = identified_device(arguments);
-  const std::string device = device_text(identified);
+  const std::string device = device_text(identified.fit.device, identified.remarks);
   outputs.put("--output-device", [&] { return device; });
   outputs.draw("--figure",
                [&](report::FigureFormat format) { return report::draw_identification(identified, format); });
@@ -163,10 +187,13 @@ void add_identify(CLI::App& app) {
   add_structure_arguments(*command, arguments->structure);
   command->get_option("--structure")->required(false);  // check_method() asks for it where it is needed
   add_inverse_dynamics_options(*command, arguments->inverse_dynamics);
-  command->add_option("--method", arguments->method, "frequency-response, or inverse-dynamics (one rigid body)")
+  add_time_domain_options(*command, arguments->in_time);
+  command
+      ->add_option("--method", arguments->method,
+                   "frequency-response, time-domain (with dry friction), or\ninverse-dynamics (one rigid body)")
       ->type_name("NAME")
       ->capture_default_str()
-      ->check(CLI::IsMember({"frequency-response", "inverse-dynamics"}));
+      ->check(CLI::IsMember({"frequency-response", "time-domain", "inverse-dynamics"}));
   command->add_flag("--from-structure", arguments->from_structure,
                     "Start from the structure's values instead of what the data suggest");
   command->add_flag("--no-hold", arguments->no_hold, "Do not hold an imperfect fit to the measured critical stiffness");

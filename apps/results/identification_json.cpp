@@ -1,5 +1,6 @@
 #include "results/identification_json.hpp"
 
+#include <algorithm>
 #include <complex>
 #include <span>
 
@@ -77,6 +78,47 @@ Json identification_json(const Identification& identified, PointsInJson points) 
   json["trust"] = identified.trust;
   json["remarks"] = identified.remarks;
   if (points == PointsInJson::included) json["points"] = points_json(fit);
+  return json;
+}
+
+static void to_json(Json& json, const FittedMotion& motion) {
+  json = {{"source", motion.source},
+          {"recorded_sampling_period_s", motion.sampling_period},
+          {"constant_force", motion.constant_force},
+          {"constant_force_deviation", motion.constant_force_deviation},
+          {"noise", motion.noise},
+          {"unexplained", motion.unexplained}};
+}
+
+Json identification_json(const TimeDomainIdentification& identified) {
+  const Json analysis = analysis_json(identified.device, identified.analysis);
+  Json json = document("zwidth.identification/1");
+  json["method"] = "time-domain";
+  json["source"] = identified.motions.front().source;
+  json["recordings"] = identified.motions;
+  json["device"] = identified.device.name();
+  json["units"] = analysis["units"];
+  json["recorded_sampling_period_s"] = identified.motions.front().sampling_period;
+  json["band_hz"] = {hertz(identified.lowest), hertz(identified.highest)};
+  json["parameters"] = estimates_json(identified.estimates, identified.device.parameters().motion);
+  json["correlations"] = identified.correlations;
+  json["unidentifiable"] = Json::array();
+  for (const UnidentifiableCombination& each : identified.unidentifiable) {
+    json["unidentifiable"].push_back(each.parameters);
+  }
+  for (const char* key : {"point_count", "misfit", "critical_stiffness_without_hold"}) json[key] = nullptr;
+  double unexplained = 0.0;
+  for (const FittedMotion& each : identified.motions) unexplained = std::max(unexplained, each.unexplained);
+  json["model_error"] = unexplained;
+  json["held_to_measured_critical_point"] = false;
+  for (const char* key :
+       {"status", "critical_stiffness", "critical_stiffness_interval", "critical_frequency_hz", "limited_by"}) {
+    json[key] = identified.trust.refused() ? Json(nullptr) : analysis[key];
+  }
+  json["modes"] = analysis["modes"];
+  json["basis"] = identified.basis;
+  json["trust"] = identified.trust;
+  json["remarks"] = identified.remarks;
   return json;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "identification/identifiability.hpp"
 #include "identification/shot_fit.hpp"
@@ -16,6 +17,8 @@ struct ShotCovariance {
 /// With the states eliminated: x's slopes less what the shots' own states explain of them; then
 /// covariance_with_correlated_residuals(), no variance less than that of the scores' sums over stretches of the record,
 /// nor than for white noise of deviation 1 (the encoder's floor).
-[[nodiscard]] ShotCovariance shot_covariance(const ShotSlopes& slopes);
+///
+/// What is held (at 0, its bound) counts as known beside the others; its own variance is that with the others known.
+[[nodiscard]] ShotCovariance shot_covariance(const ShotSlopes& slopes, const std::vector<bool>& held);
 
 }  // namespace zwidth::internal

@@ -147,12 +147,29 @@ bool release(ShotFit& fit, const ShotSlopes& slopes) {
       gradient += column.dot(slopes.residuals[i]);
       squares += column.squaredNorm();
     }
-    constexpr double significant = 2.0;
+    constexpr double significant = 3.0;
     if (!(gradient < -significant * std::sqrt(squares))) continue;
     fit.held[k] = false;
     any = true;
   }
   return any;
+}
+
+/// A lag that is short beside the sampling period is hardly another thing than a delay: held at 0 until the data pull it
+/// away from there.
+void take_short_lag_for_delay(const ShotModel& model, ShotFit& fit) {
+  const auto place = [&](const char* key) {
+    const auto& all = model.coordinates();
+    return std::ranges::find(all, key, &Coordinate::key) - all.begin();
+  };
+  const auto count = static_cast<std::ptrdiff_t>(model.coordinates().size());
+  const auto lag = place("actuator.time_constant");
+  const auto delay = place("loop.delay");
+  constexpr double brief = 0.15;  // sampling periods, the unit of both
+  if (lag == count || delay == count || fit.x(lag) > brief) return;
+  fit.x(delay) += fit.x(lag);
+  fit.x(lag) = 0.0;
+  fit.held[static_cast<std::size_t>(lag)] = true;
 }
 
 bool stands_still(const Eigen::VectorXd& before, const Eigen::VectorXd& after, const Eigen::MatrixXd& covariance) {
@@ -178,8 +195,9 @@ ParameterEstimate estimate(const Coordinate& coordinate, double x, bool determin
   return result;
 }
 
-void describe_parameters(TimeDomainIdentification& result, const ShotModel& model, const Eigen::VectorXd& x,
+void describe_parameters(TimeDomainIdentification& result, const ShotModel& model, const ShotFit& fit,
                          const ShotCovariance& known) {
+  const Eigen::VectorXd& x = fit.x;
   DeviceParameters fitted = model.parameters_at(x);
   Uncertainty uncertainty;
   std::vector<Eigen::Index> kept;
@@ -187,7 +205,7 @@ void describe_parameters(TimeDomainIdentification& result, const ShotModel& mode
     const auto at = static_cast<Eigen::Index>(i);
     const Coordinate& coordinate = model.coordinates()[i];
     result.estimates.push_back(estimate(coordinate, x(at), known.known.determined[i], known.covariance(at, at)));
-    if (!result.estimates.back().identifiable) continue;
+    if (!result.estimates.back().identifiable || fit.held[i]) continue;
     kept.push_back(at);
     uncertainty.parameters.push_back(coordinate.key);
   }
@@ -299,6 +317,7 @@ TimeDomainIdentification identify_in_time(std::span<const Recording> recordings,
   std::optional<ShotCovariance> known;
   std::optional<Fitted> fitted;
   constexpr int most_rounds = 5;
+  if (whole) take_short_lag_for_delay(model, *whole);
   for (int round = 0; whole && round < most_rounds; ++round) {
     const Eigen::VectorXd before = whole->x;
     fitted =
@@ -307,7 +326,7 @@ TimeDomainIdentification identify_in_time(std::span<const Recording> recordings,
     whole = fitted->fit;
     const auto slopes = shot_slopes(model, shots, fitted->noise, fitted->fit.x, fitted->fit.states);
     if (!slopes) break;
-    known = shot_covariance(*slopes);
+    known = shot_covariance(*slopes, fitted->fit.held);
     done(0.5 + 0.1 * (round + 1));
     const bool is_still = stands_still(before, fitted->fit.x, known->covariance);
     if (!release(*whole, *slopes) && is_still) break;
@@ -322,7 +341,7 @@ TimeDomainIdentification identify_in_time(std::span<const Recording> recordings,
   result.highest = start.highest;
   result.settled = fitted->fit.settled;
   result.remarks = start.remarks;
-  describe_parameters(result, model, fitted->fit.x, *known);
+  describe_parameters(result, model, fitted->fit, *known);
   describe_motions(result, recordings, model, shots, *fitted, known->covariance);
   judge_in_time(result, {recordings, structure, options, start.is_turned});
   done(1.0);

@@ -58,6 +58,17 @@ double typical_link_damping(const Device& device, const std::string& key) {
   return 2.0 * ratio * std::sqrt(link.stiffness * first * second / (first + second));
 }
 
+/// A part of the delay as lag where there is none: from 0 itself a search does not see it.
+Device with_some_lag(const Device& device, double period) {
+  DeviceParameters parameters = device.parameters();
+  if (parameters.actuator.time_constant > 0.0) return device;
+  constexpr double share = 0.2;
+  parameters.actuator.time_constant = share * period;
+  parameters.loop.delay = std::max(0.0, parameters.loop.delay - share * period);
+  parameters.uncertainty.reset();
+  return Device(std::move(parameters));
+}
+
 bool is_friction(const std::string& key) { return key.ends_with(".coulomb"); }
 
 void check_free(const Device& structure, const std::vector<std::string>& free) {
@@ -108,8 +119,11 @@ TimeDomainStart time_domain_start(std::span<const Recording> recordings, const D
   }
   if (given.empty()) {
     const auto is_free = [&](const char* key) { return std::ranges::count(start.free, std::string(key)) > 0; };
-    if (options.loop_delay == IdentifyOptions::LoopDelay::from_data && !is_free(delay_key)) {
-      start.free.emplace_back(delay_key);
+    if (options.loop_delay == IdentifyOptions::LoopDelay::from_data) {
+      for (const char* key : {delay_key, lag_key}) {
+        if (!is_free(key)) start.free.emplace_back(key);
+      }
+      start.device = with_some_lag(start.device, strongest(recordings).sampling_period);
     }
     for (const Body& body : structure.bodies()) {
       const bool is_locked = std::ranges::count(options.locked, body.name) > 0;

@@ -26,9 +26,9 @@ std::string fit_quality(const ParameterFit& fit) {
   return text + ".";
 }
 
-std::string correlations(const ParameterFit& fit) {
+std::string correlations(const std::vector<StrongCorrelation>& strong) {
   std::string text;
-  for (const StrongCorrelation& each : fit.correlations) {
+  for (const StrongCorrelation& each : strong) {
     text += wrap(
         fmt::format("{} and {} are hardly told apart: correlation {:.3f}", each.first, each.second, each.correlation),
         width, 2);
@@ -69,25 +69,45 @@ TextTable estimate_table(std::span<const ParameterEstimate> estimates, Motion mo
   return table;
 }
 
+/// K_CR with what it is given with, its interval and what limits it.
+std::string limit_text(const Device& device, const Analysis& analysis, const StiffnessBasis& basis) {
+  const AnalysedDevice analysed{device, analysis};
+  const Motion motion = device.parameters().motion;
+  std::string text = wrap(fmt::format("Critical stiffness of this device, {}: {}.", basis_text(basis, motion),
+                                      critical_stiffness_text(analysis.critical, motion)),
+                          width, 0);
+  if (const auto interval = interval_note(analysed)) text += wrap("95 % interval: " + *interval + ".", width, 0);
+  if (const auto limit = what_limits(analysed)) text += wrap("Limited by " + *limit + ".", width, 0);
+  return text;
+}
+
 }  // namespace
 
 std::string identification_text(const Identification& identified) {
   const ParameterFit& fit = identified.fit;
-  const AnalysedDevice analysed{fit.device, identified.analysis};
   std::string text = fmt::format("{}, identified from {}\n", display_name(fit.device), identified.source);
-  text += layout(estimate_table(fit.estimates, fit.device.parameters().motion)) + correlations(fit) + "\n" +
-          wrap(fit_quality(fit), width, 0) + "\n";
+  text += layout(estimate_table(fit.estimates, fit.device.parameters().motion)) + correlations(fit.correlations) +
+          "\n" + wrap(fit_quality(fit), width, 0) + "\n";
   text += trust_lines(identified.trust);
   if (identified.trust.refused()) return text + remarks(identified.remarks);
-  const Motion motion = fit.device.parameters().motion;
-  text += wrap(fmt::format("Critical stiffness of this device, {}: {}.", basis_text(identified.basis, motion),
-                           critical_stiffness_text(identified.analysis.critical, motion)),
-               width, 0);
-  if (const auto interval = interval_note(analysed)) {
-    text += wrap("95 % interval: " + *interval + ".", width, 0);
+  return text + limit_text(fit.device, identified.analysis, identified.basis) + remarks(identified.remarks);
+}
+
+std::string identification_text(const TimeDomainIdentification& identified) {
+  const Motion motion = identified.device.parameters().motion;
+  std::string text =
+      fmt::format("{}, identified in time from {}", display_name(identified.device), identified.motions.front().source);
+  if (identified.motions.size() > 1) text += fmt::format(" and {} more", identified.motions.size() - 1);
+  text += "\n" + layout(estimate_table(identified.estimates, motion)) + correlations(identified.correlations) + "\n";
+  for (const FittedMotion& each : identified.motions) {
+    text +=
+        wrap(fmt::format("{}: {:.3g} {} of noise per sample; {:.3g} % of the linear response unexplained beyond it.",
+                         each.source, each.noise, motion == Motion::rotary ? "rad" : "m", 100.0 * each.unexplained),
+             width, 0);
   }
-  if (const auto limit = what_limits(analysed)) text += wrap("Limited by " + *limit + ".", width, 0);
-  return text + remarks(identified.remarks);
+  text += "\n" + trust_lines(identified.trust);
+  if (identified.trust.refused()) return text + remarks(identified.remarks);
+  return text + limit_text(identified.device, identified.analysis, identified.basis) + remarks(identified.remarks);
 }
 
 std::string identification_text(const RigidBodyIdentification& identified) {

@@ -1,0 +1,87 @@
+#include "cli/identify_in_time.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "cli/progress_line.hpp"
+#include "cli/subcommand.hpp"
+#include "zwidth/error.hpp"
+
+namespace zwidth::cli {
+namespace {
+
+constexpr std::array time_domain_options{"MORE", "--segment-duration"};
+
+/// Empty (the library's choice) unless keys are given; "all" adds the friction of every body that moves.
+std::vector<std::string> free_in_time(const StructureArguments& given, const Device& device) {
+  if (given.free.empty()) return {};
+  std::vector<std::string> keys = free_parameters(given, device);
+  if (std::ranges::count(given.free, "all") == 0) return keys;
+  for (const Body& body : device.bodies()) {
+    const std::string key = "body." + body.name + ".coulomb";
+    if (std::ranges::count(given.locked, body.name) == 0 && std::ranges::count(keys, key) == 0) keys.push_back(key);
+  }
+  return keys;
+}
+
+}  // namespace
+
+void add_time_domain_options(CLI::App& command, TimeDomainArguments& arguments) {
+  constexpr const char* group = "Fit in time";
+  command.add_option("MORE", arguments.more, "Further recordings of the same device, best of another force (time-domain)")
+      ->type_name("");
+  command.add_option("--segment-duration", arguments.segment, "Each segment begins in a state of its own")
+      ->type_name("S")
+      ->capture_default_str()
+      ->group(group);
+}
+
+void check_time_domain_options(const CLI::App& command) {
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->count() == 0) continue;
+    const std::string name = option->get_name();
+    const std::string group = option->get_group();
+    if (group == "Estimate" || group == "Table of a response" || name == "--velocity" || name == "--acceleration" ||
+        name == "--from-structure" || name == "--no-hold" || name == "--figure" || name == "--points") {
+      throw BadInput(fmt::format("{}: is not for --method time-domain, which fits force and position", name));
+    }
+  }
+}
+
+void refuse_time_domain_options(const CLI::App& command) {
+  for (const char* option : time_domain_options) {
+    if (command.count(option) == 0) continue;
+    throw BadInput(fmt::format("{}: is for --method time-domain",
+                               option == time_domain_options.front() ? "more than one recording" : option));
+  }
+}
+
+TimeDomainIdentification fitted_in_time(const RecordingArguments& recording, const StructureArguments& structure_given,
+                                        const TimeDomainArguments& arguments) {
+  std::vector<Recording> recordings{read_motion(recording).recording};
+  for (const std::string& file : arguments.more) {
+    RecordingArguments other = recording;
+    other.file = file;
+    recordings.push_back(read_motion(other).recording);
+  }
+  const Device device = structure(structure_given, recordings.front().sampling_period);
+  TimeDomainOptions options;
+  options.free = free_in_time(structure_given, device);
+  options.locked = structure_given.locked;
+  options.segment = arguments.segment;
+  if (is_named_structure(structure_given)) options.structure_values = IdentifyOptions::StructureValues::placeholders;
+  if (const auto problem = find_problem(options)) {
+    throw BadInput(fmt::format("--segment-duration: {}; {}", problem->what, problem->allowed));
+  }
+  try {
+    ProgressLine line("identifying");
+    return identify_in_time(recordings, device, options, line.progress());
+  } catch (const Error& error) {
+    if (error.code() == ErrorCode::did_not_converge) throw WorkFailed(recording.file + ": " + error.what());
+    throw BadInput(recording.file + ": " + error.what());
+  }
+}
+
+}  // namespace zwidth::cli
