@@ -142,7 +142,7 @@ void run_in_time(const IdentifyArguments& arguments, Outputs& outputs) {
   const std::string device = device_text(identified.device, identified.remarks);
   outputs.put("--output-device", [&] { return device; });
   outputs.commit();
-  if (arguments.json) {
+  if (arguments.output.json) {
     write_standard_output(results::line(results::identification_json(identified)));
   } else if (arguments.output_device == "-") {
     write_warnings(identified.remarks);
