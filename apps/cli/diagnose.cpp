@@ -56,7 +56,7 @@ const char* diagnose_option_of(const std::string& member) {
 
 void run_diagnose(const CLI::App& command, DiagnoseArguments arguments) {
   const bool recorded = !arguments.recording.file.empty();
-  if (recorded && arguments.recording.list) return write_standard_output(contents_text(arguments.recording));
+  if (recorded && arguments.recording.list) return write_text(contents_text(arguments.recording));
   if (recorded == arguments.oscillates_hz.has_value()) {
     throw BadInput("--oscillates-hz: give the frequency, or a recording that shows it with --recording");
   }
@@ -90,7 +90,7 @@ void run_diagnose(const CLI::App& command, DiagnoseArguments arguments) {
   }
   if (arguments.output.json) write_standard_output(results::line(results::diagnosis_json(device, options, *diagnosis)));
   if (diagnosis->trust.refused()) throw WorkFailed(file + ": " + report::verdict_text(diagnosis->trust));
-  if (!arguments.output.json) write_standard_output(report::for_medium(report::diagnosis_text(device, options, *diagnosis)));
+  if (!arguments.output.json) write_text(report::diagnosis_text(device, options, *diagnosis));
 }
 
 }  // namespace
@@ -100,13 +100,13 @@ void add_diagnose(CLI::App& app) {
   CLI::App* command = app.add_subcommand("diagnose", "What an oscillation at a given frequency is, and what moves it");
   add_device_arguments(*command, arguments->devices, FileCount::one);
   command->add_option("--oscillates-hz", arguments->oscillates_hz, "The frequency at which it oscillates")
-      ->type_name("F");
+      ->type_name("HZ");
   command->add_option("--stiffness", arguments->options.stiffness, "K of the wall; else the file's")->type_name("K");
   command->add_option("--damping", arguments->options.damping, "B of the wall; else the file's")->type_name("B");
   command
       ->add_option("--amplitude", arguments->options.amplitude,
                    "Of the sensed position, m or rad: tells small causes from great")
-      ->type_name("A");
+      ->type_name("M");
   command->add_option("--recording", arguments->recording.file, "Take frequency and amplitude from its last half")
       ->type_name("FILE");
   add_output_options(*command, arguments->output, {});

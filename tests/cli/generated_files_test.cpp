@@ -149,7 +149,9 @@ TEST_F(GeneratedFiles, TextIsAsciiWhereTheLocaleIs) {
                                             "frf recordings/locked_chirp.csv --force force --position position",
                                             "excite --amplitude 2 --json",
                                             "design " + rotary + " --sweep loop.delay=0:8e-3:3",
-                                            "design devices/lhifam.toml --target 12000"};
+                                            "design devices/lhifam.toml --target 12000",
+                                            "design devices/lhifam.toml --recommend",
+                                            "diagnose " + rotary + " --oscillates-hz 19"};
   for (const std::string& command : answers) {
     const Outcome plain = run("LC_ALL=C zwidth " + command);
     EXPECT_EQ(plain.status, 0) << command << plain.errors;

@@ -31,6 +31,8 @@ TEST_F(UnitsOnTheCommandLine, AreTheSameNumbers) {
               "zwidth bode devices/lhifam.toml --json --from 6.283185307179586 --to 100");
   expect_same("zwidth excite --amplitude 1 --rate '0.5 kHz' --duration 500ms --json",
               "zwidth excite --amplitude 1 --rate 500 --duration 0.5 --json");
+  expect_same("zwidth diagnose devices/lhifam.toml --json --oscillates-hz '0.041 kHz' --stiffness '7 kN/m'",
+              "zwidth diagnose devices/lhifam.toml --json --oscillates-hz 41 --stiffness 7000");
   expect_same("zwidth design devices/lhifam.toml --json --target '12 kN/m'",
               "zwidth design devices/lhifam.toml --json --target 12000");
   expect_same("zwidth design devices/quanser_torsion.toml --json --sweep 'link.stiffness=0.01 N m/deg:2 N m/rad:3'",
