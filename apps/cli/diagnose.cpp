@@ -15,7 +15,6 @@
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
 #include "report/text/diagnosis_text.hpp"
-#include "report/text/text_medium.hpp"
 #include "report/text/trust_text.hpp"
 #include "results/diagnosis_json.hpp"
 #include "zwidth/design/diagnosis.hpp"
