@@ -302,7 +302,9 @@ Identification identified(const MeasuredResponse& measured, const Recording* rec
   result.basis = {wall.damping, wall.velocity_filter_hz, wall.filters.size()};
   result.fit.device = with_trust(result.fit.device, judgement.device_trust);
   result.analysis = analyze(result.fit.device, {.any_user = false});
-  if (result.analysis.critical.trust.refused()) result.trust.inherit(result.analysis.critical.trust);
+  if (!result.trust.refused() && result.analysis.critical.trust.refused()) {
+    result.trust.inherit(result.analysis.critical.trust);
+  }
   judge_interval(result, judgement.device_trust);
   return result;
 }

@@ -103,7 +103,8 @@ ShotCovariance shot_covariance(const ShotSlopes& slopes, const std::vector<bool>
   covariance *= calibration * calibration;
   const double mean_square = residuals.squaredNorm() / static_cast<double>(rows);
   if (mean_square < 1.0) covariance /= mean_square;
-  result.covariance(kept, kept) = scale.asDiagonal() * covariance * scale.asDiagonal();
+  const Eigen::MatrixXd unscaled = scale.asDiagonal() * covariance * scale.asDiagonal();
+  result.covariance(kept, kept) = 0.5 * (unscaled + unscaled.transpose());  // rounding of the inverse
   return result;
 }
 

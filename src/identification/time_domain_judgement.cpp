@@ -95,7 +95,7 @@ class Judge {
     const Wall& wall = fit_.device.parameters().wall;
     fit_.basis = {wall.damping, wall.velocity_filter_hz, wall.filters.size()};
     fit_.trust = trust_;
-    if (fit_.analysis.critical.trust.refused()) fit_.trust.inherit(fit_.analysis.critical.trust);
+    if (!trust_.refused() && fit_.analysis.critical.trust.refused()) fit_.trust.inherit(fit_.analysis.critical.trust);
     describe();
   }
 
