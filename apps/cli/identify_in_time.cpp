@@ -30,8 +30,7 @@ std::vector<std::string> free_in_time(const StructureArguments& given, const Dev
 
 void add_time_domain_options(CLI::App& command, TimeDomainArguments& arguments) {
   constexpr const char* group = "Fit in time";
-  command
-      .add_option("MORE", arguments.more, "More recordings of the device, best of another force (time-domain)")
+  command.add_option("MORE", arguments.more, "More recordings of the device, best of another force (time-domain)")
       ->type_name("");
   command.add_option("--segment-duration", arguments.segment, "Each segment begins in a state of its own")
       ->type_name("S")

@@ -121,6 +121,7 @@ std::vector<double> friction_shares(const Device& device) {
   for (const Body& body : device.bodies()) mass += body.mass, friction += body.coulomb;
   const double highest = 1e3 * mass / device.loop().sampling_period / friction;
   std::vector<double> result;
+  result.reserve(static_cast<std::size_t>(shares));
   for (int i = 0; i < shares; ++i)
     result.push_back(highest * std::pow(1e-9, 1.0 - static_cast<double>(i) / (shares - 1)));
   return result;

@@ -275,8 +275,8 @@ std::optional<ShotSlopes> shot_slopes(const ShotModel& model, const std::vector<
   for (std::size_t i = 0; i < shots.size(); ++i) {
     const ShotNoise& filter = noise[shots[i].record];
     slopes.residuals.push_back(whitened(filter, (*own)[i]));
-    slopes.of_parameters.push_back(Eigen::MatrixXd::Zero(slopes.residuals[i].size(), parameters));
-    slopes.of_states.push_back(Eigen::MatrixXd::Zero(slopes.residuals[i].size(), model.states()));
+    slopes.of_parameters.emplace_back(Eigen::MatrixXd::Zero(slopes.residuals[i].size(), parameters));
+    slopes.of_states.emplace_back(Eigen::MatrixXd::Zero(slopes.residuals[i].size(), model.states()));
   }
   std::vector<char> is_valid(static_cast<std::size_t>(all), 0);
   tbb::parallel_for(Eigen::Index{0}, all, [&](Eigen::Index column) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "model/balance.hpp"
 #include "model/device_matrices.hpp"
@@ -66,9 +67,8 @@ int sign_of(double value) noexcept { return value > 0.0 ? 1 : value < 0.0 ? -1 :
 
 }  // namespace
 
-ContinuousMotion::ContinuousMotion(const Device& device, OutsideForce outside,
-                                   const std::vector<double>& recurring_lengths)
-    : lengths_(recurring_lengths) {
+ContinuousMotion::ContinuousMotion(const Device& device, OutsideForce outside, std::vector<double> recurring_lengths)
+    : lengths_(std::move(recurring_lengths)) {
   if (device.has_bodies()) {
     bodies_ = device.bodies().size();
     sensed_ = device.loop().sensed;
@@ -186,7 +186,7 @@ ContinuousMotion::Pattern ContinuousMotion::make_pattern(const Eigen::MatrixXd& 
       const Eigen::RowVectorXd row = (stuck >> k & 1u) != 0
                                          ? Eigen::RowVectorXd(friction_[k].other_forces.transpose() * square)
                                          : Eigen::RowVectorXd(square.row(velocity));
-      step.bend.push_back(h * h / 8.0 * largest_over(row, pieces));
+      step.bend.emplace_back(h * h / 8.0 * largest_over(row, pieces));
     }
     pattern.steps.push_back(std::move(step));
     for (std::size_t halving = 1; halving <= most_halvings; ++halving) {

@@ -35,7 +35,7 @@ class ContinuousMotion {
  public:
   /// Lengths h > 0 are the ones advance_recurring() takes, by index. Throws Error (invalid_argument) for more than
   /// max_friction_bodies with Coulomb friction.
-  ContinuousMotion(const Device& device, OutsideForce outside, const std::vector<double>& recurring_lengths);
+  ContinuousMotion(const Device& device, OutsideForce outside, std::vector<double> recurring_lengths);
 
   static constexpr std::size_t max_friction_bodies = 6;
   /// Stick-slip instants within one advance beyond which the rest of it is moved in the modes then reached.
