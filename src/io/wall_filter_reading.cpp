@@ -22,6 +22,7 @@ constexpr std::array all_kinds{low_pass, notch, lead_lag, biquad, digital};
 const std::vector<std::string>& type_names() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> all;
+    all.reserve(all_kinds.size());
     for (const WallFilter::Kind kind : all_kinds) all.emplace_back(wall_filter_type(kind));
     return all;
   }();
