@@ -118,6 +118,20 @@ std::string device_hint(const IdentifyArguments& arguments) {
                                          : "\nThe device is in " + arguments.output_device + "\n";
 }
 
+/// What a method found, as a document, as the device file alone, or in words.
+template <typename Identified, typename Document>
+void print(const IdentifyArguments& arguments, const Identified& identified, const std::string& device,
+           const Document& document) {
+  if (arguments.output.json) {
+    write_standard_output(results::line(document()));
+  } else if (arguments.output_device == "-") {
+    write_warnings(identified.remarks);
+    write_standard_output(device);
+  } else {
+    write_text(report::identification_text(identified) + device_hint(arguments));
+  }
+}
+
 /// `identify --method inverse-dynamics`.
 void run_inverse_dynamics(const IdentifyArguments& arguments, Outputs& outputs) {
   const RigidBodyIdentification identified =
@@ -125,14 +139,7 @@ void run_inverse_dynamics(const IdentifyArguments& arguments, Outputs& outputs) 
   const std::string device = write_device(identified.device.parameters());
   outputs.put("--output-device", [&] { return device; });
   outputs.commit();
-  if (arguments.output.json) {
-    write_standard_output(results::line(results::identification_json(identified)));
-  } else if (arguments.output_device == "-") {
-    write_warnings(identified.remarks);
-    write_standard_output(device);
-  } else {
-    write_text(report::identification_text(identified) + device_hint(arguments));
-  }
+  print(arguments, identified, device, [&] { return results::identification_json(identified); });
 }
 
 /// `identify --method time-domain`.
@@ -142,14 +149,7 @@ void run_in_time(const IdentifyArguments& arguments, Outputs& outputs) {
   const std::string device = device_text(identified.device, identified.remarks);
   outputs.put("--output-device", [&] { return device; });
   outputs.commit();
-  if (arguments.output.json) {
-    write_standard_output(results::line(results::identification_json(identified)));
-  } else if (arguments.output_device == "-") {
-    write_warnings(identified.remarks);
-    write_standard_output(device);
-  } else {
-    write_text(report::identification_text(identified) + device_hint(arguments));
-  }
+  print(arguments, identified, device, [&] { return results::identification_json(identified); });
 }
 
 void run_identify(const IdentifyArguments& arguments) {
@@ -167,15 +167,8 @@ void run_identify(const IdentifyArguments& arguments) {
   outputs.draw("--figure",
                [&](report::FigureFormat format) { return report::draw_identification(identified, format); });
   outputs.commit();
-  if (arguments.output.json) {
-    const auto points = arguments.points ? results::PointsInJson::included : results::PointsInJson::left_out;
-    write_standard_output(results::line(results::identification_json(identified, points)));
-  } else if (arguments.output_device == "-") {
-    write_warnings(identified.remarks);
-    write_standard_output(device);
-  } else {
-    write_text(report::identification_text(identified) + device_hint(arguments));
-  }
+  const auto points = arguments.points ? results::PointsInJson::included : results::PointsInJson::left_out;
+  print(arguments, identified, device, [&] { return results::identification_json(identified, points); });
 }
 
 }  // namespace

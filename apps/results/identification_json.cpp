@@ -51,6 +51,19 @@ Json points_json(const ParameterFit& fit) {
 
 }  // namespace
 
+/// The limit that an identification gives, none where it is refused, and how far it is to be trusted.
+template <typename Identified>
+static void put_limit(Json& json, const Identified& identified, const Json& analysis) {
+  for (const char* key :
+       {"status", "critical_stiffness", "critical_stiffness_interval", "critical_frequency_hz", "limited_by"}) {
+    json[key] = identified.trust.refused() ? Json(nullptr) : analysis[key];
+  }
+  json["modes"] = analysis["modes"];
+  json["basis"] = identified.basis;
+  json["trust"] = identified.trust;
+  json["remarks"] = identified.remarks;
+}
+
 Json identification_json(const Identification& identified, PointsInJson points) {
   const ParameterFit& fit = identified.fit;
   const Json analysis = analysis_json(fit.device, identified.analysis);
@@ -69,14 +82,7 @@ Json identification_json(const Identification& identified, PointsInJson points) 
   json["model_error"] = fit.model_error;
   json["held_to_measured_critical_point"] = fit.stiffness_without_hold.has_value();
   json["critical_stiffness_without_hold"] = fit.stiffness_without_hold;
-  for (const char* key :
-       {"status", "critical_stiffness", "critical_stiffness_interval", "critical_frequency_hz", "limited_by"}) {
-    json[key] = identified.trust.refused() ? Json(nullptr) : analysis[key];
-  }
-  json["modes"] = analysis["modes"];
-  json["basis"] = identified.basis;
-  json["trust"] = identified.trust;
-  json["remarks"] = identified.remarks;
+  put_limit(json, identified, analysis);
   if (points == PointsInJson::included) json["points"] = points_json(fit);
   return json;
 }
@@ -111,14 +117,7 @@ Json identification_json(const TimeDomainIdentification& identified) {
   for (const FittedMotion& each : identified.motions) unexplained = std::max(unexplained, each.unexplained);
   json["model_error"] = unexplained;
   json["held_to_measured_critical_point"] = false;
-  for (const char* key :
-       {"status", "critical_stiffness", "critical_stiffness_interval", "critical_frequency_hz", "limited_by"}) {
-    json[key] = identified.trust.refused() ? Json(nullptr) : analysis[key];
-  }
-  json["modes"] = analysis["modes"];
-  json["basis"] = identified.basis;
-  json["trust"] = identified.trust;
-  json["remarks"] = identified.remarks;
+  put_limit(json, identified, analysis);
   return json;
 }
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/workspace.hpp"
+#include "cli/workspace_with_help.hpp"
 
 namespace zwidth::cli {
 namespace {
@@ -18,21 +18,7 @@ using ::testing::IsEmpty;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-class Frame : public Workspace {
- protected:
-  /// Names of the commands, from the program's own help.
-  [[nodiscard]] std::vector<std::string> commands() const {
-    std::vector<std::string> names;
-    std::istringstream help(run("zwidth --help").output);
-    bool in_list = false;
-    for (std::string line; std::getline(help, line);) {
-      if (line.empty()) in_list = false;
-      if (in_list) names.push_back(line.substr(2, line.find(' ', 2) - 2));
-      if (line == "Commands:") in_list = true;
-    }
-    return names;
-  }
-};
+using Frame = WorkspaceWithHelp;
 
 /// The command lines after "Examples:" in a help text.
 std::vector<std::string> examples_in(const std::string& help) {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/workspace.hpp"
+#include "cli/workspace_with_help.hpp"
 
 namespace zwidth::cli {
 namespace {
@@ -27,21 +27,8 @@ Words words_in(const std::string& lines) {
   return words;
 }
 
-class GeneratedFiles : public Workspace {
+class GeneratedFiles : public WorkspaceWithHelp {
  protected:
-  /// Names of the commands, from the program's own help.
-  [[nodiscard]] std::vector<std::string> commands() const {
-    std::vector<std::string> names;
-    std::istringstream help(run("zwidth --help").output);
-    bool in_list = false;
-    for (std::string line; std::getline(help, line);) {
-      if (line.empty()) in_list = false;
-      if (in_list) names.push_back(line.substr(2, line.find(' ', 2) - 2));
-      if (line == "Commands:") in_list = true;
-    }
-    return names;
-  }
-
   /// The options that the help of a command begins a line with.
   [[nodiscard]] Words options(const std::string& command) const {
     Words found;
@@ -101,7 +88,8 @@ TEST_F(GeneratedFiles, BashTakesThemAtAPrompt) {
 
 TEST_F(GeneratedFiles, OtherShellsReadTheirs) {
   for (const std::string shell : {"zsh", "fish"}) {
-    if (run("command -v " + shell).status != 0) GTEST_SKIP() << "there is no " << shell << " here";
+    if (run("command -v " + shell).status != 0)
+      FAIL() << "there is no " << shell << ": scripts/install-dependencies tests";
     const Outcome outcome = run("zwidth --generate " + shell + " > file && " + shell + " -n file");
     EXPECT_EQ(outcome.status, 0) << outcome.errors;
     EXPECT_THAT(outcome.errors, IsEmpty());
@@ -114,7 +102,7 @@ TEST_F(GeneratedFiles, OtherShellsReadTheirs) {
 }
 
 TEST_F(GeneratedFiles, ManualPagesRenderAndHaveEveryOption) {
-  if (run("command -v groff").status != 0) GTEST_SKIP() << "there is no groff here";
+  if (run("command -v groff").status != 0) FAIL() << "there is no groff: scripts/install-dependencies tests";
   for (const std::string& command : commands()) {
     const Outcome page = run("zwidth --generate man-" + command + " > page.1 && groff -man -ww -Tascii -P-cbou page.1");
     EXPECT_EQ(page.status, 0) << command;
