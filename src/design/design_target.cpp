@@ -14,6 +14,7 @@
 #include "design/design_parameter.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/parameter.hpp"
+#include "zwidth/quantity.hpp"
 #include "zwidth/stability/analysis.hpp"
 
 namespace zwidth {
@@ -76,7 +77,17 @@ class Search {
       const double size = natural_size(device_, parameter, options_.stiffness);
       target.value_needed = first_crossing(parameter, now, first_share * size, options_.factor * size, extremes);
     }
-    target.why = target.value_needed ? reason_there(parameter, *target.value_needed) : reason_of_none(extremes);
+    if (!target.value_needed) {
+      target.why = reason_of_none(parameter, extremes);
+      return target;
+    }
+    const CriticalStiffness there = guarded_limit(parameter, *target.value_needed);
+    if (there.trust.refused()) {
+      target.value_needed.reset();
+      target.why = "the limit at the value found is refused: " + there.trust.reasons.front();
+    } else {
+      target.why = reason_there(there);
+    }
     return target;
   }
 
@@ -151,14 +162,15 @@ class Search {
     return at_left >= 0.0 ? left : right;  // a jump
   }
 
-  [[nodiscard]] std::string reason_there(const DesignParameter& parameter, double value) const {
+  [[nodiscard]] CriticalStiffness guarded_limit(const DesignParameter& parameter, double value) const {
     DeviceParameters moved = device_.parameters();
     set_parameter(moved, parameter.key, value);
-    const CriticalStiffness there = critical_stiffness(Device(std::move(moved)));
-    if (there.trust.refused()) return "the limit there is refused: " + there.trust.reasons.front();
+    return critical_stiffness(Device(std::move(moved)));
+  }
+
+  [[nodiscard]] std::string reason_there(const CriticalStiffness& there) const {
     if (options_.goal == StiffnessGoal::any_user_limit) return "the limit with any passive user is the target there";
-    const double limit = there.stiffness;
-    if (std::abs(excess(limit)) > reached * options_.stiffness) {
+    if (std::abs(excess(there.stiffness)) > reached * options_.stiffness) {
       return "the limit jumps across the target there: another mechanism takes over";
     }
     return there.limit->limited_by.kind == Mechanism::Kind::rigid_body
@@ -166,12 +178,15 @@ class Search {
                : fmt::format("the limit is the target there, set by vibration mode {}", there.limit->limited_by.mode);
   }
 
-  [[nodiscard]] std::string reason_of_none(const Extremes& extremes) const {
+  [[nodiscard]] std::string reason_of_none(const DesignParameter& parameter, const Extremes& extremes) const {
     const bool below = extremes.most < options_.stiffness;
     const double nearest = below ? extremes.most : extremes.least;
     if (!std::isfinite(nearest)) return "every wall is stable whatever it is";
-    return fmt::format("within a factor of {:g} of its value the limit gets no {} than {:.6g}", options_.factor,
-                       below ? "higher" : "lower", nearest);
+    const std::string range = parameter.value > 0.0
+                                  ? fmt::format("within a factor of {:g} of its value", options_.factor)
+                                  : "at any value from 0 up to what is likely";
+    return fmt::format("{} the limit gets no {} than {}", range, below ? "higher" : "lower",
+                       quantity(nearest, units_of(device_.parameters().motion).stiffness));
   }
 
   const Device& device_;

@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 #include "identification/friction_test.hpp"
 #include "identification/percent.hpp"
 #include "identification/plausibility.hpp"
 #include "zwidth/model/parameter.hpp"
+#include "zwidth/quantity.hpp"
 #include "zwidth/sampling/sampled_plant.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
 
@@ -28,11 +28,7 @@ constexpr double clear_model_error = 0.01;
 // Half of that where the residuals are this many times the noise.
 constexpr double clear_misfit = 5.0;
 
-double hertz(double frequency) { return frequency / (2.0 * std::numbers::pi); }
-
-const char* stiffness_unit(const Device& device) {
-  return device.parameters().motion == Motion::rotary ? "N m/rad" : "N/m";
-}
+std::string_view stiffness_unit(const Device& device) { return units_of(device.parameters().motion).stiffness; }
 
 double median_noise(const FrequencyResponse& response) {
   std::vector<double> shares;

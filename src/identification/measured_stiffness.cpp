@@ -12,12 +12,11 @@
 #include "identification/phase_runs.hpp"
 #include "identification/phase_verdict.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/quantity.hpp"
 
 namespace zwidth {
 using namespace internal;
 namespace {
-
-double hertz(double frequency) { return frequency / (2.0 * std::numbers::pi); }
 
 std::string band_text(const Interval& band) {
   return band.lower == band.upper ? fmt::format("at {:.4g} Hz", hertz(band.lower))

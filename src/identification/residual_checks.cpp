@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <optional>
 
 #include "identification/percent.hpp"
+#include "zwidth/quantity.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -19,8 +19,6 @@ constexpr double notable_model_error = 0.02;
 
 // On either side of a peak.
 constexpr std::size_t least_points = 4;
-
-double hertz(double frequency) { return frequency / (2.0 * std::numbers::pi); }
 
 /// A resonance c / (w0^2 - w^2 + j g w) in the residual.
 struct Resonance {

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <string>
 #include <vector>
 
@@ -17,6 +16,7 @@
 #include "zwidth/error.hpp"
 #include "zwidth/identification/frequency_response.hpp"
 #include "zwidth/model/parameter.hpp"
+#include "zwidth/quantity.hpp"
 #include "zwidth/sampling/sampled_plant.hpp"
 
 namespace zwidth::internal {
@@ -25,8 +25,6 @@ namespace {
 constexpr double refused_share = 0.5;
 // Of the response: what moves a critical stiffness by about as much.
 constexpr double doubtful_share = 0.05;
-
-double hertz(double frequency) { return frequency / (2.0 * std::numbers::pi); }
 
 /// The least relative error e of the fitted device's linear response that explains what the residuals have of the
 /// force; 0 where noise does.

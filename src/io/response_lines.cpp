@@ -8,14 +8,14 @@
 #include <numbers>
 #include <utility>
 
+#include "zwidth/quantity.hpp"
+
 namespace zwidth::internal {
 namespace {
 
 using Refusal = tl::unexpected<InputError>;
 
 constexpr double rounding = 1e-9;  // relative, of a frequency against half the sampling rate
-
-double hertz(double frequency) { return frequency / (2.0 * std::numbers::pi); }
 
 bool is_number(const ResponseLine& line) {
   return std::isfinite(line.frequency) && std::isfinite(line.value.real()) && std::isfinite(line.value.imag()) &&

@@ -89,6 +89,17 @@ TEST(DesignTarget, OfTheLimitWithAnyUser) {
   EXPECT_GE(found, 3);
 }
 
+TEST(DesignTarget, SaysInItsUnitWhyNoValueIsEnough) {
+  for (const DesignTarget& each : design_targets(Device(test::lhifam_parameters()), {.stiffness = 20e3}).targets) {
+    if (each.key == "body.motor.mass") {
+      EXPECT_EQ(each.why, "within a factor of 1000 of its value the limit gets no higher than 10.14 kN/m");
+    }
+    if (each.key == "loop.delay") {
+      EXPECT_EQ(each.why, "at any value from 0 up to what is likely the limit gets no higher than 8.849 kN/m");
+    }
+  }
+}
+
 TEST(DesignTarget, RefusesWhatItCannotDo) {
   const Device device(test::lhifam_parameters());
   EXPECT_EQ(find_problem(DesignTargetOptions{.stiffness = -1.0}, device)->member, "stiffness");
