@@ -50,9 +50,11 @@ void check_users(const Device& walled, Trust& trust) {
       held.user = {heavy * mass, 0.0, stiff * stiffness};
       if (find_problem(held)) continue;
       const Device device(std::move(held));
-      const std::optional<int> outside = PoleCount(device).in_double(stiffness);
+      const PoleCount poles(device);
+      if (poles.confirms(stiffness, true)) continue;
+      const std::optional<int> outside = poles.in_double(stiffness);
       if (!outside || *outside == 0) continue;
-      distrust(agreement(PoleCount(device), stiffness, true), stiffness, trust);
+      distrust(agreement(poles, stiffness, true), stiffness, trust);
     }
   }
 }

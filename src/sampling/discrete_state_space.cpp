@@ -20,8 +20,9 @@ DiscreteStateSpace sample(const ContinuousStateSpace& system, Sampling sampling)
   sampled.period = sampling.period;
   sampled.C = system.C;
   sampled.delay_samples = instants.whole_samples;
-  sampled.Phi = exponential_minus_one(generator * sampling.period).topLeftCorner(n, n);
   const Eigen::MatrixXd with_new = exponential_minus_one(generator * instants.with_new);
+  sampled.Phi =
+      (instants.with_old > 0.0 ? exponential_minus_one(generator * sampling.period) : with_new).topLeftCorner(n, n);
   sampled.Gamma1 = with_new.topRightCorner(n, 1);
   sampled.Gamma2 = Eigen::VectorXd::Zero(n);
   if (instants.with_old > 0.0) {

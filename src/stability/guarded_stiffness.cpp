@@ -59,8 +59,7 @@ std::vector<Claim> claims_of(const CriticalStiffness& critical, const FilteredPl
 }  // namespace
 
 Agreement agreement(const PoleCount& poles, double stiffness, bool stable) {
-  const std::optional<int> quick = poles.in_double(stiffness);
-  if (quick && (*quick == 0) == stable) return Agreement::agrees;
+  if (poles.confirms(stiffness, stable)) return Agreement::agrees;
   const std::optional<int> sure = poles.in_digits(stiffness);
   if (!sure) return Agreement::undecided;
   return (*sure == 0) == stable ? Agreement::agrees : Agreement::contradicts;

@@ -93,6 +93,13 @@ PoleCount::PoleCount(const Device& device)
   states_ = static_cast<std::size_t>(plant_.Phi.rows()) + plant_.delay_samples + (plant_.Gamma2.isZero(0.0) ? 0 : 1) +
             (wall.damping > 0.0 ? 1 : 0);
   for (const WallFilter& filter : wall.filters) states_ += filter_section(filter, plant_.period).degree;
+  if (states_ <= most_states_for_eigenvalues && RouthCount::suits(plant_)) routh_.emplace(plant_, wall);
+}
+
+bool PoleCount::confirms(double stiffness, bool stable) const {
+  if (routh_ && routh_->surely(stable, stiffness, device_.parameters().wall.damping)) return true;
+  const std::optional<int> outside = in_double(stiffness);
+  return outside && (*outside == 0) == stable;
 }
 
 std::optional<int> PoleCount::in_double(double stiffness) const {

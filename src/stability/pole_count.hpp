@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <optional>
 
+#include "stability/routh_count.hpp"
 #include "zwidth/model/device.hpp"
 #include "zwidth/sampling/discrete_state_space.hpp"
 
@@ -14,6 +15,9 @@ namespace zwidth::internal {
 class PoleCount {
  public:
   explicit PoleCount(const Device& device);
+
+  // Whether the loop is found stable (unstable): by Routh's count where that is quicker and sure, else by in_double().
+  [[nodiscard]] bool confirms(double stiffness, bool stable) const;
 
   // In double precision: eigenvalues of the loop's state matrix, or for long delays the winding number of
   //     det((z - 1) I - Phi + (Gamma1 + Gamma2 z^-1) z^-l C(z) c)
@@ -33,6 +37,7 @@ class PoleCount {
   const Device& device_;
   DiscreteStateSpace plant_;
   std::size_t states_ = 0;  // of the loop
+  std::optional<RouthCount> routh_;
 };
 
 // in_digits() without the class: the device at this stiffness.

@@ -12,14 +12,22 @@
 #include "model/device_matrices.hpp"
 #include "sampling/sampling_instants.hpp"
 #include "stability/pole_count.hpp"
-#include "zwidth/sampling/filter_section.hpp"
+#include "stability/routh.hpp"
 
 namespace zwidth::internal {
 namespace {
 
 namespace mp = boost::multiprecision;
 using Digits = mp::number<mp::cpp_bin_float<100>, mp::et_off>;
-using Polynomial = std::vector<Digits>;  // ascending powers
+
+// Of the first element of a row of Routh's array.
+int sure_sign(const Polynomial<Digits>& row) {
+  const Digits tiny = ldexp(Digits(1.0), -200);  // of 332 bits
+  Digits size = 0.0;
+  for (const Digits& each : row) size = std::max<Digits>(size, abs(each));
+  if (!(abs(row[0]) > tiny * size)) return 0;
+  return row[0] < 0.0 ? -1 : 1;
+}
 
 class Matrix {
  public:
@@ -135,15 +143,7 @@ Matrix exponential_minus_one(Matrix m, const Digits& time) {
   return sum;
 }
 
-// det(delta I - Phi) and c adj(delta I - Phi) Gamma of both inputs, by Faddeev's and Leverrier's recursion:
-//   M_1 = I, d_{n-k} = -tr(Phi M_k)/k, M_{k+1} = Phi M_k + d_{n-k} I, adj = sum M_k delta^{n-k}
-struct Sampled {
-  Polynomial denominator;
-  Polynomial with_new;
-  Polynomial with_old;
-};
-
-Sampled sampled(const Device& device, const SamplingInstants& instants) {
+PlantPolynomials<Digits> sampled(const Device& device, const SamplingInstants& instants) {
   const Continuous system = continuous(device);
   const std::size_t n = system.output.size();
   const Matrix early = exponential_minus_one(system.generator, instants.with_new);
@@ -152,129 +152,29 @@ Sampled sampled(const Device& device, const SamplingInstants& instants) {
   Matrix product = early * late;
   product += early;
   product += late;
-  Matrix phi(n);
+  std::vector<Digits> phi(n * n);
   std::vector<Digits> gamma1(n);
   std::vector<Digits> gamma2(n);
   for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = 0; j < n; ++j) phi(i, j) = product(i, j);
+    for (std::size_t j = 0; j < n; ++j) phi[i * n + j] = product(i, j);
     gamma1[i] = early(i, n);
     gamma2[i] = late(i, n);
     for (std::size_t j = 0; j < n; ++j) gamma2[i] += early(i, j) * late(j, n);
   }
-  Sampled plant{Polynomial(n + 1), Polynomial(n), Polynomial(n)};
-  plant.denominator[n] = 1.0;
-  Matrix m(n);
-  for (std::size_t i = 0; i < n; ++i) m(i, i) = 1.0;
-  for (std::size_t k = 1; k <= n; ++k) {
-    for (std::size_t i = 0; i < n; ++i) {
-      if (system.output[i].is_zero()) continue;
-      for (std::size_t j = 0; j < n; ++j) {
-        plant.with_new[n - k] += system.output[i] * m(i, j) * gamma1[j];
-        plant.with_old[n - k] += system.output[i] * m(i, j) * gamma2[j];
-      }
-    }
-    m = phi * m;
-    Digits trace = 0.0;
-    for (std::size_t i = 0; i < n; ++i) trace += m(i, i);
-    const Digits coefficient = -trace / static_cast<double>(k);
-    plant.denominator[n - k] = coefficient;
-    for (std::size_t i = 0; i < n; ++i) m(i, i) += coefficient;
-  }
-  return plant;
-}
-
-Polynomial operator*(const Polynomial& a, const Polynomial& b) {
-  Polynomial product(a.size() + b.size() - 1);
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    for (std::size_t j = 0; j < b.size(); ++j) product[i + j] += a[i] * b[j];
-  }
-  return product;
-}
-
-Polynomial operator+(Polynomial a, const Polynomial& b) {
-  if (a.size() < b.size()) a.resize(b.size());
-  for (std::size_t i = 0; i < b.size(); ++i) a[i] += b[i];
-  return a;
-}
-
-// Of the loop in delta: D (z - a) z^(l+1) d_F + (K (z - a) + B (1 - a)/T delta) n_F (N1 z + N2).
-Polynomial characteristic(const Device& device, double stiffness) {
-  const Wall& wall = device.parameters().wall;
-  const double period = device.loop().sampling_period;
-  const SamplingInstants instants = sampling_instants({period, device.loop().delay});
-  const Sampled plant = sampled(device, instants);
-  const Polynomial z{1.0, 1.0};
-  Polynomial closed = plant.denominator;
-  const bool fractional = instants.with_old > 0.0;
-  Polynomial input = fractional ? plant.with_new * z + plant.with_old : plant.with_new;
-  for (std::size_t i = 0; i < instants.whole_samples + (fractional ? 1 : 0); ++i) closed = closed * z;
-  if (wall.damping > 0.0) {
-    const double rest =  // 1 - a
-        wall.velocity_filter_hz > 0.0 ? -std::expm1(-2.0 * std::numbers::pi * wall.velocity_filter_hz * period) : 1.0;
-    const Polynomial low_pass{Digits(rest), 1.0};
-    closed = closed * low_pass;
-    const Digits rate = Digits(wall.damping) * rest / period;
-    input = input * Polynomial{Digits(stiffness) * rest, Digits(stiffness) + rate};
-  } else {
-    input = input * Polynomial{Digits(stiffness)};
-  }
-  for (const WallFilter& filter : wall.filters) {
-    const FilterSection section = filter_section(filter, period);
-    const auto numerator = whole_numerator(section);
-    Polynomial n(section.degree + 1);
-    Polynomial d(section.degree + 1);
-    for (std::size_t i = 0; i <= section.degree; ++i) n[i] = numerator[i];
-    for (std::size_t i = 0; i < section.degree; ++i) d[i] = section.denominator[i];
-    d[section.degree] = 1.0;
-    input = input * n;
-    closed = closed * d;
-  }
-  return closed + input;
-}
-
-// Roots of positive real part, by Routh's array; nothing where a pivot vanishes to rounding.
-std::optional<int> roots_on_the_right(const Polynomial& p) {
-  const Digits tiny = ldexp(Digits(1.0), -200);  // of 332 bits
-  Polynomial upper;
-  Polynomial lower;
-  for (std::size_t i = p.size(); i-- > 0;) ((p.size() - 1 - i) % 2 == 0 ? upper : lower).push_back(p[i]);
-  int changes = 0;
-  while (!lower.empty()) {
-    Digits size = 0.0;
-    for (const Digits& each : lower) size = std::max<Digits>(size, abs(each));
-    if (upper[0].is_zero() || !(abs(lower[0]) > tiny * size)) return std::nullopt;
-    if ((upper[0] < 0.0) != (lower[0] < 0.0)) ++changes;
-    const Digits ratio = upper[0] / lower[0];
-    Polynomial next;
-    for (std::size_t i = 1; i < upper.size(); ++i) {
-      next.push_back(i < lower.size() ? upper[i] - ratio * lower[i] : upper[i]);
-    }
-    upper = std::move(lower);
-    lower = std::move(next);
-  }
-  return changes;
-}
-
-// Roots with |1 + delta| > radius: (1 + delta)/radius = (1 + w)/(1 - w) maps them to the right of w = 0. With
-// g = radius - 1:  delta = (g + (radius + 1) w)/(1 - w).
-std::optional<int> roots_outside(const Polynomial& p, const Digits& g) {
-  const Polynomial up{g, g + 2.0};
-  const Polynomial down{1.0, -1.0};
-  Polynomial sum{p.back()};  // Horner: sum_k p_k up^k down^(n-k)
-  Polynomial powers{1.0};
-  for (std::size_t i = p.size() - 1; i-- > 0;) {
-    powers = powers * down;
-    sum = sum * up + powers * Polynomial{p[i]};
-  }
-  return roots_on_the_right(sum);
+  return plant_polynomials<Digits>(phi, gamma1, gamma2, system.output);
 }
 
 }  // namespace
 
 std::optional<int> unstable_poles_in_digits(const Device& device, double stiffness) {
+  const Wall& wall = device.parameters().wall;
+  const double period = device.loop().sampling_period;
+  const SamplingInstants instants = sampling_instants({period, device.loop().delay});
   // Just outside the circle, so that a mode that nothing damps and nothing moves lies inside.
   const Digits beside = ldexp(Digits(1.0), -80);
-  return roots_outside(characteristic(device, stiffness), beside);
+  return CirclePolynomials<Digits>(sampled(device, instants), instants.whole_samples, instants.with_old > 0.0, wall,
+                                   period, beside)
+      .outside(stiffness, wall.damping, sure_sign);
 }
 
 }  // namespace zwidth::internal
