@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
+#include "stability/routh_count.hpp"
 #include "zwidth/stability/closed_loop.hpp"
 
 namespace zwidth::internal {
@@ -20,6 +22,7 @@ constexpr std::size_t most_walls = 160;
 constexpr std::size_t least_walls = 6;
 constexpr double work = 2e8;  // operations: eigenvalues take some 25 n³ of them
 constexpr Eigen::Index largest_order = 400;
+constexpr Eigen::Index largest_order_for_routh = 40;
 constexpr int ratios = 5;  // walls by ratios, a decade apart
 // Where no wall is stable there is no extent: loop gains at mid band that are asked instead.
 constexpr double loop_gains[] = {1e-6, 1e-4, 1e-2, 1.0};
@@ -28,11 +31,19 @@ class ClosedLoop {
  public:
   explicit ClosedLoop(const Device& device)
       : plant_(sample(state_space(device), {device.loop().sampling_period, device.loop().delay})),
-        wall_(device.parameters().wall) {}
+        wall_(device.parameters().wall) {
+    if (order() > largest_order_for_routh || !RouthCount::suits(plant_)) return;
+    Wall damped = wall_;
+    damped.damping = 1.0;  // the loop then has the damper's states
+    routh_.emplace(plant_, damped);
+  }
 
   // Of the loop with a damper.
   [[nodiscard]] Eigen::Index order() const {
     return plant_.Phi.rows() + static_cast<Eigen::Index>(plant_.delay_samples + 3 + 2 * wall_.filters.size());
+  }
+  [[nodiscard]] bool confirms(const WallPoint& at, bool stable) const {
+    return (routh_ && routh_->surely(stable, at.stiffness, at.damping)) || side(at) == (stable ? -1 : 1);
   }
   // -1, 1: certainly stable, certainly not; 0: on the circle to rounding.
   [[nodiscard]] int side(const WallPoint& at) const {
@@ -54,6 +65,7 @@ class ClosedLoop {
  private:
   DiscreteStateSpace plant_;
   Wall wall_;
+  std::optional<RouthCount> routh_;
 };
 
 // The outlines in shares of the region's extent.
@@ -197,12 +209,19 @@ RegionCheck check_region(const Device& device, const StableWalls& walls, const S
       return wall.stiffness > interval.lower && (!interval.upper || wall.stiffness < *interval.upper);
     });
     ++check.asked;
-    const int side = loop.side(wall);
+    const bool confirmed = loop.confirms(wall, stable);
     const bool drawn = outlines && outlines->contains(wall);
     const bool misdrawn = drawn != stable && outlines && outlines->distance(wall) > clear_of_outline * deviation;
-    if (side == (stable ? -1 : 1) && !misdrawn) {
+    if (misdrawn) {
+      check.contradiction = wall;
+      return check;
+    }
+    if (confirmed) {
       ++check.confirmed;
-    } else if (misdrawn || (side == (stable ? 1 : -1) && loop.is_clear(wall, side))) {
+      continue;
+    }
+    const int side = loop.side(wall);
+    if (side == (stable ? 1 : -1) && loop.is_clear(wall, side)) {
       check.contradiction = wall;
       return check;
     }

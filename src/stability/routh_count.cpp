@@ -13,7 +13,7 @@ namespace zwidth::internal {
 namespace {
 
 // Faddeev's recursion costs the fourth power of these.
-constexpr Eigen::Index most_plant_states = 4;
+constexpr Eigen::Index most_plant_states = 6;
 // The circles are this far from the unit circle, over the size of Phi: rounding of Phi moves poles by less.
 constexpr double beside = 1e-12;
 constexpr double least_beside = 1e-13;
