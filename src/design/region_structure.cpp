@@ -68,6 +68,7 @@ RegionStructure::RegionStructure(FilteredPlant plant, double velocity_filter_hz)
   }
   nyquist = if_positive(curve.nyquist_stiffness());
   drift = drift_stiffness(curve);
+  by_damping_ = damping_crossings(curve.plant(), {0.0, curve.velocity_filter_hz()});
   const auto [segments, all_proven] = curve_segments(curve, wall_bounds(curve));
   proven = all_proven;
   branches = boundary_branches(curve, segments);
@@ -120,7 +121,8 @@ std::vector<double> RegionStructure::levels(const std::vector<BoundarySegment>& 
 }
 
 std::vector<RegionCell> RegionStructure::cells_at(double damping) const {
-  const CriticalStiffness critical = critical_stiffness(curve.plant(), {damping, curve.velocity_filter_hz()});
+  const CriticalStiffness critical = critical_stiffness_of(
+      curve.plant(), stiffness_crossings(curve.plant(), {damping, curve.velocity_filter_hz()}, by_damping_));
   const double period = curve.plant().period;
   const auto edge = [&](double stiffness) -> RegionEdge {
     if (stiffness == 0.0) return {BoundaryKind::no_stiffness, 0};

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "design/boundary_branch.hpp"
+#include "stability/gain_crossings.hpp"
 #include "zwidth/design/stable_region.hpp"
 
 namespace zwidth::internal {
@@ -59,6 +60,7 @@ struct RegionStructure {
   void add_below(double lower, double upper, std::vector<RegionCell> cells);
   void add_slabs(double bottom, double top);
 
+  GainCrossings by_damping_;  // of the damper alone
   std::size_t divisions_left_ = max_divisions;
 };
 

@@ -31,8 +31,10 @@ CriticalStiffness critical_stiffness(const FilteredPlant& plant, VirtualDamper d
                   "the virtual damper has " + fmt::format("{}", value) + "; must be finite and >= 0");
     }
   }
-  const GainCrossings crossings = stiffness_crossings(plant, damper);
+  return critical_stiffness_of(plant, stiffness_crossings(plant, damper));
+}
 
+CriticalStiffness internal::critical_stiffness_of(const FilteredPlant& plant, const GainCrossings& crossings) {
   CriticalStiffness result;
   result.crossovers.reserve(crossings.crossings.size());
   for (const GainCrossing& crossing : crossings.crossings) {

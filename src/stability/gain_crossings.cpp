@@ -64,12 +64,20 @@ int unstable_poles(const GainCrossings& crossings, double gain) {
   return unstable;
 }
 
+GainCrossings damping_crossings(const FilteredPlant& plant, const VirtualDamper& damper) {
+  return gain_crossings(plant, GainLocus(plant, GainLocus::Gain::damping, 0.0, damper));
+}
+
 GainCrossings stiffness_crossings(const FilteredPlant& plant, const VirtualDamper& damper) {
+  return stiffness_crossings(plant, damper, damper.damping > 0.0 ? damping_crossings(plant, damper) : GainCrossings{});
+}
+
+GainCrossings stiffness_crossings(const FilteredPlant& plant, const VirtualDamper& damper,
+                                  const GainCrossings& by_damping) {
   GainCrossings result = gain_crossings(plant, GainLocus(plant, GainLocus::Gain::stiffness, 0.0, damper));
   if (damper.damping > 0.0) {
     // The poles at K = 0 are those of the damper alone: the locus of B. The one that the damper leaves at z = 1 is
     // counted by the locus of K.
-    const GainCrossings by_damping = gain_crossings(plant, GainLocus(plant, GainLocus::Gain::damping, 0.0, damper));
     int open_loop = 0;
     for (const SampledTerm& term : plant.terms) open_loop += term.unstable_poles;
     result.initially_unstable += unstable_poles(by_damping, damper.damping) - open_loop;

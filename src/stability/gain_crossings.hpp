@@ -21,8 +21,17 @@ struct GainCrossings {
 // Every crossing of the locus.
 GainCrossings gain_crossings(const FilteredPlant& plant, const GainLocus& locus);
 
+// Every crossing of the damper alone, K = 0. Its B does not matter.
+GainCrossings damping_crossings(const FilteredPlant& plant, const VirtualDamper& damper);
+
 // Every stiffness crossing with the damper closed, and the poles outside for arbitrarily small K > 0.
 GainCrossings stiffness_crossings(const FilteredPlant& plant, const VirtualDamper& damper);
+// The same where the crossings of the damper alone are known: for many B.
+GainCrossings stiffness_crossings(const FilteredPlant& plant, const VirtualDamper& damper,
+                                  const GainCrossings& by_damping);
+
+// The critical stiffness that these stiffness crossings say.
+CriticalStiffness critical_stiffness_of(const FilteredPlant& plant, const GainCrossings& by_stiffness);
 
 // Poles outside the circle at kappa = gain.
 int unstable_poles(const GainCrossings& crossings, double gain);

@@ -76,7 +76,7 @@ LoopMargins margins_of(const FilteredPlant& plant, const Wall& wall, ToFrequency
   const VirtualDamper damper{wall.damping, wall.velocity_filter_hz};
   LoopMargins margins;
   if (stiffness == 0.0) {  // a free device keeps its pole at z = 1: not asymptotically stable
-    const GainCrossings by_damping = gain_crossings(plant, GainLocus(plant, GainLocus::Gain::damping, 0.0, damper));
+    const GainCrossings by_damping = damping_crossings(plant, damper);
     margins.stable = !keeps_pole_on_circle(plant, wall) && unstable_poles(by_damping, wall.damping) == 0;
     if (margins.stable && wall.damping > 0.0) find_gain_margins(by_damping, wall.damping, margins);
   } else {
