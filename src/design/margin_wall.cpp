@@ -2,14 +2,16 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 
 #include "stability/damper_response.hpp"
 #include "stability/disc_stiffness.hpp"
+#include "stability/loops_of_stiffness.hpp"
 #include "zwidth/stability/any_user.hpp"
-#include "zwidth/stability/wall_margins.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -28,23 +30,32 @@ constexpr double narrowest_half_width = 1e-5;  // of an undamped mode, relative
 // The walk from a stiffness whose margins fail to one that keeps them, and back by bisection.
 constexpr double step_down = 0.8;
 constexpr int most_steps = 120;
-constexpr int bisections = 34;
+constexpr std::uintmax_t most_evaluations = 60;
 constexpr int bisections_on_grid = 8;
-constexpr double resolved = 1e-8;  // relative, of the stiffest wall
+constexpr double resolved = 1e-9;  // relative, of the stiffest wall
 constexpr double rounding = 1e-9;  // of margins that stand exactly at what is required
 
-bool loop_keeps(const FilteredPlant& plant, Wall wall, double stiffness, const RequiredMargins& margins) {
-  wall.stiffness = stiffness;
-  const LoopMargins has = loop_margins(plant, wall);
-  return has.stable && has.gain_margin.value_or(infinity) >= margins.gain * (1.0 - rounding) &&
-         has.phase_margin.value_or(pi) >= margins.phase * (1.0 - rounding);
+bool loop_keeps(const LoopsOfStiffness& loops, double stiffness, const RequiredMargins& margins) {
+  return loops.slack(stiffness, margins.gain, margins.phase) >= -rounding;
 }
 
 // The end of the stable interval, of every user where asked.
-double stable_below(const Device& device, const FilteredPlant& plant, const RequiredMargins& margins) {
-  const VirtualDamper damper = virtual_damper(device);
-  const double limit = critical_stiffness(plant, damper).stiffness;
-  return margins.any_user && limit > 0.0 ? std::min(limit, any_user_limit(device, damper).stiffness) : limit;
+double stable_below(const Device& device, const FilteredPlant& plant, const LoopsOfStiffness& loops,
+                    const RequiredMargins& margins) {
+  const double limit = critical_stiffness_of(plant, loops.crossings()).stiffness;
+  return margins.any_user && limit > 0.0 ? std::min(limit, any_user_limit(device, virtual_damper(device)).stiffness)
+                                         : limit;
+}
+
+// Between a stiffness that keeps the margins and one that does not.
+double last_that_keeps(const LoopsOfStiffness& loops, const RequiredMargins& margins, double keeps, double fails) {
+  const auto slack = [&](double stiffness) {
+    return std::min(loops.slack(stiffness, margins.gain, margins.phase) + rounding, 1.0);
+  };
+  std::uintmax_t evaluations = most_evaluations;
+  const auto resolved_enough = [](double a, double b) { return std::abs(b - a) <= resolved * std::abs(b); };
+  const auto [low, high] = boost::math::tools::toms748_solve(slack, keeps, fails, resolved_enough, evaluations);
+  return slack(high) >= 0.0 ? high : slack(low) >= 0.0 ? low : keeps;
 }
 
 void add_resonances(const Device& device, std::vector<double>& angles) {
@@ -124,24 +135,18 @@ std::optional<double> short_of_phase(std::complex<double> minus_one_over_plant, 
 
 double stiffest_wall(const Device& device, const RequiredMargins& margins, double at_most) {
   const FilteredPlant plant = filtered_plant(device);
-  const double top = stable_below(device, plant, margins) / margins.gain;
+  const LoopsOfStiffness loops(plant, virtual_damper(device));
+  const double top = stable_below(device, plant, loops, margins) / margins.gain;
   if (!(top > 0.0)) return 0.0;
-  const Wall& wall = device.parameters().wall;
   if (!std::isfinite(top)) return margins.phase == 0.0 ? infinity : 0.0;  // no stiffness to begin the walk at
   // Nothing more is asked: the boundary itself.
-  if (margins.phase == 0.0 && (wall.damping == 0.0 || margins.gain == 1.0)) return top;
+  if (margins.phase == 0.0 && (device.parameters().wall.damping == 0.0 || margins.gain == 1.0)) return top;
   double high = std::min(top * (1.0 - rounding), at_most);
-  if (loop_keeps(plant, wall, high, margins)) return high;
+  if (loop_keeps(loops, high, margins)) return high;
   double low = high;
   for (int i = 0; i < most_steps; ++i) {
     low *= step_down;
-    if (loop_keeps(plant, wall, low, margins)) {
-      for (int step = 0; step < bisections && high - low > resolved * high; ++step) {
-        const double middle = 0.5 * (low + high);
-        (loop_keeps(plant, wall, middle, margins) ? low : high) = middle;
-      }
-      return low;
-    }
+    if (loop_keeps(loops, low, margins)) return last_that_keeps(loops, margins, low, high);
     high = low;
   }
   return 0.0;
@@ -149,8 +154,9 @@ double stiffest_wall(const Device& device, const RequiredMargins& margins, doubl
 
 bool keeps_margins(const Device& device, double stiffness, const RequiredMargins& margins) {
   const FilteredPlant plant = filtered_plant(device);
-  return stiffness * margins.gain < stable_below(device, plant, margins) &&
-         loop_keeps(plant, device.parameters().wall, stiffness, margins);
+  const LoopsOfStiffness loops(plant, virtual_damper(device));
+  return loop_keeps(loops, stiffness, margins) &&
+         stiffness * margins.gain < stable_below(device, plant, loops, margins);
 }
 
 LoopGrid::LoopGrid(const Device& device, bool with_users)
