@@ -39,14 +39,6 @@ bool loop_keeps(const LoopsOfStiffness& loops, double stiffness, const RequiredM
   return loops.slack(stiffness, margins.gain, margins.phase) >= -rounding;
 }
 
-// The end of the stable interval, of every user where asked.
-double stable_below(const Device& device, const FilteredPlant& plant, const LoopsOfStiffness& loops,
-                    const RequiredMargins& margins) {
-  const double limit = critical_stiffness_of(plant, loops.crossings()).stiffness;
-  return margins.any_user && limit > 0.0 ? std::min(limit, any_user_limit(device, virtual_damper(device)).stiffness)
-                                         : limit;
-}
-
 // Between a stiffness that keeps the margins and one that does not.
 double last_that_keeps(const LoopsOfStiffness& loops, const RequiredMargins& margins, double keeps, double fails) {
   const auto slack = [&](double stiffness) {
@@ -133,19 +125,29 @@ std::optional<double> short_of_phase(std::complex<double> minus_one_over_plant, 
 
 }  // namespace
 
-double stiffest_wall(const Device& device, const RequiredMargins& margins, double at_most) {
-  const FilteredPlant plant = filtered_plant(device);
-  const LoopsOfStiffness loops(plant, virtual_damper(device));
-  const double top = stable_below(device, plant, loops, margins) / margins.gain;
-  if (!(top > 0.0)) return 0.0;
+double stiffest_wall(const Device& device, const RequiredMargins& margins) {
+  const VirtualDamper damper = virtual_damper(device);
+  StiffnessRange range;
+  if (margins.any_user) range.at_most = any_user_limit(device, damper).stiffness / margins.gain;
+  return range.at_most > 0.0 ? stiffest_wall(filtered_plant(device), damper, margins, range) : 0.0;
+}
+
+double stiffest_wall(const FilteredPlant& plant, VirtualDamper damper, const RequiredMargins& margins,
+                     const StiffnessRange& range) {
+  const LoopsOfStiffness loops(plant, damper);
+  const double limit = critical_stiffness_of(plant, loops.crossings()).stiffness;
+  const double top = std::min(limit / margins.gain, range.at_most);
+  if (!(top > range.at_least)) return 0.0;
   if (!std::isfinite(top)) return margins.phase == 0.0 ? infinity : 0.0;  // no stiffness to begin the walk at
   // Nothing more is asked: the boundary itself.
-  if (margins.phase == 0.0 && (device.parameters().wall.damping == 0.0 || margins.gain == 1.0)) return top;
-  double high = std::min(top * (1.0 - rounding), at_most);
+  if (margins.phase == 0.0 && (damper.damping == 0.0 || margins.gain == 1.0)) return top;
+  double high = top * (1.0 - rounding);
   if (loop_keeps(loops, high, margins)) return high;
-  double low = high;
+  if (range.at_least > 0.0) {
+    return loop_keeps(loops, range.at_least, margins) ? last_that_keeps(loops, margins, range.at_least, high) : 0.0;
+  }
   for (int i = 0; i < most_steps; ++i) {
-    low *= step_down;
+    const double low = step_down * high;
     if (loop_keeps(loops, low, margins)) return last_that_keeps(loops, margins, low, high);
     high = low;
   }
@@ -154,9 +156,11 @@ double stiffest_wall(const Device& device, const RequiredMargins& margins, doubl
 
 bool keeps_margins(const Device& device, double stiffness, const RequiredMargins& margins) {
   const FilteredPlant plant = filtered_plant(device);
-  const LoopsOfStiffness loops(plant, virtual_damper(device));
-  return loop_keeps(loops, stiffness, margins) &&
-         stiffness * margins.gain < stable_below(device, plant, loops, margins);
+  const VirtualDamper damper = virtual_damper(device);
+  const LoopsOfStiffness loops(plant, damper);
+  const double grown = stiffness * margins.gain;
+  return loop_keeps(loops, stiffness, margins) && grown < critical_stiffness_of(plant, loops.crossings()).stiffness &&
+         (!margins.any_user || grown < any_user_limit(device, damper).stiffness);
 }
 
 LoopGrid::LoopGrid(const Device& device, bool with_users)

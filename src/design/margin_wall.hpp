@@ -26,9 +26,17 @@ struct RequiredMargins {
 /// The stiffest K with gain * K inside the stable interval that begins at 0 (of every user where asked) and the margins
 /// of the loop kept at K; its softer neighbours keep them too, and all of them down to 0 where no gap is met on the way
 /// (gaps narrower than the steps of the walk are passed over). Infinite where nothing bounds it, 0 where there is none.
-/// With `at_most` the walk begins no higher: for searches that know about where it ends.
-[[nodiscard]] double stiffest_wall(const Device& device, const RequiredMargins& margins,
-                                   double at_most = std::numeric_limits<double>::infinity());
+[[nodiscard]] double stiffest_wall(const Device& device, const RequiredMargins& margins);
+
+/// What a search knows of the answer before.
+struct StiffnessRange {
+  double at_least = 0.0;  ///< 0 is as good as less than this, or as a wall that keeps the margins where this does not
+  double at_most = std::numeric_limits<double>::infinity();  ///< the walk begins no higher
+};
+
+/// The same within a range, behind the plant's own filters; whoever holds the device is left out.
+[[nodiscard]] double stiffest_wall(const FilteredPlant& plant, VirtualDamper damper, const RequiredMargins& margins,
+                                   const StiffnessRange& range);
 
 /// Whether that wall keeps the margins; stable, strictly.
 [[nodiscard]] bool keeps_margins(const Device& device, double stiffness, const RequiredMargins& margins);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <optional>
 
 namespace zwidth::internal {
@@ -24,7 +25,8 @@ constexpr std::array centres_on_grid{0.5, 0.65, 0.8, 0.9, 0.95, 1.0, 1.05, 1.1, 
 constexpr std::array far_centres_on_grid{0.03, 0.06, 0.12, 0.25, 0.4, 2.5};
 constexpr std::array widths_on_grid{0.03, 0.08, 0.2, 0.5, 0.9};
 constexpr std::array depths_on_grid{0.01, 0.05, 0.15, 0.4, 0.7, 0.9, 0.97};
-constexpr double same_on_grid = 2e-3;  // relative, of two any-user limits on a grid of frequencies
+constexpr double on_grid_at_most = 1.02;  // a grid may miss a dip, but not invent one
+constexpr double same_on_grid = 2e-3;     // relative, of two any-user limits on a grid of frequencies
 
 // Pattern search.
 constexpr double coarsest = 0.08;
@@ -32,6 +34,14 @@ constexpr double finest = 1e-3;
 constexpr double coarsest_exact = 0.02;
 constexpr std::array weight{1.0, 4.0, 4.0};  // width and depth matter less than the centre
 constexpr int most_moves = 100;
+
+// Indices, of the least value first: where a search ends soonest.
+std::vector<std::size_t> by_value(const std::vector<double>& values) {
+  std::vector<std::size_t> indices(values.size());
+  std::iota(indices.begin(), indices.end(), std::size_t{0});
+  std::ranges::sort(indices, {}, [&values](std::size_t i) { return values[i]; });
+  return indices;
+}
 
 }  // namespace
 
@@ -70,23 +80,33 @@ void NotchSearch::add(const Device& device) {
   LoopGrid grid(device, keep_any_user_ || margins_.any_user);
   const LoopGrid::Response none(grid.size(), 1.0);
   const double any_user = keep_any_user_ ? grid.any_user(none) * (1.0 - same_on_grid) : 0.0;
-  scenarios_.push_back({device, std::move(grid), any_user});
+  scenarios_.push_back({filtered_plant(device), virtual_damper(device), std::move(grid), any_user});
 }
 
 // Over the scenarios; some value not above `enough` as soon as it is seen to be that.
-double NotchSearch::least(const Point& at, double enough, Route route) const {
-  const WallFilter notch = notch_at(at);
+double NotchSearch::least_on_grid(const WallFilter& notch, double enough, std::vector<double>& of_scenarios) const {
   double result = infinity;
   for (const Scenario& scenario : scenarios_) {
     const LoopGrid::Response factor = scenario.grid.filter(notch);
-    result = std::min(result, scenario.grid.stiffest(factor, margins_));
+    of_scenarios.push_back(scenario.grid.stiffest(factor, margins_));
+    result = std::min(result, of_scenarios.back());
     if (result <= enough) return result;
     if (scenario.any_user > 0.0 && scenario.grid.any_user(factor) < scenario.any_user) return 0.0;
-    if (route == Route::on_grid) continue;
-    DeviceParameters notched = scenario.device.parameters();
-    notched.wall.filters.push_back(notch);
-    const double about = 1.02 * scenario.grid.stiffest(factor, margins_);  // a grid may miss a dip, but not invent one
-    result = std::min(result, stiffest_wall(Device(std::move(notched)), margins_, about));
+  }
+  return result;
+}
+
+// The same; exactly but for the users, who are seen on the grid alone: their exact limit takes longer than all the rest.
+double NotchSearch::least(const Point& at, double enough, Route route) const {
+  const WallFilter notch = notch_at(at);
+  std::vector<double> of_scenarios;
+  const double on_grid = least_on_grid(notch, enough, of_scenarios);
+  if (route == Route::on_grid || on_grid <= enough) return on_grid;
+  double result = margins_.any_user ? on_grid : on_grid_at_most * on_grid;
+  for (const std::size_t i : by_value(of_scenarios)) {
+    const Scenario& scenario = scenarios_[i];
+    result = std::min(result, stiffest_wall(filtered_plant(scenario.plant, {notch}), scenario.damper, margins_,
+                                            {.at_least = enough, .at_most = result}));
     if (result <= enough) return result;
   }
   return result;

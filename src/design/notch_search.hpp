@@ -41,12 +41,14 @@ class NotchSearch {
 
  private:
   struct Scenario {
-    Device device;
+    FilteredPlant plant;
+    VirtualDamper damper;
     LoopGrid grid;
     double any_user = 0.0;  // without the notch, on the grid; 0: not to be kept
   };
   enum class Route { on_grid, exact };
   [[nodiscard]] double least(const Point& at, double enough, Route route) const;
+  [[nodiscard]] double least_on_grid(const WallFilter& notch, double enough, std::vector<double>& of_scenarios) const;
   [[nodiscard]] std::pair<double, Point> climb(Point at, double first_step, double last_step, Route route) const;
   [[nodiscard]] bool is_near(const Point& at) const;
   [[nodiscard]] Point inside(const Point& at) const;

@@ -127,7 +127,7 @@ WallLimits::Stiffest WallLimits::stiffest(VirtualDamper damper, WallGoal goal) {
   const auto keep_margins = [&] {
     if (loop_keeps(least.stiffness, damper)) return;
     const RequiredMargins margins{gain, options_.phase_margin, false};
-    const double kept = stiffest_wall(with_wall(device_, 0.0, damper), margins, least.stiffness);
+    const double kept = stiffest_wall(plant_, damper, margins, {.at_most = least.stiffness});
     least.stiffness = std::min(least.stiffness, kept * (1.0 - shaved));
     const LoopMargins has = loop_margins(plant_, wall_of(device_, least.stiffness, damper));
     const bool phase = has.phase_margin && *has.phase_margin <= options_.phase_margin * (1.0 + same) + shaved;
