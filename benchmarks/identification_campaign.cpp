@@ -2,16 +2,25 @@
 //
 //   identification_campaign [FIRST_SEED [COUNT]]
 //
-// One line per recording, then the shares that matter: of the answers called sound, how many have an interval whose
-// lower end is above the truth (the unsafe side); and of the records that carry an answer, how many are called sound.
+// COUNT recordings from FIRST_SEED on; a seed whose device no wall is stable with, or that none limits, makes none. One
+// line per recording, and every 100 and at the end a table of the shares that matter: of the answers called sound, how
+// many have an interval whose lower end is above the truth (the unsafe side), and by more than 10 %; and of the records
+// that carry an answer, how many are called sound. A record carries an answer where the limiting crossover lies in the
+// excited band at a coherence of 0.95 or more, the structure is right and there is no friction, which identify() does
+// not model (identify_in_time() does: friction_campaign).
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <map>
+#include <numbers>
 #include <string>
+#include <vector>
 
 #include "property/random_recordings.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/identification/frequency_response.hpp"
 #include "zwidth/identification/identification.hpp"
 
 namespace {
@@ -31,17 +40,18 @@ struct Count {
   int carried_sound = 0;
 };
 
-double coherence_at(const FrequencyResponse& response, double hertz) {
-  const double wanted = 2.0 * 3.14159265358979 * hertz;
-  double best = 0.0;
-  double nearest = 1e300;
-  for (const ResponsePoint& point : response.points) {
-    if (std::abs(point.frequency - wanted) < nearest) {
-      nearest = std::abs(point.frequency - wanted);
-      best = point.coherence;
-    }
-  }
-  return best;
+/// Whether a record holds what its device's limit hangs on; without identify(), which may fail.
+bool carries_answer(const test::RandomRecording& made) {
+  if (made.has_friction || !made.right_structure) return false;
+  if (made.limiting_hz < made.lowest_hz || made.limiting_hz > made.highest_hz) return false;
+  const std::vector<double>& force = made.recording.channels[0].samples;
+  const std::vector<double>& position = made.recording.channels[1].samples;
+  const FrequencyResponse response = frequency_response(force, position, made.recording.sampling_period);
+  const double wanted = 2.0 * std::numbers::pi * made.limiting_hz;
+  const auto nearest = std::ranges::min_element(
+      response.points, {}, [&](const ResponsePoint& point) { return std::abs(point.frequency - wanted); });
+  constexpr double clear = 0.95;
+  return nearest != response.points.end() && nearest->coherence >= clear;
 }
 
 void print(const std::string& name, const Count& count) {
@@ -58,16 +68,18 @@ int main(int argc, char** argv) {
   const auto first = static_cast<std::uint64_t>(argc > 1 ? std::atoll(argv[1]) : 1);
   const auto count = static_cast<std::uint64_t>(argc > 2 ? std::atoll(argv[2]) : 200);
   std::map<std::string, Count> counts;
-  for (std::uint64_t seed = first; seed < first + count; ++seed) {
+  std::uint64_t recordings = 0;
+  for (std::uint64_t seed = first; recordings < count; ++seed) {
     const auto made = test::random_recording(seed);
     if (!made) continue;
+    ++recordings;
     const auto begin = std::chrono::steady_clock::now();
     std::string verdict = "failed";
     std::string detail;
     double lower = 0.0;
     double upper = 0.0;
     double value = 0.0;
-    bool carried = false;
+    const bool carried = carries_answer(*made);
     try {
       IdentifyOptions options;
       options.structure_values = IdentifyOptions::StructureValues::placeholders;
@@ -79,10 +91,6 @@ int main(int argc, char** argv) {
         lower = found.analysis.interval->lower;
         upper = found.analysis.interval->upper;
       }
-      const double from = found.response.points.front().frequency / (2.0 * 3.14159265358979);
-      const double to = found.response.points.back().frequency / (2.0 * 3.14159265358979);
-      carried = !made->has_friction && made->right_structure && made->limiting_hz > from && made->limiting_hz < to &&
-                coherence_at(found.response, made->limiting_hz) >= 0.95;
       for (const std::string& reason : found.trust.reasons) detail += "\n      " + reason;
       detail += "\n      model error " + std::to_string(found.fit.model_error);
     } catch (const Error& error) {
@@ -114,7 +122,12 @@ int main(int argc, char** argv) {
       each.far_unsafe += lower > 1.1 * made->stiffness;
       each.carried_sound += carried;
     }
+    constexpr std::uint64_t often = 100;
+    if (recordings % often != 0 && recordings < count) continue;
+    std::printf("--- %llu recordings, seeds %llu to %llu\n", static_cast<unsigned long long>(recordings),
+                static_cast<unsigned long long>(first), static_cast<unsigned long long>(seed));
+    for (const auto& [name, each] : counts) print(name, each);
+    std::fflush(stdout);
   }
-  for (const auto& [name, each] : counts) print(name, each);
   return 0;
 }

@@ -20,6 +20,10 @@ bool is_logarithmic(const ShotModel& model, Eigen::Index i) {
   return k < model.coordinates().size() && model.coordinates()[k].kind == Coordinate::Kind::logarithmic;
 }
 
+Eigen::Map<const Eigen::VectorXd> recorded(const ShotModel& model, const Shot& shot) {
+  return {model.records()[shot.record].position.data() + shot.first, static_cast<Eigen::Index>(shot.count)};
+}
+
 /// What Ceres varies, and the residuals and slopes there: one playing of the records gives those of all shots.
 class SharedShots : public ceres::EvaluationCallback {
  public:
@@ -204,12 +208,15 @@ bool search(const ShotModel& model, const std::vector<Shot>& shots, const std::v
 
 }  // namespace
 
-Eigen::VectorXd whitened(const ShotNoise& noise, const Eigen::VectorXd& residual) {
+Eigen::MatrixXd whitened(const ShotNoise& noise, const Eigen::MatrixXd& columns) {
   const auto order = static_cast<Eigen::Index>(noise.filter.size()) - 1;
-  const Eigen::Index rows = residual.size() - order;
-  Eigen::VectorXd white = Eigen::VectorXd::Zero(rows);
-  for (Eigen::Index j = 0; j <= order; ++j) {
-    white += noise.filter[static_cast<std::size_t>(j)] / noise.deviation * residual.segment(order - j, rows);
+  const Eigen::Index rows = columns.rows() - order;
+  Eigen::MatrixXd white = Eigen::MatrixXd::Zero(rows, columns.cols());
+  for (Eigen::Index column = 0; column < columns.cols(); ++column) {
+    for (Eigen::Index j = 0; j <= order; ++j) {
+      const double weight = noise.filter[static_cast<std::size_t>(j)] / noise.deviation;
+      white.col(column) += weight * columns.col(column).segment(order - j, rows);
+    }
   }
   return white;
 }
@@ -254,57 +261,45 @@ std::vector<ShotNoise> shot_noise(const std::vector<Shot>& shots, const ShotPosi
 
 std::optional<ShotPositions> shot_residuals(const ShotModel& model, const std::vector<Shot>& shots,
                                             const Eigen::VectorXd& x, const std::vector<Eigen::VectorXd>& states) {
-  std::optional<ShotPositions> played = model.play(x, shots, states);
+  std::optional<std::vector<ShotMotion>> played = model.play(x, shots, states, ShotModel::Slopes::none);
   if (!played) return std::nullopt;
-  for (std::size_t i = 0; i < shots.size(); ++i) {
-    (*played)[i] -= Eigen::Map<const Eigen::VectorXd>(model.records()[shots[i].record].position.data() + shots[i].first,
-                                                      static_cast<Eigen::Index>(shots[i].count));
-  }
-  return played;
+  ShotPositions residuals;
+  for (std::size_t i = 0; i < shots.size(); ++i)
+    residuals.push_back((*played)[i].positions - recorded(model, shots[i]));
+  return residuals;
 }
 
 std::optional<ShotSlopes> shot_slopes(const ShotModel& model, const std::vector<Shot>& shots,
                                       const std::vector<ShotNoise>& noise, const Eigen::VectorXd& x,
                                       const std::vector<Eigen::VectorXd>& states) {
-  const std::optional<ShotPositions> own = shot_residuals(model, shots, x, states);
-  if (!own) return std::nullopt;
-  const Eigen::Index parameters = model.parameters();
+  std::optional<std::vector<ShotMotion>> played = model.play(x, shots, states, ShotModel::Slopes::exact);
+  if (!played) return std::nullopt;
   const auto coordinates = static_cast<Eigen::Index>(model.coordinates().size());
-  const Eigen::Index all = coordinates + 1 + model.states();  // the constant forces of all records move together
-  ShotSlopes slopes;
-  for (std::size_t i = 0; i < shots.size(); ++i) {
-    const ShotNoise& filter = noise[shots[i].record];
-    slopes.residuals.push_back(whitened(filter, (*own)[i]));
-    slopes.of_parameters.emplace_back(Eigen::MatrixXd::Zero(slopes.residuals[i].size(), parameters));
-    slopes.of_states.emplace_back(Eigen::MatrixXd::Zero(slopes.residuals[i].size(), model.states()));
-  }
-  std::vector<char> is_valid(static_cast<std::size_t>(all), 0);
-  tbb::parallel_for(Eigen::Index{0}, all, [&](Eigen::Index column) {
+  for (Eigen::Index i = 0; i < coordinates; ++i) {
+    if (!model.is_short_lag(i, x(i))) continue;
+    constexpr double step = 0.1;  // sampling periods: what is left beside a delay is of the second order
     Eigen::VectorXd at = x;
-    std::vector<Eigen::VectorXd> from = states;
-    const double step = model.difference_step(column, column < coordinates ? x(column) : 0.0);
-    if (column < coordinates) {
-      at(column) += step;
-    } else if (column == coordinates) {
-      at.tail(parameters - coordinates).array() += step;
-    } else {
-      for (Eigen::VectorXd& each : from) each(column - coordinates - 1) += step;
+    at(i) += step;
+    const auto moved = model.play(at, shots, states, ShotModel::Slopes::none);
+    if (!moved) return std::nullopt;
+    for (std::size_t k = 0; k < shots.size(); ++k) {
+      (*played)[k].slopes.row(i) = ((*moved)[k].positions - (*played)[k].positions).transpose() / step;
     }
-    const std::optional<ShotPositions> moved = shot_residuals(model, shots, at, from);
-    if (!moved) return;
-    for (std::size_t i = 0; i < shots.size(); ++i) {
-      const Eigen::VectorXd slope = whitened(noise[shots[i].record], ((*moved)[i] - (*own)[i]) / step);
-      if (column > coordinates) {
-        slopes.of_states[i].col(column - coordinates - 1) = slope;
-      } else {
-        const bool is_constant_force = column == coordinates;
-        slopes.of_parameters[i].col(is_constant_force ? coordinates + static_cast<Eigen::Index>(shots[i].record)
-                                                      : column) = slope;
-      }
-    }
-    is_valid[static_cast<std::size_t>(column)] = 1;
+  }
+  ShotSlopes slopes;
+  slopes.residuals.resize(shots.size());
+  slopes.of_parameters.resize(shots.size());
+  slopes.of_states.resize(shots.size());
+  tbb::parallel_for(std::size_t{0}, shots.size(), [&](std::size_t i) {
+    const ShotNoise& filter = noise[shots[i].record];
+    const ShotMotion& motion = (*played)[i];
+    slopes.residuals[i] = whitened(filter, motion.positions - recorded(model, shots[i]));
+    const Eigen::MatrixXd all = whitened(filter, motion.slopes.transpose());
+    slopes.of_parameters[i] = Eigen::MatrixXd::Zero(all.rows(), model.parameters());
+    slopes.of_parameters[i].leftCols(coordinates) = all.leftCols(coordinates);
+    slopes.of_parameters[i].col(coordinates + static_cast<Eigen::Index>(shots[i].record)) = all.col(coordinates);
+    slopes.of_states[i] = all.rightCols(model.states());
   });
-  if (std::ranges::count(is_valid, 0) > 0) return std::nullopt;
   return slopes;
 }
 

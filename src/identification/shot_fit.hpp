@@ -23,7 +23,7 @@ struct ShotNoise {
                                                 const std::vector<double>& steps, std::size_t order);
 
 /// The filtered rows of a shot: as many as it has samples, less the filter's order.
-[[nodiscard]] Eigen::VectorXd whitened(const ShotNoise& noise, const Eigen::VectorXd& residual);
+[[nodiscard]] Eigen::MatrixXd whitened(const ShotNoise& noise, const Eigen::MatrixXd& columns);
 
 /// Filtered residuals (played less recorded) of the shots, and how they change.
 struct ShotSlopes {
@@ -32,7 +32,7 @@ struct ShotSlopes {
   std::vector<Eigen::MatrixXd> of_states;      ///< a column per element of the shot's own state
 };
 
-/// By differences; nothing where the model cannot be played there.
+/// Exact along the motion (MotionTangent), of a short lag by a difference; nothing where the model cannot be played.
 [[nodiscard]] std::optional<ShotSlopes> shot_slopes(const ShotModel& model, const std::vector<Shot>& shots,
                                                     const std::vector<ShotNoise>& noise, const Eigen::VectorXd& x,
                                                     const std::vector<Eigen::VectorXd>& states);

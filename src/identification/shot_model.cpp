@@ -1,17 +1,29 @@
 #include "identification/shot_model.hpp"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "identification/friction_test.hpp"
 #include "sampling/sampling_instants.hpp"
-#include "simulation/continuous_motion.hpp"
+#include "simulation/motion_tangent.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/parameter.hpp"
 
 namespace zwidth::internal {
+
+/// Of an element of x, for Player's slopes: how it changes the motion, and the lagged force that a shot begins with.
+struct PlayedParameter {
+  MotionParameter motion;
+  double of_lag = 0.0;  ///< s per unit
+};
+
 namespace {
+
+constexpr const char* delay_key = "loop.delay";
+constexpr const char* lag_key = "actuator.time_constant";
 
 /// Stick-slip instants are met in parts of 1/rate: more of them per period would take for ever.
 constexpr double most_parts_per_period = 60.0;
@@ -39,35 +51,47 @@ double rms(std::span<const double> samples) {
   return std::sqrt(sum / static_cast<double>(samples.size()));
 }
 
-/// The lagged force as the shot begins: the filter of the commands before it.
-double lagged_force(const Device& device, const MotionRecord& record, std::size_t first, double constant) {
+/// The lagged force as a shot begins, and how it changes.
+struct LaggedForce {
+  double force = 0.0;
+  double of_lag = 0.0;
+  double of_delay = 0.0;
+  double of_constant = 0.0;
+};
+
+/// The filter of the commands before the shot: f+ = u + (f - u) e^{-h/lag} over each stretch h of constant command u.
+LaggedForce lagged_force(const Device& device, const MotionRecord& record, std::size_t first, double constant) {
   const double lag = device.parameters().actuator.time_constant;
-  if (!(lag > 0.0)) return 0.0;
+  if (!(lag > 0.0)) return {};
   const double period = record.sampling_period;
   const SamplingInstants instants = sampling_instants({period, device.loop().delay});
   constexpr double forgotten = 30.0;  // e^-30
   constexpr double most = 1e5;
   const auto length = static_cast<std::size_t>(std::min(most, std::ceil(forgotten * lag / period)));
   const auto at = [&](std::size_t k, std::size_t late) { return record.force[k < late ? 0 : k - late] + constant; };
-  const double keeps_old = std::exp(-instants.with_old / lag);
-  const double keeps_new = std::exp(-instants.with_new / lag);
-  std::size_t k = first < length ? 0 : first - length;
-  double force = at(k, instants.whole_samples + 1);
-  for (; k < first; ++k) {
-    const double old = at(k, instants.whole_samples + 1);
-    const double now = at(k, instants.whole_samples);
-    force = old + (force - old) * keeps_old;
-    force = now + (force - now) * keeps_new;
+  LaggedForce now;
+  const auto hold = [&](double command, double duration, double of_delay) {
+    const double keeps = std::exp(-duration / lag);
+    const double distance = (now.force - command) * keeps;
+    now.force = command + distance;
+    now.of_lag = now.of_lag * keeps + distance * duration / (lag * lag);
+    now.of_delay = now.of_delay * keeps - distance * of_delay / lag;
+    now.of_constant = 1.0 + (now.of_constant - 1.0) * keeps;
+  };
+  for (std::size_t k = first < length ? 0 : first - length; k < first; ++k) {
+    hold(at(k, instants.whole_samples + 1), instants.with_old, 1.0);
+    hold(at(k, instants.whole_samples), instants.with_new, -1.0);
   }
-  return force;
+  return now;
 }
 
 /// One record's device on its way through the shots of that record.
 class Player {
  public:
-  Player(const Device& device, const MotionRecord& record, double constant)
+  Player(const Device& device, const MotionRecord& record, ShotUnits units, double constant)
       : device_(device),
         record_(record),
+        units_(units),
         constant_(constant),
         instants_(sampling_instants({record.sampling_period, device.loop().delay})),
         motion_(device, {},
@@ -76,25 +100,48 @@ class Player {
         positions_(device.bodies().size()),
         velocities_(device.bodies().size()) {}
 
+  Player(const Player&) = delete;
+  Player& operator=(const Player&) = delete;
+  Player(Player&&) = delete;
+  Player& operator=(Player&&) = delete;
+  ~Player() = default;
+
   [[nodiscard]] bool can_be_followed() const {
     return motion_.rate() * record_.sampling_period <= most_parts_per_period;
   }
 
+  /// From then on play() finds slopes too: by the parameters, the constant force, and the shot's state.
+  void follow_slopes(std::vector<PlayedParameter> parameters) {
+    std::vector<MotionParameter> motions;
+    motions.reserve(parameters.size());
+    for (PlayedParameter& each : parameters) motions.push_back(std::move(each.motion));
+    delays_.clear();
+    for (std::size_t j = 0; j < parameters.size(); ++j) delays_.push_back({motions[j].switching, parameters[j].of_lag});
+    tangent_.emplace(motion_, std::move(motions), 1 + 2 * positions_.size());
+    motion_.set_tangent(&*tangent_);
+  }
+
   /// False where stick-slip instants were cut off.
-  bool play(const Shot& shot, const Eigen::VectorXd& state, double position_unit, double velocity_unit,
-            Eigen::VectorXd& out) {
-    start(shot, state, position_unit, velocity_unit);
-    out.resize(static_cast<Eigen::Index>(shot.count));
+  bool play(const Shot& shot, const Eigen::VectorXd& state, ShotMotion& out) {
+    start(shot, state);
+    out.positions.resize(static_cast<Eigen::Index>(shot.count));
+    if (tangent_) out.slopes.resize(tangent_->slopes().cols(), out.positions.size());
+    const auto sensed = static_cast<Eigen::Index>(device_.loop().sensed);
     for (std::size_t i = 0; i < shot.count; ++i) {
-      out(static_cast<Eigen::Index>(i)) = motion_.sensed();
+      const auto column = static_cast<Eigen::Index>(i);
+      out.positions(column) = motion_.sensed();
+      if (tangent_) {
+        out.slopes.col(column) = tangent_->slopes().row(0).transpose();
+        if (sensed > 0) out.slopes.col(column) += tangent_->slopes().row(sensed).transpose();
+      }
       const std::size_t k = shot.first + i;
       if (instants_.with_old > 0.0) {
         motion_.set_command(command(k, instants_.whole_samples + 1));
         motion_.advance_recurring(0);
-        motion_.set_command(command(k, instants_.whole_samples));
+        motion_.switch_command(command(k, instants_.whole_samples));
         motion_.advance_recurring(1);
       } else {
-        motion_.set_command(command(k, instants_.whole_samples));
+        motion_.switch_command(command(k, instants_.whole_samples));
         motion_.advance_recurring(0);
       }
     }
@@ -102,33 +149,88 @@ class Player {
   }
 
  private:
+  struct Delays {
+    double of_delay = 0.0;  // s per unit of x
+    double of_lag = 0.0;
+  };
+
   [[nodiscard]] double command(std::size_t k, std::size_t late) const {
     return record_.force[k < late ? 0 : k - late] + constant_;
   }
 
-  void start(const Shot& shot, const Eigen::VectorXd& state, double position_unit, double velocity_unit) {
+  void start(const Shot& shot, const Eigen::VectorXd& state) {
     const std::size_t sensed = device_.loop().sensed;
     const std::size_t bodies = positions_.size();
-    const double own = state(0) * position_unit;
+    const double own = state(0) * units_.position;
     Eigen::Index next = 1;
     for (std::size_t i = 0; i < bodies; ++i) {
-      positions_[i] = i == sensed ? own : own + state(next++) * position_unit;
+      positions_[i] = i == sensed ? own : own + state(next++) * units_.position;
     }
-    for (std::size_t i = 0; i < bodies; ++i) velocities_[i] = state(next++) * velocity_unit;
+    for (std::size_t i = 0; i < bodies; ++i) velocities_[i] = state(next++) * units_.velocity;
     motion_.reset();
-    motion_.set_lagged_force(lagged_force(device_, record_, shot.first, constant_));
-    motion_.set_command(command(shot.first, instants_.whole_samples + (instants_.with_old > 0.0 ? 1 : 0)));
+    const LaggedForce lagged = lagged_force(device_, record_, shot.first, constant_);
+    motion_.set_lagged_force(lagged.force);
+    motion_.set_command(command(shot.first, instants_.whole_samples + 1));
+    if (tangent_) start_slopes(lagged);
     motion_.set_motion(positions_.data(), velocities_.data());
+  }
+
+  /// As start() sets the states, whose positions but the first are relative to body 0's.
+  void start_slopes(const LaggedForce& lagged) {
+    Eigen::MatrixXd& slopes = tangent_->slopes();
+    slopes.setZero();
+    const auto sensed = static_cast<Eigen::Index>(device_.loop().sensed);
+    const auto bodies = static_cast<Eigen::Index>(positions_.size());
+    auto column = static_cast<Eigen::Index>(delays_.size());
+    const auto of_constant = column++;
+    slopes(motion_.command_row(), of_constant) = units_.force;
+    if (device_.parameters().actuator.time_constant > 0.0) {
+      slopes(motion_.lag_row(), of_constant) = units_.force * lagged.of_constant;
+      for (std::size_t j = 0; j < delays_.size(); ++j) {
+        slopes(motion_.lag_row(), static_cast<Eigen::Index>(j)) =
+            delays_[j].of_delay * lagged.of_delay + delays_[j].of_lag * lagged.of_lag;
+      }
+    }
+    slopes(0, column++) = units_.position;
+    for (Eigen::Index i = 0; i < bodies; ++i) {
+      if (i == sensed) continue;
+      if (i > 0) {
+        slopes(i, column++) = units_.position;
+      } else {
+        slopes(0, column) = units_.position;
+        slopes.col(column++).segment(1, bodies - 1).setConstant(-units_.position);
+      }
+    }
+    for (Eigen::Index i = 0; i < bodies; ++i) slopes(bodies + i, column++) = units_.velocity;
   }
 
   const Device& device_;
   const MotionRecord& record_;
+  ShotUnits units_;
   double constant_;
   SamplingInstants instants_;
   ContinuousMotion motion_;
+  std::vector<Delays> delays_;  ///< by parameter
+  std::optional<MotionTangent> tangent_;
   std::vector<double> positions_;
   std::vector<double> velocities_;
 };
+
+/// The shots in runs of one record, each long enough for its device to be worth making; where each begins, and the end.
+std::vector<std::size_t> batches(const std::vector<Shot>& shots) {
+  constexpr std::size_t enough = 8000;  // samples
+  std::vector<std::size_t> starts;
+  std::size_t samples = 0;
+  for (std::size_t i = 0; i < shots.size(); ++i) {
+    if (i == 0 || shots[i].record != shots[i - 1].record || samples >= enough) {
+      starts.push_back(i);
+      samples = 0;
+    }
+    samples += shots[i].count;
+  }
+  starts.push_back(shots.size());
+  return starts;
+}
 
 }  // namespace
 
@@ -139,11 +241,9 @@ ShotModel::ShotModel(Device structure, std::vector<MotionRecord> records, std::v
       coordinates_(std::move(coordinates)),
       locked_(std::move(locked)) {
   for (const MotionRecord& record : records_) {
-    force_units_.push_back(rms(record.force));
     const double change = rms_change(record.position);
-    velocity_units_.push_back(change / record.sampling_period);
     constexpr double typical_samples = 10.0;
-    position_units_.push_back(change * typical_samples);
+    units_.push_back({rms(record.force), change * typical_samples, change / record.sampling_period});
   }
   bodies_ = device_in_experiment(structure_, locked_, records_.front().sampling_period).bodies().size();
 }
@@ -184,20 +284,11 @@ std::vector<Eigen::VectorXd> ShotModel::recorded_states(const std::vector<Shot>&
     }
     slope /= squares;
     Eigen::VectorXd state = Eigen::VectorXd::Zero(this->states());
-    state(0) = (mean + slope * (static_cast<double>(shot.first) - middle)) / position_units_[shot.record];
-    state.tail(this->states() / 2).setConstant(slope / record.sampling_period / velocity_units_[shot.record]);
+    state(0) = (mean + slope * (static_cast<double>(shot.first) - middle)) / units_[shot.record].position;
+    state.tail(this->states() / 2).setConstant(slope / record.sampling_period / units_[shot.record].velocity);
     states.push_back(std::move(state));
   }
   return states;
-}
-
-double ShotModel::difference_step(Eigen::Index i, double x) const {
-  const auto k = static_cast<std::size_t>(i);
-  constexpr double step = 1e-4;
-  constexpr double long_step = 0.1;
-  const bool is_short_lag =
-      k < coordinates_.size() && coordinates_[k].key == "actuator.time_constant" && x < 2.0 * shortest_lag;
-  return is_short_lag ? long_step : step;
 }
 
 bool ShotModel::is_bounded(Eigen::Index i) const {
@@ -205,27 +296,85 @@ bool ShotModel::is_bounded(Eigen::Index i) const {
   return k < coordinates_.size() && coordinates_[k].kind == Coordinate::Kind::not_negative;
 }
 
-std::optional<ShotPositions> ShotModel::play(const Eigen::VectorXd& x, const std::vector<Shot>& shots,
-                                             const std::vector<Eigen::VectorXd>& states) const {
-  ShotPositions positions(shots.size());
-  try {
-    const Device fitted(parameters_at(x));
-    for (std::size_t r = 0; r < records_.size(); ++r) {
-      const Device device = without_short_lag(device_in_experiment(fitted, locked_, records_[r].sampling_period));
-      const double constant = x(static_cast<Eigen::Index>(coordinates_.size() + r)) * force_units_[r];
-      Player player(device, records_[r], constant);
-      if (!player.can_be_followed()) return std::nullopt;
-      for (std::size_t i = 0; i < shots.size(); ++i) {
-        if (shots[i].record != r) continue;
-        if (!player.play(shots[i], states[i], position_units_[r], velocity_units_[r], positions[i]))
-          return std::nullopt;
-        if (!positions[i].allFinite()) return std::nullopt;
-      }
-    }
-  } catch (const Error&) {  // no device has these numbers
-    return std::nullopt;
+bool ShotModel::is_short_lag(Eigen::Index i, double x) const {
+  const auto k = static_cast<std::size_t>(i);
+  return k < coordinates_.size() && coordinates_[k].key == lag_key && x < 2.0 * shortest_lag;
+}
+
+void ShotModel::free_friction(DeviceParameters& parameters) const {
+  constexpr double least = 1e-9;
+  for (const Coordinate& each : coordinates_) {
+    if (!each.key.ends_with(".coulomb")) continue;
+    set_parameter(parameters, each.key, std::max(*parameter(parameters, each.key), least * each.unit));
   }
-  return positions;
+}
+
+Device ShotModel::device_in(std::size_t record, const DeviceParameters& parameters) const {
+  return without_short_lag(device_in_experiment(Device(parameters), locked_, records_[record].sampling_period));
+}
+
+/// A is affine in each parameter, or in the inverse of a mass and of a lag: its slope follows from a second value.
+PlayedParameter ShotModel::played(std::size_t i, double x, std::size_t record, const DeviceParameters& parameters,
+                                  const Device& device) const {
+  const Coordinate& coordinate = coordinates_[i];
+  const double slope = coordinate.slope(x);
+  const bool is_lag = coordinate.key == lag_key;
+  if (coordinate.key == delay_key || (is_lag && !(device.parameters().actuator.time_constant > 0.0))) {
+    return {{.switching = slope}};  // a lag too short to follow is a delay
+  }
+  const double value = *parameter(parameters, coordinate.key);
+  const bool is_inverse = is_lag || coordinate.key.ends_with(".mass");
+  const double other = value > 0.0 ? 2.0 * value : coordinate.unit;
+  DeviceParameters moved = parameters;
+  set_parameter(moved, coordinate.key, other);
+  const Device there = device_in(record, moved);
+  PlayedParameter played;
+  const double factor = slope / (is_inverse ? 0.5 * value : other - value);
+  if (coordinate.key.ends_with(".coulomb")) {
+    for (std::size_t body = 0; body < device.bodies().size(); ++body) {
+      played.motion.limits.push_back(factor * (there.bodies()[body].coulomb - device.bodies()[body].coulomb));
+    }
+    return played;
+  }
+  const auto matrix_of = [](const Device& each) { return ContinuousMotion(each, {}, {}).patterns().front().matrix; };
+  played.motion.matrix = factor * (matrix_of(there) - matrix_of(device));
+  if (is_lag) played.of_lag = slope;
+  return played;
+}
+
+std::optional<std::vector<ShotMotion>> ShotModel::play(const Eigen::VectorXd& x, const std::vector<Shot>& shots,
+                                                       const std::vector<Eigen::VectorXd>& states,
+                                                       Slopes slopes) const {
+  std::vector<ShotMotion> motions(shots.size());
+  const std::vector<std::size_t> starts = batches(shots);
+  std::vector<char> is_played(starts.size(), 0);
+  tbb::parallel_for(std::size_t{0}, starts.size() - 1, [&](std::size_t batch) {
+    const std::size_t r = shots[starts[batch]].record;
+    try {
+      DeviceParameters parameters = parameters_at(x);
+      if (slopes == Slopes::exact) free_friction(parameters);
+      const Device device = device_in(r, parameters);
+      const double constant = x(static_cast<Eigen::Index>(coordinates_.size() + r)) * units_[r].force;
+      Player player(device, records_[r], units_[r], constant);
+      if (!player.can_be_followed()) return;
+      if (slopes == Slopes::exact) {
+        std::vector<PlayedParameter> all;
+        for (std::size_t i = 0; i < coordinates_.size(); ++i) {
+          all.push_back(played(i, x(static_cast<Eigen::Index>(i)), r, parameters, device));
+        }
+        player.follow_slopes(std::move(all));
+      }
+      for (std::size_t i = starts[batch]; i < starts[batch + 1]; ++i) {
+        if (!player.play(shots[i], states[i], motions[i]) || !motions[i].positions.allFinite()) return;
+        if (!motions[i].slopes.allFinite()) return;
+      }
+      is_played[batch] = 1;
+    } catch (const Error&) {  // no device has these numbers
+    }
+  });
+  is_played.back() = 1;
+  if (std::ranges::count(is_played, 0) > 0) return std::nullopt;
+  return motions;
 }
 
 }  // namespace zwidth::internal

@@ -29,6 +29,22 @@ struct Shot {
 /// Positions of the sensed body, one vector per shot.
 using ShotPositions = std::vector<Eigen::VectorXd>;
 
+/// By which a record's forces and shots' states are counted.
+struct ShotUnits {
+  double force = 0.0;
+  double position = 0.0;
+  double velocity = 0.0;
+};
+
+/// A shot as it is played.
+struct ShotMotion {
+  Eigen::VectorXd positions;
+  /// By sample, a column each: d position by the coordinates, the constant force of its record, and the shot's state.
+  Eigen::MatrixXd slopes;
+};
+
+struct PlayedParameter;
+
 /// The structure moved exactly under the recorded forces, friction included.
 ///
 /// x: the coordinates of the free parameters, then a constant force per record in its unit. A shot's state: position of
@@ -44,14 +60,13 @@ class ShotModel {
     return static_cast<Eigen::Index>(coordinates_.size() + records_.size());
   }
   [[nodiscard]] Eigen::Index states() const noexcept { return 2 * static_cast<Eigen::Index>(bodies_); }
-  /// By which an element of x, or of a state, is moved for a slope. Positions bend over a unit; where bodies stick and
-  /// slip they have kinks, over which a difference must average as the noise does: far above their rounding of 1e-12.
-  /// A lag that vanishes differs from a delay only in the second order: there the step is longer.
-  [[nodiscard]] double difference_step(Eigen::Index i, double x) const;
+  /// Whether the element of x is a lag so short that it differs from a delay in the second order only: by play()'s slopes
+  /// it is one.
+  [[nodiscard]] bool is_short_lag(Eigen::Index i, double x) const;
   /// Whether the element of x may not be negative.
   [[nodiscard]] bool is_bounded(Eigen::Index i) const;
   /// N or N m per unit of a constant force in x.
-  [[nodiscard]] double force_unit(std::size_t record) const { return force_units_[record]; }
+  [[nodiscard]] double force_unit(std::size_t record) const { return units_[record].force; }
 
   [[nodiscard]] Eigen::VectorXd position_of(const DeviceParameters& parameters) const;
   [[nodiscard]] DeviceParameters parameters_at(const Eigen::VectorXd& x) const;
@@ -59,18 +74,24 @@ class ShotModel {
   /// A state for each shot from the recorded position alone: no link stretched, all bodies at the sensed one's velocity.
   [[nodiscard]] std::vector<Eigen::VectorXd> recorded_states(const std::vector<Shot>& shots) const;
 
-  /// Nothing where the parameters make no device that can be followed in time.
-  [[nodiscard]] std::optional<ShotPositions> play(const Eigen::VectorXd& x, const std::vector<Shot>& shots,
-                                                  const std::vector<Eigen::VectorXd>& states) const;
+  enum class Slopes { none, exact };
+  /// Nothing where the parameters make no device that can be followed in time. With slopes a free friction of 0 is
+  /// taken as one too small to matter, so that its own slope shows.
+  [[nodiscard]] std::optional<std::vector<ShotMotion>> play(const Eigen::VectorXd& x, const std::vector<Shot>& shots,
+                                                            const std::vector<Eigen::VectorXd>& states,
+                                                            Slopes slopes) const;
 
  private:
+  [[nodiscard]] Device device_in(std::size_t record, const DeviceParameters& parameters) const;
+  void free_friction(DeviceParameters& parameters) const;
+  [[nodiscard]] PlayedParameter played(std::size_t i, double x, std::size_t record, const DeviceParameters& parameters,
+                                       const Device& device) const;
+
   Device structure_;
   std::vector<MotionRecord> records_;
   std::vector<Coordinate> coordinates_;
   std::vector<std::string> locked_;
-  std::vector<double> force_units_;
-  std::vector<double> position_units_;
-  std::vector<double> velocity_units_;
+  std::vector<ShotUnits> units_;  ///< by record
   std::size_t bodies_ = 0;
 };
 

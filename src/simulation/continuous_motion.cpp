@@ -6,10 +6,8 @@
 #include <string>
 #include <utility>
 
-#include "model/balance.hpp"
-#include "model/device_matrices.hpp"
-#include "sampling/matrix_exponential.hpp"
 #include "simulation/first_root.hpp"
+#include "simulation/motion_tangent.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/state_space.hpp"
 
@@ -20,48 +18,6 @@ namespace {
 constexpr double stiction_tolerance = 1e-12;
 /// A term of the series this small beside every component of the state, with |A| h <= 1, ends it.
 constexpr double negligible = 1e-20;
-/// Pieces over which the bound on a second derivative is taken; more: tighter, costs at construction only.
-constexpr int bound_pieces = 16;
-
-/// Of the part that moves: constants (the forces, a stuck body's velocity) have a zero row and only feed the others.
-double balanced_norm(const Eigen::MatrixXd& matrix) {
-  const Eigen::VectorXd scales = balancing_scales(matrix);
-  const Eigen::MatrixXd balanced = scales.cwiseInverse().asDiagonal() * matrix * scales.asDiagonal();
-  double norm = 0.0;
-  for (Eigen::Index i = 0; i < matrix.cols(); ++i) {
-    if (!matrix.row(i).isZero(0.0)) norm = std::max(norm, balanced.col(i).cwiseAbs().sum());
-  }
-  return norm;
-}
-
-Eigen::MatrixXd exponential(const Eigen::MatrixXd& matrix) {
-  return Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols()) + exponential_minus_one(matrix);
-}
-
-/// How far a functional of the state moves within one piece of a step, at most, and how it is carried to the next.
-struct Pieces {
-  Eigen::MatrixXd step;    // e^{A piece}
-  Eigen::MatrixXd growth;  // e^{|A| piece}
-};
-
-Pieces pieces_of(const Eigen::MatrixXd& matrix, double h) {
-  const double piece = h / bound_pieces;
-  return {exponential(matrix * piece), exponential(matrix.cwiseAbs() * piece)};
-}
-
-/// sup over 0 <= t <= h of |row e^{At}|, by component: at the ends of pieces, |row e^{At}| <= |row| e^{|A|t} inside.
-Eigen::VectorXd largest_over(const Eigen::RowVectorXd& row, const Pieces& pieces) {
-  Eigen::RowVectorXd at = row;
-  Eigen::RowVectorXd largest = Eigen::RowVectorXd::Zero(row.size());
-  for (int k = 0; k < bound_pieces; ++k) {
-    largest = largest.cwiseMax(at.cwiseAbs() * pieces.growth);
-    at = at * pieces.step;
-  }
-  return largest.transpose();
-}
-
-/// Where nothing but a constant force moves the device, the series is exact over any time.
-constexpr double least_rate = 1e-30;
 
 int sign_of(double value) noexcept { return value > 0.0 ? 1 : value < 0.0 ? -1 : 0; }
 
@@ -117,92 +73,15 @@ void ContinuousMotion::reset() noexcept {
   for (FrictionBody& each : friction_) stick(each);
 }
 
-Eigen::MatrixXd ContinuousMotion::matrix_of(const Device& device, OutsideForce outside, unsigned stuck) const {
-  const auto n = static_cast<Eigen::Index>(size_);
-  const auto command = static_cast<Eigen::Index>(command_);
-  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n, n);
-  if (!device.has_bodies()) {
-    const ContinuousStateSpace system = state_space(device);
-    matrix.topLeftCorner(system.A.rows(), system.A.cols()) = system.A;
-    matrix.col(command).head(system.B.size()) = system.B;
-    return matrix;
-  }
-  const auto bodies = static_cast<Eigen::Index>(bodies_);
-  const auto parts = device_matrices<double>(device);
-  const DeviceParameters& parameters = device.parameters();
-  for (Eigen::Index i = 0; i < bodies; ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    const Eigen::Index velocity = bodies + i;
-    // q_0' = v_0; (q_i - q_0)' = v_i - v_0
-    matrix(i, velocity) = 1.0;
-    if (i > 0) matrix(i, bodies) = -1.0;
-    // m v' = -k_ground q_0 - sum_j K_ij (q_j - q_0) - sum_j D_ij v_j: the links' stiffness cancels from q_0's column
-    const double mass = parts.mass[at];
-    const double ground = device.bodies()[at].stiffness + (at == device.loop().held ? parameters.user.stiffness : 0.0);
-    matrix(velocity, 0) = -ground / mass;
-    for (Eigen::Index j = 0; j < bodies; ++j) {
-      const std::size_t entry = at * bodies_ + static_cast<std::size_t>(j);
-      if (j > 0) matrix(velocity, j) = -parts.stiffness[entry] / mass;
-      matrix(velocity, bodies + j) = -parts.damping[entry] / mass;
-    }
-    if (at == actuated_) matrix(velocity, lag_ == no_state ? command : static_cast<Eigen::Index>(lag_)) = 1.0 / mass;
-    if (outside_ != no_state && at == device.loop().held)
-      matrix(velocity, static_cast<Eigen::Index>(outside_)) = 1.0 / mass;
-  }
-  if (lag_ != no_state) {
-    const auto lag = static_cast<Eigen::Index>(lag_);
-    matrix(lag, lag) = -1.0 / parameters.actuator.time_constant;
-    matrix(lag, command) = 1.0 / parameters.actuator.time_constant;
-  }
-  if (outside_ != no_state) {
-    const auto w = static_cast<Eigen::Index>(outside_);
-    matrix(w, w + 1) = outside.rise;
-    matrix(w + 1, w) = -outside.fall;
-  }
-  for (std::size_t k = 0; k < friction_.size(); ++k) {
-    const auto velocity = static_cast<Eigen::Index>(bodies_ + friction_[k].body);
-    if ((stuck >> k & 1u) != 0) {
-      matrix.row(velocity).setZero();
-    } else {
-      matrix(velocity, static_cast<Eigen::Index>(friction_[k].force)) = 1.0 / parts.mass[friction_[k].body];
-    }
-  }
-  return matrix;
-}
-
-ContinuousMotion::Pattern ContinuousMotion::make_pattern(const Eigen::MatrixXd& matrix, unsigned stuck) const {
-  Pattern pattern{matrix, std::max(balanced_norm(matrix), least_rate), {}};
-  const Eigen::MatrixXd square = matrix * matrix;
-  for (const double h : lengths_) {
-    RecurringStep step{exponential(matrix * h), {}};
-    if (friction_.empty()) {
-      pattern.steps.push_back(std::move(step));
-      pattern.steps.resize(pattern.steps.size() + most_halvings);
-      continue;
-    }
-    const Pieces pieces = pieces_of(matrix, h);
-    for (std::size_t k = 0; k < friction_.size(); ++k) {
-      const auto velocity = static_cast<Eigen::Index>(bodies_ + friction_[k].body);
-      const Eigen::RowVectorXd row = (stuck >> k & 1u) != 0
-                                         ? Eigen::RowVectorXd(friction_[k].other_forces.transpose() * square)
-                                         : Eigen::RowVectorXd(square.row(velocity));
-      step.bend.emplace_back(h * h / 8.0 * largest_over(row, pieces));
-    }
-    pattern.steps.push_back(std::move(step));
-    for (std::size_t halving = 1; halving <= most_halvings; ++halving) {
-      const double part = h / std::pow(2.0, static_cast<double>(halving));
-      RecurringStep shorter{exponential(matrix * part), pattern.steps.back().bend};
-      for (Eigen::VectorXd& bend : shorter.bend) bend /= 4.0;  // h² of a shorter time
-      pattern.steps.push_back(std::move(shorter));
-    }
-  }
-  return pattern;
-}
-
 void ContinuousMotion::set_outside(double w0, double w1) noexcept {
   if (outside_ == no_state) return;
   state_.data()[outside_] = w0;
   state_.data()[outside_ + 1] = w1;
+}
+
+void ContinuousMotion::switch_command(double force) noexcept {
+  if (tangent_ != nullptr) tangent_->switch_command(pattern().matrix, command_, command() - force);
+  set_command(force);
 }
 
 void ContinuousMotion::set_motion(const double* positions, const double* velocities) noexcept {
@@ -244,6 +123,7 @@ void ContinuousMotion::slide(FrictionBody& body, int direction) noexcept {
   body.fresh = true;
   state_.data()[body.force] = -direction * body.limit;
   stuck_ &= ~(1u << index);
+  if (tangent_ != nullptr) tangent_->slide(body.body, body.force, direction);
 }
 
 void ContinuousMotion::stick(FrictionBody& body) noexcept {
@@ -252,6 +132,7 @@ void ContinuousMotion::stick(FrictionBody& body) noexcept {
   body.fresh = false;
   state_.data()[bodies_ + body.body] = 0.0;
   stuck_ |= 1u << index;
+  if (tangent_ != nullptr) tangent_->turn(bodies_ + body.body, 0.0);
 }
 
 void ContinuousMotion::stick_or_slide(FrictionBody& body) noexcept {
@@ -266,8 +147,14 @@ void ContinuousMotion::stick_or_slide(FrictionBody& body) noexcept {
 
 void ContinuousMotion::break_away() noexcept {
   for (FrictionBody& each : friction_) {
-    if (each.direction == 0) stick_or_slide(each);
+    if (each.direction != 0) continue;
+    stick_or_slide(each);
+    if (tangent_ != nullptr && each.direction != 0) tangent_->start(bodies_ + each.body, acceleration(each));
   }
+}
+
+double ContinuousMotion::acceleration(const FrictionBody& body) const noexcept {
+  return pattern().matrix.row(static_cast<Eigen::Index>(bodies_ + body.body)).dot(state_);
 }
 
 bool ContinuousMotion::nothing_happens(const RecurringStep& step) const noexcept {
@@ -294,6 +181,7 @@ void ContinuousMotion::advance_part(std::size_t which, std::size_t halvings) noe
   const RecurringStep& step = pattern().steps[which * (most_halvings + 1) + halvings];
   multiply_(step.transition.data(), state_.data(), next_.data(), size_);
   if (nothing_happens(step)) {
+    if (tangent_ != nullptr) tangent_->step(step, stuck_, which * (most_halvings + 1) + halvings, state_.data());
     state_.swap(next_);
   } else if (halvings < most_halvings) {
     advance_part(which, halvings + 1);
@@ -377,12 +265,17 @@ void ContinuousMotion::advance(double duration) noexcept {
     expand(length);
     std::size_t body = 0;
     const double fraction = friction_.empty() || count >= max_events ? 2.0 : first_event(body);
+    if (tangent_ != nullptr) tangent_->move(pattern(), stuck_, series_, terms_, length, std::min(fraction, 1.0));
     if (fraction <= 1.0) {
       evaluate_series(fraction);
       for (FrictionBody& each : friction_) each.fresh = each.fresh && fraction == 0.0;
       FrictionBody& met = friction_[body];
       if (met.direction != 0) {
+        const double before = acceleration(met);
         stick_or_slide(met);
+        if (tangent_ != nullptr && met.direction != 0) {
+          tangent_->turn(bodies_ + met.body, before == 0.0 ? 0.0 : acceleration(met) / before);
+        }
       } else {
         slide(met, sign_of(met.other_forces.dot(state_)));
       }

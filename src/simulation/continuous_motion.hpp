@@ -9,6 +9,8 @@
 
 namespace zwidth::internal {
 
+class MotionTangent;
+
 /// A force from outside, at the held body, as the output w0 of w0' = rise w1, w1' = -fall w0: constant (w1 = 0), a ramp
 /// (rise 1, fall 0) or a sine (rise = fall = its angular frequency).
 struct OutsideForce {
@@ -48,12 +50,17 @@ class ContinuousMotion {
 
   void set_command(double force) noexcept { state_.data()[command_] = force; }
   void set_outside(double w0, double w1) noexcept;
+  /// The same at an instant that may hang on the tangent's parameters.
+  void switch_command(double force) noexcept;
   /// Of the actuator, where it has a lag.
   void set_lagged_force(double force) noexcept {
     if (lag_ != no_state) state_.data()[lag_] = force;
   }
   /// Positions and velocities of all bodies. A body at rest sticks if the forces then set allow it.
   void set_motion(const double* positions, const double* velocities) noexcept;
+
+  /// Carries how the motion changes along from then on; the caller keeps it alive. Null: none.
+  void set_tangent(MotionTangent* tangent) noexcept { tangent_ = tangent; }
 
   [[nodiscard]] double command() const noexcept { return state_.data()[command_]; }
   [[nodiscard]] double outside_force() const noexcept { return outside_ == no_state ? 0.0 : state_.data()[outside_]; }
@@ -73,9 +80,26 @@ class ContinuousMotion {
   [[nodiscard]] std::size_t events() const noexcept { return events_; }
   [[nodiscard]] std::size_t overloaded() const noexcept { return overloaded_; }
 
- private:
   /// Halvings of a recurring length before an event within it is looked for by a series.
   static constexpr std::size_t most_halvings = 3;
+  /// A step of recurring length, or of half, a quarter, ... of one, in one pattern of sticking bodies.
+  struct RecurringStep {
+    Eigen::MatrixXd transition;         // e^{Ah}
+    std::vector<Eigen::VectorXd> bend;  // per friction body: h²/8 sup |c A² e^{At}|, by component of the state
+  };
+  struct Pattern {
+    Eigen::MatrixXd matrix;            // A
+    double norm = 0.0;                 // of A, balanced
+    std::vector<RecurringStep> steps;  // by length and halvings
+  };
+  /// Where the state has the command, and the lagged force of an actuator with a lag.
+  [[nodiscard]] Eigen::Index command_row() const noexcept { return static_cast<Eigen::Index>(command_); }
+  [[nodiscard]] Eigen::Index lag_row() const noexcept { return static_cast<Eigen::Index>(lag_); }
+  /// By the bits of the stuck friction bodies.
+  [[nodiscard]] const std::vector<Pattern>& patterns() const noexcept { return patterns_; }
+  [[nodiscard]] const std::vector<double>& recurring_lengths() const noexcept { return lengths_; }
+
+ private:
   static constexpr int degree = 18;  // of the Taylor series: 1/19! < 1e-17 where |A| h <= 1
 
   /// A body with Coulomb friction.
@@ -86,16 +110,6 @@ class ContinuousMotion {
     Eigen::VectorXd other_forces;  // functional: all but friction, at rest
     int direction = 0;             // of sliding; 0: sticks
     bool fresh = false;            // began to slide at this instant: its velocity is exactly 0
-  };
-  /// A step of recurring length, or of half, a quarter, ... of one, in one pattern of sticking bodies.
-  struct RecurringStep {
-    Eigen::MatrixXd transition;         // e^{Ah}
-    std::vector<Eigen::VectorXd> bend;  // per friction body: h²/8 sup |c A² e^{At}|, by component of the state
-  };
-  struct Pattern {
-    Eigen::MatrixXd matrix;            // A
-    double norm = 0.0;                 // of A, balanced
-    std::vector<RecurringStep> steps;  // by length and halvings
   };
 
   [[nodiscard]] Eigen::MatrixXd matrix_of(const Device& device, OutsideForce outside, unsigned stuck) const;
@@ -110,6 +124,7 @@ class ContinuousMotion {
   void slide(FrictionBody& body, int direction) noexcept;
   void stick(FrictionBody& body) noexcept;
   void break_away() noexcept;
+  [[nodiscard]] double acceleration(const FrictionBody& body) const noexcept;
 
   static constexpr std::size_t no_state = static_cast<std::size_t>(-1);
 
@@ -130,6 +145,7 @@ class ContinuousMotion {
   Eigen::MatrixXd series_;  // column k: A^k x h^k / k!
   std::size_t terms_ = 0;   // columns of series_ in use
   MatrixVector multiply_ = nullptr;
+  MotionTangent* tangent_ = nullptr;
   std::size_t events_ = 0;
   std::size_t overloaded_ = 0;
 };

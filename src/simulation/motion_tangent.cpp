@@ -1,0 +1,151 @@
+#include "simulation/motion_tangent.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace zwidth::internal {
+namespace {
+
+/// Terms of a series in t with |A| t <= `size` until they are below rounding.
+int terms_for(double size) {
+  constexpr int most = 24;
+  constexpr double rounding = 1e-17;
+  double term = 1.0;
+  int k = 0;
+  while (k < most && term > rounding) term *= size / ++k;
+  return k;
+}
+
+/// dA/dp as it is in a pattern: stuck bodies' velocities do not change.
+Eigen::MatrixXd in_pattern(Eigen::MatrixXd slope, const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& free) {
+  for (Eigen::Index i = 0; i < slope.rows(); ++i) {
+    if (matrix.row(i).isZero(0.0) && !free.row(i).isZero(0.0)) slope.row(i).setZero();
+  }
+  return slope;
+}
+
+}  // namespace
+
+MotionTangent::MotionTangent(const ContinuousMotion& motion, std::vector<MotionParameter> parameters,
+                             std::size_t others)
+    : parameters_(std::move(parameters)), size_(static_cast<std::size_t>(motion.patterns().front().matrix.rows())) {
+  multiply_ = matrix_vector(size_);
+  const auto n = static_cast<Eigen::Index>(size_);
+  slopes_ = Eigen::MatrixXd::Zero(n, static_cast<Eigen::Index>(parameters_.size() + others));
+  next_ = slopes_;
+  term_ = slopes_;
+  const Eigen::MatrixXd& free = motion.patterns().front().matrix;
+  for (std::size_t j = 0; j < parameters_.size(); ++j) {
+    if (parameters_[j].matrix.size() == 0 || parameters_[j].matrix.isZero(0.0)) continue;
+    Varied varied{j, {}, {}};
+    for (const ContinuousMotion::Pattern& pattern : motion.patterns()) {
+      const Eigen::MatrixXd slope = in_pattern(parameters_[j].matrix, pattern.matrix, free);
+      varied.entries.emplace_back();
+      for (std::size_t column = 0; column < size_; ++column) {
+        for (std::size_t row = 0; row < size_; ++row) {
+          const double value = slope.data()[column * size_ + row];
+          if (value != 0.0) varied.entries.back().push_back({row, column, value});
+        }
+      }
+      make_steps(varied, pattern, slope, motion.recurring_lengths());
+    }
+    varied_.push_back(std::move(varied));
+  }
+}
+
+/// By their series over a short time, and e^{2M} = (e^M)², d e^{2M} = de^M e^M + e^M de^M.
+void MotionTangent::make_steps(Varied& varied, const ContinuousMotion::Pattern& pattern, const Eigen::MatrixXd& slope,
+                               const std::vector<double>& lengths) const {
+  constexpr auto halvings = static_cast<int>(ContinuousMotion::most_halvings);
+  std::vector<Eigen::MatrixXd>& steps = varied.steps.emplace_back();
+  for (const double length : lengths) {
+    constexpr double small = 0.25;
+    const int doublings = std::max(halvings, static_cast<int>(std::ceil(std::log2(pattern.norm * length / small))));
+    const double part = std::ldexp(length, -doublings);
+    const auto n = pattern.matrix.rows();
+    Eigen::MatrixXd term = Eigen::MatrixXd::Identity(n, n);
+    Eigen::MatrixXd slope_term = Eigen::MatrixXd::Zero(n, n);
+    Eigen::MatrixXd sum = term;
+    Eigen::MatrixXd slope_sum = slope_term;
+    for (int k = 1; k <= terms_for(small); ++k) {
+      slope_term = (part / k * (pattern.matrix * slope_term + slope * term)).eval();
+      term = (part / k * (pattern.matrix * term)).eval();
+      sum += term;
+      slope_sum += slope_term;
+    }
+    const std::size_t first = steps.size();
+    steps.resize(first + ContinuousMotion::most_halvings + 1);
+    for (int left = doublings; left >= 0; --left) {
+      if (left <= halvings) steps[first + static_cast<std::size_t>(left)] = slope_sum;
+      slope_sum = (slope_sum * sum + sum * slope_sum).eval();
+      sum = (sum * sum).eval();
+    }
+  }
+}
+
+void MotionTangent::step(const ContinuousMotion::RecurringStep& step, unsigned stuck, std::size_t which,
+                         const double* x) noexcept {
+  const auto columns = static_cast<std::size_t>(slopes_.cols());
+  for (std::size_t j = 0; j < columns; ++j) {
+    multiply_(step.transition.data(), slopes_.data() + j * size_, next_.data() + j * size_, size_);
+  }
+  slopes_.swap(next_);
+  for (const Varied& each : varied_) {
+    double* change = next_.data();
+    multiply_(each.steps[stuck][which].data(), x, change, size_);
+    double* own = slopes_.data() + each.column * size_;
+    for (std::size_t i = 0; i < size_; ++i) own[i] += change[i];
+  }
+}
+
+void MotionTangent::move(const ContinuousMotion::Pattern& pattern, unsigned stuck, const Eigen::MatrixXd& series,
+                         std::size_t known, double length, double fraction) noexcept {
+  const int terms = terms_for(pattern.norm * length * fraction);
+  const auto columns = static_cast<std::size_t>(slopes_.cols());
+  const auto all = columns * size_;
+  std::copy_n(slopes_.data(), all, term_.data());
+  double power = 1.0;  // of the fraction: the columns of `series` are over the whole length
+  for (int k = 1; k <= terms; ++k) {
+    const double factor = length * fraction / k;
+    for (std::size_t j = 0; j < columns; ++j) {
+      multiply_(pattern.matrix.data(), term_.data() + j * size_, next_.data() + j * size_, size_);
+    }
+    if (static_cast<std::size_t>(k) <= known) {
+      const double* x = series.data() + static_cast<std::size_t>(k - 1) * size_;
+      for (const Varied& each : varied_) {
+        double* own = next_.data() + each.column * size_;
+        for (const Entry& entry : each.entries[stuck]) own[entry.row] += entry.value * power * x[entry.column];
+      }
+    }
+    power *= fraction;
+    for (std::size_t i = 0; i < all; ++i) {
+      term_.data()[i] = factor * next_.data()[i];
+      slopes_.data()[i] += term_.data()[i];
+    }
+  }
+}
+
+void MotionTangent::slide(std::size_t body, std::size_t force, int direction) noexcept {
+  for (std::size_t j = 0; j < parameters_.size(); ++j) {
+    if (parameters_[j].limits.empty()) continue;
+    slopes_.data()[j * size_ + force] = -direction * parameters_[j].limits[body];
+  }
+}
+
+void MotionTangent::start(std::size_t velocity, double acceleration) noexcept {
+  for (std::size_t j = 0; j < parameters_.size(); ++j) {
+    slopes_.data()[j * size_ + velocity] -= acceleration * parameters_[j].switching;
+  }
+}
+
+void MotionTangent::switch_command(const Eigen::MatrixXd& matrix, std::size_t command, double fall) noexcept {
+  for (std::size_t j = 0; j < parameters_.size(); ++j) {
+    if (parameters_[j].switching == 0.0) continue;
+    for (std::size_t i = 0; i < size_; ++i) {
+      slopes_.data()[j * size_ + i] += matrix.data()[command * size_ + i] * fall * parameters_[j].switching;
+    }
+  }
+}
+
+}  // namespace zwidth::internal
