@@ -98,7 +98,7 @@ class Verification {
       consider(samples[i].drift, here);
       const NotchAtDrift& left = samples[i > 0 ? i - 1 : 0];
       const NotchAtDrift& right = samples[std::min(i + 1, last)];
-      if (last == 0 || !std::isfinite(here) || here > left.*member || here > right.*member) continue;
+      if (last == 0 || here == 0.0 || !std::isfinite(here) || here > left.*member || here > right.*member) continue;
       if (here > 1.05 * result.stiffness) continue;  // too far above the least to fall below it between samples
       std::uintmax_t steps = max_refinements;
       const auto [drift, stiffness] =
