@@ -66,17 +66,16 @@ class Search {
   [[nodiscard]] DesignTarget target_of(const DesignParameter& parameter) const {
     DesignTarget target{parameter.key, parameter.value, std::nullopt, {}};
     const Point now{parameter.value, limit_now_};
-    Extremes extremes{limit_now_, limit_now_};
+    std::vector<Walk> walks;
     if (parameter.value > 0.0) {
-      const std::optional<double> down =
-          first_crossing(parameter, now, parameter.value, parameter.value / options_.factor, extremes);
-      const std::optional<double> up =
-          first_crossing(parameter, now, parameter.value, parameter.value * options_.factor, extremes);
-      target.value_needed = nearer(parameter.value, down, up);
+      walks.push_back({now, parameter.value, parameter.value / options_.factor, 1});
+      walks.push_back({now, parameter.value, parameter.value * options_.factor, 1});
     } else {
       const double size = natural_size(device_, parameter, options_.stiffness);
-      target.value_needed = first_crossing(parameter, now, first_share * size, options_.factor * size, extremes);
+      walks.push_back({now, first_share * size, options_.factor * size, 0});
     }
+    Extremes extremes{limit_now_, limit_now_};
+    target.value_needed = first_crossing(parameter, std::move(walks), extremes);
     if (!target.value_needed) {
       target.why = reason_of_none(parameter, extremes);
       return target;
@@ -109,34 +108,53 @@ class Search {
   }
 
  private:
+  static constexpr int ended = -1;
+
   struct Extremes {
     double least = 0.0;
     double most = 0.0;
   };
 
-  static std::optional<double> nearer(double now, std::optional<double> a, std::optional<double> b) {
-    if (!a || !b) return a ? a : b;
-    return std::abs(std::log(*a / now)) <= std::abs(std::log(*b / now)) ? a : b;
-  }
-
   [[nodiscard]] double excess(double limit) const { return limit - options_.stiffness; }
 
-  // The first value, by equal factors from `start` to `end`, at which the limit passes the target.
-  [[nodiscard]] std::optional<double> first_crossing(const DesignParameter& parameter, Point last, double start,
-                                                     double end, Extremes& extremes) const {
+  // By equal factors from `start` to `end`.
+  struct Walk {
+    Point last;
+    double start;
+    double end;
+    int step;  // the next one
+  };
+
+  // The value nearest to today's at which the limit passes the target: the walks go side by side, so that the first to
+  // get there has it.
+  [[nodiscard]] std::optional<double> first_crossing(const DesignParameter& parameter, std::vector<Walk> walks,
+                                                     Extremes& extremes) const {
     const double density =
         options_.goal == StiffnessGoal::any_user_limit ? steps_per_decade_any_user : steps_per_decade;
-    const int steps = static_cast<int>(std::ceil(density * std::abs(std::log10(end / start))));
-    for (int i = parameter.value > 0.0 ? 1 : 0; i <= steps; ++i) {
-      const double value = start * std::pow(end / start, static_cast<double>(i) / steps);
-      const std::optional<double> limit = limit_at(parameter, value);
-      if (!limit) return std::nullopt;
-      extremes = {std::min(extremes.least, *limit), std::max(extremes.most, *limit)};
-      const Point next{value, *limit};
-      if ((excess(last.limit) >= 0.0) != (excess(next.limit) >= 0.0)) return refined(parameter, last, next);
-      last = next;
+    std::optional<double> nearest;
+    while (!nearest && !walks.empty()) {
+      for (Walk& walk : walks) {
+        const int steps = static_cast<int>(std::ceil(density * std::abs(std::log10(walk.end / walk.start))));
+        const double value = walk.start * std::pow(walk.end / walk.start, static_cast<double>(walk.step) / steps);
+        const std::optional<double> limit = walk.step <= steps ? limit_at(parameter, value) : std::nullopt;
+        walk.step = limit ? walk.step + 1 : ended;
+        if (!limit) continue;
+        extremes = {std::min(extremes.least, *limit), std::max(extremes.most, *limit)};
+        const Point next{value, *limit};
+        if ((excess(walk.last.limit) >= 0.0) != (excess(next.limit) >= 0.0)) {
+          const std::optional<double> there = refined(parameter, walk.last, next);
+          if (there && (!nearest || distance(parameter, *there) < distance(parameter, *nearest))) nearest = there;
+          if (!there) walk.step = ended;
+        }
+        walk.last = next;
+      }
+      std::erase_if(walks, [](const Walk& walk) { return walk.step == ended; });
     }
-    return std::nullopt;
+    return nearest;
+  }
+
+  static double distance(const DesignParameter& parameter, double value) {
+    return std::abs(std::log(value / parameter.value));
   }
 
   // Between two values on either side of the target: where the limit is the target; at a jump the side that has it.
