@@ -67,12 +67,18 @@ UserDiscs::UserDiscs(const Device& device)
   const Device free = without_operator(device);
   const auto motion_of = [&](std::size_t body) { return modal_form(free, {held_, body}, ActuatorLag::left_out); };
   std::vector<ModalForm> motions;
+  for (std::size_t i = 0; i < free.bodies().size(); ++i) motions.push_back(motion_of(i));
+  motions_.add(motions[sensed_]);
+  motions_.add(motions[actuated_]);
   for (std::size_t i = 0; i < free.bodies().size(); ++i) {
-    motions.push_back(motion_of(i));
-    if (free.bodies()[i].damping > 0.0) dampers_.push_back({motions[i], free.bodies()[i].damping});
+    if (!(free.bodies()[i].damping > 0.0)) continue;
+    motions_.add(motions[i]);
+    dampings_.push_back(free.bodies()[i].damping);
   }
   for (const Link& link : free.links()) {
-    if (link.damping > 0.0) dampers_.push_back({difference(motions[link.first], motions[link.second]), link.damping});
+    if (!(link.damping > 0.0)) continue;
+    motions_.add(difference(motions[link.first], motions[link.second]));
+    dampings_.push_back(link.damping);
   }
   held_motion_ = motions[held_];
   sensed_motion_ = motions[sensed_];
@@ -83,7 +89,7 @@ UserDiscs::UserDiscs(const Device& device)
   for (const ModalForm* each : {&through_, &sensed_motion_, &actuated_motion_}) {
     if (each->terms.size() > poles_.size()) poles_ = each->terms;
   }
-  undamped_ = dampers_.empty();
+  undamped_ = dampings_.empty();
   if (undamped_) return;
   double highest_mode = 0.0;
   double highest_corner = lag_ > 0.0 ? 1.0 / lag_ : 0.0;
@@ -112,25 +118,23 @@ UserDiscs::UserDiscs(const Device& device)
 UserDiscs::Density UserDiscs::density(double frequency) const {
   std::array<std::complex<double>, 8> few;
   std::vector<std::complex<double>> many;
-  std::complex<double>* motions = few.data();
-  if (dampers_.size() > few.size()) {
-    many.resize(dampers_.size());
-    motions = many.data();
+  std::complex<double>* values = few.data();
+  if (motions_.size() > few.size()) {
+    many.resize(motions_.size());
+    values = many.data();
   }
-  const auto larger = [](double a, std::complex<double> z) {
-    return std::max({a, std::abs(z.real()), std::abs(z.imag())});
-  };
-  const std::complex<double> sensed = response(sensed_motion_, frequency);
-  const std::complex<double> actuated = actuated_ == sensed_ ? sensed : response(actuated_motion_, frequency);
-  double largest = larger(larger(0.0, sensed), actuated);
-  for (std::size_t i = 0; i < dampers_.size(); ++i) {
-    motions[i] = response(dampers_[i].motion, frequency);
-    largest = larger(largest, motions[i]);
+  motions_.responses(frequency, values);
+  const std::complex<double> sensed = values[0];
+  const std::complex<double> actuated = values[1];
+  const std::complex<double>* lengths = values + 2;
+  double largest = 0.0;
+  for (std::size_t i = 0; i < motions_.size(); ++i) {
+    largest = std::max({largest, std::abs(values[i].real()), std::abs(values[i].imag())});
   }
   // Scaled by the largest, so that squares neither overflow nor vanish.
   const double unit = 1.0 / largest;
   double dissipation = 0.0;
-  for (std::size_t i = 0; i < dampers_.size(); ++i) dissipation += dampers_[i].damping * std::norm(motions[i] * unit);
+  for (std::size_t i = 0; i < dampings_.size(); ++i) dissipation += dampings_[i] * std::norm(lengths[i] * unit);
   dissipation *= frequency * frequency;
   const std::complex<double> value = (sensed * unit) * (actuated * unit) / (2.0 * dissipation);
   return {lag_ > 0.0 ? value / std::complex<double>(1.0, lag_ * frequency) : value, dissipation * largest * largest};

@@ -6,6 +6,7 @@
 
 #include "model/device_matrices.hpp"
 #include "stability/alias_rule.hpp"
+#include "stability/shared_poles.hpp"
 #include "zwidth/model/modal_form.hpp"
 #include "zwidth/sampling/sampled_plant.hpp"
 
@@ -66,10 +67,6 @@ class UserDiscs {
   [[nodiscard]] AliasRule rule_slope() const;
 
  private:
-  struct Damper {
-    ModalForm motion;  // its length, for a force at the held body
-    double damping = 0.0;
-  };
   struct Density {
     std::complex<double> value;  // g(w)
     double conductance = 0.0;    // Re Y = w² q^H Dmp q
@@ -89,7 +86,8 @@ class UserDiscs {
   ModalForm through_;  // actuated -> sensed, the lag left out
   DeviceMatrices<long double> matrices_;
   std::vector<ModalTerm> poles_;  // the terms whose denominators are those of the device
-  std::vector<Damper> dampers_;
+  SharedPoles motions_;           // for a force at the held body: sensed, actuated, and the length of each damper
+  std::vector<double> dampings_;  // of those
   std::size_t sensed_ = 0;
   std::size_t actuated_ = 0;
   std::size_t held_ = 0;
