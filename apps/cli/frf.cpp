@@ -33,6 +33,7 @@ void run_frf(const FrfArguments& arguments) {
   if (arguments.points && !arguments.output.json)
     throw BadInput("--points: is for JSON; add --json, or use --csv FILE");
   outputs.keep(recording.file, "recording");
+  for (const std::string& file : recording.more) outputs.keep(file, "recording");
 
   const MeasuredResponse frf = measured_response(response_source(arguments.response));
   outputs.put("--csv", [&] { return results::frf_csv(frf.response); });

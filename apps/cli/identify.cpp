@@ -59,7 +59,7 @@ void check(const IdentifyArguments& arguments, Outputs& outputs) {
   if (arguments.output_device != "-") outputs.add("--output-device", arguments.output_device);
   outputs.add(arguments.output);
   outputs.keep(arguments.response.recording.file, "recording");
-  for (const std::string& file : arguments.in_time.more) outputs.keep(file, "recording");
+  for (const std::string& file : arguments.response.recording.more) outputs.keep(file, "recording");
   outputs.keep(arguments.structure.structure, "structure");
   if (arguments.output_device == "-" && arguments.output.json) {
     throw BadInput("--output-device: - is standard output, which --json takes; name a file");
@@ -92,11 +92,12 @@ Identification identified_device(const IdentifyArguments& arguments) {
   const IdentifyOptions options = identify_options(arguments, device, source.options);
   try {
     ProgressLine line("identifying");
-    return source.recording ? identify(*source.recording, device, options, line.progress())
-                            : identify(source.table, device, options);
+    return !source.recordings.empty() ? identify(source.recordings, device, options, line.progress())
+                                      : identify(source.table, device, options);
   } catch (const Error& error) {
-    if (error.code() == ErrorCode::did_not_converge) throw WorkFailed(source.name + ": " + error.what());
-    throw BadInput(source.name + ": " + error.what());
+    const std::string name = source.recordings.size() > 1 ? "" : source.name + ": ";
+    if (error.code() == ErrorCode::did_not_converge) throw WorkFailed(name + error.what());
+    throw BadInput(name + error.what());
   }
 }
 

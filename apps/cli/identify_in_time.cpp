@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
 #include "cli/progress_line.hpp"
 #include "cli/subcommand.hpp"
@@ -12,7 +11,7 @@
 namespace zwidth::cli {
 namespace {
 
-constexpr std::array time_domain_options{"MORE", "--segment-duration"};
+constexpr const char* segment_option = "--segment-duration";
 
 /// Empty (the library's choice) unless keys are given; "all" adds the friction of every body that moves.
 std::vector<std::string> free_in_time(const StructureArguments& given, const Device& device) {
@@ -30,9 +29,7 @@ std::vector<std::string> free_in_time(const StructureArguments& given, const Dev
 
 void add_time_domain_options(CLI::App& command, TimeDomainArguments& arguments) {
   constexpr const char* group = "Fit in time";
-  command.add_option("MORE", arguments.more, "More recordings of the device, best of another force (time-domain)")
-      ->type_name("");
-  command.add_option("--segment-duration", arguments.segment, "Each segment begins in a state of its own")
+  command.add_option(segment_option, arguments.segment, "Each segment begins in a state of its own")
       ->type_name("S")
       ->capture_default_str()
       ->group(group);
@@ -51,21 +48,12 @@ void check_time_domain_options(const CLI::App& command) {
 }
 
 void refuse_time_domain_options(const CLI::App& command) {
-  for (const char* option : time_domain_options) {
-    if (command.count(option) == 0) continue;
-    throw BadInput(fmt::format("{}: is for --method time-domain",
-                               option == time_domain_options.front() ? "more than one recording" : option));
-  }
+  if (command.count(segment_option) > 0) throw BadInput(fmt::format("{}: is for --method time-domain", segment_option));
 }
 
 TimeDomainIdentification fitted_in_time(const RecordingArguments& recording, const StructureArguments& structure_given,
                                         const TimeDomainArguments& arguments) {
-  std::vector<Recording> recordings{read_motion(recording).recording};
-  for (const std::string& file : arguments.more) {
-    RecordingArguments other = recording;
-    other.file = file;
-    recordings.push_back(read_motion(other).recording);
-  }
+  const std::vector<Recording> recordings = read_motions(recording).recordings;
   const Device device = structure(structure_given, recordings.front().sampling_period);
   TimeDomainOptions options;
   options.free = free_in_time(structure_given, device);

@@ -12,11 +12,10 @@ namespace zwidth::cli {
 
 /// What only `identify --method time-domain` takes.
 struct TimeDomainArguments {
-  std::vector<std::string> more;  ///< further recordings
   double segment = TimeDomainOptions{}.segment;
 };
 
-/// Declares the further recordings and the options; `arguments` must outlive the parsing.
+/// Declares the options; `arguments` must outlive the parsing.
 void add_time_domain_options(CLI::App& command, TimeDomainArguments& arguments);
 
 /// Throws BadInput for options on the command line that only other methods have.

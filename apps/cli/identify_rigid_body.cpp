@@ -26,6 +26,7 @@ void add_inverse_dynamics_options(CLI::App& command, InverseDynamicsOptions& opt
 }
 
 void check_inverse_dynamics_options(const CLI::App& command) {
+  if (command.count("MORE") > 0) throw BadInput("more than one recording: is not for --method inverse-dynamics");
   for (const CLI::Option* option : command.get_options()) {
     if (option->count() == 0) continue;
     const std::string name = option->get_name();

@@ -109,6 +109,7 @@ void add_recording_arguments(CLI::App& command, RecordingArguments& arguments) {
   command.add_option("FILE", arguments.file, "Recording: text (CSV, ...), MAT or UFF 58; - reads standard input")
       ->type_name("")
       ->required();
+  command.add_option("MORE", arguments.more, "More recordings of the same device")->type_name("");
   add_recording_options(command, arguments);
 }
 
@@ -189,6 +190,17 @@ RecordedMotion read_motion(const RecordingArguments& arguments) {
   check_that_columns_differ(*recording, arguments.force, motion.column);
   recording->source = arguments.file;
   return {*std::move(recording), motion.output};
+}
+
+RecordedMotions read_motions(const RecordingArguments& arguments) {
+  RecordedMotion first = read_motion(arguments);
+  RecordedMotions all{{std::move(first.recording)}, first.output};
+  RecordingArguments other = arguments;
+  for (const std::string& file : arguments.more) {
+    other.file = file;
+    all.recordings.push_back(read_motion(other).recording);
+  }
+  return all;
 }
 
 std::string contents_text(const RecordingArguments& arguments) {

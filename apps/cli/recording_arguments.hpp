@@ -13,7 +13,8 @@ namespace zwidth::cli {
 
 /// What the commands about recordings share on their command line: the file, its columns, its time axis, its format.
 struct RecordingArguments {
-  std::string file;  ///< "-": standard input
+  std::string file;               ///< "-": standard input
+  std::vector<std::string> more;  ///< further recordings of the same device
   ColumnRequest force;
   ColumnRequest position;  ///< one of these three
   ColumnRequest velocity;
@@ -49,6 +50,13 @@ struct RecordedMotion {
 /// Reads force and motion, and shows progress.
 /// Throws BadInput: a column that is not named (the message lists the file's), or a file that is refused.
 [[nodiscard]] RecordedMotion read_motion(const RecordingArguments& arguments);
+
+/// The file and those beside it, all read alike.
+struct RecordedMotions {
+  std::vector<Recording> recordings;
+  OutputQuantity output = OutputQuantity::position;
+};
+[[nodiscard]] RecordedMotions read_motions(const RecordingArguments& arguments);
 
 /// What the file holds, as --list prints it. Throws BadInput.
 [[nodiscard]] std::string contents_text(const RecordingArguments& arguments);

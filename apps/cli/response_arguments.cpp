@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -12,6 +13,8 @@
 #include "cli/progress_line.hpp"
 #include "cli/subcommand.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/io/message_words.hpp"
+#include "zwidth/io/number_with_unit.hpp"
 
 namespace zwidth::cli {
 namespace {
@@ -58,6 +61,13 @@ void add_estimate_options(CLI::App& command, ResponseArguments& arguments) {
   command.add_option("--highest-hz", arguments.highest_hz, "Leave out what is above")
       ->type_name("HZ")
       ->group(estimate_group);
+  command
+      .add_option("--lines", arguments.lines,
+                  "Frequencies that the force excites, where they are known:\n"
+                  "1,2.5,7 or FIRST:LAST:COUNT, in Hz or with a unit")
+      ->type_name("LIST")
+      ->delimiter(',')
+      ->group(estimate_group);
   command.add_flag("--no-detrend", arguments.no_detrend, "Leave mean and drift in")->group(estimate_group);
 }
 
@@ -102,6 +112,38 @@ std::optional<double> angular(const char* option, std::optional<double> hertz) {
   return radians_per_turn * *hertz;
 }
 
+double line_in_hertz(const std::string& text) {
+  double hertz = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), hertz);
+  if (error == std::errc{} && end == text.data() + text.size()) return hertz;
+  const auto value = number_with_unit(text, Measure::frequency_hz, Motion::linear);
+  if (!value) throw BadInput(fmt::format("--lines: {}; {}", value.error().what, value.error().allowed));
+  return *value;
+}
+
+/// F or FIRST:LAST:COUNT, evenly spaced; rad/s.
+void add_lines(const std::string& text, std::vector<double>& lines) {
+  std::vector<std::string> parts(1);
+  for (const char letter : text) {
+    letter == ':' ? (void)parts.emplace_back() : parts.back().push_back(letter);
+  }
+  std::size_t count = 1;
+  if (parts.size() != 1) {
+    const std::string& last = parts.back();
+    const auto [end, error] = std::from_chars(last.data(), last.data() + last.size(), count);
+    const bool is_count = error == std::errc{} && end == last.data() + last.size() && count >= 2 && count <= 4096;
+    if (parts.size() != 3 || !is_count) {
+      throw BadInput(
+          fmt::format("--lines: {}; a frequency, or FIRST:LAST:COUNT with a COUNT of 2 to 4096, such as "
+                      "\"1 Hz:40 Hz:40\"",
+                      in_quotes(text)));
+    }
+  }
+  const double first = line_in_hertz(parts[0]);
+  const double step = count > 1 ? (line_in_hertz(parts[1]) - first) / static_cast<double>(count - 1) : 0.0;
+  for (std::size_t i = 0; i < count; ++i) lines.push_back(*angular("--lines", first + step * static_cast<double>(i)));
+}
+
 struct Band {
   std::optional<double> lowest;
   std::optional<double> highest;
@@ -137,6 +179,10 @@ FrequencyResponseOptions estimate_options(const ResponseArguments& arguments) {
   const Band band = band_of(arguments);
   options.lowest = band.lowest;
   options.highest = band.highest;
+  for (const std::string& each : arguments.lines) add_lines(each, options.lines);
+  if (!options.lines.empty() && (arguments.period || options.segment_length)) {
+    throw BadInput("--lines: are fitted in the whole record; leave --period and --segment out");
+  }
   return options;
 }
 
@@ -144,10 +190,10 @@ FrequencyResponseOptions estimate_options(const ResponseArguments& arguments) {
 void check_table_options(const CLI::App& command) {
   for (const char* option :
        {"--force", "--position", "--velocity", "--acceleration", "--time", "--timer-bits", "--period", "--skip-periods",
-        "--aperiodic", "--segment", "--overlap", "--window", "--estimator", "--no-detrend"}) {
+        "--aperiodic", "--segment", "--overlap", "--window", "--estimator", "--no-detrend", "--lines", "MORE"}) {
     if (command.count(option) > 0) {
-      throw BadInput(
-          fmt::format("{}: is for a recording, not for a table of a response; leave it out, or --table", option));
+      throw BadInput(fmt::format("{}: is for a recording, not for a table of a response; leave it out, or --table",
+                                 std::string_view(option) == "MORE" ? "more than one file" : option));
     }
   }
 }
@@ -181,9 +227,9 @@ ResponseSource from_recording(const ResponseArguments& arguments) {
   ResponseSource source;
   source.name = arguments.recording.file;
   source.options = estimate_options(arguments);
-  RecordedMotion motion = read_motion(arguments.recording);
-  source.options.output = motion.output;
-  source.recording = std::move(motion.recording);
+  RecordedMotions motions = read_motions(arguments.recording);
+  source.options.output = motions.output;
+  source.recordings = std::move(motions.recordings);
   return source;
 }
 
@@ -197,7 +243,7 @@ void add_response_arguments(CLI::App& command, ResponseArguments& arguments) {
 }
 
 std::optional<double> ResponseSource::sampling_period() const {
-  return recording ? std::optional(recording->sampling_period) : table.response.sampling_period;
+  return recordings.empty() ? table.response.sampling_period : std::optional(recordings.front().sampling_period);
 }
 
 ResponseSource response_source(const ResponseArguments& arguments) {
@@ -205,13 +251,13 @@ ResponseSource response_source(const ResponseArguments& arguments) {
 }
 
 MeasuredResponse measured_response(const ResponseSource& source) {
-  if (!source.recording) return source.table;
+  if (source.recordings.empty()) return source.table;
   try {
     ProgressLine line("estimating the response");
-    return frequency_response(*source.recording, source.options, line.progress());
+    return frequency_response(source.recordings, source.options, line.progress());
   } catch (const Error& error) {
     // What the estimate refuses lies in the recording, or in an option that does not fit it.
-    throw BadInput(source.name + ": " + error.what());
+    throw BadInput((source.recordings.size() == 1 ? source.name + ": " : "") + error.what());
   }
 }
 

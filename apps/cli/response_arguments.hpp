@@ -27,6 +27,7 @@ struct ResponseArguments {
   std::optional<double> frequency_step_hz;
   std::string window = "hann";
   std::string estimator = "h1";
+  std::vector<std::string> lines;
   std::optional<std::string> frequency_unit;
   std::optional<std::string> phase_unit;
   const CLI::App* command = nullptr;  ///< whose options these are
@@ -37,10 +38,10 @@ void add_response_arguments(CLI::App& command, ResponseArguments& arguments);
 
 /// What the command line names: a recording and how its response is estimated, or a table of a response.
 struct ResponseSource {
-  std::string name;                    ///< the file's name
-  std::optional<Recording> recording;  ///< absent for a table
-  FrequencyResponseOptions options;    ///< of the recording's estimate
-  MeasuredResponse table;              ///< where there is no recording
+  std::string name;                   ///< the file's name
+  std::vector<Recording> recordings;  ///< none for a table
+  FrequencyResponseOptions options;   ///< of the recordings' estimate
+  MeasuredResponse table;             ///< where there is no recording
   [[nodiscard]] std::optional<double> sampling_period() const;
 };
 

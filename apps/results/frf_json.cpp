@@ -38,6 +38,13 @@ static void to_json(Json& json, const MeasuredCrossover& crossover) {
           {"stiffness_interval", crossover.stiffness_interval}};
 }
 
+static void to_json(Json& json, const AmplitudeDependence& found) {
+  json = {{"difference", found.difference},
+          {"force_ratio", found.force_ratio},
+          {"lines", found.lines},
+          {"grows_with_force", found.grows_with_force}};
+}
+
 namespace {
 
 void add_lines(Json& document, const FrequencyResponse& response) {
@@ -98,6 +105,7 @@ Json frf_json(const MeasuredResponse& measured, const FrfUnits& units, FrfConten
   json["excited_band_hz"] = in_hertz({response.points.front().frequency, response.points.back().frequency});
   json["lines"] = response.points.size();
   json["averages"] = response.averages > 0.0 ? std::optional(response.averages) : std::nullopt;
+  json["amplitude_dependence"] = measured.dependence;
   json["sampling_period_s"] = response.sampling_period;
   if (content == FrfContent::with_lines) add_lines(json, response);
   json["basis"] = StiffnessBasis{};

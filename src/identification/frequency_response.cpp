@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <string>
+#include <vector>
 
+#include "identification/line_response.hpp"
 #include "identification/period_detection.hpp"
 #include "identification/periodic_response.hpp"
 #include "identification/welch.hpp"
@@ -64,8 +67,31 @@ void check_period(std::size_t samples, std::size_t period, std::size_t skipped) 
   }
 }
 
+/// The lines asked for in rad per sample, rising.
+std::vector<double> angles_of(const FrequencyResponseOptions& options, double sampling_period) {
+  std::vector<double> angles;
+  for (const double line : options.lines) {
+    if (!(std::isfinite(line) && line > 0.0)) refuse(fmt::format("line at {} rad/s; a frequency above 0", line));
+    if (!(line * sampling_period < std::numbers::pi)) {
+      refuse(fmt::format("line at {:.6g} Hz; below half the sampling rate, {:.6g} Hz", line / (2.0 * std::numbers::pi),
+                         0.5 / sampling_period));
+    }
+    angles.push_back(line * sampling_period);
+  }
+  std::ranges::sort(angles);
+  const auto twice = std::ranges::adjacent_find(angles);
+  if (twice != angles.end()) {
+    refuse(
+        fmt::format("line at {:.6g} Hz comes twice; each once", *twice / (2.0 * std::numbers::pi * sampling_period)));
+  }
+  return angles;
+}
+
 FrequencyResponse estimate(std::span<const double> force, std::span<const double> output, double sampling_period,
                            const FrequencyResponseOptions& options, const Progress& progress) {
+  if (!options.lines.empty()) {
+    return line_response(force, output, sampling_period, angles_of(options, sampling_period), options, progress);
+  }
   if (options.excitation == Excitation::aperiodic) {
     return welch_response(force, output, sampling_period, options, progress);
   }
@@ -74,6 +100,9 @@ FrequencyResponse estimate(std::span<const double> force, std::span<const double
     return periodic_response(force, output, sampling_period,
                              {*options.period, options.skip_periods, PeriodicRecord::Transient::remark}, options,
                              progress);
+  }
+  if (const auto tone = options.excitation == Excitation::detect ? only_tone(force) : std::nullopt) {
+    return line_response(force, output, sampling_period, {*tone}, options, progress);
   }
   if (const auto period = detect_period(force)) {
     check_period(force.size(), *period, options.skip_periods);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "identification/fit_judgement.hpp"
@@ -85,9 +86,9 @@ void share_lateness(ParameterFit& fit) {
 /// A structure on its way to the device: the record, the fit so far, and what is free.
 class Fitting {
  public:
-  Fitting(const MeasuredResponse& measured, const Recording* recording, const Device& structure,
+  Fitting(const MeasuredResponse& measured, std::span<const Recording> recordings, const Device& structure,
           const IdentifyOptions& options)
-      : recording_(recording), options_(options), fit_options_(options.fit) {
+      : recordings_(recordings), options_(options), fit_options_(options.fit) {
     for (std::string& key : fit_options_.free) key = full_parameter_key(structure.parameters(), key);
     if (fit_options_.free.empty()) fit_options_.free = fittable_parameters(structure, fit_options_.locked);
     const bool is_unknown = options.structure_values == IdentifyOptions::StructureValues::placeholders;
@@ -138,14 +139,18 @@ class Fitting {
   }
 
   [[nodiscard]] std::optional<ShownFriction> friction() const {
-    if (is_hopeless_ || !recording_ || options_.response.output != OutputQuantity::position) return std::nullopt;
+    if (is_hopeless_ || options_.response.output != OutputQuantity::position) return std::nullopt;
     std::optional<FrictionEvidence> found;
-    try {
-      found = find_friction({fit_->fit.device, fit_options_.locked, keys_of(fit_->fit), recording_->sampling_period,
-                             fit_->fit.frequencies.front(), fit_->fit.frequencies.back()},
-                            recording_->channels[0].samples, recording_->channels[1].samples);
-    } catch (const Error&) {  // a device that cannot be played says nothing
-      return std::nullopt;
+    for (const Recording& each : recordings_) {
+      try {
+        const auto next =
+            find_friction({fit_->fit.device, fit_options_.locked, keys_of(fit_->fit), each.sampling_period,
+                           fit_->fit.frequencies.front(), fit_->fit.frequencies.back()},
+                          each.channels[0].samples, each.channels[1].samples);
+        if (next && (!found || next->force * found->deviation > found->force * next->deviation)) found = next;
+      } catch (const Error&) {  // a device that cannot be played says nothing
+        continue;
+      }
     }
     constexpr double significant = 4.0;
     constexpr double matters = 0.02;
@@ -181,9 +186,8 @@ class Fitting {
   [[nodiscard]] RecordFit whole_fit(const Device& structure, const FrequencyResponse& response,
                                     const ParameterFitOptions& options) const {
     RecordFit fit{fit_parameters(structure, response, options), response};
-    if (!recording_) return fit;
-    return without_leakage(std::move(fit), recording_->channels[0].samples, recording_->channels[1].samples,
-                           options_.response, options);
+    if (recordings_.empty()) return fit;
+    return without_leakage(std::move(fit), recordings_, options_.response, options);
   }
 
   /// The same fit with these parameters free beside the others; nothing where that is impossible.
@@ -242,7 +246,7 @@ class Fitting {
     }
   }
 
-  const Recording* recording_;
+  std::span<const Recording> recordings_;
   const IdentifyOptions& options_;
   ParameterFitOptions fit_options_;
   std::optional<RecordFit> fit_;
@@ -250,6 +254,13 @@ class Fitting {
   std::optional<double> ignored_delay_;
   bool is_hopeless_ = false;  ///< to be refused, whatever else is fitted
 };
+
+/// Recordings that show another critical stiffness each fit no linear device.
+void judge_dependence(const MeasuredResponse& measured, Judgement& judgement) {
+  if (!measured.dependence || measured.trust.sound()) return;
+  judgement.trust.doubt("the recordings differ by more than their noise: a linear device is an average of them");
+  judgement.device_trust.inherit(judgement.trust);
+}
 
 void judge_delay(const Fitting& fitting, Judgement& judgement) {
   if (!fitting.ignored_delay()) return;
@@ -281,14 +292,15 @@ void check(const IdentifyOptions& options) {
   }
 }
 
-Identification identified(const MeasuredResponse& measured, const Recording* recording, const Device& structure,
-                          const IdentifyOptions& options) {
-  Fitting fitting(measured, recording, structure, options);
+Identification identified(const MeasuredResponse& measured, std::span<const Recording> recordings,
+                          const Device& structure, const IdentifyOptions& options) {
+  Fitting fitting(measured, recordings, structure, options);
   fitting.widen_above_the_band();
   const CriticalStiffness critical = limit_of(fitting.fit().fit.device);
   std::optional<ShownFriction> friction = fitting.friction();
   Judgement judgement = judge({fitting.fit(), structure, options, critical, friction});
   judge_delay(fitting, judgement);
+  judge_dependence(measured, judgement);
   Identification result{.source = measured.source,
                         .response = fitting.fit().response,
                         .fit = fitting.fit().fit,
@@ -322,13 +334,18 @@ std::optional<OptionProblem> find_problem(const IdentifyOptions& options) {
 
 Identification identify(const Recording& recording, const Device& structure, const IdentifyOptions& options,
                         const Progress& progress) {
+  return identify(std::span(&recording, 1), structure, options, progress);
+}
+
+Identification identify(std::span<const Recording> recordings, const Device& structure, const IdentifyOptions& options,
+                        const Progress& progress) {
   check(options);
-  return identified(frequency_response(recording, options.response, progress), &recording, structure, options);
+  return identified(frequency_response(recordings, options.response, progress), recordings, structure, options);
 }
 
 Identification identify(const MeasuredResponse& measured, const Device& structure, const IdentifyOptions& options) {
   check(options);
-  return identified(measured, nullptr, structure, options);
+  return identified(measured, {}, structure, options);
 }
 
 }  // namespace zwidth

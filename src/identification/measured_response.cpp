@@ -1,6 +1,7 @@
 #include "zwidth/identification/measured_response.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -10,6 +11,8 @@
 #include <utility>
 
 #include "identification/plausibility.hpp"
+#include "identification/pooled_response.hpp"
+#include "identification/welch.hpp"
 #include "signal/clipping.hpp"
 #include "zwidth/error.hpp"
 
@@ -68,6 +71,105 @@ Trust trust_of(const MeasuredStiffness& stiffness) {
   return trust;
 }
 
+constexpr std::size_t fewest_samples = 16;
+
+void check(std::span<const Recording> recordings, const FrequencyResponseOptions& options) {
+  const auto require = [](bool holds, const std::string& what) {
+    if (!holds) throw Error(ErrorCode::invalid_argument, what);
+  };
+  if (const auto problem = find_problem(options)) {
+    require(false, fmt::format("{} {}; {}", problem->member, problem->what, problem->allowed));
+  }
+  require(!recordings.empty(), "there is no recording; at least one");
+  for (std::size_t r = 0; r < recordings.size(); ++r) {
+    const Recording& each = recordings[r];
+    require(each.channels.size() == 2,
+            fmt::format("the recording has {} channels; two, the force and the motion", each.channels.size()));
+    constexpr double rounding = 1e-6;
+    const double period = recordings[0].sampling_period;
+    require(std::abs(each.sampling_period - period) <= rounding * period,
+            fmt::format("{}: is sampled at {:.6g} Hz, and {} at {:.6g} Hz; must be of one rate", each.source,
+                        1.0 / each.sampling_period, recordings[0].source, 1.0 / period));
+    for (std::size_t before = 0; before < r; ++before) {
+      require(each.channels[1].samples.empty() || each.channels[0].samples != recordings[before].channels[0].samples ||
+                  each.channels[1].samples != recordings[before].channels[1].samples,
+              fmt::format("{}: holds the same samples as {}; give each recording once", each.source,
+                          recordings[before].source));
+    }
+  }
+}
+
+/// What a recording's signals show before any estimate.
+struct RecordChecks {
+  std::vector<Remark> remarks;
+  std::vector<std::string> doubts;
+};
+
+RecordChecks checked(const Recording& recording, OutputQuantity output) {
+  RecordChecks found{recording.remarks, {}};
+  const std::array roles{SignalRole::force, role_of(output)};
+  for (std::size_t i = 0; i < roles.size(); ++i) {
+    const Channel& channel = recording.channels[i];
+    for (Remark& remark : check_signal(channel, recording.sampling_period, roles[i])) {
+      found.remarks.push_back(std::move(remark));
+    }
+    if (is_clipped(channel, recording.sampling_period, roles[i])) {
+      found.doubts.push_back(fmt::format(
+          "{} is clipped: the response is not that of a linear device; reduce the amplitude", channel.name));
+    }
+  }
+  for (Remark& remark : implausible_recording(recording)) found.remarks.push_back(std::move(remark));
+  return found;
+}
+
+/// Says that recordings disagree, and whether that moves the critical stiffness.
+void judge_dependence(MeasuredResponse& measured, std::span<const Recording> recordings,
+                      std::span<const FrequencyResponse> each) {
+  constexpr double other_force = 1.2;
+  const AmplitudeDependence& found = *measured.dependence;
+  const bool by_force = found.force_ratio > other_force;
+  Remark remark{Remark::Severity::warning,
+                by_force
+                    ? fmt::format("the response depends on the force: {:.2g} times the force changes it by {:.2g} % "
+                                  "(median of {} lines that show it above the noise)",
+                                  found.force_ratio, 100.0 * found.difference, found.lines)
+                    : fmt::format("recordings of about the same force differ by {:.2g} % (median of {} lines that "
+                                  "show it above the noise)",
+                                  100.0 * found.difference, found.lines),
+                "", ""};
+  if (by_force && found.grows_with_force) {
+    remark.consequence = "so dry friction does: it holds a weak force more, and looks like damping";
+    remark.remedy = "fit in time with free friction";
+  } else {
+    remark.consequence = by_force ? "not as dry friction does: a spring that hardens, or a limit of force or current"
+                                  : "the device, its load or its place has changed between them";
+    remark.remedy = "look at the recordings one by one";
+  }
+  measured.remarks.push_back(remark);
+  if (!measured.stiffness || !stiffness_interval(*measured.stiffness)) return;
+  const Interval interval = *stiffness_interval(*measured.stiffness);
+  std::vector<std::string> moved;
+  std::size_t compared = 0;
+  for (std::size_t r = 0; r < each.size(); ++r) {
+    if (each[r].points.size() < 2) continue;
+    const MeasuredStiffness alone = measured_stiffness(each[r]);
+    const auto own = stiffness_interval(alone);
+    if (!own) continue;
+    ++compared;
+    const double stiffness = alone.limit->stiffness;
+    const bool is_within = stiffness >= interval.lower && stiffness <= interval.upper;
+    const double pooled = measured.stiffness->limit->stiffness;
+    if (is_within || (own->lower <= pooled && pooled <= own->upper)) continue;
+    moved.push_back(fmt::format("{:.4g} from {}", stiffness, recordings[r].source));
+  }
+  if (compared < 2) {
+    measured.trust.doubt(sentence(remark));
+  } else if (!moved.empty()) {
+    measured.trust.doubt(fmt::format(
+        "the recordings disagree on the critical stiffness: {}, outside the interval of all", fmt::join(moved, ", ")));
+  }
+}
+
 }  // namespace
 
 std::optional<OptionProblem> find_problem(const FrequencyResponseOptions& options) {
@@ -88,6 +190,14 @@ std::optional<OptionProblem> find_problem(const FrequencyResponseOptions& option
   if (options.skip_periods > 0 && options.excitation == Excitation::aperiodic) {
     return OptionProblem{"skip_periods", fmt::format("is {} for an aperiodic force", options.skip_periods),
                          "must be 0, or the force periodic"};
+  }
+  const auto wrong =
+      std::ranges::find_if_not(options.lines, [](double line) { return std::isfinite(line) && line > 0.0; });
+  if (wrong != options.lines.end())
+    return OptionProblem{"lines", fmt::format("has {} rad/s", *wrong), "must be finite and > 0"};
+  if (!options.lines.empty() && (options.segment_length || options.period)) {
+    return OptionProblem{"lines", "are given beside a segment's length or a period",
+                         "must be left out, or they: lines are fitted in the whole record"};
   }
   return find_band_problem(options);
 }
@@ -117,36 +227,74 @@ MeasuredResponse judged_response(std::string source, FrequencyResponse response,
   return measured;
 }
 
+namespace internal {
+
+std::vector<FrequencyResponse> responses(std::span<const Recording> recordings, const FrequencyResponseOptions& options,
+                                         const Progress& progress) {
+  check(recordings, options);
+  FrequencyResponseOptions alike = options;  // segments of one length have lines in common
+  if (recordings.size() > 1 && !options.segment_length) {
+    for (const Recording& each : recordings) {
+      const std::size_t samples = each.channels[0].samples.size();
+      if (samples < fewest_samples) continue;  // refused below
+      alike.segment_length = std::min(alike.segment_length.value_or(samples), welch_segment_length(samples, options));
+    }
+  }
+  std::vector<FrequencyResponse> found;
+  const auto count = static_cast<double>(recordings.size());
+  for (std::size_t r = 0; r < recordings.size(); ++r) {
+    const Recording& each = recordings[r];
+    const Progress part = [&](double fraction) {
+      if (progress) progress((static_cast<double>(r) + fraction) / count);
+    };
+    try {
+      found.push_back(frequency_response(each.channels[0].samples, each.channels[1].samples, each.sampling_period,
+                                         recordings.size() > 1 ? alike : options, part));
+      if (found.back().points.empty()) {
+        throw Error(ErrorCode::invalid_argument, "no line is left in the band asked for; widen it");
+      }
+    } catch (const Error& error) {
+      if (recordings.size() == 1) throw;
+      throw Error(error.code(), fmt::format("{}: {}", each.source, error.what()));
+    }
+  }
+  return found;
+}
+
+}  // namespace internal
+
 MeasuredResponse frequency_response(const Recording& recording, const FrequencyResponseOptions& options,
                                     const Progress& progress) {
-  if (recording.channels.size() != 2) {
-    throw Error(ErrorCode::invalid_argument,
-                fmt::format("the recording has {} channels; two, the force and the motion", recording.channels.size()));
-  }
-  if (const auto problem = find_problem(options)) {
-    throw Error(ErrorCode::invalid_argument,
-                fmt::format("{} {}; {}", problem->member, problem->what, problem->allowed));
-  }
-  FrequencyResponse response = frequency_response(recording.channels[0].samples, recording.channels[1].samples,
-                                                  recording.sampling_period, options, progress);
-  if (response.points.empty()) {
-    throw Error(ErrorCode::invalid_argument, "no line is left in the band asked for; widen it");
-  }
-  std::vector<Remark> remarks = recording.remarks;
-  const std::array roles{SignalRole::force, role_of(options.output)};
+  return frequency_response(std::span(&recording, 1), options, progress);
+}
+
+MeasuredResponse frequency_response(std::span<const Recording> recordings, const FrequencyResponseOptions& options,
+                                    const Progress& progress) {
+  std::vector<FrequencyResponse> each = responses(recordings, options, progress);
+  std::vector<Remark> remarks;
   std::vector<std::string> doubts;
-  for (std::size_t i = 0; i < roles.size(); ++i) {
-    const Channel& channel = recording.channels[i];
-    for (Remark& remark : check_signal(channel, recording.sampling_period, roles[i])) {
+  for (std::size_t r = 0; r < recordings.size(); ++r) {
+    const std::string name = recordings.size() > 1 ? recordings[r].source + ": " : "";
+    const RecordChecks checks = checked(recordings[r], options.output);
+    for (Remark remark : checks.remarks) {
+      remark.what = name + remark.what;
       remarks.push_back(std::move(remark));
     }
-    if (is_clipped(channel, recording.sampling_period, roles[i])) {
-      doubts.push_back(fmt::format("{} is clipped: the response is not that of a linear device; reduce the amplitude",
-                                   channel.name));
-    }
+    for (const std::string& doubt : checks.doubts) doubts.push_back(name + doubt);
+    if (recordings.size() == 1) continue;
+    for (Remark& remark : each[r].remarks)
+      remarks.push_back({remark.severity, name + remark.what, remark.consequence, remark.remedy});
   }
-  for (Remark& remark : implausible_recording(recording)) remarks.push_back(std::move(remark));
-  MeasuredResponse measured = judged_response(recording.source, std::move(response), std::move(remarks));
+  MeasuredResponse measured;
+  if (recordings.size() == 1) {
+    measured = judged_response(recordings[0].source, std::move(each[0]), std::move(remarks));
+  } else {
+    PooledResponse pooled = pooled_response(each);
+    measured = judged_response(fmt::format("{} and {} more", recordings[0].source, recordings.size() - 1),
+                               std::move(pooled.response), std::move(remarks));
+    measured.dependence = pooled.dependence;
+    if (pooled.dependence) judge_dependence(measured, recordings, each);
+  }
   for (const std::string& doubt : doubts) measured.trust.doubt(doubt);
   return measured;
 }

@@ -43,6 +43,30 @@ std::vector<double> autocorrelation(const std::vector<double>& signal, std::size
   return correlation;
 }
 
+/// The period of a signal in white noise: the noise lowers all correlations but the first alike, so that those at one,
+/// two and three periods are the highest and equal. Other signals' correlations fall from period to period.
+std::optional<std::size_t> period_in_noise(const std::vector<double>& correlation, std::size_t fallen) {
+  constexpr double least = 0.5;
+  constexpr double alike = 0.04;
+  const std::size_t from = std::max(fallen, least_period);
+  const auto begin = correlation.begin();
+  const auto place = [&](std::size_t lag) { return begin + static_cast<std::ptrdiff_t>(lag); };
+  const std::size_t longest = (correlation.size() - 1) / 3;  // of which three multiples are known
+  if (longest <= from) return std::nullopt;
+  const double highest = *std::max_element(place(from), place(longest + 1));
+  if (highest < least) return std::nullopt;
+  for (std::size_t lag = from; lag <= longest; ++lag) {
+    if (correlation[lag] < highest - alike || correlation[lag] < correlation[lag - 1] ||
+        correlation[lag] < correlation[lag + 1]) {
+      continue;
+    }
+    const bool repeats = std::abs(correlation[2 * lag] - correlation[lag]) < alike &&
+                         std::abs(correlation[3 * lag] - correlation[lag]) < alike;
+    if (repeats) return lag;
+  }
+  return std::nullopt;
+}
+
 std::optional<std::size_t> period_of(std::span<const double> signal) {
   if (signal.size() < 2 * least_period) return std::nullopt;
   const double mean = std::accumulate(signal.begin(), signal.end(), 0.0) / static_cast<double>(signal.size());
@@ -61,7 +85,7 @@ std::optional<std::size_t> period_of(std::span<const double> signal) {
     const double best_defect = best ? 1.0 - correlation[*best] : 1.0;
     if (!best || (best_defect > rounding && 1.0 - r < clearly_better * best_defect)) best = lag;
   }
-  return best;
+  return best ? best : period_in_noise(correlation, fallen);
 }
 
 }  // namespace

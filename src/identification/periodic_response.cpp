@@ -9,6 +9,7 @@
 #include <numeric>
 #include <vector>
 
+#include "identification/line_scatter.hpp"
 #include "signal/fourier.hpp"
 
 namespace zwidth::internal {
@@ -20,8 +21,6 @@ using Complex = std::complex<double>;
 constexpr double excited_share = 1e-3;
 /// ... nor are those whose power is less than this many times the variance that the noise gives their mean.
 constexpr double least_signal_to_noise = 10.0;
-/// A leading period shows the transient where it differs from the last by more than this many times the usual power.
-constexpr double transient_ratio = 4.0;
 /// Periods that one is given up of, so that the drift can be taken off by a moving average.
 constexpr std::size_t least_periods_for_drift = 3;
 
@@ -56,17 +55,6 @@ std::vector<double> without_line(std::span<const double> signal, std::size_t per
   for (std::size_t i = 0; i < result.size(); ++i) result[i] -= first + slope * static_cast<double>(i);
   return result;
 }
-
-/// Sums over the periods of D = F_p - F_last and E = X_p - X_last. The last period as reference keeps the digits of a
-/// scatter that is far smaller than the lines themselves.
-struct Scatter {
-  explicit Scatter(std::size_t lines) : force(lines), output(lines), ff(lines), xx(lines), xf(lines) {}
-  std::vector<Complex> force;   ///< sum D
-  std::vector<Complex> output;  ///< sum E
-  std::vector<double> ff;       ///< sum |D|^2
-  std::vector<double> xx;       ///< sum |E|^2
-  std::vector<Complex> xf;      ///< sum E conj D
-};
 
 /// The spectra of two real signals from the transform of f + j x.
 struct LinePair {
@@ -114,48 +102,62 @@ class Periods {
 
 /// How far each leading period is from the last, in power over all lines of force and output.
 struct Sums {
-  Scatter scatter;
-  std::vector<Complex> last;
+  std::vector<LineScatter> lines;
   std::vector<double> distance;
 };
 
 Sums sum_periods(Periods& periods, std::size_t period, const Progress& progress) {
-  const std::size_t lines = period / 2 + 1;
-  Sums sums{Scatter(lines), std::vector<Complex>(period), std::vector<double>(periods.count() - 1)};
+  Sums sums{std::vector<LineScatter>(period / 2 + 1), std::vector<double>(periods.count() - 1)};
+  std::vector<Complex> last(period);
   std::vector<Complex> packed(period);
-  periods.spectrum(periods.count() - 1, sums.last);
+  periods.spectrum(periods.count() - 1, last);
+  for (std::size_t k = 1; k < sums.lines.size(); ++k) {
+    const auto [force, output] = unpacked(last, k);
+    sums.lines[k].last_force = force;
+    sums.lines[k].last_output = output;
+  }
   for (std::size_t p = 0; p + 1 < periods.count(); ++p) {
     if (progress) progress(static_cast<double>(p) / static_cast<double>(periods.count()));
     periods.spectrum(p, packed);
-    for (std::size_t i = 0; i < period; ++i) packed[i] -= sums.last[i];
-    for (std::size_t k = 1; k < lines; ++k) {
+    for (std::size_t i = 0; i < period; ++i) packed[i] -= last[i];
+    for (std::size_t k = 1; k < sums.lines.size(); ++k) {
       const auto [force, output] = unpacked(packed, k);
-      sums.scatter.force[k] += force;
-      sums.scatter.output[k] += output;
-      sums.scatter.ff[k] += std::norm(force);
-      sums.scatter.xx[k] += std::norm(output);
-      sums.scatter.xf[k] += output * std::conj(force);
+      sums.lines[k].add(force, output);
       sums.distance[p] += std::norm(force) + std::norm(output);
     }
   }
   return sums;
 }
 
-/// Leading periods that are still on their way to the rest. Among few periods none can be told from the others.
-std::size_t transient_periods(const std::vector<double>& distance) {
-  constexpr std::size_t fewest = 4;
-  if (distance.size() < fewest) return 0;
-  std::vector<double> later(distance.begin() + static_cast<std::ptrdiff_t>(distance.size() / 2), distance.end());
-  const auto middle = later.begin() + static_cast<std::ptrdiff_t>(later.size() / 2);
-  std::nth_element(later.begin(), middle, later.end());
-  std::size_t transient = 0;
-  while (transient < distance.size() / 2 && distance[transient] > transient_ratio * *middle) ++transient;
-  return transient;
-}
-
-/// Variance of one period's value about the mean over `count` periods (the last, of distance 0, included).
-double scatter(double sum_of_squares, Complex sum, double count) {
-  return std::max(0.0, sum_of_squares - std::norm(sum) / count) / (count - 1.0);
+/// Which lines the force excites: by its strength, and by its power over that of the noise that the scatter of the
+/// periods shows around the line, so that of all lines without a force none passes but in one record of a thousand.
+std::vector<bool> excited_lines(const std::vector<LineScatter>& lines, double count) {
+  constexpr std::size_t reach = 16;
+  constexpr double chance = 1e-3;
+  std::vector<MeanForce> forces(lines.size());
+  std::vector<double> noise(lines.size() + 1);  // cumulative
+  double strongest = 0.0;
+  for (std::size_t k = 1; k < lines.size(); ++k) {
+    forces[k] = mean_force(lines[k], count);
+    noise[k + 1] = noise[k] + forces[k].variance;
+    strongest = std::max(strongest, std::abs(forces[k].value));
+  }
+  std::vector<bool> excited(lines.size(), false);
+  for (std::size_t k = 1; k < lines.size(); ++k) {
+    const auto& [value, variance] = forces[k];
+    if (std::abs(value) < excited_share * strongest || std::norm(value) < least_signal_to_noise * variance / count) {
+      continue;
+    }
+    const std::size_t first = k > reach ? k - reach : 1;
+    const std::size_t last = std::min(lines.size(), k + reach + 1);
+    const auto around = static_cast<double>(last - first);
+    const double local = (noise[last] - noise[first]) / around;
+    // P(F > x) = (1 + x / m)^-m for 2 and 2 m degrees of freedom.
+    const double m = around * (count - 1.0);
+    const double surprise = m * std::log1p(std::norm(value) * count / std::max(local, 1e-300) / m);
+    excited[k] = surprise > std::log(static_cast<double>(lines.size()) / chance);
+  }
+  return excited;
 }
 
 }  // namespace
@@ -174,7 +176,7 @@ FrequencyResponse periodic_response(std::span<const double> force, std::span<con
   };
   Periods periods(prepared(force), prepared(output), period);
   const Sums sums = sum_periods(periods, period, progress);
-  const std::size_t transient = transient_periods(sums.distance);
+  const std::size_t transient = transient_repetitions(sums.distance);
   if (transient > 0 && record.transient == PeriodicRecord::Transient::skip) {
     PeriodicRecord shorter = record;
     shorter.skipped += transient;
@@ -186,30 +188,16 @@ FrequencyResponse periodic_response(std::span<const double> force, std::span<con
   FrequencyResponse response;
   response.sampling_period = sampling_period;
   response.averages = count;
-  std::vector<Complex> mean_force(period / 2 + 1);
-  double strongest = 0.0;
-  for (std::size_t k = 1; k < mean_force.size(); ++k) {
-    mean_force[k] = unpacked(sums.last, k).force + sums.scatter.force[k] / count;
-    strongest = std::max(strongest, std::abs(mean_force[k]));
-  }
-  for (std::size_t k = 1; k < mean_force.size(); ++k) {
-    const Complex f = mean_force[k];
-    const double force_noise = scatter(sums.scatter.ff[k], sums.scatter.force[k], count);
-    if (std::abs(f) < excited_share * strongest || std::norm(f) < least_signal_to_noise * force_noise / count) continue;
-    const Complex x = unpacked(sums.last, k).output + sums.scatter.output[k] / count;
-    const Complex h = x / f;
-    // sum |E - H D|^2, of which the mean is taken off as of any other.
-    const double squares =
-        sums.scatter.xx[k] - 2.0 * (std::conj(h) * sums.scatter.xf[k]).real() + std::norm(h) * sums.scatter.ff[k];
-    const double noise = scatter(squares, sums.scatter.output[k] - h * sums.scatter.force[k], count);
-    ResponsePoint point;
-    point.frequency = 2.0 * std::numbers::pi * static_cast<double>(k) / (static_cast<double>(period) * sampling_period);
-    point.value = h / periods.output_scale();
-    point.variance = noise / (count * std::norm(f)) / (periods.output_scale() * periods.output_scale());
-    point.coherence = x == 0.0 ? 0.0 : std::norm(x) / (std::norm(x) + noise);
+  const std::vector<bool> excited = excited_lines(sums.lines, count);
+  for (std::size_t k = 1; k < sums.lines.size(); ++k) {
+    if (!excited[k]) continue;
+    const double turns = static_cast<double>(k) / (static_cast<double>(period) * sampling_period);
+    ResponsePoint point = response_point(sums.lines[k], count, 2.0 * std::numbers::pi * turns);
+    point.value /= periods.output_scale();
+    point.variance /= periods.output_scale() * periods.output_scale();
+    point.force *= 2.0 / static_cast<double>(period);
     response.points.push_back(point);
   }
-
   response.remarks.push_back(
       {Remark::Severity::note,
        fmt::format("period of {} samples ({:.4g} s); {} of {} whole periods averaged{}{}", period,

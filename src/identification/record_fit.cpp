@@ -8,6 +8,7 @@
 
 #include "identification/friction_test.hpp"
 #include "identification/period_detection.hpp"
+#include "identification/pooled_response.hpp"
 #include "zwidth/model/state_space.hpp"
 #include "zwidth/sampling/forced_response.hpp"
 #include "zwidth/sampling/sampled_plant.hpp"
@@ -19,14 +20,20 @@ namespace {
 using Excitation = FrequencyResponseOptions::Excitation;
 
 /// P_M + H1(force -> y - y_M).
-FrequencyResponse corrected_response(const FrequencyResponse& last, const Device& device, std::span<const double> force,
-                                     std::span<const double> output, FrequencyResponseOptions options) {
+FrequencyResponse corrected_response(const FrequencyResponse& last, const Device& device,
+                                     std::span<const Recording> recordings, FrequencyResponseOptions options) {
   const double period = device.loop().sampling_period;
-  const std::vector<double> motion = forced_response(sample(state_space(device), {period, device.loop().delay}), force);
-  std::vector<double> rest(output.begin(), output.end());
-  for (std::size_t i = 0; i < rest.size(); ++i) rest[i] -= motion[i];
+  const DiscreteStateSpace sampled = sample(state_space(device), {period, device.loop().delay});
+  std::vector<Recording> rests;
+  for (const Recording& recording : recordings) {
+    rests.push_back({recording.source, period, recording.channels, {}});
+    const std::vector<double> motion = forced_response(sampled, recording.channels[0].samples);
+    std::vector<double>& rest = rests.back().channels[1].samples;
+    for (std::size_t i = 0; i < rest.size(); ++i) rest[i] -= motion[i];
+  }
   options.excitation = Excitation::aperiodic;
-  FrequencyResponse response = frequency_response(force, rest, period, options);
+  std::vector<FrequencyResponse> each = responses(rests, options);
+  FrequencyResponse response = each.size() == 1 ? std::move(each[0]) : pooled_response(each).response;
   response.remarks = last.remarks;
   const SampledPlant plant = sampled_plant(device);
   for (ResponsePoint& point : response.points) {
@@ -74,10 +81,13 @@ Device device_in_experiment(const Device& fitted, const std::vector<std::string>
 
 }  // namespace internal
 
-RecordFit without_leakage(RecordFit first, std::span<const double> force, std::span<const double> output,
+RecordFit without_leakage(RecordFit first, std::span<const Recording> recordings,
                           const FrequencyResponseOptions& response_options, const ParameterFitOptions& fit_options) {
-  const bool averages_periods = response_options.excitation == Excitation::periodic ||
-                                (response_options.excitation == Excitation::detect && detect_period(force).has_value());
+  const bool averages_periods =
+      response_options.excitation == Excitation::periodic ||
+      (response_options.excitation == Excitation::detect && std::ranges::any_of(recordings, [](const Recording& each) {
+         return detect_period(each.channels[0].samples).has_value();
+       }));
   if (averages_periods || response_options.output != OutputQuantity::position) return first;
   if (!first.response.sampling_period) return first;
   ParameterFitOptions options = fit_options;
@@ -88,7 +98,7 @@ RecordFit without_leakage(RecordFit first, std::span<const double> force, std::s
   constexpr int most_rounds = 3;
   for (int round = 0; round < most_rounds; ++round) {
     const Device device = device_in_experiment(best.fit.device, options.locked, *best.response.sampling_period);
-    FrequencyResponse response = corrected_response(best.response, device, force, output, response_options);
+    FrequencyResponse response = corrected_response(best.response, device, recordings, response_options);
     if (response.points.size() <= best.fit.estimates.size() || median_noise(response) > median_noise(best.response)) {
       break;
     }
@@ -103,9 +113,12 @@ RecordFit without_leakage(RecordFit first, std::span<const double> force, std::s
 RecordFit fit_record(const Device& structure, std::span<const double> force, std::span<const double> output,
                      double sampling_period, const FrequencyResponseOptions& response_options,
                      const ParameterFitOptions& fit_options, const Progress& progress) {
+  const auto samples = [](std::span<const double> signal) { return std::vector<double>(signal.begin(), signal.end()); };
+  const Recording recording{"", sampling_period, {{"force", samples(force)}, {"output", samples(output)}}, {}};
   FrequencyResponse response = frequency_response(force, output, sampling_period, response_options, progress);
   ParameterFit fit = fit_parameters(structure, response, fit_options);
-  return without_leakage({std::move(fit), std::move(response)}, force, output, response_options, fit_options);
+  return without_leakage({std::move(fit), std::move(response)}, std::span(&recording, 1), response_options,
+                         fit_options);
 }
 
 }  // namespace zwidth

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <numeric>
 #include <vector>
 
 #include "signal/averaged_spectra.hpp"
@@ -167,6 +168,7 @@ Points points_of(const AveragedSpectra& sums, const Cut& cut, double sampling_pe
   const double noise_gain = unsmearing_gain(options.window);
   const double line_angle = 2.0 * std::numbers::pi / static_cast<double>(cut.segments.length);
   const std::size_t first = main_lobe_half_width(options.window);
+  const double window_sum = std::accumulate(cut.segments.window.begin(), cut.segments.window.end(), 0.0);
   std::vector<double> power(lines.size());
   for (std::size_t k = first; k < lines.size(); ++k) {
     const double gain =
@@ -191,6 +193,8 @@ Points points_of(const AveragedSpectra& sums, const Cut& cut, double sampling_pe
     // What is left of the smearing is of its second order.
     const double left = std::norm(smeared) / std::abs(line.value);
     point.variance = noise_gain * noise / std::max(cut.segments.averages - 1.0, 1.0) + left * left;
+    // The sums hold 2 F, of a window that leaves an amplitude its half times the sum of the window.
+    point.force = std::sqrt(power[k] / static_cast<double>(cut.segments.count)) / window_sum;
     result.points.push_back(point);
     const double share = std::abs(smeared) / std::abs(line.value);
     if (std::norm(smeared) > point.variance && share > result.worst_smearing) {
@@ -229,14 +233,26 @@ void add_remarks(FrequencyResponse& response, const Cut& cut, const Points& poin
   remark_resolution(response, points.worst_frequency, points.worst_smearing);
 }
 
+/// A record is differenced against drift, which spends a sample.
+SignalForm form_of(const FrequencyResponseOptions& options) {
+  return options.detrend && options.output != OutputQuantity::acceleration ? SignalForm::differenced
+                                                                           : SignalForm::as_recorded;
+}
+
+std::size_t samples_left(std::size_t samples, SignalForm form) {
+  return samples - (form == SignalForm::differenced ? 1 : 0);
+}
+
 }  // namespace
+
+std::size_t welch_segment_length(std::size_t samples, const FrequencyResponseOptions& options) {
+  return options.segment_length.value_or(chosen_segments(samples_left(samples, form_of(options)), options).length);
+}
 
 FrequencyResponse welch_response(std::span<const double> force, std::span<const double> output, double sampling_period,
                                  const FrequencyResponseOptions& options, const Progress& progress) {
-  Cut cut{force, output, {}, SignalForm::as_recorded};
-  if (options.detrend && options.output != OutputQuantity::acceleration) cut.form = SignalForm::differenced;
-  const std::size_t spent = cut.form == SignalForm::differenced ? 1 : 0;
-  const std::size_t samples = force.size() - spent;
+  Cut cut{force, output, {}, form_of(options)};
+  const std::size_t samples = samples_left(force.size(), cut.form);
   if (options.segment_length && (*options.segment_length < shortest_segment || *options.segment_length > samples)) {
     throw Error(ErrorCode::invalid_argument, fmt::format("segments of {} samples; {} to {}, the record's length",
                                                          *options.segment_length, shortest_segment, samples));

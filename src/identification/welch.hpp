@@ -12,4 +12,7 @@ namespace zwidth::internal {
                                                double sampling_period, const FrequencyResponseOptions& options,
                                                const Progress& progress);
 
+/// Samples of the segments that welch_response() cuts a record of that many samples into.
+[[nodiscard]] std::size_t welch_segment_length(std::size_t samples, const FrequencyResponseOptions& options);
+
 }  // namespace zwidth::internal

@@ -30,6 +30,49 @@ std::pair<std::size_t, std::size_t> erase(std::vector<ResponseLine>& lines, Pred
   return {std::erase_if(lines, leave_out), place};
 }
 
+/// The points of one frequency become one, their mean: of variance sum |H_i - H|^2 / (n (n - 1)) where there are n. A
+/// point that comes once among repeated ones has their mean relative variance.
+void pool_repeats(FrequencyResponse& response) {
+  std::vector<ResponsePoint> pooled;
+  double relative = 0.0;  // variances of one measurement, summed over the repeated frequencies
+  std::vector<std::size_t> once;
+  std::size_t fewest = std::numeric_limits<std::size_t>::max();
+  const std::vector<ResponsePoint>& points = response.points;
+  for (std::size_t first = 0; first < points.size();) {
+    std::size_t end = first;
+    ResponsePoint mean{points[first].frequency, 0.0, 0.0, 0.0};
+    while (end < points.size() && points[end].frequency == mean.frequency) ++end;
+    const auto n = static_cast<double>(end - first);
+    for (std::size_t i = first; i < end; ++i) {
+      mean.value += points[i].value / n;
+      mean.coherence += points[i].coherence / n;
+    }
+    if (end - first == 1) {
+      mean = points[first];
+      once.push_back(pooled.size());
+    } else {
+      for (std::size_t i = first; i < end; ++i) {
+        mean.variance += std::norm(points[i].value - mean.value) / (n * (n - 1.0));
+      }
+      if (mean.value != 0.0) relative += n * mean.variance / std::norm(mean.value);
+      fewest = std::min(fewest, end - first);
+    }
+    pooled.push_back(mean);
+    first = end;
+  }
+  if (once.size() == pooled.size()) return;
+  relative /= static_cast<double>(pooled.size() - once.size());
+  for (const std::size_t i : once) pooled[i].variance = relative * std::norm(pooled[i].value);
+  response.remarks.push_back(
+      {Remark::Severity::note,
+       fmt::format("{} lines at {} frequencies are averaged, with the noise that their scatter shows{}", points.size(),
+                   pooled.size(),
+                   once.empty() ? "" : fmt::format("; {} that come once are taken for as noisy", once.size())),
+       ""});
+  response.averages = static_cast<double>(fewest);
+  response.points = std::move(pooled);
+}
+
 std::string at_line(std::size_t line) {
   return line == 0 ? std::string() : fmt::format(", the first at line {}", line);
 }
@@ -74,12 +117,12 @@ tl::expected<FrequencyResponse, InputError> make_response(std::vector<ResponseLi
       return refused(line, "frequency", fmt::format("is {:.6g} Hz", hertz(line.frequency)),
                      fmt::format("must be at most half the sampling rate, {:.6g} Hz", hertz(highest)));
     }
-    if (i > 0 && line.frequency == lines[i - 1].frequency) {
+    if (i > 0 && line.frequency == lines[i - 1].frequency && line.value == lines[i - 1].value) {
       return refused(line, "frequency",
-                     line.line > 0
-                         ? fmt::format("{:.6g} Hz is also at line {}", hertz(line.frequency), lines[i - 1].line)
-                         : fmt::format("{:.6g} Hz comes twice", hertz(line.frequency)),
-                     "must come once");
+                     line.line > 0 ? fmt::format("{:.6g} Hz is also at line {}, with the same value",
+                                                 hertz(line.frequency), lines[i - 1].line)
+                                   : fmt::format("{:.6g} Hz comes twice with the same value", hertz(line.frequency)),
+                     "must come once, or be measured again");
     }
     if (line.coherence < 0.0 || line.coherence > 1.0) {
       return refused(line, "coherence", fmt::format("is {:.6g}", line.coherence), "must be 0 to 1");
@@ -91,6 +134,7 @@ tl::expected<FrequencyResponse, InputError> make_response(std::vector<ResponseLi
     }
     response.points.push_back({line.frequency, value, 0.0, line.coherence});
   }
+  pool_repeats(response);
   if (response.points.size() < 2) {
     return Refusal(InputError{source, 0, 0, "",
                               fmt::format("has {} usable of {} lines of a response", response.points.size(), all),

@@ -20,8 +20,9 @@ struct ResponseLine {
 };
 
 /// The response of these lines, by rising frequency. Lines without a number and the one at frequency zero are left out
-/// with a remark. Refused, with the line: a negative frequency, one above half the sampling rate, two lines at one
-/// frequency, a coherence outside [0, 1], a value that the scale makes infinite, fewer than two lines.
+/// with a remark. Lines at one frequency are repeats: their mean, with the noise that their scatter shows.
+/// Refused, with the line: a negative frequency, one above half the sampling rate, the same line twice, a
+/// coherence outside [0, 1], a value that the scale makes infinite, fewer than two lines.
 [[nodiscard]] tl::expected<FrequencyResponse, InputError> make_response(std::vector<ResponseLine> lines,
                                                                         const ResponseTableOptions& options,
                                                                         const std::string& source);

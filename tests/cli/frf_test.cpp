@@ -114,6 +114,57 @@ TEST_F(Frf, ReadsStandardInput) {
   EXPECT_NEAR(found["critical_stiffness"], example_stiffness, 0.01 * example_stiffness);
 }
 
+/// Two recordings with friction: a sine of 2 Hz of each force on a mass, its motion smaller than linear by `lost`.
+std::string sine_recording(double amplitude, double lost, double hertz) {
+  std::string text = "time,force,position\n";
+  for (int k = 0; k < 4000; ++k) {
+    const double phase = 2.0 * 3.141592653589793 * hertz * 0.001 * k;
+    const double noise = 1e-5 * std::sin(1e3 * k * k);
+    text += std::to_string(0.001 * k) + "," + std::to_string(amplitude * std::sin(phase)) + "," +
+            std::to_string(-(amplitude - lost) * 0.01 * std::sin(phase) + noise) + "\n";
+  }
+  return text;
+}
+
+TEST_F(Frf, PoolsRecordingsAndSaysThatTheyDependOnTheForce) {
+  write("weak.csv", sine_recording(1.0, 0.2, 2.0));
+  write("strong.csv", sine_recording(5.0, 0.2, 2.0));
+  write("faster.csv", sine_recording(5.0, 0.2, 3.7));
+  const json found =
+      document("zwidth frf weak.csv strong.csv faster.csv --force force --position position --json --points");
+  EXPECT_EQ(found["recording"], "weak.csv and 2 more");
+  ASSERT_EQ(found["lines"], 2);  // 2 Hz pooled, and 3.7 Hz
+  EXPECT_NEAR(found["frequency_hz"][1], 3.7, 1e-3);
+  EXPECT_NEAR(found["amplitude_dependence"]["force_ratio"], 5.0, 1e-3);
+  EXPECT_NEAR(found["amplitude_dependence"]["difference"], 0.16 / 0.96, 5e-3);
+  EXPECT_TRUE(found["amplitude_dependence"]["grows_with_force"]);
+  EXPECT_TRUE(document(example + "--json")["amplitude_dependence"].is_null());
+}
+
+TEST_F(Frf, TakesTheLinesThatAreGiven) {
+  write("sine.csv", sine_recording(5.0, 0.0, 2.0));
+  const std::string command = "zwidth frf sine.csv --force force --position position --json --points --lines ";
+  EXPECT_NEAR(document(command + "2")["magnitude"][0], 0.01, 1e-4);
+  EXPECT_EQ(document(command + "'2 Hz,0.003 kHz'")["frequency_hz"].size(), 2U);
+  EXPECT_NEAR(document(command + "'2 Hz:4 Hz:3'")["frequency_hz"][1], 3.0, 1e-12);
+  expect_refusal(command + "2:3", "--lines: \"2:3\"; a frequency, or FIRST:LAST:COUNT");
+  expect_refusal(command + "'2 kg'", "--lines: \"kg\" is no unit of frequency");
+  expect_refusal(command + "0", "--lines: is 0; a frequency in Hz above 0");
+  expect_refusal(command + "600", "sine.csv: line at 600 Hz; below half the sampling rate, 500 Hz");
+  expect_refusal(command + "2 --period 500", "leave --period and --segment out");
+}
+
+TEST_F(Frf, RefusesRecordingsThatDoNotBelongTogether) {
+  write("slow.csv", "force,position\n1,2\n3,4\n");
+  write("empty.csv", "time,force,position\n");
+  expect_refusal("zwidth frf recordings/locked_chirp.csv recordings/locked_chirp.csv --force force --position position",
+                 "locked_chirp.csv: holds the same samples as recordings/locked_chirp.csv; give each recording once");
+  expect_refusal("zwidth frf recordings/locked_chirp.csv recordings/free_motion.csv --force force --position position",
+                 "recordings/free_motion.csv: is sampled at 500 Hz, and recordings/locked_chirp.csv at 1000 Hz");
+  expect_refusal("zwidth frf recordings/locked_chirp.csv empty.csv --force force --position position", "empty.csv");
+  expect_refusal("zwidth frf a.csv b.csv --table", "more than one file: is for a recording");
+}
+
 TEST_F(Frf, RefusesInOneLineThatNamesThePlace) {
   expect_refusal("zwidth frf recordings/locked_chirp.csv", "--force: missing; name the column of the commanded force");
   expect_refusal("zwidth frf recordings/locked_chirp.csv --force force", "has: time, force, position");

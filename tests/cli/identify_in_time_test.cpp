@@ -58,8 +58,8 @@ TEST_F(IdentifyInTime, SaysWhatIsNotForIt) {
   EXPECT_THAT(errors(example), HasSubstr("--structure: missing"));
   EXPECT_THAT(errors(example + "--structure rigid --segment-duration 0"), HasSubstr("--segment-duration: is 0 s"));
   EXPECT_THAT(errors("zwidth identify recordings/free_motion.csv recordings/free_motion.csv --force force --position "
-                     "position --structure rigid"),
-              HasSubstr("more than one recording: is for --method time-domain"));
+                     "position --method inverse-dynamics"),
+              HasSubstr("more than one recording: is not for --method inverse-dynamics"));
 }
 
 }  // namespace

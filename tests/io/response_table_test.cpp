@@ -1,14 +1,17 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <random>
 #include <string>
 #include <vector>
 
 #include "io/recording_folder.hpp"
 #include "io/uff_text.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/identification/frequency_response.hpp"
 #include "zwidth/io/recording_file.hpp"
 
 namespace zwidth {
@@ -126,8 +129,45 @@ TEST_F(ResponseTable, LeavesOutZeroAndMissingLinesAndSaysSo) {
   EXPECT_EQ(warnings_in(response->remarks), 1U);
 }
 
+TEST_F(ResponseTable, PoolsRepeatedFrequenciesWithTheNoiseOfTheRepeats) {
+  const auto response = read("f,re,im\n20,0,-2\n10,3,4\n10,5,4\n10,4,1\n20,0,-4\n30,1,0\n");
+  ASSERT_TRUE(response.has_value()) << response.error().str();
+  ASSERT_EQ(response->points.size(), 3U);
+  EXPECT_EQ(response->points[0].value, std::complex<double>(4.0, 3.0));
+  EXPECT_NEAR(response->points[0].variance, (2.0 + 2.0 + 4.0) / 6.0, 1e-15);  // sum |H_i - H|^2 / (n (n - 1))
+  EXPECT_EQ(response->points[1].value, std::complex<double>(0.0, -3.0));
+  EXPECT_NEAR(response->points[1].variance, 1.0, 1e-15);
+  // The line that comes once has the mean relative variance of one measurement: (4/25 + 2/9) / 2.
+  EXPECT_NEAR(response->points[2].variance, 0.5 * (4.0 / 25.0 + 2.0 / 9.0), 1e-15);
+  EXPECT_EQ(response->averages, 2.0);
+  EXPECT_TRUE(mentions(response->remarks, "6 lines at 3 frequencies are averaged"));
+}
+
+TEST_F(ResponseTable, IntervalsOfRepeatedFrequenciesHoldTheTruth) {
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> normal(0.0, 0.1);
+  std::size_t held = 0;
+  constexpr int tables = 200;
+  constexpr int lines = 10;
+  for (int table = 0; table < tables; ++table) {
+    std::string text = "f,re,im\n";
+    for (int i = 0; i < 4 * lines; ++i) {
+      text += fmt::format("{},{},{}\n", 10 * (1 + i % lines), 3.0 + normal(random), 4.0 + normal(random));
+    }
+    const auto response = read(text);
+    ASSERT_TRUE(response.has_value()) << response.error().str();
+    ASSERT_EQ(response->points.size(), std::size_t{lines});
+    for (const ResponsePoint& point : response->points) {
+      held += std::abs(point.value - std::complex(3.0, 4.0)) <= confidence_radius(point, response->averages) ? 1U : 0U;
+    }
+  }
+  // 2000 discs of 95 %, within four standard deviations.
+  EXPECT_NEAR(static_cast<double>(held) / (tables * lines), 0.95, 0.02);
+}
+
 TEST_F(ResponseTable, RefusesWhatIsNoResponseAtItsLine) {
-  EXPECT_EQ(refusal("f,re,im\n10,3,4\n20,0,-2\n10,3,4\n"), "4:1: frequency: 10 Hz is also at line 2; must come once");
+  EXPECT_EQ(refusal("f,re,im\n10,3,4\n20,0,-2\n10,3,4\n"),
+            "4:1: frequency: 10 Hz is also at line 2, with the same value; must come once, or be measured again");
   EXPECT_EQ(refusal("f,re,im\n10,3,4\n-20,0,-2\n"), "3:1: frequency: is -20 Hz; must be above 0");
   EXPECT_EQ(refusal("f,re,im\n10,3,4\n"), " has 1 usable of 1 lines of a response; must have two at least");
   EXPECT_EQ(refusal("f,mag,phase\n10,3,4\n20,-6,-2\n"),

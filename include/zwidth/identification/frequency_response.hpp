@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "zwidth/progress.hpp"
 #include "zwidth/signal/frequency_response.hpp"
@@ -32,6 +33,9 @@ struct FrequencyResponseOptions {
   bool detrend = true;                ///< remove mean and drift before the transform
   std::optional<double> lowest;       ///< rad/s; points outside are left out
   std::optional<double> highest;
+  /// rad/s, all that the force excites where that is known: only these are estimated, whatever the record's length.
+  /// Empty: found by their power.
+  std::vector<double> lines;
 };
 
 /// The response from force to position, line by line, with its noise.
@@ -40,6 +44,8 @@ struct FrequencyResponseOptions {
 /// coherence g^2 = |S_fx|^2 / (S_ff S_xx), variance = |H|^2 (1 - g^2) / (g^2 n), n the effective number of averages.
 /// Periodic, over whole periods p: H = mean X / mean F at the lines that F excites, variance from the scatter of
 /// X_p - H F_p over the periods (no leakage, no bias).
+/// A force that is one sine, and lines that are given: their amplitudes by least squares in blocks p of the record, and
+/// from them the same. Lines that are found exceed the noise that the scatter of the force shows around them.
 /// A velocity v is turned into position by 1/(jw) and an acceleration by -1/w^2: an approximation under a held force,
 /// too large by about (wT)^2/12 and twice that; said in the remarks.
 /// Requires equally many finite samples, at least 16; `sampling_period` > 0. Throws Error (invalid_argument) otherwise,

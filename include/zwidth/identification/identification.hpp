@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -70,6 +71,10 @@ struct Identification {
 /// Requires two channels (force, motion), and what fit_parameters() does. Throws Error (invalid_argument) where
 /// find_problem(options) finds one, and as its parts do.
 [[nodiscard]] Identification identify(const Recording& recording, const Device& structure,
+                                      const IdentifyOptions& options = {}, const Progress& progress = {});
+
+/// The same from several recordings of one device, whose responses are pooled: frequency_response() of them says how.
+[[nodiscard]] Identification identify(std::span<const Recording> recordings, const Device& structure,
                                       const IdentifyOptions& options = {}, const Progress& progress = {});
 
 /// The same from a response that was measured elsewhere; friction and leakage do not show in one.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,15 @@
 
 namespace zwidth {
 
+/// How a device's response depends on the force: a linear one's does not. Between the records of least and greatest
+/// force on each line.
+struct AmplitudeDependence {
+  double difference = 0.0;        ///< of the response, relative; median of the lines on which it exceeds the noise
+  double force_ratio = 1.0;       ///< greatest over least force, median
+  std::size_t lines = 0;          ///< on which it exceeds the noise
+  bool grows_with_force = false;  ///< as dry friction makes it, which holds a weak force more
+};
+
 /// A measured response and the critical stiffness that it shows without any model.
 struct MeasuredResponse {
   std::string source;                          ///< the recording's name
@@ -22,6 +32,7 @@ struct MeasuredResponse {
   std::vector<Remark> remarks;                 ///< all: of reading, of the signals, of the estimate, of the stiffness
   /// Of the critical stiffness, which is that of the bare loop (no virtual damper): refused unless it is found.
   Trust trust;
+  std::optional<AmplitudeDependence> dependence = {};  ///< absent for one record, and where the records agree
 };
 
 /// Checks what the options say by themselves; whether a record can meet them shows with the record.
@@ -33,6 +44,16 @@ struct MeasuredResponse {
 /// Throws Error (invalid_argument) for other recordings, where find_problem(options) finds one, and as the
 /// frequency_response() of samples does.
 [[nodiscard]] MeasuredResponse frequency_response(const Recording& recording,
+                                                  const FrequencyResponseOptions& options = {},
+                                                  const Progress& progress = {});
+
+/// The response of one device from several recordings of it, pooled and judged: of one rate, two channels each as above.
+///
+/// Lines that several hold are averaged, weighted by the power of their force; the others stand side by side (a sine per
+/// recording makes a line each). Recordings that differ by more than their noise are said to, with the size; the trust
+/// is doubtful where that moves the critical stiffness beyond its interval, or may.
+/// Throws Error as for one recording, naming it by its source; for different rates; for the same samples twice.
+[[nodiscard]] MeasuredResponse frequency_response(std::span<const Recording> recordings,
                                                   const FrequencyResponseOptions& options = {},
                                                   const Progress& progress = {});
 

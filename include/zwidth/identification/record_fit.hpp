@@ -5,6 +5,7 @@
 #include "zwidth/identification/frequency_response.hpp"
 #include "zwidth/identification/parameter_fit.hpp"
 #include "zwidth/progress.hpp"
+#include "zwidth/signal/recording.hpp"
 
 namespace zwidth {
 
@@ -31,8 +32,8 @@ struct RecordFit {
 ///
 /// and only the small rest y - y_M leaks. Repeated until the parameters stand still, at most three times; a round that
 /// does not lower the noise is dropped. Nothing changes where whole periods are averaged, or the output is no position.
-/// `first` is a fit to the response of the same record with the same options. Throws Error as its parts do.
-[[nodiscard]] RecordFit without_leakage(RecordFit first, std::span<const double> force, std::span<const double> output,
+/// `first` is a fit to the response of the same recordings (force, motion) with the same options. Throws Error as its parts do.
+[[nodiscard]] RecordFit without_leakage(RecordFit first, std::span<const Recording> recordings,
                                         const FrequencyResponseOptions& response_options,
                                         const ParameterFitOptions& fit_options);
 

@@ -1,0 +1,155 @@
+#include "identification/pooled_response.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <vector>
+
+namespace zwidth::internal {
+namespace {
+
+/// What a record says about a line.
+struct Share {
+  const FrequencyResponse* record = nullptr;
+  const ResponsePoint* point = nullptr;
+
+  [[nodiscard]] double freedom() const { return std::max(record->averages - 1.0, 0.0); }
+  [[nodiscard]] double weight() const { return record->averages * point->force * point->force; }
+};
+using Line = std::vector<Share>;
+
+/// The shares of each line, by rising frequency.
+std::vector<Line> lines_of(std::span<const FrequencyResponse> measured) {
+  constexpr double rounding = 1e-9;
+  constexpr double between_tones = 1e-3;  // of a single sine whose frequency is measured too
+  std::vector<Share> shares;
+  for (const FrequencyResponse& record : measured) {
+    for (const ResponsePoint& point : record.points) shares.push_back({&record, &point});
+  }
+  std::ranges::stable_sort(shares, {}, [](const Share& share) { return share.point->frequency; });
+  const auto is_tone = [](const Share& share) { return share.record->points.size() == 1; };
+  std::vector<Line> lines;
+  for (const Share& share : shares) {
+    if (!lines.empty()) {
+      const Share& first = lines.back().front();
+      const double tolerance = is_tone(first) && is_tone(share) ? between_tones : rounding;
+      if (share.point->frequency <= (1.0 + tolerance) * first.point->frequency) {
+        lines.back().push_back(share);
+        continue;
+      }
+    }
+    lines.push_back({share});
+  }
+  return lines;
+}
+
+struct PooledPoint {
+  ResponsePoint point;
+  double freedom = 0.0;
+  double between = 0.0;  ///< variance of the value that the shares' differences show
+};
+
+PooledPoint pooled(const Line& line) {
+  PooledPoint result{*line.front().point, line.front().freedom(), 0.0};
+  if (line.size() == 1) return result;
+  double weights = 0.0;
+  double averages = 0.0;
+  double force = 0.0;
+  result.point.value = 0.0;
+  result.point.frequency = 0.0;
+  for (const Share& share : line) {
+    weights += share.weight();
+    averages += share.record->averages;
+    force += share.weight();
+  }
+  double variance = 0.0;
+  double of_variance = 0.0;  // at equal noise
+  for (const Share& share : line) {
+    const double part = share.weight() / weights;
+    result.point.value += part * share.point->value;
+    result.point.frequency += part * share.point->frequency;
+    variance += part * part * share.point->variance;
+    of_variance += part * part / share.freedom();
+  }
+  for (const Share& share : line) {
+    const double part = share.weight() / weights;
+    result.between += part * std::norm(share.point->value - result.point.value) / static_cast<double>(line.size() - 1);
+  }
+  result.freedom = 1.0 / of_variance;
+  result.point.variance = variance;
+  result.point.force = std::sqrt(force / averages);
+  return result;
+}
+
+/// How much less likely than by noise alone the difference of two shares is: -log P, of mean and variance 1.
+double surprise(const Share& a, const Share& b) {
+  const double m = std::min(a.freedom(), b.freedom());
+  const double noise = a.point->variance + b.point->variance;
+  const double ratio = std::norm(a.point->value - b.point->value) / std::max(noise, 1e-300);
+  return m * std::log1p(ratio / m);  // P(F > x) = (1 + x / m)^-m for 2 and 2 m degrees of freedom
+}
+
+/// Compares, line by line, the record with the least and with the greatest force.
+std::optional<AmplitudeDependence> compare(const std::vector<Line>& lines, double correlation) {
+  constexpr double significant = 5.0;   // standard deviations of the sum of surprises
+  constexpr double a_line_says = 4.6;   // 1 %
+  constexpr double notable = 0.005;
+  double sum = 0.0;
+  double count = 0.0;
+  double louder = 0.0;
+  std::vector<double> differences;
+  std::vector<double> ratios;
+  for (const Line& line : lines) {
+    const auto [weakest, strongest] =
+        std::ranges::minmax_element(line, {}, [](const Share& share) { return share.point->force; });
+    if (weakest == strongest || weakest->freedom() == 0.0 || strongest->freedom() == 0.0) continue;
+    const double says = surprise(*weakest, *strongest);
+    sum += says;
+    count += 1.0;
+    ratios.push_back(strongest->point->force / weakest->point->force);
+    if (says < a_line_says) continue;
+    const double size = std::abs(strongest->point->value);
+    differences.push_back(std::abs(strongest->point->value - weakest->point->value) / size);
+    louder += size > std::abs(weakest->point->value) ? 1.0 : -1.0;
+  }
+  if (differences.empty() || sum - count < significant * std::sqrt(count * correlation)) return std::nullopt;
+  const auto median = [](std::vector<double>& values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::ranges::nth_element(values, middle);
+    return *middle;
+  };
+  AmplitudeDependence found;
+  found.difference = median(differences);
+  found.force_ratio = median(ratios);
+  found.lines = differences.size();
+  found.grows_with_force = louder > 0.0;
+  if (found.difference < notable) return std::nullopt;
+  return found;
+}
+
+}  // namespace
+
+PooledResponse pooled_response(std::span<const FrequencyResponse> measured) {
+  const std::vector<Line> lines = lines_of(measured);
+  PooledResponse result;
+  FrequencyResponse& response = result.response;
+  response.sampling_period = measured.front().sampling_period;
+  for (const FrequencyResponse& record : measured) {
+    response.line_correlation = std::max(response.line_correlation, record.line_correlation);
+  }
+  result.dependence = compare(lines, response.line_correlation);
+  double freedom = std::numeric_limits<double>::infinity();
+  for (const Line& line : lines) {
+    PooledPoint next = pooled(line);
+    freedom = std::min(freedom, next.freedom);
+    if (result.dependence) next.point.variance = std::max(next.point.variance, next.between);
+    const double noise = (1.0 + next.freedom) * next.point.variance;
+    next.point.coherence = std::norm(next.point.value) / (std::norm(next.point.value) + noise);
+    response.points.push_back(next.point);
+  }
+  response.averages = 1.0 + freedom;
+  return result;
+}
+
+}  // namespace zwidth::internal
