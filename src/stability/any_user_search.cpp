@@ -198,7 +198,9 @@ double AnyUserSearch::prove(VirtualDamper damper, Sample& least) {
   while (!stack.empty()) {
     const std::size_t index = stack.back().piece;
     const std::size_t divisions = stack.back().divisions;
-    const double share = proven_within[std::min(divisions / divisions_per_share, std::size(proven_within) - 1)];
+    // No piece needs to be shown closer than the worst so far.
+    const double share =
+        std::max(within, proven_within[std::min(divisions / divisions_per_share, std::size(proven_within) - 1)]);
     const bool may_divide = pieces_[index].depth < most_divisions && left > 0;
     if (left > 0) --left;
     const auto divide = [&](std::size_t more) {
