@@ -255,18 +255,21 @@ bool LoopGrid::keeps_phase(const Response& factor, const Response& damper, doubl
   return true;
 }
 
-double LoopGrid::stiffest_in_phase(const Response& factor, const Response& damper, double at_most,
+double LoopGrid::stiffest_in_phase(const Response& factor, const StiffnessRange& range, double phase_margin) const {
+  return stiffest_in_phase(factor, damper_, range, phase_margin);
+}
+
+double LoopGrid::stiffest_in_phase(const Response& factor, const Response& damper, const StiffnessRange& range,
                                    double phase_margin) const {
-  if (phase_margin == 0.0 || !std::isfinite(at_most) || keeps_phase(factor, damper, at_most, phase_margin)) {
-    return at_most;
-  }
-  double high = at_most;
-  for (int i = 0; i < most_steps; ++i) {
+  const auto keeps = [&](double stiffness) { return keeps_phase(factor, damper, stiffness, phase_margin); };
+  double high = range.at_most;
+  if (phase_margin == 0.0 || !std::isfinite(high) || keeps(high)) return high;
+  for (int i = 0; i < most_steps && high > range.at_least; ++i) {
     double low = step_down * high;
-    if (keeps_phase(factor, damper, low, phase_margin)) {
+    if (keeps(low)) {
       for (int step = 0; step < bisections_on_grid; ++step) {
         const double middle = 0.5 * (low + high);
-        (keeps_phase(factor, damper, middle, phase_margin) ? low : high) = middle;
+        (keeps(middle) ? low : high) = middle;
       }
       return low;
     }

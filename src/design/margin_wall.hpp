@@ -65,8 +65,10 @@ class LoopGrid {
   [[nodiscard]] double any_user(const Response& factor) const;
   /// With `scale` times this damper.
   [[nodiscard]] double any_user(const Response& factor, const Response& damper, double scale) const;
-  /// The stiffest wall down from `at_most` whose gain crossovers, between the grid's points too, keep the phase margin.
-  [[nodiscard]] double stiffest_in_phase(const Response& factor, const Response& damper, double at_most,
+  /// The stiffest wall of the range whose gain crossovers, between the grid's points too, keep the phase margin.
+  [[nodiscard]] double stiffest_in_phase(const Response& factor, const Response& damper, const StiffnessRange& range,
+                                         double phase_margin) const;
+  [[nodiscard]] double stiffest_in_phase(const Response& factor, const StiffnessRange& range,
                                          double phase_margin) const;
   /// The least B at which the damper alone is critical, of the device or of one that somebody holds; `unit_damper`: v.
   [[nodiscard]] double largest_damping(const Response& factor, const Response& unit_damper) const;

@@ -83,15 +83,20 @@ void NotchSearch::add(const Device& device) {
   scenarios_.push_back({filtered_plant(device), virtual_damper(device), std::move(grid), any_user});
 }
 
-// Over the scenarios; some value not above `enough` as soon as it is seen to be that.
+// Over the scenarios; some value not above `enough` as soon as it is seen to be that. The crossovers between the grid's
+// points are looked at last: they matter to the few that would become the best.
 double NotchSearch::least_on_grid(const WallFilter& notch, double enough, std::vector<double>& of_scenarios) const {
   double result = infinity;
+  std::vector<LoopGrid::Response> factors;
   for (const Scenario& scenario : scenarios_) {
-    const LoopGrid::Response factor = scenario.grid.filter(notch);
+    const LoopGrid::Response& factor = factors.emplace_back(scenario.grid.filter(notch));
     of_scenarios.push_back(scenario.grid.stiffest(factor, margins_));
     result = std::min(result, of_scenarios.back());
     if (result <= enough) return result;
     if (scenario.any_user > 0.0 && scenario.grid.any_user(factor) < scenario.any_user) return 0.0;
+  }
+  for (std::size_t i = 0; i < scenarios_.size() && result > enough; ++i) {
+    result = scenarios_[i].grid.stiffest_in_phase(factors[i], {enough, result}, margins_.phase);
   }
   return result;
 }

@@ -91,7 +91,7 @@ double WallSearch::value(const Filtered& filtered, double damping, WallGoal goal
     }
   }
   if (!(value_of(goal, stiffness, damping) > enough)) return 0.0;
-  stiffness = grid_.stiffest_in_phase(one_, damper, stiffness, options_.phase_margin);
+  stiffness = grid_.stiffest_in_phase(one_, damper, {.at_most = stiffness}, options_.phase_margin);
   if (goal == WallGoal::critical_damping && std::isfinite(stiffness) && stiffness > enough) {
     stiffness = damped_contact(stiffness, {damping, filtered.cutoff_hz}, enough);
   }
