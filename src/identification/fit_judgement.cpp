@@ -27,6 +27,8 @@ constexpr double doubtful_model_error = 0.05;
 constexpr double clear_model_error = 0.01;
 // Half of that where the residuals are this many times the noise.
 constexpr double clear_misfit = 5.0;
+// Of a right structure the residuals are the noise: of 60 simulated ones none had twice as much.
+constexpr double doubtful_misfit = 2.0;
 
 std::string_view stiffness_unit(const Device& device) { return units_of(device.parameters().motion).stiffness; }
 
@@ -38,6 +40,14 @@ double median_noise(const FrequencyResponse& response) {
   const auto middle = shares.begin() + static_cast<std::ptrdiff_t>(shares.size() / 2);
   std::nth_element(shares.begin(), middle, shares.end());
   return *middle;
+}
+
+/// Root mean square of noise over its deviation as estimated with nu = 2 averages - 2 degrees of freedom.
+double expected_misfit(const FrequencyResponse& response) {
+  constexpr double least_freedom = 4.0;
+  if (!(response.averages > 0.0)) return 1.0;
+  const double freedom = std::max(least_freedom, 2.0 * response.averages - 2.0);
+  return std::sqrt(freedom / (freedom - 2.0));
 }
 
 class Judge {
@@ -97,6 +107,11 @@ class Judge {
           fmt::format("the structure leaves {} of the response unexplained beyond the noise: friction, backlash, or "
                       "a body that it lacks",
                       percent(fit_.model_error)));
+    } else if (fit_.misfit && *fit_.misfit > doubtful_misfit * expected_misfit(judged_.fit.response)) {
+      result_.trust.doubt(
+          fmt::format("what the structure leaves of the response is {:.2g} times its noise: friction, backlash, or a "
+                      "body that it lacks",
+                      *fit_.misfit));
     }
   }
 
@@ -104,14 +119,18 @@ class Judge {
   void judge_band() {
     if (!judged_.critical.limit) return;
     const double limiting = judged_.critical.limit->frequency;
-    const double lowest = fit_.frequencies.front();
-    const double highest = fit_.frequencies.back();
+    // A line stands for what is excited around it, up to the next.
+    const std::vector<double>& lines = fit_.frequencies;
+    const double spacing = lines.size() > 1 ? lines[1] - lines[0] : 0.0;
+    const double last_spacing = lines.size() > 1 ? lines.back() - lines[lines.size() - 2] : 0.0;
+    const double lowest = lines.front() - spacing;
+    const double highest = lines.back() + last_spacing;
     if (limiting >= lowest && limiting <= highest) return;
     const bool above = limiting > highest;
     const std::string reason = fmt::format(
         "the crossover that limits, near {:.4g} Hz, lies {} the measured band, {:.4g} to {:.4g} Hz: {}; excite {} "
         "frequencies",
-        hertz(limiting), above ? "above" : "below", hertz(lowest), hertz(highest),
+        hertz(limiting), above ? "above" : "below", hertz(lines.front()), hertz(lines.back()),
         above ? "delay, lag and modes there are not in the data" : "dampings and springs there are not in the data",
         above ? "higher" : "lower");
     result_.trust.doubt(reason);
@@ -140,6 +159,9 @@ class Judge {
     const double fitted = limit_of(Device(std::move(recorded))).stiffness;
     is_measured_ = judged_.options.fit.locked.empty() && measured.status == MeasuredStiffnessStatus::found &&
                    std::abs(fitted / measured.limit->stiffness - 1.0) < tolerated - 1.0;
+    constexpr double widest = 2.0;
+    result_.is_measured =
+        is_measured_ && measured.limit->stiffness_interval.upper < widest * measured.limit->stiffness_interval.lower;
     if (!(fitted > tolerated * proven)) return;
     const Remark unsafe{
         Remark::Severity::warning,

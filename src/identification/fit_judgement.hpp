@@ -25,6 +25,8 @@ struct Judgement {
   std::vector<Remark> remarks;
   Trust trust;         ///< of the critical stiffness
   Trust device_trust;  ///< of the device for any other purpose: open numbers count too
+  /// The response shows the device's critical stiffness without any model, within a factor of 2.
+  bool is_measured = false;
 };
 
 /// How far the fitted device may be relied on; see identify().

@@ -187,6 +187,14 @@ void settle_on_zero(ceres::Problem& problem, SearchCoordinates& position) {
   }
 }
 
+/// Whether the last fifth of the iterations gained nothing that the noise would show: a long flat valley.
+bool hardly_gains(const ceres::Solver::Summary& summary) {
+  if (summary.termination_type != ceres::NO_CONVERGENCE || summary.iterations.size() < 10) return false;
+  const std::size_t before = summary.iterations.size() - summary.iterations.size() / 5;
+  constexpr double gained = 0.02;  // of half the sum of squares: a fifth of a standard deviation
+  return summary.iterations[before].cost - summary.final_cost < gained;
+}
+
 }  // namespace
 
 LeastSquares least_squares(const FitModel& model, const FitData& data, const Eigen::VectorXd& start,
@@ -219,7 +227,7 @@ LeastSquares least_squares(const FitModel& model, const FitData& data, const Eig
   ceres::Solver::Summary summary;
   ceres::Solve(solver, &problem, &summary);
   settle_on_zero(problem, position);
-  return {position.x(), summary.final_cost, summary.termination_type == ceres::CONVERGENCE};
+  return {position.x(), summary.final_cost, summary.termination_type == ceres::CONVERGENCE || hardly_gains(summary)};
 }
 
 }  // namespace zwidth::internal

@@ -13,6 +13,7 @@
 #include "identification/identifiability.hpp"
 #include "identification/percent.hpp"
 #include "identification/residual_checks.hpp"
+#include "model/uncertainty_problem.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/modal_form.hpp"
 #include "zwidth/model/parameter.hpp"
@@ -92,7 +93,30 @@ std::optional<Uncertainty> uncertainty(const FitModel& model, const Eigen::Vecto
       result.covariance.back().push_back(row.slope(x(i)) * covariance(i, j) * column.slope(x(j)));
     }
   }
-  return result;
+  return without_rounding(std::move(result));
+}
+
+/// What the scatter over the lines does not show: the lines are weighted by variances that are themselves estimates of
+/// nu = 2 averages - 2 degrees of freedom, which costs (nu - 2) / (nu - 4) of variance; and, of a device that drifts
+/// freely, what leaks from its slow motion into the scale of the response, a common factor of all masses, dampings and
+/// stiffnesses.
+Eigen::MatrixXd widened(const FitModel& model, const Eigen::VectorXd& x, const std::vector<bool>& determined,
+                        Eigen::MatrixXd covariance, double averages) {
+  constexpr double least_freedom = 6.0;
+  constexpr double open_scale = 1e-3;  // one standard deviation
+  const double freedom = std::max(least_freedom, 2.0 * averages - 2.0);
+  if (averages > 0.0) covariance *= (freedom - 2.0) / (freedom - 4.0);
+  const bool is_held = !model.locked().empty() ||
+                       std::ranges::any_of(model.structure().bodies(), [](const Body& b) { return b.stiffness > 0.0; });
+  if (is_held) return covariance;
+  Eigen::VectorXd scale = Eigen::VectorXd::Zero(x.size());
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const Coordinate& coordinate = model.coordinates()[k];
+    const bool is_time = coordinate.key == "loop.delay" || coordinate.key == "actuator.time_constant";
+    if (!is_time && determined[k]) scale(i) = coordinate.kind == Coordinate::Kind::logarithmic ? 1.0 : x(i);
+  }
+  return covariance + open_scale * open_scale * scale * scale.transpose();
 }
 
 std::optional<double> misfit(const std::vector<ResponsePoint>& points, const Eigen::VectorXcd& fitted) {
@@ -234,7 +258,9 @@ ParameterFit fit_parameters(const Device& structure, const FrequencyResponse& re
   }
   const FitData data = fit_data(points, solution.model_error);
   const ResponseWithSlopes at_solution = model.slopes_at(solution.x, data.frequencies);
-  const Eigen::MatrixXd covariance_of_x = covariance(at_solution, data, known.determined, options.robust_threshold);
+  const Eigen::MatrixXd covariance_of_x =
+      widened(model, solution.x, known.determined,
+              covariance(at_solution, data, known.determined, options.robust_threshold), response.averages);
 
   DeviceParameters fitted = model.parameters_at(solution.x);
   ParameterFit fit{.device = Device(fitted),

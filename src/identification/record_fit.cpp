@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "identification/friction_test.hpp"
-#include "identification/period_detection.hpp"
 #include "identification/pooled_response.hpp"
+#include "identification/response_choice.hpp"
 #include "zwidth/model/state_space.hpp"
 #include "zwidth/sampling/forced_response.hpp"
 #include "zwidth/sampling/sampled_plant.hpp"
@@ -83,12 +83,7 @@ Device device_in_experiment(const Device& fitted, const std::vector<std::string>
 
 RecordFit without_leakage(RecordFit first, std::span<const Recording> recordings,
                           const FrequencyResponseOptions& response_options, const ParameterFitOptions& fit_options) {
-  const bool averages_periods =
-      response_options.excitation == Excitation::periodic ||
-      (response_options.excitation == Excitation::detect && std::ranges::any_of(recordings, [](const Recording& each) {
-         return detect_period(each.channels[0].samples).has_value();
-       }));
-  if (averages_periods || response_options.output != OutputQuantity::position) return first;
+  if (is_of_lines(recordings, response_options) || response_options.output != OutputQuantity::position) return first;
   if (!first.response.sampling_period) return first;
   ParameterFitOptions options = fit_options;
   options.start = ParameterFitOptions::Start::from_structure;

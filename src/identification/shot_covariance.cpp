@@ -10,10 +10,10 @@
 namespace zwidth::internal {
 namespace {
 
-/// Of standard deviations. Where bodies stick and slip the misfit has kinks, between which a search rests some deviations
-/// from its minimum; on simulated devices (benchmarks/friction_campaign) the least squares' own are too small by about
-/// that much.
-constexpr double calibration = 2.0;
+/// Of standard deviations. Where bodies stick and slip the misfit has kinks, and an encoder's rounding goes along with slow
+/// motion: what the residuals' scores show is too small by about that much. Found on seeds 800001 to 800023 of
+/// benchmarks/friction_campaign; it is checked on others.
+constexpr double calibration = 1.5;
 
 /// The columns less their least-squares share in the span of `of_states`, which may be of deficient rank.
 Eigen::MatrixXd without_states(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& of_states) {

@@ -179,6 +179,20 @@ bool stands_still(const Eigen::VectorXd& before, const Eigen::VectorXd& after, c
       .all();
 }
 
+/// A common factor of all masses, dampings, stiffnesses and frictions, which is the force's scale, is never known better.
+void add_open_scale(const ShotModel& model, const ShotFit& fit, ShotCovariance& known) {
+  constexpr double open_scale = 1e-3;  // one standard deviation
+  Eigen::VectorXd scale = Eigen::VectorXd::Zero(fit.x.size());
+  for (std::size_t i = 0; i < model.coordinates().size(); ++i) {
+    const Coordinate& coordinate = model.coordinates()[i];
+    const bool is_time = coordinate.key == "loop.delay" || coordinate.key == "actuator.time_constant";
+    if (is_time || fit.held[i] || !known.known.determined[i]) continue;
+    const auto at = static_cast<Eigen::Index>(i);
+    scale(at) = coordinate.kind == Coordinate::Kind::logarithmic ? 1.0 : fit.x(at);
+  }
+  known.covariance += open_scale * open_scale * scale * scale.transpose();
+}
+
 ParameterEstimate estimate(const Coordinate& coordinate, double x, bool determined, double variance) {
   // Known to a factor of e only: nothing that a number could be given for.
   constexpr double open = 1.0;
@@ -327,6 +341,7 @@ TimeDomainIdentification identify_in_time(std::span<const Recording> recordings,
     const auto slopes = shot_slopes(model, shots, fitted->noise, fitted->fit.x, fitted->fit.states);
     if (!slopes) break;
     known = shot_covariance(*slopes, fitted->fit.held);
+    add_open_scale(model, fitted->fit, *known);
     done(0.5 + 0.1 * (round + 1));
     const bool is_still = stands_still(before, fitted->fit.x, known->covariance);
     if (!release(*whole, *slopes) && is_still) break;

@@ -113,4 +113,35 @@ std::optional<DeviceProblem> find_uncertainty_problem(const DeviceParameters& pa
   return std::nullopt;
 }
 
+Uncertainty without_rounding(Uncertainty uncertainty) {
+  std::vector<std::vector<double>>& covariance = uncertainty.covariance;
+  const auto n = static_cast<Eigen::Index>(covariance.size());
+  Eigen::VectorXd deviations(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    deviations(i) = covariance[k][k] >= smallest_variance ? std::sqrt(covariance[k][k]) : 0.0;
+  }
+  Eigen::MatrixXd correlation = Eigen::MatrixXd::Identity(n, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index j = 0; j < i; ++j) {
+      const double both = 0.5 * (covariance[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] +
+                                 covariance[static_cast<std::size_t>(j)][static_cast<std::size_t>(i)]);
+      const double scale = deviations(i) * deviations(j);
+      correlation(i, j) = correlation(j, i) = scale > 0.0 ? both / scale : 0.0;
+    }
+  }
+  const SymmetricEigen eigen = symmetric_eigen(correlation);
+  if (eigen.values.minCoeff() < 0.0) {
+    correlation = eigen.vectors * eigen.values.cwiseMax(0.0).asDiagonal() * eigen.vectors.transpose();
+  }
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index j = 0; j <= i; ++j) {
+      const double value = deviations(i) * correlation(i, j) * deviations(j);
+      covariance[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] = value;
+      covariance[static_cast<std::size_t>(j)][static_cast<std::size_t>(i)] = value;
+    }
+  }
+  return uncertainty;
+}
+
 }  // namespace zwidth::internal

@@ -9,4 +9,8 @@ namespace zwidth::internal {
 /// The first impossible thing about the uncertainty of parameters that are otherwise a device's; it must be present.
 [[nodiscard]] std::optional<DeviceProblem> find_uncertainty_problem(const DeviceParameters& parameters);
 
+/// The same with the nearest covariance that is one: symmetric, and no combination of the parameters with a negative
+/// variance, as rounding may leave where some are known far worse than others.
+[[nodiscard]] Uncertainty without_rounding(Uncertainty uncertainty);
+
 }  // namespace zwidth::internal

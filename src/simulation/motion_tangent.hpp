@@ -11,8 +11,8 @@ namespace zwidth::internal {
 
 /// What the motion's slopes are taken by.
 struct MotionParameter {
-  Eigen::MatrixXd matrix = {};     ///< dA/dp, nothing sticking; empty: 0
-  double switching = 0.0;          ///< s per p: how late switch_command() acts
+  Eigen::MatrixXd matrix = {};      ///< dA/dp, nothing sticking; empty: 0
+  double switching = 0.0;           ///< s per p: how late switch_command() acts
   std::vector<double> limits = {};  ///< dF_c/dp by body; empty: 0
 };
 

@@ -93,9 +93,10 @@ TEST_P(ShotModelSlopes, AreThoseOfTheMotion) {
     constexpr double h = 2e-5;
     const bool at_bound = column < model.parameters() && model.is_bounded(column) && x(column) < 2.0 * h;
     const bool is_one_sided = at_bound || column == 9;
-    const std::vector<double> steps = is_one_sided ? std::vector{0.0, 1.0, 2.0, 3.0} : std::vector{-2.0, -1.0, 1.0, 2.0};
+    const std::vector<double> steps =
+        is_one_sided ? std::vector{0.0, 1.0, 2.0, 3.0} : std::vector{-2.0, -1.0, 1.0, 2.0};
     const std::vector<double> weights = is_one_sided ? std::vector{-11.0 / 6.0, 3.0, -1.5, 1.0 / 3.0}
-                                                 : std::vector{1.0 / 12.0, -8.0 / 12.0, 8.0 / 12.0, -1.0 / 12.0};
+                                                     : std::vector{1.0 / 12.0, -8.0 / 12.0, 8.0 / 12.0, -1.0 / 12.0};
     std::vector<Eigen::VectorXd> slopes(shots.size(), Eigen::VectorXd::Zero(300));
     for (std::size_t k = 0; k < steps.size(); ++k) {
       const auto there = moved(steps[k] * h);
@@ -110,12 +111,13 @@ TEST_P(ShotModelSlopes, AreThoseOfTheMotion) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Devices, ShotModelSlopes,
-    testing::Values(Played{"Smooth", 0.0, 0.0, 0, {0.0, 0.0}}, Played{"DelayWithin", 0.3e-3, 0.0, 0, {0.5, 0.3}},
-                    Played{"LagAndDelay", 1.4e-3, 0.8e-3, 1, {0.5, 0.3}}, Played{"OneRubs", 1.0e-3, 0.0, 1, {0.6, 0.0}},
-                    Played{"Stiction", 0.6e-3, 0.5e-3, 0, {1.5, 1.0}}),
-    [](const auto& each) { return each.param.name; });
+INSTANTIATE_TEST_SUITE_P(Devices, ShotModelSlopes,
+                         testing::Values(Played{"Smooth", 0.0, 0.0, 0, {0.0, 0.0}},
+                                         Played{"DelayWithin", 0.3e-3, 0.0, 0, {0.5, 0.3}},
+                                         Played{"LagAndDelay", 1.4e-3, 0.8e-3, 1, {0.5, 0.3}},
+                                         Played{"OneRubs", 1.0e-3, 0.0, 1, {0.6, 0.0}},
+                                         Played{"Stiction", 0.6e-3, 0.5e-3, 0, {1.5, 1.0}}),
+                         [](const auto& each) { return each.param.name; });
 
 }  // namespace
 }  // namespace zwidth::internal

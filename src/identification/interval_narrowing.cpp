@@ -1,0 +1,66 @@
+#include "identification/interval_narrowing.hpp"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "model/uncertainty_problem.hpp"
+#include "zwidth/model/parameter.hpp"
+
+namespace zwidth::internal {
+namespace {
+
+/// Times the lower end.
+constexpr double widest = 2.0;
+
+/// The device with its least known parameter i taken as known: C - c_i c_i' / c_ii of the others. Nothing where all are
+/// known well.
+std::optional<Device> without_least_known(const Device& device) {
+  DeviceParameters parameters = device.parameters();
+  if (!parameters.uncertainty || parameters.uncertainty->parameters.size() < 2) return std::nullopt;
+  std::vector<std::string>& keys = parameters.uncertainty->parameters;
+  std::vector<std::vector<double>>& covariance = parameters.uncertainty->covariance;
+  std::size_t least = 0;
+  double largest = 0.0;
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const double value = parameter(parameters, keys[i]).value_or(0.0);
+    const double share = value > 0.0 ? covariance[i][i] / (value * value) : 0.0;
+    if (share > largest) least = i;
+    largest = std::max(largest, share);
+  }
+  constexpr double well = 0.1;  // one deviation
+  if (largest < well * well) return std::nullopt;
+  const std::vector<double> column = covariance[least];
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    for (std::size_t j = 0; j < keys.size(); ++j) covariance[i][j] -= column[i] * column[j] / column[least];
+  }
+  const auto at = static_cast<std::ptrdiff_t>(least);
+  keys.erase(keys.begin() + at);
+  covariance.erase(covariance.begin() + at);
+  for (std::vector<double>& row : covariance) row.erase(row.begin() + at);
+  parameters.uncertainty = without_rounding(*std::move(parameters.uncertainty));
+  return Device(std::move(parameters));
+}
+
+}  // namespace
+
+bool is_open(const Identification& result) {
+  const auto& interval = result.analysis.interval;
+  return interval && interval->upper > widest * interval->lower;
+}
+
+void narrow_interval(Identification& result) {
+  Device device = result.fit.device;
+  while (is_open(result)) {
+    std::optional<Device> narrower = without_least_known(device);
+    if (!narrower) return;
+    device = *std::move(narrower);
+    const Analysis analysis = analyze(device, {.any_user = false});
+    if (!analysis.interval) return;
+    if (analysis.interval->upper > widest * analysis.interval->lower) continue;
+    result.fit.device = device;
+    result.analysis = analysis;
+  }
+}
+
+}  // namespace zwidth::internal

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "zwidth/identification/identification.hpp"
+
+namespace zwidth::internal {
+
+/// Whether the interval spans an order of magnitude rather than an answer.
+[[nodiscard]] bool is_open(const Identification& result);
+
+/// A normal distribution around a parameter that the data hardly show draws devices that contradict them. Where the
+/// response shows the critical stiffness by itself, which does not hang on such parameters, they are taken as known.
+void narrow_interval(Identification& result);
+
+}  // namespace zwidth::internal

@@ -1,0 +1,48 @@
+#include "identification/response_choice.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "identification/line_response.hpp"
+#include "identification/period_detection.hpp"
+#include "zwidth/identification/parameter_fit.hpp"
+
+namespace zwidth::internal {
+
+bool is_of_lines(std::span<const Recording> recordings, const FrequencyResponseOptions& options) {
+  using Excitation = FrequencyResponseOptions::Excitation;
+  if (!options.lines.empty() || options.excitation == Excitation::periodic) return true;
+  return options.excitation == Excitation::detect && std::ranges::any_of(recordings, [](const Recording& each) {
+           const std::vector<double>& force = each.channels[0].samples;
+           return only_tone(force).has_value() || detect_period(force).has_value();
+         });
+}
+
+MeasuredResponse response_with_enough_lines(std::span<const Recording> recordings, const Device& structure,
+                                            const IdentifyOptions& options, const Progress& progress) {
+  MeasuredResponse measured = frequency_response(recordings, options.response, progress);
+  const bool may_choose = !options.response.segment_length && !is_of_lines(recordings, options.response);
+  if (!may_choose || measured.response.points.size() < 2 || !measured.response.sampling_period) return measured;
+  const std::size_t free = fittable_parameters(structure, options.fit.locked).size() + 2;
+  constexpr std::size_t lines_each = 6;
+  constexpr double least_averages = 6.0;  // fewer hardly show the noise
+  constexpr std::size_t least_segments = 4;
+  FrequencyResponseOptions longer = options.response;
+  longer.excitation = FrequencyResponseOptions::Excitation::aperiodic;
+  std::size_t samples = std::numeric_limits<std::size_t>::max();  // of the shortest
+  for (const Recording& each : recordings) samples = std::min(samples, each.channels[0].samples.size());
+  while (measured.response.points.size() < lines_each * free && 2.0 * least_averages <= measured.response.averages) {
+    const std::vector<ResponsePoint>& points = measured.response.points;
+    const double spacing = points[1].frequency - points[0].frequency;
+    const double length = 2.0 * std::numbers::pi / (spacing * *measured.response.sampling_period);
+    longer.segment_length = 2 * static_cast<std::size_t>(std::lround(length));
+    if (*longer.segment_length > samples / least_segments) break;
+    measured = frequency_response(recordings, longer, {});
+  }
+  return measured;
+}
+
+}  // namespace zwidth::internal

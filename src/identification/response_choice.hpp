@@ -1,0 +1,17 @@
+#pragma once
+
+#include <span>
+
+#include "zwidth/identification/identification.hpp"
+
+namespace zwidth::internal {
+
+/// Whether the response is taken at the lines of a force, by one of the recordings at least, and not from segments.
+[[nodiscard]] bool is_of_lines(std::span<const Recording> recordings, const FrequencyResponseOptions& options);
+
+/// The response, in segments long enough that the excited band holds lines for the structure's parameters.
+[[nodiscard]] MeasuredResponse response_with_enough_lines(std::span<const Recording> recordings,
+                                                          const Device& structure, const IdentifyOptions& options,
+                                                          const Progress& progress);
+
+}  // namespace zwidth::internal
