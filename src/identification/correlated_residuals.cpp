@@ -1,8 +1,9 @@
 #include "identification/correlated_residuals.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+
+#include "model/linear_systems.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -49,7 +50,7 @@ Eigen::MatrixXd covariance_with_correlated_residuals(const Eigen::MatrixXd& regr
                                                      const Eigen::VectorXd& residuals) {
   const Eigen::Index n = regressors.rows();
   const Eigen::Index p = regressors.cols();
-  const Eigen::MatrixXd inverse = (regressors.transpose() * regressors).ldlt().solve(Eigen::MatrixXd::Identity(p, p));
+  const Eigen::MatrixXd inverse = inverse_of_squares(regressors);
   const Eigen::MatrixXd scores = residuals.asDiagonal() * regressors;
   const Eigen::MatrixXd middle = lagged_sum(scores, bartlett_lags(scores));
   const double freedom = static_cast<double>(n) / static_cast<double>(n - p);

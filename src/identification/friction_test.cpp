@@ -1,11 +1,11 @@
 #include "identification/friction_test.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
 
+#include "model/linear_systems.hpp"
 #include "signal/fourier.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/parameter.hpp"
@@ -137,13 +137,7 @@ std::optional<Regression> regress(const Eigen::MatrixXcd& columns, const Eigen::
   right << weights.cwiseProduct(target.real()), weights.cwiseProduct(target.imag());
   const Eigen::VectorXd scale = left.colwise().norm().cwiseMax(1e-300).cwiseInverse();
   left = left * scale.asDiagonal();
-  // The pseudo-inverse of the small triangle: that of the tall matrix takes as many solutions as there are lines.
-  const Eigen::HouseholderQR<Eigen::MatrixXd> tall(left);
-  const Eigen::Index size = columns.cols();
-  const Eigen::MatrixXd triangle = tall.matrixQR().topRows(size).triangularView<Eigen::Upper>();
-  const Eigen::MatrixXd inverse = Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>(triangle).pseudoInverse();
-  const Eigen::VectorXd turned = tall.householderQ().adjoint() * right;
-  const Eigen::VectorXd solution = inverse * turned.head(size);
+  const auto [solution, deviations] = shortest_least_squares(left, right);
   Regression found;
   found.values = scale.cwiseProduct(solution);
   found.rest = target - columns * found.values;
@@ -151,7 +145,7 @@ std::optional<Regression> regress(const Eigen::MatrixXcd& columns, const Eigen::
   const double freedom = std::max(1.0, static_cast<double>(2 * n - columns.cols()));
   // A Hann window makes neighbouring lines share: 1.94 times the variance of independent ones.
   constexpr double shared = 1.94;
-  found.deviations = scale.cwiseProduct(inverse.rowwise().norm()) * std::sqrt(shared * left_over / freedom);
+  found.deviations = scale.cwiseProduct(deviations) * std::sqrt(shared * left_over / freedom);
   if (!found.values.allFinite() || !found.deviations.allFinite()) return std::nullopt;
   return found;
 }

@@ -1,10 +1,10 @@
 #include "identification/identifiability.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
-#include "model/symmetric_eigen.hpp"
+#include "model/eigenvalues.hpp"
+#include "model/linear_systems.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -77,13 +77,10 @@ Eigen::MatrixXd scores_covariance(const Eigen::MatrixXcd& slopes, const Eigen::V
     covariance += term + term.transpose();
   }
   // Cut off at some lag, the sum need not be positive; correlation may only widen.
-  const Eigen::LLT<Eigen::MatrixXd> root(independent);
-  const Eigen::MatrixXd lower = root.matrixL();
-  const Eigen::MatrixXd inverse =
-      lower.triangularView<Eigen::Lower>().solve(Eigen::MatrixXd::Identity(lower.rows(), lower.cols()));
+  const auto [lower, inverse] = cholesky(independent);
   const SymmetricEigen eigen = symmetric_eigen(inverse * covariance * inverse.transpose());
-  return lower * eigen.vectors * eigen.values.cwiseMax(1.0).asDiagonal() * eigen.vectors.transpose() *
-         lower.transpose();
+  const Eigen::MatrixXd root = lower * eigen.vectors * eigen.values.cwiseMax(1.0).cwiseSqrt().asDiagonal();
+  return root * root.transpose();
 }
 
 }  // namespace
@@ -154,8 +151,9 @@ Eigen::MatrixXd covariance(const ResponseWithSlopes& at_solution, const FitData&
   const Eigen::VectorXd level = local_level(residuals, n);
   const Eigen::MatrixXd scores =
       scores_covariance(level.asDiagonal() * slopes, residuals.cwiseQuotient(level.cast<std::complex<double>>()));
-  const Eigen::MatrixXd inverse = normal.llt().solve(Eigen::MatrixXd::Identity(n, n));
-  const Eigen::MatrixXd result = scale.asDiagonal() * inverse * scores * inverse * scale.asDiagonal();
+  const Eigen::MatrixXd inverse = inverse_of_positive(normal);
+  const Eigen::MatrixXd scaled = scale.asDiagonal() * inverse;
+  const Eigen::MatrixXd result = scaled * scores * scaled.transpose();
   full(kept, kept) = 0.5 * (result + result.transpose());
   return full;
 }

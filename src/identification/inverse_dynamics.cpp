@@ -10,7 +10,8 @@
 
 #include "identification/correlated_residuals.hpp"
 #include "identification/rigid_band.hpp"
-#include "model/symmetric_eigen.hpp"
+#include "model/eigenvalues.hpp"
+#include "model/linear_systems.hpp"
 #include "signal/zero_phase_filter.hpp"
 #include "zwidth/error.hpp"
 
@@ -192,7 +193,7 @@ Solution solve(const Terms& terms, const std::vector<std::size_t>& kept, double 
                                              terms.force_slope[k]};
     for (Eigen::Index j = 0; j < count; ++j) solution.regressors(row, j) = values[static_cast<std::size_t>(j)];
   }
-  solution.parameters = solution.regressors.colPivHouseholderQr().solve(solution.force);
+  solution.parameters = least_squares(solution.regressors, solution.force);
   solution.residuals = solution.force - solution.regressors * solution.parameters;
   return solution;
 }

@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <optional>
 
 #include "identification/percent.hpp"
+#include "model/linear_systems.hpp"
 #include "zwidth/quantity.hpp"
 
 namespace zwidth::internal {
@@ -112,7 +112,7 @@ class Residuals {
         right(2 * k) = w * w * r.real();
         right(2 * k + 1) = w * w * r.imag();
       }
-      solution = left.colPivHouseholderQr().solve(right);
+      solution = least_squares(left, right);
       for (Eigen::Index k = 0; k < rows; ++k) weight(k) = 1.0 / std::abs(denominator(solution, band, k, unit));
     }
     if (!(solution(0) > 0.0)) return std::nullopt;

@@ -1,11 +1,11 @@
 #include "identification/shot_covariance.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "identification/correlated_residuals.hpp"
+#include "model/linear_systems.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -18,13 +18,8 @@ constexpr double calibration = 1.5;
 /// The columns less their least-squares share in the span of `of_states`, which may be of deficient rank.
 Eigen::MatrixXd without_states(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& of_states) {
   const Eigen::VectorXd scale = of_states.colwise().norm().cwiseMax(1e-300).cwiseInverse();
-  const Eigen::MatrixXd scaled = of_states * scale.asDiagonal();
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(scaled);
   constexpr double rank_tolerance = 1e-9;
-  qr.setThreshold(rank_tolerance);
-  Eigen::MatrixXd turned = qr.householderQ().adjoint() * columns;
-  turned.topRows(qr.rank()).setZero();
-  return qr.householderQ() * turned;
+  return outside_span(columns, of_states * scale.asDiagonal(), rank_tolerance);
 }
 
 /// Covariance from sums of the scores over stretches of the record: what stays correlated for longer than the noise's
@@ -40,7 +35,7 @@ Eigen::MatrixXd covariance_of_stretches(const Eigen::MatrixXd& regressors, const
     const Eigen::VectorXd score = regressors.middleRows(begin, count).transpose() * residuals.segment(begin, count);
     middle += score * score.transpose();
   }
-  const Eigen::MatrixXd inverse = (regressors.transpose() * regressors).ldlt().solve(Eigen::MatrixXd::Identity(p, p));
+  const Eigen::MatrixXd inverse = inverse_of_squares(regressors);
   return stretches / (stretches - static_cast<double>(p)) * inverse * middle * inverse;
 }
 

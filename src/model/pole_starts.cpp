@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/symmetric_eigen.hpp"
+#include "model/eigenvalues.hpp"
 
 namespace zwidth::internal {
 namespace {

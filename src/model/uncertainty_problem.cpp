@@ -8,7 +8,7 @@
 #include <set>
 #include <string>
 
-#include "model/symmetric_eigen.hpp"
+#include "model/eigenvalues.hpp"
 #include "zwidth/model/parameter.hpp"
 
 namespace zwidth::internal {

@@ -1,9 +1,9 @@
 #include "zwidth/sampling/discrete_state_space.hpp"
 
-#include <Eigen/LU>
 #include <cmath>
 
 #include "model/balance.hpp"
+#include "model/linear_systems.hpp"
 #include "sampling/matrix_exponential.hpp"
 #include "sampling/sampling_instants.hpp"
 
@@ -70,7 +70,7 @@ std::complex<double> response(const DiscreteStateSpace& system, double frequency
   const Eigen::VectorXd scales = balancing_scales(system.Phi);
   const Eigen::MatrixXcd balanced = scales.cwiseInverse().asDiagonal() * matrix * scales.asDiagonal();
   const Eigen::VectorXcd state =
-      scales.asDiagonal() * balanced.fullPivLu().solve(scales.cwiseInverse().asDiagonal() * input);
+      scales.asDiagonal() * solve_complex(balanced, scales.cwiseInverse().asDiagonal() * input);
   return (system.C * state)(0) * std::polar(1.0, -static_cast<double>(system.delay_samples) * angle);
 }
 

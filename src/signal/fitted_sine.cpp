@@ -1,8 +1,9 @@
 #include "signal/fitted_sine.hpp"
 
-#include <Eigen/QR>
 #include <cmath>
 #include <cstddef>
+
+#include "model/linear_systems.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -21,8 +22,7 @@ FittedSine fit_sine(std::span<const double> signal, double angle) {
     const double k = place(static_cast<std::size_t>(i), signal.size());
     shapes.row(i) << 1.0, k / static_cast<double>(rows), std::cos(angle * k), std::sin(angle * k);
   }
-  const Eigen::Vector4d weights =
-      shapes.colPivHouseholderQr().solve(Eigen::Map<const Eigen::VectorXd>(signal.data(), rows));
+  const Eigen::Vector4d weights = least_squares(shapes, Eigen::Map<const Eigen::VectorXd>(signal.data(), rows));
   return {angle, weights[2], weights[3], std::hypot(weights[2], weights[3])};
 }
 

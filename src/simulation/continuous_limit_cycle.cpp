@@ -1,4 +1,3 @@
-#include <Eigen/LU>
 #include <algorithm>
 #include <boost/math/tools/minima.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
@@ -7,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "model/linear_systems.hpp"
 #include "simulation/check_relay.hpp"
 #include "zwidth/simulation/limit_cycle.hpp"
 
@@ -27,7 +27,7 @@ void require(bool holds, const char* what) {
 Eigen::VectorXd state_at_switch(const DiscreteStateSpace& half_period, double amplitude) {
   const Eigen::Index n = half_period.Phi.rows();
   const Eigen::MatrixXd sum = 2.0 * Eigen::MatrixXd::Identity(n, n) + half_period.Phi;
-  return -sum.partialPivLu().solve(half_period.Gamma1 * amplitude);
+  return -solve(sum, half_period.Gamma1 * amplitude);
 }
 
 /// The continuous relay's cycle at one half-period.

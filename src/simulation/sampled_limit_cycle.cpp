@@ -1,10 +1,10 @@
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
 #include <optional>
 
+#include "model/linear_systems.hpp"
 #include "simulation/check_relay.hpp"
 #include "zwidth/simulation/limit_cycle.hpp"
 
@@ -85,7 +85,7 @@ std::vector<LimitCycle> sampled_relay_limit_cycles(const DiscreteStateSpace& sys
     power = transition * power;
     const Eigen::VectorXd forced =
         newer.of_delayed_force(half, system.delay_samples) + older.of_delayed_force(half, system.delay_samples + 1);
-    const Eigen::VectorXd start = -(one + power).partialPivLu().solve(forced * relay.amplitude);
+    const Eigen::VectorXd start = -solve(one + power, forced * relay.amplitude);
     if (const auto cycle = cycle_from(system, relay, half, start)) cycles.push_back(*cycle);
   }
   std::reverse(cycles.begin(), cycles.end());

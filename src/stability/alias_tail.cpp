@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "model/symmetric_eigen.hpp"
+#include "model/eigenvalues.hpp"
 
 namespace zwidth::internal {
 namespace {

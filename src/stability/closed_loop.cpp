@@ -1,12 +1,12 @@
 #include "zwidth/stability/closed_loop.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
 #include "model/balance.hpp"
+#include "model/eigenvalues.hpp"
 
 namespace zwidth {
 using namespace internal;
@@ -59,8 +59,7 @@ std::vector<std::complex<double>> closed_loop_poles_minus_one(const DiscreteStat
   loop.topRows(n) += device.Gamma1 * force;
   const Eigen::VectorXd scales = balancing_scales(loop);
   const Eigen::MatrixXd balanced = scales.cwiseInverse().asDiagonal() * loop * scales.asDiagonal();
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(balanced, false);
-  const auto& values = solver.eigenvalues();
+  const Eigen::VectorXcd values = eigenvalues(balanced);
   return {values.data(), values.data() + values.size()};
 }
 

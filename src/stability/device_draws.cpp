@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "model/symmetric_eigen.hpp"
+#include "model/eigenvalues.hpp"
 #include "zwidth/model/parameter.hpp"
 
 namespace zwidth::internal {

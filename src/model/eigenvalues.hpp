@@ -4,9 +4,12 @@
 
 namespace zwidth::internal {
 
+// Functions, so that each of Eigen's solvers is compiled once: they take a compiler seven seconds wherever they are used.
+
+/// Eigenvalues of a real square matrix, in no particular order.
+Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix);
+
 /// Eigenvalues by rising size and, column by column, orthonormal eigenvectors of a real symmetric matrix.
-///
-/// A function, so that Eigen's solver is compiled once: it takes a compiler seven seconds wherever it is used.
 struct SymmetricEigen {
   Eigen::VectorXd values;
   Eigen::MatrixXd vectors;

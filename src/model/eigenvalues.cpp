@@ -1,8 +1,12 @@
-#include "model/symmetric_eigen.hpp"
+#include "model/eigenvalues.hpp"
 
 #include <Eigen/Eigenvalues>
 
 namespace zwidth::internal {
+
+Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix) {
+  return Eigen::EigenSolver<Eigen::MatrixXd>(matrix, false).eigenvalues();
+}
 
 SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& matrix) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(matrix);

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace zwidth::internal {
+
+// Functions, so that each of Eigen's solvers is compiled once: they take a compiler two to five seconds wherever they
+// are used.
+
+/// x of M x = b by LU factors with partial pivoting. M is regular.
+Eigen::VectorXd solve(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);
+
+/// x of M x = b by LU factors with complete pivoting.
+Eigen::VectorXcd solve_complex(const Eigen::MatrixXcd& matrix, const Eigen::VectorXcd& right);
+
+/// x of least |M x - b|.
+Eigen::VectorXd least_squares(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);
+
+/// x of least |M x - b|, the shortest where M lacks rank, and the length of each row of M's pseudo-inverse: the
+/// standard deviation of that unknown where the entries of b are independent and of deviation 1.
+struct ShortestSolution {
+  Eigen::VectorXd solution;
+  Eigen::VectorXd deviations;
+};
+ShortestSolution shortest_least_squares(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);
+
+/// The columns less their least-squares share in the span of the matrix's, whose rank counts the pivots above
+/// `rank_tolerance` of the largest.
+Eigen::MatrixXd outside_span(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& matrix, double rank_tolerance);
+
+/// (M^T M)^{-1}. M has full rank.
+Eigen::MatrixXd inverse_of_squares(const Eigen::MatrixXd& matrix);
+
+/// Of a positive definite matrix.
+Eigen::MatrixXd inverse_of_positive(const Eigen::MatrixXd& matrix);
+
+/// L and L^{-1} of a positive definite matrix L L^T.
+struct Cholesky {
+  Eigen::MatrixXd lower;
+  Eigen::MatrixXd inverse;
+};
+Cholesky cholesky(const Eigen::MatrixXd& matrix);
+
+}  // namespace zwidth::internal
