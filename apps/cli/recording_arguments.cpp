@@ -206,7 +206,7 @@ RecordedMotions read_motions(const RecordingArguments& arguments) {
 std::string contents_text(const RecordingArguments& arguments) {
   const auto contents = list_recording(arguments.file, recording_options(arguments));
   if (!contents) throw BadInput(input_problem(contents.error()));
-  using Align = report::TextTable::Align;
+  using report::Align;
   report::TextTable table{{Align::right, Align::left, Align::right, Align::left}, {{"", "column", "samples", ""}}};
   for (std::size_t i = 0; i < contents->columns.size(); ++i) {
     const RecordingColumn& column = contents->columns[i];

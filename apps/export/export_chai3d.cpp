@@ -22,7 +22,7 @@ double rounded_down(double value) {
 }
 
 /// A reason may hold anything that a device file does.
-std::string one_line(std::string text) {
+std::string comment_line(std::string text) {
   for (char& character : text) {
     const auto byte = static_cast<unsigned char>(character);
     if (byte < 0x20 || byte == 0x7f || character == '\\') character = ' ';
@@ -31,7 +31,7 @@ std::string one_line(std::string text) {
 }
 
 /// As C++ of type double.
-std::string literal(double value) {
+std::string rounded_literal(double value) {
   const std::string digits = fmt::format("{:.4g}", value);
   return digits.find_first_of(".e") == std::string::npos ? digits + ".0" : digits;
 }
@@ -51,7 +51,7 @@ std::string interval_text(const SafeWall& ceilings) {
 
 std::string doubt_text(const Trust& trust) {
   const auto note = trust_note(trust);
-  return note ? "// " + one_line(*note) + "\n" : std::string();
+  return note ? "// " + comment_line(*note) + "\n" : std::string();
 }
 
 }  // namespace
@@ -80,8 +80,8 @@ std::string export_chai3d(const Device& device, const SafeWall& ceilings, double
       fmt::arg("whose", any_user ? " whoever holds the device" : ""),
       fmt::arg("velocity", velocity_text(device.parameters().wall, units)), fmt::arg("kind", kind),
       fmt::arg("interval", interval_text(ceilings)), fmt::arg("doubt", doubt_text(ceilings.trust)),
-      fmt::arg("stiffness", literal(rounded_down(ceilings.stiffness))),
-      fmt::arg("damping", literal(rounded_down(ceilings.damping))));
+      fmt::arg("stiffness", rounded_literal(rounded_down(ceilings.stiffness))),
+      fmt::arg("damping", rounded_literal(rounded_down(ceilings.damping))));
 }
 
 }  // namespace zwidth::report

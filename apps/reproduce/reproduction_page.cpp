@@ -9,7 +9,6 @@ namespace zwidth::report {
 namespace {
 
 std::string numbers_table() {
-  using Align = TextTable::Align;
   TextTable table{{Align::left, Align::left, Align::left, Align::left, Align::left, Align::left},
                   {{"where", "what", "printed", "ours", "difference", "reason"}}};
   for (const PaperNumber& number : paper_numbers()) {

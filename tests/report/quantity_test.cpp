@@ -40,7 +40,7 @@ TEST(Number, KeepsWholeDigitsAndAvoidsExponentsInTheUsualRange) {
 }
 
 TEST(TextTable, AlignsColumnsByCharactersNotBytes) {
-  const TextTable table{{TextTable::Align::left, TextTable::Align::right}, {{"a", "value"}, {"µµµ", "1"}}};
+  const TextTable table{{Align::left, Align::right}, {{"a", "value"}, {"µµµ", "1"}}};
   EXPECT_EQ(layout(table), "  a    value\n  µµµ      1\n");
 }
 

@@ -30,14 +30,14 @@ constexpr double tag_size = 12.0;
 /// More than these are marked but not listed.
 constexpr std::size_t most_listed = 12;
 
-struct Interval {
+struct Span {
   double low = 0.0;
   double high = 0.0;
 };
 
 template <typename Member>
-Interval extent(const BodeFigure& figure, Member member) {
-  Interval extent{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+Span extent(const BodeFigure& figure, Member member) {
+  Span extent{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   for (const BodeCurve& curve : figure.curves) {
     for (const BodePoint& point : curve.points) {
       extent.low = std::min(extent.low, point.*member);
@@ -48,15 +48,15 @@ Interval extent(const BodeFigure& figure, Member member) {
 }
 
 /// The magnitude axis, with head room for the tags of the marks.
-Interval magnitude_axis(const BodeFigure& figure) {
-  Interval axis = extent(figure, &BodePoint::magnitude_db);
+Span magnitude_axis(const BodeFigure& figure) {
+  Span axis = extent(figure, &BodePoint::magnitude_db);
   axis.low = 20.0 * std::floor((axis.low - 2.0) / 20.0);
   axis.high = std::max(axis.high + 4.0, axis.low + 20.0);
   if (!figure.marks.empty()) axis.high = axis.low + (axis.high - axis.low) / 0.88;
   return axis;
 }
 
-double tick_step(Interval axis, double step, double most_ticks) {
+double tick_step(Span axis, double step, double most_ticks) {
   while ((axis.high - axis.low) / step > most_ticks) step *= 2.0;
   return step;
 }
@@ -80,9 +80,9 @@ bool is_on_axis(const BodeMark& mark) { return mark.crossover.frequency > 0.0; }
 
 bool is_critical(const BodeMark& mark) { return mark.rank == BodeMark::Rank::critical; }
 
-class Layout {
+class BodeLayout {
  public:
-  Layout(const BodeFigure& figure, double heading_bottom) : figure_(figure) {
+  BodeLayout(const BodeFigure& figure, double heading_bottom) : figure_(figure) {
     const double top = heading_bottom + 46.0;
     magnitude = {frame_left, frame_right, top, top + magnitude_height};
     phase = {frame_left, frame_right, magnitude.bottom + 22.0, magnitude.bottom + 22.0 + phase_height};
@@ -123,7 +123,7 @@ struct Tag {
 };
 
 /// Tags stand in one row at the top of the magnitude frame, moved sideways where they would touch.
-std::vector<Tag> tag_positions(const BodeFigure& figure, const Layout& layout) {
+std::vector<Tag> tag_positions(const BodeFigure& figure, const BodeLayout& layout) {
   constexpr double apart = 20.0;
   std::vector<Tag> tags;
   for (std::size_t i = 0; i < std::min(figure.marks.size(), most_listed); ++i) {
@@ -136,7 +136,7 @@ std::vector<Tag> tag_positions(const BodeFigure& figure, const Layout& layout) {
   return tags;
 }
 
-void draw_list(Canvas& canvas, const BodeFigure& figure, const Layout& layout) {
+void draw_list(Canvas& canvas, const BodeFigure& figure, const BodeLayout& layout) {
   double y = layout.list_top;
   const auto add_line = [&](const std::string& text, std::string_view colour) {
     canvas.text(frame_left, y, Canvas::fitted(text, 12.0, canvas_width - frame_left), {Anchor::left, 12.0, colour});
@@ -172,7 +172,7 @@ std::vector<std::string> wrapped(const std::vector<std::string>& notes) {
 }
 
 /// Lines of the marks: from the tag down to the curve, and through the phase for the critical one.
-void draw_mark_lines(Canvas& canvas, const BodeFigure& figure, const Layout& layout, Interval magnitude) {
+void draw_mark_lines(Canvas& canvas, const BodeFigure& figure, const BodeLayout& layout, Span magnitude) {
   const Box& box = layout.magnitude;
   const double tag_y = box.top + 12.0;
   for (const Tag& tag : tag_positions(figure, layout)) {
@@ -215,7 +215,7 @@ std::string plots(const BodeFigure& figure, int column, std::string_view marks) 
   return what + "NaN notitle";
 }
 
-void draw_nyquist(Canvas& canvas, const BodeFigure& figure, const Layout& layout, const Box& box) {
+void draw_nyquist(Canvas& canvas, const BodeFigure& figure, const BodeLayout& layout, const Box& box) {
   if (!figure.nyquist) return;
   const double x = layout.x(*figure.nyquist);
   const double top = &box == &layout.magnitude && !figure.marks.empty() ? box.top + 24.0 : box.top;  // below the tags
@@ -228,7 +228,7 @@ std::string draw(const BodeFigure& given, FigureFormat format) {
   BodeFigure figure = given;
   figure.notes = wrapped(given.notes);
   const Heading heading(figure.title, legend(figure));
-  const Layout layout(figure, heading.bottom());
+  const BodeLayout layout(figure, heading.bottom());
   Canvas canvas(figure.title, canvas_width, layout.height);
   for (std::size_t i = 0; i < figure.curves.size(); ++i) {
     canvas.commands(fmt::format("$curve{} << EOD", i));
@@ -237,7 +237,7 @@ std::string draw(const BodeFigure& given, FigureFormat format) {
     }
     canvas.commands("EOD");
   }
-  const Interval magnitude = magnitude_axis(figure);
+  const Span magnitude = magnitude_axis(figure);
   add_points(canvas, "magnitudes", figure.marks,
              [](const BodeMark& mark) { return -decibels(mark.crossover.stiffness); });
   add_points(canvas, "phases", figure.marks, [&](const BodeMark& mark) {
@@ -262,7 +262,7 @@ std::string draw(const BodeFigure& given, FigureFormat format) {
                               y_label(fmt::format("Magnitude (dB re 1 {})", compliance))));
   canvas.plot(layout.magnitude, plots(figure, 2, "magnitudes"));
 
-  Interval phase = extent(figure, &BodePoint::phase_deg);
+  Span phase = extent(figure, &BodePoint::phase_deg);
   phase.low = std::min(90.0 * std::floor((phase.low - 1.0) / 90.0), -270.0);
   phase.high = std::max(90.0 * std::ceil((phase.high + 1.0) / 90.0), phase.low + 180.0);
   draw_nyquist(canvas, figure, layout, layout.phase);

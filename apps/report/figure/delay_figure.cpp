@@ -9,8 +9,9 @@
 namespace zwidth::report {
 namespace {
 
-constexpr std::array<LineStyle, 4> styles = {LineStyle{"#0b4f9e", 2.0, "1"}, LineStyle{"#c2410c", 1.6, "(10,5)"},
-                                             LineStyle{"#15803d", 1.8, "(14,4,3,4)"}, LineStyle{"#1a1a1a", 1.4, "1"}};
+constexpr std::array<LineStyle, 4> series_styles = {LineStyle{"#0b4f9e", 2.0, "1"}, LineStyle{"#c2410c", 1.6, "(10,5)"},
+                                                    LineStyle{"#15803d", 1.8, "(14,4,3,4)"},
+                                                    LineStyle{"#1a1a1a", 1.4, "1"}};
 constexpr double milliseconds = 1e3;
 
 }  // namespace
@@ -19,7 +20,8 @@ std::string draw_delay_figure(const std::string& title, const std::vector<DelayS
   std::vector<LegendEntry> legend;
   for (std::size_t i = 0; i < series.size(); ++i) {
     const bool is_curve = series[i].kind == DelaySeries::Kind::curve;
-    legend.push_back({series[i].name, styles.at(i), {}, is_curve ? std::string() : ring_marker(styles.at(i).colour)});
+    legend.push_back(
+        {series[i].name, series_styles.at(i), {}, is_curve ? std::string() : ring_marker(series_styles.at(i).colour)});
   }
   const Heading heading(title, legend);
   const Box frame{frame_left, frame_right, heading.bottom() + 26.0, heading.bottom() + 346.0};
@@ -27,7 +29,7 @@ std::string draw_delay_figure(const std::string& title, const std::vector<DelayS
   heading.draw(canvas);
   std::string what;
   for (std::size_t i = 0; i < series.size(); ++i) {
-    const LineStyle& style = styles.at(i);
+    const LineStyle& style = series_styles.at(i);
     std::string rows;
     for (const DelayPoint& point : series[i].points) {
       rows += fmt::format("{:.9g} {:.6f}\n", milliseconds * point.delay, point.stiffness_db);

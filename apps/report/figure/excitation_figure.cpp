@@ -14,7 +14,7 @@
 namespace zwidth::report {
 namespace {
 
-constexpr LineStyle curve_style{"#0b4f9e", 1.2, "1"};
+constexpr LineStyle signal_style{"#0b4f9e", 1.2, "1"};
 constexpr std::size_t most_columns = 1500;
 constexpr double shown_decibels = 80.0;  // below the highest density
 
@@ -31,8 +31,8 @@ std::string add_signal(Canvas& canvas, const std::vector<double>& samples, doubl
     canvas.commands(fmt::format("{:.9g} {:.6g} {:.6g}", static_cast<double>(first) / rate, *least, *greatest));
   }
   canvas.commands("EOD");
-  return envelope ? fmt::format("$signal using 1:2:3 with filledcurves lc rgb '{}'", curve_style.colour)
-                  : fmt::format("$signal using 1:2 with steps {}", gnuplot_line(curve_style));
+  return envelope ? fmt::format("$signal using 1:2:3 with filledcurves lc rgb '{}'", signal_style.colour)
+                  : fmt::format("$signal using 1:2 with steps {}", gnuplot_line(signal_style));
 }
 
 struct DensityPoint {
@@ -111,9 +111,9 @@ std::string draw_excitation(const Excitation& excitation, FigureFormat format) {
       std::max(points.empty() ? 0.001 * rate : (period.empty() ? 1.0 : 0.5) * points.front().frequency_hz, 1e-4 * rate),
       0.5 * rate, top - shown_decibels, top, is_rotary ? "(N m)²" : "N²"));
   const double bottom = top - shown_decibels;
-  const std::string curve = fmt::format("$density with lines {}", gnuplot_line(curve_style));
+  const std::string curve = fmt::format("$density with lines {}", gnuplot_line(signal_style));
   const std::string stems = fmt::format("$density using 1:({0:g}):(0):($2>{0:g}?$2-{0:g}:0) with vectors nohead {1}",
-                                        bottom, gnuplot_line(curve_style));
+                                        bottom, gnuplot_line(signal_style));
   canvas.plot(density_frame, (period.empty() ? curve : stems) + ", NaN notitle");
   return canvas.draw(format);
 }

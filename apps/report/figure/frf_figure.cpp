@@ -16,32 +16,32 @@
 namespace zwidth::report {
 namespace {
 
-constexpr double magnitude_height = 270.0;
-constexpr double phase_height = 190.0;
+constexpr double measured_magnitude_height = 270.0;
+constexpr double measured_phase_height = 190.0;
 constexpr double coherence_height = 90.0;
 constexpr double gap = 18.0;
-constexpr std::size_t most_listed = 12;
+constexpr std::size_t most_crossovers = 12;
 /// Columns into which the axis is cut when there are more lines than a figure shows: each keeps its extremes.
-constexpr std::size_t most_columns = 1500;
+constexpr std::size_t most_lines = 1500;
 
-constexpr LineStyle curve_style{"#0b4f9e", 1.8, "1"};
-constexpr LineStyle mark_style{"#777777", 0.8, "(2,3)"};
-constexpr LineStyle critical_style{"#b91c1c", 1.2, "1"};
+constexpr LineStyle measured_style{"#0b4f9e", 1.8, "1"};
+constexpr LineStyle crossover_style{"#777777", 0.8, "(2,3)"};
+constexpr LineStyle measured_limit_style{"#b91c1c", 1.2, "1"};
 constexpr LineStyle reference_style{"#555555", 1.0, "(8,4)"};
-constexpr std::string_view band_colour = "#bcd3ef";
+constexpr std::string_view interval_colour = "#bcd3ef";
 constexpr std::string_view doubt_colour = "#fdeac4";
 constexpr double degrees_per_radian = 180.0 / std::numbers::pi;
 
-struct Axis {
+struct Range {
   double low = 0.0;
   double high = 0.0;
 };
 
 /// The points of which a figure can show the difference.
 std::vector<ResponseLine> thinned(std::vector<ResponseLine> points) {
-  if (points.size() <= 3 * most_columns) return points;
+  if (points.size() <= 3 * most_lines) return points;
   const double per_octave =
-      static_cast<double>(most_columns) / std::log(points.back().frequency / points.front().frequency);
+      static_cast<double>(most_lines) / std::log(points.back().frequency / points.front().frequency);
   const auto column_of = [&](const ResponseLine& point) {
     return static_cast<std::size_t>(per_octave * std::log(point.frequency / points.front().frequency));
   };
@@ -66,14 +66,14 @@ struct ListLine {
   std::string_view colour;
 };
 
-class Layout {
+class FrfLayout {
  public:
-  Layout(const MeasuredResponse& frf, const std::vector<ListLine>& list, double heading_bottom)
+  FrfLayout(const MeasuredResponse& frf, const std::vector<ListLine>& list, double heading_bottom)
       : low_(hertz(frf.response.points.front().frequency) / 1.05),
         high_(hertz(frf.response.points.back().frequency) * 1.05) {
     const double top = heading_bottom + 8.0;
-    magnitude = {frame_left, frame_right, top, top + magnitude_height};
-    phase = {frame_left, frame_right, magnitude.bottom + gap, magnitude.bottom + gap + phase_height};
+    magnitude = {frame_left, frame_right, top, top + measured_magnitude_height};
+    phase = {frame_left, frame_right, magnitude.bottom + gap, magnitude.bottom + gap + measured_phase_height};
     coherence = {frame_left, frame_right, phase.bottom + gap, phase.bottom + gap + coherence_height};
     list_top = coherence.bottom + 66.0;
     height = list_top + row_height * static_cast<double>(list.size());
@@ -117,7 +117,7 @@ std::vector<ListLine> list_of(const MeasuredResponse& frf, const std::string& un
     }
   };
   const std::vector<MeasuredCrossover> crossovers = crossovers_of(frf);
-  for (std::size_t i = 0; i < std::min(most_listed, crossovers.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(most_crossovers, crossovers.size()); ++i) {
     const MeasuredCrossover& crossover = crossovers[i];
     const bool critical = is_critical(frf, crossover);
     add(fmt::format("{}   K = {} ({} to {}) at {} Hz ({} to {}){}", i + 1, quantity(crossover.stiffness, unit),
@@ -125,10 +125,10 @@ std::vector<ListLine> list_of(const MeasuredResponse& frf, const std::string& un
                     quantity(crossover.stiffness_interval.upper, unit), number(hertz(crossover.frequency)),
                     number(hertz(crossover.frequency_interval.lower)),
                     number(hertz(crossover.frequency_interval.upper)), critical ? ": critical" : ""),
-        critical ? critical_style.colour : ink);
+        critical ? measured_limit_style.colour : ink);
   }
-  if (crossovers.size() > most_listed) {
-    add(fmt::format("and {} more crossovers, marked without a number", crossovers.size() - most_listed));
+  if (crossovers.size() > most_crossovers) {
+    add(fmt::format("and {} more crossovers, marked without a number", crossovers.size() - most_crossovers));
   }
   add("Bands and intervals: 95 % confidence.");
   for (const Remark& remark : frf.remarks) {
@@ -162,8 +162,8 @@ void add_data(Canvas& canvas, const std::vector<ResponseLine>& points, double lo
   canvas.commands("EOD");
 }
 
-Axis magnitude_axis(const std::vector<ResponseLine>& points, bool has_marks) {
-  Axis axis{1e300, -1e300};
+Range magnitude_axis(const std::vector<ResponseLine>& points, bool has_marks) {
+  Range axis{1e300, -1e300};
   for (const ResponseLine& point : points) {
     if (point.magnitude <= 0.0) continue;
     axis.low = std::min(axis.low, decibels(point.magnitude));
@@ -175,8 +175,8 @@ Axis magnitude_axis(const std::vector<ResponseLine>& points, bool has_marks) {
   return axis;
 }
 
-Axis phase_axis(const std::vector<ResponseLine>& points) {
-  Axis axis{1e300, -1e300};
+Range phase_axis(const std::vector<ResponseLine>& points) {
+  Range axis{1e300, -1e300};
   for (const ResponseLine& point : points) {
     axis.low = std::min(axis.low, degrees_per_radian * point.phase);
     axis.high = std::max(axis.high, degrees_per_radian * point.phase);
@@ -186,28 +186,28 @@ Axis phase_axis(const std::vector<ResponseLine>& points) {
   return axis;
 }
 
-double tick_step(const Axis& axis, double step, double most_ticks) {
+double tick_step(const Range& axis, double step, double most_ticks) {
   while ((axis.high - axis.low) / step > most_ticks) step *= 2.0;
   return step;
 }
 
-void draw_marks(Canvas& canvas, const MeasuredResponse& frf, const Layout& layout, const Box& frame) {
+void draw_marks(Canvas& canvas, const MeasuredResponse& frf, const FrfLayout& layout, const Box& frame) {
   constexpr double apart = 20.0;
   const std::vector<MeasuredCrossover> crossovers = crossovers_of(frf);
   double last_tag = -apart;
   for (std::size_t i = 0; i < crossovers.size(); ++i) {
-    const LineStyle& style = is_critical(frf, crossovers[i]) ? critical_style : mark_style;
+    const LineStyle& style = is_critical(frf, crossovers[i]) ? measured_limit_style : crossover_style;
     const double x = layout.x(crossovers[i].frequency);
     const bool is_top = &frame == &layout.magnitude;
     canvas.line(x, is_top ? frame.top + 22.0 : frame.top, x, frame.bottom, style);
-    if (is_top && i < most_listed) {
+    if (is_top && i < most_crossovers) {
       last_tag = std::max(x, last_tag + apart);
       canvas.text(last_tag, frame.top + 12.0, std::to_string(i + 1), {Anchor::centre, 12.0, style.colour});
     }
   }
 }
 
-void draw_doubts(Canvas& canvas, const MeasuredResponse& frf, const Layout& layout, const Box& frame) {
+void draw_doubts(Canvas& canvas, const MeasuredResponse& frf, const FrfLayout& layout, const Box& frame) {
   if (!frf.stiffness) return;
   for (const Interval& band : frf.stiffness->doubtful_bands) {
     const double left = layout.x(band.lower);
@@ -218,7 +218,7 @@ void draw_doubts(Canvas& canvas, const MeasuredResponse& frf, const Layout& layo
 /// A band between two columns and the curve over it.
 std::string band_and_curve(int curve, int lower, int upper) {
   return fmt::format("$lines using 1:{}:{} with filledcurves lc rgb '{}', $lines using 1:{} with lines {}", lower,
-                     upper, band_colour, curve, gnuplot_line(curve_style));
+                     upper, interval_colour, curve, gnuplot_line(measured_style));
 }
 
 }  // namespace
@@ -228,10 +228,10 @@ std::string draw_frf(const MeasuredResponse& frf, const results::FrfUnits& units
   const Heading heading(std::filesystem::path(frf.source).filename().string(), {},
                         "Measured response, from commanded force to sensed position");
   const std::vector<ListLine> list = list_of(frf, units.stiffness());
-  const Layout layout(frf, list, heading.bottom());
+  const FrfLayout layout(frf, list, heading.bottom());
   const bool has_marks = !crossovers_of(frf).empty();
   Canvas canvas(frf.source, canvas_width, layout.height);
-  const Axis magnitude = magnitude_axis(points, has_marks);
+  const Range magnitude = magnitude_axis(points, has_marks);
   add_data(canvas, points, magnitude.low);
 
   heading.draw(canvas);
@@ -250,7 +250,7 @@ std::string draw_frf(const MeasuredResponse& frf, const results::FrfUnits& units
                               y_label(fmt::format("Magnitude (dB re 1 {})", units.compliance()))));
   canvas.plot(layout.magnitude, band_and_curve(2, 3, 4));
 
-  const Axis phase = phase_axis(points);
+  const Range phase = phase_axis(points);
   draw_doubts(canvas, frf, layout, layout.phase);
   draw_marks(canvas, frf, layout, layout.phase);
   canvas.commands(fmt::format("set yrange [{}:{}]\nset ytics {}\nset ylabel 'Phase (degrees)'", phase.low, phase.high,
@@ -261,7 +261,7 @@ std::string draw_frf(const MeasuredResponse& frf, const results::FrfUnits& units
   draw_marks(canvas, frf, layout, layout.coherence);
   x_label(canvas, layout.coherence, "Frequency (Hz)");
   canvas.commands("set yrange [0:1.05]\nset ytics 0.5\nset ylabel 'Coherence'\nset format x '%g'");
-  canvas.plot(layout.coherence, fmt::format("$lines using 1:8 with lines {}", gnuplot_line(curve_style)));
+  canvas.plot(layout.coherence, fmt::format("$lines using 1:8 with lines {}", gnuplot_line(measured_style)));
   return canvas.draw(format);
 }
 

@@ -17,7 +17,7 @@ namespace {
 
 constexpr LineStyle fit_style{"#c2410c", 1.8, "1"};
 constexpr std::string_view point_colour = "#0b4f9e";
-constexpr std::string_view band_colour = "#c7d7ee";
+constexpr std::string_view fitted_band_colour = "#c7d7ee";
 constexpr double degrees = 180.0 / std::numbers::pi;
 
 /// One line of the figure's data.
@@ -63,7 +63,7 @@ std::string plots(int measured, int low, int high, int fitted) {
   return fmt::format(
       "$rows using 1:{}:{} with filledcurves lc rgb '{}', $rows using 1:{} with points pt 7 ps 0.25 lc rgb '{}', "
       "$rows using 1:{} with lines {}",
-      low, high, band_colour, measured, point_colour, fitted, gnuplot_line(fit_style));
+      low, high, fitted_band_colour, measured, point_colour, fitted, gnuplot_line(fit_style));
 }
 
 }  // namespace

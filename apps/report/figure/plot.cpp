@@ -13,7 +13,6 @@ namespace zwidth::report {
 namespace {
 
 constexpr double title_size = 16.0;
-constexpr double text_size = 12.0;
 constexpr double title_row = 22.0;
 constexpr double sample = 46.0;  // px of a legend's line
 constexpr double text_after = 54.0;

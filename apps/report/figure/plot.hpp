@@ -14,6 +14,7 @@ inline constexpr double canvas_width = 900.0;
 inline constexpr double frame_left = 84.0;
 inline constexpr double frame_right = 876.0;
 inline constexpr double row_height = 20.0;
+inline constexpr double text_size = 12.0;
 
 inline constexpr std::string_view ink = "#1a1a1a";
 inline constexpr std::string_view blue = "#0b4f9e";

@@ -18,9 +18,9 @@ namespace {
 
 using Formula = RegionApproximation::Formula;
 
-constexpr double frame_height = 360.0;
+constexpr double panel_height = 360.0;
 
-constexpr std::string_view stable_colour = "#dbe7f6";
+constexpr std::string_view region_colour = "#dbe7f6";
 constexpr std::string_view any_user_colour = "#bfe3c8";
 constexpr LineStyle boundary_style{"#0b4f9e", 2.0, "1"};
 constexpr LineStyle any_user_style{"#15803d", 1.6, "1"};
@@ -56,7 +56,7 @@ class RegionFigure {
     const std::vector<Extent> panels = extents();
     const Heading heading(title_, legend());
     const double top = heading.bottom() + 28.0;
-    Canvas canvas(title_, canvas_width, top + frame_height + 62.0);
+    Canvas canvas(title_, canvas_width, top + panel_height + 62.0);
     heading.draw(canvas);
     data(canvas);
     const double gap = 100.0;
@@ -68,7 +68,7 @@ class RegionFigure {
         canvas.text(left, top - 12.0, "Zoom: the corner at the origin of the panel on the left",
                     {Anchor::left, 12.0, grey});
       }
-      draw_panel(canvas, {left, left + width, top, top + frame_height}, panels[i]);
+      draw_panel(canvas, {left, left + width, top, top + panel_height}, panels[i]);
     }
     return canvas.draw(format);
   }
@@ -92,7 +92,7 @@ class RegionFigure {
       entries.push_back(
           {fmt::format("stable: up to {} at {} {}", quantity(walls_.region.stiffest->stiffness, units_.stiffness),
                        number(walls_.region.stiffest->damping), units_.damping),
-           boundary_style, stable_colour});
+           boundary_style, region_colour});
     } else {
       entries.push_back({walls_.trust.refused()  ? "refused: no region is given"
                          : walls_.region.bounded ? "no wall is stable"
@@ -191,7 +191,7 @@ class RegionFigure {
     std::string what;
     if (!walls_.region.components.empty()) {
       what += fmt::format("$outlines {} with filledcurves closed fc rgb '{}' fs solid noborder notitle, ", columns,
-                          stable_colour);
+                          region_colour);
     }
     if (walls_.any_user && walls_.any_user->stiffest) {
       what += fmt::format(

@@ -20,25 +20,25 @@ namespace {
 
 constexpr double positions_height = 220.0;
 constexpr double forces_height = 180.0;
-constexpr double text_size = 12.0;
 constexpr double head_room = 0.06;  // of the axis
 constexpr std::string_view wall_colour = "#e8e8e8";
 /// Points drawn per curve: lowest and highest of each of so many stretches of time.
 constexpr std::size_t stretches = 1200;
-constexpr std::array<LineStyle, 2> styles = {LineStyle{"#0b4f9e", 1.6, "1"}, LineStyle{"#c2410c", 1.4, "(10,5)"}};
+constexpr std::array<LineStyle, 2> motion_styles = {LineStyle{"#0b4f9e", 1.6, "1"},
+                                                    LineStyle{"#c2410c", 1.4, "(10,5)"}};
 
 struct Curve {
   std::string name;
   const std::vector<double>* values = nullptr;
 };
 
-struct Axis {
+struct CurveRange {
   double low = 0.0;
   double high = 0.0;
 };
 
-Axis axis_of(const std::vector<Curve>& curves) {
-  Axis axis{curves.front().values->front(), curves.front().values->front()};
+CurveRange range_of(const std::vector<Curve>& curves) {
+  CurveRange axis{curves.front().values->front(), curves.front().values->front()};
   for (const Curve& curve : curves) {
     const auto [low, high] = std::minmax_element(curve.values->begin(), curve.values->end());
     axis = {std::min(axis.low, *low), std::max(axis.high, *high)};
@@ -68,7 +68,7 @@ void draw_legend(Canvas& canvas, const Box& frame, const std::vector<Curve>& cur
   double left = frame.left;
   const double y = frame.top - 14.0;
   for (std::size_t i = 0; i < curves.size(); ++i) {
-    canvas.line(left, y, left + 36.0, y, styles[i]);
+    canvas.line(left, y, left + 36.0, y, motion_styles[i]);
     const std::string name = Canvas::fitted(curves[i].name, text_size, 300.0);
     canvas.text(left + 42.0, y, name, {Anchor::left, text_size});
     left += 42.0 + Canvas::text_width(name, text_size) + 28.0;
@@ -77,7 +77,7 @@ void draw_legend(Canvas& canvas, const Box& frame, const std::vector<Curve>& cur
 
 void draw_frame(Canvas& canvas, const Box& frame, const std::vector<Curve>& curves, const std::vector<double>& time,
                 std::string_view quantity_name, std::string_view unit) {
-  const Axis axis = axis_of(curves);
+  const CurveRange axis = range_of(curves);
   const AxisUnit drawn = axis_unit(std::max(std::abs(axis.low), std::abs(axis.high)), 0.1);
   std::string what;
   for (std::size_t i = 0; i < curves.size(); ++i) {
@@ -88,7 +88,7 @@ void draw_frame(Canvas& canvas, const Box& frame, const std::vector<Curve>& curv
       rows += fmt::format("{:.9g} {:.9g}\n", time[k], (*curves[i].values)[k] / drawn.size);
     }
     canvas.commands(rows + "EOD");
-    what += fmt::format("{} with lines {}, ", name, gnuplot_line(styles[i]));
+    what += fmt::format("{} with lines {}, ", name, gnuplot_line(motion_styles[i]));
   }
   canvas.commands(fmt::format("set xrange [{}:{}]\nset yrange [{}:{}]\nset ytics autofreq\n{}", time.front(),
                               std::max(time.back(), time.front() + 1e-12), axis.low / drawn.size,
@@ -98,7 +98,7 @@ void draw_frame(Canvas& canvas, const Box& frame, const std::vector<Curve>& curv
 }
 
 /// How high the wall begins in the frame, in parts of it; none where it is not in the picture.
-std::optional<double> wall_surface(const Simulation& result, const Axis& axis) {
+std::optional<double> wall_surface(const Simulation& result, const CurveRange& axis) {
   const ControllerOptions& wall = result.loop.controller;
   if (wall.kind != ControllerOptions::Kind::wall || wall.position >= axis.high) return std::nullopt;
   return std::max(0.0, (wall.position - axis.low) / (axis.high - axis.low));
@@ -119,9 +119,9 @@ std::string draw_simulation_figure(const Device& device, const Simulation& resul
   const Trajectory& kept = result.trajectory;
   const Units units = units_of(device.parameters().motion);
   const std::vector<Curve> moved = position_curves(device, result);
-  const std::optional<double> surface = wall_surface(result, axis_of(moved));
+  const std::optional<double> surface = wall_surface(result, range_of(moved));
   std::vector<LegendEntry> legend;
-  for (std::size_t i = 0; i < moved.size(); ++i) legend.push_back({moved[i].name, styles[i]});
+  for (std::size_t i = 0; i < moved.size(); ++i) legend.push_back({moved[i].name, motion_styles[i]});
   if (surface) legend.push_back({"inside the wall", {wall_colour}, wall_colour});
   const std::string title = "Simulated motion of " + display_name(device);
   const Heading heading(title, legend);

@@ -6,16 +6,14 @@
 #include <cmath>
 #include <vector>
 
+#include "report/figure/plot.hpp"
 #include "report/text/quantity.hpp"
 
 namespace zwidth::report {
 namespace {
 
-constexpr double canvas_width = 900.0;
 constexpr Box bar_sides{40.0, 860.0, 0.0, 0.0};
 constexpr double bar_height = 40.0;
-constexpr double row_height = 20.0;
-constexpr double text_size = 12.0;
 constexpr double text_gap = 5.0;
 constexpr std::string_view stable_colour = "#bfe3c5";
 constexpr std::string_view unstable_colour = "#f6d5d0";

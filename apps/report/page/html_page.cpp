@@ -59,7 +59,7 @@ std::string html_table(const TextTable& table) {
     const std::string_view cell = i == 0 ? "th" : "td";
     text += i == 0 ? "<thead><tr>" : "<tr>";
     for (std::size_t j = 0; j < table.rows[i].size(); ++j) {
-      const std::string_view alignment = table.alignment.at(j) == TextTable::Align::right ? " class=\"n\"" : "";
+      const std::string_view alignment = table.alignment.at(j) == Align::right ? " class=\"n\"" : "";
       text += fmt::format("<{0}{1}>{2}</{0}>", cell, alignment, escape_markup(table.rows[i][j]));
     }
     text += i == 0 ? "</tr></thead>\n<tbody>\n" : "</tr>\n";

@@ -19,10 +19,9 @@
 namespace zwidth::report {
 namespace {
 
-using Align = TextTable::Align;
 constexpr std::size_t any_width = 1000;
 
-std::string paragraph(const std::optional<std::string>& text) { return text ? element("p", *text) : ""; }
+std::string html_paragraph(const std::optional<std::string>& text) { return text ? element("p", *text) : ""; }
 
 std::string list(const std::vector<std::string>& texts) {
   if (texts.empty()) return "";
@@ -58,7 +57,7 @@ TextTable numbered(TextTable table) {
   return table;
 }
 
-std::string crossovers(const AnalysedDevice& analysed) {
+std::string crossover_section(const AnalysedDevice& analysed) {
   std::string text = element("h2", "Crossovers");
   text += element("p", fmt::format("Every wall stiffness that puts a closed-loop pole on the unit circle, up to the "
                                    "Nyquist frequency of {}, that frequency included.",
@@ -67,7 +66,7 @@ std::string crossovers(const AnalysedDevice& analysed) {
   return text + html_table(numbered(crossover_table(analysed)));
 }
 
-std::string modes(const AnalysedDevice& analysed) {
+std::string mode_section(const AnalysedDevice& analysed) {
   const TextTable table = mode_table(analysed);
   return table.rows.size() < 2 ? "" : element("h2", "Vibration modes") + html_table(table);
 }
@@ -155,8 +154,8 @@ std::string wall(const AnalysedDevice& analysed) {
 }
 
 std::string why(const AnalysedDevice& analysed) {
-  return element("h2", "What it means") + element("p", meaning(analysed)) + paragraph(rigid_model_note(analysed)) +
-         paragraph(q_criterion_note(analysed));
+  return element("h2", "What it means") + element("p", meaning(analysed)) + html_paragraph(rigid_model_note(analysed)) +
+         html_paragraph(q_criterion_note(analysed));
 }
 
 std::string users(const AnalysedDevice& analysed) {
@@ -172,7 +171,7 @@ std::string users(const AnalysedDevice& analysed) {
 
 std::string device_section(const AnalysedDevice& analysed, std::size_t index) {
   return answer(analysed) + why(analysed) + users(analysed) + wall(analysed) + figures(analysed, index) +
-         crossovers(analysed) + modes(analysed) + element("h2", "What these numbers leave out") +
+         crossover_section(analysed) + mode_section(analysed) + element("h2", "What these numbers leave out") +
          list(caveats(analysed)) + parameters(analysed);
 }
 

@@ -12,8 +12,6 @@
 namespace zwidth::report {
 namespace {
 
-using Align = TextTable::Align;
-
 /// What the closed-loop poles do at the unit circle as K rises through a crossover.
 std::string effect_of(int poles_leaving) {
   if (poles_leaving == 0) return "touches";

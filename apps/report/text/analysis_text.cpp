@@ -18,14 +18,7 @@
 namespace zwidth::report {
 namespace {
 
-constexpr std::size_t width = 100;
-
-std::string paragraph(const std::optional<std::string>& text) { return text ? wrap(*text, width, 0) + "\n" : ""; }
-
-/// Wrapped text that starts on the line of its label, all of it `indent` in.
-std::string labelled(std::string_view label, std::string_view text, std::size_t indent = 22) {
-  return wrap(text, width, indent).replace(0, label.size(), label);
-}
+std::string paragraph(const std::optional<std::string>& text) { return text ? wrap(*text, line_width, 0) + "\n" : ""; }
 
 /// The device with only its crossovers of least stiffness, `most` of them.
 AnalysedDevice with_softest_crossovers(AnalysedDevice analysed, std::size_t most) {
@@ -60,7 +53,7 @@ std::string answer_lines(const AnalysedDevice& analysed) {
   const CriticalStiffness& critical = analysed.analysis.critical;
   const auto trust = trust_note(analysed.analysis.trust);
   std::string text =
-      shortened(display_name(analysed.device), width - 8) + "\n" + (trust ? labelled("  trust", *trust) : "") +
+      shortened(display_name(analysed.device), line_width - 8) + "\n" + (trust ? labelled("  trust", *trust) : "") +
       labelled("  critical stiffness", critical_stiffness_text(critical, analysed.device.parameters().motion));
   if (const auto limit = any_user_note(analysed)) text += labelled("  any passive user", *limit);
   if (critical.limit) {
@@ -105,9 +98,10 @@ std::string wall_section(const AnalysedDevice& analysed) {
   const auto filters = wall_filters_text(analysed.device.parameters().wall);
   const std::string encoder = encoder_section(analysed);
   if (!verdict && !filters) return encoder.empty() ? "" : encoder + "\n";
-  return (filters ? wrap(fmt::format("Filters in the wall, closed in every number here: {}.", *filters), width, 0)
+  return (filters ? wrap(fmt::format("Filters in the wall, closed in every number here: {}.", *filters), line_width, 0)
                   : "") +
-         (verdict ? wrap(*verdict, width, 0) + bullets(wall_margin_notes(analysed.analysis)) : "") + encoder + "\n";
+         (verdict ? wrap(*verdict, line_width, 0) + bullets(wall_margin_notes(analysed.analysis)) : "") + encoder +
+         "\n";
 }
 
 std::string full_answer(const AnalysedDevice& analysed) {
@@ -116,11 +110,11 @@ std::string full_answer(const AnalysedDevice& analysed) {
          "What these numbers leave out\n" + bullets(caveats(analysed));
 }
 
-/// The comparison with device names as long as the width allows.
+/// The comparison with device names as long as a line allows.
 std::string fitted_comparison(std::span<const AnalysedDevice> devices) {
   static constexpr std::size_t shortest_name = 6;
   const std::size_t beside_names = width_of(layout(comparison_table(devices, shortest_name))) - shortest_name;
-  return layout(comparison_table(devices, std::max(shortest_name, width - std::min(width, beside_names))));
+  return layout(comparison_table(devices, std::max(shortest_name, line_width - std::min(line_width, beside_names))));
 }
 
 std::string short_answer(const AnalysedDevice& analysed) {

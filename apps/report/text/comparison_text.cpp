@@ -13,10 +13,6 @@
 namespace zwidth::report {
 namespace {
 
-using Align = TextTable::Align;
-
-constexpr std::size_t width = 100;
-
 std::string stiffness_cell(double stiffness, std::string_view unit) {
   if (stiffness == 0.0) return "none";
   if (std::isnan(stiffness)) return "refused";
@@ -87,8 +83,8 @@ std::string comparison_text(const DesignComparison& comparison) {
     table.rows.push_back(std::move(row));
   }
   const auto trust = trust_note(comparison.trust);
-  std::string text = shortened(display_name(device), width) + "\n" +
-                     (trust ? wrap("  trust " + *trust, width, 8) : "") +
+  std::string text = shortened(display_name(device), line_width) + "\n" +
+                     (trust ? wrap("  trust " + *trust, line_width, 8) : "") +
                      "Stiffest stable wall (frequency, what limits)\n" + layout(table) + "\n";
   std::vector<std::string> sentences = {sentence(
       "Free device", comparison, comparison.best_free, [](const ComparedDesign& each) { return each.free.stiffness; },
@@ -104,7 +100,7 @@ std::string comparison_text(const DesignComparison& comparison) {
         [](const ComparedDesign& each) { return each.held->stiffness; }, unit));
   }
   for (const std::string& each : sentences) {
-    if (!each.empty()) text += wrap(each, width, 0);
+    if (!each.empty()) text += wrap(each, line_width, 0);
   }
   if (!held && device.has_bodies()) {
     text += "For a user of your own: --operator MASS,DAMPING,STIFFNESS\n";

@@ -13,27 +13,21 @@
 namespace zwidth::report {
 namespace {
 
-using Align = TextTable::Align;
-
-constexpr std::size_t width = 100;
-constexpr double change = 10.0;      // %
-constexpr double negligible = 5e-6;  // relative slope: shown as 0.0000 %
-constexpr double nothing = 1e-14;    // of K_CR per unit: rounding
+constexpr double typical_change = 10.0;  // %
+constexpr double negligible = 5e-6;      // relative slope: shown as 0.0000 %
+constexpr double nothing = 1e-14;        // of K_CR per unit: rounding
 constexpr std::size_t key_width = 40;
 
-std::string labelled(std::string_view label, std::string_view text, std::size_t indent = 22) {
-  return wrap(text, width, indent).replace(0, label.size(), label);
-}
-
-class Writer {
+class DesignWriter {
  public:
-  Writer(const Device& device, const Design& design)
+  DesignWriter(const Device& device, const Design& design)
       : design_(design), analysed_{device, design.analysis}, device_(device), motion_(device.parameters().motion) {}
 
   [[nodiscard]] std::string text() const {
     const CriticalStiffness& critical = design_.analysis.critical;
     const auto trust = trust_note(design_.analysis.trust);
-    std::string text = shortened(display_name(device_), width) + "\n" + (trust ? labelled("  trust", *trust) : "") +
+    std::string text = shortened(display_name(device_), line_width) + "\n" +
+                       (trust ? labelled("  trust", *trust) : "") +
                        labelled("  critical stiffness", critical_stiffness_text(critical, motion_));
     if (const auto limit = what_limits(analysed_)) text += labelled("  limited by", *limit);
     if (const auto limit = any_user_note(analysed_)) text += labelled("  any passive user", *limit);
@@ -48,13 +42,13 @@ class Writer {
                "Slopes at the device as it is: a change of 10 % follows them nearly, a larger one less and less. What "
                "it "
                "really gives: zwidth design FILE --sweep KEY=FIRST:LAST:COUNT",
-               width, 0);
+               line_width, 0);
   }
 
  private:
   static std::string percent(const Sensitivity* sensitivity) {
     if (sensitivity == nullptr || !sensitivity->relative) return "-";
-    const double value = change * *sensitivity->relative;
+    const double value = typical_change * *sensitivity->relative;
     return std::abs(*sensitivity->relative) < negligible ? "0 %" : fmt::format("{:+.3g} %", value);
   }
 
@@ -75,14 +69,14 @@ class Writer {
       return std::abs(*a->relative) > std::abs(*b->relative);
     });
     TextTable table{{Align::left, Align::right, Align::right, Align::right},
-                    {{fmt::format("+{:.0f} % of", change), "now", "critical stiffness", "any passive user"}}};
+                    {{fmt::format("+{:.0f} % of", typical_change), "now", "critical stiffness", "any passive user"}}};
     for (const Sensitivity* each : rows) {
       table.rows.push_back({shortened(each->key, key_width), parameter_text(each->key, each->value, motion_),
                             percent(find_sensitivity(design_.sensitivities, each->key)),
                             percent(find_sensitivity(design_.any_user_sensitivities, each->key))});
     }
     if (design_.any_user_sensitivities.empty()) drop_last_column(table);
-    return fmt::format("What +{:.0f} % of each number gives, the strongest first\n", change) + layout(table);
+    return fmt::format("What +{:.0f} % of each number gives, the strongest first\n", typical_change) + layout(table);
   }
 
   [[nodiscard]] std::string unit_table() const {
@@ -153,6 +147,6 @@ class Writer {
 
 }  // namespace
 
-std::string design_text(const Device& device, const Design& design) { return Writer(device, design).text(); }
+std::string design_text(const Device& device, const Design& design) { return DesignWriter(device, design).text(); }
 
 }  // namespace zwidth::report

@@ -13,8 +13,7 @@
 namespace zwidth::report {
 namespace {
 
-constexpr std::size_t width = 100;
-constexpr std::size_t label_width = 16;
+constexpr std::size_t cause_indent = 16;
 
 std::string cause_text(OscillationCause cause) {
   switch (cause) {
@@ -33,7 +32,7 @@ std::string cause_text(OscillationCause cause) {
 }
 
 std::string line(std::string_view label, std::string_view content) {
-  return wrap(content, width, label_width).replace(0, 2 + label.size(), fmt::format("  {}", label));
+  return wrap(content, line_width, cause_indent).replace(0, 2 + label.size(), fmt::format("  {}", label));
 }
 
 std::string mechanism_text(const std::optional<Mechanism>& mechanism) {
@@ -48,7 +47,6 @@ std::string value_text(const DiagnosisChange& change, double value, Motion motio
 }
 
 std::string changes_text(const Device& device, const Diagnosis& diagnosis) {
-  using Align = TextTable::Align;
   const Motion motion = device.parameters().motion;
   const Units units = units_of(motion);
   const bool by_amplitude = diagnosis.cause == OscillationCause::quantisation;
@@ -76,7 +74,7 @@ std::string changes_text(const Device& device, const Diagnosis& diagnosis) {
 
 std::string diagnosis_text(const Device& device, const DiagnosisOptions& options, const Diagnosis& diagnosis) {
   const Units units = units_of(device.parameters().motion);
-  std::string text = shortened(display_name(device), width) + "\n";
+  std::string text = shortened(display_name(device), line_width) + "\n";
   if (const auto note = trust_note(diagnosis.trust)) text += line("trust", *note);
   if (diagnosis.trust.refused()) return text;
   text +=
@@ -93,12 +91,13 @@ std::string diagnosis_text(const Device& device, const DiagnosisOptions& options
   } else {
     text += line("cause", "none fits: nothing that is modelled here oscillates there with this wall");
   }
-  for (const Remark& remark : diagnosis.remarks) text += wrap(remark_line(remark), width, 4).replace(0, 4, "  - ");
+  for (const Remark& remark : diagnosis.remarks) text += wrap(remark_line(remark), line_width, 4).replace(0, 4, "  - ");
   std::string others;
   for (std::size_t i = diagnosis.cause ? 1 : 0; i < diagnosis.candidates.size(); ++i) {
     const OscillationCandidate& each = diagnosis.candidates[i];
-    others += wrap(fmt::format("{}{}: {}", each.fits ? "possible: " : "", cause_text(each.cause), each.why), width, 4)
-                  .replace(0, 4, "  - ");
+    others +=
+        wrap(fmt::format("{}{}: {}", each.fits ? "possible: " : "", cause_text(each.cause), each.why), line_width, 4)
+            .replace(0, 4, "  - ");
   }
   if (!others.empty()) text += (diagnosis.cause ? "\nWhat else was looked at\n" : "\nWhat was looked at\n") + others;
   if (!diagnosis.changes.empty()) text += changes_text(device, diagnosis);

@@ -10,13 +10,6 @@
 namespace zwidth::report {
 namespace {
 
-constexpr std::size_t width = 100;
-constexpr std::size_t indent = 22;
-
-std::string labelled(std::string_view label, std::string_view text) {
-  return wrap(text, width, indent).replace(0, label.size(), label);
-}
-
 std::string between(const Interval& interval, const std::string& unit) {
   return fmt::format("95 % between {} and {}", quantity(interval.lower, unit), quantity(interval.upper, unit));
 }
@@ -54,7 +47,6 @@ std::string answer(const MeasuredResponse& frf, const std::string& unit) {
 std::string crossovers(const MeasuredResponse& frf, const std::string& unit) {
   if (!frf.stiffness || frf.stiffness->crossovers.empty()) return "";
   const MeasuredStiffness& stiffness = *frf.stiffness;
-  using Align = TextTable::Align;
   TextTable table{{Align::right, Align::right, Align::right, Align::right, Align::left},
                   {{"Hz", "95 %", fmt::format("K ({})", unit), "95 %", "as K rises"}}};
   for (const MeasuredCrossover& crossover : stiffness.crossovers) {
@@ -78,7 +70,7 @@ std::string remarks_text(std::span<const Remark> remarks) {
   for (const Remark::Severity severity : {Remark::Severity::warning, Remark::Severity::note}) {
     for (const Remark& remark : remarks) {
       if (remark.severity != severity) continue;
-      lines += wrap(remark_line(remark), width, bullet)
+      lines += wrap(remark_line(remark), line_width, bullet)
                    .replace(0, bullet, severity == Remark::Severity::warning ? "  ! " : "  - ");
     }
   }
@@ -92,7 +84,7 @@ std::string frf_text(const MeasuredResponse& frf, const results::FrfUnits& units
   if (response.sampling_period) measured += fmt::format(", T = {}", quantity(*response.sampling_period, "s"));
   const std::string basis =
       frf.trust.refused() ? "" : labelled("  basis", "the bare stiffness, without a virtual damper");
-  return shortened(frf.source, width) + "\n" + answer(frf, units.stiffness()) + basis + trust_lines(frf.trust) +
+  return shortened(frf.source, line_width) + "\n" + answer(frf, units.stiffness()) + basis + trust_lines(frf.trust) +
          labelled("  measured", measured) + "\n" + crossovers(frf, units.stiffness()) + "Remarks\n" +
          remarks_text(frf.remarks);
 }

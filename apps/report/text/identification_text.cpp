@@ -14,8 +14,6 @@
 namespace zwidth::report {
 namespace {
 
-constexpr std::size_t width = 100;
-
 std::string fit_quality(const ParameterFit& fit) {
   std::string text = fmt::format("{} points from {:.4g} to {:.4g} Hz", fit.frequencies.size(),
                                  hertz(fit.frequencies.front()), hertz(fit.frequencies.back()));
@@ -31,7 +29,7 @@ std::string correlations(const std::vector<StrongCorrelation>& strong) {
   for (const StrongCorrelation& each : strong) {
     text += wrap(
         fmt::format("{} and {} are hardly told apart: correlation {:.3f}", each.first, each.second, each.correlation),
-        width, 2);
+        line_width, 2);
   }
   return text.empty() ? "" : "\n" + text;
 }
@@ -54,7 +52,6 @@ std::string remarks(const std::vector<Remark>& all) { return all.empty() ? "" : 
 
 /// Value, unit, standard deviation and 95 % interval of each parameter.
 TextTable estimate_table(std::span<const ParameterEstimate> estimates, Motion motion) {
-  using Align = TextTable::Align;
   TextTable table{{Align::left, Align::right, Align::left, Align::right, Align::right, Align::right},
                   {{"parameter", "value", "unit", "+-1 sigma", "95 % from", "to"}}};
   for (const ParameterEstimate& each : estimates) {
@@ -75,9 +72,9 @@ std::string limit_text(const Device& device, const Analysis& analysis, const Sti
   const Motion motion = device.parameters().motion;
   std::string text = wrap(fmt::format("Critical stiffness of this device, {}: {}.", basis_text(basis, motion),
                                       critical_stiffness_text(analysis.critical, motion)),
-                          width, 0);
-  if (const auto interval = interval_note(analysed)) text += wrap("95 % interval: " + *interval + ".", width, 0);
-  if (const auto limit = what_limits(analysed)) text += wrap("Limited by " + *limit + ".", width, 0);
+                          line_width, 0);
+  if (const auto interval = interval_note(analysed)) text += wrap("95 % interval: " + *interval + ".", line_width, 0);
+  if (const auto limit = what_limits(analysed)) text += wrap("Limited by " + *limit + ".", line_width, 0);
   return text;
 }
 
@@ -87,7 +84,7 @@ std::string identification_text(const Identification& identified) {
   const ParameterFit& fit = identified.fit;
   std::string text = fmt::format("{}, identified from {}\n", display_name(fit.device), identified.source);
   text += layout(estimate_table(fit.estimates, fit.device.parameters().motion)) + correlations(fit.correlations) +
-          "\n" + wrap(fit_quality(fit), width, 0) + "\n";
+          "\n" + wrap(fit_quality(fit), line_width, 0) + "\n";
   text += trust_lines(identified.trust);
   if (identified.trust.refused()) return text + remarks(identified.remarks);
   return text + limit_text(fit.device, identified.analysis, identified.basis) + remarks(identified.remarks);
@@ -103,7 +100,7 @@ std::string identification_text(const TimeDomainIdentification& identified) {
     text +=
         wrap(fmt::format("{}: {:.3g} {} of noise per sample; {:.3g} % of the linear response unexplained beyond it.",
                          each.source, each.noise, motion == Motion::rotary ? "rad" : "m", 100.0 * each.unexplained),
-             width, 0);
+             line_width, 0);
   }
   text += "\n" + trust_lines(identified.trust);
   if (identified.trust.refused()) return text + remarks(identified.remarks);
@@ -119,7 +116,7 @@ std::string identification_text(const RigidBodyIdentification& identified) {
                            "residual force is {:.3g} % of the force (both rms). Intervals allow for residuals that are "
                            "correlated in time.",
                            fit.cutoff_hz, fit.decimation, fit.equations, 100.0 * fit.relative_residual),
-               width, 0);
+               line_width, 0);
   return text + remarks(identified.remarks);
 }
 

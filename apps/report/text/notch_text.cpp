@@ -14,23 +14,22 @@
 namespace zwidth::report {
 namespace {
 
-constexpr std::size_t width = 100;
 constexpr std::size_t drifts_shown = 9;
 
-class Writer {
+class NotchWriter {
  public:
-  Writer(const Device& device, const NotchOptions& options, const NotchDesign& notch)
+  NotchWriter(const Device& device, const NotchOptions& options, const NotchDesign& notch)
       : device_(device), options_(options), design_(notch), units_(units_of(device.parameters().motion)) {}
 
   [[nodiscard]] std::string text() const {
-    std::string text = shortened(display_name(device_), width) + "\n";
-    if (const auto trust = trust_note(design_.trust)) text += wrap(*trust, width, 22).replace(0, 7, "  trust");
+    std::string text = shortened(display_name(device_), line_width) + "\n";
+    if (const auto trust = trust_note(design_.trust)) text += wrap(*trust, line_width, 22).replace(0, 7, "  trust");
     if (design_.trust.refused()) return text;
-    for (const Remark& remark : design_.remarks) text += wrap(remark_line(remark), width, 4).replace(0, 4, "  ! ");
+    for (const Remark& remark : design_.remarks) text += wrap(remark_line(remark), line_width, 4).replace(0, 4, "  ! ");
     if (!std::isfinite(design_.without)) {
-      return text + wrap("Every wall is stable without a notch: there is nothing to gain.", width, 0);
+      return text + wrap("Every wall is stable without a notch: there is nothing to gain.", line_width, 0);
     }
-    if (!design_.notch) return text + wrap(no_notch(), width, 0);
+    if (!design_.notch) return text + wrap(no_notch(), line_width, 0);
     const WallFilter& notch = *design_.notch;
     text += fmt::format("  notch               {:.4g} Hz, damping ratio {:.3g}, depth {:.3g} ({:.3g} dB)\n",
                         notch.frequency_hz, notch.damping_ratio, notch.depth, decibels(notch.depth));
@@ -47,7 +46,7 @@ class Writer {
                                    "damped. Found by search: a local optimum, verified over the whole drift.",
                                    quantity(design_.low_frequency_delay, "s"), quantity(design_.with, units_.stiffness),
                                    number(design_.with * design_.low_frequency_delay), units_.damping),
-                       width, 0);
+                       line_width, 0);
   }
 
  private:
@@ -86,7 +85,6 @@ class Writer {
   }
 
   [[nodiscard]] std::string over_drift() const {
-    using Align = TextTable::Align;
     TextTable table{{Align::right, Align::right, Align::right}, {{"modes", "without", "with the notch"}}};
     const std::size_t step = (design_.over_drift.size() - 1) / (drifts_shown - 1);
     for (std::size_t i = 0; i < design_.over_drift.size(); i += step) {
@@ -116,7 +114,6 @@ class Writer {
   }
 
   [[nodiscard]] std::string costs() const {
-    using Align = TextTable::Align;
     const std::vector<std::string> names{
         "critical stiffness", "limited by", "at", "any passive user",
         fmt::format("margins of a wall of {}", quantity(design_.with, units_.stiffness))};
@@ -136,7 +133,7 @@ class Writer {
 }  // namespace
 
 std::string notch_text(const Device& device, const NotchOptions& options, const NotchDesign& notch) {
-  return Writer(device, options, notch).text();
+  return NotchWriter(device, options, notch).text();
 }
 
 }  // namespace zwidth::report

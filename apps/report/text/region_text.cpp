@@ -13,39 +13,39 @@
 namespace zwidth::report {
 namespace {
 
-constexpr std::size_t width = 100;
-constexpr std::size_t label_width = 22;
+constexpr std::size_t region_indent = 22;
 
-class Writer {
+class RegionWriter {
  public:
-  Writer(const Device& device, const WallRegion& walls)
+  RegionWriter(const Device& device, const WallRegion& walls)
       : device_(device), walls_(walls), units_(units_of(device.parameters().motion)) {
     named_.modes = walls.modes;
     named_.suspended_rigid_body = walls.suspended_rigid_body;
   }
 
   [[nodiscard]] std::string text() const {
-    std::string text = shortened(display_name(device_), width) + "\n";
-    if (const auto note = trust_note(walls_.trust)) text += wrap(*note, width, 0);
+    std::string text = shortened(display_name(device_), line_width) + "\n";
+    if (const auto note = trust_note(walls_.trust)) text += wrap(*note, line_width, 0);
     if (walls_.trust.refused()) return text;
     const StableRegion& region = walls_.region;
     if (!region.bounded) {
-      return text + wrap("Every wall is stable: the force does not move what the wall senses.", width, 0) + "\n";
+      return text + wrap("Every wall is stable: the force does not move what the wall senses.", line_width, 0) + "\n";
     }
-    if (!region.stiffest) return text + wrap("No wall is stable, with or without a virtual damper.", width, 0) + "\n";
+    if (!region.stiffest)
+      return text + wrap("No wall is stable, with or without a virtual damper.", line_width, 0) + "\n";
     text += answer_lines() + "\n" + meaning() + "\n";
     if (walls_.any_user) text += any_user_paragraph() + "\n";
     if (!walls_.approximations.empty()) text += approximations() + "\n";
-    for (const Remark& remark : walls_.remarks) text += wrap(remark_line(remark), width, 0) + "\n";
+    for (const Remark& remark : walls_.remarks) text += wrap(remark_line(remark), line_width, 0) + "\n";
     return text + wrap(
                       "Linear and sampled: friction, encoder steps and the force limit are left out. The area is one "
                       "number for the Z-width: of all stable walls in the plane of K and B.",
-                      width, 0);
+                      line_width, 0);
   }
 
  private:
   [[nodiscard]] std::string line(std::string_view label, std::string_view content) const {
-    std::string lines = wrap(content, width, label_width);
+    std::string lines = wrap(content, line_width, region_indent);
     return lines.replace(0, 2 + label.size(), fmt::format("  {}", label));
   }
 
@@ -99,12 +99,12 @@ class Writer {
       text += fmt::format(" The stable walls come in {} separate parts (see --json or a figure).",
                           region.components.size());
     }
-    return wrap(text, width, 0);
+    return wrap(text, line_width, 0);
   }
 
   [[nodiscard]] std::string any_user_paragraph() const {
     const AnyUserRegion& region = *walls_.any_user;
-    if (!region.stiffest) return wrap("Some passive user destabilises any wall.", width, 0);
+    if (!region.stiffest) return wrap("Some passive user destabilises any wall.", line_width, 0);
     const auto& first = region.ranges.front().front();
     const std::string undamped =
         first.damping == 0.0 ? fmt::format("; {} without a damper", stiffness(first.stiffness)) : std::string();
@@ -112,11 +112,10 @@ class Writer {
                             "Its area is {:.3g} % of the one above.",
                             stiffness(region.stiffest->stiffness), damping(region.stiffest->damping), undamped,
                             damping(region.most_damped->damping), 100.0 * region.area / walls_.region.area),
-                width, 0);
+                line_width, 0);
   }
 
   [[nodiscard]] std::string approximations() const {
-    using Align = TextTable::Align;
     TextTable table{{Align::left, Align::left, Align::right, Align::right, Align::left, Align::left}, {}};
     table.rows.push_back(
         {"formula", "", fmt::format("K ({})", units_.stiffness), "exact", "off at B = 0", "over all B"});
@@ -138,7 +137,7 @@ class Writer {
           fmt::format(
               "{}: {}. For a {}{}.", facts.source, facts.equation, facts.valid_for,
               formula.not_met.empty() ? "" : fmt::format("; this device has {}", fmt::join(formula.not_met, ", "))),
-          width, 2);
+          line_width, 2);
     }
     return "Formulas of the literature beside it, K at B = 0 (b: damping of all bodies)\n" + layout(table) + notes;
   }
@@ -153,6 +152,6 @@ class Writer {
 
 }  // namespace
 
-std::string region_text(const Device& device, const WallRegion& walls) { return Writer(device, walls).text(); }
+std::string region_text(const Device& device, const WallRegion& walls) { return RegionWriter(device, walls).text(); }
 
 }  // namespace zwidth::report

@@ -15,22 +15,20 @@
 namespace zwidth::report {
 namespace {
 
-using Align = TextTable::Align;
-constexpr std::size_t width = 100;
 constexpr std::size_t bullet = 4;
 
-std::string bulleted(std::string_view text) { return wrap(text, width, bullet).replace(0, bullet, "  - "); }
+std::string bulleted(std::string_view text) { return wrap(text, line_width, bullet).replace(0, bullet, "  - "); }
 
 std::string heading(const RelayResult& result) {
   const Units units = units_of(result.motion);
   const std::string relay = fmt::format("relay of {}", quantity(result.relay.amplitude, units.force));
   std::string text;
   if (result.source == RelayResult::Source::recording) {
-    text = fmt::format("Recorded relay experiment: {}\n  {}, {} Hz sampling\n", shortened(result.recording, width - 28),
-                       relay, number(1.0 / result.sampling_period));
+    text = fmt::format("Recorded relay experiment: {}\n  {}, {} Hz sampling\n",
+                       shortened(result.recording, line_width - 28), relay, number(1.0 / result.sampling_period));
   } else {
     text = fmt::format("Simulated relay experiment: {}\n  {}{}, delay {}\n",
-                       shortened(display_name(*result.device), width - 28), relay,
+                       shortened(display_name(*result.device), line_width - 28), relay,
                        result.relay.hysteresis > 0.0
                            ? fmt::format(", hysteresis {}", quantity(result.relay.hysteresis, units.length))
                            : "",
@@ -72,7 +70,7 @@ std::string spectra_note(const RelayResult& result) {
     return wrap(fmt::format("Frequencies are lines of the spectra, {} Hz apart; \"by cycles\" counts the position's "
                             "cycles instead.",
                             number(hertz(trial.result->line_spacing))),
-                width, 2);
+                line_width, 2);
   }
   return "";
 }
@@ -133,7 +131,7 @@ std::string prediction_table(const RelayResult& result) {
          wrap(
              "First harmonics are an approximation. The exact oscillations have neither friction nor encoder nor force "
              "limit; stable or not, all are listed. The continuous relay acts t_d + T/2 late.",
-             width, 2);
+             line_width, 2);
 }
 
 /// A remark of some trials.

@@ -18,11 +18,10 @@
 namespace zwidth::report {
 namespace {
 
-constexpr std::size_t width = 100;
 constexpr std::size_t indent = 22;
 
 std::string line(std::string_view label, std::string_view text) {
-  return wrap(text, width, indent).replace(0, label.size() + 2, fmt::format("  {}", label));
+  return wrap(text, line_width, indent).replace(0, label.size() + 2, fmt::format("  {}", label));
 }
 
 std::string wall_text(const Device& device, const Simulation& result) {
@@ -193,7 +192,7 @@ std::string simulation_text(const Device& device, const Simulation& result) {
   const Units units = units_of(device.parameters().motion);
   const double period = device.loop().sampling_period;
   const bool has_wall = result.generated_energy.has_value();
-  std::string text = shortened(display_name(device), width) + "\n";
+  std::string text = shortened(display_name(device), line_width) + "\n";
   text +=
       line("simulated", fmt::format("{}, {} samples at {}", quantity(static_cast<double>(result.samples) * period, "s"),
                                     result.samples, quantity(1.0 / period, "Hz")));
@@ -201,7 +200,7 @@ std::string simulation_text(const Device& device, const Simulation& result) {
   text += line("start", start_text(device, result));
   if (result.loop.user_force.kind != UserForce::Kind::none) text += line("user's force", user_text(device, result));
   if (const std::string faults = faults_text(result.loop.faults); !faults.empty()) text += line("faults", faults);
-  text += "\n" + wrap(verdict_sentence(device, result) + ".", width, 0) + "\n";
+  text += "\n" + wrap(verdict_sentence(device, result) + ".", line_width, 0) + "\n";
   if (result.settling_time) {
     text += line("settled after",
                  fmt::format("{} (to 2 % of its largest excursion)", quantity(*result.settling_time, "s")));

@@ -13,9 +13,6 @@
 namespace zwidth::report {
 namespace {
 
-using Align = TextTable::Align;
-
-constexpr std::size_t width = 100;
 constexpr std::size_t most_rows = 25;
 
 std::string status_text(const SweepPoint& point, std::string_view unit) {
@@ -42,13 +39,13 @@ std::string mechanism_text(const Crossover& crossover) {
                                                                   : fmt::format("mode {}", crossover.limited_by.mode);
 }
 
-class Writer {
+class SweepWriter {
  public:
-  Writer(const Device& device, const ParameterSweep& sweep)
+  SweepWriter(const Device& device, const ParameterSweep& sweep)
       : device_(device), sweep_(sweep), motion_(device.parameters().motion), unit_(units_of(motion_).stiffness) {}
 
   [[nodiscard]] std::string text() const {
-    const std::string title = shortened(display_name(device_), width) + "\n";
+    const std::string title = shortened(display_name(device_), line_width) + "\n";
     return title + (sweep_.axes.size() == 1 ? rows() : extremes());
   }
 
@@ -104,9 +101,9 @@ class Writer {
     std::string text = fmt::format("  {} x {} points\n", sweep_.values[0].size(), sweep_.values[1].size());
     if (most) {
       text += wrap(fmt::format("largest K_CR {} at {}", quantity(sweep_.points[*most].stiffness, unit_), place(*most)),
-                   width, 2);
+                   line_width, 2);
       text += wrap(fmt::format("least K_CR {} at {}", quantity(sweep_.points[*least].stiffness, unit_), place(*least)),
-                   width, 2);
+                   line_width, 2);
     }
     if (none > 0) text += fmt::format("  no wall is stable from K = 0 at {} points\n", none);
     if (unbounded > 0) text += fmt::format("  every wall is stable at {} points\n", unbounded);
@@ -121,6 +118,6 @@ class Writer {
 
 }  // namespace
 
-std::string sweep_text(const Device& device, const ParameterSweep& sweep) { return Writer(device, sweep).text(); }
+std::string sweep_text(const Device& device, const ParameterSweep& sweep) { return SweepWriter(device, sweep).text(); }
 
 }  // namespace zwidth::report

@@ -41,7 +41,7 @@ std::string layout(const TextTable& with_all_letters) {
     std::string line;
     for (std::size_t i = 0; i < row.size(); ++i) {
       const std::string padding(widths[i] - length(row[i]), ' ');
-      line += table.alignment[i] == TextTable::Align::left ? "  " + row[i] + padding : "  " + padding + row[i];
+      line += table.alignment[i] == Align::left ? "  " + row[i] + padding : "  " + padding + row[i];
     }
     line.erase(line.find_last_not_of(' ') + 1);
     text += line + "\n";
@@ -62,6 +62,10 @@ std::size_t width_of(std::string_view lines) {
 std::string wrap(std::string_view text, std::size_t width, std::size_t indent) {
   const std::size_t of_medium = text_medium().line_length;
   return broken(for_medium(text), of_medium > 0 ? of_medium : width, indent);
+}
+
+std::string labelled(std::string_view label, std::string_view text, std::size_t indent) {
+  return wrap(text, line_width, indent).replace(0, label.size(), label);
 }
 
 std::string broken(std::string_view text, std::size_t width, std::size_t indent) {

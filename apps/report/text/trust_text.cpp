@@ -18,12 +18,11 @@ std::optional<std::string> trust_note(const Trust& trust) {
 }
 
 std::string trust_lines(const Trust& trust) {
-  constexpr std::size_t width = 100;
   constexpr std::size_t bullet = 4;
   if (trust.sound()) return "";
   std::string text = trust.refused() ? "REFUSED: no critical stiffness is given, because\n"
                                      : "DOUBTFUL: data and model do not carry the critical stiffness, because\n";
-  for (const std::string& reason : trust.reasons) text += wrap(reason, width, bullet).replace(0, bullet, "  ! ");
+  for (const std::string& reason : trust.reasons) text += wrap(reason, line_width, bullet).replace(0, bullet, "  ! ");
   return text;
 }
 

@@ -13,8 +13,7 @@
 namespace zwidth::report {
 namespace {
 
-constexpr std::size_t width = 100;
-constexpr std::size_t label_width = 22;
+constexpr std::size_t recommendation_indent = 22;
 
 std::string bound_text(WallBound bound) {
   switch (bound) {
@@ -61,13 +60,13 @@ std::string goal_text(WallGoal goal) {
   return goal == WallGoal::stiffness ? "greatest K" : "greatest K whose contact does not swing";
 }
 
-class Writer {
+class RecommendationWriter {
  public:
-  Writer(const Device& device, const RecommendationOptions& options, const WallRecommendation& answer)
+  RecommendationWriter(const Device& device, const RecommendationOptions& options, const WallRecommendation& answer)
       : device_(device), options_(options), answer_(answer), units_(units_of(device.parameters().motion)) {}
 
   [[nodiscard]] std::string text() const {
-    std::string text = shortened(display_name(device_), width) + "\n";
+    std::string text = shortened(display_name(device_), line_width) + "\n";
     if (const auto note = trust_note(answer_.trust)) text += line("trust", *note);
     if (answer_.trust.refused()) return text;
     text += line("asked for", asked());
@@ -76,7 +75,7 @@ class Writer {
     } else {
       text += wall_lines(*answer_.wall);
     }
-    for (const Remark& remark : answer_.remarks) text += wrap(remark_line(remark), width, 4).replace(0, 4, "  - ");
+    for (const Remark& remark : answer_.remarks) text += wrap(remark_line(remark), line_width, 4).replace(0, 4, "  - ");
     if (!answer_.wall) return text;
     if (!answer_.alternatives.empty()) text += "\n" + trade_off();
     text += "\nFor the device file\n" + for_the_file(answer_.wall->wall);
@@ -84,12 +83,12 @@ class Writer {
            wrap(
                "\nA local optimum, found by search; every wall here is computed exactly, and its poles are counted "
                "by a second computation, alone and with users. Friction and the force limit are left out.",
-               width, 0);
+               line_width, 0);
   }
 
  private:
   [[nodiscard]] static std::string line(std::string_view label, std::string_view content) {
-    return wrap(content, width, label_width).replace(0, 2 + label.size(), fmt::format("  {}", label));
+    return wrap(content, line_width, recommendation_indent).replace(0, 2 + label.size(), fmt::format("  {}", label));
   }
   [[nodiscard]] std::string stiffness(double value) const { return quantity(value, units_.stiffness); }
   [[nodiscard]] std::string damping(double value) const { return fmt::format("{} {}", number(value), units_.damping); }
@@ -158,7 +157,6 @@ class Writer {
   }
 
   [[nodiscard]] std::string trade_off() const {
-    using Align = TextTable::Align;
     TextTable table{{Align::left, Align::right, Align::right, Align::right, Align::right, Align::right, Align::right,
                      Align::right, Align::left},
                     {{"", "K", "B", "filter", "notch", "gain", "phase", "per count", "K bounded by"}}};
@@ -189,7 +187,7 @@ class Writer {
 
 std::string wall_recommendation_text(const Device& device, const RecommendationOptions& options,
                                      const WallRecommendation& recommendation) {
-  return Writer(device, options, recommendation).text();
+  return RecommendationWriter(device, options, recommendation).text();
 }
 
 }  // namespace zwidth::report
