@@ -79,8 +79,8 @@ Eigen::MatrixXd scores_covariance(const Eigen::MatrixXcd& slopes, const Eigen::V
   // Cut off at some lag, the sum need not be positive; correlation may only widen.
   const auto [lower, inverse] = cholesky(independent);
   const SymmetricEigen eigen = symmetric_eigen(inverse * covariance * inverse.transpose());
-  const Eigen::MatrixXd root = lower * eigen.vectors * eigen.values.cwiseMax(1.0).cwiseSqrt().asDiagonal();
-  return root * root.transpose();
+  return lower * eigen.vectors * eigen.values.cwiseMax(1.0).asDiagonal() * eigen.vectors.transpose() *
+         lower.transpose();
 }
 
 }  // namespace
@@ -152,8 +152,7 @@ Eigen::MatrixXd covariance(const ResponseWithSlopes& at_solution, const FitData&
   const Eigen::MatrixXd scores =
       scores_covariance(level.asDiagonal() * slopes, residuals.cwiseQuotient(level.cast<std::complex<double>>()));
   const Eigen::MatrixXd inverse = inverse_of_positive(normal);
-  const Eigen::MatrixXd scaled = scale.asDiagonal() * inverse;
-  const Eigen::MatrixXd result = scaled * scores * scaled.transpose();
+  const Eigen::MatrixXd result = scale.asDiagonal() * inverse * scores * inverse * scale.asDiagonal();
   full(kept, kept) = 0.5 * (result + result.transpose());
   return full;
 }
