@@ -6,7 +6,6 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <complex>
 #include <cstdlib>
@@ -24,6 +23,7 @@ namespace zwidth::test {
 namespace {
 
 constexpr std::uint64_t seed = 20261124;
+constexpr std::size_t usual_cases = 12;
 constexpr int drifts = 41;
 constexpr double rounding = 1e-11;  // of |z| - 1: a heavy user's own pole is as near the circle
 constexpr std::array kinds = {"two_mass",   "three_mass",   "light_damping",    "virtual_damper", "slow_sampling",
@@ -31,10 +31,11 @@ constexpr std::array kinds = {"two_mass",   "three_mass",   "light_damping",    
                               "chain",      "actuator_lag", "filtered_damper",  "long_delay",     "wall_filter",
                               "everything", "fast_sampling"};
 
-// 15 devices cost as much as the other property tests of a kind; ZWIDTH_PROPERTY_CASES=300 is the campaign.
+// ZWIDTH_CAMPAIGN_DEVICES=300 is the campaign: some minutes.
 std::size_t cases() {
+  if (const char* campaign = std::getenv("ZWIDTH_CAMPAIGN_DEVICES")) return std::strtoul(campaign, nullptr, 10);
   const char* asked = std::getenv("ZWIDTH_PROPERTY_CASES");
-  return asked ? std::clamp<std::size_t>(std::strtoul(asked, nullptr, 10), 1, 300) : 17;
+  return asked ? std::clamp<std::size_t>(std::strtoul(asked, nullptr, 10), 1, usual_cases) : usual_cases;
 }
 
 // x+ = A x + B u, y = C x + D u
@@ -181,7 +182,6 @@ TEST(NotchDesignProperty, RandomDevicesKeepTheMarginsAtEveryDrift) {
   std::size_t designed = 0;
   std::size_t found = 0;
   std::size_t refused = 0;
-  double longest = 0.0;
   for (std::size_t i = 0; i < cases(); ++i) {
     RandomDevices random(seed + i);
     const char* kind = kinds[i % kinds.size()];
@@ -190,17 +190,7 @@ TEST(NotchDesignProperty, RandomDevicesKeepTheMarginsAtEveryDrift) {
     SCOPED_TRACE(testing::Message() << kind << ", seed " << seed + i << ", drift " << options.drift << ", gain margin "
                                     << options.gain_margin << ", phase margin " << options.phase_margin);
     if (find_problem(options, device)) continue;
-    const auto begin = std::chrono::steady_clock::now();
     const NotchDesign design = design_notch(device, options);
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    longest = std::max(longest, seconds);
-    if (std::getenv("ZWIDTH_PROPERTY_VERBOSE") != nullptr) {
-      std::printf("%zu %s bodies %zu B %g drift %g gm %g pm %g any %d: %.5g -> %.5g notch %d, %.2f s\n", i, kind,
-                  device.bodies().size(), device.parameters().wall.damping, options.drift, options.gain_margin,
-                  options.phase_margin, options.goal == StiffnessGoal::any_user_limit, design.without, design.with,
-                  design.notch.has_value(), seconds);
-      std::fflush(stdout);
-    }
     ++designed;
     found += design.notch.has_value();
     if (design.trust.refused()) {
@@ -208,10 +198,8 @@ TEST(NotchDesignProperty, RandomDevicesKeepTheMarginsAtEveryDrift) {
       continue;
     }
     EXPECT_GE(design.with, design.without);
-    for (const NotchState* state :
-         {design.state_without ? &*design.state_without : nullptr, design.state_with ? &*design.state_with : nullptr}) {
-      if (state == nullptr || design.with == 0.0 || !std::isfinite(design.with)) continue;
-      EXPECT_EQ(state->device.parameters().wall.stiffness, design.with);
+    if (design.state_with) {
+      EXPECT_EQ(design.state_with->device.parameters().wall.stiffness, design.with);
     }
     for (int k = 0; k < (options.drift > 0.0 ? drifts : 1); ++k) {
       const double drift = options.drift * (2.0 * k / (drifts - 1) - 1.0);
@@ -224,9 +212,9 @@ TEST(NotchDesignProperty, RandomDevicesKeepTheMarginsAtEveryDrift) {
       if (testing::Test::HasFailure()) break;
     }
   }
-  EXPECT_GT(found, cases() / 10);
+  EXPECT_GE(found, cases() / 10);
   EXPECT_LE(refused, cases() / 20);
-  std::printf("%zu devices, %zu notches, %zu refused, longest %.2f s\n", designed, found, refused, longest);
+  std::printf("%zu devices, %zu notches, %zu refused\n", designed, found, refused);
 }
 
 }  // namespace
