@@ -123,8 +123,7 @@ FrequencyResponse line_response(std::span<const double> force, std::span<const d
                                 const std::vector<double>& angles, const FrequencyResponseOptions& options,
                                 const Progress& progress) {
   const std::size_t length = block_length(force.size(), angles, sampling_period);
-  const Blocks blocks =
-      fitted_blocks(force, output, BlockFit(length, angles, options.detrend), length, progress);
+  const Blocks blocks = fitted_blocks(force, output, BlockFit(length, angles, options.detrend), length, progress);
   const std::size_t skipped = transient_repetitions(blocks.distances());
   const std::size_t count = blocks.force.size() - skipped;
   FrequencyResponse response;

@@ -92,8 +92,8 @@ double surprise(const Share& a, const Share& b) {
 
 /// Compares, line by line, the record with the least and with the greatest force.
 std::optional<AmplitudeDependence> compare(const std::vector<Line>& lines, double correlation) {
-  constexpr double significant = 5.0;   // standard deviations of the sum of surprises
-  constexpr double a_line_says = 4.6;   // 1 %
+  constexpr double significant = 5.0;  // standard deviations of the sum of surprises
+  constexpr double a_line_says = 4.6;  // 1 %
   constexpr double notable = 0.005;
   double sum = 0.0;
   double count = 0.0;

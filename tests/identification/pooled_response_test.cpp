@@ -18,9 +18,9 @@
 namespace zwidth {
 namespace {
 
-using ::testing::HasSubstr;
 using test::Noise;
 using test::SyntheticRecord;
+using ::testing::HasSubstr;
 
 constexpr double period = 1e-3;
 constexpr double turn = 2.0 * std::numbers::pi;
@@ -80,9 +80,9 @@ TEST(PooledResponse, IntervalsOfTwoMultisinesHoldTheTruth) {
 TEST(PooledResponse, TwoRecordingsKnowMoreThanEither) {
   const Device device(test::locked_lhifam_parameters());
   const auto record = [&](std::uint64_t seed, double duration) {
-    return recording("noise" + std::to_string(seed) + ".csv",
-                     test::synthetic_record(device, test::broadband_noise(5.0, 400.0, duration, seed),
-                                            Noise{1e-6, 0.0, 0.0}, seed));
+    return recording(
+        "noise" + std::to_string(seed) + ".csv",
+        test::synthetic_record(device, test::broadband_noise(5.0, 400.0, duration, seed), Noise{1e-6, 0.0, 0.0}, seed));
   };
   Coverage coverage;
   double ratio = 0.0;  // of variances, summed over the lines of all seeds
