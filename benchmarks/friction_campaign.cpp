@@ -65,6 +65,9 @@ int main(int argc, char** argv) {
                   made.limiting_hz, value, 100.0 * (value / made.stiffness - 1.0), lower, upper, seconds(),
                   made.what.c_str());
       for (const std::string& reason : found.trust.reasons) std::printf("      %s\n", reason.c_str());
+      for (const FittedMotion& each : found.motions) {
+        std::printf("      unexplained %.4f, feedback %.2f\n", each.unexplained, each.feedback);
+      }
       if (!found.trust.refused()) {
         ++count.answered;
         count.held += holds;

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "identification/feedback_test.hpp"
 #include "identification/fit_judgement.hpp"
 #include "identification/shot_covariance.hpp"
 #include "identification/shot_fit.hpp"
@@ -249,13 +250,16 @@ void describe_parameters(TimeDomainIdentification& result, const ShotModel& mode
 void describe_motions(TimeDomainIdentification& result, std::span<const Recording> recordings, const ShotModel& model,
                       const std::vector<Shot>& shots, const Fitted& fitted, const Eigen::MatrixXd& covariance) {
   const auto residuals = shot_residuals(model, shots, fitted.fit.x, fitted.fit.states);
+  const std::vector<double> feedback = residuals ? feedback_evidence(model, shots, fitted.noise, *residuals)
+                                                 : std::vector<double>(recordings.size(), 0.0);
   for (std::size_t r = 0; r < recordings.size(); ++r) {
     const auto bias = static_cast<Eigen::Index>(model.coordinates().size() + r);
     FittedMotion motion{.source = recordings[r].source,
                         .sampling_period = recordings[r].sampling_period,
                         .constant_force = fitted.fit.x(bias) * model.force_unit(r),
                         .constant_force_deviation = std::sqrt(covariance(bias, bias)) * model.force_unit(r),
-                        .noise = fitted.noise[r].deviation};
+                        .noise = fitted.noise[r].deviation,
+                        .feedback = feedback[r]};
     motion.residuals.assign(recordings[r].channels[0].samples.size(), 0.0);
     for (std::size_t i = 0; residuals && i < shots.size(); ++i) {
       if (shots[i].record != r) continue;

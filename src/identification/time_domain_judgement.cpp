@@ -79,6 +79,7 @@ class Judge {
   void judge() {
     refuse_what_is_none();
     judge_misfit();
+    judge_feedback();
     judge_search();
     const std::vector<std::string> open = open_numbers();
     if (!open.empty()) {
@@ -129,6 +130,17 @@ class Judge {
                         "the friction is not Coulomb's, or there is backlash",
                         motion.source, std::sqrt(ratio)));
       }
+    }
+  }
+
+  void judge_feedback() {
+    constexpr double clear = 5.0;
+    for (const FittedMotion& each : fit_.motions) {
+      if (each.feedback <= clear) continue;
+      trust_.doubt(
+          fmt::format("the force of {} answers to the noise of its position: recorded in feedback, where disturbances "
+                      "bias a fit by as much as they are of the force; record with a force made beforehand",
+                      each.source));
     }
   }
 

@@ -98,6 +98,50 @@ TEST(TimeDomainProperty, RefusesATurnedPosition) {
   EXPECT_EQ(trust_of(found.device).verdict, Trust::Verdict::refused);
 }
 
+/// A rigid body under noise and, where asked, a controller that sees the encoder; a disturbance acts beside the force.
+Recording under_control(double position_gain, double velocity_gain) {
+  constexpr double mass = 0.4;
+  constexpr double damping = 1.3;
+  constexpr double period = 1e-3;
+  ExcitationOptions excitation;
+  excitation.kind = ExcitationKind::noise;
+  excitation.amplitude = 5.0;
+  excitation.lowest_hz = 0.5;
+  excitation.highest_hz = 150.0;
+  excitation.duration = 6.0;
+  excitation.seed = 11;
+  std::mt19937_64 random(12);
+  std::normal_distribution<double> normal;
+  const double keeps = std::exp(-damping * period / mass);
+  double x = 0.0;
+  double v = 0.0;
+  double last = 0.0;
+  std::vector<double> force;
+  std::vector<double> position;
+  for (const double wanted : excite(excitation).samples) {
+    position.push_back(1e-6 * std::round((x + 1e-6 * normal(random)) / 1e-6));
+    const double speed = (position.back() - last) / period;
+    last = position.back();
+    force.push_back(wanted - position_gain * position.back() - velocity_gain * speed);
+    const double real = force.back() + 0.05 * normal(random);
+    const double steady = real / damping;
+    x += steady * period + (v - steady) * mass / damping * (1.0 - keeps);
+    v = steady + (v - steady) * keeps;
+  }
+  return {"controlled", period, {{"force", force}, {"position", position}}, {}};
+}
+
+TEST(TimeDomainProperty, ARecordInFeedbackIsDoubtful) {
+  const Recording free = under_control(0.0, 0.0);
+  const TimeDomainIdentification open = identify_in_time({&free, 1}, structure_of(rubbing_body()), placeholders());
+  EXPECT_LT(open.motions[0].feedback, 5.0);
+  EXPECT_TRUE(open.trust.sound()) << open.trust.reasons.front();
+  const Recording held = under_control(200.0, 4.0);
+  const TimeDomainIdentification closed = identify_in_time({&held, 1}, structure_of(rubbing_body()), placeholders());
+  EXPECT_GT(closed.motions[0].feedback, 5.0);
+  EXPECT_EQ(closed.trust.verdict, Trust::Verdict::doubtful);
+}
+
 TEST(TimeDomain, FileKeepsFrictionAndUncertainty) {
   const DeviceParameters truth = rubbing_body();
   const Recording recording = record_of(truth, 5.0, 7, 2.0);

@@ -40,6 +40,7 @@ struct FittedMotion {
   double constant_force_deviation = 0.0;  ///< one standard deviation
   double noise = 0.0;                     ///< m or rad, root mean square: what one sample has that those before do not
   double unexplained = 0.0;         ///< share of the linear response that the fitted device leaves, e of identify()
+  double feedback = 0.0;            ///< how clearly the force answers to the noise; above 5 a controller made it
   std::vector<double> residuals{};  ///< recorded - fitted, by sample; 0 before the first segment
 };
 
@@ -71,7 +72,7 @@ struct TimeDomainIdentification {
 /// rounding. Several recordings of one device, best at two amplitudes: friction is what does not grow with the force.
 ///
 /// Trust as identify()'s; doubtful also where the residuals are larger at reversals than elsewhere (the friction is not
-/// Coulomb's). Requires recordings of two channels (force, position) of at least 512 samples, a structure of bodies, and
+/// Coulomb's), and where the force answers to the noise of the position (a record in feedback). Requires recordings of two channels (force, position) of at least 512 samples, a structure of bodies, and
 /// what fit_parameters() does of names and keys. Throws Error (invalid_argument) otherwise and where
 /// find_problem(options) finds one, (did_not_converge) where no start can be played. Source: Ljung, System
 /// Identification, ch. 7; Bock 1983 (multiple shooting).
