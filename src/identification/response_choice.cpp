@@ -34,12 +34,16 @@ MeasuredResponse response_with_enough_lines(std::span<const Recording> recording
   longer.excitation = FrequencyResponseOptions::Excitation::aperiodic;
   std::size_t samples = std::numeric_limits<std::size_t>::max();  // of the shortest
   for (const Recording& each : recordings) samples = std::min(samples, each.channels[0].samples.size());
+  double spacing = measured.response.points.back().frequency;  // rad/s, of neighbouring lines
+  for (std::size_t i = 1; i < measured.response.points.size(); ++i) {
+    spacing = std::min(spacing, measured.response.points[i].frequency - measured.response.points[i - 1].frequency);
+  }
+  auto length =
+      static_cast<std::size_t>(std::lround(2.0 * std::numbers::pi / (spacing * *measured.response.sampling_period)));
   while (measured.response.points.size() < lines_each * free && 2.0 * least_averages <= measured.response.averages) {
-    const std::vector<ResponsePoint>& points = measured.response.points;
-    const double spacing = points[1].frequency - points[0].frequency;
-    const double length = 2.0 * std::numbers::pi / (spacing * *measured.response.sampling_period);
-    longer.segment_length = 2 * static_cast<std::size_t>(std::lround(length));
-    if (*longer.segment_length > samples / least_segments) break;
+    length *= 2;
+    if (length > samples / least_segments) break;
+    longer.segment_length = length;
     measured = frequency_response(recordings, longer, {});
   }
   return measured;
