@@ -40,5 +40,65 @@ TEST(IdentificationProperty, WhatIsCalledSoundIsSafe) {
   EXPECT_LE(unsafe, 2);
 }
 
+Identification identified(const test::RandomRecording& made) {
+  IdentifyOptions options;
+  options.structure_values = IdentifyOptions::StructureValues::placeholders;
+  return identify(made.recording, Device(made.structure), options);
+}
+
+// Seeds of benchmarks/identification_campaign that were answered wrongly.
+
+// Friction whose effect the linear device explains as next to nothing, since it hardly moves while stuck: called sound,
+// and 1 to 30 % too high.
+TEST(IdentificationProperty, FrictionThatShowsIsNeverSound) {
+  for (const std::uint64_t seed : {500003U, 500221U, 500324U}) {
+    const auto made = test::random_recording(seed);
+    ASSERT_TRUE(made && made->has_friction);
+    const Identification found = identified(*made);
+    EXPECT_FALSE(found.trust.sound()) << "seed " << seed;
+    EXPECT_TRUE(found.friction) << "seed " << seed;
+  }
+}
+
+// Residuals of 3.6 times the noise: 25 % too high, called sound.
+TEST(IdentificationProperty, ResidualsBeyondTheNoiseAreNeverSound) {
+  const auto made = test::random_recording(500431);
+  ASSERT_TRUE(made && made->has_friction);
+  EXPECT_FALSE(identified(*made).trust.sound());
+}
+
+// What drifts from period to period leaks into all lines of a periodic response alike: 17 and 16 % were unexplained.
+TEST(IdentificationProperty, DriftUnderAPeriodicForceIsKeptOut) {
+  for (const std::uint64_t seed : {500349U, 500276U}) {
+    const auto made = test::random_recording(seed);
+    ASSERT_TRUE(made && made->right_structure);
+    const Identification found = identified(*made);
+    EXPECT_TRUE(found.trust.sound()) << "seed " << seed << ": " << found.trust.reasons.front();
+    ASSERT_TRUE(found.analysis.interval);
+    EXPECT_LE(found.analysis.interval->lower, made->stiffness) << "seed " << seed;
+    EXPECT_GE(found.analysis.interval->upper, made->stiffness) << "seed " << seed;
+  }
+}
+
+// Covariances that were none by rounding, and too few lines for the parameters: an error, no answer.
+TEST(IdentificationProperty, ARecordWithAnAnswerHasOne) {
+  for (const std::uint64_t seed : {500337U, 500010U}) {
+    const auto made = test::random_recording(seed);
+    ASSERT_TRUE(made);
+    EXPECT_NO_THROW(static_cast<void>(identified(*made))) << "seed " << seed;
+  }
+}
+
+// Draws of a link that the data hardly show contradict them: [139.83, 2308] where the response itself shows 139.6.
+TEST(IdentificationProperty, AnIntervalIsNoWiderThanTheResponseShows) {
+  const auto made = test::random_recording(500183);
+  ASSERT_TRUE(made);
+  const Identification found = identified(*made);
+  EXPECT_TRUE(found.trust.sound());
+  ASSERT_TRUE(found.analysis.interval);
+  EXPECT_LE(found.analysis.interval->upper, 1.1 * made->stiffness);
+  EXPECT_LE(found.analysis.interval->lower, 1.01 * made->stiffness);
+}
+
 }  // namespace
 }  // namespace zwidth
