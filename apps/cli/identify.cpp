@@ -119,6 +119,15 @@ std::string device_hint(const IdentifyArguments& arguments) {
                                          : "\nThe device is in " + arguments.output_device + "\n";
 }
 
+/// Writes the files that were asked for.
+template <typename Identified>
+void put(Outputs& outputs, const Identified& identified, const std::string& device) {
+  outputs.put("--output-device", [&] { return device; });
+  outputs.draw("--figure",
+               [&](report::FigureFormat format) { return report::draw_identification(identified, format); });
+  outputs.commit();
+}
+
 /// What a method found, as a document, as the device file alone, or in words.
 template <typename Identified, typename Document>
 void print(const IdentifyArguments& arguments, const Identified& identified, const std::string& device,
@@ -138,8 +147,7 @@ void run_inverse_dynamics(const IdentifyArguments& arguments, Outputs& outputs) 
   const RigidBodyIdentification identified =
       fitted_rigid_body(arguments.response.recording, arguments.structure, arguments.inverse_dynamics);
   const std::string device = write_device(identified.device.parameters());
-  outputs.put("--output-device", [&] { return device; });
-  outputs.commit();
+  put(outputs, identified, device);
   print(arguments, identified, device, [&] { return results::identification_json(identified); });
 }
 
@@ -148,8 +156,7 @@ void run_in_time(const IdentifyArguments& arguments, Outputs& outputs) {
   const TimeDomainIdentification identified =
       fitted_in_time(arguments.response.recording, arguments.structure, arguments.in_time);
   const std::string device = device_text(identified.device, identified.remarks);
-  outputs.put("--output-device", [&] { return device; });
-  outputs.commit();
+  put(outputs, identified, device);
   print(arguments, identified, device, [&] { return results::identification_json(identified); });
 }
 
@@ -164,10 +171,7 @@ void run_identify(const IdentifyArguments& arguments) {
   if (arguments.method == "time-domain") return run_in_time(arguments, outputs);
   const Identification identified = identified_device(arguments);
   const std::string device = device_text(identified.fit.device, identified.remarks);
-  outputs.put("--output-device", [&] { return device; });
-  outputs.draw("--figure",
-               [&](report::FigureFormat format) { return report::draw_identification(identified, format); });
-  outputs.commit();
+  put(outputs, identified, device);
   const auto points = arguments.points ? results::PointsInJson::included : results::PointsInJson::left_out;
   print(arguments, identified, device, [&] { return results::identification_json(identified, points); });
 }
@@ -193,7 +197,7 @@ void add_identify(CLI::App& app) {
   command->add_flag("--no-hold", arguments->no_hold, "Do not hold an imperfect fit to the measured critical stiffness");
   command->add_option("--output-device", arguments->output_device, "Write the fitted device; - is standard output")
       ->type_name("FILE.toml");
-  add_output_options(*command, arguments->output, {.figure = "Draw data, band and fit (.svg, .png, .pdf)"});
+  add_output_options(*command, arguments->output, {.figure = "Draw data, fit and residual (.svg, .png, .pdf)"});
   command->add_flag("--points", arguments->points, "Measured and fitted response in the JSON document")
       ->needs(command->get_option("--json"));
   command->footer(

@@ -41,7 +41,7 @@ void check_time_domain_options(const CLI::App& command) {
     const std::string name = option->get_name();
     const std::string group = option->get_group();
     if (group == "Estimate" || group == "Table of a response" || name == "--velocity" || name == "--acceleration" ||
-        name == "--from-structure" || name == "--no-hold" || name == "--figure" || name == "--points") {
+        name == "--from-structure" || name == "--no-hold" || name == "--points") {
       throw BadInput(fmt::format("{}: is not for --method time-domain, which fits force and position", name));
     }
   }

@@ -34,7 +34,7 @@ void check_inverse_dynamics_options(const CLI::App& command) {
     const bool of_response = group == "Estimate" || group == "Table of a response" ||
                              (group == "Structure" && name != "--motion" && name != "--sampling-period");
     if (of_response || name == "--velocity" || name == "--acceleration" || name == "--from-structure" ||
-        name == "--no-hold" || name == "--figure" || name == "--points") {
+        name == "--no-hold" || name == "--points") {
       throw BadInput(
           fmt::format("{}: is not for --method inverse-dynamics, which fits one rigid body to its position", name));
     }

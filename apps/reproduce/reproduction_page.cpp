@@ -30,12 +30,12 @@ std::string reproduction_page(const std::vector<PaperFigure>& figures) {
               "Sections IV to VI rest on a cable whose stiffness and damping appear in an image only. Wherever they "
               "are needed we use k_c = 27.55 kN/m and b_c = 10.5 N s/m (set A), inferred from the one crossover that "
               "is printed.");
-  body += element("h2", "Numbers and claims") + numbers_table();
   body += element("h2", "Figures");
   for (std::size_t i = 0; i < figures.size(); ++i) {
     const PaperFigure& figure = figures[i];
     body += html_figure(figure.svg, fmt::format("figure{}", i), figure.caption);
   }
+  body += element("h2", "Numbers and claims") + numbers_table();
   body += element("h2", "Not reproduced");
   body += element("p", "Figures 1, 2, 5, 6 and 13: a photograph and diagrams.");
   body += fmt::format("<footer>Written by zwidth {}.</footer>\n", ZWIDTH_VERSION);

@@ -280,6 +280,9 @@ RigidBodyFit identify_rigid_body(std::span<const double> force, std::span<const 
   }
   fit.covariance = covariance.topLeftCorner<4, 4>();
   fit.relative_residual = solution.residuals.norm() / solution.force.norm();
+  for (const std::size_t k : kept) fit.times.push_back(static_cast<double>(k) * sampling_period);
+  fit.forces.assign(solution.force.begin(), solution.force.end());
+  fit.residual_forces.assign(solution.residuals.begin(), solution.residuals.end());
   report(1.0);
   return fit;
 }

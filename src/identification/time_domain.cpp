@@ -260,7 +260,8 @@ void describe_motions(TimeDomainIdentification& result, std::span<const Recordin
                         .constant_force_deviation = std::sqrt(covariance(bias, bias)) * model.force_unit(r),
                         .noise = fitted.noise[r].deviation,
                         .feedback = feedback[r]};
-    motion.residuals.assign(recordings[r].channels[0].samples.size(), 0.0);
+    motion.recorded = recordings[r].channels[1].samples;
+    motion.residuals.assign(motion.recorded.size(), 0.0);
     for (std::size_t i = 0; residuals && i < shots.size(); ++i) {
       if (shots[i].record != r) continue;
       for (std::size_t k = 0; k < shots[i].count; ++k) {

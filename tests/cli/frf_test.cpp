@@ -148,7 +148,7 @@ TEST_F(Frf, TakesTheLinesThatAreGiven) {
   EXPECT_EQ(document(command + "'2 Hz,0.003 kHz'")["frequency_hz"].size(), 2U);
   EXPECT_NEAR(document(command + "'2 Hz:4 Hz:3'")["frequency_hz"][1], 3.0, 1e-12);
   expect_refusal(command + "2:3", "--lines: \"2:3\"; a frequency, or FIRST:LAST:COUNT");
-  expect_refusal(command + "'2 kg'", "--lines: \"kg\" is no unit of frequency");
+  expect_refusal(command + "'2 kg'", "--lines: \"kg\" is no unit of a frequency");
   expect_refusal(command + "0", "--lines: is 0; a frequency in Hz above 0");
   expect_refusal(command + "600", "sine.csv: line at 600 Hz; below half the sampling rate, 500 Hz");
   expect_refusal(command + "2 --period 500", "leave --period and --segment out");

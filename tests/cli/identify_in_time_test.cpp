@@ -9,6 +9,7 @@
 namespace zwidth::cli {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 const std::string example =
@@ -46,6 +47,13 @@ TEST_F(IdentifyInTime, TakesSeveralRecordingsAndTellsItInWords) {
   ASSERT_EQ(outcome.status, 0) << outcome.errors;
   EXPECT_THAT(outcome.output, HasSubstr("identified in time from recordings/free_motion.csv and 1 more"));
   EXPECT_THAT(outcome.output, HasSubstr("dry friction of 1.2 N (body.body.coulomb)"));
+}
+
+TEST_F(IdentifyInTime, DrawsMotionModelAndResidual) {
+  ASSERT_EQ(run(example + "--structure rigid --figure motion.svg").status, 0);
+  const std::string figure = contents("motion.svg");
+  EXPECT_THAT(figure, AllOf(HasSubstr("free_motion.csv: zoom on"), HasSubstr("Position (mm)"),
+                            HasSubstr("fitted device with its dry friction"), HasSubstr("of the whole record")));
 }
 
 TEST_F(IdentifyInTime, SaysWhatIsNotForIt) {

@@ -67,9 +67,15 @@ TEST_F(IdentifyRigidBody, TellsItInWords) {
   EXPECT_THAT(piped.output, HasSubstr("critical stiffness"));
 }
 
+TEST_F(IdentifyRigidBody, DrawsForceModelAndResidual) {
+  ASSERT_EQ(run(std::string(example) + "--figure force.svg").status, 0);
+  const std::string figure = contents("force.svg");
+  EXPECT_THAT(figure, AllOf(HasSubstr("free_motion.csv: zoom on"), HasSubstr("Residual (mN)"), HasSubstr("Force (N)"),
+                            HasSubstr("low-pass of")));
+}
+
 TEST_F(IdentifyRigidBody, Refusals) {
   const std::string rigid = example;
-  expect_refusal(rigid + "--figure a.svg", "--figure: is not for --method inverse-dynamics");
   expect_refusal(rigid + "--window hann", "--window: is not for");
   expect_refusal(rigid + "--free link.stiffness", "--free: is not for");
   expect_refusal(rigid + "--cutoff-hz 300", "cutoff is 300 Hz");

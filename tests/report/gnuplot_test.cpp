@@ -104,6 +104,8 @@ TEST(Gnuplot, SymbolsHaveSubscriptsAndNamesStandAsTheyAre) {
   EXPECT_EQ(gnuplot_text("K_CR (kN/m)"), "'K_{CR} (kN/m)' enhanced");
   EXPECT_EQ(gnuplot_text("K_CR of it's a_b {c}^@&~\\"), "'K_{CR} of it''s a\\_b \\{c\\}\\^\\@\\&\\~\\\\' enhanced");
   EXPECT_EQ(gnuplot_text("Z[H G e^(-t_d s)]"), "'Z[H G e^{-t_d s}]' enhanced");
+  EXPECT_EQ(gnuplot_text("G_m(s), k_c"), "'G_{m}(s), k_{c}' enhanced");
+  EXPECT_EQ(html_text("K_CR < 5 & t_d', MAX_K_CR"), "K<sub>CR</sub> &lt; 5 &amp; t<sub>d</sub>&#39;, MAX_K_CR");
   EXPECT_EQ(gnuplot_text("MAX_K_CR, t_delay"), "'MAX_K_CR, t_delay' noenhanced");
 }
 

@@ -10,6 +10,8 @@
 
 #include "report/example_analyses.hpp"
 #include "report/figure/stiffness_axis_figure.hpp"
+#include "report/page/html_page.hpp"
+#include "report/text/text_table.hpp"
 
 namespace zwidth::report {
 namespace {
@@ -59,6 +61,16 @@ TEST(HtmlReport, AnswersOnTopWithFiguresAndNumbers) {
         "Phase (degrees)", "Frequency (Hz)", "Frequency (rad/s)", "Nyquist, 3142 rad/s (500 Hz)"}) {
     EXPECT_THAT(page, HasSubstr(text));
   }
+}
+
+TEST(HtmlReport, IsReadableOnDarkPaperAndOnAPhone) {
+  const std::string page = html_page("a title", html_table({{TextTable::Align::left}, {{"K_CR"}, {"1 kN/m"}}}));
+  // Figures are drawn on white: they are turned round where the paper is dark.
+  EXPECT_THAT(page, HasSubstr("@media screen and (prefers-color-scheme: dark)"));
+  EXPECT_THAT(page, HasSubstr("figure svg image { filter: invert("));
+  EXPECT_THAT(page, HasSubstr("width=device-width"));
+  EXPECT_THAT(page, HasSubstr("<div class=\"wide\"><table>"));  // scrolls within
+  EXPECT_THAT(page, HasSubstr("<th>K<sub>CR</sub></th>"));
 }
 
 TEST(HtmlReport, JudgesTheWall) {

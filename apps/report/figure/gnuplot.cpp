@@ -3,11 +3,9 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 
-#include <algorithm>
 #include <boost/process/child.hpp>
 #include <boost/process/cmd.hpp>
 #include <boost/process/io.hpp>
-#include <cctype>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -17,6 +15,7 @@
 #include <utility>
 
 #include "report/output_file.hpp"
+#include "report/text/markup.hpp"
 
 namespace zwidth::report {
 namespace {
@@ -134,26 +133,23 @@ std::string gnuplot_string(std::string_view text) {
 }
 
 std::string gnuplot_text(std::string_view text) {
-  constexpr std::pair<std::string_view, std::string_view> symbols[] = {
-      {"K_CR", "K_{CR}"}, {"e^(-t_d s)", "e^{-t_d s}"}, {"t_d", "t_{d}"}};
-  const auto is_of_word = [](char c) { return c == '_' || std::isalnum(static_cast<unsigned char>(c)) != 0; };
+  constexpr std::string_view delay = "e^(-t_d s)";
   std::string enhanced;
   bool has_symbol = false;
   for (std::size_t at = 0; at < text.size();) {
-    const std::string_view rest = text.substr(at);
-    const auto* const symbol = std::ranges::find_if(symbols, [&](const auto& each) {
-      const std::size_t end = at + each.first.size();
-      return rest.starts_with(each.first) && (at == 0 || !is_of_word(text[at - 1])) &&
-             (end >= text.size() || !is_of_word(text[end]));
-    });
-    if (symbol != std::end(symbols)) {
-      enhanced += symbol->second;
-      at += symbol->first.size();
-      has_symbol = true;
-      continue;
+    std::size_t length = 1;
+    if (text.substr(at).starts_with(delay)) {
+      enhanced += "e^{-t_d s}";
+      length = delay.size();
+    } else if (const Symbol* symbol = symbol_at(text, at)) {
+      enhanced += fmt::format("{}_{{{}}}", symbol->base, symbol->subscript);
+      length = symbol->text.size();
+    } else {
+      if (std::string_view("_^{}@&~\\").find(text[at]) != std::string_view::npos) enhanced += '\\';
+      enhanced += text[at];
     }
-    if (std::string_view("_^{}@&~\\").find(text[at]) != std::string_view::npos) enhanced += '\\';
-    enhanced += text[at++];
+    has_symbol = has_symbol || length > 1;
+    at += length;
   }
   return has_symbol ? gnuplot_string(enhanced) + " enhanced" : gnuplot_string(text) + " noenhanced";
 }

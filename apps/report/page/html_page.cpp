@@ -17,6 +17,7 @@ body { font: 16px/1.5 system-ui, -apple-system, "Segoe UI", Roboto, Helvetica, A
 h1 { font-size: 1.7rem; line-height: 1.25; margin: 0 0 1rem; }
 h2 { font-size: 1.25rem; margin: 2rem 0 .5rem; }
 h3 { font-size: 1.05rem; margin: 1.5rem 0 .5rem; }
+sub { line-height: 0; }
 p, ul { margin: .5rem 0; }
 .answer { border: 1px solid var(--line); border-left: 6px solid var(--mark); border-radius: 4px; padding: .8rem 1.2rem;
   margin: 1rem 0; }
@@ -30,8 +31,11 @@ th { border-bottom: 2px solid var(--rule); font-weight: 600; }
 th.n { white-space: normal; }
 .reasons td:last-child { min-width: 17rem; }
 figure { margin: 1.2rem 0; overflow-x: auto; }
-/* Figures are drawn on white, and their letters must stay legible on a phone: they scroll sideways there. */
+/* Letters of figures must stay legible on a phone: they scroll sideways there. On dark paper light and dark change
+   places and colours keep their hue; maps, which are pictures within the figure, stay as they are. */
 figure svg { width: 100%; min-width: 620px; height: auto; display: block; background: #fff; border-radius: 4px; }
+@media screen and (prefers-color-scheme: dark) {
+  figure svg, figure svg image { filter: invert(.91) hue-rotate(180deg); } }
 figcaption { font-size: .9rem; color: var(--quiet); margin-top: .3rem; }
 .device { border-top: 1px solid var(--line); margin-top: 2.5rem; padding-top: 1rem; }
 footer { margin-top: 2.5rem; padding-top: .6rem; border-top: 1px solid var(--line); font-size: .85rem; color: var(--quiet); }
@@ -60,7 +64,7 @@ std::string html_table(const TextTable& table) {
     text += i == 0 ? "<thead><tr>" : "<tr>";
     for (std::size_t j = 0; j < table.rows[i].size(); ++j) {
       const std::string_view alignment = table.alignment.at(j) == Align::right ? " class=\"n\"" : "";
-      text += fmt::format("<{0}{1}>{2}</{0}>", cell, alignment, escape_markup(table.rows[i][j]));
+      text += fmt::format("<{0}{1}>{2}</{0}>", cell, alignment, html_text(table.rows[i][j]));
     }
     text += i == 0 ? "</tr></thead>\n<tbody>\n" : "</tr>\n";
   }
@@ -68,7 +72,7 @@ std::string html_table(const TextTable& table) {
 }
 
 std::string element(std::string_view tag, std::string_view text) {
-  return fmt::format("<{0}>{1}</{0}>\n", tag, escape_markup(text));
+  return fmt::format("<{0}>{1}</{0}>\n", tag, html_text(text));
 }
 
 std::string html_figure(std::string_view svg, std::string_view name, std::string_view caption) {

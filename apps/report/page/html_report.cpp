@@ -73,12 +73,18 @@ std::string mode_section(const AnalysedDevice& analysed) {
 
 std::string figures(const AnalysedDevice& analysed, std::size_t index) {
   const std::string bode = draw(device_bode_figure({&analysed, 1}), FigureFormat::svg);
+  const std::string device = fmt::format("{}, sampled every {}", display_name(analysed.device),
+                                         quantity(analysed.device.loop().sampling_period, "s"));
   return html_figure(draw_stiffness_axis(analysed, FigureFormat::svg), fmt::format("axis{}", index),
-                     "Wall stiffness, logarithmic. Numbers are those of the table of crossovers.") +
+                     device +
+                         ": stiffness K of the virtual wall, logarithmic; stable where green. Numbers are those of "
+                         "the table of crossovers.") +
          html_figure(
              bode, fmt::format("bode{}", index),
-             "Response from the commanded force to the position. Where the phase is an odd multiple of 180° the "
-             "loop oscillates when 1/K equals the magnitude: the numbered points, as in the table of crossovers.");
+             device +
+                 ": response from the commanded force to the sensed position. Where the phase is an odd multiple "
+                 "of 180° the loop oscillates when 1/K equals the magnitude: the numbered points, as in the table "
+                 "of crossovers.");
 }
 
 std::string comparison(std::span<const AnalysedDevice> devices) {

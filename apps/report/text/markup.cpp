@@ -1,6 +1,8 @@
 #include "report/text/markup.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <utility>
 
 namespace zwidth::report {
@@ -31,6 +33,38 @@ std::string escape_markup(std::string_view text) {
     }
   }
   return escaped;
+}
+
+const Symbol* symbol_at(std::string_view text, std::size_t at) {
+  static constexpr std::array<Symbol, 8> symbols = {{{"K_CR", "K", "CR"},
+                                                     {"t_d", "t", "d"},
+                                                     {"G_d", "G", "d"},
+                                                     {"G_c", "G", "c"},
+                                                     {"G_m", "G", "m"},
+                                                     {"k_c", "k", "c"},
+                                                     {"b_c", "b", "c"},
+                                                     {"f_c", "f", "c"}}};
+  const auto is_of_word = [](char c) { return c == '_' || std::isalnum(static_cast<unsigned char>(c)) != 0; };
+  if (at > 0 && is_of_word(text[at - 1])) return nullptr;
+  const auto* const found = std::ranges::find_if(symbols, [&](const Symbol& each) {
+    const std::size_t end = at + each.text.size();
+    return text.substr(at).starts_with(each.text) && (end >= text.size() || !is_of_word(text[end]));
+  });
+  return found == symbols.end() ? nullptr : found;
+}
+
+std::string html_text(std::string_view text) {
+  std::string marked;
+  std::size_t plain = 0;
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    const Symbol* symbol = symbol_at(text, at);
+    if (!symbol) continue;
+    marked += escape_markup(text.substr(plain, at - plain));
+    ((marked += symbol->base) += "<sub>") += symbol->subscript;
+    marked += "</sub>";
+    plain = at + symbol->text.size();
+  }
+  return marked + escape_markup(text.substr(plain));
 }
 
 std::string inline_svg(std::string_view svg, std::string_view name) {

@@ -29,7 +29,10 @@ struct RigidBodyFit {
   double cutoff_hz = 0.0;
   std::optional<double> first_mode_hz;  ///< where the response of the record turns back: the body is not rigid there
   std::size_t decimation = 1;
-  std::size_t equations = 0;  ///< samples left after filtering, decimation and removal of rests
+  std::size_t equations = 0;              ///< samples left after filtering, decimation and removal of rests
+  std::vector<double> times{};            ///< s, of the equations
+  std::vector<double> forces{};           ///< N or N m, measured and filtered, by equation
+  std::vector<double> residual_forces{};  ///< what the fit leaves of them
   std::vector<Remark> remarks;
 };
 

@@ -42,6 +42,7 @@ struct FittedMotion {
   double unexplained = 0.0;         ///< share of the linear response that the fitted device leaves, e of identify()
   double feedback = 0.0;            ///< how clearly the force answers to the noise; above 5 a controller made it
   std::vector<double> residuals{};  ///< recorded - fitted, by sample; 0 before the first segment
+  std::vector<double> recorded{};   ///< position, m or rad, by sample
 };
 
 /// A device with dry friction identified from records, and the critical stiffness of its linear part.

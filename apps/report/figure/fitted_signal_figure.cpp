@@ -1,0 +1,161 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "report/figure/identification_figure.hpp"
+#include "report/figure/plot.hpp"
+#include "report/text/explanation.hpp"
+#include "report/text/quantity.hpp"
+
+namespace zwidth::report {
+namespace {
+
+constexpr LineStyle measured_style{blue, 3.0, "1"};
+constexpr LineStyle fitted_style{orange, 1.4, "1"};
+constexpr LineStyle residual_style{blue, 0.8, "1"};
+constexpr std::size_t most_signals = 4;
+/// Points drawn of a residual: lowest and highest of each of so many stretches of time.
+constexpr std::size_t stretches = 1200;
+
+/// A measured signal, and what a fit leaves of it.
+struct Signal {
+  std::string name;
+  std::string quantity;  ///< "Position", "Force"
+  std::string_view unit;
+  std::vector<double> times;
+  std::span<const double> measured;
+  std::span<const double> residuals;
+};
+
+double largest(std::span<const double> values) {
+  double found = 0.0;
+  for (const double value : values) found = std::max(found, std::abs(value));
+  return found;
+}
+
+/// The last tenth: past the transient, and short enough to tell the curves apart.
+std::size_t zoom_begin(const Signal& signal) {
+  const std::size_t size = signal.times.size();
+  return size - std::min(size, std::clamp<std::size_t>(size / 10, 100, 1000));
+}
+
+/// A gap is where samples are left out: the curve breaks.
+std::string rows(const Signal& signal, std::size_t from, const AxisUnit& unit) {
+  const double step = (signal.times.back() - signal.times.front()) / static_cast<double>(signal.times.size() - 1);
+  std::string text;
+  for (std::size_t i = from; i < signal.times.size(); ++i) {
+    if (i > from && signal.times[i] - signal.times[i - 1] > 3.0 * step) text += "\n";
+    text += fmt::format("{:.9g} {:.7g} {:.7g}\n", signal.times[i], signal.measured[i] / unit.size,
+                        (signal.measured[i] - signal.residuals[i]) / unit.size);
+  }
+  return text;
+}
+
+std::string residual_rows(const Signal& signal, const AxisUnit& unit) {
+  const std::size_t length = std::max<std::size_t>(1, signal.times.size() / stretches);
+  std::string text;
+  for (std::size_t from = 0; from < signal.times.size(); from += length) {
+    const auto part = signal.residuals.subspan(from, std::min(length, signal.times.size() - from));
+    const auto [low, high] = std::ranges::minmax(part);
+    text += fmt::format("{:.9g} {:.5g}\n", signal.times[from], low / unit.size);
+    if (high != low) text += fmt::format("{:.9g} {:.5g}\n", signal.times[from], high / unit.size);
+  }
+  return text;
+}
+
+double root_mean_square(std::span<const double> values) {
+  double sum = 0.0;
+  for (const double value : values) sum += value * value;
+  return std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+/// About four ticks, at 1, 2 or 5 of a decade, each way from 0.
+std::string few_ticks(double largest) {
+  const double decade = std::pow(10.0, std::floor(std::log10(0.5 * largest)));
+  const double step = 0.5 * largest / decade;
+  return fmt::format("set yrange [{0}:{1}]\nset ytics {2}", -1.1 * largest, 1.1 * largest,
+                     (step < 1.5 ? 1.0 : step < 3.5 ? 2.0 : 5.0) * decade);
+}
+
+void draw_signal(Canvas& canvas, const Signal& signal, double top) {
+  const Box zoom{frame_left, frame_right, top + 24.0, top + 204.0};
+  const Box rest{frame_left, frame_right, zoom.bottom + 74.0, zoom.bottom + 184.0};
+  const std::size_t from = zoom_begin(signal);
+  const AxisUnit shown = axis_unit(largest(signal.measured.subspan(from)));
+  const AxisUnit small = axis_unit(largest(signal.residuals));
+  canvas.text(frame_left, top + 10.0,
+              fmt::format("{}: zoom on {:.4g} to {:.4g} s", signal.name, signal.times[from], signal.times.back()));
+  data_block(canvas, "signal", rows(signal, from, shown));
+  data_block(canvas, "residual", residual_rows(signal, small));
+  x_label(canvas, zoom, "Time (s)");
+  canvas.commands(fmt::format("{}\nset xrange [{}:{}]\nset autoscale y\nset ytics autofreq\nset format x '%g'\n{}", axes_look(),
+                              signal.times[from], signal.times.back(),
+                              y_label(fmt::format("{} ({}{})", signal.quantity, shown.prefix, signal.unit))));
+  canvas.plot(zoom, fmt::format("$signal using 1:2 with lines {}, $signal using 1:3 with lines {}",
+                                gnuplot_line(measured_style), gnuplot_line(fitted_style)));
+  canvas.text(frame_left, rest.top - 14.0,
+              fmt::format("residual (measured less fitted) of the whole record: {} rms",
+                          quantity(root_mean_square(signal.residuals), std::string(signal.unit))));
+  x_label(canvas, rest, "Time (s)");
+  if (const double extent = largest(signal.residuals); extent > 0.0) canvas.commands(few_ticks(extent / small.size));
+  canvas.commands(fmt::format("set xrange [{}:{}]\n{}", signal.times.front(), signal.times.back(),
+                              y_label(fmt::format("Residual ({}{})", small.prefix, signal.unit))));
+  canvas.plot(rest, fmt::format("$residual with lines {}", gnuplot_line(residual_style)));
+}
+
+std::string draw(const std::string& title, const std::string& fitted, const std::string& subtitle,
+                 std::span<const Signal> signals, FigureFormat format) {
+  constexpr double height = 470.0;
+  const Heading heading(title, {{"measured", measured_style}, {fitted, fitted_style}}, subtitle);
+  const std::span<const Signal> shown = signals.first(std::min(signals.size(), most_signals));
+  Canvas canvas(title, canvas_width, heading.bottom() + height * static_cast<double>(shown.size()));
+  heading.draw(canvas);
+  double top = heading.bottom() + 6.0;
+  for (const Signal& signal : shown) {
+    draw_signal(canvas, signal, top);
+    top += height;
+  }
+  return canvas.draw(format);
+}
+
+std::string file_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }
+
+}  // namespace
+
+std::string draw_identification(const TimeDomainIdentification& identified, FigureFormat format) {
+  const Motion motion = identified.device.parameters().motion;
+  std::vector<Signal> signals;
+  for (const FittedMotion& each : identified.motions) {
+    const auto begin = std::ranges::find_if(each.residuals, [](double residual) { return residual != 0.0; });
+    const auto skipped = static_cast<std::size_t>(begin - each.residuals.begin()) % each.residuals.size();
+    Signal signal{file_name(each.source), "Position", motion == Motion::rotary ? "rad" : "m", {},
+                  std::span(each.recorded).subspan(skipped), std::span(each.residuals).subspan(skipped)};
+    for (std::size_t k = skipped; k < each.recorded.size(); ++k) {
+      signal.times.push_back(static_cast<double>(k) * each.sampling_period);
+    }
+    signals.push_back(std::move(signal));
+  }
+  return draw(display_name(identified.device) + ", identified in time", "fitted device with its dry friction",
+              signals.size() > most_signals ? fmt::format("The first {} of {} recordings.", most_signals, signals.size())
+                                            : "",
+              signals, format);
+}
+
+std::string draw_identification(const RigidBodyIdentification& identified, FigureFormat format) {
+  const RigidBodyFit& fit = identified.fit;
+  const Motion motion = identified.device.parameters().motion;
+  const Signal signal{file_name(identified.source), "Force", motion == Motion::rotary ? "N m" : "N", fit.times,
+                      fit.forces, fit.residual_forces};
+  return draw(fmt::format("{}, identified by inverse dynamics", display_name(identified.device)),
+              "mass, friction and offset of the fitted body",
+              fmt::format("Force behind a low-pass of {:.3g} Hz, as fitted; rests of the body are left out.",
+                          fit.cutoff_hz),
+              {&signal, 1}, format);
+}
+
+}  // namespace zwidth::report
