@@ -16,6 +16,9 @@ using Jet = BoundaryCurve::Jet;
 // Pairs of parts looked at for two segments, and in all.
 constexpr std::size_t max_parts = 4000;
 constexpr std::size_t max_pairs = 1'000'000;
+// Places in which two segments, and all of them, touch to rounding: where they lie on one another more tell nothing.
+constexpr std::size_t max_touches = 32;
+constexpr std::size_t max_touches_in_all = 2000;
 constexpr int max_newton_steps = 60;
 constexpr double newton_tolerance = 1e-13;  // of a segment's half length, or of |K| + |B|/T
 // Steps this small, as a share of the half length, that do not halve any more move within rounding: along a segment
@@ -62,9 +65,12 @@ class CrossingSearch {
 
   void compare(const BoundarySegment& a, const BoundarySegment& b, bool adjacent) {
     parts_left_ = std::min(max_parts, pairs_left_);
+    touches_left_ = std::min(max_touches, touches_left_in_all_);
+    const std::size_t touches = touches_left_;
     const std::size_t before = parts_left_;
     divide(a, b, adjacent);
     pairs_left_ -= before - parts_left_;
+    touches_left_in_all_ -= touches - touches_left_;
   }
 
   std::vector<WallPoint> crossings;
@@ -72,7 +78,7 @@ class CrossingSearch {
 
  private:
   void divide(const BoundarySegment& a, const BoundarySegment& b, bool adjacent) {
-    if (parts_left_ == 0) {
+    if (parts_left_ == 0 || touches_left_ == 0) {
       complete = false;
       return;
     }
@@ -86,14 +92,14 @@ class CrossingSearch {
     }
     const bool a_is_point = is_point(a, period_);
     if (a_is_point && is_point(b, period_)) {
-      if (!adjacent) add(centre_of(a, b));
+      if (!adjacent) touch(a, b);
       return;
     }
     // The longer one is divided; a straight line only where the other is a point.
     const bool divide_a = !a_is_point && (is_point(b, period_) || size(a) >= size(b));
     const auto parts = halves(curve_, divide_a ? a : b);
     if (!parts) {
-      add(centre_of(a, b));
+      touch(a, b);
       return;
     }
     if (divide_a) {
@@ -115,10 +121,11 @@ class CrossingSearch {
     if (wall.damping >= 0.0 && wall.stiffness >= -finest_detail * wall.damping / period_) crossings.push_back(wall);
   }
 
-  // Of two segments that touch; a straight one is known best.
-  [[nodiscard]] static WallPoint centre_of(const BoundarySegment& a, const BoundarySegment& b) {
+  // A straight segment is known best.
+  void touch(const BoundarySegment& a, const BoundarySegment& b) {
+    --touches_left_;
     const BoundarySegment& known = b.straight ? b : a;
-    return {known.stiffness.value, known.damping.value};
+    add({known.stiffness.value, known.damping.value});
   }
 
   [[nodiscard]] double size(const BoundarySegment& s) const {
@@ -128,6 +135,10 @@ class CrossingSearch {
   // Solves a(s) = b(t) with the slopes at the centres.
   [[nodiscard]] Meeting meet(const BoundarySegment& a, const BoundarySegment& b) const {
     const double determinant = cross_product(b, a);
+    // On the way the smaller of the two may be left by far.
+    const double larger = std::max(size(a), size(b));
+    const double share_a = size(a) / larger;
+    const double share_b = size(b) / larger;
     double s = 0.0;
     double t = 0.0;
     double last_step = std::numeric_limits<double>::infinity();
@@ -140,13 +151,13 @@ class CrossingSearch {
       const double dt = (a.stiffness.slope * damping - a.damping.slope * stiffness) / determinant;
       s += ds;
       t += dt;
-      const double reached = std::max(std::abs(s), std::abs(t));
-      if (!(reached < 3.0)) return {true, false, {}};
+      if (!(std::max(share_a * std::abs(s), share_b * std::abs(t)) < 3.0)) return {true, false, {}};
       const double rounding = newton_tolerance * (std::abs(at_a.stiffness) * period_ + std::abs(at_a.damping));
       const bool meets = std::abs(stiffness) * period_ + std::abs(damping) <= rounding;
       const double this_step = std::max(std::abs(ds), std::abs(dt));
       const bool rounded = this_step <= rounding_steps && this_step > 0.5 * last_step;
       if (meets || rounded || this_step <= newton_tolerance) {
+        const double reached = std::max(std::abs(s), std::abs(t));
         return {true, reached <= 1.0 + end_tolerance, b.straight ? at_b : at_a};
       }
       last_step = this_step;
@@ -157,7 +168,9 @@ class CrossingSearch {
   const BoundaryCurve& curve_;
   double period_;
   std::size_t pairs_left_ = max_pairs;
+  std::size_t touches_left_in_all_ = max_touches_in_all;
   std::size_t parts_left_ = 0;  // of the two segments compared
+  std::size_t touches_left_ = 0;
 };
 
 // Numbers runs of segments that follow one another and all rise, or all fall, in one quantity; 0 outside such runs.

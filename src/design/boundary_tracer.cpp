@@ -37,13 +37,20 @@ class BoundaryTracer {
       to.top = !to.top;
       add_edge(traced.boundary, from, to);
       from = adjacency_.partner(to);
+      joint_ = usual_joint;
       if (adjacency_.damping(to) == 0.0) {
         add(traced.boundary, BoundaryKind::no_damping, {plain(to), plain(from)});
-      } else if (apart(place(to), place(from)) > joint) {
-        add(traced.boundary, BoundaryKind::oscillation, level_points(to, from));
+      } else if (apart(place(to), place(from)) > joint_) {
+        std::vector<BoundaryPoint> points = level_points(to, from);
+        if (!points.empty()) {
+          add(traced.boundary, BoundaryKind::oscillation, std::move(points));
+        } else {
+          joint_ = rounding_near(to);
+        }
       }
     } while (!(from == start) && steps_left_-- > 0);
     close(traced.boundary);
+    traced.gap = gap_;
     return traced;
   }
 
@@ -131,7 +138,16 @@ class BoundaryTracer {
     return points;
   }
 
-  // From one end to the other along a branch of constant B: the product of the loop's poles is 1 there.
+  // How far apart rounding of the angle moves two routes to this end.
+  [[nodiscard]] double rounding_near(const EdgeEnd& end) const {
+    const WallPoint at = place(end);
+    const WallPoint moved = structure_.rounding_at(at.damping, at.stiffness);
+    return std::max(usual_joint, joined_roundings *
+                                     std::hypot(moved.stiffness / stiffness_extent_, moved.damping / damping_extent_));
+  }
+
+  // From one end to the other along a branch of constant B: the product of the loop's poles is 1 there. Empty where
+  // there is no such branch.
   [[nodiscard]] std::vector<BoundaryPoint> level_points(const EdgeEnd& from, const EdgeEnd& to) const {
     const double level = adjacency_.damping(from);
     for (const BoundaryBranch& branch : structure_.branches) {
@@ -140,10 +156,10 @@ class BoundaryTracer {
       if (!std::all_of(nodes.begin(), nodes.end(), on_level)) continue;
       const Node first = at_stiffness(nodes.front(), nodes.back(), adjacency_.point(from).stiffness);
       const Node last = at_stiffness(nodes.front(), nodes.back(), adjacency_.point(to).stiffness);
-      if (apart(first.wall, place(from)) > joint || apart(last.wall, place(to)) > joint) continue;
+      if (apart(first.wall, place(from)) > usual_joint || apart(last.wall, place(to)) > usual_joint) continue;
       return {at_angle(first.wall, first.angle), at_angle(last.wall, last.angle)};
     }
-    throw Error(ErrorCode::did_not_converge, "the outline of the stable walls does not close");
+    return {};
   }
 
   // Where the curve between two nodes has this K, by halving.
@@ -158,7 +174,7 @@ class BoundaryTracer {
     return b;
   }
 
-  void add_edge(ClosedBoundary& boundary, const EdgeEnd& from, const EdgeEnd& to) const {
+  void add_edge(ClosedBoundary& boundary, const EdgeEnd& from, const EdgeEnd& to) {
     const BoundaryKind kind = adjacency_.edge(from).kind;
     if (kind == BoundaryKind::oscillation) {
       add(boundary, kind, curve_points(from, to));
@@ -176,16 +192,18 @@ class BoundaryTracer {
   static WallPoint wall(const BoundaryPoint& point) { return {point.stiffness, point.damping}; }
 
   // Two routes to the same vertex differ by rounding.
-  void join(BoundaryPoint& moved, const BoundaryPoint& fixed) const {
-    if (apart(wall(moved), wall(fixed)) > joint) {
+  void join(BoundaryPoint& moved, const BoundaryPoint& fixed) {
+    const double gap = apart(wall(moved), wall(fixed));
+    if (gap > joint_) {
       throw Error(ErrorCode::did_not_converge, "the outline of the stable walls does not close");
     }
+    gap_ = std::max(gap_, gap);
     moved.stiffness = fixed.stiffness;
     moved.damping = fixed.damping;
   }
 
   // Goes on with the last arc where the kind and the place are the same.
-  void add(ClosedBoundary& boundary, BoundaryKind kind, std::vector<BoundaryPoint> points) const {
+  void add(ClosedBoundary& boundary, BoundaryKind kind, std::vector<BoundaryPoint> points) {
     if (!boundary.arcs.empty()) join(points.front(), boundary.arcs.back().points.back());
     if (points.size() == 2 && apart(wall(points[0]), wall(points[1])) == 0.0) return;
     if (!boundary.arcs.empty() && continues(boundary.arcs.back(), kind, points.front())) {
@@ -198,7 +216,7 @@ class BoundaryTracer {
   }
 
   // The last arc may be the start of the first.
-  void close(ClosedBoundary& boundary) const {
+  void close(ClosedBoundary& boundary) {
     if (boundary.arcs.empty()) return;
     join(boundary.arcs.back().points.back(), boundary.arcs.front().points.front());
     if (boundary.arcs.size() < 2) return;
@@ -218,7 +236,8 @@ class BoundaryTracer {
            std::abs(*end.frequency - *point.frequency) <= same_frequency * *point.frequency;
   }
 
-  static constexpr double joint = 1e-4;  // of the extent: ends this far apart are one vertex
+  static constexpr double usual_joint = usual_vertex_error;  // of the extent: ends this far apart are one vertex
+  static constexpr double joined_roundings = 4.0;            // of two routes, and of the level at which they meet
   static constexpr double same_level = 1e-9;
   static constexpr int max_halvings = 60;
   static constexpr double spacing = 1e-3;
@@ -230,6 +249,8 @@ class BoundaryTracer {
   double stiffness_extent_ = 0.0;
   double damping_extent_ = 0.0;
   std::size_t steps_left_ = 0;  // of tracing: every side once
+  double joint_ = usual_joint;  // of the ends at hand, where rounding moves them further
+  double gap_ = 0.0;            // the greatest joined
 };
 
 }  // namespace

@@ -11,6 +11,7 @@ namespace zwidth::internal {
 struct TracedBoundary {
   ClosedBoundary boundary;
   std::size_t component = 0;
+  double gap = 0.0;  // the greatest distance of two routes to one vertex, as a share of the extent
 };
 
 // Every closed boundary of the region, the region on its left, with points of the curve so dense that chords stay

@@ -98,6 +98,7 @@ void CellAdjacency::link_bottom_of(std::size_t slab) {
   double greatest = 0.0;
   for (const Placed& each : ends) greatest = std::max(greatest, each.stiffness);
   const double extent = greatest + damping / structure_.curve.plant().period;
+  const double rounding = structure_.rounding_at(damping, greatest).stiffness;
   const auto is_even = [](const std::vector<Placed>& open) {
     if (open.size() % 2 != 0) return false;
     for (std::size_t i = 0; i < open.size(); i += 2) {
@@ -107,11 +108,12 @@ void CellAdjacency::link_bottom_of(std::size_t slab) {
   };
   double tolerance = usual_place * extent;
   if (damping > 0.0) {
-    for (const double place : same_place) {
-      if (!is_even(open_ends(ends, place * extent))) continue;
-      tolerance = place * extent;
-      break;
-    }
+    std::vector<double> tolerances;
+    for (const double place : same_place) tolerances.push_back(place * extent);
+    tolerances.push_back(std::max(tolerances.back(), rounding));
+    const auto even =
+        std::find_if(tolerances.begin(), tolerances.end(), [&](double each) { return is_even(open_ends(ends, each)); });
+    if (even != tolerances.end()) tolerance = *even;
   }
   const std::vector<Placed> open = open_ends(ends, tolerance);
   for (const Placed& each : ends) {  // those that close on themselves

@@ -56,6 +56,18 @@ void find_walls(const Device& device, const OutlineOptions& outline, WallRegion&
         "no second computation confirms the region: the loop has too many states; shorten the delay or merge bodies "
         "that hardly move against each other");
   }
+  if (check.asked > 0 && check.confirmed == 0) {
+    result.trust.doubt(
+        "no second computation confirms the region: a closed-loop pole of every wall asked lies on the unit circle to "
+        "rounding; give the links their damping");
+  }
+  if (result.region.vertex_error > usual_vertex_error) {
+    result.trust.doubt(
+        fmt::format("the region is known to {:.2g} % of its extent only: it ends beside a mode that hardly anything "
+                    "damps; give the "
+                    "links their damping",
+                    100.0 * result.region.vertex_error));
+  }
   if (!result.walls->structure().proven) {
     result.remarks.push_back(
         {Remark::Severity::note,

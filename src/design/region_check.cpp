@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
+#include "stability/pole_count.hpp"
 #include "stability/routh_count.hpp"
 #include "zwidth/stability/closed_loop.hpp"
 
@@ -24,6 +26,7 @@ constexpr double work = 2e8;  // operations: eigenvalues take some 25 n³ of the
 constexpr Eigen::Index largest_order = 400;
 constexpr Eigen::Index largest_order_for_routh = 40;
 constexpr int ratios = 5;  // walls by ratios, a decade apart
+constexpr std::size_t walls_in_digits = 6;  // where double precision decides on none
 // Where no wall is stable there is no extent: loop gains at mid band that are asked instead.
 constexpr double loop_gains[] = {1e-6, 1e-4, 1e-2, 1.0};
 
@@ -173,6 +176,45 @@ std::vector<WallPoint> raster(double stiffness, double damping, std::size_t coun
   return walls;
 }
 
+bool is_stable(const StableWalls& walls, const WallPoint& wall) {
+  const std::vector<StableInterval> intervals = walls.stable_stiffnesses(wall.damping);
+  return std::any_of(intervals.begin(), intervals.end(), [&](const StableInterval& interval) {
+    return wall.stiffness > interval.lower && (!interval.upper || wall.stiffness < *interval.upper);
+  });
+}
+
+// Beside modes that hardly anything damps every pole is on the circle to rounding: a few walls with a hundred digits.
+void check_in_digits(const Device& device, const StableWalls& walls, const std::vector<WallPoint>& asked,
+                     RegionCheck& check) {
+  const auto poles_outside = [&](const WallPoint& at) {
+    DeviceParameters parameters = device.parameters();
+    parameters.wall.damping = at.damping;
+    return unstable_poles_in_digits(Device(std::move(parameters)), at.stiffness);
+  };
+  const auto is_clearly = [&](bool stable, const WallPoint& at) {
+    for (const double factor : {1.0 - clear_of_boundary, 1.0 + clear_of_boundary}) {
+      for (const WallPoint& near : {WallPoint{factor * at.stiffness, at.damping},
+                                    WallPoint{at.stiffness, factor * at.damping}}) {
+        const std::optional<int> outside = poles_outside(near);
+        if (!outside || (*outside == 0) != stable) return false;
+      }
+    }
+    return true;
+  };
+  const std::size_t count = std::min(walls_in_digits, asked.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    const WallPoint& wall = asked[i * asked.size() / count];
+    const std::optional<int> outside = poles_outside(wall);
+    if (!outside) continue;
+    if ((*outside == 0) == is_stable(walls, wall)) {
+      ++check.confirmed;
+    } else if (is_clearly(*outside == 0, wall)) {
+      check.contradiction = wall;
+      return;
+    }
+  }
+}
+
 }  // namespace
 
 RegionCheck check_region(const Device& device, const StableWalls& walls, const StableRegion& region, double deviation) {
@@ -204,10 +246,7 @@ RegionCheck check_region(const Device& device, const StableWalls& walls, const S
     asked = std::move(fewer);
   }
   for (const WallPoint& wall : asked) {
-    const std::vector<StableInterval> intervals = walls.stable_stiffnesses(wall.damping);
-    const bool stable = std::any_of(intervals.begin(), intervals.end(), [&](const StableInterval& interval) {
-      return wall.stiffness > interval.lower && (!interval.upper || wall.stiffness < *interval.upper);
-    });
+    const bool stable = is_stable(walls, wall);
     ++check.asked;
     const bool confirmed = loop.confirms(wall, stable);
     const bool drawn = outlines && outlines->contains(wall);
@@ -225,6 +264,9 @@ RegionCheck check_region(const Device& device, const StableWalls& walls, const S
       check.contradiction = wall;
       return check;
     }
+  }
+  if (check.confirmed == 0 && loop.order() <= static_cast<Eigen::Index>(PoleCount::most_states_for_digits)) {
+    check_in_digits(device, walls, asked, check);
   }
   return check;
 }

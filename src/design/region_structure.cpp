@@ -21,6 +21,9 @@ constexpr double guard_share = 1e-3;
 constexpr double check_ratio = 8.0;
 constexpr double lowest_share = 1e-15;
 constexpr double least_height = 1e-9;
+// Rounding of an angle as a share of a step of it: a few units of 2^-52.
+constexpr double angle_step = 1e-9;
+constexpr double rounded_steps = 16.0 * std::numeric_limits<double>::epsilon() / angle_step;
 // The lowest slab is divided by this ratio, as far down as this share of the highest B.
 constexpr double first_division = 32.0;
 constexpr double least_level = 1e-16;
@@ -73,6 +76,24 @@ RegionStructure::RegionStructure(FilteredPlant plant, double velocity_filter_hz)
   proven = all_proven;
   branches = boundary_branches(curve, segments);
   const std::vector<double> found = levels(segments);
+  try {
+    find_slabs(found);
+    if (!(slabs.empty() && !told_apart_) && are_slabs_confirmed()) return;
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::did_not_converge) throw;
+  }
+  by_branches_ = false;
+  divisions_left_ = max_divisions;
+  find_slabs(found);
+  // Nothing stable, where pieces of boundary lie on one another to rounding, is no answer.
+  if (slabs.empty() && !told_apart_) {
+    throw Error(ErrorCode::did_not_converge,
+                "pieces of the boundary of the stable walls lie on one another to rounding: a mode is not damped");
+  }
+}
+
+void RegionStructure::find_slabs(const std::vector<double>& found) {
+  slabs.clear();
   for (std::size_t i = found.size() - 1; i > 0; --i) {
     // Where everything meets at K = B = 0 rounding moves levels: what is below is not resolved.
     const double unresolved = slabs.empty() ? 0.0 : finest_detail * slabs.front().upper;
@@ -80,6 +101,13 @@ RegionStructure::RegionStructure(FilteredPlant plant, double velocity_filter_hz)
     if (found[i] <= unresolved) break;
   }
   std::reverse(slabs.begin(), slabs.end());
+}
+
+bool RegionStructure::are_slabs_confirmed() const {
+  return std::all_of(slabs.begin(), slabs.end(), [&](const RegionSlab& slab) {
+    const double middle = slab.lower + 0.5 * (slab.upper - slab.lower);
+    return agree(slab.cells, cells_by_isolation(middle), middle);
+  });
 }
 
 std::vector<BoundarySegment> RegionStructure::straight_segments(double top) const {
@@ -103,12 +131,14 @@ std::vector<double> RegionStructure::levels(const std::vector<BoundarySegment>& 
   for (const BoundarySegment& each : straight_segments(top)) all.push_back(each);
   const BoundaryCrossings crossings = boundary_crossings(curve, all);
   proven = proven && crossings.complete;
+  told_apart_ = crossings.complete;
   for (const WallPoint& wall : crossings.walls) found.push_back(wall.damping);
   for (const BoundaryBranch& branch : branches) {
     for (const BoundaryBranch::Node* end : {&branch.nodes().front(), &branch.nodes().back()}) {
       if (end->wall.stiffness >= 0.0) found.push_back(end->wall.damping);
     }
   }
+  for (const GainCrossing& crossing : by_damping_.crossings) found.push_back(crossing.gain);
   // The Nyquist line ends on K = 0, to rounding.
   if (nyquist) found.push_back(*nyquist / curve.velocity_at_nyquist());
   std::erase_if(found, [](double level) { return !(level > 0.0) || !std::isfinite(level); });
@@ -121,6 +151,48 @@ std::vector<double> RegionStructure::levels(const std::vector<BoundarySegment>& 
 }
 
 std::vector<RegionCell> RegionStructure::cells_at(double damping) const {
+  return by_branches_ ? cells_by_branches(damping) : cells_by_isolation(damping);
+}
+
+// The branches at this B > 0 are all the crossovers of K: f of GainLocus is B less that of the curve, times a positive
+// number, so that a pole pair leaves with rising K where B rises with the angle.
+std::vector<RegionCell> RegionStructure::cells_by_branches(double damping) const {
+  struct Crossing {
+    double stiffness;
+    int poles_leaving;
+    RegionEdge edge;
+  };
+  const GainLocus locus(curve.plant(), GainLocus::Gain::stiffness, 0.0, {damping, curve.velocity_filter_hz()});
+  std::vector<Crossing> crossings;
+  for (std::size_t i = 0; i < branches.size(); ++i) {
+    const double first = branches[i].nodes().front().wall.damping;
+    const double last = branches[i].nodes().back().wall.damping;
+    if ((first > damping) == (last > damping)) continue;
+    const RegionEdge edge{BoundaryKind::oscillation, i};
+    crossings.push_back({edge_at(edge, damping).stiffness, last > first ? 2 : -2, edge});
+  }
+  if (drift) crossings.push_back({*drift, locus.value(0.0) < 0.0 ? 1 : -1, {BoundaryKind::drift, 0}});
+  if (nyquist) {
+    const RegionEdge edge{BoundaryKind::nyquist, 0};
+    crossings.push_back({edge_at(edge, damping).stiffness, locus.value(std::numbers::pi) > 0.0 ? 1 : -1, edge});
+  }
+  std::erase_if(crossings, [](const Crossing& each) { return !(each.stiffness > 0.0); });
+  std::sort(crossings.begin(), crossings.end(),
+            [](const Crossing& a, const Crossing& b) { return a.stiffness < b.stiffness; });
+  int unstable = locus.initially_unstable(locus.value(0.0)) + unstable_poles(by_damping_, damping);
+  for (const SampledTerm& term : curve.plant().terms) unstable -= term.unstable_poles;
+  std::vector<RegionCell> cells;
+  RegionEdge left{BoundaryKind::no_stiffness, 0};
+  for (const Crossing& each : crossings) {
+    if (unstable == 0) cells.push_back({left, each.edge});
+    unstable += each.poles_leaving;
+    left = each.edge;
+  }
+  if (unstable == 0) cells.push_back({left, std::nullopt});
+  return cells;
+}
+
+std::vector<RegionCell> RegionStructure::cells_by_isolation(double damping) const {
   const CriticalStiffness critical = critical_stiffness_of(
       curve.plant(), stiffness_crossings(curve.plant(), {damping, curve.velocity_filter_hz()}, by_damping_));
   const double period = curve.plant().period;
@@ -167,32 +239,55 @@ RegionStructure::EdgePoint RegionStructure::edge_at(const RegionEdge& edge, doub
   return {0.0, 0.0};
 }
 
-// Whether the cells are the stable intervals at this B: between the same pieces of boundary, or to rounding at the same
-// K.
-bool RegionStructure::agree_at(const std::vector<RegionCell>& cells, double damping) const {
-  const std::vector<RegionCell> exact = cells_at(damping);
-  const auto agree = [&](const RegionEdge& a, const RegionEdge& b) {
+// Whether these cells are the same at this B: between the same pieces of boundary, or to rounding at the same K.
+bool RegionStructure::agree(const std::vector<RegionCell>& cells, const std::vector<RegionCell>& others,
+                            double damping) const {
+  const double rounding = rounding_at(damping, stiffest_of(cells, damping)).stiffness;
+  const auto meet = [&](const RegionEdge& a, const RegionEdge& b) {
     if (a == b) return true;
     const double here = edge_at(a, damping).stiffness;
     const double there = edge_at(b, damping).stiffness;
-    return std::abs(here - there) <= same_stiffness * (std::abs(there) + damping / curve.plant().period);
+    return std::abs(here - there) <= same_stiffness * (std::abs(there) + damping / curve.plant().period) + rounding;
   };
-  return std::equal(cells.begin(), cells.end(), exact.begin(), exact.end(),
+  return std::equal(cells.begin(), cells.end(), others.begin(), others.end(),
                     [&](const RegionCell& a, const RegionCell& b) {
-                      return agree(a.left, b.left) && a.right.has_value() == b.right.has_value() &&
-                             (!a.right || agree(*a.right, *b.right));
+                      return meet(a.left, b.left) && a.right.has_value() == b.right.has_value() &&
+                             (!a.right || meet(*a.right, *b.right));
                     });
 }
 
 // Near both ends; and where it spans orders of magnitude at several places between.
 bool RegionStructure::agree_within(const std::vector<RegionCell>& cells, double lower, double upper) const {
   const double guard = guard_share * (upper - lower);
-  if (!agree_at(cells, lower + guard) || !agree_at(cells, upper - guard)) return false;
+  const auto agree_at = [&](double damping) { return agree(cells, cells_at(damping), damping); };
+  if (!agree_at(lower + guard) || !agree_at(upper - guard)) return false;
   const double lowest = std::max(lower, lowest_share * upper);
   for (double damping = upper / check_ratio; damping > lowest; damping /= check_ratio) {
-    if (!agree_at(cells, damping)) return false;
+    if (!agree_at(damping)) return false;
   }
   return true;
+}
+
+// Beside a pole that is hardly damped the curve runs far within few digits of the angle.
+WallPoint RegionStructure::rounding_at(double damping, double stiffest) const {
+  WallPoint greatest;
+  for (const BoundaryBranch& branch : branches) {
+    const BoundaryBranch::Node node = branch.at_damping(curve, damping);
+    const WallPoint moved = curve.at(node.angle * (1.0 - angle_step));
+    const WallPoint rounding{rounded_steps * std::abs(moved.stiffness - node.wall.stiffness),
+                             rounded_steps * std::abs(moved.damping - node.wall.damping)};
+    // It does not reach this B, or not near these K.
+    if (std::abs(node.wall.damping - damping) > same_stiffness * damping + rounding.damping) continue;
+    if (std::abs(node.wall.stiffness) > 2.0 * stiffest + rounding.stiffness) continue;
+    greatest.stiffness = std::max(greatest.stiffness, rounding.stiffness);
+    greatest.damping = std::max(greatest.damping, rounding.damping);
+  }
+  return greatest;
+}
+
+double RegionStructure::stiffest_of(const std::vector<RegionCell>& cells, double damping) const {
+  if (cells.empty()) return 0.0;
+  return cells.back().right ? edge_at(*cells.back().right, damping).stiffness : infinity;
 }
 
 // Below the last slab, or as part of it where the cells are the same. Nothing stable above the first one.
@@ -214,16 +309,22 @@ void RegionStructure::add_slabs(double bottom, double top) {
   while (!ranges.empty()) {
     const auto [lower, upper] = ranges.back();
     ranges.pop_back();
+    const double height = upper - lower;
+    const double unresolved = slabs.empty() ? least_level * top : finest_detail * slabs.front().upper;
+    std::vector<RegionCell> cells = cells_at(lower + 0.5 * height);
+    // Two routes to one level: what lies between is rounding.
+    const double rounding = rounding_at(lower + 0.5 * height, stiffest_of(cells, lower + 0.5 * height)).damping;
+    if (upper > unresolved && height <= std::max(least_height * upper, rounding)) {
+      if (!slabs.empty()) slabs.back().lower = lower;
+      continue;
+    }
+    if (upper <= unresolved || agree_within(cells, lower, upper)) {
+      add_below(lower, upper, std::move(cells));
+      continue;
+    }
     if (divisions_left_-- == 0) {
       throw Error(ErrorCode::did_not_converge,
                   "the stable stiffnesses change too often as the virtual damper varies for their region to be told");
-    }
-    const double height = upper - lower;
-    std::vector<RegionCell> cells = cells_at(lower + 0.5 * height);
-    const double unresolved = slabs.empty() ? least_level * top : finest_detail * slabs.front().upper;
-    if (height <= least_height * upper || upper <= unresolved || agree_within(cells, lower, upper)) {
-      add_below(lower, upper, std::move(cells));
-      continue;
     }
     const double division = lower == 0.0          ? upper / first_division
                             : upper > 4.0 * lower ? std::sqrt(lower * upper)

@@ -35,6 +35,8 @@ struct RegionStructure {
   // Of ranges of B into slabs.
   static constexpr std::size_t max_divisions = 600;
 
+  // The cells are told by the branches at each B; those of every slab are confirmed by critical_stiffness(), which
+  // knows no branch. Where it contradicts, it tells the cells everywhere.
   // Throws Error (did_not_converge) at the cap, and as boundary_segments() and critical_stiffness() do.
   RegionStructure(FilteredPlant plant, double velocity_filter_hz);
 
@@ -43,6 +45,9 @@ struct RegionStructure {
     double angle = 0.0;  // of an oscillation
   };
   [[nodiscard]] EdgePoint edge_at(const RegionEdge& edge, double damping) const;
+
+  // What rounding of the angle makes of K and of B, at the most, along the branches up to about `stiffest` at this B.
+  [[nodiscard]] WallPoint rounding_at(double damping, double stiffest) const;
 
   BoundaryCurve curve;
   bool proven = true;  // bounds, not estimates, say that no piece of boundary is missed
@@ -55,12 +60,20 @@ struct RegionStructure {
   [[nodiscard]] std::vector<BoundarySegment> straight_segments(double top) const;
   [[nodiscard]] std::vector<double> levels(const std::vector<BoundarySegment>& segments);
   [[nodiscard]] std::vector<RegionCell> cells_at(double damping) const;
-  [[nodiscard]] bool agree_at(const std::vector<RegionCell>& cells, double damping) const;
+  [[nodiscard]] std::vector<RegionCell> cells_by_branches(double damping) const;
+  [[nodiscard]] std::vector<RegionCell> cells_by_isolation(double damping) const;
+  [[nodiscard]] bool agree(const std::vector<RegionCell>& cells, const std::vector<RegionCell>& others,
+                           double damping) const;
   [[nodiscard]] bool agree_within(const std::vector<RegionCell>& cells, double lower, double upper) const;
+  [[nodiscard]] double stiffest_of(const std::vector<RegionCell>& cells, double damping) const;
   void add_below(double lower, double upper, std::vector<RegionCell> cells);
   void add_slabs(double bottom, double top);
+  void find_slabs(const std::vector<double>& found);
+  [[nodiscard]] bool are_slabs_confirmed() const;
 
   GainCrossings by_damping_;  // of the damper alone
+  bool by_branches_ = true;
+  bool told_apart_ = true;  // no two pieces of boundary lie on one another
   std::size_t divisions_left_ = max_divisions;
 };
 

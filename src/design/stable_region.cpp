@@ -115,7 +115,9 @@ StableRegion stable_region(const StableWalls& walls, OutlineOptions options) {
     region.critical_stiffness = undamped.front().upper.value_or(std::numeric_limits<double>::infinity());
   }
   if (!region.bounded) return region;
-  region.components = components_of(trace_boundaries(structure, options.deviation));
+  std::vector<TracedBoundary> boundaries = trace_boundaries(structure, options.deviation);
+  for (const TracedBoundary& traced : boundaries) region.vertex_error = std::max(region.vertex_error, traced.gap);
+  region.components = components_of(std::move(boundaries));
   for (const StableComponent& component : region.components) region.area += component.area;
   find_extremes(region, structure.curve, options.deviation);
   return region;

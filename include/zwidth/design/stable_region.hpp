@@ -51,7 +51,12 @@ struct StableRegion {
   double critical_stiffness = 0.0;           ///< K_CR at B = 0; 0: none stable
   /// The Z-width as one number: the area of all components in the (K, B) plane, N/m times N s/m.
   double area = 0.0;
+  /// The greatest distance between two routes to one vertex, as a share of the extent: rounding. Above
+  /// usual_vertex_error only where the region ends beside a mode that hardly anything damps.
+  double vertex_error = 0.0;
 };
+
+inline constexpr double usual_vertex_error = 1e-4;
 
 struct OutlineOptions {
   /// Greatest distance of the curve from the polygon, as a share of the region's extent in K and in B. Every vertex
