@@ -25,7 +25,7 @@ constexpr std::size_t least_walls = 6;
 constexpr double work = 2e8;  // operations: eigenvalues take some 25 n³ of them
 constexpr Eigen::Index largest_order = 400;
 constexpr Eigen::Index largest_order_for_routh = 40;
-constexpr int ratios = 5;  // walls by ratios, a decade apart
+constexpr int ratios = 5;                   // walls by ratios, a decade apart
 constexpr std::size_t walls_in_digits = 6;  // where double precision decides on none
 // Where no wall is stable there is no extent: loop gains at mid band that are asked instead.
 constexpr double loop_gains[] = {1e-6, 1e-4, 1e-2, 1.0};
@@ -193,8 +193,8 @@ void check_in_digits(const Device& device, const StableWalls& walls, const std::
   };
   const auto is_clearly = [&](bool stable, const WallPoint& at) {
     for (const double factor : {1.0 - clear_of_boundary, 1.0 + clear_of_boundary}) {
-      for (const WallPoint& near : {WallPoint{factor * at.stiffness, at.damping},
-                                    WallPoint{at.stiffness, factor * at.damping}}) {
+      for (const WallPoint& near :
+           {WallPoint{factor * at.stiffness, at.damping}, WallPoint{at.stiffness, factor * at.damping}}) {
         const std::optional<int> outside = poles_outside(near);
         if (!outside || (*outside == 0) != stable) return false;
       }

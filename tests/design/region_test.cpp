@@ -3,6 +3,7 @@
 
 #include "zwidth/design/region.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -130,6 +131,72 @@ TEST(Region, ReachesTheDampingAtWhichTheDamperAloneIsUnstable) {
   expect_confirmed(device, walls);
 }
 
+/// A boundary that runs within a few digits of the angle of a mode that hardly anything damps: two routes to one vertex
+/// differ by rounding. Limits of K at B = 0 and of B at K = 0 with 200 digits (exact_closed_loop.hpp).
+void expect_small_region(const Device& device, double stiffness, double damping) {
+  const WallRegion walls = region(device, walls_alone);
+  ASSERT_TRUE(walls.trust.sound());
+  ASSERT_EQ(walls.region.components.size(), 1U);
+  EXPECT_NEAR(walls.region.critical_stiffness, stiffness, 1e-8 * stiffness);
+  EXPECT_NEAR(walls.region.most_damped->damping, damping, 1e-7 * damping);
+  expect_closed(walls);
+}
+
+// Was refused: the outline did not close.
+TEST(Region, ClosesBetweenTwoRoutesToOneLevel) {
+  DeviceParameters two;
+  two.bodies = {{"b0", 0.044203858732004185, 1.8247086356818882e-06, 0.0, 0.0},
+                {"b1", 0.06165035349871628, 0.0, 0.0, 0.0}};
+  two.links = {{0, 1, 415497.8513289496, 0.0}};
+  two.loop.held = 1;
+  two.loop.sampling_period = 0.002;
+  two.loop.delay = 0.008;
+  expect_small_region(Device(two), 0.000202745409271, 6.3548889204e-05);
+
+  DeviceParameters one;
+  one.bodies = {{"b0", 0.17708332084914377, 1.6893033048280137e-06, 1197.7990992252428, 0.0}};
+  one.loop.sampling_period = 0.01;
+  one.loop.delay = 0.03;
+  expect_small_region(Device(one), 0.000549649158425, 1.80763682573e-06);
+}
+
+// Was refused. The damper alone is unstable from 0.000344571939318 N s/m on (200 digits): the angle of the mode at 0.71
+// rad has too few digits for that, and the answer says how many.
+TEST(Region, SaysWhereTheAngleHasTooFewDigits) {
+  DeviceParameters parameters;
+  parameters.bodies = {{"b0", 3.262834749750844, 0.00017807541589396023, 0.0, 0.0},
+                       {"b1", 1.4579755868736346, 0.0, 0.0, 0.0},
+                       {"b2", 0.6165554106140211, 0.0, 0.0, 0.0}};
+  parameters.links = {{0, 1, 8382.16486038775, 0.0}, {1, 2, 219820.44023106087, 0.0}};
+  parameters.loop.held = 2;
+  parameters.loop.sampling_period = 0.001;
+  parameters.loop.delay = 0.002;
+  const WallRegion walls = region(Device(parameters), walls_alone);
+  ASSERT_EQ(walls.trust.verdict, Trust::Verdict::doubtful);
+  EXPECT_THAT(walls.trust.reasons.front(), testing::HasSubstr("of its extent only"));
+  EXPECT_GT(walls.region.vertex_error, usual_vertex_error);
+  EXPECT_LT(walls.region.vertex_error, 0.01);
+  const double exact = 0.000344571939318;
+  EXPECT_NEAR(walls.region.most_damped->damping, exact, walls.region.vertex_error * exact);
+  expect_closed(walls);
+}
+
+// Nothing is damped; boundaries lie on one another to rounding, and with 200 digits walls are stable: "no wall is stable"
+// would be wrong.
+TEST(Region, DoesNotSayThatNothingIsStableWhereNothingIsToldApart) {
+  DeviceParameters parameters;
+  parameters.bodies = {{"b0", 0.022297093622062718, 0.0, 0.0, 0.0},
+                       {"b1", 0.15863374159200502, 0.0, 0.0, 0.0},
+                       {"b2", 2.8794376867123153, 0.0, 0.0, 0.0},
+                       {"b3", 0.28480802857486326, 0.0, 0.0, 0.0}};
+  parameters.links = {{0, 1, 532.8498337008842, 0.0}, {1, 2, 15853344.686550267, 0.0}, {2, 3, 1545077.1433355028, 0.0}};
+  parameters.loop.held = 3;
+  parameters.loop.sampling_period = 1e-4;
+  parameters.loop.delay = 4.4757855184167884e-05;
+  const WallRegion walls = region(Device(parameters), walls_alone);
+  EXPECT_TRUE(walls.trust.refused() || walls.region.stiffest);
+}
+
 // Was without end.
 TEST(Region, OfAModeBesideNyquistEnds) {
   DeviceParameters parameters = far_body(1.02706, 0.0847166, 0.0, {0, 1, 770862.0, 0.0049});
@@ -195,6 +262,21 @@ DeviceParameters hardly_damped(test::RandomDevices& random) {
   return device;
 }
 
+/// The same with dampings down to 1e-8, springs to ground, lags, and delays of several samples.
+DeviceParameters barely_damped(test::RandomDevices& random) {
+  DeviceParameters device = hardly_damped(random);
+  for (Body& body : device.bodies) {
+    if (random.chance(0.5)) body.damping = random.log_uniform(1e-8, 1e-2);
+    if (random.chance(0.1)) body.stiffness = random.log_uniform(1.0, 2000.0);
+  }
+  for (Link& link : device.links) {
+    if (random.chance(0.3)) link.damping = random.log_uniform(1e-8, 1e-3);
+  }
+  if (random.chance(0.5)) device.loop.delay = random.uniform(0.0, 6.0) * device.loop.sampling_period;
+  if (random.chance(0.15)) device.actuator.time_constant = random.log_uniform(0.05, 3.0) * device.loop.sampling_period;
+  return device;
+}
+
 DeviceParameters long_chain(test::RandomDevices& random) {
   DeviceParameters device;
   const std::size_t bodies = 7 + random.index(4);
@@ -216,7 +298,7 @@ std::size_t cases() {
 }
 
 template <typename Make>
-void expect_confirmed_family(std::size_t count, const Make& make) {
+void expect_confirmed_family(std::size_t count, std::size_t most_refused, const Make& make) {
   std::size_t refused = 0;
   for (std::size_t seed = 0; seed < count; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -232,10 +314,11 @@ void expect_confirmed_family(std::size_t count, const Make& make) {
     expect_closed(walls);
     expect_confirmed(device, walls);
   }
-  EXPECT_LE(refused, 1 + count / 20) << "of " << count;
+  EXPECT_LE(refused, most_refused) << "of " << count;
 }
 
-TEST(RegionProperty, OfHardlyDampedDevices) { expect_confirmed_family(cases(), hardly_damped); }
+TEST(RegionProperty, OfHardlyDampedDevices) { expect_confirmed_family(cases(), 1 + cases() / 60, hardly_damped); }
+TEST(RegionProperty, OfBarelyDampedDevices) { expect_confirmed_family(cases(), 1 + cases() / 60, barely_damped); }
 
 // The Nyquist line bounds many of these.
 TEST(RegionProperty, OfEveryKindNoneIsRefused) {
@@ -253,7 +336,7 @@ TEST(RegionProperty, OfEveryKindNoneIsRefused) {
   }
 }
 
-TEST(RegionProperty, OfSevenToTenBodies) { expect_confirmed_family(1 + cases() / 10, long_chain); }
+TEST(RegionProperty, OfSevenToTenBodies) { expect_confirmed_family(1 + cases() / 5, 0, long_chain); }
 
 TEST(Region, IsTrustedNoMoreThanItsDevice) {
   DeviceParameters parameters = test::lhifam_parameters();
