@@ -198,7 +198,7 @@ Rows inherent_delay() {
                        hertz(delayed.limit->frequency), measured.frequency_hz, branch)}};
 }
 
-Rows figure_14() {
+Rows figure_14_numbers() {
   const CriticalStiffness critical = critical_of(handle_sensed(paper_lhifam_reduced_pretension()));
   const bool rigid = critical.limit->limited_by.kind == Mechanism::Kind::rigid_body;
   return {{"Fig. 14, Section VI", "Handle sensed: what sets the margin", "not the vibration mode",
@@ -221,7 +221,7 @@ Rows user() {
 std::vector<PaperNumber> paper_numbers() {
   std::vector<PaperNumber> numbers;
   for (const auto& rows : {table_1, factorised_form, figure_4, figure_7, figure_8, figure_9, equation_24,
-                           delay_equations, table_2_numbers, inherent_delay, figure_14, user}) {
+                           delay_equations, table_2_numbers, inherent_delay, figure_14_numbers, user}) {
     Rows more = rows();
     std::move(more.begin(), more.end(), std::back_inserter(numbers));
   }

@@ -97,7 +97,7 @@ std::string draw_identification(const Identification& identified, const Identifi
       std::ranges::all_of(identified.response.points, [](const ResponsePoint& point) { return point.variance > 0.0; });
   const std::vector<Row> data = rows(identified, has_noise);
   const Heading heading(labels.title,
-                        {{labels.points, {}, band_colour, dot_marker(point_colour)},
+                        {{labels.points, {}, fitted_band_colour, dot_marker(point_colour)},
                          {"fitted device", fit_style},
                          {"residual of the magnitude", {}, {}, dot_marker(point_colour)},
                          {"residual of the phase", {}, {}, ring_marker(orange)}},
