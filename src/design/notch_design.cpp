@@ -6,6 +6,7 @@
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <numbers>
 #include <utility>
 
@@ -245,24 +246,36 @@ NotchDesign design_notch(const Device& device, const NotchOptions& options) {
       search.add(verification.at(verification.size() - 1));
     }
     std::vector<NotchSearch::Point> candidates = search.candidates([&](double done) { report(0.2 + 0.3 * done); });
-    for (int round = 0; round < rounds && !candidates.empty(); ++round) {
-      std::pair<double, NotchSearch::Point> best{-1.0, {}};
-      for (const NotchSearch::Point& start : candidates) best = std::max(best, search.refine(start));
-      const WallFilter notch = NotchSearch::notch_at(best.second);
-      std::vector<NotchAtDrift> over_drift = verification.with(notch);
-      const Verification::Least worst = verification.least(over_drift, &NotchAtDrift::with, &notch);
-      double with = worst.stiffness;
-      if (with > design.with) with = verification.kept_everywhere(notch, with);
-      if (with > design.with * (1.0 + worth_having)) {
-        design.notch = notch;
-        design.with = with;
-        design.over_drift = std::move(over_drift);
-        design.low_frequency_delay = 2.0 * notch.damping_ratio * (1.0 - notch.depth) / (2.0 * pi * notch.frequency_hz);
+    bool settled = false;
+    for (int round = 0; round < rounds && !candidates.empty() && !settled; ++round) {
+      std::vector<std::pair<double, NotchSearch::Point>> found;
+      for (const NotchSearch::Point& start : candidates) {
+        for (const auto& each : search.refine(start)) found.push_back(each);
+      }
+      std::ranges::sort(found, std::greater{});
+      double worst_drift = 0.0;  // of the best proposal
+      for (std::size_t i = 0; i < found.size() && !settled; ++i) {
+        const auto& [promised, at] = found[i];
+        if (promised <= design.with * (1.0 + worth_having)) break;
+        const WallFilter notch = NotchSearch::notch_at(at);
+        std::vector<NotchAtDrift> over_drift = verification.with(notch);
+        const Verification::Least worst = verification.least(over_drift, &NotchAtDrift::with, &notch);
+        if (i == 0) worst_drift = worst.drift;
+        double with = worst.stiffness;
+        if (with > design.with) with = verification.kept_everywhere(notch, with);
+        if (with > design.with * (1.0 + worth_having)) {
+          design.notch = notch;
+          design.with = with;
+          design.over_drift = std::move(over_drift);
+          design.low_frequency_delay =
+              2.0 * notch.damping_ratio * (1.0 - notch.depth) / (2.0 * pi * notch.frequency_hz);
+        }
+        settled = with > 0.0 && worst.stiffness >= promised * 0.99;
       }
       report(0.5 + 0.5 * (round + 1) / rounds);
-      if (with > 0.0 && worst.stiffness >= best.first * 0.99) break;
-      search.add(drifted(device, worst.drift));
-      candidates = {best.second};
+      if (found.front().first <= design.without * (1.0 + worth_having)) break;  // nothing to gain
+      search.add(drifted(device, worst_drift));
+      candidates = {found.front().second};
     }
   }
   add_states(device, design);

@@ -85,7 +85,8 @@ void NotchSearch::add(const Device& device) {
 
 // Over the scenarios; some value not above `enough` as soon as it is seen to be that. The crossovers between the grid's
 // points are looked at last: they matter to the few that would become the best.
-double NotchSearch::least_on_grid(const WallFilter& notch, double enough, std::vector<double>& of_scenarios) const {
+double NotchSearch::least_on_grid(const WallFilter& notch, double enough, Route route,
+                                  std::vector<double>& of_scenarios) const {
   double result = infinity;
   std::vector<LoopGrid::Response> factors;
   for (const Scenario& scenario : scenarios_) {
@@ -95,6 +96,7 @@ double NotchSearch::least_on_grid(const WallFilter& notch, double enough, std::v
     if (result <= enough) return result;
     if (scenario.any_user > 0.0 && scenario.grid.any_user(factor) < scenario.any_user) return 0.0;
   }
+  if (route == Route::on_points) return result;
   for (std::size_t i = 0; i < scenarios_.size() && result > enough; ++i) {
     result = scenarios_[i].grid.stiffest_in_phase(factors[i], {enough, result}, margins_.phase);
   }
@@ -105,8 +107,8 @@ double NotchSearch::least_on_grid(const WallFilter& notch, double enough, std::v
 double NotchSearch::least(const Point& at, double enough, Route route) const {
   const WallFilter notch = notch_at(at);
   std::vector<double> of_scenarios;
-  const double on_grid = least_on_grid(notch, enough, of_scenarios);
-  if (route == Route::on_grid || on_grid <= enough) return on_grid;
+  const double on_grid = least_on_grid(notch, enough, route, of_scenarios);
+  if (route != Route::exact || on_grid <= enough) return on_grid;
   double result = margins_.any_user ? on_grid : on_grid_at_most * on_grid;
   for (const std::size_t i : by_value(of_scenarios)) {
     const Scenario& scenario = scenarios_[i];
@@ -120,23 +122,29 @@ double NotchSearch::least(const Point& at, double enough, Route route) const {
 std::vector<NotchSearch::Point> NotchSearch::candidates(const std::function<void(double)>& on_step) const {
   std::vector<double> factors(centres_on_grid.begin(), centres_on_grid.end());
   if (options_.far_from_modes) factors.insert(factors.end(), far_centres_on_grid.begin(), far_centres_on_grid.end());
+  // Without the look between the frequencies the climb may start in a better place.
+  std::vector<Route> routes{Route::on_grid};
+  if (margins_.phase > 0.0) routes.push_back(Route::on_points);
+  const auto steps = static_cast<double>(routes.size() * modes_.size() * factors.size());
   std::vector<Point> points;
   std::size_t step = 0;
-  for (const double mode : modes_) {
-    std::optional<Point> best;
-    double most = 0.0;
-    for (const double factor : factors) {
-      on_step(static_cast<double>(step++) / static_cast<double>(modes_.size() * factors.size()));
-      if (factor * mode > highest_centre * nyquist_) continue;
-      for (const double width : widths_on_grid) {
-        for (const double depth : depths_on_grid) {
-          const Point at{std::log(factor * mode), std::log(width), std::log(depth)};
-          const double value = least(at, most, Route::on_grid);
-          if (value > most) most = value, best = at;
+  for (const Route route : routes) {
+    for (const double mode : modes_) {
+      std::optional<Point> best;
+      double most = 0.0;
+      for (const double factor : factors) {
+        on_step(static_cast<double>(step++) / steps);
+        if (factor * mode > highest_centre * nyquist_) continue;
+        for (const double width : widths_on_grid) {
+          for (const double depth : depths_on_grid) {
+            const Point at{std::log(factor * mode), std::log(width), std::log(depth)};
+            const double value = least(at, most, route);
+            if (value > most) most = value, best = at;
+          }
         }
       }
+      if (best && std::ranges::find(points, *best) == points.end()) points.push_back(*best);
     }
-    if (best) points.push_back(*best);
   }
   return points;
 }
@@ -167,8 +175,14 @@ std::pair<double, NotchSearch::Point> NotchSearch::climb(Point at, double first_
   return {value, at};
 }
 
-std::pair<double, NotchSearch::Point> NotchSearch::refine(Point at) const {
-  return climb(refine_on_grid(at).second, coarsest_exact, finest, Route::exact);
+std::vector<std::pair<double, NotchSearch::Point>> NotchSearch::refine(Point at) const {
+  const auto exactly = [this](const Point& near) { return climb(near, coarsest_exact, finest, Route::exact); };
+  const Point start = refine_on_grid(at).second;
+  std::vector<std::pair<double, Point>> found{exactly(start)};
+  if (margins_.phase == 0.0) return found;
+  const Point other = climb(at, coarsest, finest, Route::on_points).second;
+  if (other != start) found.push_back(exactly(other));
+  return found;
 }
 
 std::pair<double, NotchSearch::Point> NotchSearch::refine_on_grid(Point at) const {

@@ -30,12 +30,13 @@ class NotchSearch {
   /// One drift of the device more.
   void add(const Device& device);
 
-  /// The best of a grid around each mode; `on_step` takes the fraction done.
+  /// The best of a grid around each mode, with and without a look between the frequencies; `on_step` takes the fraction done.
   [[nodiscard]] std::vector<Point> candidates(const std::function<void(double)>& on_step) const;
 
   /// Pattern search: the best of the 26 neighbours of a cube, halved where none is better; at first on the grids, then
-  /// exactly, since a grid may miss a narrow dip. With its stiffest wall.
-  [[nodiscard]] std::pair<double, Point> refine(Point at) const;
+  /// exactly, since a grid may miss a narrow dip. With their stiffest walls; two where the look between the frequencies
+  /// leads elsewhere.
+  [[nodiscard]] std::vector<std::pair<double, Point>> refine(Point at) const;
   /// On the grids alone.
   [[nodiscard]] std::pair<double, Point> refine_on_grid(Point at) const;
 
@@ -46,9 +47,10 @@ class NotchSearch {
     LoopGrid grid;
     double any_user = 0.0;  // without the notch, on the grid; 0: not to be kept
   };
-  enum class Route { on_grid, exact };
+  enum class Route { on_points, on_grid, exact };  // of the grid alone; crossovers between them too
   [[nodiscard]] double least(const Point& at, double enough, Route route) const;
-  [[nodiscard]] double least_on_grid(const WallFilter& notch, double enough, std::vector<double>& of_scenarios) const;
+  [[nodiscard]] double least_on_grid(const WallFilter& notch, double enough, Route route,
+                                     std::vector<double>& of_scenarios) const;
   [[nodiscard]] std::pair<double, Point> climb(Point at, double first_step, double last_step, Route route) const;
   [[nodiscard]] bool is_near(const Point& at) const;
   [[nodiscard]] Point inside(const Point& at) const;
