@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -24,7 +23,7 @@ bool is_of_lines(std::span<const Recording> recordings, const FrequencyResponseO
 MeasuredResponse response_with_enough_lines(std::span<const Recording> recordings, const Device& structure,
                                             const IdentifyOptions& options, const Progress& progress) {
   MeasuredResponse measured = frequency_response(recordings, options.response, progress);
-  const bool may_choose = !options.response.segment_length && !is_of_lines(recordings, options.response);
+  const bool may_choose = recordings.size() == 1 && !options.response.segment_length && !is_of_lines(recordings, options.response);
   if (!may_choose || measured.response.points.size() < 2 || !measured.response.sampling_period) return measured;
   const std::size_t free = fittable_parameters(structure, options.fit.locked).size() + 2;
   constexpr std::size_t lines_each = 6;
@@ -32,8 +31,7 @@ MeasuredResponse response_with_enough_lines(std::span<const Recording> recording
   constexpr std::size_t least_segments = 4;
   FrequencyResponseOptions longer = options.response;
   longer.excitation = FrequencyResponseOptions::Excitation::aperiodic;
-  std::size_t samples = std::numeric_limits<std::size_t>::max();  // of the shortest
-  for (const Recording& each : recordings) samples = std::min(samples, each.channels[0].samples.size());
+  const std::size_t samples = recordings.front().channels[0].samples.size();
   double spacing = measured.response.points.back().frequency;  // rad/s, of neighbouring lines
   for (std::size_t i = 1; i < measured.response.points.size(); ++i) {
     spacing = std::min(spacing, measured.response.points[i].frequency - measured.response.points[i - 1].frequency);
