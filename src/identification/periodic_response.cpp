@@ -31,7 +31,7 @@ std::vector<double> without_drift(std::span<const double> signal, std::size_t pe
   // The average is centred: for an even period the two windows half a sample to either side are averaged.
   const std::size_t half = period / 2;
   const std::size_t size = signal.size() - 2 * half;
-  const double count = static_cast<double>(period);
+  const auto count = static_cast<double>(period);
   double sum = std::accumulate(signal.begin(), signal.begin() + static_cast<std::ptrdiff_t>(period), 0.0);
   std::vector<double> result(size);
   for (std::size_t i = 0; i < size; ++i) {
@@ -47,7 +47,7 @@ std::vector<double> without_drift(std::span<const double> signal, std::size_t pe
 /// A signal less the line through the averages of its first and its last period.
 std::vector<double> without_line(std::span<const double> signal, std::size_t period) {
   const auto length = static_cast<std::ptrdiff_t>(period);
-  const double count = static_cast<double>(period);
+  const auto count = static_cast<double>(period);
   const double first = std::accumulate(signal.begin(), signal.begin() + length, 0.0) / count;
   const double last = std::accumulate(signal.end() - length, signal.end(), 0.0) / count;
   const double slope = (last - first) / static_cast<double>(signal.size() - period);
@@ -184,7 +184,7 @@ FrequencyResponse periodic_response(std::span<const double> force, std::span<con
     return periodic_response(force, output, sampling_period, shorter, options, progress);
   }
 
-  const double count = static_cast<double>(periods.count());
+  const auto count = static_cast<double>(periods.count());
   FrequencyResponse response;
   response.sampling_period = sampling_period;
   response.averages = count;
