@@ -158,6 +158,11 @@ class StopAtBound : public ceres::IterationCallback {
 bool search(const ShotModel& model, const std::vector<Shot>& shots, const std::vector<ShotNoise>& noise, ShotFit& fit,
             const Eigen::VectorXd& towards, const ShotFitOptions& options, int& iterations) {
   SharedShots shared(model, shots, noise, fit);
+  // Ceres takes the blocks of a group by their addresses: here in the order of the shots, so that equal records give
+  // equal fits to the last digit.
+  const std::vector<Eigen::VectorXd> states = shared.states;
+  std::ranges::sort(shared.states, {}, [](const Eigen::VectorXd& each) { return each.data(); });
+  for (std::size_t i = 0; i < states.size(); ++i) shared.states[i] = states[i];
   ceres::Problem::Options problem_options;
   problem_options.evaluation_callback = &shared;
   ceres::Problem problem(problem_options);
