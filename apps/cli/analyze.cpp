@@ -36,10 +36,12 @@ struct AnalyzeOptions {
 std::string option_of(const std::string& member) { return member == "worst_user" ? "--worst-user" : "--users"; }
 
 /// What is asked of one device. Throws BadInput where it cannot be answered.
-AnalysisOptions options_for(const AnalyzeOptions& options, const std::optional<UserRanges>& ranges,
-                            const std::string& file, const Device& device) {
+AnalysisOptions options_for(const AnalyzeOptions& options, const std::string& file, const Device& device) {
   AnalysisOptions asked{.worst_user = options.worst_user};
-  if (ranges) asked.family = user_family(*ranges, device.parameters().user);
+  if (!options.users.empty()) {
+    const DeviceParameters& parameters = device.parameters();
+    asked.family = user_family(user_ranges(options.users, parameters.motion), parameters.user);
+  }
   if (const auto problem = find_problem(asked, device)) {
     throw BadInput(fmt::format("{}: {}: {}; {}", option_of(problem->member), file, problem->what, problem->allowed));
   }
@@ -47,17 +49,15 @@ AnalysisOptions options_for(const AnalyzeOptions& options, const std::optional<U
 }
 
 std::vector<report::AnalysedDevice> analysed_devices(const AnalyzeOptions& options) {
-  std::optional<UserRanges> ranges;
-  if (!options.users.empty()) ranges = user_ranges(options.users);
   std::vector<Device> devices = read_devices(options.devices);
   std::vector<AnalysisOptions> asked;
   for (std::size_t i = 0; i < devices.size(); ++i) {
-    asked.push_back(options_for(options, ranges, options.devices.files[i], devices[i]));
+    asked.push_back(options_for(options, options.devices.files[i], devices[i]));
   }
   std::vector<report::AnalysedDevice> analysed;
   for (std::size_t i = 0; i < devices.size(); ++i) {
     std::optional<ProgressLine> line;
-    if (ranges) {
+    if (asked[i].family) {
       line.emplace("searching the users");
       asked[i].progress = line->progress();
     }

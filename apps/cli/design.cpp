@@ -11,6 +11,7 @@
 #include "cli/design_notch.hpp"
 #include "cli/design_recommend.hpp"
 #include "cli/device_arguments.hpp"
+#include "cli/option_units.hpp"
 #include "cli/outputs.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/standard_output.hpp"
@@ -34,7 +35,7 @@ struct DesignArguments {
   DeviceArguments devices;
   std::vector<std::string> sweeps;
   std::string compare;
-  std::vector<double> user;  // mass, damping, stiffness
+  std::vector<std::string> user;  // mass, damping, stiffness
   OutputArguments output{.ending = Ending::figure_or_csv};
   NotchArguments notch;
   RecommendArguments recommend;
@@ -156,7 +157,10 @@ void run_comparison(const DesignArguments& arguments) {
   Operator user = device.parameters().user;
   if (!arguments.user.empty()) {
     if (!device.has_bodies()) throw BadInput("--operator: a transfer function has no body for a user to hold");
-    user = {arguments.user[0], arguments.user[1], arguments.user[2]};
+    const Motion motion = device.parameters().motion;
+    user = {measured_number("--operator", arguments.user[0], Measure::mass, motion),
+            measured_number("--operator", arguments.user[1], Measure::damping, motion),
+            measured_number("--operator", arguments.user[2], Measure::stiffness, motion)};
     DeviceParameters held = device.parameters();
     held.user = user;
     if (const auto problem = find_problem(held)) {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include "cli/device_arguments.hpp"
+#include "cli/option_refusal.hpp"
 #include "cli/outputs.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
@@ -19,13 +19,11 @@
 #include "report/text/trust_text.hpp"
 #include "results/export_json.hpp"
 #include "results/json.hpp"
-#include "zwidth/design/safe_wall.hpp"
+#include "zwidth/design/wall_to_run.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth::cli {
 namespace {
-
-constexpr double default_safety_factor = 0.5;
 
 struct ExportArguments {
   DeviceArguments devices;
@@ -49,98 +47,66 @@ void check(const ExportArguments& arguments, const CLI::App& command) {
   only_for("--stiffness", {"c"});
   only_for("--safety-factor", {"c", "chai3d"});
   only_for("--accept-doubt", {"c"});
-  if (arguments.stiffness && arguments.safety_factor) {
-    throw BadInput("--safety-factor: stands beside --stiffness; each sets the stiffness: give one of them");
-  }
-  if (arguments.stiffness && !(std::isfinite(*arguments.stiffness) && *arguments.stiffness > 0.0)) {
-    throw BadInput(fmt::format("--stiffness: is {}; a number of N/m or N m/rad > 0", *arguments.stiffness));
-  }
-  if (arguments.safety_factor && !(*arguments.safety_factor > 0.0 && *arguments.safety_factor < 1.0)) {
-    throw BadInput(fmt::format("--safety-factor: is {}; a number above 0 and below 1", *arguments.safety_factor));
-  }
 }
 
-report::AnalysedDevice with_stiffness(const Device& device, double stiffness) {
-  DeviceParameters parameters = device.parameters();
-  parameters.wall.stiffness = stiffness;
-  if (const auto problem = find_problem(parameters)) {
-    throw BadInput(fmt::format("{} {}; {}", problem->key, problem->what, problem->allowed));
-  }
-  return report::analysed_device(Device(std::move(parameters)), {.draws = 0});
+/// The library's members as the options that set them.
+constexpr std::pair<std::string_view, std::string_view> options_of_wall[] = {{"stiffness", "--stiffness"},
+                                                                             {"safety_factor", "--safety-factor"}};
+
+/// A limit to take a share of, or the reason why there is none.
+void check_share(const ExportArguments& arguments, const SafeWall& wall) {
+  const std::string& file = arguments.devices.files.front();
+  if (wall.status == SafeWall::Status::chosen) return;
+  if (wall.status == SafeWall::Status::refused) throw WorkFailed(file + ": " + report::verdict_text(wall.trust));
+  const std::string why = fmt::format("{} wall is stable, there is no limit to take a share of",
+                                      wall.status == SafeWall::Status::unbounded ? "every" : "no");
+  if (arguments.format != "c") throw WorkFailed(file + ": there is no ceiling to declare: " + why);
+  throw BadInput(file + ": --safety-factor: " + why + "; give --stiffness");
 }
 
-/// Nothing is written on a refused device, a wall to run on a doubtful one only where that is asked for.
-void check_trust(const ExportArguments& arguments, const Trust& trust) {
-  if (trust.refused()) throw WorkFailed(arguments.devices.files.front() + ": " + report::verdict_text(trust));
-  if (!trust.sound() && !arguments.accept_doubt) {
-    throw WorkFailed(arguments.devices.files.front() + ": " + report::verdict_text(trust) +
-                     "; --accept-doubt writes the wall all the same");
+/// Runs the library's work on the device; an Error of it is the work's failure.
+template <typename Work>
+auto worked(const ExportArguments& arguments, const Work& work) {
+  try {
+    return work();
+  } catch (const Error& error) {
+    throw WorkFailed(arguments.devices.files.front() + ": " + error.what());
   }
-}
-
-/// A wall that can be taken a share of.
-SafeWall chosen_wall(const ExportArguments& arguments, const Device& device, const SafeWallOptions& options) {
-  SafeWall wall = [&] {
-    try {
-      return safe_wall(device, options);
-    } catch (const Error& error) {
-      throw WorkFailed(arguments.devices.files.front() + ": " + error.what());
-    }
-  }();
-  const auto refuse = [&](const std::string& why) {
-    const std::string subject = arguments.format == "c" ? "--safety-factor" : "there is no ceiling to declare";
-    const std::string message = arguments.devices.files.front() + ": " + subject + ": " + why;
-    if (arguments.format == "c") throw BadInput(message + "; give --stiffness");
-    throw WorkFailed(message);
-  };
-  switch (wall.status) {
-    case SafeWall::Status::refused:
-      throw WorkFailed(arguments.devices.files.front() + ": " + report::verdict_text(wall.trust));
-    case SafeWall::Status::none_stable:
-      refuse("no wall is stable, there is no limit to take a share of");
-      break;
-    case SafeWall::Status::unbounded:
-      refuse("every wall is stable, there is no limit to take a share of");
-      break;
-    case SafeWall::Status::chosen:
-      break;
-  }
-  return wall;
 }
 
 /// Says how K was chosen.
-std::string source_of(const SafeWall& wall, double safety_factor) {
-  const char* limit = wall.basis == SafeWall::Basis::any_user ? "limit for any user" : "critical stiffness";
-  if (wall.uncertainty_share == 1.0) return fmt::format("{} of the {}", safety_factor, limit);
-  return fmt::format("{} of the {} at the lower end of its 95 % interval", safety_factor, limit);
+std::string source_of(const ExportArguments& arguments, const WallToRun& wall) {
+  if (!wall.share) return arguments.stiffness ? "--stiffness" : "wall.stiffness";
+  const char* limit = wall.share->basis == SafeWall::Basis::any_user ? "limit for any user" : "critical stiffness";
+  return fmt::format("{} of the {}{}", *arguments.safety_factor, limit,
+                     wall.share->uncertainty_share == 1.0 ? "" : " at the lower end of its 95 % interval");
 }
 
 report::CodedWall coded_wall(const ExportArguments& arguments) {
-  Device device = std::move(read_devices(arguments.devices).front());
-  report::CodedWall wall = [&]() -> report::CodedWall {
-    if (arguments.stiffness) return {with_stiffness(device, *arguments.stiffness), {}, "--stiffness"};
-    if (arguments.safety_factor) {
-      SafeWall chosen = chosen_wall(arguments, device, {.safety_factor = *arguments.safety_factor});
-      report::CodedWall scaled{
-          with_stiffness(device, chosen.stiffness), {}, source_of(chosen, *arguments.safety_factor)};
-      scaled.analysed.analysis.trust.inherit(chosen.trust);
-      return scaled;
-    }
-    if (!device.parameters().wall.stiffness) {
-      throw BadInput(arguments.devices.files.front() +
-                     ": wall.stiffness: is missing: there is no wall to write; set it, or give --stiffness or "
-                     "--safety-factor");
-    }
-    return {report::analysed_device(std::move(device), {.draws = 0}), {}, "wall.stiffness"};
-  }();
-  check_trust(arguments, wall.analysed.analysis.trust);
-  if (arguments.contact == "unilateral") wall.contact = ControllerOptions::Contact::unilateral;
-  return wall;
+  const std::string& file = arguments.devices.files.front();
+  const Device device = std::move(read_devices(arguments.devices).front());
+  const WallToRunOptions options{arguments.stiffness, arguments.safety_factor, arguments.accept_doubt};
+  if (const auto problem = find_problem(options, device)) {
+    if (!problem->member.empty()) refuse(*problem, options_of_wall);
+    throw BadInput(
+        fmt::format("{}: {}; {}, or give --stiffness or --safety-factor", file, problem->what, problem->allowed));
+  }
+  WallToRun wall = worked(arguments, [&] { return wall_to_run(device, options); });
+  if (wall.share) check_share(arguments, *wall.share);
+  if (!wall.released) {
+    const Trust& trust = wall.analysis.trust;
+    throw WorkFailed(file + ": " + report::verdict_text(trust) +
+                     (trust.refused() ? "" : "; --accept-doubt writes the wall all the same"));
+  }
+  const bool unilateral = arguments.contact == "unilateral";
+  std::string source = source_of(arguments, wall);
+  return {std::move(wall), unilateral ? ControllerOptions::Contact::unilateral : ControllerOptions::Contact::bilateral,
+          std::move(source)};
 }
 
 std::string exported_c(const ExportArguments& arguments) {
   const report::CodedWall wall = coded_wall(arguments);
-  if (!wall.analysed.analysis.wall->stable) {
+  if (!wall.wall.analysis.wall->stable) {
     write_standard_error("zwidth: " + arguments.devices.files.front() +
                          ": the wall is UNSTABLE by linear analysis; the code says so too\n");
   }
@@ -149,10 +115,12 @@ std::string exported_c(const ExportArguments& arguments) {
 
 std::string exported_chai3d(const ExportArguments& arguments) {
   const Device device = std::move(read_devices(arguments.devices).front());
-  const double safety_factor = arguments.safety_factor.value_or(default_safety_factor);
-  const SafeWall wall =
-      chosen_wall(arguments, device, {.safety_factor = safety_factor, .damping = SafeWallOptions::Damping::ceiling});
-  return report::export_chai3d(device, wall, safety_factor);
+  SafeWallOptions options{.damping = SafeWallOptions::Damping::ceiling};
+  options.safety_factor = arguments.safety_factor.value_or(options.safety_factor);
+  if (const auto problem = find_problem(options)) refuse(*problem, options_of_wall);
+  const SafeWall wall = worked(arguments, [&] { return safe_wall(device, options); });
+  check_share(arguments, wall);
+  return report::export_chai3d(device, wall, options.safety_factor);
 }
 
 std::string exported(const ExportArguments& arguments) {

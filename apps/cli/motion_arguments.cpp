@@ -10,6 +10,7 @@
 
 #include "cli/input_problem.hpp"
 #include "cli/number_text.hpp"
+#include "cli/option_units.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/subcommand.hpp"
 #include "zwidth/io/recording_file.hpp"
@@ -20,7 +21,7 @@ namespace {
 constexpr const char* motion_group = "Motion";
 
 std::vector<double> motion_of_bodies(const std::vector<std::string>& texts, const Device& device,
-                                     const std::string& option, std::string_view unit) {
+                                     const std::string& option, Measure measure) {
   if (texts.empty()) return {};
   if (!device.has_bodies()) {
     throw BadInput(option + ": a transfer function has no bodies to start from; move the wall with --wall-position");
@@ -28,18 +29,17 @@ std::vector<double> motion_of_bodies(const std::vector<std::string>& texts, cons
   std::vector<double> values(device.bodies().size(), 0.0);
   for (const std::string& text : texts) {
     const std::size_t equals = text.rfind('=');
-    const auto value = number_in(std::string_view(text).substr(equals == std::string::npos ? 0 : equals + 1));
-    if (!value)
-      throw BadInput(fmt::format("{}: '{}': BODY={} or one number for all bodies, at most 1e30", option, text, unit));
+    const std::string_view number = std::string_view(text).substr(equals == std::string::npos ? 0 : equals + 1);
+    const double value = measured_number(option, number, measure, device.parameters().motion);
     if (equals == std::string::npos) {
-      values.assign(values.size(), *value);
+      values.assign(values.size(), value);
       continue;
     }
     const std::string name = text.substr(0, equals);
     std::string names;
     bool found = false;
     for (std::size_t i = 0; i < values.size(); ++i) {
-      if (device.bodies()[i].name == name) values[i] = *value, found = true;
+      if (device.bodies()[i].name == name) values[i] = value, found = true;
       names += (i == 0 ? "" : ", ") + device.bodies()[i].name;
     }
     if (!found) throw BadInput(fmt::format("{}: no body '{}'; the device has {}", option, name, names));
@@ -163,8 +163,8 @@ void apply(const MotionArguments& arguments, const Device& device, SimulationOpt
   if (arguments.force_rate && !(std::isfinite(*arguments.force_rate) && *arguments.force_rate > 0.0)) {
     throw BadInput(fmt::format("--user-force-rate: is {}; a number of Hz above 0", *arguments.force_rate));
   }
-  options.initial_position = motion_of_bodies(arguments.starts, device, "--start", "M");
-  options.initial_velocity = motion_of_bodies(arguments.velocities, device, "--start-velocity", "M/S");
+  options.initial_position = motion_of_bodies(arguments.starts, device, "--start", Measure::position);
+  options.initial_velocity = motion_of_bodies(arguments.velocities, device, "--start-velocity", Measure::velocity);
   if (arguments.user_force.empty()) return;
   if (!device.has_bodies()) throw BadInput("--user-force: a transfer function has no body that a user could hold");
   options.user_force = user_force(arguments);

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "cli/number_text.hpp"
 #include "cli/subcommand.hpp"
-#include "zwidth/io/number_with_unit.hpp"
 
 namespace zwidth::cli {
 namespace {
@@ -37,11 +37,14 @@ std::vector<GivenUnit>& given_units() {
 
 std::string problem_text(const UnitProblem& problem) { return problem.what + "; " + problem.allowed; }
 
+bool has_unit(std::string_view text) {
+  return text.find_first_of("0123456789") != std::string_view::npos &&
+         text.find_first_not_of("0123456789.+-eE") != std::string_view::npos;
+}
+
 /// A number with a unit as the number in SI units; all else as it is, for CLI11 to judge.
 std::string without_unit(const std::string& text, Measure measure, const std::string& option) {
-  const bool has_unit = text.find_first_of("0123456789") != std::string::npos &&
-                        text.find_first_not_of("0123456789.+-eE") != std::string::npos;
-  if (!has_unit) return text;
+  if (!has_unit(text)) return text;
   given_units().push_back({option, text, measure});
   const auto linear = number_with_unit(text, measure, Motion::linear);
   if (linear) return fmt::format("{}", *linear);
@@ -51,6 +54,19 @@ std::string without_unit(const std::string& text, Measure measure, const std::st
 }
 
 }  // namespace
+
+tl::expected<double, UnitProblem> measured_number(std::string_view text, Measure measure, Motion motion) {
+  if (has_unit(text)) return number_with_unit(text, measure, motion);
+  if (const auto number = number_in(text)) return *number;
+  return tl::unexpected(
+      UnitProblem{fmt::format("\"{}\" is no number of at most 1e30", text), allowed_numbers(measure, motion)});
+}
+
+double measured_number(const std::string& option, std::string_view text, Measure measure, Motion motion) {
+  const auto value = measured_number(text, measure, motion);
+  if (!value) throw BadInput(option + ": " + problem_text(value.error()));
+  return *value;
+}
 
 void accept_units(CLI::App& app) {
   for (CLI::App* command : app.get_subcommands({})) {

@@ -13,6 +13,7 @@
 #include "cli/device_arguments.hpp"
 #include "cli/motion_arguments.hpp"
 #include "cli/option_refusal.hpp"
+#include "cli/option_units.hpp"
 #include "cli/outputs.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/recording_arguments.hpp"
@@ -38,7 +39,7 @@ struct SimulateArguments {
   std::optional<double> wall_position;
   double lost_samples = 0.0;
   double jitter = 0.0;
-  std::vector<double> overrun;  // probability, seconds
+  std::vector<std::string> overrun;  // probability, seconds
   std::uint64_t seed = 1;
   double divergence = 1e3;
   std::size_t every = 1;
@@ -78,8 +79,9 @@ SimulationOptions options_of(const SimulateArguments& arguments, const Device& d
   options.wall_position = arguments.wall_position;
   options.faults = {arguments.lost_samples, arguments.jitter, 0.0, 0.0, arguments.seed};
   if (!arguments.overrun.empty()) {
-    options.faults.overrun_probability = arguments.overrun[0];
-    options.faults.overrun_delay = arguments.overrun[1];
+    const Motion motion = device.parameters().motion;
+    options.faults.overrun_probability = measured_number("--overrun", arguments.overrun[0], Measure::ratio, motion);
+    options.faults.overrun_delay = measured_number("--overrun", arguments.overrun[1], Measure::time, motion);
   }
   apply(arguments.motion, device, options);
   options.duration = arguments.duration;

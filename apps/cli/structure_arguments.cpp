@@ -8,7 +8,7 @@
 
 #include "cli/input_problem.hpp"
 #include "cli/subcommand.hpp"
-#include "zwidth/identification/parameter_fit.hpp"
+#include "zwidth/identification/identification.hpp"
 #include "zwidth/io/device_file.hpp"
 #include "zwidth/io/message_words.hpp"
 #include "zwidth/model/parameter.hpp"
@@ -18,41 +18,21 @@ namespace {
 
 constexpr const char* structure_group = "Structure";
 
-/// The bodies of a named structure, from the motor to the user; empty for a file.
-std::vector<std::string> bodies_of(const std::string& structure) {
-  if (structure == "rigid") return {"body"};
-  if (structure == "two-body") return {"motor", "handle"};
-  if (structure == "three-body") return {"motor", "body", "handle"};
-  return {};
-}
-
-/// The named structure as a device file, all its numbers 1 (they are fitted).
-std::string device_text(const std::string& name, const std::string& motion, double sampling_period) {
-  DeviceParameters device;
-  device.name = name;
-  device.motion = motion == "rotary" ? Motion::rotary : Motion::linear;
-  for (const std::string& body : bodies_of(name)) {
-    if (!device.bodies.empty()) device.links.push_back({device.bodies.size() - 1, device.bodies.size(), 1.0, 1.0});
-    device.bodies.push_back({body, 1.0, 1.0, 0.0, 0.0});
-  }
-  device.loop.held = device.bodies.size() - 1;
-  device.loop.sampling_period = sampling_period;
-  return write_device(device);
-}
-
 std::string nearest_or_all(const std::string& word, const std::vector<std::string>& known) {
   const std::string nearest = nearest_word(word, known);
   return nearest.empty() ? fmt::format("; one of {}", fmt::join(known, ", "))
                          : fmt::format("; did you mean {}?", nearest);
 }
 
-Device named_structure(const StructureArguments& arguments, std::optional<double> record_period) {
+Device structure_by_name(const StructureArguments& arguments, std::optional<double> record_period) {
   if (!arguments.sampling_period && !record_period) {
     throw BadInput("--sampling-period: missing; the table has none, and the loop to judge needs one, in seconds");
   }
-  const std::string text = device_text(arguments.structure, arguments.motion,
-                                       arguments.sampling_period.value_or(record_period.value_or(0.0)));
-  auto device = parse_device(text, "--structure " + arguments.structure, arguments.overrides);
+  const DeviceParameters structure =
+      named_structure(arguments.structure, arguments.motion == "rotary" ? Motion::rotary : Motion::linear,
+                      arguments.sampling_period.value_or(record_period.value_or(0.0)))
+          .value();
+  auto device = parse_device(write_device(structure), "--structure " + arguments.structure, arguments.overrides);
   if (!device) throw BadInput(input_problem(device.error()));
   return *std::move(device);
 }
@@ -108,14 +88,16 @@ void add_structure_arguments(CLI::App& command, StructureArguments& arguments) {
       ->group(structure_group);
 }
 
-bool is_named_structure(const StructureArguments& arguments) { return !bodies_of(arguments.structure).empty(); }
+bool is_named_structure(const StructureArguments& arguments) {
+  return named_structure(arguments.structure, Motion::linear, 1.0).has_value();
+}
 
 Device structure(const StructureArguments& arguments, std::optional<double> record_period) {
   if (arguments.sampling_period && !(std::isfinite(*arguments.sampling_period) && *arguments.sampling_period > 0.0)) {
     throw BadInput(fmt::format("--sampling-period: is {}; a number of seconds above 0", *arguments.sampling_period));
   }
   const Device device =
-      is_named_structure(arguments) ? named_structure(arguments, record_period) : structure_from_file(arguments);
+      is_named_structure(arguments) ? structure_by_name(arguments, record_period) : structure_from_file(arguments);
   std::vector<std::string> names;
   for (const Body& body : device.bodies()) names.push_back(body.name);
   for (const std::string& name : arguments.locked) {

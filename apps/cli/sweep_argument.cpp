@@ -3,13 +3,11 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <cmath>
-#include <optional>
 #include <vector>
 
+#include "cli/option_units.hpp"
 #include "cli/subcommand.hpp"
 #include "zwidth/io/message_words.hpp"
-#include "zwidth/io/number_with_unit.hpp"
 
 namespace zwidth::cli {
 namespace {
@@ -33,21 +31,11 @@ std::vector<std::string> split(const std::string& text) {
   return parts;
 }
 
-double end_of(const std::string& argument, const std::string& text, std::string_view which,
-              std::optional<Measure> measure, Motion motion) {
-  double value = 0.0;
-  const bool has_unit = text.find_first_of("0123456789") != std::string::npos &&
-                        text.find_first_not_of("0123456789.+-eE") != std::string::npos;
-  if (measure && has_unit) {
-    const auto number = number_with_unit(text, *measure, motion);
-    if (!number) refuse(argument, fmt::format("{}: {}; {}", which, number.error().what, number.error().allowed));
-    return *number;
-  }
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) {
-    refuse(argument, fmt::format("{} {} is no finite number", which, in_quotes(text)));
-  }
-  return value;
+double end_of(const std::string& argument, const std::string& text, std::string_view which, Measure measure,
+              Motion motion) {
+  const auto number = measured_number(text, measure, motion);
+  if (!number) refuse(argument, fmt::format("{}: {}; {}", which, number.error().what, number.error().allowed));
+  return *number;
 }
 
 }  // namespace
@@ -64,7 +52,7 @@ SweepAxis sweep_axis(const std::string& argument, Motion motion) {
   // A body's inertia is its mass to the library.
   constexpr std::string_view inertia = ".inertia";
   if (axis.key.ends_with(inertia)) axis.key.replace(axis.key.size() - inertia.size(), inertia.size(), ".mass");
-  const std::optional<Measure> measure = measure_of(axis.key);
+  const Measure measure = measure_of(axis.key).value_or(Measure::ratio);
   axis.first = end_of(argument, parts[0], "FIRST", measure, motion);
   axis.last = end_of(argument, parts[1], "LAST", measure, motion);
   const std::string& count = parts[2];

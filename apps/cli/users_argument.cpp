@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "cli/number_text.hpp"
+#include "cli/option_units.hpp"
 #include "cli/subcommand.hpp"
 #include "zwidth/io/message_words.hpp"
 
@@ -26,30 +26,43 @@ std::vector<std::string> split(const std::string& text, char separator) {
   return parts;
 }
 
-ValueRange range_in(const std::string& key, const std::string& text) {
+/// One of the three ranges that --users may name.
+struct Named {
+  std::optional<ValueRange>* range = nullptr;
+  Measure measure = Measure::mass;
+};
+
+ValueRange range_in(const std::string& key, const std::string& text, Measure measure, Motion motion) {
   const std::vector<std::string> ends = split(text, ':');
-  const auto least = number_in(ends.front());
-  const auto greatest = number_in(ends.back());
-  if (ends.size() > 2 || !least || !greatest) {
-    throw BadInput(fmt::format("--users: {}: '{}' must be LEAST:GREATEST or one number, at most 1e30", key, text));
+  const std::string option = "--users: " + key;
+  const auto least_given = measured_number(ends.front(), measure, motion);
+  const auto greatest_given = measured_number(ends.back(), measure, motion);
+  if (ends.size() > 2 || !least_given || !greatest_given) {
+    const UnitProblem* problem = !least_given      ? &least_given.error()
+                                 : !greatest_given ? &greatest_given.error()
+                                                   : nullptr;
+    throw BadInput(fmt::format("{}: '{}' must be LEAST:GREATEST or one number{}", option, text,
+                               problem ? ": " + problem->what + "; " + problem->allowed : ""));
   }
-  if (*least < 0.0) throw BadInput(fmt::format("--users: {}: {} is negative; a passive user has none", key, *least));
-  if (*greatest < *least) {
-    throw BadInput(fmt::format("--users: {}: {} is reversed; did you mean {}:{}?", key, text, *greatest, *least));
+  const double least = *least_given;
+  const double greatest = *greatest_given;
+  if (least < 0.0) throw BadInput(fmt::format("{}: {} is negative; a passive user has none", option, least));
+  if (greatest < least) {
+    throw BadInput(fmt::format("{}: {} is reversed; did you mean {}:{}?", option, text, ends.back(), ends.front()));
   }
-  return {*least, *greatest};
+  return {least, greatest};
 }
 
-std::optional<ValueRange>* place_of(UserRanges& ranges, const std::string& key) {
-  if (key == "mass" || key == "inertia") return &ranges.mass;
-  if (key == "damping") return &ranges.damping;
-  if (key == "stiffness") return &ranges.stiffness;
-  return nullptr;
+Named place_of(UserRanges& ranges, const std::string& key) {
+  if (key == "mass" || key == "inertia") return {&ranges.mass, Measure::mass};
+  if (key == "damping") return {&ranges.damping, Measure::damping};
+  if (key == "stiffness") return {&ranges.stiffness, Measure::stiffness};
+  return {};
 }
 
 }  // namespace
 
-UserRanges user_ranges(const std::string& text) {
+UserRanges user_ranges(const std::string& text, Motion motion) {
   UserRanges ranges;
   for (const std::string& part : split(text, ',')) {
     const std::size_t equals = part.find('=');
@@ -57,16 +70,16 @@ UserRanges user_ranges(const std::string& text) {
       throw BadInput(fmt::format("--users: '{}' must be KEY=LEAST:GREATEST; {}", part, example));
     }
     const std::string key = part.substr(0, equals);
-    std::optional<ValueRange>* place = place_of(ranges, key);
-    if (place == nullptr) {
+    const Named named = place_of(ranges, key);
+    if (named.range == nullptr) {
       const std::string nearest =
           nearest_word(key, std::vector<std::string>{"mass", "inertia", "damping", "stiffness"});
       throw BadInput(
           fmt::format("--users: there is no key '{}'; {}", key,
                       nearest.empty() ? "one of mass, damping, stiffness" : "did you mean " + nearest + "?"));
     }
-    if (*place) throw BadInput(fmt::format("--users: {} is given twice", key));
-    *place = range_in(key, part.substr(equals + 1));
+    if (*named.range) throw BadInput(fmt::format("--users: {} is given twice", key));
+    *named.range = range_in(key, part.substr(equals + 1), named.measure, motion);
   }
   return ranges;
 }

@@ -35,9 +35,9 @@ std::string in_comment(std::string text) {
   return text;
 }
 
-std::string any_user_text(const AnalysedDevice& analysed, std::string_view unit) {
-  if (!analysed.analysis.any_user) return "not computed";
-  const double limit = analysed.analysis.any_user->stiffness;
+std::string any_user_text(const Analysis& analysis, std::string_view unit) {
+  if (!analysis.any_user) return "not computed";
+  const double limit = analysis.any_user->stiffness;
   if (std::isinf(limit)) return "none: no user destabilises it";
   return limit > 0.0 ? fmt::format("{:.6g} {}", limit, unit) : "0: some user destabilises every wall";
 }
@@ -52,7 +52,7 @@ class CodeWriter {
  public:
   explicit CodeWriter(const CodedWall& coded)
       : coded_(coded),
-        device_(coded.analysed.device.parameters()),
+        device_(coded.wall.device.parameters()),
         wall_(device_.wall),
         units_(units_of(device_.motion)),
         name_(c_identifier(device_.name)) {}
@@ -66,7 +66,7 @@ class CodeWriter {
   [[nodiscard]] bool is_one_sided() const { return coded_.contact == ControllerOptions::Contact::unilateral; }
 
   [[nodiscard]] std::string opening_comment() const {
-    const Analysis& analysis = coded_.analysed.analysis;
+    const Analysis& analysis = coded_.wall.analysis;
     std::string text = fmt::format(
         "/* Virtual wall for {}\n"
         " *\n"
@@ -74,7 +74,7 @@ class CodeWriter {
         " *\n"
         " *   stiffness K         {} {} ({})\n"
         " *   damping B           {} {}\n",
-        in_comment(display_name(coded_.analysed.device)), ZWIDTH_VERSION, *wall_.stiffness, units_.stiffness,
+        in_comment(display_name(coded_.wall.device)), ZWIDTH_VERSION, *wall_.stiffness, units_.stiffness,
         in_comment(coded_.stiffness_source), wall_.damping, units_.damping);
     if (has_velocity() && wall_.velocity_filter_hz > 0.0) {
       text += fmt::format(" *   velocity low-pass   {} Hz\n", wall_.velocity_filter_hz);
@@ -90,7 +90,7 @@ class CodeWriter {
         " *\n"
         " * Valid for one call per sampling period of {} s, at a delay of {} s besides the hold.\n",
         is_one_sided() ? "unilateral: it pushes only, out of position > 0" : "bilateral: a spring on both sides of 0",
-        critical_text(analysis.critical, units_.stiffness), any_user_text(coded_.analysed, units_.stiffness),
+        critical_text(analysis.critical, units_.stiffness), any_user_text(analysis, units_.stiffness),
         device_.loop.sampling_period, device_.loop.delay);
     if (const auto note = trust_note(analysis.trust)) text += " *\n * " + in_comment(*note) + "\n";
     if (!analysis.wall || !analysis.wall->stable) {
@@ -206,7 +206,7 @@ std::string c_identifier(std::string_view name) {
 }
 
 std::string export_c(const CodedWall& wall) {
-  if (!wall.analysed.device.parameters().wall.stiffness) {
+  if (!wall.wall.device.parameters().wall.stiffness) {
     throw Error(ErrorCode::invalid_argument, "there is no wall to write: wall.stiffness is missing");
   }
   return CodeWriter(wall).text();

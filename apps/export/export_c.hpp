@@ -3,14 +3,14 @@
 #include <string>
 #include <string_view>
 
-#include "report/analysed_device.hpp"
 #include "zwidth/control/sampled_controller.hpp"
+#include "zwidth/design/wall_to_run.hpp"
 
 namespace zwidth::report {
 
 /// A wall to write as code.
 struct CodedWall {
-  AnalysedDevice analysed;  ///< with wall.stiffness
+  WallToRun wall;
   ControllerOptions::Contact contact = ControllerOptions::Contact::bilateral;
   std::string stiffness_source;  ///< "wall.stiffness of the device file": where K comes from
 };

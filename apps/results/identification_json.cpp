@@ -1,6 +1,5 @@
 #include "results/identification_json.hpp"
 
-#include <algorithm>
 #include <complex>
 #include <span>
 
@@ -113,9 +112,7 @@ Json identification_json(const TimeDomainIdentification& identified) {
     json["unidentifiable"].push_back(each.parameters);
   }
   for (const char* key : {"point_count", "misfit", "critical_stiffness_without_hold"}) json[key] = nullptr;
-  double unexplained = 0.0;
-  for (const FittedMotion& each : identified.motions) unexplained = std::max(unexplained, each.unexplained);
-  json["model_error"] = unexplained;
+  json["model_error"] = identified.model_error;
   json["held_to_measured_critical_point"] = false;
   put_limit(json, identified, analysis);
   return json;

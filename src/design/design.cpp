@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "require_valid.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth {
@@ -16,10 +17,7 @@ std::optional<OptionProblem> find_problem(const DesignOptions& options) {
 }
 
 Design design(const Device& device, const DesignOptions& options) {
-  if (const auto problem = find_problem(options)) {
-    throw Error(ErrorCode::invalid_argument,
-                fmt::format("{} {}; {}", problem->member, problem->what, problem->allowed));
-  }
+  internal::require_valid(find_problem(options));
   Design design;
   design.analysis = analyze(device, {.any_user = options.any_user, .draws = 0});
   design.trust = design.analysis.trust;

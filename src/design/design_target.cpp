@@ -12,6 +12,7 @@
 #include <mutex>
 
 #include "design/design_parameter.hpp"
+#include "require_valid.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/parameter.hpp"
 #include "zwidth/quantity.hpp"
@@ -240,10 +241,7 @@ std::optional<OptionProblem> find_problem(const DesignTargetOptions& options, co
 }
 
 DesignTargets design_targets(const Device& device, const DesignTargetOptions& options) {
-  if (const auto problem = find_problem(options, device)) {
-    throw Error(ErrorCode::invalid_argument,
-                fmt::format("{} {}; {}", problem->member, problem->what, problem->allowed));
-  }
+  require_valid(find_problem(options, device));
   DesignTargets result;
   const CriticalStiffness own = critical_stiffness(device);
   result.trust = own.trust;

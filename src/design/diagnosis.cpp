@@ -11,6 +11,7 @@
 #include "design/diagnosis_changes.hpp"
 #include "design/oscillation_causes.hpp"
 #include "design/wall_limits.hpp"
+#include "require_valid.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/device_trust.hpp"
 
@@ -126,10 +127,7 @@ std::optional<OptionProblem> find_problem(const DiagnosisOptions& options, const
 }
 
 Diagnosis diagnose(const Device& device, const DiagnosisOptions& options) {
-  if (const auto problem = find_problem(options, device)) {
-    throw Error(ErrorCode::invalid_argument,
-                fmt::format("{} {}; {}", problem->member, problem->what, problem->allowed));
-  }
+  require_valid(find_problem(options, device));
   Diagnosis diagnosis;
   diagnosis.trust = trust_of(device);
   if (diagnosis.trust.refused()) return diagnosis;

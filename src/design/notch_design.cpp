@@ -12,6 +12,7 @@
 
 #include "design/margin_wall.hpp"
 #include "design/notch_search.hpp"
+#include "require_valid.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/stability/any_user.hpp"
 
@@ -219,10 +220,7 @@ double stiffest_wall(const Device& device, const NotchOptions& options) {
 }
 
 NotchDesign design_notch(const Device& device, const NotchOptions& options) {
-  if (const auto problem = find_problem(options, device)) {
-    throw Error(ErrorCode::invalid_argument,
-                fmt::format("{} {}; {}", problem->member, problem->what, problem->allowed));
-  }
+  require_valid(find_problem(options, device));
   NotchDesign design;
   design.trust = critical_stiffness(device).trust;
   if (design.trust.refused()) return design;

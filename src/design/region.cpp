@@ -7,6 +7,7 @@
 
 #include "design/region_check.hpp"
 #include "design/region_structure.hpp"
+#include "require_valid.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/device_trust.hpp"
 #include "zwidth/quantity.hpp"
@@ -88,9 +89,7 @@ std::optional<OptionProblem> find_problem(const RegionOptions& options) {
 }
 
 WallRegion region(const Device& device, const RegionOptions& options) {
-  if (const auto problem = find_problem(options)) {
-    throw Error(ErrorCode::invalid_argument, problem->member + " " + problem->what + "; " + problem->allowed);
-  }
+  require_valid(find_problem(options));
   WallRegion result;
   result.trust = trust_of(device);
   if (result.trust.refused()) return result;

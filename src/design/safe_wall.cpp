@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "require_valid.hpp"
 #include "stability/any_user_search.hpp"
 #include "stability/guarded_stiffness.hpp"
 #include "stability/pole_count.hpp"
@@ -202,9 +203,7 @@ std::optional<OptionProblem> find_problem(const SafeWallOptions& options) {
 }
 
 SafeWall safe_wall(const Device& device, const SafeWallOptions& options) {
-  if (const auto problem = find_problem(options)) {
-    throw Error(ErrorCode::invalid_argument, problem->member + " " + problem->what + "; " + problem->allowed);
-  }
+  require_valid(find_problem(options));
   SafeWall wall;
   wall.trust = trust_of(device);
   if (wall.trust.refused()) return refused(std::move(wall));

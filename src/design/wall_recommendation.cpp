@@ -12,6 +12,7 @@
 #include "design/wall_check.hpp"
 #include "design/wall_limits.hpp"
 #include "design/wall_search.hpp"
+#include "require_valid.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/device_trust.hpp"
 #include "zwidth/quantity.hpp"
@@ -347,10 +348,7 @@ std::optional<OptionProblem> find_problem(const RecommendationOptions& options, 
 }
 
 WallRecommendation recommend_wall(const Device& device, const RecommendationOptions& options) {
-  if (const auto problem = find_problem(options, device)) {
-    throw Error(ErrorCode::invalid_argument,
-                fmt::format("{} {}; {}", problem->member, problem->what, problem->allowed));
-  }
+  require_valid(find_problem(options, device));
   Trust trust = trust_of(device);
   if (trust.refused()) return refused(std::move(trust));
   try {

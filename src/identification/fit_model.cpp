@@ -57,7 +57,8 @@ void check_response(const FrequencyResponse& response, std::size_t parameters) {
   }
   if (response.points.size() <= parameters) {
     throw Error(ErrorCode::invalid_argument,
-                fmt::format("the response has {} points for {} free parameters; it must have more points than that",
+                fmt::format("the response has {} points for {} free parameters, and must have more; leave fewer "
+                            "parameters free, widen the band, or record for longer (more lines)",
                             response.points.size(), parameters));
   }
 }

@@ -14,6 +14,7 @@
 #include "identification/interval_narrowing.hpp"
 #include "identification/response_choice.hpp"
 #include "model/uncertainty_problem.hpp"
+#include "require_valid.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/identification/record_fit.hpp"
 #include "zwidth/model/parameter.hpp"
@@ -286,12 +287,7 @@ void judge_interval(Identification& result, Trust device_trust) {
   result.fit.device = with_trust(result.fit.device, device_trust);
 }
 
-void check(const IdentifyOptions& options) {
-  if (const auto problem = find_problem(options)) {
-    throw Error(ErrorCode::invalid_argument,
-                fmt::format("{} {}; {}", problem->member, problem->what, problem->allowed));
-  }
-}
+void check(const IdentifyOptions& options) { require_valid(find_problem(options)); }
 
 Identification identified(const MeasuredResponse& measured, std::span<const Recording> recordings,
                           const Device& structure, const IdentifyOptions& options) {

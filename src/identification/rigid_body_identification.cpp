@@ -11,6 +11,7 @@
 #include "identification/fit_judgement.hpp"
 #include "identification/percent.hpp"
 #include "identification/plausibility.hpp"
+#include "require_valid.hpp"
 #include "signal/clipping.hpp"
 #include "zwidth/error.hpp"
 
@@ -131,10 +132,7 @@ std::optional<OptionProblem> find_problem(const RigidBodyOptions& options) {
 
 RigidBodyIdentification identify_rigid_body(const Recording& recording, const RigidBodyOptions& options,
                                             const Progress& progress) {
-  if (const auto problem = find_problem(options)) {
-    throw Error(ErrorCode::invalid_argument,
-                fmt::format("{} {}; {}", problem->member, problem->what, problem->allowed));
-  }
+  require_valid(find_problem(options));
   if (recording.channels.size() != 2) {
     throw Error(
         ErrorCode::invalid_argument,

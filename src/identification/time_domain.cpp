@@ -13,6 +13,7 @@
 #include "identification/shot_fit.hpp"
 #include "identification/time_domain_judgement.hpp"
 #include "identification/time_domain_start.hpp"
+#include "require_valid.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/parameter.hpp"
 
@@ -25,10 +26,7 @@ constexpr std::size_t least_samples = 512;
 constexpr double two_sided = 1.959963984540054;
 
 void check(std::span<const Recording> recordings, const Device& structure, const TimeDomainOptions& options) {
-  if (const auto problem = find_problem(options)) {
-    throw Error(ErrorCode::invalid_argument,
-                fmt::format("{} {}; {}", problem->member, problem->what, problem->allowed));
-  }
+  require_valid(find_problem(options));
   if (recordings.empty()) throw Error(ErrorCode::invalid_argument, "there is no recording; must be at least one");
   if (!structure.has_bodies()) {
     throw Error(ErrorCode::invalid_argument, "the structure is a transfer function; it must be a device of bodies");

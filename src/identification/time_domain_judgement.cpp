@@ -111,6 +111,7 @@ class Judge {
       FittedMotion& motion = fit_.motions[r];
       const Recording& recording = judged_.recordings[r];
       motion.unexplained = unexplained_response(fit_.device, recording, motion, judged_.options.locked);
+      fit_.model_error = std::max(fit_.model_error, motion.unexplained);
       if (motion.unexplained > refused_share) {
         trust_.refuse(
             fmt::format("the fitted device leaves {} of the response of {} unexplained; is the structure "

@@ -26,24 +26,26 @@ struct MeasuredUnit {
 
 const MeasuredUnit& unit_of(Measure measure, Motion motion) {
   // In the order of Measure.
-  static constexpr std::array<MeasuredUnit, 9> linear{{{"a ratio", "", "", "20 %"},
-                                                       {"a time", "s", "", "1.5 ms"},
-                                                       {"a frequency", "Hz", "", "0.2 kHz"},
-                                                       {"an angular frequency", "rad/s", "", "40 Hz"},
-                                                       {"a length", "m", "", "5 um"},
-                                                       {"a force", "N", "", "500 mN"},
-                                                       {"a mass", "kg", "", "220 g"},
-                                                       {"a damping", "N s/m", "", "5 N s/m"},
-                                                       {"a stiffness", "N/m", "", "5 N/mm"}}};
-  static constexpr std::array<MeasuredUnit, 9> rotary{{linear[0],
-                                                       linear[1],
-                                                       linear[2],
-                                                       linear[3],
-                                                       {"an angle", "rad", "", "1 turn/4096"},
-                                                       {"a torque", "N m", "N m/rad", "500 mN m"},
-                                                       {"an inertia", "kg m^2", "kg m^2/rad", "22 kg cm^2"},
-                                                       {"a damping", "N m s/rad", "N m s", "0.1 N m s/rad"},
-                                                       {"a stiffness", "N m/rad", "N m", "0.4 N m/deg"}}};
+  static constexpr std::array<MeasuredUnit, 10> linear{{{"a ratio", "", "", "20 %"},
+                                                        {"a time", "s", "", "1.5 ms"},
+                                                        {"a frequency", "Hz", "", "0.2 kHz"},
+                                                        {"an angular frequency", "rad/s", "", "40 Hz"},
+                                                        {"a length", "m", "", "5 um"},
+                                                        {"a force", "N", "", "500 mN"},
+                                                        {"a mass", "kg", "", "220 g"},
+                                                        {"a damping", "N s/m", "", "5 N s/m"},
+                                                        {"a stiffness", "N/m", "", "5 N/mm"},
+                                                        {"a velocity", "m/s", "", "50 mm/s"}}};
+  static constexpr std::array<MeasuredUnit, 10> rotary{{linear[0],
+                                                        linear[1],
+                                                        linear[2],
+                                                        linear[3],
+                                                        {"an angle", "rad", "", "1 turn/4096"},
+                                                        {"a torque", "N m", "N m/rad", "500 mN m"},
+                                                        {"an inertia", "kg m^2", "kg m^2/rad", "22 kg cm^2"},
+                                                        {"a damping", "N m s/rad", "N m s", "0.1 N m s/rad"},
+                                                        {"a stiffness", "N m/rad", "N m", "0.4 N m/deg"},
+                                                        {"an angular velocity", "rad/s", "", "90 deg/s"}}};
   return (motion == Motion::rotary ? rotary : linear)[static_cast<std::size_t>(measure)];
 }
 

@@ -9,8 +9,10 @@
 #include <random>
 #include <string>
 
+#include "require_valid.hpp"
 #include "sampling/sampling_instants.hpp"
 #include "simulation/continuous_motion.hpp"
+#include "simulation/simulation_setup.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth {
@@ -40,15 +42,8 @@ OutsideForce outside_force(const UserForce& force) {
 }
 
 void check(const Device& device, const HybridLoopOptions& options) {
-  const bool moves_a_body = options.user_force.kind != UserForce::Kind::none || !options.initial_position.empty() ||
-                            !options.initial_velocity.empty();
-  if (!device.has_bodies() && moves_a_body) {
-    throw Error(ErrorCode::needs_bodies, "a transfer function has no body to hold or to start from");
-  }
-  if (const auto problem = find_problem(options, device)) {
-    throw Error(ErrorCode::invalid_argument,
-                fmt::format("{} {}; {}", problem->member, problem->what, problem->allowed));
-  }
+  check_bodies(device, options);
+  require_valid(find_problem(options, device));
 }
 
 /// Forces on their way to the device, in the order of their arrival: a ring that never grows.

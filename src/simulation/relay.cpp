@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "require_valid.hpp"
 #include "simulation/relay_explanation.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/quantity.hpp"
@@ -120,10 +121,7 @@ RelayResult relay(const Device& device, const RelayOptions& options, const Progr
 }
 
 RelayResult relay(RelayRecord record, const RelayRecordOptions& options) {
-  if (const auto problem = find_problem(options, record.sampling_period)) {
-    throw Error(ErrorCode::invalid_argument,
-                fmt::format("{} {}; {}", problem->member, problem->what, problem->allowed));
-  }
+  require_valid(find_problem(options, record.sampling_period));
   RelayResult result;
   result.source = RelayResult::Source::recording;
   result.recording = std::move(record.source);

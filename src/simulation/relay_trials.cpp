@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "require_valid.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/simulation/hybrid_loop.hpp"
 
@@ -22,10 +23,7 @@ std::size_t samples_per_trial(const Device& device, const RelayOptions& options)
   if (!device.has_bodies() && options.start_offset != 0.0) {
     throw Error(ErrorCode::needs_bodies, "a start offset needs bodies; a transfer function starts at rest at 0");
   }
-  if (const auto problem = find_problem(options, device)) {
-    throw Error(ErrorCode::invalid_argument,
-                fmt::format("{} {}; {}", problem->member, problem->what, problem->allowed));
-  }
+  internal::require_valid(find_problem(options, device));
   return static_cast<std::size_t>(std::round(options.duration / device.loop().sampling_period));
 }
 

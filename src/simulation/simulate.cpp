@@ -1,12 +1,11 @@
 #include "zwidth/simulation/simulate.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <span>
 
+#include "require_valid.hpp"
 #include "signal/fitted_sine.hpp"
 #include "simulation/force_ripple.hpp"
 #include "simulation/loop_judgement.hpp"
@@ -146,16 +145,8 @@ void judge(Simulation& result, const std::vector<double>& sensed, const Device& 
 }
 
 void check(const Device& device, const SimulationOptions& options) {
-  const bool moves_a_body = options.user_force.kind != UserForce::Kind::none || !options.initial_position.empty() ||
-                            !options.initial_velocity.empty();
-  if (!device.has_bodies() && moves_a_body) {
-    throw Error(ErrorCode::needs_bodies, "a transfer function has no body to hold or to start from");
-  }
-  if (const auto problem = find_problem(options, device)) {
-    throw Error(ErrorCode::invalid_argument,
-                fmt::format("{}{}{}; {}", problem->member, problem->member.empty() ? "" : " ", problem->what,
-                            problem->allowed));
-  }
+  check_bodies(device, options);
+  require_valid(find_problem(options, device));
 }
 
 /// Runs the loop; what it did is not judged yet. Returns the sensed positions, one more than samples.

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "zwidth/error.hpp"
 #include "zwidth/simulation/simulate.hpp"
 
 namespace zwidth::internal {
@@ -21,6 +22,15 @@ struct SimulationSetup {
 
 /// See default_duration(); `critical` is the linear answer's.
 [[nodiscard]] double default_duration(const Device& device, const CriticalStiffness& critical, const UserForce& force);
+
+/// Throws Error (needs_bodies) where a body is to be moved by the options of a loop or a simulation of a device without.
+template <typename Options>
+void check_bodies(const Device& device, const Options& options) {
+  const bool moves_a_body = options.user_force.kind != UserForce::Kind::none || !options.initial_position.empty() ||
+                            !options.initial_velocity.empty();
+  if (device.has_bodies() || !moves_a_body) return;
+  throw Error(ErrorCode::needs_bodies, "a transfer function has no body to hold or to start from");
+}
 
 /// Sum of the Coulomb friction of all bodies, N or N m.
 [[nodiscard]] double whole_friction(const Device& device);

@@ -1,7 +1,6 @@
 #include "stability/alias_tail.hpp"
 
 #include <Eigen/Core>
-#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -47,11 +46,6 @@ std::complex<double> alias_tail(double first, double x, double angle, int power)
     integral += rule.weight[i] * std::pow(rule.node[i], power - 1) / sum;
   }
   return std::polar(1.0, -angle * first) * std::pow(start, -power) / std::tgamma(power) * integral;
-}
-
-double alias_tail_error(double first, double angle) {
-  if (angle == 0.0) return 1e-13;
-  return std::max(2e-9, 0.05 * std::exp(-3.0 * first * std::abs(angle)));
 }
 
 }  // namespace zwidth::internal

@@ -8,7 +8,6 @@
 #include <numbers>
 #include <string>
 
-#include "sampling/bilinear_plant.hpp"
 #include "stability/delay_margin.hpp"
 #include "stability/gain_crossings.hpp"
 #include "stability/spectral_radius.hpp"
@@ -50,11 +49,10 @@ void find_gain_margins(const GainCrossings& crossings, double factor_at_wall, Lo
   }
 }
 
-// Smallest phase and delay that take any gain crossover to -1. `to_frequency` maps the angle to rad/s.
-template <typename ToFrequency>
-void find_phase_margins(const FilteredPlant& plant, const Wall& wall, ToFrequency to_frequency, LoopMargins& margins) {
+// Smallest phase and delay that take any gain crossover to -1.
+void find_phase_margins(const FilteredPlant& plant, const Wall& wall, LoopMargins& margins) {
   for (const UnitGainPoint& point : unit_gain_points(plant, wall)) {
-    const double frequency = to_frequency(point.angle);
+    const double frequency = point.angle / plant.period;
     margins.gain_crossovers.push_back({frequency, point.phase});
     if (!margins.stable) continue;
     const double delay = lag_to_instability(point) / frequency;
@@ -70,8 +68,10 @@ bool keeps_pole_on_circle(const FilteredPlant& plant, const Wall& wall) {
   });
 }
 
-template <typename ToFrequency>
-LoopMargins margins_of(const FilteredPlant& plant, const Wall& wall, ToFrequency to_frequency) {
+}  // namespace
+
+LoopMargins loop_margins(const FilteredPlant& plant, const Wall& wall) {
+  check(wall);
   const double stiffness = *wall.stiffness;
   const VirtualDamper damper{wall.damping, wall.velocity_filter_hz};
   LoopMargins margins;
@@ -92,38 +92,8 @@ LoopMargins margins_of(const FilteredPlant& plant, const Wall& wall, ToFrequency
                         margins);
     }
   }
-  find_phase_margins(plant, wall, to_frequency, margins);
+  find_phase_margins(plant, wall, margins);
   return margins;
-}
-
-// No damping anywhere: L(jw) is real at every frequency, closed-loop poles lie symmetric to the imaginary axis, and no
-// gain makes the loop asymptotically stable.
-bool is_lossless(const ModalForm& form) {
-  return std::all_of(form.terms.begin(), form.terms.end(), [](const ModalTerm& term) {
-    const double rounding = 1e-14 * std::sqrt(std::abs(term.denominator[0]));
-    return term.degree == 2 && std::abs(term.denominator[1]) <= rounding &&
-           std::abs(term.numerator[1]) * std::sqrt(std::abs(term.denominator[0])) <=
-               1e-14 * std::abs(term.numerator[0]);
-  });
-}
-
-}  // namespace
-
-LoopMargins loop_margins(const FilteredPlant& plant, const Wall& wall) {
-  check(wall);
-  return margins_of(plant, wall, [&plant](double angle) { return angle / plant.period; });
-}
-
-LoopMargins continuous_margins(const TransferFunction& loop) {
-  DeviceParameters parameters;
-  parameters.name = "loop";
-  parameters.transfer_function = loop;
-  parameters.loop.sampling_period = 1.0;  // not used: the bilinear map takes the place of sampling
-  const ModalForm form = modal_form(Device(std::move(parameters)));
-  if (is_lossless(form)) return {};
-  const FilteredPlant plant = filtered_plant(bilinear_plant(form), {});
-  const double rate = 2.0 / plant.period;
-  return margins_of(plant, {1.0, 0.0, 0.0}, [rate](double angle) { return rate * std::tan(angle / 2.0); });
 }
 
 WallMargins wall_margins(const Device& device) {

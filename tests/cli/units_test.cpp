@@ -42,7 +42,23 @@ TEST_F(UnitsOnTheCommandLine, AreTheSameNumbers) {
       "zwidth relay devices/quanser_torsion.toml --json --amplitude 0.5 --start 0.017453292519943295 --duration 2");
 }
 
+TEST_F(UnitsOnTheCommandLine, OfValuesWithSeveralPartsAreTheSameNumbers) {
+  expect_same("zwidth analyze devices/lhifam.toml --json --users 'mass=0:500 g,damping=1 N s/m:2,stiffness=0.1 N/mm'",
+              "zwidth analyze devices/lhifam.toml --json --users mass=0:0.5,damping=1:2,stiffness=100");
+  expect_same("zwidth design devices/lhifam.toml --json --compare sensed=motor,handle --operator '500 g,6,0.135 N/mm'",
+              "zwidth design devices/lhifam.toml --json --compare sensed=motor,handle --operator 0.5,6,135");
+  expect_same(
+      "zwidth simulate devices/lhifam.toml --json --set wall.stiffness=5e3 --duration 0.3 --overrun '20 %,250 us' "
+      "--start 'handle=2 mm' --start-velocity '30 mm/s'",
+      "zwidth simulate devices/lhifam.toml --json --set wall.stiffness=5e3 --duration 0.3 --overrun 0.2,250e-6 "
+      "--start handle=0.002 --start-velocity 0.03");
+}
+
 TEST_F(UnitsOnTheCommandLine, OfTheOtherMotionAreRefused) {
+  expect_refusal("zwidth analyze devices/lhifam.toml --users 'mass=0:5 kg cm^2'",
+                 "--users: mass: '0:5 kg cm^2' must be LEAST:GREATEST or one number: \"kg cm^2\" is no unit of a mass");
+  expect_refusal("zwidth simulate devices/lhifam.toml --set wall.stiffness=5000 --start '3 deg'",
+                 "--start: \"deg\" is no unit of a length");
   expect_refusal("zwidth design devices/lhifam.toml --target '12 N m/rad'",
                  "--target: \"N m/rad\" is no unit of a stiffness; must be a number of N/m");
   expect_refusal("zwidth relay devices/quanser_torsion.toml --amplitude 5N",

@@ -83,6 +83,22 @@ ExcitationOptions noise(double lowest_hz, double highest_hz, double rate, std::u
 }
 
 // Without the delay the same data gave 615.6 N m/rad in [609.6, 621.5].
+TEST(NamedStructure, IsARowOfLinkedBodiesWithPlaceholders) {
+  EXPECT_FALSE(named_structure("four-body", Motion::linear, 1e-3));
+  std::size_t bodies = 0;
+  for (const char* name : {"rigid", "two-body", "three-body"}) {
+    const auto structure = named_structure(name, Motion::rotary, 2e-3);
+    ASSERT_TRUE(structure) << name;
+    EXPECT_EQ(structure->bodies.size(), ++bodies);
+    EXPECT_EQ(structure->links.size(), bodies - 1);
+    EXPECT_EQ(structure->loop.held, bodies - 1);
+    EXPECT_EQ(structure->loop.sensed, 0U);
+    EXPECT_EQ(structure->loop.sampling_period, 2e-3);
+    EXPECT_EQ(structure->motion, Motion::rotary);
+    EXPECT_FALSE(find_problem(*structure)) << name;
+  }
+}
+
 TEST(Identification, AnExtrapolatedLimitIsDoubtfulAndItsIntervalHoldsTheTruth) {
   const Device rotor = late_rotor();
   const double truth = true_stiffness(rotor);

@@ -12,6 +12,7 @@
 #include "fifty_digits.hpp"
 #include "lhifam.hpp"
 #include "log_spaced.hpp"
+#include "two_mass_response.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/two_mass.hpp"
 
@@ -70,16 +71,16 @@ TEST(ModalForm, AgreesWithTheClosedFormsOfTwoMasses) {
   const TwoMass two = as_two_mass(device).value();
   struct {
     Path path;
-    std::complex<double> TwoMassResponse::*response;
-  } const cases[] = {{{0, 0}, &TwoMassResponse::G_m},
-                     {{0, 1}, &TwoMassResponse::G_c},
-                     {{1, 0}, &TwoMassResponse::G_c},
-                     {{1, 1}, &TwoMassResponse::G_d}};
+    std::complex<double> test::TwoMassResponse::*response;
+  } const cases[] = {{{0, 0}, &test::TwoMassResponse::G_m},
+                     {{0, 1}, &test::TwoMassResponse::G_c},
+                     {{1, 0}, &test::TwoMassResponse::G_c},
+                     {{1, 1}, &test::TwoMassResponse::G_d}};
   for (const auto& [path, member] : cases) {
     const ModalForm form = modal_form(device, path, ActuatorLag::included);
     // Up to a few times the mode: beyond, terms of G_c cancel and the closed form is the better one.
     for (const double frequency : log_spaced(1e-3, 2000.0, 400)) {
-      const std::complex<double> closed = two_mass_response(two, {0.0, frequency}).*member;
+      const std::complex<double> closed = test::two_mass_response(two, {0.0, frequency}).*member;
       EXPECT_LE(std::abs(response(form, frequency) / closed - 1.0), 1e-12)
           << "at " << frequency << " rad/s, " << path.force_at << " -> " << path.position_of;
     }

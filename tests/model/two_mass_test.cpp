@@ -7,6 +7,7 @@
 
 #include "lhifam.hpp"
 #include "log_spaced.hpp"
+#include "two_mass_response.hpp"
 
 namespace zwidth {
 namespace {
@@ -22,7 +23,7 @@ TEST(TwoMass, ResponseSolvesTheEquationsOfMotion) {
   const auto& [mm, md, bm, bd, kc, bc] = table_one;
   for (const double w : test::log_spaced(1e-2, 1e5, 30)) {
     for (const Complex s : {Complex(0.0, w), Complex(0.3 * w, w), Complex(-0.2 * w, 0.5 * w)}) {
-      const TwoMassResponse g = two_mass_response(table_one, s);
+      const test::TwoMassResponse g = test::two_mass_response(table_one, s);
       const Complex cable = kc + bc * s;
       const Complex motor = mm * s * s + bm * s + cable;
       const Complex body = md * s * s + bd * s + cable;
@@ -40,8 +41,8 @@ TEST(TwoMass, FactorisedFormIsExactForProportionalDamping) {
   EXPECT_LE(two_mass_factors(proportional).relative_error, 1e-30);
   for (const double w : test::log_spaced(1e-2, 1e4, 60)) {
     const Complex s(0.0, w);
-    const TwoMassResponse exact = two_mass_response(proportional, s);
-    const TwoMassResponse factorised = two_mass_factorised_response(proportional, s);
+    const test::TwoMassResponse exact = test::two_mass_response(proportional, s);
+    const test::TwoMassResponse factorised = test::two_mass_factorised_response(proportional, s);
     // Near the resonance (damping ratio 0.05) rounding grows by about 1 / (2 zeta).
     EXPECT_LE(difference(factorised.G_m, exact.G_m), 1e-12);
     EXPECT_LE(difference(factorised.G_c, exact.G_c), 1e-12);
@@ -58,8 +59,8 @@ TEST(TwoMass, FactorisedFormLacksJustOneTerm) {
   EXPECT_GT(factors.relative_error, 1e-6);
   for (const double w : test::log_spaced(1e-1, 1e4, 60)) {
     const Complex s(0.0, w);
-    const Complex exact = (kc + bc * s) / two_mass_response(uneven, s).G_c;
-    const Complex factorised = (kc + bc * s) / two_mass_factorised_response(uneven, s).G_c;
+    const Complex exact = (kc + bc * s) / test::two_mass_response(uneven, s).G_c;
+    const Complex factorised = (kc + bc * s) / test::two_mass_factorised_response(uneven, s).G_c;
     EXPECT_LE(std::abs(factorised - exact - mismatch * mismatch * s * s), 1e-12 * std::abs(exact)) << w;
   }
   // relative to the coefficient k_c m + b_m b_d + b_c b

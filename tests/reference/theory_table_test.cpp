@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "continuous_margins.hpp"
 #include "lhifam.hpp"
 #include "zwidth/model/two_mass.hpp"
 #include "zwidth/stability/analysis.hpp"
@@ -192,7 +193,7 @@ TEST(Theory, SpringUser) {
 
 // MathWorks' documentation of allmargin.
 TEST(Theory, AllmarginExample) {
-  const LoopMargins margins = continuous_margins({{25.0}, {1.0, 10.0, 10.0, 10.0}});
+  const LoopMargins margins = test::continuous_margins({{25.0}, {1.0, 10.0, 10.0, 10.0}});
   ASSERT_TRUE(margins.stable);
   EXPECT_NEAR(margins.gain_margin.value(), 3.6, 1e-12);
   EXPECT_FALSE(margins.lower_gain_margin.has_value());

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace zwidth {
@@ -18,6 +19,12 @@ std::complex<double> direct_sum(int first, double x, double angle, int power) {
   }
   if (angle == 0.0) sum += std::pow(last - 0.5L + static_cast<long double>(x), 1 - power) / (power - 1.0L);
   return {static_cast<double>(sum.real()), static_cast<double>(sum.imag())};
+}
+
+// As the docstring of alias_tail() states it.
+double alias_tail_error(double first, double angle) {
+  if (angle == 0.0) return 1e-13;
+  return std::max(2e-9, 0.05 * std::exp(-3.0 * first * std::abs(angle)));
 }
 
 TEST(AliasTail, EqualsTheDirectSumWithinItsStatedError) {

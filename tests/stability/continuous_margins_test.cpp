@@ -1,3 +1,5 @@
+#include "continuous_margins.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,7 +17,7 @@ constexpr double tolerance = 1e-11;
 
 // 1/s: gain crossover at 1 rad/s, 90 degrees.
 TEST(ContinuousMargins, Integrator) {
-  const LoopMargins margins = continuous_margins({{1.0}, {1.0, 0.0}});
+  const LoopMargins margins = test::continuous_margins({{1.0}, {1.0, 0.0}});
   EXPECT_TRUE(margins.stable);
   EXPECT_FALSE(margins.gain_margin.has_value());
   EXPECT_FALSE(margins.lower_gain_margin.has_value());
@@ -28,7 +30,7 @@ TEST(ContinuousMargins, Integrator) {
 // k / (s (s + 1)(s + 2)): phase -180 degrees at sqrt 2, |L| = k/6 there.
 TEST(ContinuousMargins, KhalilsPlant) {
   const double k = 0.5;
-  const LoopMargins margins = continuous_margins({{k}, {1.0, 3.0, 2.0, 0.0}});
+  const LoopMargins margins = test::continuous_margins({{k}, {1.0, 3.0, 2.0, 0.0}});
   EXPECT_TRUE(margins.stable);
   EXPECT_NEAR(margins.gain_margin.value(), 6.0 / k, 6.0 / k * tolerance);
   ASSERT_EQ(margins.gain_crossovers.size(), 1U);
@@ -37,13 +39,13 @@ TEST(ContinuousMargins, KhalilsPlant) {
   const double phase = pi / 2.0 - std::atan(w) - std::atan(w / 2.0);
   EXPECT_NEAR(margins.phase_margin.value(), phase, tolerance);
   EXPECT_NEAR(margins.delay_margin.value(), phase / w, tolerance);
-  EXPECT_FALSE(continuous_margins({{6.1}, {1.0, 3.0, 2.0, 0.0}}).stable);
-  EXPECT_TRUE(continuous_margins({{5.9}, {1.0, 3.0, 2.0, 0.0}}).stable);
+  EXPECT_FALSE(test::continuous_margins({{6.1}, {1.0, 3.0, 2.0, 0.0}}).stable);
+  EXPECT_TRUE(test::continuous_margins({{5.9}, {1.0, 3.0, 2.0, 0.0}}).stable);
 }
 
 // 2/(s - 1) is stabilised by its loop; half the gain loses it.
 TEST(ContinuousMargins, UnstablePlantHasALowerMargin) {
-  const LoopMargins margins = continuous_margins({{2.0}, {1.0, -1.0}});
+  const LoopMargins margins = test::continuous_margins({{2.0}, {1.0, -1.0}});
   EXPECT_TRUE(margins.stable);
   EXPECT_FALSE(margins.gain_margin.has_value());
   // 1 + kappa L = 0 at s = 0 for kappa = 1/2
@@ -55,7 +57,7 @@ TEST(ContinuousMargins, UnstablePlantHasALowerMargin) {
 }
 
 TEST(ContinuousMargins, UnstableLoopHasNone) {
-  const LoopMargins margins = continuous_margins({{1.0}, {1.0, 0.0, 0.0}});  // an undamped oscillation
+  const LoopMargins margins = test::continuous_margins({{1.0}, {1.0, 0.0, 0.0}});  // an undamped oscillation
   EXPECT_FALSE(margins.stable);
   EXPECT_FALSE(margins.gain_margin.has_value());
   EXPECT_FALSE(margins.phase_margin.has_value());
@@ -64,7 +66,7 @@ TEST(ContinuousMargins, UnstableLoopHasNone) {
 
 // Gain below 1 everywhere: nothing to lose by delay.
 TEST(ContinuousMargins, SmallLoopHasNoDelayMargin) {
-  const LoopMargins margins = continuous_margins({{0.5}, {1.0, 1.0}});
+  const LoopMargins margins = test::continuous_margins({{0.5}, {1.0, 1.0}});
   EXPECT_TRUE(margins.stable);
   EXPECT_TRUE(margins.gain_crossovers.empty());
   EXPECT_FALSE(margins.phase_margin.has_value());
@@ -76,7 +78,7 @@ TEST(ContinuousMargins, DelayMarginIsOverAllGainCrossovers) {
   // 0.5/s + resonance at 20 rad/s: residue such that |L| peaks above 1 there
   const TransferFunction loop{{2.5, 0.2, 200.0},
                               {1.0, 0.4, 400.0, 0.0}};  // (2.5 s² + 0.2 s + 200)/(s (s² + 0.4 s + 400))
-  const LoopMargins margins = continuous_margins(loop);
+  const LoopMargins margins = test::continuous_margins(loop);
   ASSERT_TRUE(margins.stable);
   ASSERT_EQ(margins.gain_crossovers.size(), 3U);
   double least_delay = 1e9;
@@ -96,7 +98,7 @@ TEST(ContinuousMargins, DelayMarginIsOverAllGainCrossovers) {
 
 TEST(ContinuousMargins, ScalesWithTime) {
   for (const double c : {1e-4, 1e4}) {  // s -> s c
-    const LoopMargins margins = continuous_margins({{25.0}, {c * c * c, 10.0 * c * c, 10.0 * c, 10.0}});
+    const LoopMargins margins = test::continuous_margins({{25.0}, {c * c * c, 10.0 * c * c, 10.0 * c, 10.0}});
     EXPECT_NEAR(margins.gain_margin.value(), 3.6, 1e-10);
     EXPECT_NEAR(margins.phase_margin.value() * 180.0 / pi, 29.1104, 1e-4);
     EXPECT_NEAR(margins.delay_margin.value() / c, 0.2847, 1e-4);
@@ -104,7 +106,7 @@ TEST(ContinuousMargins, ScalesWithTime) {
 }
 
 TEST(ContinuousMargins, NotStrictlyProperThrows) {
-  EXPECT_THROW((void)continuous_margins({{1.0, 1.0}, {1.0, 2.0}}), Error);
+  EXPECT_THROW((void)test::continuous_margins({{1.0, 1.0}, {1.0, 2.0}}), Error);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "zwidth/identification/frequency_response.hpp"
@@ -27,6 +28,15 @@ struct IdentifyOptions {
   /// Whether a delay that the record shows beyond the structure's is fitted too, or the structure's taken as it is.
   enum class LoopDelay { from_data, as_given } loop_delay = LoopDelay::from_data;
 };
+
+/// A structure for which there is no device file: bodies in a row, each linked to the next, the first actuated and
+/// sensed, the last held. Every number is 1 and stands for nothing: IdentifyOptions::StructureValues::placeholders.
+///
+///     "rigid": body      "two-body": motor, handle      "three-body": motor, body, handle
+///
+/// Nothing for any other name.
+[[nodiscard]] std::optional<DeviceParameters> named_structure(std::string_view name, Motion motion,
+                                                              double sampling_period);
 
 /// Checks both parts; members are named "response.overlap", "fit.robust_threshold", ...
 [[nodiscard]] std::optional<OptionProblem> find_problem(const IdentifyOptions& options);

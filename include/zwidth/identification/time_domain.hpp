@@ -54,6 +54,7 @@ struct TimeDomainIdentification {
   std::vector<FittedMotion> motions{};  ///< by recording
   double lowest = 0.0;                  ///< rad/s, excited band of all recordings
   double highest = 0.0;
+  double model_error = 0.0;   ///< the largest `unexplained` of the recordings
   bool settled = true;        ///< the search came to rest
   Analysis analysis = {};     ///< of the device, as analyze() gives it, without users
   StiffnessBasis basis = {};  ///< of analysis.critical

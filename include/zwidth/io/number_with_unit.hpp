@@ -10,7 +10,18 @@
 namespace zwidth {
 
 /// What a number measures: which units it may have.
-enum class Measure { ratio, time, frequency_hz, angular_frequency, position, force, mass, damping, stiffness };
+enum class Measure {
+  ratio,
+  time,
+  frequency_hz,
+  angular_frequency,
+  position,
+  force,
+  mass,
+  damping,
+  stiffness,
+  velocity
+};
 
 /// Why a text is not a number with a unit of what is measured.
 struct UnitProblem {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <complex>
 #include <optional>
 
 #include "zwidth/model/device.hpp"
@@ -16,20 +15,6 @@ struct TwoMass {
   double cable_stiffness = 0.0;  ///< k_c
   double cable_damping = 0.0;    ///< b_c
 };
-
-/// The three responses of eq. 3.
-struct TwoMassResponse {
-  std::complex<double> G_d;  ///< body force -> body position
-  std::complex<double> G_c;  ///< either force -> the other position
-  std::complex<double> G_m;  ///< motor force -> motor position
-};
-
-/// Closed forms, eqs. 5-9 of Díaz & Gil, at any complex s that is not a pole.
-[[nodiscard]] TwoMassResponse two_mass_response(const TwoMass& device, std::complex<double> s);
-
-/// Rigid body times vibration mode, eqs. 10-16 of Díaz & Gil. An approximation: the s² coefficient of the
-/// denominator is off by [(b_m m_d - b_d m_m)/m]²; exact iff b_m/m_m = b_d/m_d.
-[[nodiscard]] TwoMassResponse two_mass_factorised_response(const TwoMass& device, std::complex<double> s);
 
 /// Natural frequency and coefficients of the factorised form, eqs. 11-16.
 struct TwoMassFactors {

@@ -49,8 +49,4 @@ struct WallMargins : LoopMargins {
 /// Throws Error (invalid_argument) when the device has no wall stiffness.
 [[nodiscard]] WallMargins wall_margins(const Device& device);
 
-/// Margins of a continuous loop L(s) under unit negative feedback, by the same search after the bilinear map
-/// s = (2/T)(z - 1)/(z + 1), which keeps magnitudes and phases: exact. The transfer function is strictly proper.
-[[nodiscard]] LoopMargins continuous_margins(const TransferFunction& loop);
-
 }  // namespace zwidth

@@ -1,14 +1,22 @@
-#include "sampling/bilinear_plant.hpp"
+#pragma once
+
+// Margins of continuous loops, which textbooks and other programs print: the library's search after the bilinear map
+// s = (2/T)(z - 1)/(z + 1), which keeps magnitudes and phases.
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <utility>
 
-namespace zwidth::internal {
-namespace {
+#include "zwidth/model/modal_form.hpp"
+#include "zwidth/sampling/sampled_plant.hpp"
+#include "zwidth/stability/wall_margins.hpp"
+
+namespace zwidth::test {
 
 // c[0] + c[1] s + ... times (delta + 2)^degree at s = rate delta / (delta + 2): coefficients of delta, degree + 1 of
 // them.
-void substitute(const double* c, std::size_t count, std::size_t degree, double rate, double* result) {
+inline void substitute(const double* c, std::size_t count, std::size_t degree, double rate, double* result) {
   for (std::size_t i = 0; i < count; ++i) {
     // c_i rate^i delta^i (delta + 2)^(degree - i) by the binomial theorem
     double coefficient = c[i] * std::pow(rate, static_cast<double>(i));
@@ -21,7 +29,7 @@ void substitute(const double* c, std::size_t count, std::size_t degree, double r
 }
 
 // An unstable real pole near s = rate has no image.
-bool maps_to_infinity(const ModalForm& form, double rate) {
+inline bool maps_to_infinity(const ModalForm& form, double rate) {
   return std::any_of(form.terms.begin(), form.terms.end(), [rate](const ModalTerm& term) {
     double value = 1.0;
     double size = 1.0;
@@ -33,9 +41,9 @@ bool maps_to_infinity(const ModalForm& form, double rate) {
   });
 }
 
-}  // namespace
-
-SampledPlant bilinear_plant(const ModalForm& form) {
+// The continuous response on the unit circle: angle t stands for the frequency (2/T) tan(t/2). T is chosen near the
+// poles. Not a sampling of the plant.
+inline SampledPlant bilinear_plant(const ModalForm& form) {
   // The geometric mean of the poles' magnitudes sits at angle pi/2.
   double log_sum = 0.0;
   std::size_t poles = 0;
@@ -71,4 +79,36 @@ SampledPlant bilinear_plant(const ModalForm& form) {
   return plant;
 }
 
-}  // namespace zwidth::internal
+// No damping anywhere: L(jw) is real at every frequency, closed-loop poles lie symmetric to the imaginary axis, and no
+// gain makes the loop asymptotically stable.
+inline bool is_lossless(const ModalForm& form) {
+  return std::all_of(form.terms.begin(), form.terms.end(), [](const ModalTerm& term) {
+    const double rounding = 1e-14 * std::sqrt(std::abs(term.denominator[0]));
+    return term.degree == 2 && std::abs(term.denominator[1]) <= rounding &&
+           std::abs(term.numerator[1]) * std::sqrt(std::abs(term.denominator[0])) <=
+               1e-14 * std::abs(term.numerator[0]);
+  });
+}
+
+/// Margins of a strictly proper L(s) under unit negative feedback.
+inline LoopMargins continuous_margins(const TransferFunction& loop) {
+  DeviceParameters parameters;
+  parameters.name = "loop";
+  parameters.transfer_function = loop;
+  parameters.loop.sampling_period = 1.0;  // not used: the bilinear map takes the place of sampling
+  const ModalForm form = modal_form(Device(std::move(parameters)));
+  if (is_lossless(form)) return {};
+  const FilteredPlant plant = filtered_plant(bilinear_plant(form), {});
+  LoopMargins margins = loop_margins(plant, {1.0, 0.0, 0.0});
+  margins.delay_margin.reset();
+  for (GainCrossover& crossover : margins.gain_crossovers) {
+    crossover.frequency = 2.0 / plant.period * std::tan(0.5 * crossover.frequency * plant.period);
+    if (!margins.stable) continue;
+    const double lag = crossover.phase_margin + (crossover.phase_margin >= 0.0 ? 0.0 : 2.0 * std::numbers::pi);
+    const double delay = lag / crossover.frequency;
+    margins.delay_margin = std::min(margins.delay_margin.value_or(delay), delay);
+  }
+  return margins;
+}
+
+}  // namespace zwidth::test

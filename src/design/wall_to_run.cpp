@@ -1,0 +1,64 @@
+#include "zwidth/design/wall_to_run.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "require_valid.hpp"
+#include "zwidth/quantity.hpp"
+
+namespace zwidth {
+namespace {
+
+Device with_stiffness(const Device& device, double stiffness) {
+  DeviceParameters parameters = device.parameters();
+  parameters.wall.stiffness = stiffness;
+  return Device(std::move(parameters));
+}
+
+}  // namespace
+
+std::optional<OptionProblem> find_problem(const WallToRunOptions& options, const Device& device) {
+  if (options.stiffness && options.safety_factor) {
+    return OptionProblem{"safety_factor", "is given beside a stiffness", "each sets the stiffness: give one of them"};
+  }
+  if (options.stiffness && !(std::isfinite(*options.stiffness) && *options.stiffness > 0.0)) {
+    return OptionProblem{"stiffness", fmt::format("is {}", *options.stiffness),
+                         fmt::format("a number of {} > 0", units_of(device.parameters().motion).stiffness)};
+  }
+  if (options.stiffness) {
+    DeviceParameters parameters = device.parameters();
+    parameters.wall.stiffness = options.stiffness;
+    if (const auto problem = find_problem(parameters)) {
+      return OptionProblem{"stiffness", problem->key + " " + problem->what, problem->allowed};
+    }
+  }
+  if (options.safety_factor) return find_problem(SafeWallOptions{.safety_factor = *options.safety_factor});
+  if (!options.stiffness && !device.parameters().wall.stiffness) {
+    return OptionProblem{"", "wall.stiffness: is missing: there is no wall to write", "set it"};
+  }
+  return std::nullopt;
+}
+
+WallToRun wall_to_run(const Device& device, const WallToRunOptions& options) {
+  internal::require_valid(find_problem(options, device));
+  WallToRun result{.device = device};
+  if (options.safety_factor) {
+    result.share = safe_wall(device, {.safety_factor = *options.safety_factor});
+    if (result.share->status != SafeWall::Status::chosen) {
+      result.analysis.trust = result.share->trust;
+      return result;
+    }
+    result.device = with_stiffness(device, result.share->stiffness);
+  } else if (options.stiffness) {
+    result.device = with_stiffness(device, *options.stiffness);
+  }
+  result.analysis = analyze(result.device, {.draws = 0});
+  if (result.share) result.analysis.trust.inherit(result.share->trust);
+  const Trust& trust = result.analysis.trust;
+  result.released = !trust.refused() && (trust.sound() || options.accept_doubt);
+  return result;
+}
+
+}  // namespace zwidth

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <optional>
+
+#include "zwidth/error.hpp"
+#include "zwidth/option_problem.hpp"
+
+namespace zwidth::internal {
+
+/// Throws Error (invalid_argument) "member what; allowed" where find_problem(options) found one.
+inline void require_valid(const std::optional<OptionProblem>& problem) {
+  if (!problem) return;
+  const std::string member = problem->member + (problem->member.empty() ? "" : " ");
+  throw Error(ErrorCode::invalid_argument, member + problem->what + "; " + problem->allowed);
+}
+
+}  // namespace zwidth::internal

@@ -1,0 +1,75 @@
+#include "zwidth/design/wall_to_run.hpp"
+
+#include <gtest/gtest.h>
+
+#include "lhifam.hpp"
+#include "zwidth/error.hpp"
+#include "zwidth/model/device_trust.hpp"
+
+namespace zwidth {
+namespace {
+
+Device lhifam(std::optional<double> stiffness) {
+  DeviceParameters parameters = test::lhifam_parameters();
+  parameters.wall.stiffness = stiffness;
+  return Device(parameters);
+}
+
+TEST(WallToRun, TakesTheStiffnessAskedForOrTheDevicesOwn) {
+  const WallToRun own = wall_to_run(lhifam(3000.0));
+  EXPECT_EQ(own.analysis.wall->stiffness, 3000.0);
+  EXPECT_TRUE(own.released);
+  EXPECT_FALSE(own.share);
+  const WallToRun asked = wall_to_run(lhifam(3000.0), {.stiffness = 2000.0});
+  EXPECT_EQ(asked.device.parameters().wall.stiffness, 2000.0);
+  EXPECT_EQ(asked.analysis.wall->stiffness, 2000.0);
+}
+
+TEST(WallToRun, TakesTheShareThatSafeWallChooses) {
+  const Device device = lhifam(std::nullopt);
+  const WallToRun wall = wall_to_run(device, {.safety_factor = 0.4});
+  ASSERT_TRUE(wall.share);
+  EXPECT_EQ(wall.device.parameters().wall.stiffness, safe_wall(device, {.safety_factor = 0.4}).stiffness);
+  EXPECT_TRUE(wall.analysis.wall->stable);
+}
+
+TEST(WallToRun, IsReleasedUnstableAndSaysSo) {
+  const WallToRun wall = wall_to_run(lhifam(9500.0));
+  EXPECT_TRUE(wall.released);
+  EXPECT_FALSE(wall.analysis.wall->stable);
+}
+
+TEST(WallToRun, OfADoubtfulDeviceIsReleasedOnlyWhereThatIsAccepted) {
+  DeviceParameters parameters = test::lhifam_parameters();
+  parameters.wall.stiffness = 3000.0;
+  parameters.uncertainty.emplace();
+  parameters.uncertainty->warning = "the crossover was not measured";
+  const Device device(parameters);
+  ASSERT_EQ(trust_of(device).verdict, Trust::Verdict::doubtful);
+  EXPECT_FALSE(wall_to_run(device).released);
+  EXPECT_TRUE(wall_to_run(device, {.accept_doubt = true}).released);
+}
+
+TEST(WallToRun, IsNotThereWhereEveryWallIsStable) {
+  DeviceParameters parameters;
+  parameters.name = "all stable";
+  parameters.transfer_function = TransferFunction{{-1.0}, {1.0, 1.0}};
+  parameters.loop.sampling_period = 1e-3;
+  const WallToRun wall = wall_to_run(Device(parameters), {.safety_factor = 0.5});
+  ASSERT_TRUE(wall.share);
+  EXPECT_NE(wall.share->status, SafeWall::Status::chosen);
+  EXPECT_FALSE(wall.released);
+  EXPECT_FALSE(wall.device.parameters().wall.stiffness);
+}
+
+TEST(WallToRun, FindsWhatCannotBeAsked) {
+  EXPECT_EQ(find_problem(WallToRunOptions{}, lhifam(std::nullopt))->member, "");
+  EXPECT_FALSE(find_problem(WallToRunOptions{}, lhifam(3000.0)));
+  EXPECT_EQ(find_problem({.stiffness = -3.0}, lhifam(std::nullopt))->member, "stiffness");
+  EXPECT_EQ(find_problem({.safety_factor = 1.0}, lhifam(std::nullopt))->member, "safety_factor");
+  EXPECT_EQ(find_problem({.stiffness = 3.0, .safety_factor = 0.5}, lhifam(std::nullopt))->member, "safety_factor");
+  EXPECT_THROW(wall_to_run(lhifam(std::nullopt)), Error);
+}
+
+}  // namespace
+}  // namespace zwidth
