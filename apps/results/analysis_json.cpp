@@ -74,6 +74,7 @@ Json analysis_json(const Device& analysed, const Analysis& analysis) {
   json["virtual_damper"] = virtual_damper_json(device.wall);
   json["wall_filters"] = wall_filters_json(device.wall, device.loop.sampling_period);
   json["wall"] = analysis.wall;
+  if (analysis.wall) json["wall"]["disk_margin"] = analysis.disk_margin;
   json["force_per_count"] = analysis.force_per_count;
   json["quantisation_passivity"] = quantisation_json(analysis.quantisation);
   json["critical_stiffness_interval"] = analysis.interval;

@@ -51,6 +51,17 @@ void to_json(Json& json, const WallMargins& wall) {
           {"stiffness_margin_db", decibels(wall.stiffness_margin)}};
 }
 
+void to_json(Json& json, const DiskMargin& disk) {
+  json = {{"alpha", disk.alpha},
+          {"gain_margin_db", decibels(disk.gain_margin)},
+          {"lower_gain_margin_db", decibels(disk.lower_gain_margin)},
+          {"phase_margin_rad", disk.phase_margin},
+          {"frequency_rad_s", disk.frequency},
+          {"frequency_hz", hertz(disk.frequency)},
+          {"worst_factor", nullptr}};
+  if (disk.worst_factor) json["worst_factor"] = Json::array({disk.worst_factor->real(), disk.worst_factor->imag()});
+}
+
 void to_json(Json& json, const WorstUser& worst) {
   Json absorbers = Json::array();
   for (const auto& [mass, stiffness] : worst.user.absorbers) {

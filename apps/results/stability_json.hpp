@@ -31,6 +31,7 @@ void to_json(Json& json, const Mode& mode);
 void to_json(Json& json, const RigidApproximation& rigid);
 void to_json(Json& json, const QCriterion& criterion);
 void to_json(Json& json, const WallMargins& wall);
+void to_json(Json& json, const DiskMargin& disk);
 void to_json(Json& json, const WorstUser& worst);
 
 /// "status", "critical_stiffness", "critical_stiffness_db", "critical_frequency_rad_s", "critical_frequency_hz",

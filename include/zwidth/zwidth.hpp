@@ -70,6 +70,7 @@
 #include "zwidth/stability/closed_loop.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
 #include "zwidth/stability/device_model.hpp"
+#include "zwidth/stability/disk_margin.hpp"
 #include "zwidth/stability/force_per_count.hpp"
 #include "zwidth/stability/quantisation_passivity.hpp"
 #include "zwidth/stability/stiffness_interval.hpp"

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "require_valid.hpp"
 #include "stability/guarded_stiffness.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/two_mass.hpp"
@@ -77,7 +78,7 @@ void confirm_delay_margin(const Device& device, Analysis& analysis) {
 
 /// The wall given, and whether the second route agrees on it. Within rounding of a crossover there is nothing to agree
 /// on.
-void judge_wall(const Device& device, const PoleCount& poles, Analysis& analysis) {
+void judge_wall(const Device& device, const FilteredPlant& plant, const PoleCount& poles, Analysis& analysis) {
   analysis.wall = wall_margins(device);
   const double stiffness = analysis.wall->stiffness;
   constexpr double on_crossover = 1e-6;
@@ -86,6 +87,7 @@ void judge_wall(const Device& device, const PoleCount& poles, Analysis& analysis
   distrust(agreement(poles, stiffness, analysis.wall->stable), stiffness, analysis.trust);
   if (!analysis.trust.refused()) {
     if (analysis.wall->delay_margin) confirm_delay_margin(device, analysis);
+    analysis.disk_margin = disk_margin(plant, device.parameters().wall);
     return;
   }
   analysis.wall.reset();
@@ -187,10 +189,7 @@ std::optional<OptionProblem> find_problem(const AnalysisOptions& options, const 
 }
 
 Analysis analyze(const Device& device, const AnalysisOptions& options) {
-  if (const auto problem = find_problem(options, device)) {
-    throw Error(ErrorCode::invalid_argument,
-                fmt::format("{} {}; {}", problem->member, problem->what, problem->allowed));
-  }
+  require_valid(find_problem(options, device));
   ModalForm form = modal_form(device);
   const FilteredPlant plant = filtered_plant(sample(form, {device.loop().sampling_period, device.loop().delay}),
                                              device.parameters().wall.filters);
@@ -205,7 +204,7 @@ Analysis analyze(const Device& device, const AnalysisOptions& options) {
     analysis.q_criterion = q_criterion(device, *analysis.rigid);
   }
   if (analysis.trust.refused()) return analysis;
-  if (device.parameters().wall.stiffness) judge_wall(device, poles, analysis);
+  if (device.parameters().wall.stiffness) judge_wall(device, plant, poles, analysis);
   if (analysis.trust.refused()) return analysis;
   analysis.force_per_count = force_per_count(device);
   analysis.quantisation = quantisation_passivity(device);

@@ -16,9 +16,11 @@ constexpr Box bar_sides{40.0, 860.0, 0.0, 0.0};
 constexpr double bar_height = 40.0;
 constexpr double text_gap = 5.0;
 constexpr std::string_view stable_colour = "#bfe3c5";
+constexpr std::string_view any_user_colour = "#8ccb97";
 constexpr std::string_view unstable_colour = "#f6d5d0";
 constexpr LineStyle leader{"#555555", 0.8, "1"};
 constexpr LineStyle reference_leader{"#0b4f9e", 1.0, "(4,3)"};
+constexpr LineStyle any_user_leader{"#14532d", 1.4, "1"};
 constexpr LineStyle critical_leader{"#b91c1c", 1.4, "1"};
 /// More crossovers than these stand without a number, as in the Bode figure.
 constexpr std::size_t most_numbered = 12;
@@ -30,6 +32,11 @@ struct Label {
   double x = 0.0;       ///< of the leader
   std::size_t row = 0;  ///< from the bar upwards
 };
+
+/// That can be drawn: some users destabilise some walls, not all.
+bool has_any_user_limit(const Analysis& analysis) {
+  return analysis.any_user && analysis.any_user->stiffness > 0.0 && std::isfinite(analysis.any_user->stiffness);
+}
 
 std::vector<Label> labels_of(const AnalysedDevice& analysed) {
   const Analysis& analysis = analysed.analysis;
@@ -46,6 +53,10 @@ std::vector<Label> labels_of(const AnalysedDevice& analysed) {
     } else {
       labels.push_back({crossover.stiffness, name, leader});
     }
+  }
+  if (has_any_user_limit(analysis)) {
+    const double stiffness = analysis.any_user->stiffness;
+    labels.push_back({stiffness, "any passive user, " + quantity(stiffness, unit), any_user_leader});
   }
   if (analysis.rigid && analysis.rigid->critical.status == StiffnessStatus::finite &&
       analysed.device.bodies().size() > 1) {
@@ -129,7 +140,13 @@ std::string draw_stiffness_axis(const AnalysedDevice& analysed, FigureFormat for
     const double right = interval.upper ? axis.x(*interval.upper) : bar.right;
     canvas.rectangle({left, right, bar.top, bar.bottom}, stable_colour);
     name_segment(unstable_from, left, "unstable");
-    name_segment(left, right, "stable");
+    double safe = left;  // with every passive user
+    if (interval.lower == 0.0 && has_any_user_limit(analysed.analysis)) {
+      safe = std::min(axis.x(analysed.analysis.any_user->stiffness), right);
+      canvas.rectangle({left, safe, bar.top, bar.bottom}, any_user_colour);
+      name_segment(left, safe, "stable with any user");
+    }
+    name_segment(safe, right, "stable");
     unstable_from = right;
   }
   name_segment(unstable_from, bar.right, "unstable");

@@ -330,34 +330,6 @@ std::optional<std::string> wall_note(const AnalysedDevice& analysed) {
   return fmt::format("{}: what oscillates longest decays by {} % per sample.", text, number(-growth));
 }
 
-std::vector<std::string> wall_margin_notes(const Analysis& analysis) {
-  const auto& wall = analysis.wall;
-  if (!wall || !wall->stable) return {};
-  std::vector<std::string> margins;
-  if (wall->gain_margin) {
-    margins.push_back(fmt::format("gain margin {:.2f} dB: unstable when {} {} times", decibels(*wall->gain_margin),
-                                  wall->damping > 0.0 ? "stiffness and damping grow" : "the stiffness grows",
-                                  number(*wall->gain_margin)));
-  } else {
-    margins.emplace_back("gain margin without limit: no larger gain destabilises it");
-  }
-  if (wall->lower_gain_margin) {
-    margins.push_back(fmt::format(
-        "lower gain margin {:.2f} dB: unstable when {} scaled down to {} times", decibels(*wall->lower_gain_margin),
-        wall->damping > 0.0 ? "both are" : "the stiffness is", number(*wall->lower_gain_margin)));
-  }
-  if (wall->damping > 0.0 && wall->stiffness_margin) {
-    margins.push_back(fmt::format("stiffness margin {:.2f} dB: unstable when the stiffness alone grows {} times",
-                                  decibels(*wall->stiffness_margin), number(*wall->stiffness_margin)));
-  }
-  if (wall->phase_margin) {
-    margins.push_back(fmt::format("phase margin {}° ({} rad)", number(*wall->phase_margin * 180.0 / std::numbers::pi),
-                                  number(*wall->phase_margin)));
-  }
-  if (wall->delay_margin) margins.push_back("delay margin " + quantity(*wall->delay_margin, "s") + " of further delay");
-  return margins;
-}
-
 std::vector<std::string> caveats(const AnalysedDevice& analysed) {
   const DeviceParameters& device = parameters_of(analysed);
   const Units units = device_units(analysed);

@@ -10,6 +10,7 @@
 #include "zwidth/remark.hpp"
 #include "zwidth/stability/any_user.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
+#include "zwidth/stability/disk_margin.hpp"
 #include "zwidth/stability/force_per_count.hpp"
 #include "zwidth/stability/quantisation_passivity.hpp"
 #include "zwidth/stability/stiffness_interval.hpp"
@@ -69,6 +70,7 @@ struct Analysis {
   std::optional<RigidApproximation> rigid;            ///< absent for a transfer function
   std::optional<QCriterion> q_criterion;              ///< only where as_two_mass() applies, no wall filters
   std::optional<WallMargins> wall;                    ///< absent without wall.stiffness
+  std::optional<DiskMargin> disk_margin;              ///< of that wall; absent where it is not stable
   std::optional<ForcePerCount> force_per_count;       ///< of that wall; absent without an encoder resolution too
   std::optional<QuantisationPassivity> quantisation;  ///< absent without Coulomb friction and an encoder resolution
   std::optional<StiffnessInterval> interval;    ///< of the critical stiffness; absent without uncertain parameters
