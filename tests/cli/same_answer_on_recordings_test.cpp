@@ -1,21 +1,28 @@
-// What `frf` and `identify` print of a recording is what one call of the library answers, byte for byte: on the
-// project's recordings and on 200 simulated ones.
+// What each command prints of a recording is what one call of the library answers, byte for byte: on the project's
+// recordings and on 200 simulated ones.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <numbers>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cli/same_answer.hpp"
 #include "property/random_devices.hpp"
 #include "results/csv.hpp"
+#include "results/diagnosis_json.hpp"
 #include "results/frf_json.hpp"
 #include "results/identification_json.hpp"
+#include "results/relay_json.hpp"
 #include "zwidth/identification/excitation.hpp"
+#include "zwidth/identification/time_domain.hpp"
 #include "zwidth/io/device_file.hpp"
 #include "zwidth/io/recording_file.hpp"
+#include "zwidth/signal/dominant_oscillation.hpp"
 #include "zwidth/simulation/synthetic_record.hpp"
 
 namespace zwidth::cli {
@@ -23,69 +30,163 @@ namespace {
 
 constexpr std::uint64_t seed = 20261122;
 constexpr std::size_t random_recordings = 200;
-constexpr std::size_t random_fits = 10;  // of a structure to a response: a quarter of a second each
 
-/// The structure that the program knows by this name: all its numbers are to be fitted.
-Device named_structure(const std::string& name, double period) {
-  DeviceParameters structure;
-  structure.name = name;
-  structure.bodies.push_back({name == "rigid" ? "body" : "motor", 1.0, 1.0, 0.0, 0.0});
-  if (name == "two-body") {
-    structure.bodies.push_back({"handle", 1.0, 1.0, 0.0, 0.0});
-    structure.links.push_back({0, 1, 1.0, 1.0});
-    structure.loop.held = 1;
-  }
-  structure.loop.sampling_period = period;
-  return Device(structure);
+/// A recording and the device that it was simulated with.
+struct Recorded {
+  Recording recording;  ///< force, position
+  Device device;
+};
+
+/// A command on a recording, and the library's answer. What it writes to FILE.csv is compared too.
+struct Command {
+  const char* name;
+  const char* command;  ///< FILE: the recording, DEVICE: the device
+  Answer (*answer)(const Recorded& recorded);
+  std::string_view kind = "rigid";  ///< of the devices
+  double duration = 4.0;            ///< s
+};
+
+void PrintTo(const Command& command, std::ostream* stream) { *stream << command.name; }
+
+Answer frf(const Recorded& recorded) {
+  const MeasuredResponse answer = frequency_response(recorded.recording);
+  return {results::line(results::frf_json(answer)) + results::frf_csv(answer.response)};
 }
 
-class SameAnswerOnRecordings : public SameAnswer {
- protected:
-  [[nodiscard]] Recording read(const std::string& file) const {
-    RecordingOptions options;
-    options.columns = {{"force"}, {"position"}};
-    Recording recording = read_recording((directory() / file).string(), options).value();
-    recording.source = file;
-    return recording;
-  }
+Answer inverse_dynamics(const Recorded& recorded) {
+  return {results::line(results::identification_json(identify_rigid_body(recorded.recording)))};
+}
 
+Answer fitted(const Recorded& recorded, const std::string& structure) {
+  const Device device(*named_structure(structure, Motion::linear, recorded.recording.sampling_period));
+  IdentifyOptions options;
+  options.structure_values = IdentifyOptions::StructureValues::placeholders;
+  options.fit.free = fittable_parameters(device);
+  return {results::line(
+      results::identification_json(identify(recorded.recording, device, options), results::PointsInJson::included))};
+}
+
+Answer rigid(const Recorded& recorded) { return fitted(recorded, "rigid"); }
+
+/// The whole two-body structure takes a quarter of a second for each.
+Answer link_of_two_bodies(const Recorded& recorded) {
+  IdentifyOptions options;
+  options.fit.free = {"link.0.stiffness", "link.0.damping"};
+  options.fit.start = ParameterFitOptions::Start::from_structure;
+  options.loop_delay = IdentifyOptions::LoopDelay::as_given;
+  return {results::line(results::identification_json(identify(recorded.recording, recorded.device, options)))};
+}
+
+Answer fitted_in_time(const Recorded& recorded) {
+  TimeDomainOptions options;
+  options.free = {"body.body.mass", "body.body.damping"};
+  options.structure_values = IdentifyOptions::StructureValues::placeholders;
+  const std::array recordings{recorded.recording};
+  const Device structure(*named_structure("rigid", Motion::linear, recorded.recording.sampling_period));
+  return {results::line(results::identification_json(identify_in_time(recordings, structure, options)))};
+}
+
+/// Of the force as a relay's, whatever it was; predictions for a device are compared where one is simulated.
+Answer relay_reading(const Recorded& recorded) {
+  RelayRecordOptions options;
+  options.analysis.segment_length = 256;
+  const Recording& run = recorded.recording;
+  const RelayRecord record{run.source, run.channels[0].samples, run.channels[1].samples, run.sampling_period,
+                           run.remarks};
+  return {results::line(results::relay_json(relay(record, options)))};
+}
+
+Answer heard(const Recorded& recorded) {
+  const auto found = dominant_oscillation(recorded.recording.channels[1].samples, recorded.recording.sampling_period);
+  if (!found) return {"", 1};
+  const DiagnosisOptions options{.frequency = found->frequency, .amplitude = found->amplitude, .stiffness = 300.0};
+  const Diagnosis answer = diagnose(recorded.device, options);
+  return {results::line(results::diagnosis_json(recorded.device, options, answer)), answer.trust.refused() ? 1 : 0};
+}
+
+constexpr std::array commands = {
+    Command{"Frf", "frf FILE --force force --position position --json --csv FILE.csv", frf, "two_mass"},
+    Command{"InverseDynamics", "identify FILE --force force --position position --json --method inverse-dynamics",
+            inverse_dynamics},
+    Command{"Rigid", "identify FILE --force force --position position --json --points --structure rigid", rigid,
+            "rigid", 1.0},
+    Command{"LinkOfTwoBodies",
+            "identify FILE --force force --position position --json --structure DEVICE "
+            "--free link.stiffness,link.damping --from-structure",
+            link_of_two_bodies, "two_mass", 0.5},
+    Command{"InTime",
+            "identify FILE --force force --position position --json --method time-domain --structure rigid "
+            "--free body.body.mass,body.body.damping",
+            fitted_in_time, "rigid", 0.6},
+    Command{"Relay", "relay --recording FILE --force force --position position --json --segment 256", relay_reading,
+            "two_mass", 1.0},
+    Command{"Diagnose", "diagnose DEVICE --recording FILE --position position --stiffness 300 --json", heard, "rigid",
+            1.0},
+};
+
+Recording read(const std::filesystem::path& directory, const std::string& file) {
+  RecordingOptions options;
+  options.columns = {{"force"}, {"position"}};
+  Recording recording = read_recording((directory / file).string(), options).value();
+  recording.source = file;
+  return recording;
+}
+
+class SameAnswerOfRecordings : public SameAnswer {
+ protected:
   static std::string of(const char* command, const std::string& file) {
     return fmt::format("{} {} --json --force force --position position ", command, file);
   }
+};
 
-  [[nodiscard]] Question frf(const std::string& file) const {
-    return {of("frf", file),
-            [=, this]() -> Answer { return {results::line(results::frf_json(frequency_response(read(file))))}; }};
+/// Those that few random recordings lead to: every method and structure at its full length.
+TEST_F(SameAnswerOfRecordings, OfTheProject) {
+  std::vector<Question> questions;
+  const auto ask = [&](const std::string& command, const std::string& file, Answer (*answer)(const Recorded&)) {
+    const Device lhifam = *read_device_file((directory() / "devices/lhifam.toml").string(), {});
+    questions.push_back({command, [=, this] { return answer({read(directory(), file), lhifam}); }});
+  };
+  for (const char* file : {"recordings/locked_chirp.csv", "recordings/free_motion.csv"}) {
+    ask(of("frf", file), file, [](const Recorded& recorded) -> Answer {
+      return {results::line(results::frf_json(frequency_response(recorded.recording)))};
+    });
+    ask(of("identify", file) + "--points --structure rigid", file, rigid);
   }
+  const std::string free_motion = "recordings/free_motion.csv";
+  const std::string locked_chirp = "recordings/locked_chirp.csv";
+  ask(of("identify", free_motion) + "--method inverse-dynamics", free_motion, inverse_dynamics);
+  ask(of("identify", free_motion) + "--method time-domain --structure rigid", free_motion,
+      [](const Recorded& recorded) -> Answer {
+        TimeDomainOptions options;
+        options.structure_values = IdentifyOptions::StructureValues::placeholders;
+        const std::array recordings{recorded.recording};
+        const Device structure(*named_structure("rigid", Motion::linear, recorded.recording.sampling_period));
+        return {results::line(results::identification_json(identify_in_time(recordings, structure, options)))};
+      });
+  ask(of("identify", locked_chirp) + "--points --structure two-body", locked_chirp,
+      [](const Recorded& recorded) { return fitted(recorded, "two-body"); });
+  ask(of("identify", locked_chirp) +
+          "--structure devices/lhifam.toml --locked handle --free link.stiffness,link.damping",
+      locked_chirp, [](const Recorded& recorded) -> Answer {
+        IdentifyOptions options;
+        options.fit.free = {"link.0.stiffness", "link.0.damping"};
+        options.fit.locked = {"handle"};
+        options.loop_delay = IdentifyOptions::LoopDelay::as_given;
+        return {results::line(results::identification_json(identify(recorded.recording, recorded.device, options)))};
+      });
+  expect_same(questions);
+}
 
-  [[nodiscard]] Question inverse_dynamics(const std::string& file) const {
-    return {of("identify", file) + "--method inverse-dynamics", [=, this]() -> Answer {
-              return {results::line(results::identification_json(identify_rigid_body(read(file))))};
-            }};
-  }
-
-  [[nodiscard]] Question identified(const std::string& file, const std::string& structure) const {
-    return {of("identify", file) + "--points --structure " + structure, [=, this]() -> Answer {
-              const Recording recording = read(file);
-              const Device device = named_structure(structure, recording.sampling_period);
-              IdentifyOptions options;
-              options.structure_values = IdentifyOptions::StructureValues::placeholders;
-              options.fit.free = fittable_parameters(device);
-              return {results::line(
-                  results::identification_json(identify(recording, device, options), results::PointsInJson::included))};
-            }};
-  }
-
-  /// Four seconds of a device of this kind as a recorder keeps them: there and back.
-  void write_simulated(const std::string& file, test::RandomDevices& random, const char* kind) const {
-    DeviceParameters parameters = random.device(kind);
-    parameters.sensor.resolution = 1e-7;
-    const Device device(parameters);
+class SameAnswerOnRecordings : public SameAnswer, public ::testing::WithParamInterface<Command> {
+ protected:
+  /// A device's motion as a recorder keeps it: there and back.
+  void write_simulated(const std::string& file, test::RandomDevices& random, const Device& device) const {
     ExcitationOptions options;
     options.kind = random.chance(0.5) ? ExcitationKind::multisine : ExcitationKind::linear_chirp;
-    options.lowest_hz = 2.0;
+    options.lowest_hz = 4.0 / GetParam().duration;
     options.highest_hz = random.log_uniform(50.0, 200.0);
-    options.duration = 2.0;
+    options.duration = 0.5 * GetParam().duration;
+    options.fade_in = 0.0;
     std::vector<double> force = excite(options, device).samples;
     const std::size_t size = force.size();
     for (std::size_t k = 0; k < size; ++k) force.push_back(-force[k]);
@@ -98,42 +199,44 @@ class SameAnswerOnRecordings : public SameAnswer {
   }
 };
 
-TEST_F(SameAnswerOnRecordings, OfTheProject) {
-  std::vector<Question> questions;
-  for (const char* file : {"recordings/locked_chirp.csv", "recordings/free_motion.csv"}) {
-    questions.push_back(frf(file));
-    questions.push_back(identified(file, "rigid"));
-  }
-  questions.push_back(inverse_dynamics("recordings/free_motion.csv"));
-  questions.push_back(identified("recordings/locked_chirp.csv", "two-body"));
-  questions.push_back({of("identify", "recordings/locked_chirp.csv") +
-                           "--structure devices/lhifam.toml --locked handle --free link.stiffness,link.damping",
-                       [this]() -> Answer {
-                         IdentifyOptions options;
-                         options.fit.free = {"link.0.stiffness", "link.0.damping"};
-                         options.fit.locked = {"handle"};
-                         options.loop_delay = IdentifyOptions::LoopDelay::as_given;
-                         const Device lhifam = *read_device_file((directory() / "devices/lhifam.toml").string(), {});
-                         return {results::line(results::identification_json(
-                             identify(read("recordings/locked_chirp.csv"), lhifam, options)))};
-                       }});
-  expect_same(questions);
-}
-
-TEST_F(SameAnswerOnRecordings, OfRandomDevices) {
+TEST_P(SameAnswerOnRecordings, OfRandomDevices) {
   SCOPED_TRACE(fmt::format("seed {}", seed));
   test::RandomDevices random(seed);
   std::vector<Question> questions;
   for (std::size_t i = 0; i < random_recordings; ++i) {
-    const std::string file = fmt::format("{}.csv", i);
-    const bool rigid = i % 2 == 0;
-    write_simulated(file, random, rigid ? "rigid" : "two_mass");
-    questions.push_back(frf(file));
-    if (rigid) questions.push_back(inverse_dynamics(file));
-    if (i < random_fits) questions.push_back(identified(file, rigid ? "rigid" : "two-body"));
+    const std::string file = fmt::format("{}.run", i);
+    const std::string device_file = fmt::format("{}.toml", i);
+    DeviceParameters parameters = random.device(GetParam().kind);
+    parameters.sensor.resolution = 1e-7;
+    write(device_file, write_device(parameters));
+    const Device device = *read_device_file((directory() / device_file).string(), {});
+    write_simulated(file, random, device);
+    std::string command = GetParam().command;
+    const std::array<std::pair<std::string_view, std::string>, 2> names{{{"FILE", file}, {"DEVICE", device_file}}};
+    for (const auto& [name, value] : names) {
+      for (std::size_t at = command.find(name); at != std::string::npos; at = command.find(name)) {
+        command.replace(at, name.size(), value);
+      }
+    }
+    const std::string csv = file + ".csv";
+    questions.push_back({command,
+                         [this, file, device, answer = GetParam().answer] {
+                           return answer({read(directory(), file), device});
+                         },
+                         command.find(csv) != std::string::npos ? csv : ""});
   }
   expect_same(questions);
 }
 
+INSTANTIATE_TEST_SUITE_P(Commands, SameAnswerOnRecordings, ::testing::ValuesIn(commands),
+                         [](const auto& tested) { return std::string(tested.param.name); });
+
 }  // namespace
+
+std::vector<std::string> commands_compared_on_recordings() {
+  std::vector<std::string> all;
+  for (const Command& command : commands) all.emplace_back(command.command);
+  return all;
+}
+
 }  // namespace zwidth::cli
