@@ -30,7 +30,8 @@ std::vector<double> motion_of_bodies(const std::vector<std::string>& texts, cons
   for (const std::string& text : texts) {
     const std::size_t equals = text.rfind('=');
     const std::string_view number = std::string_view(text).substr(equals == std::string::npos ? 0 : equals + 1);
-    const double value = measured_number(option, number, measure, device.parameters().motion);
+    const double value =
+        measured_number(fmt::format("{}: '{}'", option, text), number, measure, device.parameters().motion);
     if (equals == std::string::npos) {
       values.assign(values.size(), value);
       continue;

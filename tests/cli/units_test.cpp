@@ -58,7 +58,7 @@ TEST_F(UnitsOnTheCommandLine, OfTheOtherMotionAreRefused) {
   expect_refusal("zwidth analyze devices/lhifam.toml --users 'mass=0:5 kg cm^2'",
                  "--users: mass: '0:5 kg cm^2' must be LEAST:GREATEST or one number: \"kg cm^2\" is no unit of a mass");
   expect_refusal("zwidth simulate devices/lhifam.toml --set wall.stiffness=5000 --start '3 deg'",
-                 "--start: \"deg\" is no unit of a length");
+                 "--start: '3 deg': \"deg\" is no unit of a length");
   expect_refusal("zwidth design devices/lhifam.toml --target '12 N m/rad'",
                  "--target: \"N m/rad\" is no unit of a stiffness; must be a number of N/m");
   expect_refusal("zwidth relay devices/quanser_torsion.toml --amplitude 5N",
