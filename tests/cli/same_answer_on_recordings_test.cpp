@@ -44,6 +44,7 @@ struct Command {
   Answer (*answer)(const Recorded& recorded);
   std::string_view kind = "rigid";  ///< of the devices
   double duration = 4.0;            ///< s
+  double most_refused = 0.05;       ///< share; of records so short that a fit is cheap more are refused, by both alike
 };
 
 void PrintTo(const Command& command, std::ostream* stream) { *stream << command.name; }
@@ -113,11 +114,11 @@ constexpr std::array commands = {
     Command{"LinkOfTwoBodies",
             "identify FILE --force force --position position --json --structure DEVICE "
             "--free link.stiffness,link.damping --from-structure",
-            link_of_two_bodies, "two_mass", 0.5},
+            link_of_two_bodies, "two_mass", 0.5, 0.25},
     Command{"InTime",
             "identify FILE --force force --position position --json --method time-domain --structure rigid "
             "--free body.body.mass,body.body.damping",
-            fitted_in_time, "rigid", 0.6},
+            fitted_in_time, "rigid", 0.6, 0.25},
     Command{"Relay", "relay --recording FILE --force force --position position --json --segment 256", relay_reading,
             "two_mass", 1.0},
     Command{"Diagnose", "diagnose DEVICE --recording FILE --position position --stiffness 300 --json", heard, "rigid",
@@ -225,7 +226,7 @@ TEST_P(SameAnswerOnRecordings, OfRandomDevices) {
                          },
                          command.find(csv) != std::string::npos ? csv : ""});
   }
-  expect_same(questions);
+  expect_same(questions, GetParam().most_refused);
 }
 
 INSTANTIATE_TEST_SUITE_P(Commands, SameAnswerOnRecordings, ::testing::ValuesIn(commands),
