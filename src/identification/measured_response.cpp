@@ -170,6 +170,32 @@ void judge_dependence(MeasuredResponse& measured, std::span<const Recording> rec
   }
 }
 
+/// The response and what it shows of the critical stiffness.
+MeasuredResponse judged(std::string source, FrequencyResponse response, std::vector<Remark> remarks) {
+  MeasuredResponse measured{std::move(source), std::move(response), std::nullopt, std::move(remarks), {}};
+  std::vector<Remark>& own = measured.response.remarks;
+  std::move(own.begin(), own.end(), std::back_inserter(measured.remarks));
+  own.clear();
+  const auto without_stiffness = [&measured](Remark remark) {
+    measured.trust.refuse(sentence(remark));
+    measured.remarks.push_back(std::move(remark));
+  };
+  if (!measured.response.sampling_period) {
+    without_stiffness({Remark::Severity::warning, "a response without a sampling rate",
+                       "hold and delay are not in it, so that it has no critical stiffness; give the rate of a "
+                       "sampled one, or fit a device to it"});
+  } else if (measured.response.points.size() < 2) {
+    without_stiffness(
+        {Remark::Severity::warning, "a response of a single line", "crossovers lie between lines: excite a band"});
+  } else {
+    measured.stiffness = measured_stiffness(measured.response);
+    const std::vector<Remark>& found = measured.stiffness->remarks;
+    measured.remarks.insert(measured.remarks.end(), found.begin(), found.end());
+    measured.trust = trust_of(*measured.stiffness);
+  }
+  return measured;
+}
+
 }  // namespace
 
 std::optional<OptionProblem> find_problem(const FrequencyResponseOptions& options) {
@@ -203,26 +229,12 @@ std::optional<OptionProblem> find_problem(const FrequencyResponseOptions& option
 }
 
 MeasuredResponse judged_response(std::string source, FrequencyResponse response, std::vector<Remark> remarks) {
-  MeasuredResponse measured{std::move(source), std::move(response), std::nullopt, std::move(remarks), {}};
-  std::vector<Remark>& own = measured.response.remarks;
-  std::move(own.begin(), own.end(), std::back_inserter(measured.remarks));
-  own.clear();
-  const auto without_stiffness = [&measured](Remark remark) {
-    measured.trust.refuse(sentence(remark));
-    measured.remarks.push_back(std::move(remark));
-  };
-  if (!measured.response.sampling_period) {
-    without_stiffness({Remark::Severity::warning, "a response without a sampling rate",
-                       "hold and delay are not in it, so that it has no critical stiffness; give the rate of a "
-                       "sampled one, or fit a device to it"});
-  } else if (measured.response.points.size() < 2) {
-    without_stiffness(
-        {Remark::Severity::warning, "a response of a single line", "crossovers lie between lines: excite a band"});
-  } else {
-    measured.stiffness = measured_stiffness(measured.response);
-    const std::vector<Remark>& found = measured.stiffness->remarks;
-    measured.remarks.insert(measured.remarks.end(), found.begin(), found.end());
-    measured.trust = trust_of(*measured.stiffness);
+  MeasuredResponse measured = judged(std::move(source), std::move(response), std::move(remarks));
+  if (measured.stiffness && measured.stiffness->status == MeasuredStiffnessStatus::found) {
+    measured.remarks.push_back({Remark::Severity::note,
+                                "one record does not show dry friction, which makes a small motion look stiffer and "
+                                "more damped: the critical stiffness is then too high",
+                                "repeat it with twice the force: it must come out the same"});
   }
   return measured;
 }
@@ -290,8 +302,8 @@ MeasuredResponse frequency_response(std::span<const Recording> recordings, const
     measured = judged_response(recordings[0].source, std::move(each[0]), std::move(remarks));
   } else {
     PooledResponse pooled = pooled_response(each);
-    measured = judged_response(fmt::format("{} and {} more", recordings[0].source, recordings.size() - 1),
-                               std::move(pooled.response), std::move(remarks));
+    measured = judged(fmt::format("{} and {} more", recordings[0].source, recordings.size() - 1),
+                      std::move(pooled.response), std::move(remarks));
     measured.dependence = pooled.dependence;
     if (pooled.dependence) judge_dependence(measured, recordings, each);
   }

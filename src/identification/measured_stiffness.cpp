@@ -332,12 +332,6 @@ MeasuredStiffness measured_stiffness(const FrequencyResponse& response) {
       {Remark::Severity::note,
        fmt::format("the phase is measured {}; outside, nothing is known", band_text(result.measured_band)),
        "a softer crossover there would limit instead"});
-  if (result.status == MeasuredStiffnessStatus::found) {
-    result.remarks.push_back({Remark::Severity::note,
-                              "one record does not show dry friction, which makes a small motion look stiffer and more "
-                              "damped: the critical stiffness is then too high",
-                              "repeat it with twice the force: it must come out the same"});
-  }
   return result;
 }
 

@@ -79,7 +79,10 @@ std::string few_ticks(double largest) {
   const double decade = std::pow(10.0, std::floor(std::log10(0.5 * largest)));
   const double step = 0.5 * largest / decade;
   return fmt::format("set yrange [{0}:{1}]\nset ytics {2}", -1.1 * largest, 1.1 * largest,
-                     (step < 1.5 ? 1.0 : step < 3.5 ? 2.0 : 5.0) * decade);
+                     (step < 1.5   ? 1.0
+                      : step < 3.5 ? 2.0
+                                   : 5.0) *
+                         decade);
 }
 
 void draw_signal(Canvas& canvas, const Signal& signal, double top) {
@@ -93,8 +96,8 @@ void draw_signal(Canvas& canvas, const Signal& signal, double top) {
   data_block(canvas, "signal", rows(signal, from, shown));
   data_block(canvas, "residual", residual_rows(signal, small));
   x_label(canvas, zoom, "Time (s)");
-  canvas.commands(fmt::format("{}\nset xrange [{}:{}]\nset autoscale y\nset ytics autofreq\nset format x '%g'\n{}", axes_look(),
-                              signal.times[from], signal.times.back(),
+  canvas.commands(fmt::format("{}\nset xrange [{}:{}]\nset autoscale y\nset ytics autofreq\nset format x '%g'\n{}",
+                              axes_look(), signal.times[from], signal.times.back(),
                               y_label(fmt::format("{} ({}{})", signal.quantity, shown.prefix, signal.unit))));
   canvas.plot(zoom, fmt::format("$signal using 1:2 with lines {}, $signal using 1:3 with lines {}",
                                 gnuplot_line(measured_style), gnuplot_line(fitted_style)));
@@ -133,29 +136,34 @@ std::string draw_identification(const TimeDomainIdentification& identified, Figu
   for (const FittedMotion& each : identified.motions) {
     const auto begin = std::ranges::find_if(each.residuals, [](double residual) { return residual != 0.0; });
     const auto skipped = static_cast<std::size_t>(begin - each.residuals.begin()) % each.residuals.size();
-    Signal signal{file_name(each.source), "Position", motion == Motion::rotary ? "rad" : "m", {},
-                  std::span(each.recorded).subspan(skipped), std::span(each.residuals).subspan(skipped)};
+    Signal signal{file_name(each.source),
+                  "Position",
+                  motion == Motion::rotary ? "rad" : "m",
+                  {},
+                  std::span(each.recorded).subspan(skipped),
+                  std::span(each.residuals).subspan(skipped)};
     for (std::size_t k = skipped; k < each.recorded.size(); ++k) {
       signal.times.push_back(static_cast<double>(k) * each.sampling_period);
     }
     signals.push_back(std::move(signal));
   }
-  return draw(display_name(identified.device) + ", identified in time", "fitted device with its dry friction",
-              signals.size() > most_signals ? fmt::format("The first {} of {} recordings.", most_signals, signals.size())
-                                            : "",
-              signals, format);
+  return draw(
+      display_name(identified.device) + ", identified in time", "fitted device with its dry friction",
+      signals.size() > most_signals ? fmt::format("The first {} of {} recordings.", most_signals, signals.size()) : "",
+      signals, format);
 }
 
 std::string draw_identification(const RigidBodyIdentification& identified, FigureFormat format) {
   const RigidBodyFit& fit = identified.fit;
   const Motion motion = identified.device.parameters().motion;
-  const Signal signal{file_name(identified.source), "Force", motion == Motion::rotary ? "N m" : "N", fit.times,
-                      fit.forces, fit.residual_forces};
-  return draw(fmt::format("{}, identified by inverse dynamics", display_name(identified.device)),
-              "mass, friction and offset of the fitted body",
-              fmt::format("Force behind a low-pass of {:.3g} Hz, as fitted; rests of the body are left out.",
-                          fit.cutoff_hz),
-              {&signal, 1}, format);
+  const Signal signal{
+      file_name(identified.source), "Force", motion == Motion::rotary ? "N m" : "N", fit.times, fit.forces,
+      fit.residual_forces};
+  return draw(
+      fmt::format("{}, identified by inverse dynamics", display_name(identified.device)),
+      "mass, friction and offset of the fitted body",
+      fmt::format("Force behind a low-pass of {:.3g} Hz, as fitted; rests of the body are left out.", fit.cutoff_hz),
+      {&signal, 1}, format);
 }
 
 }  // namespace zwidth::report
