@@ -23,7 +23,8 @@ bool is_of_lines(std::span<const Recording> recordings, const FrequencyResponseO
 MeasuredResponse response_with_enough_lines(std::span<const Recording> recordings, const Device& structure,
                                             const IdentifyOptions& options, const Progress& progress) {
   MeasuredResponse measured = frequency_response(recordings, options.response, progress);
-  const bool may_choose = recordings.size() == 1 && !options.response.segment_length && !is_of_lines(recordings, options.response);
+  const bool may_choose =
+      recordings.size() == 1 && !options.response.segment_length && !is_of_lines(recordings, options.response);
   if (!may_choose || measured.response.points.size() < 2 || !measured.response.sampling_period) return measured;
   const std::size_t free = fittable_parameters(structure, options.fit.locked).size() + 2;
   constexpr std::size_t lines_each = 6;

@@ -79,7 +79,8 @@ TEST(RouthCount, AgreesWithEigenvaluesOverStiffnessAndDamping) {
     const DiscreteStateSpace plant = sampled(device);
     for (const double velocity_filter_hz : {0.0, 80.0}) {
       Wall wall{1.0, 1.0, velocity_filter_hz};
-      wall.filters.push_back({.kind = WallFilter::Kind::notch, .frequency_hz = 60.0, .damping_ratio = 0.5, .depth = 0.1});
+      wall.filters.push_back(
+          {.kind = WallFilter::Kind::notch, .frequency_hz = 60.0, .damping_ratio = 0.5, .depth = 0.1});
       const RouthCount routh(plant, wall);
       for (const double stiffness : {3.0, 100.0, 3e3, 3e4}) {
         for (const double damping : {0.0, 0.3, 10.0, 300.0}) {

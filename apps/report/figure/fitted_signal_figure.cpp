@@ -15,7 +15,7 @@
 namespace zwidth::report {
 namespace {
 
-constexpr LineStyle measured_style{blue, 3.0, "1"};
+constexpr LineStyle measured_signal_style{blue, 3.0, "1"};
 constexpr LineStyle fitted_style{orange, 1.4, "1"};
 constexpr LineStyle residual_style{blue, 0.8, "1"};
 constexpr std::size_t most_signals = 4;
@@ -100,7 +100,7 @@ void draw_signal(Canvas& canvas, const Signal& signal, double top) {
                               axes_look(), signal.times[from], signal.times.back(),
                               y_label(fmt::format("{} ({}{})", signal.quantity, shown.prefix, signal.unit))));
   canvas.plot(zoom, fmt::format("$signal using 1:2 with lines {}, $signal using 1:3 with lines {}",
-                                gnuplot_line(measured_style), gnuplot_line(fitted_style)));
+                                gnuplot_line(measured_signal_style), gnuplot_line(fitted_style)));
   canvas.text(frame_left, rest.top - 14.0,
               fmt::format("residual (measured less fitted) of the whole record: {} rms",
                           quantity(root_mean_square(signal.residuals), std::string(signal.unit))));
@@ -114,7 +114,7 @@ void draw_signal(Canvas& canvas, const Signal& signal, double top) {
 std::string draw(const std::string& title, const std::string& fitted, const std::string& subtitle,
                  std::span<const Signal> signals, FigureFormat format) {
   constexpr double height = 470.0;
-  const Heading heading(title, {{"measured", measured_style}, {fitted, fitted_style}}, subtitle);
+  const Heading heading(title, {{"measured", measured_signal_style}, {fitted, fitted_style}}, subtitle);
   const std::span<const Signal> shown = signals.first(std::min(signals.size(), most_signals));
   Canvas canvas(title, canvas_width, heading.bottom() + height * static_cast<double>(shown.size()));
   heading.draw(canvas);

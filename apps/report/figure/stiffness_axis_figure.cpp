@@ -16,7 +16,7 @@ constexpr Box bar_sides{40.0, 860.0, 0.0, 0.0};
 constexpr double bar_height = 40.0;
 constexpr double text_gap = 5.0;
 constexpr std::string_view stable_colour = "#bfe3c5";
-constexpr std::string_view any_user_colour = "#8ccb97";
+constexpr std::string_view any_user_bar_colour = "#8ccb97";
 constexpr std::string_view unstable_colour = "#f6d5d0";
 constexpr LineStyle leader{"#555555", 0.8, "1"};
 constexpr LineStyle reference_leader{"#0b4f9e", 1.0, "(4,3)"};
@@ -143,7 +143,7 @@ std::string draw_stiffness_axis(const AnalysedDevice& analysed, FigureFormat for
     double safe = left;  // with every passive user
     if (interval.lower == 0.0 && has_any_user_limit(analysed.analysis)) {
       safe = std::min(axis.x(analysed.analysis.any_user->stiffness), right);
-      canvas.rectangle({left, safe, bar.top, bar.bottom}, any_user_colour);
+      canvas.rectangle({left, safe, bar.top, bar.bottom}, any_user_bar_colour);
       name_segment(left, safe, "stable with any user");
     }
     name_segment(safe, right, "stable");

@@ -12,14 +12,13 @@ namespace {
 
 /// Both at once, unlike the margins before it.
 std::string disk_margin_note(const DiskMargin& disk) {
-  const std::string gain = disk.gain_margin ? fmt::format("{} to {} times", number(*disk.lower_gain_margin),
-                                                          number(*disk.gain_margin))
-                                            : "any number of times";
-  return fmt::format("disk margin {}: stable while the loop's gain is off by {} and its phase by up to {}° at once{}",
-                     number(disk.alpha), gain, number(disk.phase_margin * 180.0 / std::numbers::pi),
-                     disk.frequency > 0.0
-                         ? fmt::format("; least at {} Hz", number(0.5 * disk.frequency / std::numbers::pi))
-                         : "");
+  const std::string gain =
+      disk.gain_margin ? fmt::format("{} to {} times", number(*disk.lower_gain_margin), number(*disk.gain_margin))
+                       : "any number of times";
+  return fmt::format(
+      "disk margin {}: stable while the loop's gain is off by {} and its phase by up to {}° at once{}",
+      number(disk.alpha), gain, number(disk.phase_margin * 180.0 / std::numbers::pi),
+      disk.frequency > 0.0 ? fmt::format("; least at {} Hz", number(0.5 * disk.frequency / std::numbers::pi)) : "");
 }
 
 }  // namespace

@@ -21,8 +21,8 @@ struct WallToRunOptions {
 
 /// A wall to be written as a program, or run.
 struct WallToRun {
-  Device device;                  ///< with wall.stiffness; as it was where `share` found no wall
-  Analysis analysis = {};         ///< of that device; its trust is the chosen share's too
+  Device device;                       ///< with wall.stiffness; as it was where `share` found no wall
+  Analysis analysis = {};              ///< of that device; its trust is the chosen share's too
   std::optional<SafeWall> share = {};  ///< how the stiffness was chosen, with a safety factor
   /// The wall may run: there is one, nothing is refused, and what is doubtful is accepted.
   bool released = false;
