@@ -64,7 +64,7 @@ TEST(HtmlReport, AnswersOnTopWithFiguresAndNumbers) {
 }
 
 TEST(HtmlReport, IsReadableOnDarkPaperAndOnAPhone) {
-  const std::string page = html_page("a title", html_table({{TextTable::Align::left}, {{"K_CR"}, {"1 kN/m"}}}));
+  const std::string page = html_page("a title", html_table({{Align::left}, {{"K_CR"}, {"1 kN/m"}}}));
   // Figures are drawn on white: they are turned round where the paper is dark.
   EXPECT_THAT(page, HasSubstr("@media screen and (prefers-color-scheme: dark)"));
   EXPECT_THAT(page, HasSubstr("figure svg image { filter: invert("));
