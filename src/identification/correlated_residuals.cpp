@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/linear_systems.hpp"
+#include "linear_systems.hpp"
 
 namespace zwidth::internal {
 namespace {

@@ -5,7 +5,7 @@
 #include <complex>
 #include <numbers>
 
-#include "model/linear_systems.hpp"
+#include "linear_systems.hpp"
 #include "signal/fourier.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/parameter.hpp"

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/eigenvalues.hpp"
-#include "model/linear_systems.hpp"
+#include "eigenvalues.hpp"
+#include "linear_systems.hpp"
 
 namespace zwidth::internal {
 namespace {

@@ -8,10 +8,10 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
+#include "eigenvalues.hpp"
 #include "identification/correlated_residuals.hpp"
 #include "identification/rigid_band.hpp"
-#include "model/eigenvalues.hpp"
-#include "model/linear_systems.hpp"
+#include "linear_systems.hpp"
 #include "signal/zero_phase_filter.hpp"
 #include "zwidth/error.hpp"
 

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "identification/percent.hpp"
-#include "model/linear_systems.hpp"
+#include "linear_systems.hpp"
 #include "zwidth/quantity.hpp"
 
 namespace zwidth::internal {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "identification/correlated_residuals.hpp"
-#include "model/linear_systems.hpp"
+#include "linear_systems.hpp"
 
 namespace zwidth::internal {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/eigenvalues.hpp"
+#include "eigenvalues.hpp"
 
 namespace zwidth::internal {
 namespace {

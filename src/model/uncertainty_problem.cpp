@@ -8,7 +8,7 @@
 #include <set>
 #include <string>
 
-#include "model/eigenvalues.hpp"
+#include "eigenvalues.hpp"
 #include "zwidth/model/parameter.hpp"
 
 namespace zwidth::internal {

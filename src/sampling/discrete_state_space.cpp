@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "linear_systems.hpp"
 #include "model/balance.hpp"
-#include "model/linear_systems.hpp"
 #include "sampling/matrix_exponential.hpp"
 #include "sampling/sampling_instants.hpp"
 

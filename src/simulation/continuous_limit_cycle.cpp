@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "model/linear_systems.hpp"
+#include "linear_systems.hpp"
 #include "simulation/check_relay.hpp"
 #include "zwidth/simulation/limit_cycle.hpp"
 

@@ -4,7 +4,7 @@
 #include <numbers>
 #include <optional>
 
-#include "model/linear_systems.hpp"
+#include "linear_systems.hpp"
 #include "simulation/check_relay.hpp"
 #include "zwidth/simulation/limit_cycle.hpp"
 

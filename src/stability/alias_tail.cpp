@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "model/eigenvalues.hpp"
+#include "eigenvalues.hpp"
 
 namespace zwidth::internal {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "eigenvalues.hpp"
 #include "model/balance.hpp"
-#include "model/eigenvalues.hpp"
 
 namespace zwidth {
 using namespace internal;

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "model/eigenvalues.hpp"
+#include "eigenvalues.hpp"
 #include "zwidth/model/parameter.hpp"
 
 namespace zwidth::internal {

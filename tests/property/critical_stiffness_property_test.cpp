@@ -67,8 +67,8 @@ TEST_P(CriticalStiffnessProperty, EigenvaluesConfirmEveryCrossoverAndNoOther) {
       });
     };
     // Far stiffer crossovers than the softest are beyond what eigenvalues in double precision resolve.
-    std::erase_if(by_stiffness, [softest = by_stiffness.empty() ? 0.0 : by_stiffness.front().stiffness](
-                                    const Crossover& c) { return c.stiffness > std::min(1e13 * softest, 1e16); });
+    const double resolved = by_stiffness.empty() ? 0.0 : std::min(1e13 * by_stiffness.front().stiffness, 1e16);
+    std::erase_if(by_stiffness, [&](const Crossover& c) { return c.stiffness > resolved; });
     int before = -1;  // poles outside, seen on the upper side of the last crossover
     for (std::size_t i = 0; i < by_stiffness.size(); ++i) {
       const Crossover& crossover = by_stiffness[i];
@@ -97,8 +97,10 @@ TEST_P(CriticalStiffnessProperty, EigenvaluesConfirmEveryCrossoverAndNoOther) {
     // Far below the first and far above the last crossover.
     if (!by_stiffness.empty() && before >= 0) {
       if (by_stiffness.size() == result.crossovers.size()) {
-        ASSERT_EQ(poles_outside(plant, wall, 10.0 * by_stiffness.back().stiffness), before)
-            << GetParam() << " seed " << seed;
+        const double far = 10.0 * by_stiffness.back().stiffness;
+        if (far <= resolved) {
+          ASSERT_EQ(poles_outside(plant, wall, far), before) << GetParam() << " seed " << seed;
+        }
       }
       ASSERT_EQ(poles_outside(plant, wall, 0.1 * by_stiffness.front().stiffness) == 0,
                 claimed_stable(0.1 * by_stiffness.front().stiffness))

@@ -1,4 +1,4 @@
-#include "model/eigenvalues.hpp"
+#include "eigenvalues.hpp"
 
 #include <Eigen/Eigenvalues>
 

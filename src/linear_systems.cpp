@@ -1,4 +1,4 @@
-#include "model/linear_systems.hpp"
+#include "linear_systems.hpp"
 
 #include <Eigen/Dense>
 
