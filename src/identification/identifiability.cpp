@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "eigenvalues.hpp"
 #include "linear_systems.hpp"
@@ -29,8 +30,14 @@ bool has_influence(const ResponseWithSlopes& at_solution, Eigen::Index coordinat
 }
 
 /// The vectors that span the columns' space with as many zeros as row reduction finds: which parameters form a
-/// combination shows only so.
-Eigen::MatrixXd sparse_basis(Eigen::MatrixXd basis) {
+/// combination shows only so. Pivots: of each vector the row in which the others are 0.
+struct SparseBasis {
+  Eigen::MatrixXd vectors;
+  std::vector<Eigen::Index> pivots;
+};
+
+SparseBasis sparse_basis(Eigen::MatrixXd basis) {
+  std::vector<Eigen::Index> pivots;
   for (Eigen::Index column = 0; column < basis.cols(); ++column) {
     Eigen::Index pivot = 0;
     basis.col(column).cwiseAbs().maxCoeff(&pivot);
@@ -38,9 +45,10 @@ Eigen::MatrixXd sparse_basis(Eigen::MatrixXd basis) {
     for (Eigen::Index other = 0; other < basis.cols(); ++other) {
       if (other != column) basis.col(other) -= basis(pivot, other) * basis.col(column);
     }
+    pivots.push_back(pivot);
   }
   basis.colwise().normalize();
-  return basis;
+  return {std::move(basis), std::move(pivots)};
 }
 
 /// Root mean square of the residuals around each point: how far the deviations are from the truth there. The window
@@ -89,6 +97,7 @@ Identifiability identifiability(const ResponseWithSlopes& at_solution, const Fit
   const Eigen::Index n = at_solution.slopes.cols();
   Identifiability result;
   result.determined.assign(static_cast<std::size_t>(n), true);
+  result.estimated = result.determined;
   Eigen::MatrixXcd slopes = weighted_slopes(at_solution, data);
   std::vector<Eigen::Index> shown;  // coordinates that change the response at all
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -96,7 +105,7 @@ Identifiability identifiability(const ResponseWithSlopes& at_solution, const Fit
       slopes.col(i).normalize();
       shown.push_back(i);
     } else {
-      result.determined[static_cast<std::size_t>(i)] = false;
+      result.determined[static_cast<std::size_t>(i)] = result.estimated[static_cast<std::size_t>(i)] = false;
       result.combinations.push_back({static_cast<std::size_t>(i)});
     }
   }
@@ -106,7 +115,10 @@ Identifiability identifiability(const ResponseWithSlopes& at_solution, const Fit
   const SymmetricEigen eigen = symmetric_eigen(correlation);
   const Eigen::Index vanishing = (eigen.values.array() < least_eigenvalue).count();
   if (vanishing == 0) return result;
-  const Eigen::MatrixXd basis = sparse_basis(eigen.vectors.leftCols(vanishing));
+  const auto [basis, pivots] = sparse_basis(eigen.vectors.leftCols(vanishing));
+  for (const Eigen::Index pivot : pivots) {
+    result.estimated[static_cast<std::size_t>(shown[static_cast<std::size_t>(pivot)])] = false;
+  }
   for (Eigen::Index column = 0; column < vanishing; ++column) {
     std::vector<std::size_t> parts;
     for (Eigen::Index i = 0; i < basis.rows(); ++i) {
@@ -120,12 +132,12 @@ Identifiability identifiability(const ResponseWithSlopes& at_solution, const Fit
 }
 
 Eigen::MatrixXd covariance(const ResponseWithSlopes& at_solution, const FitData& data,
-                           const std::vector<bool>& determined, double robust_threshold) {
+                           const std::vector<bool>& estimated, double robust_threshold) {
   const Eigen::Index all = at_solution.slopes.cols();
   Eigen::MatrixXd full = Eigen::MatrixXd::Zero(all, all);
   std::vector<Eigen::Index> kept;
   for (Eigen::Index i = 0; i < all; ++i) {
-    if (determined[static_cast<std::size_t>(i)]) kept.push_back(i);
+    if (estimated[static_cast<std::size_t>(i)]) kept.push_back(i);
   }
   const auto n = static_cast<Eigen::Index>(kept.size());
   if (n == 0) return full;

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <cstddef>
 #include <vector>
 
 #include "identification/fit_model.hpp"
@@ -10,20 +12,30 @@ namespace zwidth::internal {
 
 /// Which coordinates the data determine.
 struct Identifiability {
-  std::vector<bool> determined;                        ///< by the data alone, one per coordinate
+  std::vector<bool> determined;  ///< by the data alone, one per coordinate
+  /// All but those that do not show, and one of each combination: these are known given that one, and together with it
+  /// they say how well the combination is known.
+  std::vector<bool> estimated;
   std::vector<std::vector<std::size_t>> combinations;  ///< coordinates of which only a combination shows, or nothing
+
+  /// Alone or in a combination.
+  [[nodiscard]] bool shows(std::size_t coordinate) const {
+    return !std::ranges::any_of(combinations, [&](const std::vector<std::size_t>& each) {
+      return each.size() == 1 && each.front() == coordinate;
+    });
+  }
 };
 
 /// From the eigenvalues of the normal matrix, scaled to correlations: those that vanish belong to directions in which
 /// the response does not change at all.
 [[nodiscard]] Identifiability identifiability(const ResponseWithSlopes& at_solution, const FitData& data);
 
-/// Covariance of the determined coordinates at the solution, 0 for the others.
+/// Covariance of the estimated coordinates at the solution, 0 for the others.
 ///
 /// A^-1 B A^-1 with the normal matrix A and the scores' covariance B (White 1980): B takes the residuals' size from
 /// around each point, and their correlation from the whole band, so that deviations which are wrong, and lines which a
 /// window correlates, do not spoil the intervals.
 [[nodiscard]] Eigen::MatrixXd covariance(const ResponseWithSlopes& at_solution, const FitData& data,
-                                         const std::vector<bool>& determined, double robust_threshold);
+                                         const std::vector<bool>& estimated, double robust_threshold);
 
 }  // namespace zwidth::internal

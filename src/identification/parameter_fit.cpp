@@ -61,11 +61,13 @@ ParameterEstimate estimate(const Coordinate& coordinate, double x, bool determin
   return result;
 }
 
-std::vector<StrongCorrelation> strong_correlations(const FitModel& model, const Eigen::MatrixXd& covariance) {
+std::vector<StrongCorrelation> strong_correlations(const FitModel& model, const std::vector<bool>& determined,
+                                                   const Eigen::MatrixXd& covariance) {
   constexpr double strong = 0.95;
   std::vector<StrongCorrelation> result;
   for (Eigen::Index i = 0; i < covariance.rows(); ++i) {
     for (Eigen::Index j = i + 1; j < covariance.rows(); ++j) {
+      if (!determined[static_cast<std::size_t>(i)] || !determined[static_cast<std::size_t>(j)]) continue;
       const double scale = std::sqrt(covariance(i, i) * covariance(j, j));
       if (scale == 0.0 || std::abs(covariance(i, j)) <= strong * scale) continue;
       result.push_back({model.coordinates()[static_cast<std::size_t>(i)].key,
@@ -75,12 +77,13 @@ std::vector<StrongCorrelation> strong_correlations(const FitModel& model, const 
   return result;
 }
 
-/// The covariance of the values of the determined coordinates.
+/// The covariance of the values. Of a combination its numbers vary given one of them: what depends on the response
+/// alone varies as the data leave it.
 std::optional<Uncertainty> uncertainty(const FitModel& model, const Eigen::VectorXd& x,
-                                       const std::vector<bool>& determined, const Eigen::MatrixXd& covariance) {
+                                       const Eigen::MatrixXd& covariance) {
   std::vector<Eigen::Index> kept;
   for (Eigen::Index i = 0; i < x.size(); ++i) {
-    if (determined[static_cast<std::size_t>(i)] && std::isfinite(covariance(i, i))) kept.push_back(i);
+    if (covariance(i, i) > 0.0 && std::isfinite(covariance(i, i))) kept.push_back(i);
   }
   if (kept.empty() || kept.size() > max_uncertain_parameters) return std::nullopt;
   Uncertainty result;
@@ -100,7 +103,7 @@ std::optional<Uncertainty> uncertainty(const FitModel& model, const Eigen::Vecto
 /// nu = 2 averages - 2 degrees of freedom, which costs (nu - 2) / (nu - 4) of variance; and, of a device that drifts
 /// freely, what leaks from its slow motion into the scale of the response, a common factor of all masses, dampings and
 /// stiffnesses.
-Eigen::MatrixXd widened(const FitModel& model, const Eigen::VectorXd& x, const std::vector<bool>& determined,
+Eigen::MatrixXd widened(const FitModel& model, const Eigen::VectorXd& x, const Identifiability& known,
                         Eigen::MatrixXd covariance, double averages) {
   constexpr double least_freedom = 6.0;
   constexpr double open_scale = 1e-3;  // one standard deviation
@@ -114,7 +117,7 @@ Eigen::MatrixXd widened(const FitModel& model, const Eigen::VectorXd& x, const s
     const auto k = static_cast<std::size_t>(i);
     const Coordinate& coordinate = model.coordinates()[k];
     const bool is_time = coordinate.key == "loop.delay" || coordinate.key == "actuator.time_constant";
-    if (!is_time && determined[k]) scale(i) = coordinate.kind == Coordinate::Kind::logarithmic ? 1.0 : x(i);
+    if (!is_time && known.shows(k)) scale(i) = coordinate.kind == Coordinate::Kind::logarithmic ? 1.0 : x(i);
   }
   return covariance + open_scale * open_scale * scale * scale.transpose();
 }
@@ -259,12 +262,12 @@ ParameterFit fit_parameters(const Device& structure, const FrequencyResponse& re
   const FitData data = fit_data(points, solution.model_error);
   const ResponseWithSlopes at_solution = model.slopes_at(solution.x, data.frequencies);
   const Eigen::MatrixXd covariance_of_x =
-      widened(model, solution.x, known.determined,
-              covariance(at_solution, data, known.determined, options.robust_threshold), response.averages);
+      widened(model, solution.x, known, covariance(at_solution, data, known.estimated, options.robust_threshold),
+              response.averages);
 
   DeviceParameters fitted = model.parameters_at(solution.x);
   ParameterFit fit{.device = Device(fitted),
-                   .correlations = strong_correlations(model, covariance_of_x),
+                   .correlations = strong_correlations(model, known.determined, covariance_of_x),
                    .misfit = misfit(points, at_solution.values),
                    .model_error = solution.model_error,
                    .stiffness_without_hold = without_hold,
@@ -278,7 +281,7 @@ ParameterFit fit_parameters(const Device& structure, const FrequencyResponse& re
         estimate(model.coordinates()[k], solution.x(i), known.determined[k], covariance_of_x(i, i)));
     set_parameter(fitted, fit.estimates.back().key, fit.estimates.back().value);
   }
-  fitted.uncertainty = uncertainty(model, solution.x, known.determined, covariance_of_x);
+  fitted.uncertainty = uncertainty(model, solution.x, covariance_of_x);
   fit.device = Device(std::move(fitted));
   for (const std::vector<std::size_t>& combination : known.combinations) {
     fit.unidentifiable.emplace_back();

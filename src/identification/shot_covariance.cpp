@@ -75,10 +75,12 @@ ShotCovariance shot_covariance(const ShotSlopes& slopes, const std::vector<bool>
   data.deviations.assign(static_cast<std::size_t>(rows), 1.0);
   const Identifiability known = identifiability(at_solution, data);
   result.known.determined.assign(static_cast<std::size_t>(size), true);
+  result.known.estimated = result.known.determined;
   std::vector<Eigen::Index> kept;
   for (std::size_t k = 0; k < varied.size(); ++k) {
     result.known.determined[static_cast<std::size_t>(varied[k])] = known.determined[k];
-    if (known.determined[k]) kept.push_back(varied[k]);
+    result.known.estimated[static_cast<std::size_t>(varied[k])] = known.estimated[k];
+    if (known.estimated[k]) kept.push_back(varied[k]);
   }
   for (const std::vector<std::size_t>& combination : known.combinations) {
     result.known.combinations.emplace_back();
@@ -90,11 +92,11 @@ ShotCovariance shot_covariance(const ShotSlopes& slopes, const std::vector<bool>
     if (held[static_cast<std::size_t>(i)]) result.covariance(i, i) = 1.0 / regressors.col(i).squaredNorm();
   }
   if (kept.empty()) return result;
-  Eigen::MatrixXd determined = regressors(Eigen::all, kept);
-  const Eigen::VectorXd scale = determined.colwise().norm().cwiseInverse();
-  determined = determined * scale.asDiagonal();
-  Eigen::MatrixXd covariance = covariance_with_correlated_residuals(determined, residuals);
-  widen(covariance, covariance_of_stretches(determined, residuals));
+  Eigen::MatrixXd estimated = regressors(Eigen::all, kept);
+  const Eigen::VectorXd scale = estimated.colwise().norm().cwiseInverse();
+  estimated = estimated * scale.asDiagonal();
+  Eigen::MatrixXd covariance = covariance_with_correlated_residuals(estimated, residuals);
+  widen(covariance, covariance_of_stretches(estimated, residuals));
   covariance *= calibration * calibration;
   const double mean_square = residuals.squaredNorm() / static_cast<double>(rows);
   if (mean_square < 1.0) covariance /= mean_square;

@@ -185,19 +185,22 @@ void add_open_scale(const ShotModel& model, const ShotFit& fit, ShotCovariance& 
   for (std::size_t i = 0; i < model.coordinates().size(); ++i) {
     const Coordinate& coordinate = model.coordinates()[i];
     const bool is_time = coordinate.key == "loop.delay" || coordinate.key == "actuator.time_constant";
-    if (is_time || fit.held[i] || !known.known.determined[i]) continue;
+    if (is_time || fit.held[i] || !known.known.shows(i)) continue;
     const auto at = static_cast<Eigen::Index>(i);
     scale(at) = coordinate.kind == Coordinate::Kind::logarithmic ? 1.0 : fit.x(at);
   }
   known.covariance += open_scale * open_scale * scale * scale.transpose();
 }
 
-ParameterEstimate estimate(const Coordinate& coordinate, double x, bool determined, double variance) {
-  // Known to a factor of e only: nothing that a number could be given for.
+/// Known to a factor of e only: nothing that a number could be given for.
+bool is_open(const Coordinate& coordinate, double variance) {
   constexpr double open = 1.0;
+  return !std::isfinite(variance) || (coordinate.kind == Coordinate::Kind::logarithmic && variance > open);
+}
+
+ParameterEstimate estimate(const Coordinate& coordinate, double x, bool determined, double variance) {
   ParameterEstimate result{coordinate.key, coordinate.value(x), determined, {}, {}, {}};
-  const bool is_open = coordinate.kind == Coordinate::Kind::logarithmic && variance > open;
-  if (!determined || is_open || !std::isfinite(variance)) {
+  if (!determined || is_open(coordinate, variance)) {
     result.identifiable = false;
     return result;
   }
@@ -218,7 +221,9 @@ void describe_parameters(TimeDomainIdentification& result, const ShotModel& mode
     const auto at = static_cast<Eigen::Index>(i);
     const Coordinate& coordinate = model.coordinates()[i];
     result.estimates.push_back(estimate(coordinate, x(at), known.known.determined[i], known.covariance(at, at)));
-    if (!result.estimates.back().identifiable || fit.held[i]) continue;
+    const double variance = known.covariance(at, at);
+    const bool is_of_a_combination = !known.known.determined[i] && variance > 0.0 && !is_open(coordinate, variance);
+    if (fit.held[i] || !(result.estimates.back().identifiable || is_of_a_combination)) continue;
     kept.push_back(at);
     uncertainty.parameters.push_back(coordinate.key);
   }
@@ -228,6 +233,8 @@ void describe_parameters(TimeDomainIdentification& result, const ShotModel& mode
     for (const Eigen::Index j : kept) {
       const Coordinate& column = model.coordinates()[static_cast<std::size_t>(j)];
       uncertainty.covariance.back().push_back(row.slope(x(i)) * known.covariance(i, j) * column.slope(x(j)));
+      const auto is_determined = [&](Eigen::Index k) { return known.known.determined[static_cast<std::size_t>(k)]; };
+      if (!is_determined(i) || !is_determined(j)) continue;
       constexpr double strong = 0.95;
       const double scale = std::sqrt(known.covariance(i, i) * known.covariance(j, j));
       if (j <= i || !(std::abs(known.covariance(i, j)) > strong * scale)) continue;

@@ -89,6 +89,19 @@ TEST(IdentificationProperty, ARecordWithAnAnswerHasOne) {
   }
 }
 
+// Numbers of which only a combination shows were taken for known exactly: 0.4 and 0.5 % too high, in intervals of
+// +- 0.04 and + 0.6 - 0.2 %.
+TEST(IdentificationProperty, ACombinationThatShowsVariesAsTheDataLeaveIt) {
+  for (const std::uint64_t seed : {630073U, 620055U}) {
+    const auto made = test::random_recording(seed);
+    ASSERT_TRUE(made && made->right_structure);
+    const Identification found = identified(*made);
+    ASSERT_TRUE(found.analysis.interval);
+    EXPECT_LE(found.analysis.interval->lower, made->stiffness) << "seed " << seed;
+    EXPECT_GE(found.analysis.interval->upper, made->stiffness) << "seed " << seed;
+  }
+}
+
 // Draws of a link that the data hardly show contradict them: [139.83, 2308] where the response itself shows 139.6.
 TEST(IdentificationProperty, AnIntervalIsNoWiderThanTheResponseShows) {
   const auto made = test::random_recording(500183);
