@@ -47,7 +47,7 @@ std::optional<OptionProblem> find_fit_problem(const ParameterFitOptions& options
 }
 
 /// Delay and lag are each between 0 and their sum, which is all that a band below the limit shows of them: how they
-/// share it counts as a number from that range, neither as known nor as open beyond it.
+/// share it counts as a number from that range, neither as known nor as open beyond it (draws stay within bounds).
 void share_lateness(ParameterFit& fit) {
   DeviceParameters parameters = fit.device.parameters();
   const double late = parameters.loop.delay + parameters.actuator.time_constant;
@@ -62,7 +62,14 @@ void share_lateness(ParameterFit& fit) {
   std::size_t count = uncertainty.parameters.size();
   if (delay == count) return;
   auto& covariance = uncertainty.covariance;
-  const double of_difference = late * late / 3.0;  // variance of a uniform number from -late to late
+  // Where the truth is at a bound, and half of the draws move off it to one side of K_CR, 5 % of the others are 2.5 % of
+  // all: the normal distribution's 1.645 deviations instead of 1.960.
+  constexpr double one_sided = 1.960 / 1.645;
+  for (auto& row : covariance) {
+    for (double& value : row) value *= one_sided * one_sided;
+  }
+  // Wherever the fit puts the difference, from -late to late, 2.5 % of the draws reach either end; none goes beyond.
+  const double of_difference = 1.1 * late * late;
   if (lag == count) {
     if (count == max_uncertain_parameters) return;
     uncertainty.parameters.emplace_back(lag_key);

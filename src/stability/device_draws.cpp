@@ -17,8 +17,12 @@ namespace {
 constexpr double smallest_value = 1e-30;
 constexpr double largest_value = 1e30;
 
-/// A with A A^T = covariance, semidefinite ones included; scaled so that units do not matter.
-Eigen::MatrixXd square_root(const std::vector<std::vector<double>>& covariance) {
+// Of a mass or of a link's stiffness, which cannot be 0: less of it hardly shows.
+constexpr double least_share = 0.01;
+// Of a variance: what is left of it is rounding.
+constexpr double rounding = 1e-9;
+
+Eigen::MatrixXd matrix_of(const std::vector<std::vector<double>>& covariance) {
   const auto n = static_cast<Eigen::Index>(covariance.size());
   Eigen::MatrixXd matrix(n, n);
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -26,6 +30,12 @@ Eigen::MatrixXd square_root(const std::vector<std::vector<double>>& covariance) 
       matrix(i, j) = covariance[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
     }
   }
+  return matrix;
+}
+
+/// A with A A^T = covariance, semidefinite ones included; scaled so that units do not matter.
+Eigen::MatrixXd square_root(Eigen::MatrixXd matrix) {
+  const Eigen::Index n = matrix.rows();
   const Eigen::VectorXd deviation = matrix.diagonal().cwiseSqrt();
   for (Eigen::Index i = 0; i < n; ++i) {
     for (Eigen::Index j = 0; j < n; ++j) {
@@ -35,6 +45,31 @@ Eigen::MatrixXd square_root(const std::vector<std::vector<double>>& covariance) 
   }
   const SymmetricEigen eigen = symmetric_eigen(matrix);
   return deviation.asDiagonal() * eigen.vectors * eigen.values.cwiseMax(0.0).cwiseSqrt().asDiagonal();
+}
+
+/// The shifts' nearest within their bounds, as the covariance measures distance: where one number goes to its bound,
+/// the others follow by regression, so that what is known of them together stays so.
+///
+///     d + C_i (b_i - d_i) / C_ii        and of the others C - C_i C_i' / C_ii, until none is beyond its bound
+void bring_within(Eigen::VectorXd& shifts, const Eigen::VectorXd& bounds, const Eigen::MatrixXd& of_draws) {
+  if ((shifts.array() >= bounds.array()).all()) return;
+  Eigen::MatrixXd covariance = of_draws;
+  for (Eigen::Index round = 0; round < shifts.size(); ++round) {
+    Eigen::Index farthest = -1;
+    double most = 0.0;
+    for (Eigen::Index i = 0; i < shifts.size(); ++i) {
+      if (covariance(i, i) <= rounding * of_draws(i, i)) continue;  // at its bound, or follows from those
+      const double beyond = (bounds(i) - shifts(i)) / std::sqrt(covariance(i, i));
+      if (beyond > most) farthest = i;
+      most = std::max(most, beyond);
+    }
+    if (farthest < 0) break;
+    const Eigen::VectorXd column = covariance.col(farthest) / covariance(farthest, farthest);
+    shifts += column * (bounds(farthest) - shifts(farthest));
+    covariance -= column * covariance.row(farthest);
+    covariance.row(farthest).setZero();
+    covariance.col(farthest).setZero();
+  }
 }
 
 }  // namespace
@@ -55,19 +90,35 @@ double NormalDraws::next() {
 double NormalDraws::uniform() { return static_cast<double>((random_() >> 11U) + 1) * 0x1p-53; }
 
 DeviceDraws::DeviceDraws(const Device& device, std::uint64_t seed)
-    : device_(device), root_(square_root(device.parameters().uncertainty->covariance)), normal_(seed) {}
+    : device_(device),
+      covariance_(matrix_of(device.parameters().uncertainty->covariance)),
+      root_(square_root(covariance_)),
+      bounds_(covariance_.rows()),
+      normal_(seed) {
+  const std::vector<std::string>& keys = device.parameters().uncertainty->parameters;
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const double mean = *parameter(device.parameters(), keys[i]);
+    const std::string key = full_parameter_key(device.parameters(), keys[i]);
+    const bool may_be_zero = key.ends_with("damping") || key.ends_with(".coulomb") || key.ends_with(".delay") ||
+                             key.ends_with(".time_constant") ||
+                             (key.ends_with("stiffness") && !key.starts_with("link"));
+    bounds_(static_cast<Eigen::Index>(i)) = may_be_zero ? -mean : (least_share - 1.0) * mean;
+  }
+}
 
 Device DeviceDraws::next() {
   const std::vector<std::string>& keys = device_.parameters().uncertainty->parameters;
   Eigen::VectorXd standard(root_.cols());
   for (double& value : standard) value = normal_.next();
-  const Eigen::VectorXd deviation = root_ * standard;
+  Eigen::VectorXd shifts = root_ * standard;
+  bring_within(shifts, bounds_, covariance_);
   DeviceParameters drawn = device_.parameters();
   drawn.uncertainty.reset();
   for (std::size_t i = 0; i < keys.size(); ++i) {
     const double mean = *parameter(drawn, keys[i]);
-    const double shift = deviation(static_cast<Eigen::Index>(i));
-    if (shift != 0.0) set_parameter(drawn, keys[i], std::clamp(std::abs(mean + shift), smallest_value, largest_value));
+    const auto k = static_cast<Eigen::Index>(i);
+    if (shifts(k) == 0.0) continue;
+    set_parameter(drawn, keys[i], std::clamp(mean + std::max(shifts(k), bounds_(k)), smallest_value, largest_value));
   }
   drawn.loop.delay = std::min(drawn.loop.delay, max_delay_samples * drawn.loop.sampling_period);
   return Device(std::move(drawn));

@@ -24,8 +24,8 @@ class NormalDraws {
   bool has_spare_ = false;
 };
 
-// Devices drawn from the uncertainty of one: impossible values, such as a negative damping, are reflected into their
-// domain. They carry no uncertainty themselves.
+// Devices drawn from the uncertainty of one: impossible values, such as a negative damping, are brought to the
+// nearest possible ones, near as the covariance measures it. They carry no uncertainty themselves.
 class DeviceDraws {
  public:
   // The device must have uncertain parameters, and outlive the draws.
@@ -35,7 +35,9 @@ class DeviceDraws {
 
  private:
   const Device& device_;
+  Eigen::MatrixXd covariance_;
   Eigen::MatrixXd root_;
+  Eigen::VectorXd bounds_;  // of the shifts from the device's own values
   NormalDraws normal_;
 };
 

@@ -128,7 +128,22 @@ TEST(StiffnessInterval, WithoutSpreadItIsAPoint) {
   EXPECT_EQ(interval.upper, critical(device));
 }
 
-// Impossible draws are reflected: an uncertain damping near 0 stays a damping.
+// Of two bodies on a stiff link the response shows the sum of the dampings, not how they share it: where one would
+// become negative, the other keeps the sum.
+TEST(StiffnessInterval, WhatIsKnownOfASumStaysKnownAtABound) {
+  DeviceParameters device = test::lhifam_parameters();
+  device.bodies[0].damping = 0.0;
+  device.bodies[1].damping = 3.5;
+  device.links[0].stiffness *= 100.0;  // how they share it hardly matters
+  const double open = 2.0 * 2.0;
+  const StiffnessInterval interval = stiffness_interval(
+      Device(with_uncertainty(device, {"body.motor.damping", "body.handle.damping"}, {{open, -open}, {-open, open}})),
+      300);
+  EXPECT_NEAR(interval.lower, critical(device), 0.05 * critical(device));
+  EXPECT_NEAR(interval.upper, critical(device), 0.05 * critical(device));
+}
+
+// Impossible draws are brought to their bound: an uncertain damping near 0 stays a damping.
 TEST(StiffnessInterval, DrawsStayPossible) {
   DeviceParameters device = test::lhifam_parameters();
   device.bodies[0].damping = 0.01;
