@@ -16,16 +16,16 @@ namespace {
 constexpr std::size_t points_for_starts = 40;
 // Nepers: a logarithmic fit as close as this on average has found its minimum.
 constexpr double close_start = 0.1;
+constexpr LeastSquaresOptions rough_fit{
+    .misfit = Misfit::logarithmic, .robust_threshold = 0.5, .most_iterations = 30, .tolerance = 1e-3};
 
 /// A fit of the logarithm from each initial position, until one comes close.
 std::vector<LeastSquares> logarithmic_fits(const FitModel& model, const std::vector<ResponsePoint>& points,
                                            const ResponseFeatures& features) {
-  constexpr LeastSquaresOptions options{
-      .misfit = Misfit::logarithmic, .robust_threshold = 0.5, .most_iterations = 30, .tolerance = 1e-3};
   const FitData data = fit_data(points, 0.0);
   std::vector<LeastSquares> fits;
   for (const Eigen::VectorXd& start : initial_positions(model, points, features)) {
-    fits.push_back(least_squares(model, data, start, options));
+    fits.push_back(least_squares(model, data, start, rough_fit));
     const double mean_square = 2.0 * fits.back().cost / static_cast<double>(points.size());
     if (mean_square < close_start * close_start) break;
   }
@@ -130,6 +130,34 @@ Solution solve(const FitModel& model, const std::vector<ResponsePoint>& points, 
     if (is_done) break;
   }
   return best;
+}
+
+Solution searched_widely(const FitModel& model, const std::vector<ResponsePoint>& points, Solution found,
+                         double robust_threshold) {
+  constexpr double poor = 1.5;  // mean square of the residuals, in variances of the noise
+  constexpr std::size_t most_starts = 8;
+  constexpr std::size_t most_solved = 2;
+  constexpr int most_iterations = 40;
+  constexpr double promising = 0.8;  // of the cost at some of the points
+  const bool is_noise_known = std::ranges::all_of(points, [](const ResponsePoint& p) { return p.variance > 0.0; });
+  if (!is_noise_known || mean_misfit(model, points, found.x, 0.0) < poor) return found;
+  const ResponseFeatures features = response_features(points);
+  const std::vector<ResponsePoint> some = thinned(points, features, points_for_starts);
+  const LeastSquaresOptions weighted{
+      .robust_threshold = robust_threshold, .most_iterations = most_iterations, .tolerance = 1e-4};
+  const FitData data = fit_data(some, found.model_error);
+  const LeastSquares own = least_squares(model, data, found.x, weighted);
+  std::vector<LeastSquares> fits;
+  for (const Eigen::VectorXd& x : different_positions(model, some, features, most_starts)) {
+    const LeastSquares near = least_squares(model, fit_data(some, 0.0), x, rough_fit);
+    LeastSquares fit = least_squares(model, data, near.x, weighted);
+    if (fit.x.allFinite() && fit.cost < promising * own.cost) fits.push_back(std::move(fit));
+  }
+  if (fits.empty()) return found;
+  std::ranges::stable_sort(fits, {}, &LeastSquares::cost);
+  std::vector<Start> starts{{found.x, found.pull}};
+  for (std::size_t i = 0; i < std::min(most_solved, fits.size()); ++i) starts.push_back(start_at(model, fits[i].x));
+  return solve(model, points, starts, robust_threshold);
 }
 
 Solution drawn_back(const FitModel& model, const std::vector<ResponsePoint>& points, const Solution& solution,

@@ -38,6 +38,12 @@ struct Solution {
 [[nodiscard]] Solution solve(const FitModel& model, const std::vector<ResponsePoint>& points,
                              const std::vector<Start>& starts, double robust_threshold);
 
+/// A solution that leaves more than the noise may be a side minimum: the best of it and of those that the search reaches
+/// with each link's resonance elsewhere, in the band, below or above. One that explains the response to its noise is
+/// returned as it is.
+[[nodiscard]] Solution searched_widely(const FitModel& model, const std::vector<ResponsePoint>& points, Solution found,
+                                       double robust_threshold);
+
 /// The solution with what the data leave open drawn to another position, as far as the data allow: where they are
 /// explained worse there, the solution itself.
 [[nodiscard]] Solution drawn_back(const FitModel& model, const std::vector<ResponsePoint>& points,

@@ -205,6 +205,7 @@ class Fitting {
                                                    ParameterFitOptions::Start start) const {
     ParameterFitOptions options = fit_options_;
     options.start = start;
+    options.search_widely = false;  // was done
     for (const char* key : keys) {
       if (!is_free(key)) options.free.emplace_back(key);
     }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <set>
+#include <utility>
 
 #include "zwidth/error.hpp"
 #include "zwidth/model/parameter.hpp"
@@ -56,6 +58,13 @@ class Candidates {
     std::vector<std::size_t> picked;
     for (const Choices& choices : choices_) picked.push_back(random() % choices.size());
     return picked;
+  }
+
+  /// Of a combination, where it puts each link's resonance.
+  [[nodiscard]] std::vector<std::size_t> links_of(const std::vector<std::size_t>& picked) const {
+    std::vector<std::size_t> links;
+    for (const Chosen& each : link_choices_) links.push_back(picked[each.choice]);
+    return links;
   }
 
   /// The structure with the free parameters as the combination says.
@@ -117,6 +126,8 @@ class Candidates {
   [[nodiscard]] Choices frequencies() const {
     Choices frequencies = features_.resonances;
     frequencies.insert(frequencies.end(), features_.antiresonances.begin(), features_.antiresonances.end());
+    // Far above the band bodies move as one there, but for a spring's share.
+    for (const double above : {4.0, 12.0}) frequencies.push_back(above * highest_);
     // Where little stands out the modes may be anywhere, outside the measured band too.
     const std::size_t wanted = frequencies.size() < 2 ? 6 : 3;
     for (std::size_t i = 0; i < wanted; ++i) {
@@ -224,28 +235,29 @@ double logarithmic_misfit(const FitModel& model, const Eigen::VectorXd& x, const
   return std::isfinite(sum) ? sum : std::numeric_limits<double>::infinity();
 }
 
-}  // namespace
+struct Judged {
+  double misfit = 0.0;
+  Eigen::VectorXd x;
+  std::vector<std::size_t> links;  ///< see Candidates::links_of()
+};
 
-std::vector<Eigen::VectorXd> initial_positions(const FitModel& model, const std::vector<ResponsePoint>& points,
-                                               const ResponseFeatures& features) {
+/// The structure's own position and all candidates, or a sample of them, the best first.
+std::vector<Judged> judged_candidates(const FitModel& model, const std::vector<ResponsePoint>& points,
+                                      const ResponseFeatures& features) {
   const Candidates candidates(model, points, features);
   std::vector<double> frequencies;
   for (const ResponsePoint& point : points) frequencies.push_back(point.frequency);
-  struct Judged {
-    double misfit = 0.0;
-    Eigen::VectorXd x;
-  };
   std::vector<Judged> judged;
-  const auto judge_position = [&](const Eigen::VectorXd& x) {
+  const auto judge_position = [&](const Eigen::VectorXd& x, std::vector<std::size_t> links) {
     try {
-      judged.push_back({logarithmic_misfit(model, x, points, frequencies), x});
+      judged.push_back({logarithmic_misfit(model, x, points, frequencies), x, std::move(links)});
     } catch (const Error&) {  // a candidate whose poles are not found is no candidate
     }
   };
   const auto judge = [&](const std::vector<std::size_t>& picked) {
-    judge_position(model.position_of(candidates.parameters(picked)));
+    judge_position(model.position_of(candidates.parameters(picked)), candidates.links_of(picked));
   };
-  judge_position(model.position_of(model.structure().parameters()));
+  judge_position(model.position_of(model.structure().parameters()), {});
   if (candidates.count() <= static_cast<double>(most_candidates)) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(candidates.count()); ++i) judge(candidates.combination(i));
   } else {
@@ -253,15 +265,33 @@ std::vector<Eigen::VectorXd> initial_positions(const FitModel& model, const std:
     for (std::size_t i = 0; i < most_candidates; ++i) judge(candidates.random_combination(random));
   }
   std::ranges::stable_sort(judged, {}, &Judged::misfit);
+  return judged;
+}
+
+}  // namespace
+
+std::vector<Eigen::VectorXd> initial_positions(const FitModel& model, const std::vector<ResponsePoint>& points,
+                                               const ResponseFeatures& features) {
   std::vector<Eigen::VectorXd> starts;
   constexpr double apart = 0.1;
-  for (const Judged& each : judged) {
+  for (const Judged& each : judged_candidates(model, points, features)) {
     const bool is_new = std::ranges::none_of(
         starts, [&](const Eigen::VectorXd& other) { return (each.x - other).lpNorm<Eigen::Infinity>() < apart; });
     if (is_new) starts.push_back(each.x);
     if (starts.size() == most_starts) break;
   }
   if (starts.empty()) starts.push_back(model.position_of(model.structure().parameters()));
+  return starts;
+}
+
+std::vector<Eigen::VectorXd> different_positions(const FitModel& model, const std::vector<ResponsePoint>& points,
+                                                 const ResponseFeatures& features, std::size_t most) {
+  std::vector<Eigen::VectorXd> starts;
+  std::set<std::vector<std::size_t>> seen;
+  for (const Judged& each : judged_candidates(model, points, features)) {
+    if (starts.size() == most) break;
+    if (seen.insert(each.links).second) starts.push_back(each.x);
+  }
   return starts;
 }
 

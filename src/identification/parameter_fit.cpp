@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "identification/critical_hold.hpp"
 #include "identification/fit_solution.hpp"
@@ -243,6 +244,8 @@ ParameterFit fit_parameters(const Device& structure, const FrequencyResponse& re
   const bool from_data = options.start == ParameterFitOptions::Start::from_data;
   const std::vector<Start> starts = from_data ? promising_starts(model, points) : std::vector{start_at(model, own)};
   Solution solution = solve(model, points, starts, options.robust_threshold);
+  if (from_data && options.search_widely)
+    solution = searched_widely(model, points, std::move(solution), options.robust_threshold);
   const Identifiability known = identifiability_at(model, points, solution);
   if (std::ranges::count(known.determined, false) > 0) {
     // What the data leave open depends on the start: it goes to the structure's values as far as the data allow.

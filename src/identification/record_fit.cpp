@@ -65,6 +65,13 @@ bool stands_still(const ParameterFit& before, const ParameterFit& after) {
   return true;
 }
 
+/// Root mean square of residuals over the noise: a right structure leaves less.
+constexpr double poor_misfit = 1.25;
+
+bool explains_more(const ParameterFit& one, const ParameterFit& other) {
+  return std::pair(one.model_error, one.misfit) < std::pair(other.model_error, other.misfit);
+}
+
 }  // namespace
 
 namespace internal {
@@ -89,6 +96,9 @@ RecordFit without_leakage(RecordFit first, std::span<const Recording> recordings
   options.start = ParameterFitOptions::Start::from_structure;
   options.free.clear();  // as resolved by the first fit: a fitted 0 must stay free
   for (const ParameterEstimate& estimate : first.fit.estimates) options.free.push_back(estimate.key);
+  ParameterFitOptions anew = options;
+  anew.start = ParameterFitOptions::Start::from_data;
+  bool may_search = fit_options.start == ParameterFitOptions::Start::from_data && fit_options.search_widely;
   RecordFit best = std::move(first);
   constexpr int most_rounds = 3;
   for (int round = 0; round < most_rounds; ++round) {
@@ -98,6 +108,12 @@ RecordFit without_leakage(RecordFit first, std::span<const Recording> recordings
       break;
     }
     ParameterFit fit = fit_parameters(best.fit.device, response, options);
+    if (may_search && fit.misfit && *fit.misfit > poor_misfit) {
+      // The leakage may have hidden that this is a side minimum.
+      may_search = false;
+      ParameterFit other = fit_parameters(best.fit.device, response, anew);
+      if (explains_more(other, fit)) fit = std::move(other);
+    }
     const bool is_done = stands_still(best.fit, fit);
     best = {std::move(fit), std::move(response)};
     if (is_done) break;

@@ -29,6 +29,8 @@ struct ParameterFitOptions {
   /// Whether the structure's values of the free parameters are the starting point, or the starting point is found from
   /// the data (antiresonance, resonance, low-frequency line).
   enum class Start { from_data, from_structure } start = Start::from_data;
+  /// From the data, where the fit leaves more than their noise: whether other places of the resonances are tried too.
+  bool search_widely = true;
 };
 
 inline constexpr std::size_t max_free_parameters = 40;
