@@ -6,6 +6,7 @@
 #include "cli/input_problem.hpp"
 #include "cli/option_units.hpp"
 #include "cli/subcommand.hpp"
+#include "cli/surroundings.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/io/device_file.hpp"
 
@@ -28,7 +29,7 @@ std::vector<Device> read_devices(const DeviceArguments& arguments) {
   std::vector<Device> devices;
   std::string problems;
   for (const std::string& file : arguments.files) {
-    if (auto device = read_device_file(file, arguments.overrides)) {
+    if (auto device = read_named_device(file, arguments.overrides)) {
       devices.push_back(*std::move(device));
     } else {
       problems += (problems.empty() ? "" : "\n") + input_problem(device.error());

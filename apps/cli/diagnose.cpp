@@ -14,6 +14,7 @@
 #include "cli/remark_lines.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
+#include "cli/surroundings.hpp"
 #include "report/text/diagnosis_text.hpp"
 #include "report/text/trust_text.hpp"
 #include "results/diagnosis_json.hpp"
@@ -38,7 +39,7 @@ void take_from_recording(const RecordingArguments& arguments, DiagnosisOptions& 
   RecordingOptions reading = recording_options(arguments);
   reading.columns = {arguments.position};
   ProgressLine line("reading " + arguments.file);
-  const auto recording = read_recording(arguments.file, reading, line.progress());
+  const auto recording = read_named_recording(arguments.file, reading, line.progress());
   if (!recording) throw BadInput(input_problem(recording.error()));
   write_warnings(recording->remarks);
   const auto found = dominant_oscillation(recording->channels.front().samples, recording->sampling_period);

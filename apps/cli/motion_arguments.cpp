@@ -13,6 +13,7 @@
 #include "cli/option_units.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/subcommand.hpp"
+#include "cli/surroundings.hpp"
 #include "zwidth/io/recording_file.hpp"
 
 namespace zwidth::cli {
@@ -93,7 +94,7 @@ UserForce recorded_force(const MotionArguments& arguments) {
   options.columns = {{arguments.force_column, arguments.force_scale}};
   options.rate = arguments.force_rate;
   ProgressLine line("reading " + arguments.user_force);
-  const auto recording = read_recording(arguments.user_force, options, line.progress());
+  const auto recording = read_named_recording(arguments.user_force, options, line.progress());
   if (!recording) throw BadInput("--user-force: " + input_problem(recording.error()));
   UserForce force;
   force.kind = UserForce::Kind::recorded;

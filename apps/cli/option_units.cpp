@@ -31,7 +31,7 @@ struct GivenUnit {
 };
 
 std::vector<GivenUnit>& given_units() {
-  static std::vector<GivenUnit> given;
+  static thread_local std::vector<GivenUnit> given;
   return given;
 }
 
@@ -69,6 +69,7 @@ double measured_number(const std::string& option, std::string_view text, Measure
 }
 
 void accept_units(CLI::App& app) {
+  given_units().clear();
   for (CLI::App* command : app.get_subcommands({})) {
     for (CLI::Option* option : command->get_options()) {
       const std::string type = option->get_type_name();

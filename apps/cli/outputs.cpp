@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "cli/subcommand.hpp"
+#include "cli/surroundings.hpp"
 
 namespace zwidth::cli {
 namespace {
@@ -43,6 +44,8 @@ void Outputs::add(const OutputArguments& arguments) {
 
 void Outputs::add(const std::string& option, const std::string& path, Ending ending) {
   if (path.empty()) return;
+  if (surroundings() != nullptr)
+    throw BadInput(option + ": writes a file; a request is answered with its document alone");
   Output output{option, path, std::nullopt};
   if (ending != Ending::any) output.figure = report::figure_format(path);
   if (ending == Ending::figure && !output.figure) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "cli/standard_output.hpp"
+#include "cli/surroundings.hpp"
 
 namespace zwidth::cli {
 namespace {
@@ -27,6 +28,7 @@ ProgressLine::~ProgressLine() {
 }
 
 Progress ProgressLine::progress() {
+  if (const Surroundings* own = surroundings()) return own->progress;
   if (!terminal_) return {};
   return [this](double fraction) { show(fraction); };
 }

@@ -10,6 +10,7 @@
 #include "cli/number_text.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/subcommand.hpp"
+#include "cli/surroundings.hpp"
 #include "report/text/remark_line.hpp"
 #include "report/text/text_table.hpp"
 
@@ -58,7 +59,7 @@ RecordingFormat format_of(const std::string& text) {
 /// "; FILE has: a, b, c", or nothing where the file cannot be listed (its own error is then better).
 std::string columns_of(const RecordingArguments& arguments) {
   if (arguments.file == "-") return "";
-  const auto contents = list_recording(arguments.file, recording_options(arguments));
+  const auto contents = list_named_recording(arguments.file, recording_options(arguments));
   if (!contents) throw BadInput(input_problem(contents.error()));
   constexpr std::size_t most = 30;
   std::string names;
@@ -185,7 +186,7 @@ RecordedMotion read_motion(const RecordingArguments& arguments) {
   const RequestedMotion motion = requested_motion(arguments);
   options.columns = {arguments.force, motion.column};
   ProgressLine line("reading " + arguments.file);
-  auto recording = read_recording(arguments.file, options, line.progress());
+  auto recording = read_named_recording(arguments.file, options, line.progress());
   if (!recording) throw BadInput(input_problem(recording.error()));
   check_that_columns_differ(*recording, arguments.force, motion.column);
   recording->source = arguments.file;
@@ -204,7 +205,7 @@ RecordedMotions read_motions(const RecordingArguments& arguments) {
 }
 
 std::string contents_text(const RecordingArguments& arguments) {
-  const auto contents = list_recording(arguments.file, recording_options(arguments));
+  const auto contents = list_named_recording(arguments.file, recording_options(arguments));
   if (!contents) throw BadInput(input_problem(contents.error()));
   using report::Align;
   report::TextTable table{{Align::right, Align::left, Align::right, Align::left}, {{"", "column", "samples", ""}}};

@@ -12,6 +12,7 @@
 #include "cli/input_problem.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/subcommand.hpp"
+#include "cli/surroundings.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/io/message_words.hpp"
 #include "zwidth/io/number_with_unit.hpp"
@@ -211,7 +212,7 @@ ResponseSource from_table(const ResponseArguments& arguments) {
   if (options.file.rate) options.sampling_period = 1.0 / *options.file.rate;
   const Band band = band_of(arguments);
   ProgressLine line("reading " + arguments.recording.file);
-  auto response = read_response_table(arguments.recording.file, options, line.progress());
+  auto response = read_named_table(arguments.recording.file, options, line.progress());
   if (!response) throw BadInput(input_problem(response.error()));
   std::erase_if(response->points, [&](const ResponsePoint& point) {
     return (band.lowest && point.frequency < *band.lowest) || (band.highest && point.frequency > *band.highest);

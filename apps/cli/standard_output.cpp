@@ -17,6 +17,7 @@
 #include <string>
 
 #include "cli/subcommand.hpp"
+#include "cli/surroundings.hpp"
 #include "report/text/text_medium.hpp"
 
 namespace zwidth::cli {
@@ -85,6 +86,10 @@ void prepare_standard_output() {
 }
 
 void write_standard_output(std::string_view text) {
+  if (Surroundings* own = surroundings()) {
+    own->output += text;
+    return;
+  }
   const int failure = write_all(STDOUT_FILENO, text);
   if (failure == EPIPE) std::_Exit(0);
   if (failure != 0) throw WorkFailed(fmt::format("standard output: cannot write: {}", std::strerror(failure)));
@@ -93,6 +98,7 @@ void write_standard_output(std::string_view text) {
 void write_text(std::string_view text) { write_standard_output(report::for_medium(text)); }
 
 void write_standard_error(std::string_view text) noexcept {
+  if (surroundings() != nullptr) return;  // what matters of it is in the answer
   try {
     write_all(STDERR_FILENO, report::for_medium(text));
   } catch (const std::bad_alloc&) {

@@ -8,6 +8,7 @@
 
 #include "cli/input_problem.hpp"
 #include "cli/subcommand.hpp"
+#include "cli/surroundings.hpp"
 #include "zwidth/identification/identification.hpp"
 #include "zwidth/io/device_file.hpp"
 #include "zwidth/io/message_words.hpp"
@@ -44,7 +45,7 @@ Device structure_from_file(const StructureArguments& arguments) {
   std::vector<std::string> overrides = arguments.overrides;
   if (arguments.sampling_period)
     overrides.push_back(fmt::format("loop.sampling_period={}", *arguments.sampling_period));
-  auto device = read_device_file(arguments.structure, overrides);
+  auto device = read_named_device(arguments.structure, overrides);
   if (!device) throw BadInput(input_problem(device.error()));
   if (!device->has_bodies()) {
     throw BadInput(fmt::format("--structure: {}: is a transfer function; a device of bodies", arguments.structure));

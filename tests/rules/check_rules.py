@@ -26,7 +26,8 @@ APPS = {
     "report": ["results"],
     "export": ["results", "report"],
     "reproduce": ["results", "report"],
-    "cli": ["results", "report", "export", "reproduce"],
+    "server": ["results"],
+    "cli": ["results", "report", "export", "reproduce", "server"],
 }
 MOST_LINES = 400
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"')

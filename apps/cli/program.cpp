@@ -1,0 +1,118 @@
+#include "cli/program.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <exception>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "cli/commit.hpp"
+#include "cli/generate.hpp"
+#include "cli/option_units.hpp"
+#include "cli/standard_output.hpp"
+#include "cli/subcommand.hpp"
+#include "cli/usage_error.hpp"
+
+namespace zwidth::cli {
+namespace {
+
+enum ExitStatus { done = 0, work_failed = 1, bad_input = 2 };
+
+/// Prints every line of `message` as "zwidth: LINE".
+void report_problem(std::string message) {
+  for (std::size_t at = message.find('\n'); at != std::string::npos; at = message.find('\n', at + 1)) {
+    message.insert(at + 1, "zwidth: ");
+  }
+  write_standard_error("zwidth: " + message + "\n");
+}
+
+/// What `zwidth` alone says: where to begin, and the commands in one line.
+std::string short_help(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  return fmt::format(
+      "{}\n\n"
+      "  zwidth analyze devices/lhifam.toml                  the stiffest wall of a device, and why\n"
+      "  zwidth identify RECORDING --structure DEVICE ...    a device from measurements\n"
+      "  zwidth design devices/lhifam.toml                   what to change\n\n"
+      "Commands: {}.\n"
+      "'zwidth --help' tells what each does, 'zwidth COMMAND --help' how.\n",
+      app.get_description(), fmt::join(names, ", "));
+}
+
+int run(int argument_count, char** arguments) {
+  CLI::App app("The stiffest virtual wall that a haptic device renders stably.", "zwidth");
+  app.set_version_flag("--version", fmt::format("zwidth {} ({})", ZWIDTH_VERSION, commit),
+                       "Print the version and the commit, and exit");
+  app.set_help_flag("-h,--help", "Print this help and exit");
+  app.require_subcommand(1);
+  app.footer(
+      "Examples:\n"
+      "  zwidth analyze devices/lhifam.toml\n"
+      "  zwidth analyze devices/lhifam.toml --set loop.delay=0.25e-3\n"
+      "\n"
+      "'zwidth COMMAND --help' explains a command.\n"
+      "Exit status: 0 done, 1 the work failed, 2 wrong usage or bad input.");
+  add_analyze(app);
+  add_bode(app);
+  add_design(app);
+  add_diagnose(app);
+  add_excite(app);
+  add_export(app);
+  add_frf(app);
+  add_identify(app);
+  add_region(app);
+  add_relay(app);
+  add_reproduce(app);
+  add_serve(app);
+  add_simulate(app);
+  for (CLI::App* command : app.get_subcommands({})) command->group("Commands");
+  accept_units(app);
+  add_generate(app);
+  app.get_formatter()->label("SUBCOMMAND", "COMMAND");
+  app.get_formatter()->label("REQUIRED", "");
+  if (argument_count < 2) {
+    write_standard_error(short_help(app));
+    return bad_input;
+  }
+  try {
+    app.parse(argument_count, arguments);
+    return done;
+  } catch (const Generated&) {
+    return done;
+  } catch (const CLI::CallForHelp&) {
+    const auto parsed = app.get_subcommands();
+    write_text(parsed.empty() ? app.help() : parsed.front()->help("zwidth"));
+    return done;
+  } catch (const CLI::CallForVersion& version) {
+    write_standard_output(std::string(version.what()) + "\n");
+    return done;
+  } catch (const CLI::ParseError& error) {
+    throw BadInput(usage_error(app, error));
+  }
+}
+
+}  // namespace
+
+int run_program(int argument_count, char** arguments) {
+  try {
+    prepare_standard_output();
+    return run(argument_count, arguments);
+  } catch (const BadInput& problem) {
+    report_problem(problem.what());
+    return bad_input;
+  } catch (const std::bad_alloc&) {
+    report_problem("out of memory");
+    return work_failed;
+  } catch (const std::exception& problem) {
+    report_problem(problem.what());
+    return work_failed;
+  }
+}
+
+}  // namespace zwidth::cli

@@ -1,0 +1,166 @@
+#include "cli/request_commands.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/App.hpp>
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "cli/option_units.hpp"
+#include "cli/request_problem.hpp"
+#include "cli/subcommand.hpp"
+#include "cli/surroundings.hpp"
+#include "zwidth/error.hpp"
+#include "zwidth/io/message_words.hpp"
+
+namespace zwidth::cli {
+namespace {
+
+using server::CommandRequest;
+using server::Problem;
+
+constexpr std::string_view positional = "FILE";
+
+/// A command that requests may name, and the arguments that its device and its recordings are; empty: it takes none.
+struct OfferedCommand {
+  std::string_view name;
+  void (*add)(CLI::App&);
+  std::string_view device;
+  std::string_view recording;
+};
+
+constexpr std::array offered_commands{OfferedCommand{"analyze", add_analyze, positional, ""},
+                                      OfferedCommand{"bode", add_bode, positional, ""},
+                                      OfferedCommand{"design", add_design, positional, ""},
+                                      OfferedCommand{"diagnose", add_diagnose, positional, "--recording"},
+                                      OfferedCommand{"excite", add_excite, "--device", ""},
+                                      OfferedCommand{"export", add_export, positional, ""},
+                                      OfferedCommand{"frf", add_frf, "", positional},
+                                      OfferedCommand{"identify", add_identify, "--structure", positional},
+                                      OfferedCommand{"region", add_region, positional, ""},
+                                      OfferedCommand{"relay", add_relay, positional, "--recording"},
+                                      OfferedCommand{"simulate", add_simulate, positional, "--user-force"}};
+
+struct Refused {
+  Problem problem;
+};
+
+/// `recommend` is the command line's `design --recommend`.
+constexpr std::string_view recommend = "recommend";
+
+void put_named(std::vector<std::string>& arguments, std::string_view argument, const std::string& name) {
+  if (argument == positional) {
+    arguments.insert(arguments.begin(), name);
+  } else {
+    arguments.push_back(fmt::format("{}={}", argument, name));
+  }
+}
+
+/// What a request names is in its surroundings; the arguments name it.
+void put_inputs(const CommandRequest& request, const OfferedCommand& command, Surroundings& own,
+                std::vector<std::string>& arguments) {
+  if (request.device) {
+    if (command.device.empty()) throw Refused{{"device", fmt::format("{} takes none", command.name), "a recording"}};
+    own.devices.emplace(device_name, *request.device);
+    put_named(arguments, command.device, device_name);
+  }
+  if (request.recordings.empty()) return;
+  if (command.recording.empty()) throw Refused{{"recording", fmt::format("{} takes none", command.name), "a device"}};
+  if (request.recordings.size() > 1 && command.recording != positional) {
+    throw Refused{{"recordings", fmt::format("{} takes one", command.name), "one recording"}};
+  }
+  for (auto each = request.recordings.rbegin(); each != request.recordings.rend(); ++each) {
+    if (!own.recordings.emplace(each->name, each->bytes->path()).second) {
+      throw Refused{{"recordings", "two have the same name", "names that differ"}};
+    }
+    put_named(arguments, command.recording, each->name);
+  }
+}
+
+/// "--name=value": no value can become an option. A flag is "--name".
+void put_option(const CLI::App& command, const CommandRequest::Option& given, std::vector<std::string>& arguments) {
+  const std::string where = "options." + given.name;
+  const CLI::Option* option = given.name == "help" ? nullptr : command.get_option_no_throw("--" + given.name);
+  if (option == nullptr || given.name.find('=') != std::string::npos) {
+    std::vector<std::string> known;
+    for (const CLI::Option* each : command.get_options()) {
+      known.insert(known.end(), each->get_lnames().begin(), each->get_lnames().end());
+    }
+    std::erase(known, "help");
+    const std::string near = nearest_word(given.name, known);
+    throw Refused{{where, fmt::format("{} has no such option", command.get_name()),
+                   near.empty() ? fmt::format("{}", fmt::join(known, ", ")) : fmt::format("did you mean {}?", near)}};
+  }
+  if (given.name == "json") return;  // always
+  const bool is_flag = option->get_items_expected_max() == 0;
+  if (is_flag != given.values.empty()) {
+    throw Refused{{where, is_flag ? "is a flag" : "needs a value", is_flag ? "true or false" : option->get_type_name()}};
+  }
+  if (is_flag) {
+    arguments.push_back("--" + given.name);
+  } else if (option->get_delimiter() != '\0') {
+    arguments.push_back(
+        fmt::format("--{}={}", given.name, fmt::join(given.values, std::string(1, option->get_delimiter()))));
+  } else {
+    for (const std::string& value : given.values) arguments.push_back(fmt::format("--{}={}", given.name, value));
+  }
+}
+
+std::string answer(const CommandRequest& request, const OfferedCommand& offered, Surroundings& own) {
+  CLI::App app("", "zwidth");
+  app.require_subcommand(1);
+  offered.add(app);
+  const CLI::App& command = *app.get_subcommand(std::string(offered.name));
+  accept_units(app);
+  std::vector<std::string> arguments;
+  for (const CommandRequest::Option& option : request.options) put_option(command, option, arguments);
+  const auto asks_for = [&](const char* option) {
+    return std::ranges::count(request.options, option, &CommandRequest::Option::name) > 0;
+  };
+  // Text where the command has no document, or where its text is asked for on standard output.
+  const bool is_text = asks_for("output") || asks_for("output-device") || asks_for("list");
+  if (command.get_option_no_throw("--json") != nullptr && !is_text) arguments.emplace_back("--json");
+  if (request.command == recommend && !asks_for("recommend")) arguments.emplace_back("--recommend");
+  put_inputs(request, offered, own, arguments);
+  arguments.insert(arguments.begin(), std::string(offered.name));
+  std::ranges::reverse(arguments);  // CLI11 takes them from the back
+  app.parse(arguments);
+  return std::move(own.output);
+}
+
+}  // namespace
+
+std::vector<std::string> RequestCommands::names() const {
+  std::vector<std::string> all{std::string(recommend)};
+  for (const OfferedCommand& each : offered_commands) all.emplace_back(each.name);
+  return all;
+}
+
+tl::expected<std::string, Problem> RequestCommands::run(const CommandRequest& request, const Progress& progress) const {
+  const std::string_view name = request.command == recommend ? "design" : std::string_view(request.command);
+  const auto offered = std::ranges::find(offered_commands, name, &OfferedCommand::name);
+  if (offered == offered_commands.end()) return tl::unexpected(Problem{"request", "there is no such command", ""});
+  Surroundings own;
+  own.progress = progress;
+  const InSurroundings inside(own);
+  try {
+    return answer(request, *offered, own);
+  } catch (const Refused& refused) {
+    return tl::unexpected(refused.problem);
+  } catch (const CLI::ParseError& error) {
+    return tl::unexpected(problem_in(std::string(error.what()), request));
+  } catch (const BadInput& error) {
+    return tl::unexpected(problem_in(error.what(), request));
+  } catch (const WorkFailed& error) {
+    // The document says itself what of it is refused.
+    if (!own.output.empty()) return std::move(own.output);
+    return tl::unexpected(problem_in(error.what(), request));
+  } catch (const Error& error) {
+    return tl::unexpected(Problem{"", error.what(), ""});
+  }
+}
+
+}  // namespace zwidth::cli

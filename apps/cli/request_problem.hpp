@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "server/api/command_request.hpp"
+
+namespace zwidth::cli {
+
+/// What the device of a request is called in the command's messages; the library names a nameless one so.
+inline constexpr const char* device_name = "device";
+
+/// A command's message "PLACE: ...: what is wrong; what is allowed" as the request's problem: its places are options,
+/// the device and its keys, and recordings.
+[[nodiscard]] server::Problem problem_in(std::string message, const server::CommandRequest& request);
+
+}  // namespace zwidth::cli

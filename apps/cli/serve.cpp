@@ -1,0 +1,102 @@
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <string>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+#include "cli/device_arguments.hpp"
+#include "cli/request_commands.hpp"
+#include "cli/standard_output.hpp"
+#include "cli/subcommand.hpp"
+#include "server/api/api.hpp"
+#include "server/http/embedded_files.hpp"
+#include "server/http/http_server.hpp"
+#include "zwidth/io/device_file.hpp"
+
+extern char** environ;
+
+namespace zwidth::cli {
+namespace {
+
+struct ServeArguments {
+  DeviceArguments devices;
+  server::HttpOptions http;
+  bool opens = false;
+};
+
+/// The devices of the command line first, then those that come with the program.
+std::vector<server::OfferedDevice> offered_devices(const DeviceArguments& arguments) {
+  std::vector<server::OfferedDevice> offered;
+  const std::vector<Device> devices = read_devices(arguments);
+  for (std::size_t i = 0; i < devices.size(); ++i) {
+    const std::string name = std::filesystem::path(arguments.files[i]).filename().string();
+    offered.push_back({name, write_device(devices[i].parameters()), true});
+  }
+  for (const server::EmbeddedFile& file : server::embedded_devices()) {
+    offered.push_back({std::string(file.name), std::string(file.bytes), false});
+  }
+  return offered;
+}
+
+/// Leaves a browser to itself; without one, the address is on standard output all the same.
+void open_browser(std::string address) {
+  std::string program = "xdg-open";
+  std::array<char*, 3> arguments{program.data(), address.data(), nullptr};
+  posix_spawn_file_actions_t quiet;
+  ::posix_spawn_file_actions_init(&quiet);
+  ::posix_spawn_file_actions_addopen(&quiet, 1, "/dev/null", 1 /* O_WRONLY */, 0);
+  ::posix_spawn_file_actions_addopen(&quiet, 2, "/dev/null", 1 /* O_WRONLY */, 0);
+  pid_t child = 0;
+  const int error = ::posix_spawnp(&child, program.c_str(), &quiet, nullptr, arguments.data(), environ);
+  ::posix_spawn_file_actions_destroy(&quiet);
+  if (error != 0) return write_standard_error("zwidth: --open: there is no xdg-open; open the address yourself\n");
+  std::thread([child] { ::waitpid(child, nullptr, 0); }).detach();
+}
+
+void run_serve(const ServeArguments& arguments) {
+  const RequestCommands commands;
+  server::Api api(commands, offered_devices(arguments.devices));
+  const auto started = [&](const std::string& address) {
+    write_standard_output(address + "\n");
+    if (arguments.opens) open_browser(address);
+  };
+  try {
+    server::serve(api, arguments.http, started);
+  } catch (const std::system_error& error) {
+    throw WorkFailed(fmt::format("{}:{}: {}; name another with --host and --port, 0 for any free port",
+                                 arguments.http.host, arguments.http.port, error.code().message()));
+  }
+}
+
+}  // namespace
+
+void add_serve(CLI::App& app) {
+  auto arguments = std::make_shared<ServeArguments>();
+  CLI::App* command = app.add_subcommand("serve", "The workbench in a browser, and the commands over HTTP");
+  add_device_arguments(*command, arguments->devices, FileCount::several);
+  command->get_option("FILE")->required(false);
+  command->add_option("--port", arguments->http.port, "Port to listen at; 0: any free one")
+      ->type_name("PORT")
+      ->capture_default_str();
+  command->add_option("--host", arguments->http.host, "Address to listen at; all but loopback need the printed token")
+      ->type_name("ADDRESS")
+      ->capture_default_str();
+  command->add_flag("--open", arguments->opens, "Open the page in the browser");
+  command->footer(
+      "Prints the address, and runs until interrupted; what runs then is finished.\n"
+      "\n"
+      "Examples:\n"
+      "  zwidth serve\n"
+      "  zwidth serve devices/lhifam.toml --open");
+  command->callback([arguments] { run_serve(*arguments); });
+}
+
+}  // namespace zwidth::cli

@@ -1,0 +1,58 @@
+#include "cli/surroundings.hpp"
+
+#include <utility>
+
+namespace zwidth::cli {
+namespace {
+
+thread_local Surroundings* of_this_thread = nullptr;
+
+InputError no_such_name(const std::string& name, const char* allowed) {
+  return {name, 0, 0, "", "is not what came with the request", allowed};
+}
+
+/// Calls `read` with where the recording of that name lies; errors call it by its name.
+template <typename Read>
+auto read_by_name(const std::string& name, const Read& read) -> decltype(read(name)) {
+  const Surroundings* own = of_this_thread;
+  if (own == nullptr) return read(name);
+  const auto found = own->recordings.find(name);
+  if (found == own->recordings.end()) return tl::unexpected(no_such_name(name, "must be the recording given with it"));
+  auto result = read(found->second);
+  if (!result && result.error().source == found->second) result.error().source = name;
+  return result;
+}
+
+}  // namespace
+
+Surroundings* surroundings() { return of_this_thread; }
+
+InSurroundings::InSurroundings(Surroundings& own) { of_this_thread = &own; }
+
+InSurroundings::~InSurroundings() { of_this_thread = nullptr; }
+
+tl::expected<Device, InputError> read_named_device(const std::string& name, std::span<const std::string> overrides) {
+  const Surroundings* own = of_this_thread;
+  if (own == nullptr) return read_device_file(name, overrides);
+  const auto found = own->devices.find(name);
+  if (found == own->devices.end()) return tl::unexpected(no_such_name(name, "must be the device given with it"));
+  return parse_device(found->second, name, overrides);
+}
+
+tl::expected<Recording, InputError> read_named_recording(const std::string& name, const RecordingOptions& options,
+                                                         const Progress& progress) {
+  return read_by_name(name, [&](const std::string& path) { return read_recording(path, options, progress); });
+}
+
+tl::expected<RecordingContents, InputError> list_named_recording(const std::string& name,
+                                                                 const RecordingOptions& options) {
+  return read_by_name(name, [&](const std::string& path) { return list_recording(path, options); });
+}
+
+tl::expected<FrequencyResponse, InputError> read_named_table(const std::string& name,
+                                                             const ResponseTableOptions& options,
+                                                             const Progress& progress) {
+  return read_by_name(name, [&](const std::string& path) { return read_response_table(path, options, progress); });
+}
+
+}  // namespace zwidth::cli

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <map>
+#include <span>
+#include <string>
+#include <tl/expected.hpp>
+
+#include "zwidth/io/device_file.hpp"
+#include "zwidth/io/recording_file.hpp"
+#include "zwidth/progress.hpp"
+
+namespace zwidth::cli {
+
+/// What a command reads and writes where it does not run on the command line: the names that its arguments give stand
+/// for what is here and for nothing else, no file is written, and the answer stays in memory.
+struct Surroundings {
+  std::map<std::string, std::string> devices;     ///< TOML text by name
+  std::map<std::string, std::string> recordings;  ///< by name, where the system has the bytes open: /proc/self/fd/7
+  Progress progress;                              ///< of long work; throwing from it ends the work
+  std::string output;                             ///< what the command wrote to standard output
+};
+
+/// Those of the command that this thread runs; null: the disk and the standard streams.
+[[nodiscard]] Surroundings* surroundings();
+
+/// Sets them for its lifetime.
+class InSurroundings {
+ public:
+  explicit InSurroundings(Surroundings& own);
+  ~InSurroundings();
+  InSurroundings(const InSurroundings&) = delete;
+  InSurroundings& operator=(const InSurroundings&) = delete;
+};
+
+// The library's readers, of files by their name, or of what the surroundings have by that name. The commands read
+// nothing in another way.
+[[nodiscard]] tl::expected<Device, InputError> read_named_device(const std::string& name,
+                                                                 std::span<const std::string> overrides);
+[[nodiscard]] tl::expected<Recording, InputError> read_named_recording(const std::string& name,
+                                                                       const RecordingOptions& options,
+                                                                       const Progress& progress = {});
+[[nodiscard]] tl::expected<RecordingContents, InputError> list_named_recording(const std::string& name,
+                                                                               const RecordingOptions& options);
+[[nodiscard]] tl::expected<FrequencyResponse, InputError> read_named_table(const std::string& name,
+                                                                           const ResponseTableOptions& options,
+                                                                           const Progress& progress = {});
+
+}  // namespace zwidth::cli

@@ -1,0 +1,105 @@
+#include "server/api/api.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <system_error>
+#include <utility>
+
+#include "results/device_json.hpp"
+#include "results/json.hpp"
+#include "server/api/request_document.hpp"
+#include "zwidth/io/device_file.hpp"
+#include "zwidth/io/recording_file.hpp"
+
+namespace zwidth::server {
+namespace {
+
+using results::Json;
+
+const std::string base = "/api/v1/";
+constexpr std::size_t document_limit = std::size_t{1} << 20;
+constexpr std::size_t recording_limit = std::size_t{64} << 20;
+
+std::string devices_document(const std::vector<OfferedDevice>& offered) {
+  Json document = results::document("zwidth.devices/1");
+  document["devices"] = Json::array();
+  for (const OfferedDevice& each : offered) {
+    const auto device = parse_device(each.toml, each.file);
+    if (!device) continue;
+    document["devices"].push_back({{"file", each.file},
+                                   {"name", device->name()},
+                                   {"opened", each.is_opened},
+                                   {"device", results::device_json(device->parameters())},
+                                   {"device_toml", each.toml}});
+  }
+  return results::line(document);
+}
+
+std::string contents_document(const std::string& id, std::size_t bytes, const RecordingContents& contents) {
+  Json document = results::document("zwidth.recording/1");
+  document["id"] = id;
+  document["bytes"] = bytes;
+  document["format"] = contents.format == RecordingFormat::mat   ? "mat"
+                       : contents.format == RecordingFormat::uff ? "uff"
+                                                                 : "text";
+  document["columns"] = Json::array();
+  for (const RecordingColumn& each : contents.columns) {
+    document["columns"].push_back({{"name", each.name}, {"samples", each.size}, {"detail", each.detail}});
+  }
+  document["remarks"] = contents.remarks;
+  return results::line(document);
+}
+
+/// What has no document of its own: the code of `export --format c`, the samples of `excite --output -`.
+std::string text_document(const std::string& text) {
+  Json document = results::document("zwidth.text/1");
+  document["text"] = text;
+  return results::line(document);
+}
+
+}  // namespace
+
+std::string error_document(const Problem& problem) {
+  return results::line(
+      {{"error", {{"where", problem.where}, {"what", problem.what}, {"allowed", problem.allowed}}}});
+}
+
+Api::Api(const Commands& commands, const std::vector<OfferedDevice>& devices, const RecordingLimits& limits)
+    : commands_(commands), devices_(devices_document(devices)), recordings_(limits) {
+  routes_ = {{base + "health", "GET", "", 0},
+             {base + "devices", "GET", "", 0},
+             {base + "recordings", "POST", "application/octet-stream", recording_limit}};
+  for (const std::string& name : commands.names()) {
+    routes_.push_back({base + name, "POST", "application/json", document_limit});
+  }
+}
+
+ApiAnswer Api::answer_command(std::string_view command, std::string_view body, const Progress& progress) {
+  const auto request = read_request(command, body, recordings_);
+  if (!request) return {400, error_document(request.error())};
+  auto printed = commands_.run(*request, progress);
+  if (!printed) return {400, error_document(printed.error())};
+  return {200, printed->starts_with('{') ? *std::move(printed) : text_document(*printed)};
+}
+
+ApiAnswer Api::answer_recording(std::string_view body) {
+  const RecordingStore::Stored stored = recordings_.put(body);
+  const auto contents = list_recording(stored.bytes->path());
+  if (!contents) return {400, error_document({"recording", contents.error().what, contents.error().allowed})};
+  return {200, contents_document(stored.id, stored.bytes->size(), *contents)};
+}
+
+ApiAnswer Api::answer(std::string_view path, std::string_view body, const Progress& progress) try {
+  const std::string_view name = path.substr(std::min(path.size(), base.size()));
+  if (name == "health") return {200, results::line({{"status", "ok"}, {"version", ZWIDTH_VERSION}})};
+  if (name == "devices") return {200, devices_};
+  if (name == "recordings") return answer_recording(body);
+  return answer_command(name, body, progress);
+} catch (const std::bad_alloc&) {
+  return {503, error_document({"", "out of memory", "a smaller request, or the same later"})};
+} catch (const std::system_error&) {
+  return {503, error_document({"", "out of memory or descriptors", "the same later"})};
+}
+
+}  // namespace zwidth::server

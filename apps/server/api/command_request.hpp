@@ -1,0 +1,54 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <tl/expected.hpp>
+#include <vector>
+
+#include "server/api/memory_file.hpp"
+#include "zwidth/progress.hpp"
+
+namespace zwidth::server {
+
+/// Why a request is not answered, and what would be.
+struct Problem {
+  std::string where;    ///< "options.points", "device.loop.delay"; empty where the work itself failed
+  std::string what;     ///< what is wrong
+  std::string allowed;  ///< what is allowed, or the remedy; may be empty
+};
+
+/// A command of the program with what it works on.
+struct CommandRequest {
+  /// An option by its long name without dashes; a flag has no value, one that repeats or takes a list has several.
+  struct Option {
+    std::string name;
+    std::vector<std::string> values;
+  };
+  struct Recorded {
+    std::string name;
+    std::shared_ptr<const MemoryFile> bytes;
+  };
+  std::string command;
+  std::vector<Option> options;
+  std::optional<std::string> device;  ///< TOML text
+  std::vector<Recorded> recordings;
+};
+
+/// The client has left, or the work has taken too long: thrown by the Progress that work is given.
+struct Cancelled : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// The program's commands, by whoever declares their options; run from many threads at once.
+class Commands {
+ public:
+  virtual ~Commands() = default;
+  [[nodiscard]] virtual std::vector<std::string> names() const = 0;
+  /// What the command prints with --json, or as text where it has no such option. Reads and writes no file.
+  [[nodiscard]] virtual tl::expected<std::string, Problem> run(const CommandRequest& request,
+                                                               const Progress& progress) const = 0;
+};
+
+}  // namespace zwidth::server

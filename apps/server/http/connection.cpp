@@ -1,0 +1,383 @@
+#include <fmt/format.h>
+#include <netinet/tcp.h>
+#include <sys/socket.h>
+
+#include <boost/asio/post.hpp>
+#include <boost/asio/write.hpp>
+#include <boost/beast/http/error.hpp>
+#include <boost/beast/http/read.hpp>
+#include <boost/beast/http/write.hpp>
+#include <cerrno>
+#include <exception>
+#include <sstream>
+#include <utility>
+
+#include "server/http/connection.hpp"
+
+namespace zwidth::server {
+namespace {
+
+namespace net = boost::asio;
+namespace beast = boost::beast;
+namespace http = boost::beast::http;
+using tcp = net::ip::tcp;
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::milliseconds between_lines{100};  // of progress
+constexpr std::size_t largest_body = std::size_t{1} << 40;  // each route has its own limit
+constexpr std::size_t most_drained = std::size_t{16} << 20;
+constexpr const char* stream_type = "application/x-ndjson";
+
+constexpr const char* content_security_policy =
+    "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; img-src 'self' data: blob:; "
+    "font-src 'self'; media-src 'self' blob:; worker-src 'self' blob:; manifest-src 'self'; base-uri 'none'; "
+    "form-action 'none'; frame-ancestors 'none'";
+
+template <typename Message>
+void put_security_headers(Message& response) {
+  response.set("Content-Security-Policy", content_security_policy);
+  response.set("X-Content-Type-Options", "nosniff");
+  response.set("X-Frame-Options", "DENY");
+  response.set("Referrer-Policy", "no-referrer");
+  response.set("Cross-Origin-Opener-Policy", "same-origin");
+  response.set("Cross-Origin-Resource-Policy", "same-origin");
+}
+
+std::string_view view(boost::string_view text) { return {text.data(), text.size()}; }
+
+std::string host_and_port(const tcp::endpoint& endpoint) {
+  net::ip::address address = endpoint.address();
+  if (address.is_v6() && address.to_v6().is_v4_mapped()) address = net::ip::make_address_v4(net::ip::v4_mapped, address.to_v6());
+  const std::string host = address.is_v6() ? "[" + address.to_string() + "]" : address.to_string();
+  return fmt::format("{}:{}", host, endpoint.port());
+}
+
+/// Of 80, browsers leave the port out.
+void add_host(std::vector<std::string>& hosts, const std::string& host) {
+  hosts.push_back(host);
+  if (host.ends_with(":80")) hosts.push_back(host.substr(0, host.size() - 3));
+}
+
+std::string chunk(const std::string& text) { return fmt::format("{:x}\r\n{}\r\n", text.size(), text); }
+
+}  // namespace
+
+Connection::Connection(tcp::socket socket, Shared& shared) : stream_(std::move(socket)), shared_(shared) {
+  shared_.connections.insert(this);
+}
+
+Connection::~Connection() {
+  release_body();
+  shared_.connections.erase(this);
+  if (shared_.stops && shared_.connections.empty()) shared_.all_gone();
+}
+
+void Connection::start() {
+  Error ignored;
+  stream_.socket().set_option(tcp::no_delay(true), ignored);
+  read_head();
+}
+
+void Connection::stop() {
+  if (works_) {
+    keeps_ = false;
+  } else if (!writes_) {
+    stream_.close();
+  }
+}
+
+void Connection::cancel() {
+  if (cancelled_) *cancelled_ = true;
+}
+
+void Connection::release_body() { shared_.bodies -= std::exchange(body_, 0); }
+
+void Connection::read_head() {
+  if (shared_.stops) return stream_.close();
+  release_body();
+  parser_.emplace();
+  parser_->header_limit(static_cast<std::uint32_t>(shared_.limits.head));
+  parser_->body_limit(largest_body);
+  stream_.expires_after(shared_.limits.head_time);
+  http::async_read_header(stream_, buffer_, *parser_,
+                          [self = shared_from_this()](Error error, std::size_t) { self->on_head(error); });
+}
+
+RequestHead Connection::head() const {
+  const auto& request = parser_->get();
+  RequestHead head;
+  head.method = view(request.method_string());
+  head.target = view(request.target());
+  head.content_type = view(request[http::field::content_type]);
+  const auto all = [&](http::field name) {
+    std::vector<std::string_view> values;
+    const auto range = request.equal_range(name);
+    for (auto each = range.first; each != range.second; ++each) values.push_back(view(each->value()));
+    return values;
+  };
+  head.hosts = all(http::field::host);
+  head.origins = all(http::field::origin);
+  head.authorizations = all(http::field::authorization);
+  head.content_lengths = all(http::field::content_length);
+  head.has_content_encoding = request.count(http::field::content_encoding) > 0;
+  head.has_transfer_encoding = request.count(http::field::transfer_encoding) > 0;
+  head.content_length = parser_->content_length().value_or(0);
+  return head;
+}
+
+Site Connection::site() const {
+  Site site;
+  Error ignored;
+  const tcp::endpoint local = stream_.socket().local_endpoint(ignored);
+  add_host(site.hosts, host_and_port(local));
+  add_host(site.hosts, fmt::format("localhost:{}", local.port()));
+  site.token = shared_.token;
+  return site;
+}
+
+const Route* Connection::route() const {
+  const std::string_view path = path_of(view(parser_->get().target()));
+  for (const Route& each : shared_.api.routes()) {
+    if (each.path == path) return &each;
+  }
+  return nullptr;
+}
+
+void Connection::on_head(Error error) {
+  keeps_ = false;  // until the request is known to be one
+  if (error == http::error::header_limit) {
+    return refuse({413, {"head", "is too large", fmt::format("at most {} bytes", shared_.limits.head)}});
+  }
+  if (error == http::error::body_limit) return refuse({413, {"body", "is too large", ""}});
+  if (error && error != http::error::end_of_stream && error.category() == http::make_error_code(http::error{}).category() &&
+      error != http::error::partial_message) {
+    return refuse({400, {"request", "is no HTTP: " + error.message(), "HTTP/1.1"}});
+  }
+  if (error) return stream_.close();
+  const RequestHead request = head();
+  const Route* const asked = route();
+  const std::string_view path = path_of(request.target);
+  if (const auto refusal = find_refusal(request, site(), asked, shared_.pages.contains(path))) return refuse(*refusal);
+  if (shared_.bodies + request.content_length > shared_.limits.bodies) {
+    return refuse({503, {"", "busy: too much is being sent", "the same later"}});
+  }
+  body_ = request.content_length;
+  shared_.bodies += body_;
+  const std::string_view expected = view(parser_->get()[http::field::expect]);
+  if (!expected.empty() && !beast::iequals(parser_->get()[http::field::expect], "100-continue")) {
+    return refuse({400, {"Expect", "is not taken", "100-continue"}});
+  }
+  expected.empty() ? read_body() : invite_body();
+}
+
+void Connection::invite_body() {
+  static constexpr std::string_view invitation = "HTTP/1.1 100 Continue\r\n\r\n";
+  net::async_write(stream_, net::buffer(invitation.data(), invitation.size()),
+                   [self = shared_from_this()](Error error, std::size_t) {
+                     error ? self->stream_.close() : self->read_body();
+                   });
+}
+
+void Connection::read_body() {
+  stream_.expires_after(shared_.limits.body_time);
+  http::async_read(stream_, buffer_, *parser_,
+                   [self = shared_from_this()](Error error, std::size_t) { self->on_body(error); });
+}
+
+void Connection::on_body(Error error) {
+  if (error) return stream_.close();
+  keeps_ = parser_->get().keep_alive();
+  dispatch();
+}
+
+void Connection::dispatch() {
+  const Route* const asked = route();
+  if (asked == nullptr) return send_page(shared_.pages.find(path_of(view(parser_->get().target())))->second);
+  if (asked->method == "POST") return dispatch_work(*asked);
+  ApiAnswer answer = shared_.api.answer(asked->path, "");
+  send(answer.status, std::move(answer.document));
+}
+
+void Connection::dispatch_work(const Route& route) {
+  works_ = true;
+  cancelled_ = std::make_shared<std::atomic<bool>>(false);
+  streams_ = parser_->get().version() >= 11 && view(parser_->get()[http::field::accept]).find(stream_type) != std::string_view::npos;
+  stream_.expires_never();
+  const auto begin = Clock::now();
+  const auto next_line = std::make_shared<std::atomic<Clock::rep>>((begin + between_lines).time_since_epoch().count());
+  // Called from other threads, while the work holds this connection.
+  const Progress progress = [this, cancelled = cancelled_, begin, next_line, streams = streams_](double fraction) {
+    const auto now = Clock::now();
+    if (*cancelled) throw Cancelled("cancelled");
+    if (now - begin > shared_.limits.work_time) throw Cancelled("took too long");
+    if (!streams) return;
+    auto due = next_line->load();
+    if (now.time_since_epoch().count() < due ||
+        !next_line->compare_exchange_strong(due, (now + between_lines).time_since_epoch().count())) {
+      return;
+    }
+    net::post(stream_.get_executor(), [self = shared_from_this(), fraction] {
+      self->put_in_stream(fmt::format("{{\"progress\":{:.4f}}}\n", fraction));
+    });
+  };
+  // Gives the connection back to the sockets' thread, where alone it may end.
+  auto work = [self = shared_from_this(), path = route.path, progress,
+               keeps_running = net::make_work_guard(stream_.get_executor())]() mutable {
+    ApiAnswer answer;
+    try {
+      if (*self->cancelled_) throw Cancelled("cancelled");
+      answer = self->shared_.api.answer(path, self->parser_->get().body(), progress);
+    } catch (const Cancelled& cancelled) {
+      answer = {503, error_document({"", cancelled.what(), "less work, or the same later"})};
+    } catch (const std::exception& mistake) {
+      answer = {500, error_document({"", mistake.what(), ""})};
+    }
+    const auto sockets = self->stream_.get_executor();
+    net::post(sockets, [self = std::move(self), answer = std::move(answer)] { self->on_answer(answer); });
+  };
+  if (!shared_.work.add(std::move(work))) {
+    works_ = streams_ = false;
+    Response busy(http::status::service_unavailable, 11);
+    busy.set(http::field::retry_after, "1");
+    busy.body() = error_document({"", "busy: too many requests wait", "the same later"});
+    return send(std::move(busy));
+  }
+  ++request_;
+  if (streams_) begin_stream();
+  if (buffer_.size() == 0) watch_client();
+}
+
+/// Cancels the work of a client that leaves. One that sends its next request already is not watched further.
+void Connection::watch_client() {
+  stream_.socket().async_wait(tcp::socket::wait_read, [self = shared_from_this(), request = request_](Error error) {
+    if (error || !self->works_ || request != self->request_) return;
+    char next = 0;
+    const ssize_t got = ::recv(self->stream_.socket().native_handle(), &next, 1, MSG_PEEK | MSG_DONTWAIT);
+    if (got == 0 || (got < 0 && errno != EAGAIN && errno != EINTR)) return self->cancel();
+    if (got < 0) self->watch_client();
+  });
+}
+
+void Connection::on_answer(const ApiAnswer& answer) {
+  works_ = false;
+  Error ignored;
+  stream_.socket().cancel(ignored);  // the watch
+  if (streams_) return end_stream(answer.document);
+  send(answer.status, answer.document);
+}
+
+void Connection::send(int status, std::string document, const std::string& allow) {
+  Response response(static_cast<http::status>(status), 11);
+  if (!allow.empty()) response.set(http::field::allow, allow);
+  response.body() = std::move(document);
+  send(std::move(response));
+}
+
+void Connection::send_page(const Page& page) {
+  Response response(http::status::ok, 11);
+  response.set(http::field::content_type, beast::string_view(page.content_type.data(), page.content_type.size()));
+  response.set(http::field::cache_control, beast::string_view(page.cache_control.data(), page.cache_control.size()));
+  response.set(http::field::vary, "Accept-Encoding");
+  if (takes_gzip(view(parser_->get()[http::field::accept_encoding]))) {
+    response.set(http::field::content_encoding, "gzip");
+    response.body() = page.gzipped;
+  } else {
+    response.body() = page.plain;
+  }
+  send(std::move(response));
+}
+
+void Connection::send(Response response) {
+  if (response.count(http::field::content_type) == 0) {
+    response.set(http::field::content_type, "application/json");
+    response.set(http::field::cache_control, "no-store");
+  }
+  put_security_headers(response);
+  keeps_ = keeps_ && !shared_.stops;
+  response.version(parser_->get().version() >= 11 ? 11 : 10);
+  response.keep_alive(keeps_);
+  response.content_length(response.body().size());
+  if (parser_->get().method() == http::verb::head) response.body().clear();
+  writes_ = true;
+  response_ = std::make_shared<Response>(std::move(response));
+  stream_.expires_after(shared_.limits.write_time);
+  http::async_write(stream_, *response_, [self = shared_from_this()](Error error, std::size_t) {
+    self->response_ = nullptr;
+    self->on_sent(!error && self->keeps_);
+  });
+}
+
+void Connection::on_sent(bool keeps) {
+  writes_ = false;
+  keeps ? read_head() : drain();
+}
+
+void Connection::refuse(const Refusal& refusal) {
+  keeps_ = false;  // its body, if it has one, is not read
+  send(refusal.status, error_document(refusal.problem), refusal.allow);
+}
+
+/// The end: what the client still sends is read for a moment, or the system would throw our answer away with it.
+void Connection::drain() {
+  Error ignored;
+  if (drained_ == 0) {
+    stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
+    stream_.expires_after(std::chrono::seconds(2));
+  }
+  buffer_.clear();
+  constexpr std::size_t piece = 1 << 16;
+  stream_.async_read_some(buffer_.prepare(piece), [self = shared_from_this()](Error error, std::size_t count) {
+    self->drained_ += count + 1;
+    if (error || self->drained_ > most_drained || self->shared_.stops) return self->stream_.close();
+    self->drain();
+  });
+}
+
+void Connection::begin_stream() {
+  keeps_ = keeps_ && !shared_.stops;
+  http::response<http::string_body> head(http::status::ok, 11);
+  head.set(http::field::content_type, stream_type);
+  head.set(http::field::cache_control, "no-store");
+  put_security_headers(head);
+  head.keep_alive(keeps_);
+  head.chunked(true);
+  std::ostringstream text;
+  text << head.base();
+  stream_ends_ = false;
+  lines_.push_back(text.str());
+  write_stream();
+}
+
+/// Left out where the client has not yet taken the line before.
+void Connection::put_in_stream(const std::string& line) {
+  if (!works_ || !streams_ || writes_) return;
+  lines_.push_back(chunk(line));
+  write_stream();
+}
+
+void Connection::end_stream(const std::string& document) {
+  stream_ends_ = true;
+  lines_.push_back(chunk(document) + "0\r\n\r\n");
+  if (!writes_) write_stream();
+}
+
+void Connection::write_stream() {
+  writes_ = true;
+  stream_.expires_after(shared_.limits.write_time);
+  net::async_write(stream_, net::buffer(lines_.front()), [self = shared_from_this()](Error error, std::size_t) {
+    self->lines_.pop_front();
+    self->stream_.expires_never();
+    if (error) {
+      self->cancel();
+      self->lines_.clear();
+    }
+    if (!error && !self->lines_.empty()) return self->write_stream();
+    self->writes_ = false;
+    if (self->stream_ends_) {
+      self->streams_ = false;
+      self->on_sent(!error && self->keeps_);
+    }
+  });
+}
+
+}  // namespace zwidth::server

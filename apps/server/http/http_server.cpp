@@ -1,0 +1,108 @@
+#include "server/http/http_server.hpp"
+
+#include <fmt/format.h>
+#include <sys/socket.h>
+
+#include <algorithm>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/signal_set.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <csignal>
+#include <memory>
+#include <thread>
+#include <utility>
+
+#include "server/http/connection.hpp"
+
+namespace zwidth::server {
+namespace {
+
+/// The listening socket, and the signals that end it.
+class Listener {
+ public:
+  Listener(net::io_context& sockets, Shared& shared, const tcp::endpoint& endpoint)
+      : acceptor_(sockets), pause_(sockets), signals_(sockets, SIGINT, SIGTERM), shared_(shared) {
+    acceptor_.open(endpoint.protocol());
+    acceptor_.set_option(net::socket_base::reuse_address(true));
+    acceptor_.bind(endpoint);
+    acceptor_.listen();
+    shared_.all_gone = [this] { signals_.cancel(); };
+    accept();
+    wait_for_signal();
+  }
+
+  [[nodiscard]] tcp::endpoint endpoint() const { return acceptor_.local_endpoint(); }
+
+ private:
+  void accept() {
+    acceptor_.async_accept([this](beast::error_code error, tcp::socket socket) {
+      if (shared_.stops) return;
+      if (error) return accept_later();  // no descriptor is left, for one
+      if (shared_.connections.size() < shared_.limits.connections) {
+        std::make_shared<Connection>(std::move(socket), shared_)->start();
+      } else {
+        turn_away(socket);
+      }
+      accept();
+    });
+  }
+
+  void accept_later() {
+    pause_.expires_after(std::chrono::milliseconds(100));
+    pause_.async_wait([this](beast::error_code) {
+      if (!shared_.stops) accept();
+    });
+  }
+
+  /// Without waiting for a client that may never read.
+  static void turn_away(tcp::socket& socket) {
+    const std::string document = error_document({"", "busy: too many connections", "the same later"});
+    const std::string answer = fmt::format(
+        "HTTP/1.1 503 Service Unavailable\r\nContent-Type: application/json\r\nContent-Length: {}\r\n"
+        "Retry-After: 1\r\nConnection: close\r\n\r\n{}",
+        document.size(), document);
+    (void)!::send(socket.native_handle(), answer.data(), answer.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
+  }
+
+  void wait_for_signal() {
+    signals_.async_wait([this](beast::error_code error, int) {
+      if (error) return;
+      shared_.stops ? cancel() : stop();
+    });
+  }
+
+  void stop() {
+    shared_.stops = true;
+    beast::error_code ignored;
+    acceptor_.close(ignored);
+    pause_.cancel();
+    if (shared_.connections.empty()) return;
+    for (Connection* each : shared_.connections) each->stop();
+    wait_for_signal();
+  }
+
+  void cancel() {
+    for (Connection* each : shared_.connections) each->cancel();
+    wait_for_signal();
+  }
+
+  tcp::acceptor acceptor_;
+  net::steady_timer pause_;
+  net::signal_set signals_;
+  Shared& shared_;
+};
+
+}  // namespace
+
+void serve(Api& api, const HttpOptions& options, const std::function<void(const std::string& address)>& started) {
+  const net::ip::address address = net::ip::make_address(options.host == "localhost" ? "127.0.0.1" : options.host);
+  net::io_context sockets(1);
+  WorkQueue work(std::max(1U, std::thread::hardware_concurrency()), options.limits.waiting);
+  Shared shared{api, options.limits, embedded_pages(), address.is_loopback() ? "" : random_token(), work};
+  Listener listener(sockets, shared, {address, options.port});
+  started(fmt::format("http://{}/{}", host_and_port(listener.endpoint()),
+                      shared.token.empty() ? "" : "#token=" + shared.token));
+  sockets.run();
+}
+
+}  // namespace zwidth::server

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <functional>
+#include <string>
+
+#include "server/api/api.hpp"
+
+namespace zwidth::server {
+
+struct HttpLimits {
+  std::size_t head = 16 << 10;                   ///< bytes
+  std::size_t bodies = std::size_t{256} << 20;   ///< bytes of all requests together
+  std::size_t connections = 256;
+  std::size_t waiting = 64;                      ///< requests, beside as many at work as there are cores
+  std::chrono::seconds head_time{10};            ///< until a head is whole; also how long a connection may idle
+  std::chrono::seconds body_time{60};
+  std::chrono::seconds write_time{60};
+  std::chrono::seconds work_time{600};           ///< of work that tells its progress
+};
+
+struct HttpOptions {
+  std::string host = "127.0.0.1";  ///< an IP address, or localhost
+  unsigned short port = 8713;      ///< 0: any free one
+  HttpLimits limits = {};
+};
+
+/// Serves the API and the embedded front end until SIGINT or SIGTERM, and then finishes what runs; a second signal
+/// cancels it. `started` is called once with the address, which has the token in its fragment where one is needed.
+///
+/// Throws std::system_error where the address cannot be bound.
+void serve(Api& api, const HttpOptions& options, const std::function<void(const std::string& address)>& started);
+
+}  // namespace zwidth::server
