@@ -97,7 +97,8 @@ void put_option(const CLI::App& command, const CommandRequest::Option& given, st
   if (given.name == "json") return;  // always
   const bool is_flag = option->get_items_expected_max() == 0;
   if (is_flag != given.values.empty()) {
-    throw Refused{{where, is_flag ? "is a flag" : "needs a value", is_flag ? "true or false" : option->get_type_name()}};
+    throw Refused{
+        {where, is_flag ? "is a flag" : "needs a value", is_flag ? "true or false" : option->get_type_name()}};
   }
   if (is_flag) {
     arguments.push_back("--" + given.name);

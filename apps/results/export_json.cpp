@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "results/device_json.hpp"
 #include "results/filter_coefficients.hpp"
 #include "results/stability_json.hpp"
 #include "results/units.hpp"
@@ -92,6 +93,7 @@ Json export_json(const DeviceModel& model) {
   const CriticalStiffness& critical = model.analysis.critical;
   return {{"schema", "zwidth.model/1"},
           {"device", device.name()},
+          {"device_file", device_json(device.parameters())},
           {"units", {{"force", units.force}, {"position", units.length}, {"time", "s"}}},
           {"sampling_period_s", discrete.period},
           {"delay_s", device.loop().delay},

@@ -61,8 +61,7 @@ std::string text_document(const std::string& text) {
 }  // namespace
 
 std::string error_document(const Problem& problem) {
-  return results::line(
-      {{"error", {{"where", problem.where}, {"what", problem.what}, {"allowed", problem.allowed}}}});
+  return results::line({{"error", {{"where", problem.where}, {"what", problem.what}, {"allowed", problem.allowed}}}});
 }
 
 Api::Api(const Commands& commands, const std::vector<OfferedDevice>& devices, const RecordingLimits& limits)

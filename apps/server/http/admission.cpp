@@ -14,7 +14,8 @@ namespace zwidth::server {
 namespace {
 
 bool same_letters(std::string_view one, std::string_view other) {
-  return std::ranges::equal(one, other, [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); });
+  return std::ranges::equal(one, other,
+                            [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); });
 }
 
 /// "application/json" of "application/json; charset=utf-8".
@@ -38,7 +39,8 @@ bool has_token(const RequestHead& head, const std::string& token) {
   constexpr std::string_view scheme = "Bearer ";
   if (head.authorizations.size() != 1) return false;
   std::string_view given = head.authorizations.front();
-  if (given.size() != scheme.size() + token.size() || !same_letters(given.substr(0, scheme.size()), scheme)) return false;
+  if (given.size() != scheme.size() + token.size() || !same_letters(given.substr(0, scheme.size()), scheme))
+    return false;
   given.remove_prefix(scheme.size());
   return ::CRYPTO_memcmp(given.data(), token.data(), token.size()) == 0;
 }
@@ -93,7 +95,8 @@ std::string random_token() {
   std::size_t filled = 0;
   while (filled < sizeof bytes) {
     const ssize_t got = ::getrandom(bytes + filled, sizeof bytes - filled, 0);
-    if (got < 0 && errno != EINTR) throw std::system_error(errno, std::generic_category(), "no random bytes for a token");
+    if (got < 0 && errno != EINTR)
+      throw std::system_error(errno, std::generic_category(), "no random bytes for a token");
     if (got > 0) filled += static_cast<std::size_t>(got);
   }
   std::string token;

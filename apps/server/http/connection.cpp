@@ -1,3 +1,5 @@
+#include "server/http/connection.hpp"
+
 #include <fmt/format.h>
 #include <netinet/tcp.h>
 #include <sys/socket.h>
@@ -12,8 +14,6 @@
 #include <sstream>
 #include <utility>
 
-#include "server/http/connection.hpp"
-
 namespace zwidth::server {
 namespace {
 
@@ -23,7 +23,7 @@ namespace http = boost::beast::http;
 using tcp = net::ip::tcp;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::milliseconds between_lines{100};  // of progress
+constexpr std::chrono::milliseconds between_lines{100};     // of progress
 constexpr std::size_t largest_body = std::size_t{1} << 40;  // each route has its own limit
 constexpr std::size_t most_drained = std::size_t{16} << 20;
 constexpr const char* stream_type = "application/x-ndjson";
@@ -47,7 +47,8 @@ std::string_view view(boost::string_view text) { return {text.data(), text.size(
 
 std::string host_and_port(const tcp::endpoint& endpoint) {
   net::ip::address address = endpoint.address();
-  if (address.is_v6() && address.to_v6().is_v4_mapped()) address = net::ip::make_address_v4(net::ip::v4_mapped, address.to_v6());
+  if (address.is_v6() && address.to_v6().is_v4_mapped())
+    address = net::ip::make_address_v4(net::ip::v4_mapped, address.to_v6());
   const std::string host = address.is_v6() ? "[" + address.to_string() + "]" : address.to_string();
   return fmt::format("{}:{}", host, endpoint.port());
 }
@@ -149,8 +150,8 @@ void Connection::on_head(Error error) {
     return refuse({413, {"head", "is too large", fmt::format("at most {} bytes", shared_.limits.head)}});
   }
   if (error == http::error::body_limit) return refuse({413, {"body", "is too large", ""}});
-  if (error && error != http::error::end_of_stream && error.category() == http::make_error_code(http::error{}).category() &&
-      error != http::error::partial_message) {
+  if (error && error != http::error::end_of_stream &&
+      error.category() == http::make_error_code(http::error{}).category() && error != http::error::partial_message) {
     return refuse({400, {"request", "is no HTTP: " + error.message(), "HTTP/1.1"}});
   }
   if (error) return stream_.close();
@@ -172,10 +173,9 @@ void Connection::on_head(Error error) {
 
 void Connection::invite_body() {
   static constexpr std::string_view invitation = "HTTP/1.1 100 Continue\r\n\r\n";
-  net::async_write(stream_, net::buffer(invitation.data(), invitation.size()),
-                   [self = shared_from_this()](Error error, std::size_t) {
-                     error ? self->stream_.close() : self->read_body();
-                   });
+  net::async_write(
+      stream_, net::buffer(invitation.data(), invitation.size()),
+      [self = shared_from_this()](Error error, std::size_t) { error ? self->stream_.close() : self->read_body(); });
 }
 
 void Connection::read_body() {
@@ -201,7 +201,8 @@ void Connection::dispatch() {
 void Connection::dispatch_work(const Route& route) {
   works_ = true;
   cancelled_ = std::make_shared<std::atomic<bool>>(false);
-  streams_ = parser_->get().version() >= 11 && view(parser_->get()[http::field::accept]).find(stream_type) != std::string_view::npos;
+  streams_ = parser_->get().version() >= 11 &&
+             view(parser_->get()[http::field::accept]).find(stream_type) != std::string_view::npos;
   stream_.expires_never();
   const auto begin = Clock::now();
   const auto next_line = std::make_shared<std::atomic<Clock::rep>>((begin + between_lines).time_since_epoch().count());

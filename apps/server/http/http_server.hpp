@@ -10,14 +10,14 @@
 namespace zwidth::server {
 
 struct HttpLimits {
-  std::size_t head = 16 << 10;                   ///< bytes
-  std::size_t bodies = std::size_t{256} << 20;   ///< bytes of all requests together
+  std::size_t head = 16 << 10;                  ///< bytes
+  std::size_t bodies = std::size_t{256} << 20;  ///< bytes of all requests together
   std::size_t connections = 256;
-  std::size_t waiting = 64;                      ///< requests, beside as many at work as there are cores
-  std::chrono::seconds head_time{10};            ///< until a head is whole; also how long a connection may idle
+  std::size_t waiting = 64;            ///< requests, beside as many at work as there are cores
+  std::chrono::seconds head_time{10};  ///< until a head is whole; also how long a connection may idle
   std::chrono::seconds body_time{60};
   std::chrono::seconds write_time{60};
-  std::chrono::seconds work_time{600};           ///< of work that tells its progress
+  std::chrono::seconds work_time{600};  ///< of work that tells its progress
 };
 
 struct HttpOptions {

@@ -59,8 +59,8 @@ std::map<std::string, Page, std::less<>> embedded_pages() {
     // Vite names an asset by its contents: another build, another name.
     const bool is_asset = file.name.starts_with("assets/");
     pages.emplace("/" + std::string(is_index ? "" : file.name),
-                  Page{content_type(file.name), is_asset ? "public, max-age=31536000, immutable" : "no-cache", file.bytes,
-                       gunzipped(file.bytes)});
+                  Page{content_type(file.name), is_asset ? "public, max-age=31536000, immutable" : "no-cache",
+                       file.bytes, gunzipped(file.bytes)});
   }
   return pages;
 }
@@ -69,7 +69,8 @@ bool takes_gzip(std::string_view accept_encoding) {
   const std::size_t at = accept_encoding.find("gzip");
   if (at == std::string_view::npos) return false;
   std::string_view weight = accept_encoding.substr(at, accept_encoding.find(',', at) - at);
-  return weight.find("q=0") == std::string_view::npos || weight.find_first_of("123456789", weight.find("q=0")) != std::string_view::npos;
+  return weight.find("q=0") == std::string_view::npos ||
+         weight.find_first_of("123456789", weight.find("q=0")) != std::string_view::npos;
 }
 
 }  // namespace zwidth::server
