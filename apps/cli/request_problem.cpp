@@ -36,19 +36,17 @@ bool is_key(std::string_view text) {
 server::Problem problem_in(std::string message, const server::CommandRequest& request) {
   std::ranges::replace(message, '\n', ' ');
   std::string where;
-  // CLI11 puts the command first where an argument is missing, and an option's name anywhere.
-  (void)take_place(message, [&](std::string_view text) { return text == request.command; });
   const std::string option = take_place(message, is_option);
   if (!option.empty()) where = "options." + option.substr(2);
+  for (const auto& recording : request.recordings) {
+    const std::string name = take_place(message, [&](std::string_view text) { return names(text, recording.name); });
+    if (!name.empty() && where.empty()) where = "recording" + name.substr(recording.name.size());
+  }
   const std::string device = take_place(message, [](std::string_view text) { return names(text, device_name); });
   const bool is_override = option == "--set";
   if (!device.empty() || is_override) {
     const std::string key = take_place(message, is_key);
     if (option.empty() || is_override) where = key.empty() ? "device" : "device." + key;
-  }
-  for (const auto& recording : request.recordings) {
-    const std::string name = take_place(message, [&](std::string_view text) { return names(text, recording.name); });
-    if (!name.empty() && where.empty()) where = "recording" + name.substr(recording.name.size());
   }
   const std::size_t end = message.find("; ");
   if (end == std::string::npos) return {where, message, ""};

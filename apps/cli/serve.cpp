@@ -62,6 +62,10 @@ void open_browser(std::string address) {
 }
 
 void run_serve(const ServeArguments& arguments) {
+  if (!server::is_address(arguments.http.host)) {
+    throw BadInput(
+        fmt::format("--host: {}: is no address; an IP address of this machine, or localhost", arguments.http.host));
+  }
   const RequestCommands commands;
   server::Api api(commands, offered_devices(arguments.devices));
   const auto started = [&](const std::string& address) {

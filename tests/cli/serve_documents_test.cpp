@@ -22,7 +22,9 @@ struct Asked {
   json options = json::object();
 };
 
-std::string quoted(const json& value) { return "'" + (value.is_string() ? value.get<std::string>() : value.dump()) + "'"; }
+std::string quoted(const json& value) {
+  return "'" + (value.is_string() ? value.get<std::string>() : value.dump()) + "'";
+}
 
 std::string command_line(const Asked& asked) {
   const std::string name = asked.command == "recommend" ? "design" : asked.command;
@@ -49,7 +51,8 @@ std::string command_line(const Asked& asked) {
 class ServedDocuments : public Served {
  protected:
   ServedDocuments() {
-    for (const char* name : {"locked_chirp.csv", "free_motion.csv"}) write(name, contents(std::string("recordings/") + name));
+    for (const char* name : {"locked_chirp.csv", "free_motion.csv"})
+      write(name, contents(std::string("recordings/") + name));
     EXPECT_EQ(run("zwidth relay devices/lhifam.toml --amplitude 5 --delay 4e-3 --start 0.03 --csv run.csv").status, 0);
     EXPECT_EQ(run("zwidth frf locked_chirp.csv --force force --position position --csv frf.csv").status, 0);
     start();
@@ -115,16 +118,27 @@ std::vector<Asked> questions() {
       {"export", lhifam, {}, {{"format", "json"}}},
       {"simulate", lhifam, {}, {{"set", "wall.stiffness=5000"}, {"lost-samples", 0.05}, {"overrun", {0.1, 1e-3}}}},
       {"simulate", lhifam, {}, {{"set", "wall.stiffness=5000"}, {"user-force", "step:5@0.1"}, {"duration", "0.5 s"}}},
-      {"simulate", lhifam, {"free_motion.csv"}, {{"set", "wall.stiffness=5000"}, {"user-force-column", "force"},
-                                                 {"user-force-scale", 0.01}}},
+      {"simulate",
+       lhifam,
+       {"free_motion.csv"},
+       {{"set", "wall.stiffness=5000"}, {"user-force-column", "force"}, {"user-force-scale", 0.01}}},
       {"relay", lhifam, {}, {{"amplitude", 5}, {"trials", 2}, {"seed", 7}}},
       {"relay", lhifam, {"run.csv"}, {{"force", 2}, {"position", 3}, {"delay", 4e-3}}},
       {"relay", "", {"run.csv"}, {{"force", "force_1"}, {"position", "position_1"}, {"motion", "linear"}}},
       {"frf", "", {"locked_chirp.csv"}, {{"force", "force"}, {"position", "position"}, {"points", true}}},
       {"frf", "", {"frf.csv"}, {{"table", true}, {"magnitude", "magnitude"}, {"phase", "phase_deg"}, {"rate", 1000}}},
-      {"identify", lhifam, {"locked_chirp.csv"}, {{"force", "force"}, {"position", "position"}, {"locked", {"handle"}},
-                                                  {"free", {"link.stiffness", "link.damping"}}, {"points", true}}},
-      {"identify", "", {"free_motion.csv"}, {{"force", "force"}, {"position", "position"}, {"method", "inverse-dynamics"}}},
+      {"identify",
+       lhifam,
+       {"locked_chirp.csv"},
+       {{"force", "force"},
+        {"position", "position"},
+        {"locked", {"handle"}},
+        {"free", {"link.stiffness", "link.damping"}},
+        {"points", true}}},
+      {"identify",
+       "",
+       {"free_motion.csv"},
+       {{"force", "force"}, {"position", "position"}, {"method", "inverse-dynamics"}}},
       {"identify", "", {"locked_chirp.csv"}, {{"force", "force"}, {"position", "position"}, {"structure", "rigid"}}},
       {"excite", lhifam, {}, {{"amplitude", 2}, {"duration", 1}, {"stroke", 0.5}}},
       {"excite", "", {}, {{"kind", "noise"}, {"amplitude", 3}, {"duration", 1}}},
@@ -158,8 +172,12 @@ TEST_F(ServedDocuments, WhatIsNoDocumentIsAText) {
   EXPECT_EQ(answer.at("text"), run("zwidth export devices/lhifam.toml --format c --stiffness 3000").output);
   const json found{{"device_toml", contents(lhifam)},
                    {"recording", recording("locked_chirp.csv")},
-                   {"options", {{"force", "force"}, {"position", "position"}, {"locked", "handle"},
-                                {"free", "link.stiffness"}, {"output-device", "-"}}}};
+                   {"options",
+                    {{"force", "force"},
+                     {"position", "position"},
+                     {"locked", "handle"},
+                     {"free", "link.stiffness"},
+                     {"output-device", "-"}}}};
   EXPECT_EQ(json::parse(post("identify", found.dump()).body).at("text"),
             run("zwidth identify locked_chirp.csv --structure devices/lhifam.toml --force force --position position "
                 "--locked handle --free link.stiffness --output-device -")
@@ -179,7 +197,8 @@ TEST_F(ServedDocuments, RecordingsAreNamedByTheirDigest) {
   const HttpAnswer answer = upload("abc,def\n1,2\n3,4\n");
   EXPECT_EQ(answer.status, 200);
   const json contents = json::parse(answer.body);
-  const json expected_columns = json::parse(R"([{"name":"abc","samples":2,"detail":"numbers"},{"name":"def","samples":2,"detail":"numbers"}])");
+  const json expected_columns =
+      json::parse(R"([{"name":"abc","samples":2,"detail":"numbers"},{"name":"def","samples":2,"detail":"numbers"}])");
   EXPECT_EQ(contents.at("columns"), expected_columns);
   EXPECT_EQ(contents.at("format"), "text");
   write("abc", "abc,def\n1,2\n3,4\n");

@@ -150,12 +150,12 @@ HttpAnswer Served::exchange(std::string_view bytes) const {
 }
 
 HttpAnswer Served::post(const std::string& command, const std::string& document, const std::string& headers) const {
-  return exchange(
-      request("POST", "/api/v1/" + command, document, "Content-Type: application/json\r\n" + headers));
+  return exchange(request("POST", "/api/v1/" + command, document, "Content-Type: application/json\r\n" + headers));
 }
 
 HttpAnswer Served::upload(std::string_view bytes) const {
-  return exchange(request("POST", "/api/v1/recordings", std::string(bytes), "Content-Type: application/octet-stream\r\n"));
+  return exchange(
+      request("POST", "/api/v1/recordings", std::string(bytes), "Content-Type: application/octet-stream\r\n"));
 }
 
 }  // namespace zwidth::cli

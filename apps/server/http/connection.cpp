@@ -323,6 +323,7 @@ void Connection::drain() {
   Error ignored;
   if (drained_ == 0) {
     stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
+    if (shared_.stops) return stream_.close();
     stream_.expires_after(std::chrono::seconds(2));
   }
   buffer_.clear();

@@ -9,6 +9,7 @@
 #include <boost/asio/steady_timer.hpp>
 #include <csignal>
 #include <memory>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -92,10 +93,22 @@ class Listener {
   Shared& shared_;
 };
 
+net::ip::address address_of(const std::string& host, beast::error_code& error) {
+  return net::ip::make_address(host == "localhost" ? "127.0.0.1" : host, error);
+}
+
 }  // namespace
 
-void serve(Api& api, const HttpOptions& options, const std::function<void(const std::string& address)>& started) {
-  const net::ip::address address = net::ip::make_address(options.host == "localhost" ? "127.0.0.1" : options.host);
+bool is_address(const std::string& host) {
+  beast::error_code error;
+  (void)address_of(host, error);
+  return !error;
+}
+
+void serve(Api& api, const HttpOptions& options, const std::function<void(const std::string& address)>& started) try {
+  beast::error_code error;
+  const net::ip::address address = address_of(options.host, error);
+  if (error) throw boost::system::system_error(error);
   net::io_context sockets(1);
   WorkQueue work(std::max(1U, std::thread::hardware_concurrency()), options.limits.waiting);
   Shared shared{api, options.limits, embedded_pages(), address.is_loopback() ? "" : random_token(), work};
@@ -103,6 +116,8 @@ void serve(Api& api, const HttpOptions& options, const std::function<void(const 
   started(fmt::format("http://{}/{}", host_and_port(listener.endpoint()),
                       shared.token.empty() ? "" : "#token=" + shared.token));
   sockets.run();
+} catch (const boost::system::system_error& error) {
+  throw std::system_error(error.code().value(), std::system_category(), options.host);
 }
 
 }  // namespace zwidth::server

@@ -26,6 +26,9 @@ struct HttpOptions {
   HttpLimits limits = {};
 };
 
+/// Whether `host` is an IP address or localhost.
+[[nodiscard]] bool is_address(const std::string& host);
+
 /// Serves the API and the embedded front end until SIGINT or SIGTERM, and then finishes what runs; a second signal
 /// cancels it. `started` is called once with the address, which has the token in its fragment where one is needed.
 ///
