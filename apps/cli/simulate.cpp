@@ -30,6 +30,7 @@ namespace {
 
 constexpr double most_rows = 5e6;          // of a CSV file
 constexpr double most_drawn_points = 1e6;  // kept for a figure alone
+constexpr double most_points_in_json = 2e4;
 
 struct SimulateArguments {
   DeviceArguments device;
@@ -43,6 +44,7 @@ struct SimulateArguments {
   std::uint64_t seed = 1;
   double divergence = 1e3;
   std::size_t every = 1;
+  bool points = false;  // of the motion, in the JSON document
   OutputArguments output{.figure_option = "--figure"};
 };
 
@@ -70,7 +72,8 @@ std::size_t kept_points(const SimulateArguments& arguments, double samples) {
     }
     return arguments.every;
   }
-  return std::max(arguments.every, static_cast<std::size_t>(std::ceil(samples / most_drawn_points)));
+  const double most = arguments.output.figure.empty() ? most_points_in_json : most_drawn_points;
+  return std::max(arguments.every, static_cast<std::size_t>(std::ceil(samples / most)));
 }
 
 SimulationOptions options_of(const SimulateArguments& arguments, const Device& device) {
@@ -87,7 +90,7 @@ SimulationOptions options_of(const SimulateArguments& arguments, const Device& d
   options.duration = arguments.duration;
   options.divergence = arguments.divergence;
   if (const auto problem = find_problem(options, device)) refuse(*problem, options_of_simulation);
-  if (arguments.output.csv.empty() && arguments.output.figure.empty()) {
+  if (arguments.output.csv.empty() && arguments.output.figure.empty() && !arguments.points) {
     options.keep_every = 0;
   } else {
     if (!options.duration) options.duration = default_duration(device, options);
@@ -116,8 +119,9 @@ void run_simulate(const SimulateArguments& arguments) {
                [&](report::FigureFormat format) { return report::draw_simulation_figure(device, result, format); });
   outputs.commit();
   if (arguments.output.json) {
+    const auto points = arguments.points ? results::PointsInJson::included : results::PointsInJson::left_out;
     write_warnings(result.remarks);
-    write_standard_output(results::line(results::simulation_json(device, result)));
+    write_standard_output(results::line(results::simulation_json(device, result, points)));
   } else {
     write_text(report::simulation_text(device, result));
   }
@@ -169,10 +173,12 @@ void add_simulate(CLI::App& app) {
       ->capture_default_str();
   add_output_options(*command, arguments->output,
                      {.csv = "Also write the motion", .figure = "Also draw the motion: .svg, .png or .pdf"});
-  command->add_option("--every", arguments->every, "Keep every N-th sample for --csv and --figure")
+  command->add_option("--every", arguments->every, "Keep every N-th sample for --csv, --figure and --points")
       ->type_name("N")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000000000));
+  command->add_flag("--points", arguments->points, "With --json: the motion too, thinned to 20000 points")
+      ->needs("--json");
   add_motion_arguments(*command, arguments->motion);
   add_fault_options(*command, *arguments);
   command->footer(
@@ -187,8 +193,9 @@ void add_simulate(CLI::App& app) {
       "  zwidth simulate devices/lhifam.toml --set wall.stiffness=9000 --figure grows.svg --csv grows.csv\n"
       "  zwidth simulate devices/lhifam.toml --set wall.stiffness=5000 --lost-samples 0.05 --jitter 2e-4");
   command->callback([arguments, command] {
-    if (command->count("--every") > 0 && arguments->output.csv.empty() && arguments->output.figure.empty()) {
-      throw BadInput("--every: is for --csv and --figure; add one");
+    if (command->count("--every") > 0 && arguments->output.csv.empty() && arguments->output.figure.empty() &&
+        !arguments->points) {
+      throw BadInput("--every: is for --csv, --figure and --points; add one");
     }
     run_simulate(*arguments);
   });

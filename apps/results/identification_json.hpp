@@ -7,8 +7,6 @@
 
 namespace zwidth::results {
 
-enum class PointsInJson { left_out, included };
-
 /// {"virtual_damping", "velocity_filter_hz", "filters"}: what a critical stiffness is given with.
 void to_json(Json& json, const StiffnessBasis& basis);
 

@@ -46,6 +46,9 @@ struct Serializer<std::optional<T>> {
   }
 };
 
+/// Whether a document holds the points that a figure draws, too: they make it long.
+enum class PointsInJson { left_out, included };
+
 /// A document that begins with its schema: document("zwidth.analysis/1").
 [[nodiscard]] inline Json document(std::string_view schema) {
   Json begun = Json::object();

@@ -89,9 +89,24 @@ Json start_json(const Device& device, const HybridLoopOptions& loop) {
   return bodies;
 }
 
+Json points_json(const Device& device, const Trajectory& kept) {
+  Json bodies = Json::array();
+  for (std::size_t i = 0; i < device.bodies().size(); ++i) {
+    bodies.push_back(
+        {{"body", device.bodies()[i].name}, {"position", kept.position[i]}, {"velocity", kept.velocity[i]}});
+  }
+  Json points = {{"time_s", kept.time},
+                 {"measured", kept.measured},
+                 {"command", kept.command},
+                 {"user_force", kept.user_force},
+                 {"bodies", bodies}};
+  if (!device.has_bodies()) points["position"] = kept.position.front();
+  return points;
+}
+
 }  // namespace
 
-Json simulation_json(const Device& device, const Simulation& result) {
+Json simulation_json(const Device& device, const Simulation& result, PointsInJson points) {
   const Units units = units_of(device.parameters().motion);
   const bool has_wall = result.generated_energy.has_value();
   Json json = document("zwidth.simulation/1");
@@ -123,6 +138,7 @@ Json simulation_json(const Device& device, const Simulation& result) {
   json["linear"] = result.linear;
   json["trust"] = result.trust;
   json["remarks"] = result.remarks;
+  if (points == PointsInJson::included) json["points"] = points_json(device, result.trajectory);
   return json;
 }
 

@@ -22,8 +22,9 @@ NLOHMANN_JSON_SERIALIZE_ENUM(NonlinearPart, {{NonlinearPart::coulomb_friction, "
                                              {NonlinearPart::late_forces, "late_forces"}})
 
 /// The document of `simulate --json`, schema zwidth.simulation/1, keys in their documented order. What does not exist
-/// is null; NaN and infinities never appear.
-[[nodiscard]] Json simulation_json(const Device& device, const Simulation& result);
+/// is null; NaN and infinities never appear. The points are those that were kept: none without keep_every.
+[[nodiscard]] Json simulation_json(const Device& device, const Simulation& result,
+                                   PointsInJson points = PointsInJson::left_out);
 
 /// The kept points of the run as comma-separated values with a header: time_s, measured, command, user_force, then
 /// position and velocity of every body ("handle.position"), of a transfer function its output. SI units and radians.

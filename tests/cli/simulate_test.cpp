@@ -122,6 +122,18 @@ TEST_F(Simulate, EveryThinsTheCsv) {
   EXPECT_EQ(rows_of(contents("a.csv")).size(), 100U);
 }
 
+TEST_F(Simulate, PointsAreTheRowsOfTheCsv) {
+  const auto document = json_of(lhifam + "--duration 1 --every 10 --csv a.csv --points");
+  const auto rows = rows_of(contents("a.csv"));
+  const auto& points = document["points"];
+  ASSERT_EQ(points["time_s"].size(), rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    EXPECT_EQ(points["time_s"][i], rows[i][0]);
+    EXPECT_EQ(points["command"][i], rows[i][2]);
+    EXPECT_EQ(points["bodies"][1]["velocity"][i], rows[i][7]);
+  }
+}
+
 TEST_F(Simulate, ARecordedForceIsReadInItsOwnTime) {
   std::string record = "time,force\n";
   for (int k = 0; k <= 100; ++k) record += std::to_string(0.002 * k) + "," + std::to_string(0.05 * k) + "\n";
@@ -201,7 +213,7 @@ TEST_F(Simulate, Refusals) {
   expect_refused(lhifam + "--overrun 0.5,1e9", "at most 10 s");
   expect_refused(lhifam + "--wall-position inf", "--wall-position: is inf");
   expect_refused(lhifam + "--divergence 0", "--divergence: is 0");
-  expect_refused(lhifam + "--every 2", "--every: is for --csv and --figure");
+  expect_refused(lhifam + "--every 2", "--every: is for --csv, --figure and --points");
   expect_refused(lhifam + "--figure a.jpg", "unknown extension; .svg, .png or .pdf");
   expect_refused(lhifam + "--csv devices/lhifam.toml", "would overwrite the device file");
   write("pushes.csv", "time,force\n0,1\n1e-3,1\n2e-3,1\n");
