@@ -1,0 +1,106 @@
+// Numbers as people read and type them. Prefixes move the decimal point of the shortest text of a double, so nothing is rounded.
+
+const prefixes: [number, string][] = [
+  [9, 'G'],
+  [6, 'M'],
+  [3, 'k'],
+  [0, ''],
+  [-3, 'm'],
+  [-6, 'µ'],
+  [-9, 'n'],
+]
+
+interface Decimal {
+  negative: boolean
+  digits: string
+  exponent: number // of the digit before the point
+}
+
+function decimalOf(text: string): Decimal {
+  const match = /^([+-]?)(\d*)\.?(\d*)(?:e([+-]?\d+))?$/i.exec(text)
+  if (!match) throw new Error(`no number: ${text}`)
+  const [, sign, whole = '', fraction = '', power] = match
+  const all = whole + fraction
+  const zeros = /^0*/.exec(all)![0].length
+  const digits = all.slice(zeros).replace(/0+$/, '')
+  if (digits === '') return { negative: false, digits: '0', exponent: 0 }
+  return { negative: sign === '-', digits, exponent: whole.length - 1 - zeros + Number(power ?? 0) }
+}
+
+function textOf({ negative, digits, exponent }: Decimal): string {
+  const sign = negative ? '-' : ''
+  if (exponent < -4 || exponent > 9) {
+    return `${sign}${digits[0]}${digits.length > 1 ? '.' + digits.slice(1) : ''}e${exponent}`
+  }
+  if (exponent < 0) return `${sign}0.${'0'.repeat(-exponent - 1)}${digits}`
+  const whole = digits.slice(0, exponent + 1).padEnd(exponent + 1, '0')
+  const fraction = digits.slice(exponent + 1)
+  return sign + whole + (fraction ? '.' + fraction : '')
+}
+
+/** The same digits times 10^places, exactly. */
+export function shifted(text: string, places: number): string {
+  const decimal = decimalOf(text)
+  return decimal.digits === '0' ? '0' : textOf({ ...decimal, exponent: decimal.exponent + places })
+}
+
+/** Whether a prefix may stand before the unit's first letter: "kN/m" yes, "kkg" no. */
+const takesPrefix = (unit: string): boolean => /^(N|s|m|Hz|J|rad)\b/.test(unit) && !/^m²/.test(unit)
+
+export interface Shown {
+  number: string
+  unit: string // with its prefix
+  places: number // power of ten of the prefix
+}
+
+/** With all its digits, or rounded to so many where `digits` is given. */
+export function shown(value: number, unit: string, digits?: number): Shown {
+  const text = digits === undefined ? String(value) : Number(value.toPrecision(digits)).toString()
+  if (!Number.isFinite(value)) return { number: String(value), unit, places: 0 }
+  const decimal = decimalOf(text)
+  if (decimal.digits === '0' || !takesPrefix(unit)) return { number: textOf(decimal), unit, places: 0 }
+  // Hertz and rad/s read best as they are between 0.1 and 1000, all others too.
+  const [places, prefix] = prefixes.find(([power]) => decimal.exponent >= power) ?? prefixes[prefixes.length - 1]!
+  return { number: textOf({ ...decimal, exponent: decimal.exponent - places }), unit: prefix + unit, places }
+}
+
+/** "8.849 kN/m"; "none" for what does not exist. */
+export function say(value: number | null | undefined, unit: string, digits = 4): string {
+  if (value === null || value === undefined) return 'none'
+  const { number, unit: full } = shown(value, unit, digits)
+  return full ? `${number} ${full}` : number
+}
+
+export const percent = (share: number, digits = 3): string =>
+  `${share > 0 ? '+' : share < 0 ? '−' : ''}${shown(Math.abs(share * 100), '', digits).number} %`
+
+const number = String.raw`[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?`
+const plain = new RegExp(`^${number}$`)
+const measured = new RegExp(`^(${number})\\s*(\\S.*)$`)
+
+/** A value of a device file: a plain number is SI, a text has its own unit, which only the server reads. */
+export interface Written {
+  number: number
+  unit: string | null
+}
+
+export function written(value: unknown): Written | null {
+  if (typeof value === 'number') return { number: value, unit: null }
+  if (typeof value !== 'string') return null
+  const match = measured.exec(value.trim())
+  return match ? { number: Number(match[1]), unit: match[2]! } : null
+}
+
+/** What was typed, as TOML. A number alone is of the unit that stood there; anything else goes to the server as it is. */
+export function tomlOfTyped(typed: string, places: number, unit: string | null): string {
+  const text = typed.trim().replace(/−/g, '-')
+  if (!plain.test(text)) return JSON.stringify(text)
+  if (unit !== null) return JSON.stringify(`${text} ${unit}`)
+  return shifted(text.replace(/^\+/, ''), places)
+}
+
+/** A number as TOML; "2000" is a good number there. */
+export const tomlOfNumber = (value: number): string => String(value).replace('e+', 'e')
+
+/** Four digits are enough for a step or a drag. */
+export const rounded = (value: number): number => Number(value.toPrecision(4))

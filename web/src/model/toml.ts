@@ -1,0 +1,222 @@
+// Where each value of a TOML text stands, so that one number is replaced and all else (comments, order, units) stays.
+// It judges nothing: the server parses the text and says what is wrong with it.
+
+export type TomlValue = number | string | boolean | TomlValue[]
+
+export interface Entry {
+  path: string[] // ["body", "0", "mass"]: tables of an array have their index
+  start: number // of the value in the text
+  end: number
+  value: TomlValue
+}
+
+interface Table {
+  path: string[]
+  insertAt: number // where one more key goes
+  kind: 'header' | 'inline' | 'dotted'
+  empty: boolean
+}
+
+export interface Scan {
+  entries: Entry[]
+  tables: Table[]
+  comments: { start: number; end: number }[]
+  complete: boolean // false: stopped at something unexpected
+}
+
+export const samePath = (a: string[], b: string[]): boolean => a.length === b.length && a.every((part, i) => part === b[i])
+
+class Reader {
+  at = 0
+  scan: Scan = { entries: [], tables: [], comments: [], complete: true }
+  private counts = new Map<string, number>()
+
+  constructor(readonly text: string) {}
+
+  run(): Scan {
+    try {
+      this.document()
+    } catch {
+      this.scan.complete = false
+    }
+    return this.scan
+  }
+
+  private document(): void {
+    let table: string[] = []
+    for (;;) {
+      this.blank(true)
+      if (this.at >= this.text.length) return
+      if (this.text[this.at] === '[') {
+        table = this.header()
+        this.blank(false)
+        this.scan.tables.push({ path: table, insertAt: this.at, kind: 'header', empty: true })
+      } else {
+        this.keyValue(table, 'header')
+      }
+    }
+  }
+
+  /** Spaces and a comment; over the ends of lines too where `lines`. */
+  private blank(lines: boolean): void {
+    for (; this.at < this.text.length; ++this.at) {
+      const c = this.text[this.at]!
+      if (c === '#') {
+        const start = this.at
+        while (this.at < this.text.length && this.text[this.at] !== '\n') ++this.at
+        this.scan.comments.push({ start, end: this.at })
+        --this.at
+      } else if (c !== ' ' && c !== '\t' && c !== '\r' && !(lines && c === '\n')) {
+        return
+      }
+    }
+  }
+
+  private expect(token: string): void {
+    if (!this.text.startsWith(token, this.at)) throw new Error(token)
+    this.at += token.length
+  }
+
+  private header(): string[] {
+    const many = this.text.startsWith('[[', this.at)
+    this.expect(many ? '[[' : '[')
+    const names = this.key()
+    this.blank(false)
+    this.expect(many ? ']]' : ']')
+    const path: string[] = []
+    names.forEach((name, i) => {
+      path.push(name)
+      const id = path.join('\n')
+      if (many && i === names.length - 1) this.counts.set(id, (this.counts.get(id) ?? -1) + 1)
+      const count = this.counts.get(id)
+      if (count !== undefined) path.push(String(count))
+    })
+    return path
+  }
+
+  private key(): string[] {
+    const parts: string[] = []
+    for (;;) {
+      this.blank(false)
+      const c = this.text[this.at]
+      if (c === '"' || c === "'") {
+        parts.push(String(this.value()))
+      } else {
+        const bare = /^[\p{L}\p{N}_-]+/u.exec(this.text.slice(this.at, this.at + 300))
+        if (!bare) throw new Error('key')
+        parts.push(bare[0])
+        this.at += bare[0].length
+      }
+      this.blank(false)
+      if (this.text[this.at] !== '.') return parts
+      ++this.at
+    }
+  }
+
+  private keyValue(table: string[], kind: Table['kind']): void {
+    const names = this.key()
+    this.expect('=')
+    this.blank(false)
+    const path = [...table, ...names]
+    const start = this.at
+    if (this.text[this.at] === '{') {
+      this.inlineTable(path)
+    } else {
+      const value = this.value()
+      this.scan.entries.push({ path, start, end: this.at, value })
+    }
+    const home = this.scan.tables.findLast((each) => samePath(each.path, table))
+    if (home) Object.assign(home, { insertAt: this.at, empty: false })
+    if (kind !== 'inline' && names.length > 1) {
+      this.scan.tables.push({ path: path.slice(0, -1), insertAt: this.at, kind: 'dotted', empty: false })
+    }
+  }
+
+  private inlineTable(path: string[]): void {
+    this.expect('{')
+    const table: Table = { path, insertAt: this.at, kind: 'inline', empty: true }
+    this.scan.tables.push(table)
+    for (;;) {
+      this.blank(true)
+      if (this.text[this.at] === '}') break
+      this.keyValue(path, 'inline')
+      this.blank(true)
+      if (this.text[this.at] === ',') ++this.at
+    }
+    this.expect('}')
+  }
+
+  private value(): TomlValue {
+    const c = this.text[this.at]
+    if (c === '[') return this.array()
+    if (c === '"' || c === "'") return this.string(c)
+    const token = /^[^\s,\]}#=]+/.exec(this.text.slice(this.at, this.at + 400))
+    if (!token) throw new Error('value')
+    this.at += token[0].length
+    if (token[0] === 'true' || token[0] === 'false') return token[0] === 'true'
+    const number = Number(token[0].replaceAll('_', ''))
+    return Number.isNaN(number) ? token[0] : number
+  }
+
+  private string(quote: string): string {
+    const long = quote.repeat(3)
+    const end = this.text.startsWith(long, this.at) ? long : quote
+    const start = (this.at += end.length)
+    while (!this.text.startsWith(end, this.at)) {
+      if (this.at >= this.text.length || (end === quote && this.text[this.at] === '\n')) throw new Error('string')
+      this.at += quote === '"' && this.text[this.at] === '\\' ? 2 : 1
+    }
+    const inside = this.text.slice(start, this.at)
+    this.at += end.length
+    if (quote === "'") return inside
+    try {
+      return JSON.parse(`"${inside}"`) as string
+    } catch {
+      return inside
+    }
+  }
+
+  private array(): TomlValue[] {
+    const values: TomlValue[] = []
+    this.expect('[')
+    for (;;) {
+      this.blank(true)
+      if (this.text[this.at] === ']') break
+      values.push(this.value())
+      this.blank(true)
+      if (this.text[this.at] === ',') ++this.at
+    }
+    this.expect(']')
+    return values
+  }
+}
+
+export const scan = (text: string): Scan => new Reader(text).run()
+
+export const find = (scanned: Scan, path: string[]): Entry | undefined => scanned.entries.find((each) => samePath(each.path, path))
+
+/** The text with that value in place of the old one, or added to its table, which is added where it is missing. */
+export function set(text: string, path: string[], raw: string): string {
+  const scanned = scan(text)
+  const entry = find(scanned, path)
+  if (entry) return text.slice(0, entry.start) + raw + text.slice(entry.end)
+  const parent = path.slice(0, -1)
+  const key = path[path.length - 1]!
+  const table = scanned.tables.findLast((each) => samePath(each.path, parent))
+  if (!table) return `${text.replace(/\n*$/, '\n')}\n[${parent.join('.')}]\n${key} = ${raw}\n`
+  const insert = (what: string): string => text.slice(0, table.insertAt) + what + text.slice(table.insertAt)
+  if (table.kind === 'inline') return insert(table.empty ? ` ${key} = ${raw} ` : `, ${key} = ${raw}`)
+  const lineEnd = text.indexOf('\n', table.insertAt)
+  const at = lineEnd < 0 ? text.length : lineEnd
+  const name = table.kind === 'dotted' ? path.join('.') : key
+  return `${text.slice(0, at)}\n${name} = ${raw}${text.slice(at)}`
+}
+
+/** The text without its comments and empty lines; every value is the same. */
+export function withoutComments(text: string): string {
+  let out = text
+  for (const comment of scan(text).comments.reverse()) {
+    out = out.slice(0, comment.start) + out.slice(comment.end)
+  }
+  return out.replace(/[ \t]+$/gm, '').replace(/\n{2,}/g, '\n').replace(/^\n/, '')
+}

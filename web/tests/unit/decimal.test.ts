@@ -1,0 +1,43 @@
+import { describe, expect, it } from 'vitest'
+import { percent, say, shifted, shown, tomlOfNumber, tomlOfTyped, written } from '../../src/model/decimal'
+
+describe('decimal', () => {
+  it('moves the point without rounding', () => {
+    expect(shifted('0.1', 3)).toBe('100')
+    expect(shifted('123.456', -3)).toBe('0.123456')
+    expect(shifted('5e-324', 324)).toBe('5')
+    let seed = 1
+    for (let i = 0; i < 2000; ++i) {
+      seed = (seed * 48271) % 2147483647
+      const value = (seed / 2147483647 - 0.5) * 10 ** ((seed % 40) - 20)
+      for (const unit of ['N/m', 's', 'kg', 'Hz']) {
+        const { number, places } = shown(value, unit)
+        expect(Number(tomlOfTyped(number, places, null)), `${value} ${unit}`).toBe(value)
+      }
+    }
+  })
+
+  it('says numbers with prefixes', () => {
+    expect(say(8848.70869, 'N/m')).toBe('8.849 kN/m')
+    expect(say(0.001, 's')).toBe('1 ms')
+    expect(say(0, 's')).toBe('0 s')
+    expect(say(0.005, 'kg m²')).toBe('0.005 kg m²')
+    expect(say(3.14e-6, 'm')).toBe('3.14 µm')
+    expect(say(null, 'N/m')).toBe('none')
+    expect(say(99995, 'N/m')).toBe('100 kN/m')
+    expect(percent(-0.1338)).toBe('−13.4 %')
+    expect(percent(0)).toBe('0 %')
+  })
+
+  it('takes a bare number in the unit that stood there', () => {
+    expect(tomlOfTyped('2', -3, null)).toBe('0.002')
+    expect(tomlOfTyped(' 1.5 ms', -3, null)).toBe('"1.5 ms"')
+    expect(tomlOfTyped('3', 0, 'ms')).toBe('"3 ms"')
+    expect(tomlOfTyped('−4', 0, null)).toBe('-4')
+    expect(tomlOfTyped('abc', 0, null)).toBe('"abc"')
+    expect(written('1.5 ms')).toEqual({ number: 1.5, unit: 'ms' })
+    expect(written('1 turn/4096')).toEqual({ number: 1, unit: 'turn/4096' })
+    expect(written(0.3)).toEqual({ number: 0.3, unit: null })
+    expect(tomlOfNumber(1e21)).toBe('1e21')
+  })
+})

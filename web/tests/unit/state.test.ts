@@ -1,0 +1,98 @@
+import { readFileSync, readdirSync } from 'node:fs'
+import { describe, expect, it } from 'vitest'
+import { decode, encode, longestAddress } from '../../src/model/address'
+import { History } from '../../src/model/history'
+import { empty } from '../../src/model/snapshot'
+import { find, scan, set, withoutComments } from '../../src/model/toml'
+
+const devices = new URL('../../../devices/', import.meta.url)
+const examples = readdirSync(devices)
+  .filter((name) => name.endsWith('.toml'))
+  .map((name) => readFileSync(new URL(name, devices), 'utf8'))
+const lhifam = readFileSync(new URL('lhifam.toml', devices), 'utf8')
+
+describe('address', () => {
+  it('returns every example bit for bit', () => {
+    for (const toml of examples) {
+      const state = { ...empty(toml), locks: ['body.motor.mass'], settings: { relayAmplitude: '5', targetAnyUser: true } }
+      const address = encode(state)!
+      expect(address.left).toBe('nothing')
+      expect(address.text).toMatch(/^[\w-]+$/)
+      expect(address.text.length).toBeLessThanOrEqual(longestAddress)
+      expect(decode(address.text)).toEqual(state)
+    }
+  })
+
+  it('returns every double bit for bit', () => {
+    let seed = 7
+    for (let i = 0; i < 500; ++i) {
+      seed = (seed * 48271) % 2147483647
+      const value = (seed / 2147483647) * 10 ** ((seed % 60) - 30)
+      const toml = set(lhifam, ['link', '0', 'stiffness'], String(value))
+      const back = decode(encode(empty(toml))!.text)!
+      expect(back.toml).toBe(toml)
+      expect(find(scan(back.toml), ['link', '0', 'stiffness'])?.value).toBe(value)
+    }
+  })
+
+  it('keeps pins of the same device for little', () => {
+    const toml = lhifam
+    const pins = [1, 2, 3, 4].map((i) => ({ name: `try ${i}`, toml: set(toml, ['body', '0', 'mass'], String(i / 7)) }))
+    const address = encode({ ...empty(toml), pins })!
+    expect(address.left).toBe('nothing')
+    expect(decode(address.text)?.pins).toEqual(pins)
+  })
+
+  it('leaves out comments first, then pins, then says no', () => {
+    let seed = 3
+    const noise = (length: number): string =>
+      Array.from({ length }, () => String.fromCharCode(33 + (seed = (seed * 48271) % 2147483647) % 90)).join('').replaceAll('\\', '/').replaceAll('"', "'")
+    const long = `${lhifam}# ${noise(3000)}\n`
+    const address = encode(empty(long))!
+    expect(address.left).toBe('comments')
+    expect(decode(address.text)?.toml).toBe(withoutComments(long))
+    expect(encode({ ...empty(lhifam), pins: [{ name: noise(3000), toml: '' }] })?.left).toBe('pins')
+    expect(encode(empty(`name = "${noise(3000)}"`))).toBeNull()
+  })
+
+  it('refuses what is not its own', () => {
+    for (const text of ['', 'a', 'b', 'aAAAA', 'a%%%', 'x'.repeat(3000), 'a' + btoa('{}')]) expect(decode(text)).toBeNull()
+  })
+})
+
+describe('history', () => {
+  it('takes back at least 100 steps, one by one', () => {
+    const history = new History(0)
+    for (let i = 1; i <= 150; ++i) history.change(i)
+    for (let i = 149; i >= 0; --i) {
+      history.undo()
+      expect(history.current).toBe(i)
+    }
+    expect(history.canUndo).toBe(false)
+    for (let i = 1; i <= 150; ++i) history.redo()
+    expect(history.current).toBe(150)
+    expect(history.canRedo).toBe(false)
+  })
+
+  it('makes a drag one step', () => {
+    const history = new History(0)
+    for (let i = 1; i <= 50; ++i) history.change(i, 'drag 1')
+    for (let i = 51; i <= 90; ++i) history.change(i, 'drag 2')
+    history.endGesture()
+    history.change(91, 'drag 2')
+    history.undo()
+    expect(history.current).toBe(90)
+    history.undo()
+    expect(history.current).toBe(50)
+    history.undo()
+    expect(history.current).toBe(0)
+  })
+
+  it('forgets what was undone when something new is done', () => {
+    const history = new History('a')
+    history.change('b')
+    history.undo()
+    history.change('c')
+    expect(history.canRedo).toBe(false)
+  })
+})

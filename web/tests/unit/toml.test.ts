@@ -1,0 +1,72 @@
+import { readFileSync, readdirSync } from 'node:fs'
+import { describe, expect, it } from 'vitest'
+import { groupsOf, shapeOf } from '../../src/model/keys'
+import { find, scan, set, withoutComments } from '../../src/model/toml'
+
+const devices = new URL('../../../devices/', import.meta.url)
+const lhifam = readFileSync(new URL('lhifam.toml', devices), 'utf8')
+
+describe('toml', () => {
+  it('finds every number of every example', () => {
+    for (const file of readdirSync(devices).filter((name) => name.endsWith('.toml'))) {
+      const text = readFileSync(new URL(file, devices), 'utf8')
+      const scanned = scan(text)
+      expect(scanned.complete, file).toBe(true)
+      for (const entry of scanned.entries) {
+        if (typeof entry.value === 'number') expect(Number(text.slice(entry.start, entry.end).replaceAll('_', '')), file).toBe(entry.value)
+      }
+    }
+  })
+
+  it('replaces one value and leaves all else as it was', () => {
+    const changed = set(lhifam, ['link', '0', 'stiffness'], '80e3')
+    expect(changed).toBe(lhifam.replace('79.5e3', '80e3'))
+    expect(set(changed, ['link', '0', 'stiffness'], '79.5e3')).toBe(lhifam)
+  })
+
+  it('adds a key to its table, and a table that is missing', () => {
+    expect(find(scan(set(lhifam, ['loop', 'delay'], '1e-4')), ['loop', 'delay'])?.value).toBe(1e-4)
+    expect(find(scan(set(lhifam, ['body', '0', 'coulomb'], '0.5')), ['body', '0', 'coulomb'])?.value).toBe(0.5)
+    const walled = set(set(lhifam, ['wall', 'stiffness'], '5000'), ['wall', 'damping'], '5')
+    expect(walled.endsWith('\n[wall]\nstiffness = 5000\ndamping = 5\n')).toBe(true)
+  })
+
+  it('reads inline tables, dotted and quoted keys, arrays over lines, long texts', () => {
+    const text = 'loop.delay = 1e-3 # why\nwall = { stiffness = 5 , damping = 2 }\n"a b" = [1,\n 2, # two\n]\nnote = """x = 1\n"""\nlast = true'
+    const scanned = scan(text)
+    expect(scanned.complete).toBe(true)
+    expect(scanned.entries.map((each) => [each.path.join('.'), each.value])).toEqual([
+      ['loop.delay', 1e-3],
+      ['wall.stiffness', 5],
+      ['wall.damping', 2],
+      ['a b', [1, 2]],
+      ['note', 'x = 1\n'],
+      ['last', true],
+    ])
+    expect(find(scan(set(text, ['wall', 'velocity_filter_hz'], '9')), ['wall', 'velocity_filter_hz'])?.value).toBe(9)
+    expect(find(scan(set(text, ['loop', 'sampling_period'], '2')), ['loop', 'sampling_period'])?.value).toBe(2)
+  })
+
+  it('stops at what is no TOML and keeps what came before', () => {
+    const scanned = scan('name = "x"\nmass = = 3\n')
+    expect(scanned.complete).toBe(false)
+    expect(scanned.entries).toHaveLength(1)
+  })
+
+  it('drops comments, not values', () => {
+    const bare = withoutComments('# a\nx = "#no" # b\n\n\ny = 1\n')
+    expect(bare).toBe('x = "#no"\ny = 1\n')
+    expect(scan(withoutComments(lhifam)).entries.map((each) => each.value)).toEqual(scan(lhifam).entries.map((each) => each.value))
+  })
+
+  it('names rows as --set does', () => {
+    const keys = groupsOf(scan(lhifam)).flatMap((group) => group.rows.map((row) => row.key))
+    for (const key of ['body.motor.mass', 'body.handle.coulomb', 'link.0.stiffness', 'loop.delay', 'wall.stiffness', 'operator.mass']) {
+      expect(keys).toContain(key)
+    }
+    const drive = scan(readFileSync(new URL('two_mass_drive.toml', devices), 'utf8'))
+    const inertia = groupsOf(drive)[0]!.rows[0]!
+    expect([inertia.key, inertia.path.at(-1), inertia.unit, inertia.entry?.value]).toEqual(['body.motor.mass', 'inertia', 'kg m²', 0.005])
+    expect(shapeOf(drive)).toMatchObject({ bodies: ['motor', 'load'], links: [['motor', 'load']], actuated: 'motor', held: 'load' })
+  })
+})
