@@ -1,0 +1,104 @@
+// The documents that a panel shows: at most one request in flight, the newest wins, and what is late says so.
+
+import { post, Problem } from './client'
+
+export type Options = Record<string, unknown>
+
+export interface Question {
+  path: string // analyze, design, ...
+  toml?: string
+  options?: Options
+  more?: Record<string, unknown>
+}
+
+const textOf = ({ toml, options = {}, more = {} }: Question): string =>
+  JSON.stringify({ ...(toml === undefined ? {} : { device_toml: toml }), ...more, options })
+
+// What takes long waits for its turn, so that the quick panels follow a drag.
+let turns = 1
+const waiting: (() => void)[] = []
+async function turn(): Promise<void> {
+  if (turns > 0) --turns
+  else await new Promise<void>((resolve) => waiting.push(resolve))
+}
+function endTurn(): void {
+  const next = waiting.shift()
+  if (next) next()
+  else ++turns
+}
+
+export class Answer<T> {
+  document = $state.raw<T | null>(null)
+  problem = $state.raw<Problem | null>(null)
+  /** The document is not yet that of the newest question. */
+  late = $state(false)
+  /** What `document` answers. */
+  question = $state.raw<Question | null>(null)
+
+  private wanted: Question | null = null
+  private wantedText = ''
+  private shownText = ''
+  private running = false
+
+  constructor(private readonly isSlow = false) {}
+
+  ask(question: Question | null): void {
+    const text = question === null ? '' : question.path + textOf(question)
+    if (text === this.wantedText) return
+    this.wanted = question
+    this.wantedText = text
+    if (question === null) {
+      this.document = null
+      this.problem = null
+      this.question = null
+      this.shownText = ''
+      this.late = false
+    } else if (text === this.shownText) {
+      this.late = false
+    } else {
+      this.late = true
+      if (!this.running) void this.run()
+    }
+  }
+
+  private async run(): Promise<void> {
+    this.running = true
+    while (this.wanted !== null && this.wantedText !== this.shownText) {
+      if (this.isSlow) await turn()
+      const question: Question | null = this.wanted
+      const text = this.wantedText
+      if (question !== null) await this.once(question, text)
+      if (this.isSlow) endTurn()
+    }
+    this.running = false
+  }
+
+  private async once(question: Question, text: string): Promise<void> {
+    let document: T | null = null
+    let problem: Problem | null = null
+    try {
+      document = await post<T>(question.path, textOf(question))
+    } catch (error) {
+      problem = error instanceof Problem ? error : new Problem('', String(error), '', 0)
+    }
+    if (this.wanted === null) return
+    this.shownText = text
+    this.document = document
+    this.problem = problem
+    this.question = question
+    this.late = text !== this.wantedText
+  }
+}
+
+/** The same question for designs that do not change: each is asked once. */
+const kept = new Map<string, Promise<unknown>>()
+export function once<T>(question: Question): Promise<T> {
+  const text = question.path + textOf(question)
+  const known = kept.get(text)
+  if (known) return known as Promise<T>
+  const asked = post<T>(question.path, textOf(question))
+  kept.set(text, asked)
+  asked.catch(() => kept.delete(text))
+  if (kept.size > 100) kept.delete(kept.keys().next().value!)
+  return asked
+}

@@ -1,0 +1,62 @@
+// One function from a request to a document. Every number on the page comes from here.
+
+/** Why there is no answer: bad input with its place, or a server that is busy or gone. */
+export class Problem extends Error {
+  constructor(
+    readonly where: string,
+    readonly what: string,
+    readonly allowed: string,
+    readonly status: number,
+  ) {
+    super([where, what, allowed].filter(Boolean).join(': '))
+  }
+}
+
+let token = ''
+export const useToken = (given: string): void => {
+  token = given
+}
+
+async function fetched(path: string, init: RequestInit): Promise<Response> {
+  const headers = new Headers(init.headers)
+  if (token) headers.set('Authorization', `Bearer ${token}`)
+  let response: Response
+  try {
+    response = await fetch(`/api/v1/${path}`, { ...init, headers })
+  } catch {
+    throw new Problem('', 'the program does not answer', 'start it again with zwidth serve', 0)
+  }
+  if (response.ok) return response
+  const body = (await response.json().catch(() => null)) as { error?: Partial<Problem> } | null
+  const error = body?.error
+  throw new Problem(error?.where ?? '', error?.what ?? `the server says ${response.status}`, error?.allowed ?? '', response.status)
+}
+
+const wait = (ms: number): Promise<void> => new Promise((resolve) => setTimeout(resolve, ms))
+
+/** Asks again a few times where the server is busy. */
+async function patient(path: string, init: RequestInit): Promise<Response> {
+  for (let pause = 100; ; pause *= 2) {
+    try {
+      return await fetched(path, init)
+    } catch (error) {
+      if (!(error instanceof Problem && (error.status === 503 || error.status === 429) && pause < 2000)) throw error
+      await wait(pause)
+    }
+  }
+}
+
+/** `body` is the JSON of a request, as text, so that who asks can compare it. */
+export async function post<T>(path: string, body: string): Promise<T> {
+  const response = await patient(path, { method: 'POST', body, headers: { 'Content-Type': 'application/json' } })
+  return (await response.json()) as T
+}
+
+export async function get<T>(path: string): Promise<T> {
+  return (await (await patient(path, {})).json()) as T
+}
+
+export async function upload<T>(path: string, file: Blob): Promise<T> {
+  const response = await patient(path, { method: 'POST', body: file, headers: { 'Content-Type': 'application/octet-stream' } })
+  return (await response.json()) as T
+}

@@ -1,0 +1,224 @@
+// What the page reads of the server's documents; docs/*_json.md and docs/*.md describe them in full.
+
+export interface Trust {
+  verdict: 'sound' | 'doubtful' | 'refused'
+  reasons: string[]
+}
+export interface Remark {
+  severity: string
+  what: string
+  consequence: string
+  remedy: string
+}
+export interface LimitedBy {
+  kind: 'rigid_body' | 'vibration_mode'
+  mode?: number
+}
+export interface Crossover {
+  frequency_rad_s: number
+  frequency_hz: number
+  stiffness: number
+  stiffness_db: number
+  limited_by: LimitedBy | null
+  poles_leaving?: number
+}
+export interface Margins {
+  stable: boolean
+  gain_margin_db: number | null
+  phase_margin_rad: number | null
+  delay_margin_s: number | null
+}
+interface Judged {
+  device: string
+  units: { stiffness: string; damping: string }
+  trust: Trust
+  remarks: Remark[]
+}
+export interface Analysis extends Judged {
+  status: 'finite' | 'none_stable' | 'unbounded'
+  critical_stiffness: number | null
+  critical_stiffness_db: number | null
+  critical_frequency_hz: number | null
+  limited_by: LimitedBy | null
+  stable_intervals: [number, number | null][]
+  crossovers: Crossover[]
+  modes: { frequency_hz: number; damping_ratio: number }[]
+  any_user: { critical_stiffness: number | null; frequency_rad_s: number | null } | null
+  wall: (Margins & { stiffness: number; damping: number }) | null
+  force_per_count: { largest: number | null } | null
+  critical_stiffness_interval: [number, number] | null
+}
+export interface Curve {
+  frequency_rad_s: number[]
+  magnitude_db: (number | null)[]
+  phase_deg: (number | null)[]
+}
+export interface Bode {
+  device: string
+  nyquist_rad_s: number
+  sampled: Curve
+  continuous: Curve
+  crossovers: Crossover[]
+  trust: Trust
+  remarks: Remark[]
+}
+export interface WallPoint {
+  stiffness: number
+  damping: number
+  frequency_rad_s?: number | null
+  limited_by?: LimitedBy | null
+}
+export interface Region extends Judged {
+  status: string
+  critical_stiffness: number | null
+  stiffest: WallPoint | null
+  most_damped: WallPoint | null
+  components: { area: number; outline: { boundary: string; points: WallPoint[] }[] }[]
+  any_user: { stiffest: WallPoint | null; most_damped: WallPoint | null; limits: WallPoint[][] } | null
+}
+export interface Sensitivity {
+  parameter: string
+  value: number
+  unit: string
+  slope: number | null
+  relative: number | null
+  any_user_slope: number | null
+  any_user_relative: number | null
+}
+export interface Design extends Judged {
+  status: string
+  critical_stiffness: number | null
+  limited_by: LimitedBy | null
+  any_user_stiffness: number | null
+  sensitivities: Sensitivity[]
+  branch_switches: {
+    parameter: string
+    value: number
+    critical_stiffness: number
+    critical_stiffness_beyond: number
+    limited_by: LimitedBy
+    limited_by_beyond: LimitedBy
+    frequency_rad_s: number
+    frequency_beyond_rad_s: number
+  }[]
+}
+export interface Sweep {
+  axes: { parameter: string; unit: string; values: number[] }[]
+  points: { status: string; critical_stiffness: number | null; limited_by: LimitedBy | null; any_user_stiffness: number | null }[]
+  units: { stiffness: string }
+  trust?: Trust
+  remarks?: Remark[]
+}
+export interface Target extends Judged {
+  target: number
+  stiffness_now: number | null
+  targets: { parameter: string; value_now: number; value_needed: number | null; why: string }[]
+}
+export interface WallToRender {
+  stiffness: number
+  damping: number
+  velocity_filter_hz: number
+  filters: unknown[]
+  has_new_notch: boolean
+}
+export interface Option {
+  what: string
+  wall: WallToRender | null
+  bounded_by: Record<string, string | null>
+  margins: (Margins & { any_user_critical_stiffness: number | null; contact_damping_ratio?: number | null }) | null
+  force_per_count: { largest: number | null } | null
+}
+export interface Recommendation extends Judged, Omit<Option, 'what'> {
+  status: string
+  reason: string | null
+  alternatives: Option[]
+}
+export interface Diagnosis extends Judged {
+  cause: string | null
+  oscillates_hz: number
+  stiffness: number
+  damping: number
+  candidates: { cause: string; fits: boolean; frequency_hz: number | null; stiffness: number | null; why: string }[]
+  changes: {
+    what: string
+    parameter: string
+    value_now: number
+    value_then: number
+    limit_now: number | null
+    limit_then: number | null
+    ends_it: boolean
+  }[]
+}
+export interface Simulation {
+  device: string
+  units: { length: string; force: string; stiffness: string; damping: string; energy: string }
+  sampling_period_s: number
+  duration_s: number
+  verdict: string
+  oscillation: { frequency_hz: number; amplitude: number } | null
+  growth_rate_per_s: number | null
+  settling_time_s: number | null
+  peak_penetration: number | null
+  generated_energy: number | null
+  force_ripple: { amplitude: number; frequency_hz: number } | null
+  encoder_chatters: boolean
+  nonlinear_parts: string[]
+  linear: { wall_share: number | null; wall_stable: boolean | null; agrees: boolean | null }
+  trust: Trust
+  remarks: Remark[]
+  points?: {
+    time_s: number[]
+    measured: number[]
+    command: number[]
+    user_force: number[]
+    bodies: { body: string; position: number[]; velocity: number[] }[]
+  }
+}
+export interface Relay {
+  device: string
+  units: { stiffness: string; force: string; length: string }
+  mean: { frequency_hz: number; stiffness: number; stiffness_db: number; amplitude: number } | null
+  predictions: { critical: Crossover | null; crossovers: Crossover[] } | null
+  explanation: string[]
+  limit_reading: string | null
+  trust: Trust
+  remarks: Remark[]
+}
+export interface Recording {
+  id: string
+  format: string
+  columns: { name: string; samples: number; detail: string }[]
+  remarks: Remark[]
+}
+export interface FrequencyResponse {
+  status: string
+  units: { force: string; position: string; stiffness: string }
+  critical_stiffness: number | null
+  critical_stiffness_interval: [number, number] | null
+  critical_frequency_hz: number | null
+  measured_band_hz: [number, number] | null
+  frequency_hz: number[]
+  magnitude: (number | null)[]
+  magnitude_lower: (number | null)[]
+  magnitude_upper: (number | null)[]
+  phase_rad: (number | null)[]
+  coherence: (number | null)[] | null
+  trust: Trust
+  remarks: Remark[]
+}
+export interface Identification extends Judged {
+  parameters: { key: string; value: number; unit: string; interval: [number, number] | null; identifiable: boolean }[]
+  misfit: number | null
+  status: string
+  critical_stiffness: number | null
+  critical_stiffness_interval: [number, number] | null
+  critical_frequency_hz: number | null
+  points?: { frequency_hz: number[]; measured: [number, number][]; fitted: [number, number][] }
+  device_toml?: string
+}
+export interface Example {
+  file: string
+  name: string
+  opened: boolean
+  device_toml: string
+}

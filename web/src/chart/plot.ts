@@ -1,0 +1,36 @@
+export interface Series {
+  name: string
+  x: readonly number[]
+  y: readonly (number | null)[]
+  look: number // colour and dashes
+  filled?: boolean
+  band?: { low: readonly (number | null)[]; high: readonly (number | null)[] }
+  dots?: boolean
+  thin?: boolean
+}
+
+export interface Mark {
+  x: number
+  y: number
+  label: string
+  shape: 'dot' | 'ring' | 'cross'
+}
+
+export interface Axis {
+  label: string
+  unit: string
+  log?: boolean
+  range?: [number, number]
+}
+
+/** A point that is dragged, or moved with the arrow keys. */
+export interface Handle {
+  x: number
+  y: number
+  label: string
+  text: string
+  locked?: boolean
+  move: (x: number, y: number, gesture: string) => void
+  key?: (event: KeyboardEvent) => void
+  end: () => void
+}

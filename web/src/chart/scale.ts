@@ -1,0 +1,111 @@
+// Axes: from values to pixels and back, and where the ticks stand.
+
+import { shown } from '../model/decimal'
+
+export interface Scale {
+  log: boolean
+  from: number
+  to: number
+  start: number // pixels
+  end: number
+}
+
+export const pixel = (scale: Scale, value: number): number => {
+  const share = scale.log
+    ? (Math.log(value) - Math.log(scale.from)) / (Math.log(scale.to) - Math.log(scale.from))
+    : (value - scale.from) / (scale.to - scale.from)
+  return scale.start + share * (scale.end - scale.start)
+}
+
+export const valueAt = (scale: Scale, at: number): number => {
+  const share = (at - scale.start) / (scale.end - scale.start)
+  return scale.log ? scale.from * (scale.to / scale.from) ** share : scale.from + share * (scale.to - scale.from)
+}
+
+/** The ends of an axis that shows all values: whole decades' parts on a logarithm, round numbers else. */
+export function extent(values: Iterable<number | null | undefined>, log: boolean): [number, number] {
+  let low = Infinity
+  let high = -Infinity
+  for (const value of values) {
+    if (value === null || value === undefined || !Number.isFinite(value) || (log && value <= 0)) continue
+    if (value < low) low = value
+    if (value > high) high = value
+  }
+  if (low > high) return log ? [1, 10] : [0, 1]
+  if (log) {
+    return [low === high ? low / 3 : low, low === high ? high * 3 : high]
+  }
+  if (low === high) [low, high] = low === 0 ? [-1, 1] : [low - Math.abs(low) / 2, high + Math.abs(high) / 2]
+  const step = niceStep((high - low) / 4)
+  return [Math.floor(low / step + 1e-9) * step, Math.ceil(high / step - 1e-9) * step]
+}
+
+function niceStep(raw: number): number {
+  const power = 10 ** Math.floor(Math.log10(raw))
+  const factor = raw / power
+  return (factor <= 1 ? 1 : factor <= 2 ? 2 : factor <= 5 ? 5 : 10) * power
+}
+
+export function ticks(scale: Scale, about: number): number[] {
+  if (!scale.log) {
+    const step = niceStep(Math.abs(scale.to - scale.from) / about)
+    const first = Math.ceil(Math.min(scale.from, scale.to) / step - 1e-9)
+    const last = Math.floor(Math.max(scale.from, scale.to) / step + 1e-9)
+    return Array.from({ length: Math.max(0, last - first + 1) }, (_, i) => Number(((first + i) * step).toPrecision(12)))
+  }
+  const decades = Math.log10(scale.to / scale.from)
+  const parts = decades <= 1.2 ? [1, 2, 3, 5, 7] : decades * 3 <= about * 1.5 ? [1, 2, 5] : [1]
+  const every = Math.max(1, Math.ceil(decades / about))
+  const found: number[] = []
+  for (let power = Math.floor(Math.log10(scale.from)); power <= Math.ceil(Math.log10(scale.to)); ++power) {
+    if (power % every !== 0) continue
+    for (const part of parts) {
+      const value = Number(`${part}e${power}`)
+      if (value >= scale.from * 0.999999 && value <= scale.to * 1.000001) found.push(value)
+    }
+  }
+  return found
+}
+
+/** A tick with its prefix and no unit: "10k". */
+export function tickText(value: number, unit: string): string {
+  const { number, unit: full } = shown(value, unit, 6)
+  return number + full.slice(0, full.length - unit.length)
+}
+
+/** An SVG path through the points; of many in one pixel column only first, lowest, highest and last. */
+export function pathOf(xs: readonly number[], ys: readonly (number | null)[], x: Scale, y: Scale): string {
+  const parts: string[] = []
+  let open = false
+  let column = NaN
+  let inColumn: [number, number][] = []
+  const flush = (): void => {
+    if (inColumn.length === 0) return
+    let low = 0
+    let high = 0
+    for (let i = 1; i < inColumn.length; ++i) {
+      if (inColumn[i]![1] < inColumn[low]![1]) low = i
+      if (inColumn[i]![1] > inColumn[high]![1]) high = i
+    }
+    for (const i of [...new Set([0, low, high, inColumn.length - 1])].sort((a, b) => a - b)) {
+      parts.push(`${open ? 'L' : 'M'}${inColumn[i]![0].toFixed(2)} ${inColumn[i]![1].toFixed(2)}`)
+      open = true
+    }
+    inColumn = []
+  }
+  for (let i = 0; i < xs.length; ++i) {
+    const value = ys[i]
+    const px = pixel(x, xs[i]!)
+    const py = value === null || value === undefined ? NaN : pixel(y, value)
+    if (!Number.isFinite(px) || !Number.isFinite(py)) {
+      flush()
+      open = false
+      continue
+    }
+    if (Math.floor(px * 2) !== column) flush()
+    column = Math.floor(px * 2)
+    inColumn.push([px, Math.max(-1e5, Math.min(1e5, py))])
+  }
+  flush()
+  return parts.join('')
+}

@@ -1,0 +1,85 @@
+// The page's questions as the command line, C++ and Python ask them: the same numbers.
+
+import { examples } from '../api/shared.svelte'
+import type { Options } from '../api/answer.svelte'
+import { groupsOf } from './keys'
+import { scan, type Entry } from './toml'
+import { workbench } from './workbench.svelte'
+
+const quoted = (text: string): string => (/^[\w./:=,+-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`)
+
+const rawOf = (text: string, entry: Entry): string => text.slice(entry.start, entry.end)
+
+/** What --set makes of an example to get this text; null where it cannot. */
+export function setsFrom(example: string, text: string): string[] | null {
+  const [from, to] = [scan(example), scan(text)]
+  if (!from.complete || !to.complete) return null
+  const keyOf = new Map(groupsOf(to).flatMap((group) => group.rows.map((row) => [row.path.join('\n'), row.key])))
+  const before = new Map(from.entries.map((each) => [each.path.join('\n'), rawOf(example, each)]))
+  const sets: string[] = []
+  for (const entry of to.entries) {
+    const id = entry.path.join('\n')
+    const old = before.get(id)
+    before.delete(id)
+    if (old === rawOf(text, entry)) continue
+    const key = keyOf.get(id)
+    if (!key || (typeof entry.value !== 'number' && typeof entry.value !== 'string')) return null
+    sets.push(`${key}=${typeof entry.value === 'string' ? entry.value : rawOf(text, entry)}`)
+  }
+  return before.size > 0 ? null : sets
+}
+
+function source(): { file: string; sets: string[] } | null {
+  let best: { file: string; sets: string[] } | null = null
+  for (const example of examples.list) {
+    const sets = setsFrom(example.device_toml, workbench.toml)
+    if (sets && (!best || sets.length < best.sets.length)) best = { file: `devices/${example.file}`, sets }
+  }
+  return best
+}
+
+const optionsText = (options: Options): string[] =>
+  Object.entries(options).flatMap(([key, value]) => {
+    const name = `--${key.replaceAll('_', '-')}`
+    if (value === true) return [name]
+    if (value === false || value === undefined || value === '') return []
+    return (Array.isArray(value) ? value : [value]).flatMap((each) => [name, quoted(String(each))])
+  })
+
+/** The exact line: from an example with --set, else with the whole file behind it. */
+export function commandLine(command: string, options: Options = {}): string {
+  const words = command === 'recommend' ? ['design'] : [command]
+  const all = command === 'recommend' ? { recommend: true, ...options } : options
+  const from = source()
+  if (from) return ['zwidth', ...words, quoted(from.file), ...from.sets.flatMap((each) => ['--set', quoted(each)]), ...optionsText(all)].join(' ')
+  return `${['zwidth', ...words, '-', ...optionsText(all)].join(' ')} <<'END_OF_DEVICE'\n${workbench.toml.replace(/\n*$/, '\n')}END_OF_DEVICE`
+}
+
+export function cppCode(): string {
+  return `#include <iostream>
+#include <zwidth/zwidth.hpp>
+
+int main() {
+  const auto device = zwidth::parse_device(R"toml(${workbench.toml})toml", "workbench");
+  if (!device) {
+    std::cerr << device.error().what << '\\n';
+    return 2;
+  }
+  const zwidth::Analysis analysis = zwidth::analyze(*device);
+  if (analysis.critical.stiffness) std::cout << *analysis.critical.stiffness << '\\n';
+}
+`
+}
+
+export function pythonCode(): string {
+  const text = workbench.toml.replaceAll('\\', '\\\\').replaceAll('"""', '\\"\\"\\"')
+  return `import json
+import subprocess
+
+device = """\\
+${text}"""
+answer = subprocess.run(["zwidth", "analyze", "-", "--json"], input=device, capture_output=True, text=True, check=True)
+analysis = json.loads(answer.stdout)
+print(analysis["critical_stiffness"], analysis["units"]["stiffness"], analysis["trust"])
+`
+}

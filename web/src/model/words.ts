@@ -1,0 +1,46 @@
+// The documents' enums as words, and what the terms mean.
+
+import type { LimitedBy, Trust } from '../api/documents'
+
+export const limiter = (limited: LimitedBy | null | undefined): string =>
+  !limited ? 'not known' : limited.kind === 'rigid_body' ? 'the rigid body' : `vibration mode ${limited.mode}`
+
+export const trustWord: Record<Trust['verdict'], string> = { sound: 'sound', doubtful: 'doubtful', refused: 'refused' }
+export const trustSign: Record<Trust['verdict'], string> = { sound: '✓', doubtful: '!', refused: '✕' }
+
+export const plainWord = (word: string | null | undefined): string => (word ?? '–').replaceAll('_', ' ')
+
+export const simulationWord: Record<string, string> = {
+  settles: 'It settles.',
+  limit_cycle: 'It does not come to rest: a steady oscillation stays.',
+  forced: 'It follows the user’s force.',
+  unstable: 'UNSTABLE: the oscillation grows.',
+  drifts: 'It drifts away.',
+  undecided: 'The run is too short to tell.',
+}
+
+export const causeWord: Record<string, string> = {
+  device: 'the device itself, nobody holding',
+  device_with_operator: 'the device and the user of the file',
+  operator: 'the device and the user of the file',
+  passive_user: 'the grasp of a user',
+  quantisation: 'the steps of the encoder',
+  friction: 'dry friction',
+  force_limit: 'the force limit',
+}
+
+export const glossary: Record<string, string> = {
+  'critical stiffness': 'The stiffest wall that the device renders stably when nobody holds it: any stiffer, and it oscillates by itself.',
+  'any passive user': 'The stiffest wall that stays stable whoever holds the device, as long as the hand only takes energy and gives none.',
+  'limited by': 'Which motion goes unstable first: the device as one rigid mass, or one of its vibration modes.',
+  trust: 'Sound: data and model carry the number. Doubtful: the number stands, but something it rests on does not carry it. Refused: no number is given.',
+  crossover: 'A stiffness and frequency at which the loop just oscillates; the least one usually is the critical stiffness.',
+  'gain margin': 'By how much the wall’s whole force may grow before the loop oscillates.',
+  'phase margin': 'How much more phase lag the loop bears before it oscillates.',
+  'delay margin': 'The least added delay that makes the loop oscillate.',
+  'virtual damping': 'The damper that the controller computes from differences of sampled positions.',
+  'force per count': 'By how much the force jumps when the encoder counts one step.',
+  coherence: 'How much of the motion the force explains at a frequency: 1 all, 0 nothing.',
+  'relay experiment': 'A switch in place of the wall makes the device oscillate by itself; the swing shows a stiffness, which is not always the limit.',
+  sensitivity: 'What the limit gains or loses when the number grows by 10 %, all else as it is, by the slope here.',
+}

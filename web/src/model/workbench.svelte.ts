@@ -1,0 +1,141 @@
+// The one state of the page. Panels read it; whatever changes it is a step that undo takes back.
+
+import { decode, encode } from './address'
+import { written } from './decimal'
+import { History } from './history'
+import { groupsOf, isRotary, sameKey, shapeOf, type Group, type Row } from './keys'
+import { empty, type Settings, type Snapshot } from './snapshot'
+import { scan, set } from './toml'
+
+class Workbench {
+  private history = new History<Snapshot>(empty(''))
+  state = $state.raw<Snapshot>(empty(''))
+  canUndo = $state(false)
+  canRedo = $state(false)
+  /** What the schematic or a panel points at: a group or a key. */
+  selected = $state('')
+  /** Of the address: what had to be left out. */
+  note = $state('')
+  private addressTimer: ReturnType<typeof setTimeout> | undefined
+
+  scanned = $derived(scan(this.state.toml))
+  pins = $derived(this.state.pins)
+  groups: Group[] = $derived(groupsOf(this.scanned))
+  shape = $derived(shapeOf(this.scanned))
+  rotary = $derived(isRotary(this.scanned))
+  stiffnessUnit = $derived(this.rotary ? 'N m/rad' : 'N/m')
+  dampingUnit = $derived(this.rotary ? 'N m s/rad' : 'N s/m')
+  forceUnit = $derived(this.rotary ? 'N m' : 'N')
+  lengthUnit = $derived(this.rotary ? 'rad' : 'm')
+
+  get toml(): string {
+    return this.state.toml
+  }
+  get settings(): Settings {
+    return this.state.settings
+  }
+
+  /** Begins anew, without anything to undo. */
+  begin(state: Snapshot): void {
+    this.history = new History(state)
+    this.show()
+  }
+
+  change(part: Partial<Snapshot>, gesture: string | null = null): void {
+    this.history.change({ ...this.state, ...part }, gesture)
+    this.show()
+  }
+  endGesture(): void {
+    this.history.endGesture()
+  }
+  undo(): void {
+    this.history.undo()
+    this.show()
+  }
+  redo(): void {
+    this.history.redo()
+    this.show()
+  }
+
+  /** Another device: pins stay, so that it can be compared. */
+  load(toml: string): void {
+    this.change({ toml, locks: [] })
+  }
+
+  row(key: string): Row | undefined {
+    for (const group of this.groups) {
+      const found = group.rows.find((row) => sameKey(row.key, key))
+      if (found) return found
+    }
+    return undefined
+  }
+
+  isLocked(key: string): boolean {
+    return this.state.locks.some((each) => sameKey(each, key))
+  }
+  toggleLock(key: string): void {
+    const locks = this.isLocked(key) ? this.state.locks.filter((each) => !sameKey(each, key)) : [...this.state.locks, key]
+    this.change({ locks })
+  }
+
+  /** Values as TOML by key; locked ones stay. */
+  edit(values: Record<string, string>, gesture: string | null = null): void {
+    let toml = this.state.toml
+    for (const [key, raw] of Object.entries(values)) {
+      const row = this.row(key)
+      if (row && !this.isLocked(key)) toml = set(toml, row.path, raw)
+    }
+    if (toml !== this.state.toml) this.change({ toml }, gesture)
+  }
+
+  /** The plain SI number of the file; null where it has a unit of its own or is none. */
+  plain(key: string): number | null {
+    const value = written(this.row(key)?.entry?.value)
+    return value?.unit === null ? value.number : null
+  }
+
+  setting<K extends keyof Settings>(key: K, value: Settings[K] | undefined): void {
+    const settings = { ...this.state.settings }
+    if (value === undefined || value === '') delete settings[key]
+    else settings[key] = value
+    this.change({ settings }, `setting ${key}`)
+  }
+
+  pin(name: string): void {
+    this.change({ pins: [...this.state.pins, { name, toml: this.state.toml }] })
+  }
+  unpin(index: number): void {
+    this.change({ pins: this.state.pins.filter((_, i) => i !== index) })
+  }
+
+  private show(): void {
+    this.state = this.history.current
+    this.canUndo = this.history.canUndo
+    this.canRedo = this.history.canRedo
+    clearTimeout(this.addressTimer)
+    this.addressTimer = setTimeout(() => this.writeAddress(), 250)
+  }
+
+  /** The link that shares all this. */
+  writeAddress(): void {
+    const address = encode(this.state)
+    this.note =
+      address === null
+        ? 'This device is too long for a link; save it as a file.'
+        : address.left === 'comments'
+          ? 'The link leaves out the comments of the file.'
+          : address.left === 'pins'
+            ? 'The link leaves out the pinned designs.'
+            : ''
+    window.history.replaceState(null, '', address === null ? location.pathname : `#d=${address.text}`)
+  }
+
+  /** What the address holds; null: nothing. */
+  static fromAddress(hash: string): Snapshot | null {
+    const text = new URLSearchParams(hash.replace(/^#/, '')).get('d')
+    return text === null ? null : decode(text)
+  }
+}
+
+export const workbench = new Workbench()
+export const fromAddress = Workbench.fromAddress

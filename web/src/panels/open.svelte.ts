@@ -1,0 +1,26 @@
+/** Which panels are open; the palette opens them too. */
+export const panels = $state<Record<string, boolean>>({})
+
+export const panelNames: [id: string, title: string][] = [
+  ['bar', 'Which stiffness is stable'],
+  ['limits', 'What limits, what to change'],
+  ['region', 'Stiff and damped walls'],
+  ['time', 'The wall hit in time'],
+  ['bode', 'Frequency response'],
+  ['recommend', 'Which wall to render'],
+  ['sweep', 'Follow one number'],
+  ['diagnose', 'What is this buzz?'],
+  ['relay', 'Relay experiment'],
+  ['recording', 'From a recording to a device'],
+  ['compare', 'Pinned designs'],
+  ['file', 'Device file and commands'],
+]
+
+export function showPanel(id: string): void {
+  panels[id] = true
+  setTimeout(() => {
+    const panel = document.getElementById(`panel-${id}`)
+    panel?.scrollIntoView({ block: 'start' })
+    panel?.querySelector<HTMLElement>('h2 button')?.focus()
+  })
+}
