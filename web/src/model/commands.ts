@@ -32,6 +32,7 @@ export function setsFrom(example: string, text: string): string[] | null {
 function source(): { file: string; sets: string[] } | null {
   let best: { file: string; sets: string[] } | null = null
   for (const example of examples.list) {
+    if (example.opened) continue // where it lies only its user knows
     const sets = setsFrom(example.device_toml, workbench.toml)
     if (sets && (!best || sets.length < best.sets.length)) best = { file: `devices/${example.file}`, sets }
   }

@@ -59,8 +59,8 @@ export function shown(value: number, unit: string, digits?: number): Shown {
   if (!Number.isFinite(value)) return { number: String(value), unit, places: 0 }
   const decimal = decimalOf(text)
   if (decimal.digits === '0' || !takesPrefix(unit)) return { number: textOf(decimal), unit, places: 0 }
-  // Hertz and rad/s read best as they are between 0.1 and 1000, all others too.
-  const [places, prefix] = prefixes.find(([power]) => decimal.exponent >= power) ?? prefixes[prefixes.length - 1]!
+  // From 0.1 to 1000 a number reads best without a prefix.
+  const [places, prefix] = decimal.exponent === -1 ? [0, ''] : (prefixes.find(([power]) => decimal.exponent >= power) ?? prefixes[prefixes.length - 1]!)
   return { number: textOf({ ...decimal, exponent: decimal.exponent - places }), unit: prefix + unit, places }
 }
 

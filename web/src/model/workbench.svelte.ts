@@ -88,9 +88,11 @@ class Workbench {
     if (toml !== this.state.toml) this.change({ toml }, gesture)
   }
 
-  /** The plain SI number of the file; null where it has a unit of its own or is none. */
+  /** The plain SI number of the file or its default of 0; null where it has a unit of its own or is none. */
   plain(key: string): number | null {
-    const value = written(this.row(key)?.entry?.value)
+    const row = this.row(key)
+    if (row?.entry === undefined) return row?.field.mayBeZero ? 0 : null
+    const value = written(row.entry.value)
     return value?.unit === null ? value.number : null
   }
 

@@ -1,0 +1,88 @@
+// The program's own server and a browser, for the tests.
+
+import { type ChildProcess, execFileSync, spawn } from 'node:child_process'
+import { existsSync } from 'node:fs'
+import { dirname, resolve } from 'node:path'
+import { fileURLToPath } from 'node:url'
+import { type Browser, type BrowserContext, chromium, type Page } from 'playwright-core'
+
+export const project = resolve(dirname(fileURLToPath(import.meta.url)), '../../..')
+export const program = resolve(process.env.ZWIDTH ?? `${project}/build/release/bin/zwidth`)
+
+export interface Served {
+  address: string
+  stop: () => Promise<void>
+}
+
+/** `zwidth serve` on a free port; it must have the page built in. */
+export async function serve(...files: string[]): Promise<Served> {
+  const child: ChildProcess = spawn(program, ['serve', ...files, '--port', '0'], { cwd: project, stdio: ['ignore', 'pipe', 'inherit'] })
+  const address = await new Promise<string>((done, failed) => {
+    let text = ''
+    child.stdout!.on('data', (data: Buffer) => {
+      text += data.toString()
+      const found = /http:\/\/\S+/.exec(text)
+      if (found) done(found[0])
+    })
+    child.on('exit', (code) => failed(new Error(`zwidth serve ended with ${code}`)))
+  })
+  return {
+    address,
+    stop: () =>
+      new Promise((done) => {
+        child.removeAllListeners('exit')
+        child.on('exit', () => done())
+        child.kill('SIGINT')
+      }),
+  }
+}
+
+export const openBrowser = (): Promise<Browser> => {
+  const found = [process.env.CHROMIUM, '/usr/bin/chromium', '/usr/bin/chromium-browser'].find((path) => path && existsSync(path))
+  if (!found) throw new Error('no Chromium; install Debian’s package chromium or name it in CHROMIUM')
+  return chromium.launch({ executablePath: found, args: process.getuid?.() === 0 ? ['--no-sandbox'] : [] })
+}
+
+export interface Opened {
+  page: Page
+  context: BrowserContext
+  complaints: string[] // errors of the console, requests that went elsewhere
+}
+
+export async function openPage(browser: Browser, served: Served, width: number, hash = '', scheme: 'light' | 'dark' = 'light'): Promise<Opened> {
+  const context = await browser.newContext({ viewport: { width, height: 900 }, colorScheme: scheme, reducedMotion: 'reduce', acceptDownloads: true })
+  await context.grantPermissions(['clipboard-read', 'clipboard-write'])
+  const page = await context.newPage()
+  page.setDefaultTimeout(10_000)
+  const complaints: string[] = []
+  page.on('pageerror', (error) => complaints.push(error.message))
+  page.on('console', (message) => {
+    // A refused input is answered with status 400, which the browser logs.
+    if (['error', 'warning'].includes(message.type()) && !/status of 400/.test(message.text())) complaints.push(message.text())
+  })
+  page.on('request', (request) => {
+    const url = request.url()
+    if (!url.startsWith(served.address.replace(/\/$/, '')) && !/^(data|blob):/.test(url)) complaints.push(`asked for ${url}`)
+  })
+  await page.goto(served.address + hash)
+  await page.waitForSelector('[data-answer="alone"]')
+  return { page, context, complaints }
+}
+
+/** All late panels have caught up. */
+export async function settled(page: Page): Promise<void> {
+  await page.waitForTimeout(60)
+  await page.waitForFunction(() => document.querySelectorAll('[aria-busy="true"]').length === 0, null, { timeout: 30_000 })
+}
+
+export const documentOf = (...words: string[]): Record<string, unknown> =>
+  JSON.parse(execFileSync(program, [...words, '--json'], { cwd: project, encoding: 'utf8' })) as Record<string, unknown>
+
+export const runPalette = async (page: Page, text: string): Promise<void> => {
+  await page.keyboard.press('Control+k')
+  await page.keyboard.type(text)
+  await page.keyboard.press('Enter')
+}
+
+export const row = (page: Page, key: string) => page.locator(`[data-key="${key}"]`)
+export const alone = (page: Page): Promise<string> => page.locator('[data-answer="alone"]').innerText()
