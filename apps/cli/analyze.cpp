@@ -1,13 +1,13 @@
-#include <fmt/format.h>
-
 #include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "cli/device_arguments.hpp"
+#include "cli/option_refusal.hpp"
 #include "cli/outputs.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/standard_output.hpp"
@@ -32,19 +32,20 @@ struct AnalyzeOptions {
   std::string users;
 };
 
-/// The library's member as the option that sets it.
-std::string option_of(const std::string& member) { return member == "worst_user" ? "--worst-user" : "--users"; }
+/// The library's members as the options that set them.
+constexpr std::pair<std::string_view, std::string_view> options_of_analysis[] = {
+    {"worst_user", "--worst-user"},
+    {"family", "--users"},
+    {"family.mass", "--users: mass"},
+    {"family.damping", "--users: damping"},
+    {"family.stiffness", "--users: stiffness"},
+};
 
 /// What is asked of one device. Throws BadInput where it cannot be answered.
 AnalysisOptions options_for(const AnalyzeOptions& options, const std::string& file, const Device& device) {
   AnalysisOptions asked{.worst_user = options.worst_user};
-  if (!options.users.empty()) {
-    const DeviceParameters& parameters = device.parameters();
-    asked.family = user_family(user_ranges(options.users, parameters.motion), parameters.user);
-  }
-  if (const auto problem = find_problem(asked, device)) {
-    throw BadInput(fmt::format("{}: {}: {}; {}", option_of(problem->member), file, problem->what, problem->allowed));
-  }
+  if (!options.users.empty()) asked.family = user_ranges(options.users, device.parameters().motion);
+  if (const auto problem = find_problem(asked, device)) refuse(*problem, options_of_analysis, file);
   return asked;
 }
 

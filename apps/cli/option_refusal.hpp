@@ -8,9 +8,10 @@
 
 namespace zwidth::cli {
 
-/// Throws BadInput: "--duration: is nan s; allowed". `options`: the option that sets each member of an options struct;
+/// Throws BadInput: "--duration: is nan s; allowed", or with the file's name "--duration: FILE: is nan s; ...". `options`: the option that sets each member of an options struct;
 /// a problem without a member, or of one that no option sets, is told without an option.
 [[noreturn]] void refuse(const OptionProblem& problem,
-                         std::span<const std::pair<std::string_view, std::string_view>> options);
+                         std::span<const std::pair<std::string_view, std::string_view>> options,
+                         std::string_view file = {});
 
 }  // namespace zwidth::cli

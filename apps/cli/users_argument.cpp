@@ -44,13 +44,7 @@ ValueRange range_in(const std::string& key, const std::string& text, Measure mea
     throw BadInput(fmt::format("{}: '{}' must be LEAST:GREATEST or one number{}", option, text,
                                problem ? ": " + problem->what + "; " + problem->allowed : ""));
   }
-  const double least = *least_given;
-  const double greatest = *greatest_given;
-  if (least < 0.0) throw BadInput(fmt::format("{}: {} is negative; a passive user has none", option, least));
-  if (greatest < least) {
-    throw BadInput(fmt::format("{}: {} is reversed; did you mean {}:{}?", option, text, ends.back(), ends.front()));
-  }
-  return {least, greatest};
+  return {*least_given, *greatest_given};
 }
 
 Named place_of(UserRanges& ranges, const std::string& key) {
@@ -82,12 +76,6 @@ UserRanges user_ranges(const std::string& text, Motion motion) {
     *named.range = range_in(key, part.substr(equals + 1), named.measure, motion);
   }
   return ranges;
-}
-
-UserFamily user_family(const UserRanges& ranges, const Operator& own) {
-  return {ranges.mass.value_or(ValueRange{own.mass, own.mass}),
-          ranges.damping.value_or(ValueRange{own.damping, own.damping}),
-          ranges.stiffness.value_or(ValueRange{own.stiffness, own.stiffness})};
 }
 
 }  // namespace zwidth::cli

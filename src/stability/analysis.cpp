@@ -146,7 +146,8 @@ void answer_about_users(const Device& device, const AnalysisOptions& options, An
     }
   }
   if (!options.family) return;
-  UserFamilyAnswer answer{*options.family, worst_of_family(device, *options.family, damper, options.progress),
+  const UserFamily family = user_family(*options.family, device.parameters().user);
+  UserFamilyAnswer answer{family, worst_of_family(device, family, damper, options.progress),
                           critical_stiffness(with_user(device, {}))};
   if (stands(answer.free, "the family of users", analysis) &&
       stands(critical_stiffness(with_user(device, answer.worst.user)), "the family of users", analysis)) {
@@ -154,9 +155,11 @@ void answer_about_users(const Device& device, const AnalysisOptions& options, An
   }
 }
 
-std::optional<OptionProblem> find_problem(const ValueRange& range, const char* member) {
-  if (range.least >= 0.0 && range.greatest >= range.least && std::isfinite(range.greatest)) return std::nullopt;
-  return OptionProblem{member, fmt::format("is from {} to {}", range.least, range.greatest),
+std::optional<OptionProblem> find_problem(const std::optional<ValueRange>& range, const char* member) {
+  if (!range || (range->least >= 0.0 && range->greatest >= range->least && std::isfinite(range->greatest))) {
+    return std::nullopt;
+  }
+  return OptionProblem{member, fmt::format("is from {} to {}", range->least, range->greatest),
                        "must be finite, >= 0 and not reversed"};
 }
 

@@ -151,6 +151,13 @@ std::vector<Found> starts(const std::vector<Found>& grid) {
 
 }  // namespace
 
+UserFamily user_family(const UserRanges& ranges, const Operator& own) {
+  const auto or_own = [](const std::optional<ValueRange>& range, double value) {
+    return range.value_or(ValueRange{value, value});
+  };
+  return {or_own(ranges.mass, own.mass), or_own(ranges.damping, own.damping), or_own(ranges.stiffness, own.stiffness)};
+}
+
 WorstOfFamily worst_of_family(const Device& device, const UserFamily& family, VirtualDamper damper,
                               const Progress& progress) {
   if (!device.has_bodies()) throw Error(ErrorCode::needs_bodies, "a transfer function has no body for a user to hold");

@@ -138,7 +138,8 @@ TEST(Analysis, HoldsWhatItsOptionsAskFor) {
   const Device device(parameters);
   const Analysis bare = analyze(device, limit_and_wall_only());
   EXPECT_FALSE(bare.any_user || bare.worst_user || bare.user_family || bare.interval);
-  const Analysis whole = analyze(device, {.worst_user = true, .family = UserFamily{{0.0, 1.0}, {}, {}}, .draws = 50});
+  const Analysis whole =
+      analyze(device, {.worst_user = true, .family = UserRanges{.mass = ValueRange{0.0, 1.0}}, .draws = 50});
   ASSERT_TRUE(whole.any_user && whole.worst_user && whole.user_family && whole.interval);
   EXPECT_NEAR(whole.any_user->stiffness, 5776.09, 0.01);
   EXPECT_EQ(whole.interval->draws, 50U);
@@ -153,9 +154,9 @@ TEST(Analysis, OptionsHaveTheirProblemsNamed) {
   EXPECT_EQ(find_problem(AnalysisOptions{.any_user = false, .worst_user = true})->member, "worst_user");
   EXPECT_EQ(find_problem(AnalysisOptions{.worst_user = true}, lag)->member, "worst_user");
   AnalysisOptions reversed;
-  reversed.family = UserFamily{{0.0, 1.0}, {3.0, 2.0}, {}};
+  reversed.family = UserRanges{.damping = ValueRange{3.0, 2.0}};
   EXPECT_EQ(find_problem(reversed)->member, "family.damping");
-  EXPECT_EQ(find_problem(AnalysisOptions{.family = UserFamily{}}, lag)->member, "family");
+  EXPECT_EQ(find_problem(AnalysisOptions{.family = UserRanges{}}, lag)->member, "family");
   try {
     (void)analyze(lag, {.worst_user = true});
     FAIL() << "no error";

@@ -31,6 +31,14 @@ Operator drawn(const UserFamily& family, test::RandomDevices& random) {
   return {value(family.mass), value(family.damping), value(family.stiffness)};
 }
 
+TEST(UserFamily, WhatIsNotToldIsTheDevicesOwn) {
+  const UserFamily family = user_family({.damping = ValueRange{1.0, 2.0}}, {0.5, 4.0, 100.0});
+  EXPECT_EQ(family.mass.least, 0.5);
+  EXPECT_EQ(family.mass.greatest, 0.5);
+  EXPECT_EQ(family.damping.greatest, 2.0);
+  EXPECT_EQ(family.stiffness.least, 100.0);
+}
+
 TEST(UserFamily, OneUserIsItsOwnWorst) {
   const UserFamily family{{0.5, 0.5}, {7.0, 7.0}, {140.0, 140.0}};
   const WorstOfFamily worst = worst_of_family(Device(test::lhifam_parameters()), family);

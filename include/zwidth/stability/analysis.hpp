@@ -47,7 +47,7 @@ inline constexpr std::size_t most_bodies_for_any_user = 20;
 struct AnalysisOptions {
   bool any_user = true;                   ///< any_user_limit(), where the device has a body to hold and not too many
   bool worst_user = false;                ///< the user who proves that limit; needs any_user
-  std::optional<UserFamily> family = {};  ///< worst_of_family() of these users
+  std::optional<UserRanges> family = {};  ///< worst_of_family() of user_family() of these
   std::size_t draws = 1000;               ///< of the uncertainty, for the interval; 0: no interval
   Progress progress = {};                 ///< of the search in the family
 };

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "zwidth/model/device.hpp"
 #include "zwidth/progress.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
@@ -18,6 +20,15 @@ struct UserFamily {
   ValueRange damping;    ///< N s/m or N m s/rad
   ValueRange stiffness;  ///< N/m or N m/rad
 };
+
+/// A family by the ranges that are told of it: what is absent is that of the device's own [operator].
+struct UserRanges {
+  std::optional<ValueRange> mass = {};
+  std::optional<ValueRange> damping = {};
+  std::optional<ValueRange> stiffness = {};
+};
+
+[[nodiscard]] UserFamily user_family(const UserRanges& ranges, const Operator& own);
 
 /// The user of a family that leaves the least stable wall, as far as the search sees.
 struct WorstOfFamily {
