@@ -1,16 +1,16 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "cli/design_notch.hpp"
 #include "cli/design_recommend.hpp"
 #include "cli/device_arguments.hpp"
+#include "cli/option_refusal.hpp"
 #include "cli/option_units.hpp"
 #include "cli/outputs.hpp"
 #include "cli/progress_line.hpp"
@@ -22,11 +22,11 @@
 #include "report/text/text_medium.hpp"
 #include "results/design_json.hpp"
 #include "results/design_target_json.hpp"
+#include "zwidth/design/design_comparison.hpp"
 #include "zwidth/design/design_target.hpp"
 #include "zwidth/design/parameter_sweep.hpp"
 #include "zwidth/error.hpp"
-#include "zwidth/io/device_file.hpp"
-#include "zwidth/model/parameter.hpp"
+#include "zwidth/io/device_variants.hpp"
 
 namespace zwidth::cli {
 namespace {
@@ -42,6 +42,10 @@ struct DesignArguments {
   std::optional<double> target;
   bool any_user = false;
 };
+
+/// The library's members as the options that set them.
+constexpr std::pair<std::string_view, std::string_view> options_of_design[] = {
+    {"any_user", "--any-user"}, {"user", "--operator"}, {"goal", "--any-user"}, {"stiffness", "--target"}};
 
 /// Runs work on the device of `file`; an Error of it is the work's failure.
 template <typename Work>
@@ -74,31 +78,19 @@ Device only_device(const DesignArguments& arguments, const std::string& option) 
   return std::move(read_devices(arguments.devices).front());
 }
 
-void check_sweep(const Device& device, const std::vector<SweepAxis>& axes) {
-  const auto problem = find_sweep_problem(device, axes);
-  if (!problem) return;
-  std::string message = fmt::format("--sweep: {}: {}; {}", problem->key, problem->what, problem->allowed);
-  const std::vector<std::string> keys = parameter_keys(device.parameters());
-  const bool is_unknown = std::ranges::any_of(axes, [&](const SweepAxis& axis) {
-    return std::ranges::find(keys, full_parameter_key(device.parameters(), axis.key)) == keys.end();
-  });
-  if (is_unknown) message += fmt::format("\n--sweep: the numbers of this device are {}", fmt::join(keys, ", "));
-  throw BadInput(message);
-}
-
 void run_sweep(const DesignArguments& arguments) {
   Outputs outputs(arguments.output);
   outputs.keep(arguments.devices.files, "device file");
   const Device device = only_device(arguments, "--sweep");
   std::vector<SweepAxis> axes;
   for (const std::string& each : arguments.sweeps) axes.push_back(sweep_axis(each, device.parameters().motion));
-  check_sweep(device, axes);
+  if (const auto problem = find_sweep_problem(device, axes)) {
+    throw BadInput(fmt::format("--sweep: {}: {}; {}", problem->key, problem->what, problem->allowed));
+  }
   // The figure of one parameter shows the any-user limit beside it.
   const bool is_curve = outputs.figure("--output").has_value() && axes.size() == 1;
   const SweepOptions options{arguments.any_user || (is_curve && device.has_bodies()), is_curve};
-  if (options.any_user && !device.has_bodies()) {
-    throw BadInput("--any-user: a transfer function has no body for a user to hold");
-  }
+  if (const auto problem = find_problem(options, device)) refuse(*problem, options_of_design);
   ProgressLine line("sweeping");
   const ParameterSweep sweep =
       worked(arguments.devices.files.front(), [&] { return parameter_sweep(device, axes, options, line.progress()); });
@@ -109,65 +101,27 @@ void run_sweep(const DesignArguments& arguments) {
                                               : report::for_medium(report::sweep_text(device, sweep)));
 }
 
-std::vector<std::string> listed_values(const std::string& argument, std::size_t equals) {
-  std::vector<std::string> values(1);
-  int depth = 0;  // of brackets: a list of numbers is one value
-  for (const char letter : argument.substr(equals + 1)) {
-    depth += letter == '[' ? 1 : letter == ']' ? -1 : 0;
-    if (letter == ',' && depth == 0) {
-      values.emplace_back();
-    } else {
-      values.back() += letter;
-    }
-  }
-  return values;
-}
-
 void run_comparison(const DesignArguments& arguments) {
   if (!arguments.output.figure.empty()) throw BadInput("--output: is for a sweep, not for --compare");
-  const std::size_t equals = arguments.compare.find('=');
-  std::string key = arguments.compare.substr(0, equals);
-  if (equals == std::string::npos || key.empty()) {
-    throw BadInput("--compare: write KEY=VALUE,VALUE, for instance sensed=motor,handle");
-  }
-  for (const char* member : {"actuated", "sensed", "held"}) {
-    if (key == member) key = "loop." + key;
-  }
-  const std::vector<std::string> values = listed_values(arguments.compare, equals);
-  if (values.size() < 2) throw BadInput(fmt::format("--compare: {}: has one value; give two or more", key));
-  for (const std::string& value : values) {
-    if (std::ranges::count(values, value) > 1) throw BadInput(fmt::format("--compare: {}: has {} twice", key, value));
-  }
   const Device device = only_device(arguments, "--compare");
-  const std::string text = write_device(device.parameters());
-  std::vector<DesignVariant> variants;
-  std::string problems;
-  for (const std::string& value : values) {
-    const std::vector<std::string> override = {key + "=" + value};
-    if (auto variant = parse_device(text, arguments.devices.files.front(), override)) {
-      variants.push_back({value, *std::move(variant)});
-    } else {
-      InputError error = variant.error();
+  const auto variants = device_variants(device, arguments.compare);
+  if (!variants) {
+    std::string problems;
+    for (InputError error : variants.error()) {
       error.source = "--compare";
-      error.line = error.column = 0;
       problems += (problems.empty() ? "" : "\n") + error.str();
     }
+    throw BadInput(problems);
   }
-  if (!problems.empty()) throw BadInput(problems);
-  Operator user = device.parameters().user;
+  std::optional<Operator> user;
   if (!arguments.user.empty()) {
-    if (!device.has_bodies()) throw BadInput("--operator: a transfer function has no body for a user to hold");
-    const Motion motion = device.parameters().motion;
-    user = {measured_number("--operator", arguments.user[0], Measure::mass, motion),
-            measured_number("--operator", arguments.user[1], Measure::damping, motion),
-            measured_number("--operator", arguments.user[2], Measure::stiffness, motion)};
-    DeviceParameters held = device.parameters();
-    held.user = user;
-    if (const auto problem = find_problem(held)) {
-      throw BadInput(fmt::format("--operator: {}: {}; {}", problem->key, problem->what, problem->allowed));
-    }
+    const auto number = [&](std::size_t i, Measure measure) {
+      return measured_number("--operator", arguments.user[i], measure, device.parameters().motion);
+    };
+    user = {number(0, Measure::mass), number(1, Measure::damping), number(2, Measure::stiffness)};
   }
-  const auto comparison = worked(arguments.devices.files.front(), [&] { return compare_designs(key, variants, user); });
+  if (const auto problem = find_problem(*variants, user)) refuse(*problem, options_of_design);
+  const auto comparison = worked(arguments.devices.files.front(), [&] { return compare_designs(*variants, user); });
   write_standard_output(arguments.output.json ? results::line(results::comparison_json(comparison))
                                               : report::for_medium(report::comparison_text(comparison)));
 }
@@ -177,10 +131,7 @@ void run_target(const DesignArguments& arguments) {
   const Device device = only_device(arguments, "--target");
   DesignTargetOptions options{.stiffness = *arguments.target};
   if (arguments.any_user) options.goal = StiffnessGoal::any_user_limit;
-  if (const auto problem = find_problem(options, device)) {
-    throw BadInput(fmt::format("{}: {}; {}", problem->member == "goal" ? "--any-user" : "--target", problem->what,
-                               problem->allowed));
-  }
+  if (const auto problem = find_problem(options, device)) refuse(*problem, options_of_design);
   ProgressLine line("searching the numbers");
   options.progress = line.progress();
   const DesignTargets targets =

@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cmath>
-#include <numbers>
+#include <string_view>
+#include <utility>
 
+#include "cli/option_refusal.hpp"
 #include "cli/outputs.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/standard_output.hpp"
@@ -16,6 +17,7 @@
 #include "results/design_json.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/io/device_file.hpp"
+#include "zwidth/quantity.hpp"
 
 namespace zwidth::cli {
 namespace {
@@ -31,27 +33,22 @@ NotchOptions notch_options(const NotchArguments& arguments) {
         fmt::format("--goal: {} is for --recommend; of a notch critical-stiffness or any-user", *arguments.goal));
   }
   if (arguments.drift_percent) options.drift = *arguments.drift_percent / 100.0;
-  if (arguments.gain_margin_db) options.gain_margin = std::pow(10.0, *arguments.gain_margin_db / 20.0);
-  if (arguments.phase_margin_deg) options.phase_margin = *arguments.phase_margin_deg * std::numbers::pi / 180.0;
+  if (arguments.gain_margin_db) options.gain_margin = ratio_of_decibels(*arguments.gain_margin_db);
+  if (arguments.phase_margin_deg) options.phase_margin = radians(*arguments.phase_margin_deg);
   options.far_from_modes = arguments.far_from_modes;
   options.lower_any_user = arguments.lower_any_user;
   return options;
 }
 
-/// The option that sets a member of NotchOptions.
-const char* notch_option_of(const std::string& member) {
-  if (member == "drift") return "--drift-percent";
-  if (member == "gain_margin") return "--gain-margin-db";
-  if (member == "phase_margin") return "--phase-margin-deg";
-  if (member == "goal") return "--goal";
-  return "--notch";
-}
+constexpr std::pair<std::string_view, std::string_view> options_of_notch_design[] = {
+    {"drift", "--drift-percent"},
+    {"gain_margin", "--gain-margin-db"},
+    {"phase_margin", "--phase-margin-deg"},
+    {"goal", "--goal"},
+    {"notch", "--notch"}};
 
 NotchDesign designed(const Device& device, NotchOptions options, const std::string& file) {
-  if (const auto problem = find_problem(options, device)) {
-    throw BadInput(
-        fmt::format("{}: {}: {}; {}", notch_option_of(problem->member), file, problem->what, problem->allowed));
-  }
+  if (const auto problem = find_problem(options, device)) refuse(*problem, options_of_notch_design, file);
   ProgressLine line("designing the notch");
   options.progress = line.progress();
   try {
@@ -77,19 +74,16 @@ void add_notch_options(CLI::App& command, NotchArguments& arguments) {
       ->group(group);
   command.add_option("--drift-percent", arguments.drift_percent, "How far the modes' frequencies may shift, both ways")
       ->type_name("P")
-      ->check(CLI::Range(0.0, 90.0))
       ->group(group);
   command
       .add_option("--gain-margin-db", arguments.gain_margin_db,
                   "Least gain margin, of K alone and of the whole force (default 6.02)")
       ->type_name("DB")
-      ->check(CLI::Range(0.0, 100.0))
       ->group(group);
   command
       .add_option("--phase-margin-deg", arguments.phase_margin_deg,
                   "Least phase margin of the designed or recommended wall (default 30)")
       ->type_name("DEG")
-      ->check(CLI::Range(0.0, 90.0))
       ->group(group);
   command.add_flag("--far-from-modes", arguments.far_from_modes, "The filter may lie far from every mode: a lag")
       ->group(group);

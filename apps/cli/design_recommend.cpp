@@ -2,11 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <map>
-#include <numbers>
 #include <string>
+#include <string_view>
+#include <utility>
 
+#include "cli/option_refusal.hpp"
 #include "cli/outputs.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
@@ -16,6 +17,7 @@
 #include "results/wall_recommendation_json.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/io/device_file.hpp"
+#include "zwidth/quantity.hpp"
 
 namespace zwidth::cli {
 namespace {
@@ -32,25 +34,20 @@ RecommendationOptions recommendation_options(const RecommendArguments& arguments
     }
     options.goal = goal->second;
   }
-  if (shared.gain_margin_db) options.gain_margin = std::pow(10.0, *shared.gain_margin_db / 20.0);
-  if (shared.phase_margin_deg) options.phase_margin = *shared.phase_margin_deg * std::numbers::pi / 180.0;
+  if (shared.gain_margin_db) options.gain_margin = ratio_of_decibels(*shared.gain_margin_db);
+  if (shared.phase_margin_deg) options.phase_margin = radians(*shared.phase_margin_deg);
   options.ripple = arguments.ripple;
   return options;
 }
 
-/// The option that sets a member of RecommendationOptions.
-const char* recommend_option_of(const std::string& member) {
-  if (member == "gain_margin") return "--gain-margin-db";
-  if (member == "phase_margin") return "--phase-margin-deg";
-  if (member == "ripple") return "--ripple";
-  return "--goal";
-}
+constexpr std::pair<std::string_view, std::string_view> options_of_recommendation[] = {
+    {"gain_margin", "--gain-margin-db"},
+    {"phase_margin", "--phase-margin-deg"},
+    {"ripple", "--ripple"},
+    {"goal", "--goal"}};
 
 WallRecommendation recommended(const Device& device, const RecommendationOptions& options, const std::string& file) {
-  if (const auto problem = find_problem(options, device)) {
-    throw BadInput(
-        fmt::format("{}: {}: {}; {}", recommend_option_of(problem->member), file, problem->what, problem->allowed));
-  }
+  if (const auto problem = find_problem(options, device)) refuse(*problem, options_of_recommendation, file);
   try {
     return recommend_wall(device, options);
   } catch (const Error& error) {

@@ -1,17 +1,17 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "cli/device_arguments.hpp"
 #include "cli/input_problem.hpp"
+#include "cli/option_refusal.hpp"
 #include "cli/outputs.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/recording_arguments.hpp"
-#include "cli/remark_lines.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
 #include "cli/surroundings.hpp"
@@ -20,7 +20,7 @@
 #include "results/diagnosis_json.hpp"
 #include "zwidth/design/diagnosis.hpp"
 #include "zwidth/error.hpp"
-#include "zwidth/signal/dominant_oscillation.hpp"
+#include "zwidth/quantity.hpp"
 
 namespace zwidth::cli {
 namespace {
@@ -33,26 +33,23 @@ struct DiagnoseArguments {
   OutputArguments output;
 };
 
-/// Frequency and amplitude as the recording shows them.
-void take_from_recording(const RecordingArguments& arguments, DiagnosisOptions& options) {
+Recording read_position(const RecordingArguments& arguments) {
   if (arguments.position.name.empty()) throw BadInput("--position: missing; name the column of the sensed position");
   RecordingOptions reading = recording_options(arguments);
   reading.columns = {arguments.position};
+  constexpr std::pair<std::string_view, std::string_view> scale[] = {{"columns.0.scale", "--position-scale"}};
+  if (const auto problem = find_problem(reading)) refuse(*problem, scale);
   ProgressLine line("reading " + arguments.file);
-  const auto recording = read_named_recording(arguments.file, reading, line.progress());
+  auto recording = read_named_recording(arguments.file, reading, line.progress());
   if (!recording) throw BadInput(input_problem(recording.error()));
-  write_warnings(recording->remarks);
-  const auto found = dominant_oscillation(recording->channels.front().samples, recording->sampling_period);
-  if (!found) throw WorkFailed(arguments.file + ": nothing oscillates in its last half");
-  options.frequency = found->frequency;
-  if (!options.amplitude) options.amplitude = found->amplitude;
+  return *std::move(recording);
 }
 
-const char* diagnose_option_of(const std::string& member) {
-  if (member == "frequency") return "--oscillates-hz";
-  if (member == "amplitude") return "--amplitude";
-  return member == "stiffness" ? "--stiffness" : "--damping";
-}
+constexpr std::pair<std::string_view, std::string_view> options_of_diagnosis[] = {{"frequency", "--oscillates-hz"},
+                                                                                  {"recording", "--recording"},
+                                                                                  {"amplitude", "--amplitude"},
+                                                                                  {"stiffness", "--stiffness"},
+                                                                                  {"damping", "--damping"}};
 
 void run_diagnose(const CLI::App& command, DiagnoseArguments arguments) {
   const bool recorded = !arguments.recording.file.empty();
@@ -71,26 +68,20 @@ void run_diagnose(const CLI::App& command, DiagnoseArguments arguments) {
   const std::string& file = arguments.devices.files.front();
   const Device device = read_devices(arguments.devices).front();
   DiagnosisOptions& options = arguments.options;
-  if (recorded) {
-    take_from_recording(arguments.recording, options);
-  } else {
-    options.frequency = 2.0 * std::numbers::pi * *arguments.oscillates_hz;
-  }
-  if (const auto problem = find_problem(options, device)) {
-    throw BadInput(
-        fmt::format("{}: {}: {}; {}",
-                    recorded && problem->member == "frequency" ? "--recording" : diagnose_option_of(problem->member),
-                    file, problem->what, problem->allowed));
-  }
+  std::optional<Recording> recording;
+  if (recorded) recording = read_position(arguments.recording);
+  if (!recorded) options.frequency = radians_per_second(*arguments.oscillates_hz);
+  const auto problem = recording ? find_problem(options, device, *recording) : find_problem(options, device);
+  if (problem) refuse(*problem, options_of_diagnosis, file);
   std::optional<Diagnosis> diagnosis;
   try {
-    diagnosis = diagnose(device, options);
+    diagnosis = recording ? diagnose(device, *recording, options) : diagnose(device, options);
   } catch (const Error& error) {
     throw WorkFailed(file + ": " + error.what());
   }
-  if (arguments.output.json) write_standard_output(results::line(results::diagnosis_json(device, options, *diagnosis)));
+  if (arguments.output.json) write_standard_output(results::line(results::diagnosis_json(device, *diagnosis)));
   if (diagnosis->trust.refused()) throw WorkFailed(file + ": " + report::verdict_text(diagnosis->trust));
-  if (!arguments.output.json) write_text(report::diagnosis_text(device, options, *diagnosis));
+  if (!arguments.output.json) write_text(report::diagnosis_text(device, *diagnosis));
 }
 
 }  // namespace

@@ -49,9 +49,6 @@ SweepAxis sweep_axis(const std::string& argument, Motion motion) {
   }
   SweepAxis axis;
   axis.key = argument.substr(0, equals);
-  // A body's inertia is its mass to the library.
-  constexpr std::string_view inertia = ".inertia";
-  if (axis.key.ends_with(inertia)) axis.key.replace(axis.key.size() - inertia.size(), inertia.size(), ".mass");
   const Measure measure = measure_of(axis.key).value_or(Measure::ratio);
   axis.first = end_of(argument, parts[0], "FIRST", measure, motion);
   axis.last = end_of(argument, parts[1], "LAST", measure, motion);

@@ -57,10 +57,6 @@ Json state_json(const std::optional<NotchState>& state) {
           {"wall", state->analysis.wall}};
 }
 
-std::optional<double> stiffness_of(const CriticalStiffness& critical) {
-  return critical.trust.refused() ? std::nullopt : std::optional(critical.stiffness);
-}
-
 Json critical_json(const CriticalStiffness& critical) {
   return {{"status", critical.status},
           {"critical_stiffness", critical.stiffness},
@@ -68,13 +64,9 @@ Json critical_json(const CriticalStiffness& critical) {
           {"limited_by", mechanism_of(critical.limit)}};
 }
 
-/// The value of the key with the greatest K; null where a design has none, or where no wall is stable with any.
-Json best_json(const DesignComparison& comparison, const std::optional<BestDesigns>& best,
-               std::optional<double> (*stiffness)(const ComparedDesign&)) {
-  const bool all =
-      std::ranges::all_of(comparison.designs, [&](const auto& each) { return stiffness(each).has_value(); });
-  if (!best || !all || *stiffness(comparison.designs[best->best]) == 0.0) return nullptr;
-  return comparison.designs[best->best].value;
+/// The value of the key with the greatest K; null where that is not known.
+Json best_json(const DesignComparison& comparison, const std::optional<BestDesigns>& best) {
+  return best && best->is_best_of_all ? Json(comparison.designs[best->best].value) : Json(nullptr);
 }
 
 }  // namespace
@@ -176,13 +168,9 @@ Json comparison_json(const DesignComparison& comparison) {
   json["operator"] = nullptr;
   if (held) json["operator"] = {{"mass", user.mass}, {"damping", user.damping}, {"stiffness", user.stiffness}};
   json["designs"] = comparison.designs;
-  json["best"] = {{"free", best_json(comparison, comparison.best_free,
-                                     [](const ComparedDesign& each) { return stiffness_of(each.free); })},
-                  {"any_user", best_json(comparison, comparison.best_any_user,
-                                         [](const ComparedDesign& each) { return stiffness_of(each.any_user); })},
-                  {"with_operator", best_json(comparison, comparison.best_held, [](const ComparedDesign& each) {
-                     return each.held ? stiffness_of(*each.held) : std::nullopt;
-                   })}};
+  json["best"] = {{"free", best_json(comparison, comparison.best_free)},
+                  {"any_user", best_json(comparison, comparison.best_any_user)},
+                  {"with_operator", best_json(comparison, comparison.best_held)}};
   json["trust"] = comparison.trust;
   return json;
 }

@@ -31,13 +31,13 @@ static void to_json(Json& json, const DiagnosisChange& change) {
           {"ends_it", change.ends_it}};
 }
 
-Json diagnosis_json(const Device& device, const DiagnosisOptions& options, const Diagnosis& diagnosis) {
+Json diagnosis_json(const Device& device, const Diagnosis& diagnosis) {
   Json json = document("zwidth.diagnosis/1");
   json["device"] = device.name();
   json["units"] = wall_units(device.parameters().motion);
-  json["oscillates_rad_s"] = options.frequency;
-  json["oscillates_hz"] = hertz(std::optional(options.frequency));
-  json["amplitude"] = options.amplitude;
+  json["oscillates_rad_s"] = diagnosis.frequency;
+  json["oscillates_hz"] = hertz(diagnosis.frequency);
+  json["amplitude"] = diagnosis.amplitude;
   json["stiffness"] = diagnosis.stiffness;
   json["damping"] = diagnosis.damping;
   json["cause"] = diagnosis.cause;

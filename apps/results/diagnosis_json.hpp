@@ -12,6 +12,6 @@ NLOHMANN_JSON_SERIALIZE_ENUM(OscillationCause, {{OscillationCause::device, "devi
                                                 {OscillationCause::friction, "friction"}})
 
 /// The answer of `diagnose --json`, schema zwidth.diagnosis/1 (docs/diagnosis.md).
-[[nodiscard]] Json diagnosis_json(const Device& device, const DiagnosisOptions& options, const Diagnosis& diagnosis);
+[[nodiscard]] Json diagnosis_json(const Device& device, const Diagnosis& diagnosis);
 
 }  // namespace zwidth::results

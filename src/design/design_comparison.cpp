@@ -1,13 +1,16 @@
 #include "zwidth/design/design_comparison.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "zwidth/error.hpp"
+#include "require_valid.hpp"
 #include "zwidth/stability/analysis.hpp"
 
 namespace zwidth {
+using namespace internal;
 namespace {
 
 constexpr double as_good = 1e-3;  // relative difference that is none
@@ -20,7 +23,7 @@ Device with_user(const Device& device, const Operator& user) {
   return Device(std::move(parameters));
 }
 
-ComparedDesign judged(const DesignVariant& variant, const Operator& user, Trust& trust) {
+ComparedDesign judged(const DeviceVariant& variant, const Operator& user, Trust& trust) {
   const Device free = with_user(variant.device, {});
   Analysis analysis = analyze(free, {.any_user = true, .draws = 0});
   trust.inherit(analysis.trust);
@@ -43,7 +46,8 @@ std::optional<BestDesigns> best_of(const std::vector<ComparedDesign>& designs, c
   std::ranges::stable_sort(order, [](const auto& a, const auto& b) { return a.first > b.first; });
   const auto [best, first] = order[0];
   const auto [next, second] = order[1];
-  return BestDesigns{first, second, best == next || std::abs(best - next) <= as_good * next};
+  const bool has_all = order.size() == designs.size();
+  return BestDesigns{first, second, best == next || std::abs(best - next) <= as_good * next, has_all && best > 0.0};
 }
 
 std::optional<double> stiffness_of(const CriticalStiffness& critical) {
@@ -52,11 +56,28 @@ std::optional<double> stiffness_of(const CriticalStiffness& critical) {
 
 }  // namespace
 
-DesignComparison compare_designs(std::string key, const std::vector<DesignVariant>& variants, const Operator& user) {
-  if (variants.empty()) throw Error(ErrorCode::invalid_argument, "there is no design to compare");
-  DesignComparison comparison{std::move(key), user, {}, {}, {}, {}, {}};
-  for (const DesignVariant& variant : variants) {
-    comparison.designs.push_back(judged(variant, user, comparison.trust));
+std::optional<OptionProblem> find_problem(const DeviceVariants& variants, const std::optional<Operator>& user) {
+  if (variants.variants.empty()) return OptionProblem{"variants", "is empty", "there is no design to compare"};
+  if (!user) return std::nullopt;
+  for (const DeviceVariant& each : variants.variants) {
+    if (!each.device.has_bodies() && is_present(*user)) {
+      return OptionProblem{"user", "is of a transfer function", "it has no body for a user to hold"};
+    }
+    DeviceParameters held = each.device.parameters();
+    held.user = *user;
+    if (const auto problem = find_problem(held)) {
+      return OptionProblem{"user", fmt::format("{}: {}", problem->key, problem->what), problem->allowed};
+    }
+  }
+  return std::nullopt;
+}
+
+DesignComparison compare_designs(const DeviceVariants& variants, const std::optional<Operator>& user) {
+  require_valid(find_problem(variants, user));
+  const std::vector<DeviceVariant>& all = variants.variants;
+  DesignComparison comparison{variants.key, user.value_or(all.front().device.parameters().user), {}, {}, {}, {}, {}};
+  for (const DeviceVariant& variant : all) {
+    comparison.designs.push_back(judged(variant, comparison.user, comparison.trust));
   }
   comparison.best_free = best_of(comparison.designs, [](const auto& each) { return stiffness_of(each.free); });
   comparison.best_any_user = best_of(comparison.designs, [](const auto& each) {

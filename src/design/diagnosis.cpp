@@ -14,6 +14,7 @@
 #include "require_valid.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/device_trust.hpp"
+#include "zwidth/signal/dominant_oscillation.hpp"
 
 namespace zwidth {
 using namespace internal;
@@ -103,16 +104,7 @@ void remark_on(const ObservedLoop& loop, Diagnosis& diagnosis) {
       "let go of the device and see whether it goes on");
 }
 
-}  // namespace
-
-std::optional<OptionProblem> find_problem(const DiagnosisOptions& options, const Device& device) {
-  const double nyquist = pi / device.loop().sampling_period;
-  if (!(options.frequency > 0.0 && options.frequency <= nyquist * (1.0 + 1e-9))) {
-    return OptionProblem{"frequency", fmt::format("is {:.6g} Hz", options.frequency / (2.0 * pi)),
-                         fmt::format("must be above 0, at most half the sampling rate, {:.6g} Hz: what is faster is "
-                                     "seen as an alias",
-                                     nyquist / (2.0 * pi))};
-  }
+std::optional<OptionProblem> find_problem(const DiagnosisOptions& options) {
   const auto finite = [](double value) { return std::isfinite(value) && value >= 0.0; };
   if (options.amplitude && !(finite(*options.amplitude) && *options.amplitude > 0.0)) {
     return OptionProblem{"amplitude", fmt::format("is {}", *options.amplitude), "must be > 0"};
@@ -126,9 +118,42 @@ std::optional<OptionProblem> find_problem(const DiagnosisOptions& options, const
   return std::nullopt;
 }
 
+/// With what the recording shows; nothing where nothing oscillates.
+std::optional<DiagnosisOptions> with_recorded(DiagnosisOptions options, const Recording& recording) {
+  if (recording.channels.empty()) throw Error(ErrorCode::invalid_argument, "the recording has no channel");
+  const auto found = dominant_oscillation(recording.channels.front().samples, recording.sampling_period);
+  if (!found) return std::nullopt;
+  options.frequency = found->frequency;
+  if (!options.amplitude) options.amplitude = found->amplitude;
+  return options;
+}
+
+}  // namespace
+
+std::optional<OptionProblem> find_problem(const DiagnosisOptions& options, const Device& device) {
+  const double nyquist = pi / device.loop().sampling_period;
+  if (!(options.frequency > 0.0 && options.frequency <= nyquist * (1.0 + 1e-9))) {
+    return OptionProblem{"frequency", fmt::format("is {:.6g} Hz", options.frequency / (2.0 * pi)),
+                         fmt::format("must be above 0, at most half the sampling rate, {:.6g} Hz: what is faster is "
+                                     "seen as an alias",
+                                     nyquist / (2.0 * pi))};
+  }
+  return find_problem(options);
+}
+
+std::optional<OptionProblem> find_problem(const DiagnosisOptions& options, const Device& device,
+                                          const Recording& recording) {
+  const auto recorded = with_recorded(options, recording);
+  auto problem = recorded ? find_problem(*recorded, device) : find_problem(options);
+  if (problem && problem->member == "frequency") problem->member = "recording";
+  return problem;
+}
+
 Diagnosis diagnose(const Device& device, const DiagnosisOptions& options) {
   require_valid(find_problem(options, device));
   Diagnosis diagnosis;
+  diagnosis.frequency = options.frequency;
+  diagnosis.amplitude = options.amplitude;
   diagnosis.trust = trust_of(device);
   if (diagnosis.trust.refused()) return diagnosis;
   ObservedLoop loop = observed(device, options);
@@ -143,6 +168,19 @@ Diagnosis diagnose(const Device& device, const DiagnosisOptions& options) {
     diagnosis.changes = changes_of(loop, diagnosis.candidates.front());
   }
   remark_on(loop, diagnosis);
+  return diagnosis;
+}
+
+Diagnosis diagnose(const Device& device, const Recording& recording, const DiagnosisOptions& options) {
+  require_valid(find_problem(options, device, recording));
+  Diagnosis diagnosis;
+  if (const auto recorded = with_recorded(options, recording)) {
+    diagnosis = diagnose(device, *recorded);
+  } else {
+    diagnosis.amplitude = options.amplitude;
+    diagnosis.trust.refuse("nothing oscillates in the last half of the recording; record while it does");
+  }
+  diagnosis.remarks.insert(diagnosis.remarks.begin(), recording.remarks.begin(), recording.remarks.end());
   return diagnosis;
 }
 

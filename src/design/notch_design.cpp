@@ -14,6 +14,7 @@
 #include "design/notch_search.hpp"
 #include "require_valid.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/quantity.hpp"
 #include "zwidth/stability/any_user.hpp"
 
 namespace zwidth {
@@ -178,16 +179,19 @@ void remark_on(const NotchOptions& options, NotchDesign& design) {
 
 std::optional<OptionProblem> find_problem(const NotchOptions& options, const Device& device) {
   if (!(options.drift >= 0.0 && options.drift <= 0.9)) {
-    return OptionProblem{"drift", fmt::format("is {}", options.drift), "must be from 0 to 0.9"};
+    return OptionProblem{"drift", fmt::format("is {} %", 100.0 * options.drift), "must be from 0 to 90 %"};
   }
   if (!(options.gain_margin >= 1.0) || !std::isfinite(options.gain_margin)) {
-    return OptionProblem{"gain_margin", fmt::format("is {}", options.gain_margin), "must be a factor >= 1"};
+    return OptionProblem{"gain_margin", fmt::format("is a factor of {}", options.gain_margin),
+                         "must be finite and >= 1, that is 0 dB"};
   }
   if (!(options.phase_margin >= 0.0 && options.phase_margin <= pi / 2.0)) {
-    return OptionProblem{"phase_margin", fmt::format("is {}", options.phase_margin), "must be from 0 to pi/2 rad"};
+    return OptionProblem{"phase_margin", fmt::format("is {} degrees", degrees(options.phase_margin)),
+                         "must be from 0 to 90 degrees"};
   }
   if (options.drift > 0.0 && device.links().empty()) {
-    return OptionProblem{"drift", fmt::format("is {}", options.drift), "must be 0: there is no link whose modes drift"};
+    return OptionProblem{"drift", fmt::format("is {} %", 100.0 * options.drift),
+                         "must be 0: there is no link whose modes drift"};
   }
   if (options.goal == StiffnessGoal::any_user_limit && !can_be_held(device)) {
     return OptionProblem{"goal", "is the limit with any user",

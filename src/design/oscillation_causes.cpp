@@ -15,6 +15,7 @@
 #include "stability/user_discs.hpp"
 #include "zwidth/model/state_space.hpp"
 #include "zwidth/quantity.hpp"
+#include "zwidth/sampling/filter_section.hpp"
 #include "zwidth/stability/closed_loop.hpp"
 
 namespace zwidth::internal {
@@ -62,7 +63,7 @@ std::string hertz_text(double frequency) { return quantity(hertz(frequency), "Hz
 
 /// The wall's C(z) = K + B v as a filter: what multiplies it scales the whole force.
 WallFilter controller(const Wall& wall, double period) {
-  const double a = wall.velocity_filter_hz > 0.0 ? std::exp(-2.0 * pi * wall.velocity_filter_hz * period) : 0.0;
+  const double a = velocity_filter_pole(wall.velocity_filter_hz, period);
   const double gain = wall.damping * (1.0 - a) / period;
   WallFilter filter;
   filter.kind = WallFilter::Kind::digital;

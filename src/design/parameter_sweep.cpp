@@ -1,6 +1,7 @@
 #include "zwidth/design/parameter_sweep.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -28,7 +29,7 @@ std::optional<DeviceProblem> find_axis_problem(const DeviceParameters& parameter
   const std::vector<std::string> keys = parameter_keys(parameters);
   if (std::ranges::find(keys, key) == keys.end()) {
     return DeviceProblem{axis.key, "is no number of the device",
-                         "must be a key of the device file, body.NAME.mass for instance"};
+                         fmt::format("the numbers of this device are {}", fmt::join(keys, ", "))};
   }
   if (is_for_simulation(key)) {
     return DeviceProblem{key, "does not change the critical stiffness", "sweep a number that does"};
@@ -149,16 +150,22 @@ std::optional<DeviceProblem> find_sweep_problem(const Device& device, const std:
   return std::nullopt;
 }
 
+std::optional<OptionProblem> find_problem(const SweepOptions& options, const Device& device) {
+  if (!options.any_user || device.has_bodies()) return std::nullopt;
+  return OptionProblem{"any_user", "is asked of a transfer function", "it has no body for a user to hold"};
+}
+
 ParameterSweep parameter_sweep(const Device& device, const std::vector<SweepAxis>& axes, SweepOptions options,
                                const Progress& progress) {
   if (const auto problem = find_sweep_problem(device, axes)) {
     throw Error(ErrorCode::invalid_argument, fmt::format("{}: {}; {}", problem->key, problem->what, problem->allowed));
   }
-  if (options.any_user && !device.has_bodies()) {
-    throw Error(ErrorCode::needs_bodies, "a transfer function has no body for a user to hold");
+  if (const auto problem = find_problem(options, device)) {
+    throw Error(ErrorCode::needs_bodies, fmt::format("{} {}; {}", problem->member, problem->what, problem->allowed));
   }
   const Points points(device, axes);
   ParameterSweep sweep{axes, points.values(), std::vector<SweepPoint>(points.count())};
+  for (SweepAxis& axis : sweep.axes) axis.key = without_alias(axis.key);
   SharedProgress shared(progress, sweep.points.size());
   const auto compute = [&](std::size_t i) {
     sweep.points[i] = point_of(Device(points.at(i)), options);

@@ -101,6 +101,8 @@ WallRegion region(const Device& device, const RegionOptions& options) {
            fmt::format("{}; the stable stiffnesses at one damping (wall.damping) can still be told", error.what()));
   }
   if (result.trust.refused()) return result;
+  using enum WallRegion::Status;
+  result.status = !result.region.bounded ? unbounded : result.region.components.empty() ? none_stable : bounded;
   const ModalForm form = modal_form(device);
   result.modes = form.modes;
   result.suspended_rigid_body = form.suspended_rigid_body;
@@ -121,6 +123,22 @@ WallRegion region(const Device& device, const RegionOptions& options) {
   }
   if (options.approximations) result.approximations = compared(device, result);
   return result;
+}
+
+WallRaster wall_raster(const WallRegion& region, std::size_t count) {
+  if (count == 0) throw Error(ErrorCode::invalid_argument, "a raster of 0 walls; at least one");
+  if (region.status != WallRegion::Status::bounded) return {};
+  const auto middles = [count](double largest) {
+    constexpr double beyond = 1.1;
+    std::vector<double> values(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      values[i] = beyond * largest * (static_cast<double>(i) + 0.5) / static_cast<double>(count);
+    }
+    return values;
+  };
+  WallRaster raster{middles(region.region.stiffest->stiffness), middles(region.region.most_damped->damping), {}};
+  raster.stable = stable_on_grid(*region.walls, raster.stiffnesses, raster.dampings);
+  return raster;
 }
 
 }  // namespace zwidth

@@ -43,9 +43,9 @@ ApproximationError error_of(const RegionApproximation& approximation, double exa
   if (exact_at_zero > 0.0) error.ratio = approximation.at_zero_damping / exact_at_zero;
   if (approximation.largest_damping == 0.0) return error;
   const Row over_claimed = sum_of_strips(approximation.largest_damping.value_or(largest_exact), row_at);
-  if (over_claimed.claimed > 0.0) error.unsafe_share = 1.0 - over_claimed.both / over_claimed.claimed;
+  error.unsafe_share = over_claimed.claimed > 0.0 ? 1.0 - over_claimed.both / over_claimed.claimed : 0.0;
   const Row over_exact = sum_of_strips(largest_exact, row_at);
-  if (over_exact.exact > 0.0) error.missed_share = 1.0 - over_exact.both / over_exact.exact;
+  error.missed_share = over_exact.exact > 0.0 ? 1.0 - over_exact.both / over_exact.exact : 0.0;
   return error;
 }
 

@@ -52,6 +52,12 @@ void visit_parameters(Parameters& parameters, Visitor&& visit) {
 
 }  // namespace
 
+std::string without_alias(std::string_view key) {
+  constexpr std::string_view inertia = ".inertia";
+  if (!key.ends_with(inertia)) return std::string(key);
+  return std::string(key.substr(0, key.size() - inertia.size())) + ".mass";
+}
+
 std::string full_parameter_key(const DeviceParameters& parameters, std::string_view key) {
   constexpr std::string_view prefix = "link.";
   if (parameters.links.size() == 1 && (key == "link.stiffness" || key == "link.damping")) {
@@ -61,7 +67,7 @@ std::string full_parameter_key(const DeviceParameters& parameters, std::string_v
   if (parameters.wall.filters.size() == 1 && key.starts_with(filter) && key.find('.', filter.size()) == key.npos) {
     return "wall.filter.0." + std::string(key.substr(filter.size()));
   }
-  return std::string(key);
+  return without_alias(key);
 }
 
 std::vector<std::string> parameter_keys(const DeviceParameters& parameters) {

@@ -27,8 +27,8 @@ struct Question {
 /// it. A program for each would take longer to start than to answer: see started_once/started_once.cpp.
 class SameAnswer : public Workspace {
  protected:
-  /// Runs all the commands while the library answers the questions. At most this share of them may fail.
-  void expect_same(const std::vector<Question>& questions, double most_failures = 0.05) const;
+  /// Runs all the commands while the library answers the questions. At most 5 % of them may fail.
+  void expect_same(const std::vector<Question>& questions) const;
 };
 
 /// One run of each kind that is compared: "region FILE --json".

@@ -113,7 +113,7 @@ double heard_hz(const Device& device) { return 1.0 / (6.0 * device.loop().sampli
 Answer diagnosed(const Device& device) {
   const DiagnosisOptions options{.frequency = 2.0 * std::numbers::pi * heard_hz(device)};
   const Diagnosis diagnosis = diagnose(device, options);
-  return {results::line(results::diagnosis_json(device, options, diagnosis)), diagnosis.trust.refused() ? 1 : 0};
+  return {results::line(results::diagnosis_json(device, diagnosis)), diagnosis.trust.refused() ? 1 : 0};
 }
 
 Answer recommended(const Device& device) {
@@ -138,14 +138,14 @@ std::string sweep_arguments(const Device& device) {
 constexpr Operator compared_user{0.5, 6.0, 135.0};
 
 Answer compared(const Device& device) {
-  std::vector<DesignVariant> variants;
+  DeviceVariants delayed{"loop.delay", {}};
   for (const double delay : {0.0, device.loop().sampling_period}) {
     DeviceParameters parameters = device.parameters();
     parameters.loop.delay = delay;
-    variants.push_back({fmt::format("{}", delay), Device(parameters)});
+    delayed.variants.push_back({fmt::format("{}", delay), Device(parameters)});
   }
-  const Operator user = device.has_bodies() ? compared_user : Operator{};
-  return json_line(results::comparison_json(compare_designs("loop.delay", variants, user)));
+  const auto user = device.has_bodies() ? std::optional(compared_user) : std::nullopt;
+  return json_line(results::comparison_json(compare_designs(delayed, user)));
 }
 
 std::string comparison_arguments(const Device& device) {
@@ -271,12 +271,13 @@ TEST_P(SameAnswerOn, EveryDeviceFile) {
     const std::string file = "devices/" + entry.path().filename().string();
     DeviceParameters parameters = read_device_file((directory() / file).string(), {})->parameters();
     if (!parameters.wall.stiffness) parameters.wall.stiffness = 300.0;
+    const bool asks_for_a_mode = GetParam().answer == notched;
+    if (asks_for_a_mode && find_problem(NotchOptions{}, Device(parameters))) continue;
     write("with_wall_" + entry.path().filename().string(), write_device(parameters));
     questions.push_back(question("with_wall_" + entry.path().filename().string()));
   }
-  EXPECT_GT(questions.size(), 5U);
-  const bool asks_for_a_mode = std::string_view(GetParam().name) == "Notch";  // which rigid devices do not have
-  expect_same(questions, asks_for_a_mode ? 0.5 : 0.05);
+  EXPECT_GT(questions.size(), 3U);
+  expect_same(questions);
 }
 
 TEST_P(SameAnswerOn, RandomDevices) {

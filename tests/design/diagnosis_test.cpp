@@ -88,5 +88,29 @@ TEST(Diagnosis, NamesTheMemberOutsideItsRange) {
   EXPECT_THROW(static_cast<void>(diagnose(lhifam(), {})), Error);
 }
 
+TEST(Diagnosis, OfARecordingIsThatOfWhatOscillatesInIt) {
+  Recording recording{"run", 1e-3, {{"position", std::vector<double>(8192)}}, {}};
+  std::vector<double>& samples = recording.channels.front().samples;
+  for (std::size_t k = 0; k < samples.size(); ++k) samples[k] = 2e-3 * std::sin(39.5e-3 * static_cast<double>(k));
+  recording.remarks.push_back({Remark::Severity::warning, "a gap", ""});
+  const DiagnosisOptions options{.stiffness = 9200.0};
+  const Diagnosis heard = diagnose(lhifam(), recording, options);
+  EXPECT_NEAR(*heard.frequency, 39.5, 0.2);
+  EXPECT_NEAR(*heard.amplitude, 2e-3, 1e-5);
+  EXPECT_EQ(heard.cause, diagnose(lhifam(), {.frequency = 39.5, .amplitude = 2e-3, .stiffness = 9200.0}).cause);
+  EXPECT_EQ(heard.remarks.front().what, "a gap");
+  EXPECT_EQ(*diagnose(lhifam(), recording, {.amplitude = 1e-5}).amplitude, 1e-5);
+
+  EXPECT_EQ(find_problem({.stiffness = -1.0}, lhifam(), recording)->member, "stiffness");
+  recording.sampling_period = 1e-5;  // 3950 rad/s, beyond Nyquist of the device
+  EXPECT_EQ(find_problem(options, lhifam(), recording)->member, "recording");
+  EXPECT_THROW(static_cast<void>(diagnose(lhifam(), recording, options)), Error);
+
+  std::ranges::fill(samples, 1.0);
+  const Diagnosis still = diagnose(lhifam(), recording, options);
+  EXPECT_TRUE(still.trust.refused());
+  EXPECT_FALSE(still.frequency);
+}
+
 }  // namespace
 }  // namespace zwidth

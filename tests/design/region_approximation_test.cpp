@@ -37,8 +37,8 @@ TEST(ApproximationError, IsNoneForARigidDeviceWithAnyUser) {
   const AnyUserRegion region = any_user_region(device, 50.0, 100.0);
   const ApproximationError error = approximation_error(region_approximations(device, 50.0)[0], region);
   EXPECT_NEAR(*error.ratio, 1.0, 1e-5);
-  EXPECT_NEAR(error.unsafe_share, 0.0, 1e-4);
-  EXPECT_NEAR(error.missed_share, 0.0, 1e-4);
+  EXPECT_NEAR(*error.unsafe_share, 0.0, 1e-4);
+  EXPECT_NEAR(*error.missed_share, 0.0, 1e-4);
 }
 
 // Walls K < 3/2, B < 1 against K = 1 + B, B < 1.
@@ -49,8 +49,8 @@ TEST(ApproximationError, SharesAreAreas) {
   const RegionApproximation formula{Formula::gil_hulin, true, 1.0, 1.0, 1.0};
   const ApproximationError error = approximation_error(formula, square);
   // Formula 3/2, exact 3/2, both 3/2 - 1/8.
-  EXPECT_NEAR(error.unsafe_share, (1.0 / 8.0) / 1.5, 1e-5);
-  EXPECT_NEAR(error.missed_share, (1.0 / 8.0) / 1.5, 1e-5);
+  EXPECT_NEAR(*error.unsafe_share, (1.0 / 8.0) / 1.5, 1e-5);
+  EXPECT_NEAR(*error.missed_share, (1.0 / 8.0) / 1.5, 1e-5);
   EXPECT_NEAR(*error.ratio, 1.0 / 1.5, 1e-12);
 }
 
@@ -63,7 +63,7 @@ TEST(ApproximationError, OfTableI) {
   EXPECT_NEAR(*approximation_error(formulas[0], any_user).ratio, 7000.0 / 5776.09, 1e-4);
   EXPECT_NEAR(*approximation_error(formulas[1], walls, 556.9).ratio, 7000.0 / 8848.70869499712, 1e-9);
   EXPECT_NEAR(*approximation_error(formulas[2], any_user).ratio, 7000.0 / 5776.09, 1e-4);
-  EXPECT_EQ(approximation_error(formulas[2], any_user).unsafe_share, 0.0);
+  EXPECT_FALSE(approximation_error(formulas[2], any_user).unsafe_share.has_value());
 }
 
 }  // namespace

@@ -28,6 +28,13 @@ TEST(Parameter, OneLinkNeedsNoIndex) {
   EXPECT_EQ(parameter(parameters, "link.stiffness"), std::nullopt);
 }
 
+TEST(Parameter, AnInertiaIsAMass) {
+  const DeviceParameters parameters = test::lhifam_parameters();
+  EXPECT_EQ(parameter(parameters, "body.motor.inertia"), parameters.bodies[0].mass);
+  EXPECT_EQ(without_alias("operator.inertia"), "operator.mass");
+  EXPECT_EQ(without_alias("loop.delay"), "loop.delay");
+}
+
 TEST(Parameter, AbsentValuesAndUnknownKeys) {
   DeviceParameters parameters = test::lhifam_parameters();
   parameters.wall.stiffness.reset();

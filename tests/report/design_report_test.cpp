@@ -45,7 +45,7 @@ ParameterSweep delay_sweep(SweepOptions options = {}) {
 DesignComparison both_sensors(const Operator& user) {
   const Device motor(test::lhifam_parameters());
   const Device handle(test::handle_sensed(test::lhifam_parameters()));
-  return compare_designs("loop.sensed", {{"motor", motor}, {"handle", handle}}, user);
+  return compare_designs({"loop.sensed", {{"motor", motor}, {"handle", handle}}}, user);
 }
 
 TEST(DesignJson, EveryKeyIsDocumented) {
@@ -153,7 +153,7 @@ TEST(Comparison, WithoutAUserHasTwoColumns) {
 
 TEST(Comparison, OfEqualsSaysSo) {
   const Device device(test::lhifam_parameters());
-  const DesignComparison comparison = compare_designs("name", {{"a", device}, {"b", device}}, {});
+  const DesignComparison comparison = compare_designs({"name", {{"a", device}, {"b", device}}});
   EXPECT_THAT(comparison_text(comparison), HasSubstr("name = a and name = b are as good (8.849 kN/m)."));
 }
 

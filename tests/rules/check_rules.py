@@ -19,7 +19,7 @@ LIBRARY = {
     "io": ["model", "signal"],
     "simulation": ["model", "signal", "sampling", "control", "stability"],
     "identification": ["model", "signal", "sampling", "stability", "simulation"],
-    "design": ["model", "sampling", "stability"],
+    "design": ["model", "signal", "sampling", "stability"],
 }
 APPS = {
     "results": [],

@@ -72,18 +72,18 @@ std::string changes_text(const Device& device, const Diagnosis& diagnosis) {
 
 }  // namespace
 
-std::string diagnosis_text(const Device& device, const DiagnosisOptions& options, const Diagnosis& diagnosis) {
+std::string diagnosis_text(const Device& device, const Diagnosis& diagnosis) {
   const Units units = units_of(device.parameters().motion);
   std::string text = shortened(display_name(device), line_width) + "\n";
   if (const auto note = trust_note(diagnosis.trust)) text += line("trust", *note);
   if (diagnosis.trust.refused()) return text;
-  text +=
-      line("oscillates",
-           fmt::format(
-               "at {}{}, wall of {} and {} {}", quantity(hertz(options.frequency), "Hz"),
-               options.amplitude ? fmt::format(" by {}", quantity(*options.amplitude, units.length)) : std::string(),
-               diagnosis.stiffness ? quantity(*diagnosis.stiffness, units.stiffness) : std::string("unknown stiffness"),
-               number(diagnosis.damping), units.damping));
+  text += line(
+      "oscillates",
+      fmt::format(
+          "at {}{}, wall of {} and {} {}", quantity(hertz(*diagnosis.frequency), "Hz"),
+          diagnosis.amplitude ? fmt::format(" by {}", quantity(*diagnosis.amplitude, units.length)) : std::string(),
+          diagnosis.stiffness ? quantity(*diagnosis.stiffness, units.stiffness) : std::string("unknown stiffness"),
+          number(diagnosis.damping), units.damping));
   if (diagnosis.cause) {
     const OscillationCandidate& cause = diagnosis.candidates.front();
     text +=

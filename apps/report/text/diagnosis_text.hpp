@@ -7,7 +7,6 @@
 namespace zwidth::report {
 
 /// What the oscillation is, what it is not, and what moves it: at most 100 columns.
-[[nodiscard]] std::string diagnosis_text(const Device& device, const DiagnosisOptions& options,
-                                         const Diagnosis& diagnosis);
+[[nodiscard]] std::string diagnosis_text(const Device& device, const Diagnosis& diagnosis);
 
 }  // namespace zwidth::report

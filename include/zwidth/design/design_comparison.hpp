@@ -5,18 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "zwidth/model/device.hpp"
+#include "zwidth/model/device_variants.hpp"
+#include "zwidth/option_problem.hpp"
 #include "zwidth/stability/any_user.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
 #include "zwidth/trust.hpp"
 
 namespace zwidth {
-
-/// A value of a key and the device that it makes.
-struct DesignVariant {
-  std::string value;
-  Device device;
-};
 
 /// One of several ways to build a device, judged with three users: none, any passive one, and a given one.
 struct ComparedDesign {
@@ -32,6 +27,8 @@ struct BestDesigns {
   std::size_t best = 0;    ///< index into DesignComparison::designs
   std::size_t second = 0;  ///< the next
   bool as_good = false;    ///< they differ by at most 1e-3: neither is better
+  /// `best` without doubt: every design has a limit for that user, and some wall is stable with the best.
+  bool is_best_of_all = false;
 };
 
 /// Several designs side by side. A user's best designs are absent where fewer than two of them have a limit for it.
@@ -45,11 +42,14 @@ struct DesignComparison {
   Trust trust;  ///< the worst of the designs'
 };
 
-/// Judges every variant, its own [operator] replaced by `user`: critical_stiffness() of the free and the held device,
-/// any_user_limit().
-/// Requires at least one variant. Throws Error (invalid_argument) for none or an impossible user, (did_not_converge) as
-/// its parts do.
-[[nodiscard]] DesignComparison compare_designs(std::string key, const std::vector<DesignVariant>& variants,
-                                               const Operator& user);
+/// Checks: at least one variant; `user` (see compare_designs()) not negative, and of devices with a body to hold.
+[[nodiscard]] std::optional<OptionProblem> find_problem(const DeviceVariants& variants,
+                                                        const std::optional<Operator>& user);
+
+/// Judges every variant, its own [operator] replaced by `user`, or by the first one's where there is none:
+/// critical_stiffness() of the free and the held device, any_user_limit().
+/// Throws Error (invalid_argument) where find_problem(variants, user) finds one, (did_not_converge) as its parts do.
+[[nodiscard]] DesignComparison compare_designs(const DeviceVariants& variants,
+                                               const std::optional<Operator>& user = {});
 
 }  // namespace zwidth

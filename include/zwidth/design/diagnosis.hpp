@@ -7,6 +7,7 @@
 #include "zwidth/model/device.hpp"
 #include "zwidth/option_problem.hpp"
 #include "zwidth/remark.hpp"
+#include "zwidth/signal/recording.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
 #include "zwidth/trust.hpp"
 
@@ -30,6 +31,10 @@ struct DiagnosisOptions {
 
 /// Checks every member's range for the device.
 [[nodiscard]] std::optional<OptionProblem> find_problem(const DiagnosisOptions& options, const Device& device);
+
+/// The same where a recording shows the oscillation; member "recording" for one that the device's loop cannot see.
+[[nodiscard]] std::optional<OptionProblem> find_problem(const DiagnosisOptions& options, const Device& device,
+                                                        const Recording& recording);
 
 struct OscillationCandidate {
   OscillationCause cause = OscillationCause::device;
@@ -57,12 +62,14 @@ struct DiagnosisChange {
 };
 
 struct Diagnosis {
+  std::optional<double> frequency;               ///< observed, rad/s; absent where a recording shows no oscillation
+  std::optional<double> amplitude;               ///< observed, where it is known
   std::optional<double> stiffness;               ///< K taken; absent: unknown
   double damping = 0.0;                          ///< B taken
   std::vector<OscillationCandidate> candidates;  ///< the likeliest first
   std::optional<OscillationCause> cause;         ///< of the first, where it fits; absent: none does
   std::vector<DiagnosisChange> changes;          ///< what moves it, by falling limit; none where there is no cause
-  Trust trust;                                   ///< where refused, nothing is held
+  Trust trust;                                   ///< where refused, nothing else is held
   std::vector<Remark> remarks;
 };
 
@@ -81,5 +88,9 @@ struct Diagnosis {
 /// amplitude is not given the frequency alone tells; two causes that fit nearly as well make the answer doubtful.
 /// Throws Error (invalid_argument) where find_problem() finds one, (did_not_converge) as its parts do.
 [[nodiscard]] Diagnosis diagnose(const Device& device, const DiagnosisOptions& options);
+
+/// The same of the oscillation that a recording shows: dominant_oscillation() of its first channel, the sensed position
+/// in m or rad, gives the frequency, and the amplitude where the options have none. Refused where nothing oscillates.
+[[nodiscard]] Diagnosis diagnose(const Device& device, const Recording& recording, const DiagnosisOptions& options);
 
 }  // namespace zwidth

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "zwidth/model/device.hpp"
+#include "zwidth/option_problem.hpp"
 #include "zwidth/progress.hpp"
 #include "zwidth/stability/any_user.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
@@ -42,13 +43,16 @@ struct SweepPoint {
 };
 
 struct ParameterSweep {
-  std::vector<SweepAxis> axes;
+  std::vector<SweepAxis> axes;              ///< a body's inertia by its own name, mass
   std::vector<std::vector<double>> values;  ///< of each axis
   std::vector<SweepPoint> points;           ///< the last axis fastest: [i] or [i * values[1].size() + j]
 };
 
 /// The first combination of values that makes no device, or an axis that cannot be: what is wrong with the sweep.
 [[nodiscard]] std::optional<DeviceProblem> find_sweep_problem(const Device& device, const std::vector<SweepAxis>& axes);
+
+/// Checks: any_user for a device with a body to hold.
+[[nodiscard]] std::optional<OptionProblem> find_problem(const SweepOptions& options, const Device& device);
 
 /// Analyses the device at every value of one parameter, or at every pair of values of two, with the wall's damper
 /// closed.

@@ -18,7 +18,11 @@ namespace zwidth {
 /// Every key of the device that parameter() takes, in the order of the device file. Links always with their index.
 [[nodiscard]] std::vector<std::string> parameter_keys(const DeviceParameters& parameters);
 
-/// The key with the index of its link: "link.stiffness" is "link.0.stiffness" where there is one link; others as given.
+/// "body.NAME.mass" for "body.NAME.inertia", and so of the operator: they are one here. Others as given.
+[[nodiscard]] std::string without_alias(std::string_view key);
+
+/// without_alias(), and with the index of its link: "link.stiffness" is "link.0.stiffness" where there is one link; others
+/// as given.
 [[nodiscard]] std::string full_parameter_key(const DeviceParameters& parameters, std::string_view key);
 
 /// The value of the key; nothing for a key that the device does not have, or whose value is absent (a wall without
