@@ -69,27 +69,23 @@ void check(const IdentifyArguments& arguments, Outputs& outputs) {
   }
 }
 
-IdentifyOptions identify_options(const IdentifyArguments& arguments, const Device& device,
-                                 const FrequencyResponseOptions& response) {
+IdentifyOptions identify_options(const IdentifyArguments& arguments, const FrequencyResponseOptions& response) {
   IdentifyOptions options;
   options.response = response;
-  options.fit.free = free_parameters(arguments.structure, device);
+  options.fit.free = arguments.structure.free;
   options.fit.locked = arguments.structure.locked;
   if (arguments.from_structure) options.fit.start = ParameterFitOptions::Start::from_structure;
   if (arguments.no_hold) options.fit.critical_point = ParameterFitOptions::CriticalPoint::free;
   if (is_named_structure(arguments.structure)) {
     options.structure_values = IdentifyOptions::StructureValues::placeholders;
   }
-  const std::vector<std::string>& free = arguments.structure.free;
-  const bool takes_all = free.empty() || std::ranges::count(free, "all") > 0;
-  if (!takes_all) options.loop_delay = IdentifyOptions::LoopDelay::as_given;
   return options;
 }
 
 Identification identified_device(const IdentifyArguments& arguments) {
   const ResponseSource source = response_source(arguments.response);
   const Device device = structure(arguments.structure, source.sampling_period());
-  const IdentifyOptions options = identify_options(arguments, device, source.options);
+  const IdentifyOptions options = identify_options(arguments, source.options);
   try {
     ProgressLine line("identifying");
     return !source.recordings.empty() ? identify(source.recordings, device, options, line.progress())

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "cli/progress_line.hpp"
 #include "cli/subcommand.hpp"
 #include "zwidth/error.hpp"
@@ -12,18 +10,6 @@ namespace zwidth::cli {
 namespace {
 
 constexpr const char* segment_option = "--segment-duration";
-
-/// Empty (the library's choice) unless keys are given; "all" adds the friction of every body that moves.
-std::vector<std::string> free_in_time(const StructureArguments& given, const Device& device) {
-  if (given.free.empty()) return {};
-  std::vector<std::string> keys = free_parameters(given, device);
-  if (std::ranges::count(given.free, "all") == 0) return keys;
-  for (const Body& body : device.bodies()) {
-    const std::string key = "body." + body.name + ".coulomb";
-    if (std::ranges::count(given.locked, body.name) == 0 && std::ranges::count(keys, key) == 0) keys.push_back(key);
-  }
-  return keys;
-}
 
 }  // namespace
 
@@ -56,7 +42,7 @@ TimeDomainIdentification fitted_in_time(const RecordingArguments& recording, con
   const std::vector<Recording> recordings = read_motions(recording).recordings;
   const Device device = structure(structure_given, recordings.front().sampling_period);
   TimeDomainOptions options;
-  options.free = free_in_time(structure_given, device);
+  options.free = structure_given.free;
   options.locked = structure_given.locked;
   options.segment = arguments.segment;
   if (is_named_structure(structure_given)) options.structure_values = IdentifyOptions::StructureValues::placeholders;

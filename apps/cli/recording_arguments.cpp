@@ -3,11 +3,12 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cmath>
+#include <string_view>
 #include <utility>
 
 #include "cli/input_problem.hpp"
 #include "cli/number_text.hpp"
+#include "cli/option_refusal.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/subcommand.hpp"
 #include "cli/surroundings.hpp"
@@ -25,15 +26,8 @@ void add_column(CLI::App& command, const std::string& name, ColumnRequest& colum
       ->group(recording_group);
 }
 
-void check_scale(const std::string& option, double scale) {
-  if (!std::isfinite(scale) || scale == 0.0) throw BadInput(fmt::format("{}: is {}; a number but 0", option, scale));
-}
-
-void check_positive(const std::string& option, double value, std::string_view unit) {
-  if (!(std::isfinite(value) && value > 0.0)) {
-    throw BadInput(fmt::format("{}: is {}; a number of {} above 0", option, value, unit));
-  }
-}
+constexpr std::pair<std::string_view, std::string_view> options_of_recording[] = {
+    {"rate", "--rate"}, {"time_scale", "--time-scale"}, {"decimal_mark", "--decimal"}};
 
 char delimiter_of(const std::string& text) {
   if (text == "tab" || text == "\\t" || text == "\t") return '\t';
@@ -73,13 +67,14 @@ std::string columns_of(const RecordingArguments& arguments) {
 struct RequestedMotion {
   ColumnRequest column;
   OutputQuantity output = OutputQuantity::position;
+  std::string_view scale_option;
 };
 
 RequestedMotion requested_motion(const RecordingArguments& arguments) {
   const std::array<RequestedMotion, 3> candidates{
-      RequestedMotion{arguments.position, OutputQuantity::position},
-      RequestedMotion{arguments.velocity, OutputQuantity::velocity},
-      RequestedMotion{arguments.acceleration, OutputQuantity::acceleration}};
+      RequestedMotion{arguments.position, OutputQuantity::position, "--position-scale"},
+      RequestedMotion{arguments.velocity, OutputQuantity::velocity, "--velocity-scale"},
+      RequestedMotion{arguments.acceleration, OutputQuantity::acceleration, "--acceleration-scale"}};
   const RequestedMotion* found = nullptr;
   for (const RequestedMotion& candidate : candidates) {
     if (candidate.column.name.empty()) continue;
@@ -161,20 +156,12 @@ void add_recording_options(CLI::App& command, RecordingArguments& arguments) {
 
 RecordingOptions recording_options(const RecordingArguments& arguments) {
   RecordingOptions options = arguments.options;
-  if (options.rate) check_positive("--rate", *options.rate, "Hz");
-  if (options.time_scale) check_positive("--time-scale", *options.time_scale, "seconds");
-  check_scale("--force-scale", arguments.force.scale);
-  check_scale("--position-scale", arguments.position.scale);
-  check_scale("--velocity-scale", arguments.velocity.scale);
-  check_scale("--acceleration-scale", arguments.acceleration.scale);
   options.format = format_of(arguments.format);
   if (!arguments.delimiter.empty()) options.delimiter = delimiter_of(arguments.delimiter);
   if (!arguments.decimal_mark.empty()) options.decimal_mark = decimal_mark_of(arguments.decimal_mark);
-  if (options.delimiter && options.decimal_mark && *options.delimiter == *options.decimal_mark) {
-    throw BadInput("--decimal: the decimal mark is the delimiter; they must differ");
-  }
   if (arguments.header) options.header = RecordingOptions::Header::present;
   if (arguments.no_header) options.header = RecordingOptions::Header::absent;
+  if (const auto problem = find_problem(options)) refuse(*problem, options_of_recording);
   return options;
 }
 
@@ -185,6 +172,9 @@ RecordedMotion read_motion(const RecordingArguments& arguments) {
   }
   const RequestedMotion motion = requested_motion(arguments);
   options.columns = {arguments.force, motion.column};
+  const std::pair<std::string_view, std::string_view> scales[] = {{"columns.0.scale", "--force-scale"},
+                                                                  {"columns.1.scale", motion.scale_option}};
+  if (const auto problem = find_problem(options)) refuse(*problem, scales);
   ProgressLine line("reading " + arguments.file);
   auto recording = read_named_recording(arguments.file, options, line.progress());
   if (!recording) throw BadInput(input_problem(recording.error()));

@@ -5,25 +5,36 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <cmath>
-#include <numbers>
+#include <string_view>
 #include <utility>
 
 #include "cli/input_problem.hpp"
+#include "cli/option_refusal.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/subcommand.hpp"
 #include "cli/surroundings.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/io/message_words.hpp"
 #include "zwidth/io/number_with_unit.hpp"
+#include "zwidth/quantity.hpp"
 
 namespace zwidth::cli {
 namespace {
 
 constexpr const char* estimate_group = "Estimate";
 constexpr const char* table_group = "Table of a response";
-constexpr const char* no_line_left = ": no line is left in the band; widen --lowest-hz and --highest-hz";
-constexpr double radians_per_turn = 2.0 * std::numbers::pi;
+
+/// Options by the members of FrequencyResponseOptions and ResponseTableOptions that they set.
+constexpr std::pair<std::string_view, std::string_view> options_of_response[] = {
+    {"segment_length", "--segment"},
+    {"skip_periods", "--skip-periods"},
+    {"period", "--period"},
+    {"overlap", "--overlap"},
+    {"lines", "--lines"},
+    {"lowest", "--lowest-hz"},
+    {"highest", "--highest-hz"},
+    {"scale", "--value-scale"},
+    {"frequency_step", "--frequency-step"}};
 
 void add_estimate_options(CLI::App& command, ResponseArguments& arguments) {
   CLI::Option* period = command.add_option("--period", arguments.period, "Samples after which the force repeats");
@@ -104,13 +115,8 @@ Window window_of(const std::string& name) {
   return Window::hann;  // CLI11 has checked the word
 }
 
-/// Hz to rad/s, checked.
-std::optional<double> angular(const char* option, std::optional<double> hertz) {
-  if (!hertz) return std::nullopt;
-  if (!(std::isfinite(*hertz) && *hertz > 0.0)) {
-    throw BadInput(fmt::format("{}: is {}; a frequency in Hz above 0", option, *hertz));
-  }
-  return radians_per_turn * *hertz;
+std::optional<double> angular(std::optional<double> cycles) {
+  return cycles ? std::optional(radians_per_second(*cycles)) : std::nullopt;
 }
 
 double line_in_hertz(const std::string& text) {
@@ -142,48 +148,20 @@ void add_lines(const std::string& text, std::vector<double>& lines) {
   }
   const double first = line_in_hertz(parts[0]);
   const double step = count > 1 ? (line_in_hertz(parts[1]) - first) / static_cast<double>(count - 1) : 0.0;
-  for (std::size_t i = 0; i < count; ++i) lines.push_back(*angular("--lines", first + step * static_cast<double>(i)));
-}
-
-struct Band {
-  std::optional<double> lowest;
-  std::optional<double> highest;
-};
-
-Band band_of(const ResponseArguments& arguments) {
-  const Band band{angular("--lowest-hz", arguments.lowest_hz), angular("--highest-hz", arguments.highest_hz)};
-  if (band.lowest && band.highest && *band.lowest >= *band.highest) {
-    throw BadInput(
-        fmt::format("--highest-hz: is {}; above --lowest-hz, {}", *arguments.highest_hz, *arguments.lowest_hz));
-  }
-  return band;
+  for (std::size_t i = 0; i < count; ++i) lines.push_back(radians_per_second(first + step * static_cast<double>(i)));
 }
 
 FrequencyResponseOptions estimate_options(const ResponseArguments& arguments) {
   FrequencyResponseOptions options = arguments.options;
-  using Excitation = FrequencyResponseOptions::Excitation;
   options.period = arguments.period;
-  if (arguments.period) options.excitation = Excitation::periodic;
-  if (arguments.aperiodic || options.segment_length) options.excitation = Excitation::aperiodic;
-  if (arguments.period && options.segment_length) {
-    throw BadInput("--segment: is for an aperiodic force; leave it out, or --period");
-  }
-  if (options.excitation == Excitation::aperiodic && options.skip_periods > 0) {
-    throw BadInput("--skip-periods: is for a periodic force; leave it out, or --aperiodic and --segment");
-  }
-  if (!(options.overlap >= 0.0 && options.overlap < 1.0)) {
-    throw BadInput(fmt::format("--overlap: is {}; from 0 to below 1", options.overlap));
-  }
+  if (arguments.aperiodic) options.excitation = FrequencyResponseOptions::Excitation::aperiodic;
   options.window = window_of(arguments.window);
   options.estimator = arguments.estimator == "h2" ? ResponseEstimator::h2 : ResponseEstimator::h1;
   options.detrend = !arguments.no_detrend;
-  const Band band = band_of(arguments);
-  options.lowest = band.lowest;
-  options.highest = band.highest;
+  options.lowest = angular(arguments.lowest_hz);
+  options.highest = angular(arguments.highest_hz);
   for (const std::string& each : arguments.lines) add_lines(each, options.lines);
-  if (!options.lines.empty() && (arguments.period || options.segment_length)) {
-    throw BadInput("--lines: are fitted in the whole record; leave --period and --segment out");
-  }
+  if (const auto problem = find_problem(options)) refuse(*problem, options_of_response);
   return options;
 }
 
@@ -203,21 +181,17 @@ ResponseSource from_table(const ResponseArguments& arguments) {
   check_table_options(*arguments.command);
   ResponseTableOptions options = arguments.table;
   options.file = recording_options(arguments.recording);
-  if (arguments.frequency_unit) options.frequency_scale = *arguments.frequency_unit == "hz" ? radians_per_turn : 1.0;
-  if (arguments.phase_unit) options.phase_in_degrees = *arguments.phase_unit == "deg";
-  options.frequency_step = angular("--frequency-step", arguments.frequency_step_hz).value_or(0.0);
-  if (!std::isfinite(options.scale) || options.scale == 0.0) {
-    throw BadInput(fmt::format("--value-scale: is {}; a number but 0", options.scale));
+  if (arguments.frequency_unit) {
+    options.frequency_scale = *arguments.frequency_unit == "hz" ? radians_per_second(1.0) : 1.0;
   }
-  if (options.file.rate) options.sampling_period = 1.0 / *options.file.rate;
-  const Band band = band_of(arguments);
+  if (arguments.phase_unit) options.phase_in_degrees = *arguments.phase_unit == "deg";
+  options.frequency_step = angular(arguments.frequency_step_hz).value_or(0.0);
+  options.lowest = angular(arguments.lowest_hz);
+  options.highest = angular(arguments.highest_hz);
+  if (const auto problem = find_problem(options)) refuse(*problem, options_of_response);
   ProgressLine line("reading " + arguments.recording.file);
   auto response = read_named_table(arguments.recording.file, options, line.progress());
   if (!response) throw BadInput(input_problem(response.error()));
-  std::erase_if(response->points, [&](const ResponsePoint& point) {
-    return (band.lowest && point.frequency < *band.lowest) || (band.highest && point.frequency > *band.highest);
-  });
-  if (response->points.empty()) throw BadInput(arguments.recording.file + no_line_left);
   ResponseSource source;
   source.name = arguments.recording.file;
   source.table = judged_response(source.name, *std::move(response));

@@ -106,32 +106,13 @@ Device structure(const StructureArguments& arguments, std::optional<double> reco
       throw BadInput(fmt::format("--locked: there is no body {}{}", name, nearest_or_all(name, names)));
     }
   }
-  return device;
-}
-
-std::vector<std::string> free_parameters(const StructureArguments& arguments, const Device& structure) {
-  const std::vector<std::string> all = fittable_parameters(structure, arguments.locked);
-  if (arguments.free.empty()) return all;
-  std::vector<std::string> known = all;
-  for (const std::string& key : parameter_keys(structure.parameters())) {
-    if (std::ranges::count(known, key) == 0) known.push_back(key);
-  }
-  std::vector<std::string> keys;
-  const auto add = [&](const std::string& key) {
-    if (std::ranges::count(keys, key) == 0) keys.push_back(key);
-  };
+  const std::vector<std::string> keys = parameter_keys(device.parameters());
   for (const std::string& given : arguments.free) {
-    if (given == "all") {
-      std::ranges::for_each(all, add);
-      continue;
+    if (given != "all" && std::ranges::count(keys, full_parameter_key(device.parameters(), given)) == 0) {
+      throw BadInput(fmt::format("--free: no parameter is called {}{}", given, nearest_or_all(given, keys)));
     }
-    const std::string key = full_parameter_key(structure.parameters(), given);
-    if (std::ranges::count(known, key) == 0) {
-      throw BadInput(fmt::format("--free: no parameter is called {}{}", given, nearest_or_all(given, known)));
-    }
-    add(key);
   }
-  return keys;
+  return device;
 }
 
 }  // namespace zwidth::cli

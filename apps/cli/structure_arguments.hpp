@@ -25,10 +25,8 @@ void add_structure_arguments(CLI::App& command, StructureArguments& arguments);
 /// Whether the structure is named: its numbers are then placeholders until they are fitted.
 [[nodiscard]] bool is_named_structure(const StructureArguments& arguments);
 
-/// The structure as asked for. `record_period` is the record's sampling period, where it has one. Throws BadInput.
+/// The structure as asked for, its parameters and bodies checked to be those that --free and --locked name.
+/// `record_period` is the record's sampling period, where it has one. Throws BadInput.
 [[nodiscard]] Device structure(const StructureArguments& arguments, std::optional<double> record_period);
-
-/// The keys of the free parameters, "all" written out, checked to be the structure's. Throws BadInput.
-[[nodiscard]] std::vector<std::string> free_parameters(const StructureArguments& arguments, const Device& structure);
 
 }  // namespace zwidth::cli

@@ -142,6 +142,12 @@ void to_position(FrequencyResponse& response, OutputQuantity output, double samp
 
 }  // namespace
 
+FrequencyResponseOptions::Excitation excitation_of(const FrequencyResponseOptions& options) {
+  if (options.excitation != Excitation::detect) return options.excitation;
+  if (options.period) return Excitation::periodic;
+  return options.segment_length ? Excitation::aperiodic : Excitation::detect;
+}
+
 FrequencyResponse frequency_response(std::span<const double> force, std::span<const double> output,
                                      double sampling_period, const FrequencyResponseOptions& options,
                                      const Progress& progress) {

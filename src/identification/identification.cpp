@@ -101,8 +101,7 @@ class Fitting {
   Fitting(const MeasuredResponse& measured, std::span<const Recording> recordings, const Device& structure,
           const IdentifyOptions& options)
       : recordings_(recordings), options_(options), fit_options_(options.fit) {
-    for (std::string& key : fit_options_.free) key = full_parameter_key(structure.parameters(), key);
-    if (fit_options_.free.empty()) fit_options_.free = fittable_parameters(structure, fit_options_.locked);
+    fit_options_.free = free_parameters(structure, fit_options_.free, fit_options_.locked);
     const bool is_unknown = options.structure_values == IdentifyOptions::StructureValues::placeholders;
     if (may_free() && is_unknown && !is_free(delay_key) &&
         measured.response.points.size() > fit_options_.free.size() + 1) {
@@ -184,7 +183,10 @@ class Fitting {
            });
   }
 
-  [[nodiscard]] bool may_free() const { return options_.loop_delay == IdentifyOptions::LoopDelay::from_data; }
+  [[nodiscard]] bool may_free() const {
+    using enum IdentifyOptions::LoopDelay;
+    return options_.loop_delay == by_free ? frees_all(options_.fit.free) : options_.loop_delay == from_data;
+  }
   [[nodiscard]] bool is_free(const std::string& key) const { return std::ranges::count(fit_options_.free, key) > 0; }
 
   [[nodiscard]] static std::vector<std::string> keys_of(const ParameterFit& fit) {
@@ -343,9 +345,11 @@ Identification identify(const Recording& recording, const Device& structure, con
   return identify(std::span(&recording, 1), structure, options, progress);
 }
 
-Identification identify(std::span<const Recording> recordings, const Device& structure, const IdentifyOptions& options,
+Identification identify(std::span<const Recording> recordings, const Device& structure, const IdentifyOptions& given,
                         const Progress& progress) {
-  check(options);
+  check(given);
+  IdentifyOptions options = given;
+  options.response.excitation = excitation_of(given.response);
   Identification found =
       identified(response_with_enough_lines(recordings, structure, options, progress), recordings, structure, options);
   constexpr double clear = 0.005;

@@ -15,6 +15,7 @@
 #include "identification/welch.hpp"
 #include "signal/clipping.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/quantity.hpp"
 
 namespace zwidth {
 using namespace internal;
@@ -32,15 +33,13 @@ std::optional<OptionProblem> find_band_problem(const FrequencyResponseOptions& o
   const auto wrong = [](const std::optional<double>& frequency) {
     return frequency && !(std::isfinite(*frequency) && *frequency > 0.0);
   };
-  if (wrong(options.lowest)) {
-    return OptionProblem{"lowest", fmt::format("is {} rad/s", *options.lowest), "must be finite and > 0"};
-  }
-  if (wrong(options.highest)) {
-    return OptionProblem{"highest", fmt::format("is {} rad/s", *options.highest), "must be finite and > 0"};
+  for (const auto& [member, value] : {std::pair{"lowest", options.lowest}, std::pair{"highest", options.highest}}) {
+    if (wrong(value))
+      return OptionProblem{member, fmt::format("is {:.6g} Hz", hertz(*value)), "must be finite and above 0"};
   }
   if (options.lowest && options.highest && *options.lowest >= *options.highest) {
-    return OptionProblem{"highest", fmt::format("is {} rad/s", *options.highest),
-                         fmt::format("must be above lowest, {} rad/s", *options.lowest)};
+    return OptionProblem{"highest", fmt::format("is {:.6g} Hz", hertz(*options.highest)),
+                         fmt::format("must be above the lowest, {:.6g} Hz", hertz(*options.lowest))};
   }
   return std::nullopt;
 }
@@ -200,27 +199,28 @@ MeasuredResponse judged(std::string source, FrequencyResponse response, std::vec
 
 std::optional<OptionProblem> find_problem(const FrequencyResponseOptions& options) {
   using Excitation = FrequencyResponseOptions::Excitation;
+  const Excitation excitation = excitation_of(options);
   if (!(options.overlap >= 0.0 && options.overlap < 1.0)) {
     return OptionProblem{"overlap", fmt::format("is {}", options.overlap), "must be from 0 to below 1"};
   }
   if (options.segment_length && *options.segment_length < 2) {
     return OptionProblem{"segment_length", fmt::format("is {}", *options.segment_length), "must be at least 2 samples"};
   }
-  if (options.segment_length && options.excitation == Excitation::periodic) {
+  if (options.segment_length && excitation == Excitation::periodic && options.lines.empty()) {
     return OptionProblem{"segment_length", "is given for a periodic force",
                          "must be left out, or the force taken as aperiodic"};
   }
   if (options.period && *options.period < 2) {
     return OptionProblem{"period", fmt::format("is {}", *options.period), "must be at least 2 samples"};
   }
-  if (options.skip_periods > 0 && options.excitation == Excitation::aperiodic) {
+  if (options.skip_periods > 0 && excitation == Excitation::aperiodic) {
     return OptionProblem{"skip_periods", fmt::format("is {} for an aperiodic force", options.skip_periods),
                          "must be 0, or the force periodic"};
   }
   const auto wrong =
       std::ranges::find_if_not(options.lines, [](double line) { return std::isfinite(line) && line > 0.0; });
   if (wrong != options.lines.end())
-    return OptionProblem{"lines", fmt::format("has {} rad/s", *wrong), "must be finite and > 0"};
+    return OptionProblem{"lines", fmt::format("has {:.6g} Hz", hertz(*wrong)), "must be finite and above 0"};
   if (!options.lines.empty() && (options.segment_length || options.period)) {
     return OptionProblem{"lines", "are given beside a segment's length or a period",
                          "must be left out, or they: lines are fitted in the whole record"};
@@ -280,8 +280,10 @@ MeasuredResponse frequency_response(const Recording& recording, const FrequencyR
   return frequency_response(std::span(&recording, 1), options, progress);
 }
 
-MeasuredResponse frequency_response(std::span<const Recording> recordings, const FrequencyResponseOptions& options,
+MeasuredResponse frequency_response(std::span<const Recording> recordings, const FrequencyResponseOptions& given,
                                     const Progress& progress) {
+  FrequencyResponseOptions options = given;
+  options.excitation = excitation_of(given);
   std::vector<FrequencyResponse> each = responses(recordings, options, progress);
   std::vector<Remark> remarks;
   std::vector<std::string> doubts;

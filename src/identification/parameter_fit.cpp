@@ -226,13 +226,27 @@ std::vector<std::string> fittable_parameters(const Device& structure, const std:
   return keys;
 }
 
+bool frees_all(const std::vector<std::string>& free) { return free.empty() || std::ranges::count(free, "all") > 0; }
+
+std::vector<std::string> free_parameters(const Device& structure, const std::vector<std::string>& free,
+                                         const std::vector<std::string>& locked) {
+  std::vector<std::string> keys;
+  if (frees_all(free)) keys = fittable_parameters(structure, locked);
+  const std::size_t all = keys.size();
+  for (const std::string& given : free) {
+    const std::string key = full_parameter_key(structure.parameters(), given);
+    const auto end = keys.begin() + static_cast<std::ptrdiff_t>(all);
+    if (given != "all" && std::find(keys.begin(), end, key) == end) keys.push_back(key);
+  }
+  return keys;
+}
+
 ParameterFit fit_parameters(const Device& structure, const FrequencyResponse& response,
                             const ParameterFitOptions& options) {
   const std::vector<ResponsePoint> points = points_in_band(response, options);
   FrequencyResponse in_band = response;
   in_band.points = points;
-  const std::vector<std::string> free =
-      options.free.empty() ? fittable_parameters(structure, options.locked) : options.free;
+  const std::vector<std::string> free = free_parameters(structure, options.free, options.locked);
   if (free.empty()) throw Error(ErrorCode::invalid_argument, "no parameter is free");
   if (free.size() > max_free_parameters) {
     throw Error(ErrorCode::invalid_argument, fmt::format("{} parameters are free; at most {} can be fitted at once",

@@ -100,35 +100,41 @@ TimeDomainStart time_domain_start(std::span<const Recording> recordings, const D
   linear.loop_delay = options.loop_delay;
   linear.fit.locked = options.locked;
   linear.fit.critical_point = ParameterFitOptions::CriticalPoint::free;
+  const bool takes_all = frees_all(options.free);
   std::vector<std::string> given;
-  for (const std::string& key : options.free) given.push_back(full_parameter_key(structure.parameters(), key));
+  for (const std::string& key : options.free) {
+    if (key != "all") given.push_back(full_parameter_key(structure.parameters(), key));
+  }
   check_free(structure, given);
   std::ranges::copy_if(given, std::back_inserter(linear.fit.free), [](const auto& key) { return !is_friction(key); });
-  if (!given.empty()) linear.loop_delay = IdentifyOptions::LoopDelay::as_given;
+  if (takes_all && !linear.fit.free.empty()) linear.fit.free.emplace_back("all");
+  if (!takes_all) linear.loop_delay = IdentifyOptions::LoopDelay::as_given;
 
   TimeDomainStart start{.device = structure, .free = given};
-  if (given.empty() || !linear.fit.free.empty()) {
+  if (takes_all || !linear.fit.free.empty()) {
     const Identification found = identify(strongest(recordings), structure, linear);
     start.device = found.fit.device;
     start.lowest = found.fit.frequencies.front();
     start.highest = found.fit.frequencies.back();
     start.is_turned = found.fit.model_error_if_turned.has_value();
-    if (given.empty()) {
+    if (takes_all) {
+      start.free.clear();
       for (const ParameterEstimate& each : found.fit.estimates) start.free.push_back(each.key);
     }
   }
-  if (given.empty()) {
-    const auto is_free = [&](const char* key) { return std::ranges::count(start.free, std::string(key)) > 0; };
-    if (options.loop_delay == IdentifyOptions::LoopDelay::from_data) {
-      for (const char* key : {delay_key, lag_key}) {
-        if (!is_free(key)) start.free.emplace_back(key);
-      }
+  if (takes_all) {
+    const auto add = [&](const std::string& key) {
+      if (std::ranges::count(start.free, key) == 0) start.free.push_back(key);
+    };
+    if (options.loop_delay != IdentifyOptions::LoopDelay::as_given) {
+      for (const char* key : {delay_key, lag_key}) add(key);
       start.device = with_some_lag(start.device, strongest(recordings).sampling_period);
     }
     for (const Body& body : structure.bodies()) {
       const bool is_locked = std::ranges::count(options.locked, body.name) > 0;
-      if (!is_locked) start.free.push_back("body." + body.name + ".coulomb");
+      if (!is_locked) add("body." + body.name + ".coulomb");
     }
+    for (const std::string& key : given) add(key);
     check_free(structure, start.free);
   }
   return start;

@@ -9,6 +9,7 @@
 #include "io/column_unit.hpp"
 #include "io/prose.hpp"
 #include "io/time_axis.hpp"
+#include "require_valid.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/io/message_words.hpp"
 
@@ -60,13 +61,10 @@ InputError no_time_axis(const std::string& source) {
 }
 
 void check_recording_options(const RecordingOptions& options) {
-  const auto refuse = [](const std::string& what) { throw Error(ErrorCode::invalid_argument, what); };
-  if (options.columns.empty()) refuse("no columns are asked for; name one at least");
-  for (const ColumnRequest& request : options.columns) {
-    if (!std::isfinite(request.scale) || request.scale == 0.0) {
-      refuse(fmt::format("the scale of {} is {}; it must be finite and not 0", request.name, request.scale));
-    }
+  if (options.columns.empty()) {
+    throw Error(ErrorCode::invalid_argument, "no columns are asked for; name one at least");
   }
+  require_valid(find_problem(options));
 }
 
 tl::expected<Recording, InputError> make_recording(std::vector<RawColumn> columns, std::optional<RawColumn> times,

@@ -21,7 +21,7 @@ namespace zwidth::internal {
 /// The refusal of a recording that has neither a rate nor a column of times.
 [[nodiscard]] InputError no_time_axis(const std::string& source);
 
-/// Checks what every reader needs: columns to read, finite scales other than 0. Throws Error (invalid_argument).
+/// Throws Error (invalid_argument) without columns to read, and where find_problem(options) finds one.
 void check_recording_options(const RecordingOptions& options);
 
 }  // namespace zwidth::internal

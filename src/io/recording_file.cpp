@@ -1,5 +1,8 @@
 #include "zwidth/io/recording_file.hpp"
 
+#include <fmt/format.h>
+
+#include <cmath>
 #include <new>
 #include <string_view>
 #include <utility>
@@ -48,6 +51,26 @@ InputError too_large(const std::string& path) {
 }
 
 }  // namespace
+
+std::optional<OptionProblem> find_problem(const RecordingOptions& options) {
+  const auto is_positive = [](const std::optional<double>& value) {
+    return !value || (std::isfinite(*value) && *value > 0.0);
+  };
+  if (!is_positive(options.rate))
+    return OptionProblem{"rate", fmt::format("is {} Hz", *options.rate), "must be above 0"};
+  if (!is_positive(options.time_scale)) {
+    return OptionProblem{"time_scale", fmt::format("is {} s", *options.time_scale), "must be above 0"};
+  }
+  for (std::size_t i = 0; i < options.columns.size(); ++i) {
+    const double scale = options.columns[i].scale;
+    if (std::isfinite(scale) && scale != 0.0) continue;
+    return OptionProblem{fmt::format("columns.{}.scale", i), fmt::format("is {}", scale), "must be finite and not 0"};
+  }
+  if (options.delimiter && options.decimal_mark && *options.delimiter == *options.decimal_mark) {
+    return OptionProblem{"decimal_mark", "is the delimiter", "they must differ"};
+  }
+  return std::nullopt;
+}
 
 tl::expected<Recording, InputError> read_recording(const std::string& path, const RecordingOptions& options,
                                                    const Progress& progress) try {

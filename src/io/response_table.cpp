@@ -15,28 +15,16 @@
 #include "io/text_lines.hpp"
 #include "io/text_table.hpp"
 #include "io/uff_response.hpp"
-#include "zwidth/error.hpp"
+#include "require_valid.hpp"
 #include "zwidth/io/message_words.hpp"
 #include "zwidth/io/recording_file.hpp"
+#include "zwidth/quantity.hpp"
 
 namespace zwidth {
 using namespace internal;
 namespace {
 
 using Refusal = tl::unexpected<InputError>;
-
-void check_options(const ResponseTableOptions& options) {
-  const auto require = [](bool holds, const char* what) {
-    if (!holds) throw Error(ErrorCode::invalid_argument, what);
-  };
-  require(std::isfinite(options.scale) && options.scale != 0.0, "the scale of a response must be finite and not 0");
-  require(!options.frequency_scale || (std::isfinite(*options.frequency_scale) && *options.frequency_scale > 0.0),
-          "the scale of frequencies must be finite and above 0");
-  require(std::isfinite(options.frequency_step) && options.frequency_step >= 0.0,
-          "the step of frequency must be finite and not negative");
-  require(!options.sampling_period || (std::isfinite(*options.sampling_period) && *options.sampling_period > 0.0),
-          "the sampling period must be finite and above 0");
-}
 
 /// Reads the rows of a text table.
 class RowReader {
@@ -128,12 +116,9 @@ tl::expected<FrequencyResponse, InputError> read_text_response(TextLines text, c
   return response;
 }
 
-}  // namespace
-
-tl::expected<FrequencyResponse, InputError> read_response_table(const std::string& path,
-                                                                const ResponseTableOptions& options,
-                                                                const Progress& progress) try {
-  check_options(options);
+tl::expected<FrequencyResponse, InputError> read_whole_table(const std::string& path,
+                                                             const ResponseTableOptions& options,
+                                                             const Progress& progress) {
   auto file = InputFile::open(path, "response table");
   if (!file) return Refusal(std::move(file.error()));
   auto text = TextLines::start(std::move(*file));
@@ -151,6 +136,57 @@ tl::expected<FrequencyResponse, InputError> read_response_table(const std::strin
     return refused("is a universal file, which cannot be read from a pipe", "must be a file given by its name");
   }
   return read_uff_response(path, options, progress);
+}
+
+}  // namespace
+
+std::optional<OptionProblem> find_problem(const ResponseTableOptions& options) {
+  const auto not_positive = [](const std::optional<double>& value) {
+    return value && !(std::isfinite(*value) && *value > 0.0);
+  };
+  if (auto problem = find_problem(options.file)) return problem;
+  if (!std::isfinite(options.scale) || options.scale == 0.0) {
+    return OptionProblem{"scale", fmt::format("is {}", options.scale), "must be finite and not 0"};
+  }
+  if (not_positive(options.frequency_scale)) {
+    return OptionProblem{"frequency_scale", fmt::format("is {}", *options.frequency_scale),
+                         "must be finite and above 0"};
+  }
+  if (!(std::isfinite(options.frequency_step) && options.frequency_step >= 0.0)) {
+    return OptionProblem{"frequency_step", fmt::format("is {:.6g} Hz", hertz(options.frequency_step)),
+                         "must be finite and not negative"};
+  }
+  if (not_positive(options.sampling_period)) {
+    return OptionProblem{"sampling_period", fmt::format("is {} s", *options.sampling_period), "must be above 0"};
+  }
+  for (const auto& [member, value] : {std::pair{"lowest", options.lowest}, std::pair{"highest", options.highest}}) {
+    if (!not_positive(value)) continue;
+    return OptionProblem{member, fmt::format("is {:.6g} Hz", hertz(*value)), "must be finite and above 0"};
+  }
+  if (options.lowest && options.highest && *options.lowest >= *options.highest) {
+    return OptionProblem{"highest", fmt::format("is {:.6g} Hz", hertz(*options.highest)),
+                         fmt::format("must be above the lowest, {:.6g} Hz", hertz(*options.lowest))};
+  }
+  return std::nullopt;
+}
+
+tl::expected<FrequencyResponse, InputError> read_response_table(const std::string& path,
+                                                                const ResponseTableOptions& given,
+                                                                const Progress& progress) try {
+  require_valid(find_problem(given));
+  ResponseTableOptions options = given;
+  if (!options.sampling_period && options.file.rate) options.sampling_period = 1.0 / *options.file.rate;
+  auto response = read_whole_table(path, options, progress);
+  if (!response) return response;
+  std::erase_if(response->points, [&](const ResponsePoint& point) {
+    return (options.lowest && point.frequency < *options.lowest) ||
+           (options.highest && point.frequency > *options.highest);
+  });
+  if (response->points.empty()) {
+    return Refusal(InputError{path == "-" ? "standard input" : path, 0, 0, "", "no line is left in the band",
+                              "widen it (`lowest`, `highest`)"});
+  }
+  return response;
 } catch (const std::bad_alloc&) {
   return Refusal(
       InputError{path == "-" ? "standard input" : path, 0, 0, "", "does not fit into memory", "must be shorter"});

@@ -149,9 +149,9 @@ TEST_F(Frf, TakesTheLinesThatAreGiven) {
   EXPECT_NEAR(document(command + "'2 Hz:4 Hz:3'")["frequency_hz"][1], 3.0, 1e-12);
   expect_refusal(command + "2:3", "--lines: \"2:3\"; a frequency, or FIRST:LAST:COUNT");
   expect_refusal(command + "'2 kg'", "--lines: \"kg\" is no unit of a frequency");
-  expect_refusal(command + "0", "--lines: is 0; a frequency in Hz above 0");
+  expect_refusal(command + "0", "--lines: has 0 Hz; must be finite and above 0");
   expect_refusal(command + "600", "sine.csv: line at 600 Hz; below half the sampling rate, 500 Hz");
-  expect_refusal(command + "2 --period 500", "leave --period and --segment out");
+  expect_refusal(command + "2 --period 500", "lines are fitted in the whole record");
 }
 
 TEST_F(Frf, RefusesRecordingsThatDoNotBelongTogether) {
@@ -177,14 +177,14 @@ TEST_F(Frf, RefusesInOneLineThatNamesThePlace) {
   }
   expect_refusal(example + "--period 6000", "2 up to half the record");
   expect_refusal(example + "--period 1000 --skip-periods 9", "at least two must remain");
-  expect_refusal(example + "--aperiodic --skip-periods 2", "is for a periodic force");
+  expect_refusal(example + "--aperiodic --skip-periods 2", "--skip-periods: is 2 for an aperiodic force");
   expect_refusal(example + "--segment 20000", "the record's length");
   expect_refusal(example + "--overlap 1", "from 0 to below 1");
   expect_refusal(example + "--lowest-hz nan", "above 0");
-  expect_refusal(example + "--lowest-hz 50 --highest-hz 40", "above --lowest-hz");
+  expect_refusal(example + "--lowest-hz 50 --highest-hz 40", "--highest-hz: is 40 Hz; must be above the lowest, 50 Hz");
   expect_refusal(example + "--lowest-hz 400", "no line is left in the band");
   expect_refusal(example + "--rate 0", "--rate");
-  expect_refusal(example + "--position-scale 0", "--position-scale: is 0; a number but 0");
+  expect_refusal(example + "--position-scale 0", "--position-scale: is 0; must be finite and not 0");
   expect_refusal(example + "--delimiter x", "comma, semicolon, tab or space");
   expect_refusal(example + "--table", "--force: is for a recording");
   expect_refusal(example + "--output frf.txt", "unknown extension");

@@ -324,5 +324,16 @@ TEST(ParameterFit, AllMeansWhatIsNotLocked) {
   EXPECT_EQ(fittable_parameters(Device(test::lhifam_parameters())).size(), 6U);
 }
 
+TEST(ParameterFit, AllStandsForWhatEmptyMeans) {
+  const Device device(test::lhifam_parameters());
+  const std::vector<std::string> all = fittable_parameters(device);
+  EXPECT_EQ(free_parameters(device, {}), all);
+  EXPECT_EQ(free_parameters(device, {"all", "link.stiffness"}), all);
+  EXPECT_EQ(free_parameters(device, {"loop.delay", "all"}).back(), "loop.delay");
+  EXPECT_EQ(free_parameters(device, {"link.stiffness"}), std::vector<std::string>{"link.0.stiffness"});
+  EXPECT_TRUE(frees_all({"loop.delay", "all"}));
+  EXPECT_FALSE(frees_all({"loop.delay"}));
+}
+
 }  // namespace
 }  // namespace zwidth

@@ -26,7 +26,7 @@ struct FrequencyResponseOptions {
   /// Of a segment, in [0, 1). Three quarters of Hann segments weigh every instant alike, which a sweep needs: it passes
   /// each frequency once.
   double overlap = 0.75;
-  // Periodic excitation: the average over periods, with the noise measured from their scatter.
+  // Periodic excitation: the average over periods, with the noise measured from their scatter. See excitation_of().
   enum class Excitation { detect, periodic, aperiodic } excitation = Excitation::detect;
   std::optional<std::size_t> period;  ///< samples; with Excitation::periodic, detected when absent
   std::size_t skip_periods = 0;       ///< leading periods in which the transient dies out (with a given period)
@@ -37,6 +37,10 @@ struct FrequencyResponseOptions {
   /// Empty: found by their power.
   std::vector<double> lines;
 };
+
+/// What `detect` asks for: periodic where a period is given, aperiodic where a segment's length is; else the force
+/// decides. Of recordings (identification/measured_response.hpp); the function of samples below takes options as they are.
+[[nodiscard]] FrequencyResponseOptions::Excitation excitation_of(const FrequencyResponseOptions& options);
 
 /// The response from force to position, line by line, with its noise.
 ///

@@ -26,7 +26,11 @@ struct IdentifyOptions {
   /// Whether the structure's numbers are those of the device (a device file), or of nobody (a named structure).
   enum class StructureValues { known, placeholders } structure_values = StructureValues::known;
   /// Whether a delay that the record shows beyond the structure's is fitted too, or the structure's taken as it is.
-  enum class LoopDelay { from_data, as_given } loop_delay = LoopDelay::from_data;
+  enum class LoopDelay {
+    by_free,  ///< from_data where frees_all(fit.free); as_given where what is free is named
+    from_data,
+    as_given
+  } loop_delay = LoopDelay::by_free;
 };
 
 /// A structure for which there is no device file: bodies in a row, each linked to the next, the first actuated and

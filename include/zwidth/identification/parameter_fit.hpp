@@ -12,8 +12,9 @@
 namespace zwidth {
 
 struct ParameterFitOptions {
-  /// Keys as in model/parameter.hpp. Empty: every mass and damping of a body, every stiffness and damping of a link,
-  /// and stiffnesses to ground, delay and lag where they are not 0 in the structure; of what is not locked.
+  /// Keys as in model/parameter.hpp. Empty, or "all" among them: every mass and damping of a body, every stiffness and
+  /// damping of a link, and stiffnesses to ground, delay and lag where they are not 0 in the structure; of what is not
+  /// locked.
   std::vector<std::string> free{};
   /// Bodies held still during the experiment, by name (the paper locks the handle); the result is of the free device.
   std::vector<std::string> locked{};
@@ -89,6 +90,13 @@ struct ParameterFit {
 /// The parameters that ParameterFitOptions::free means when it is empty.
 [[nodiscard]] std::vector<std::string> fittable_parameters(const Device& structure,
                                                            const std::vector<std::string>& locked = {});
+
+/// Whether ParameterFitOptions::free leaves the choice to the library: it is empty, or "all" stands in it.
+[[nodiscard]] bool frees_all(const std::vector<std::string>& free);
+
+/// The keys of ParameterFitOptions::free in full, "all" written out.
+[[nodiscard]] std::vector<std::string> free_parameters(const Device& structure, const std::vector<std::string>& free,
+                                                       const std::vector<std::string>& locked = {});
 
 /// Fits a device to a measured response by weighted complex least squares.
 ///

@@ -19,12 +19,13 @@
 namespace zwidth {
 
 struct TimeDomainOptions {
-  /// Keys as in model/parameter.hpp. Empty: what identify() frees, and the Coulomb friction of every body that moves.
+  /// Keys as in model/parameter.hpp. Empty, or "all" among them: what identify() frees, and the Coulomb friction of every
+  /// body that moves.
   std::vector<std::string> free{};
   std::vector<std::string> locked{};  ///< bodies held still during the experiment, by name
   IdentifyOptions::StructureValues structure_values = IdentifyOptions::StructureValues::known;
-  /// Whether delay and lag are fitted too where `free` is empty, or the structure's taken as they are.
-  IdentifyOptions::LoopDelay loop_delay = IdentifyOptions::LoopDelay::from_data;
+  /// Whether delay and lag are fitted too where frees_all(free), or the structure's taken as they are.
+  IdentifyOptions::LoopDelay loop_delay = IdentifyOptions::LoopDelay::by_free;
   double segment = 10.0;         ///< s; each begins in a state of its own
   std::size_t noise_order = 24;  ///< of the autoregression that describes the noise; 0: white
 };

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "zwidth/io/input_error.hpp"
+#include "zwidth/option_problem.hpp"
 #include "zwidth/progress.hpp"
 #include "zwidth/signal/frequency_response.hpp"
 #include "zwidth/signal/recording.hpp"
@@ -46,6 +47,10 @@ struct RecordingOptions {
   std::string comment = "#%";  ///< lines that begin with one of these are skipped
 };
 
+/// Checks what the options say by themselves: rate and time_scale finite and above 0, scales ("columns.0.scale", ...)
+/// finite and not 0, delimiter and decimal_mark different.
+[[nodiscard]] std::optional<OptionProblem> find_problem(const RecordingOptions& options);
+
 /// Reads the asked-for columns of a recording ("-": standard input, text only).
 ///
 /// Text is streamed: memory is that of the columns asked for, whatever the file's size. The time column is checked:
@@ -85,12 +90,19 @@ struct ResponseTableOptions {
   std::string magnitude, phase;           ///< or
   std::string real, imaginary;            ///< or a column of complex numbers "(re+imj)", named by `real`
   bool magnitude_in_db = false;
-  std::optional<bool> phase_in_degrees;   ///< absent: as the name says, else degrees
-  double scale = 1.0;                     ///< of the value
-  std::optional<std::string> coherence;   ///< a column, where there is one
-  std::optional<double> sampling_period;  ///< the table is the sampled plant's response; absent: continuous
-  double frequency_step = 0.0;            ///< rad/s, for a list of values without frequencies: they are k step, k >= 0
+  std::optional<bool> phase_in_degrees;  ///< absent: as the name says, else degrees
+  double scale = 1.0;                    ///< of the value
+  std::optional<std::string> coherence;  ///< a column, where there is one
+  /// s: the table is the sampled plant's response; absent: that of file.rate, and without that it is continuous.
+  std::optional<double> sampling_period;
+  double frequency_step = 0.0;    ///< rad/s, for a list of values without frequencies: they are k step, k >= 0
+  std::optional<double> lowest;   ///< rad/s; lines outside are left out
+  std::optional<double> highest;  ///< rad/s
 };
+
+/// Checks what the options say by themselves: scales, step and sampling period, `lowest` below `highest`, and
+/// find_problem(options.file).
+[[nodiscard]] std::optional<OptionProblem> find_problem(const ResponseTableOptions& options);
 
 /// Reads a frequency response: a text table, or a UFF record that is one (function type 4; `real` names the record).
 [[nodiscard]] tl::expected<FrequencyResponse, InputError> read_response_table(const std::string& path,
