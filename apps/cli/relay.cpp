@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
@@ -53,15 +52,11 @@ constexpr std::pair<std::string_view, std::string_view> options_of_relay[] = {
 /// The device with the delay added; nothing where no file is given.
 std::optional<Device> delayed_device(const RelayArguments& arguments) {
   if (arguments.devices.files.empty()) return std::nullopt;
-  if (!(std::isfinite(arguments.delay) && arguments.delay >= 0.0)) {
-    throw BadInput(fmt::format("--delay: is {}; seconds, 0 or more", arguments.delay));
-  }
-  DeviceParameters parameters = read_devices(arguments.devices).front().parameters();
-  parameters.loop.delay += arguments.delay;
-  if (const auto problem = find_problem(parameters)) {
-    throw BadInput(fmt::format("--delay: {} {}; {}", problem->key, problem->what, problem->allowed));
-  }
-  return Device(std::move(parameters));
+  auto device = with_added_delay(read_devices(arguments.devices).front(), arguments.delay);
+  if (device) return *std::move(device);
+  const DeviceProblem& problem = device.error();
+  throw BadInput(
+      fmt::format("--delay: {}{}{}; {}", problem.key, problem.key.empty() ? "" : " ", problem.what, problem.allowed));
 }
 
 RelayResult simulated(const RelayArguments& arguments, const Device& device) {
@@ -85,10 +80,7 @@ RelayResult recorded(const RelayArguments& arguments, std::optional<Device> devi
     if (problem->member != "device") refuse(*problem, options_of_relay);
     throw BadInput(fmt::format("{}: {}; {}", arguments.devices.files.front(), problem->what, problem->allowed));
   }
-  return relay(
-      RelayRecord{motion.recording.source, motion.recording.channels.at(0).samples,
-                  motion.recording.channels.at(1).samples, motion.recording.sampling_period, motion.recording.remarks},
-      options);
+  return relay(std::move(motion.recording), options);
 }
 
 std::string drawn(const RelayResult& result, report::FigureFormat format) {

@@ -72,6 +72,16 @@ void conclude(RelayResult& result) {
 
 }  // namespace
 
+tl::expected<Device, DeviceProblem> with_added_delay(const Device& device, double added) {
+  if (!(std::isfinite(added) && added >= 0.0)) {
+    return tl::unexpected(DeviceProblem{"", fmt::format("is {}", added), "seconds, 0 or more"});
+  }
+  DeviceParameters parameters = device.parameters();
+  parameters.loop.delay += added;
+  if (auto problem = find_problem(parameters)) return tl::unexpected(*std::move(problem));
+  return Device(std::move(parameters));
+}
+
 std::optional<RelayMean> relay_mean(const std::vector<RelayTrial>& trials) {
   RelayMean mean;
   double log_stiffness = 0.0;
@@ -120,24 +130,29 @@ RelayResult relay(const Device& device, const RelayOptions& options, const Progr
   return result;
 }
 
-RelayResult relay(RelayRecord record, const RelayRecordOptions& options) {
-  require_valid(find_problem(options, record.sampling_period));
+RelayResult relay(Recording recording, const RelayRecordOptions& options) {
+  require_valid(find_problem(options, recording.sampling_period));
+  if (recording.channels.size() != 2) {
+    throw Error(
+        ErrorCode::invalid_argument,
+        fmt::format("the recording has {} channels; must be two: force and position", recording.channels.size()));
+  }
   RelayResult result;
   result.source = RelayResult::Source::recording;
-  result.recording = std::move(record.source);
+  result.recording = std::move(recording.source);
   result.motion = options.device ? options.device->parameters().motion : options.motion;
-  result.sampling_period = record.sampling_period;
+  result.sampling_period = recording.sampling_period;
   RelayTrial trial;
-  trial.result = analyse_relay_record(record.force, record.position, record.sampling_period, options.analysis);
-  if (!record.force.empty()) {
-    const auto [lowest, highest] = std::minmax_element(record.force.begin(), record.force.end());
+  trial.force = std::move(recording.channels[0].samples);
+  trial.position = std::move(recording.channels[1].samples);
+  trial.result = analyse_relay_record(trial.force, trial.position, result.sampling_period, options.analysis);
+  if (!trial.force.empty()) {
+    const auto [lowest, highest] = std::minmax_element(trial.force.begin(), trial.force.end());
     result.relay.amplitude = 0.5 * (*highest - *lowest);
   }
   result.relay.hysteresis = options.hysteresis;
-  trial.force = std::move(record.force);
-  trial.position = std::move(record.position);
   result.trials.push_back(std::move(trial));
-  result.remarks = std::move(record.remarks);
+  result.remarks = std::move(recording.remarks);
   const RelayTrial& recorded = result.trials.front();
   for (const auto& [name, samples, role] : {std::tuple("force", &recorded.force, SignalRole::force),
                                             std::tuple("position", &recorded.position, SignalRole::position)}) {

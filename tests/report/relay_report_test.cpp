@@ -75,8 +75,8 @@ TEST(RelayReport, JsonHoldsTheSameAndNullWhereThereIsNone) {
   EXPECT_EQ(json["limit_reading"], "unsafe");
   EXPECT_EQ(json["trust"]["verdict"], "doubtful");
 
-  const RelayResult still =
-      relay(RelayRecord{"run.csv", std::vector<double>(1000, 5.0), std::vector<double>(1000, 0.1), 1e-3});
+  const RelayResult still = relay(
+      Recording{"run.csv", 1e-3, {{"", std::vector<double>(1000, 5.0)}, {"", std::vector<double>(1000, 0.1)}}, {}});
   const auto empty = relay_json(still);
   EXPECT_EQ(empty["trials"][0]["oscillates"], false);
   EXPECT_EQ(empty["trials"][0]["reason"], "the force never changes");

@@ -125,7 +125,7 @@ TEST(Relay, NothingThatOscillatesIsRefused) {
 TEST(Relay, ARecordingIsReadAsItWasSimulated) {
   const Device device(with_friction(test::with_delay(test::reduced_pretension_parameters(), 6.25e-3), 0.4));
   const RelayResult ran = relay(device, options_of(0.03));
-  RelayRecord record{"run", ran.trials[1].force, ran.trials[1].position, 1e-3};
+  Recording record{"run", 1e-3, {{"force", ran.trials[1].force}, {"position", ran.trials[1].position}}, {}};
   const RelayResult alone = relay(record);
   EXPECT_EQ(alone.trials.front().result->stiffness, ran.trials[1].result->stiffness);
   EXPECT_DOUBLE_EQ(alone.relay.amplitude, 5.0);

@@ -3,26 +3,22 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <tl/expected.hpp>
 #include <vector>
 
 #include "zwidth/model/device.hpp"
 #include "zwidth/option_problem.hpp"
 #include "zwidth/progress.hpp"
 #include "zwidth/remark.hpp"
+#include "zwidth/signal/recording.hpp"
 #include "zwidth/simulation/relay_prediction.hpp"
 #include "zwidth/simulation/relay_trials.hpp"
 #include "zwidth/trust.hpp"
 
 namespace zwidth {
 
-/// A relay experiment that was recorded; SI units and radians.
-struct RelayRecord {
-  std::string source;  ///< its name, for reports
-  std::vector<double> force;
-  std::vector<double> position;
-  double sampling_period = 0.0;      ///< s
-  std::vector<Remark> remarks = {};  ///< of reading it
-};
+/// The device with its loop's delay longer by `added` s >= 0, as section V of Díaz & Gil varies it; or what is wrong.
+[[nodiscard]] tl::expected<Device, DeviceProblem> with_added_delay(const Device& device, double added);
 
 struct RelayRecordOptions {
   std::optional<Device> device;    ///< that was recorded, with the whole delay: to compare with; may be absent
@@ -85,10 +81,10 @@ struct RelayResult {
 /// offset of a transfer function. See relay_trials() for threads and progress.
 [[nodiscard]] RelayResult relay(const Device& device, const RelayOptions& options, const Progress& progress = {});
 
-/// Reads a recorded experiment. The relay's force is half of the force's peak to peak.
+/// Reads a recorded experiment: two channels, force and position. The relay's force is half of the force's peak to peak.
 ///
-/// Throws Error (invalid_argument) with member and value where find_problem() finds one, and for a record that
-/// analyse_relay_record() refuses.
-[[nodiscard]] RelayResult relay(RelayRecord record, const RelayRecordOptions& options = {});
+/// Throws Error (invalid_argument) for other channels, with member and value where find_problem() finds one, and for a
+/// record that analyse_relay_record() refuses.
+[[nodiscard]] RelayResult relay(Recording recording, const RelayRecordOptions& options = {});
 
 }  // namespace zwidth
