@@ -37,6 +37,14 @@ std::string quantity(double value, std::string_view unit) {
 
 double decibels(double value) { return 20.0 * std::log10(value); }
 
+double ratio_of_decibels(double value) { return std::pow(10.0, value / 20.0); }
+
 double hertz(double frequency) { return frequency / (2.0 * std::numbers::pi); }
+
+double radians_per_second(double cycles) { return 2.0 * std::numbers::pi * cycles; }
+
+double degrees(double angle) { return angle * 180.0 / std::numbers::pi; }
+
+double radians(double angle) { return angle * std::numbers::pi / 180.0; }
 
 }  // namespace zwidth

@@ -37,7 +37,8 @@ void run_region(const RegionArguments& arguments) {
     throw WorkFailed(arguments.devices.files.front() + ": " + report::verdict_text(walls.trust));
   }
   outputs.put("--csv", [&] {
-    return arguments.raster ? results::region_raster_csv(walls, *arguments.raster) : results::region_csv(walls.region);
+    return arguments.raster ? results::region_raster_csv(wall_raster(walls, *arguments.raster))
+                            : results::region_csv(walls.region);
   });
   outputs.draw("--output", [&](report::FigureFormat format) { return report::draw_region(device, walls, format); });
   outputs.commit();

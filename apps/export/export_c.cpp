@@ -10,7 +10,6 @@
 #include "report/text/quantity.hpp"
 #include "report/text/trust_text.hpp"
 #include "report/text/wall_filter_text.hpp"
-#include "results/filter_coefficients.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth::report {
@@ -134,7 +133,7 @@ class CodeWriter {
     std::string body;
     if (has_velocity()) {
       const double period = device_.loop.sampling_period;
-      const double pole = results::velocity_filter_pole(wall_, period);
+      const double pole = velocity_filter_pole(wall_.velocity_filter_hz, period);
       body += "  if (!wall->started) wall->previous = position;\n  wall->started = 1;\n";
       const std::string step = literal((1.0 - pole) * (1.0 / period)) + " * (position - wall->previous)";
       if (pole > 0.0) {
@@ -166,7 +165,7 @@ class CodeWriter {
   /// delta^n w = force - d0 w - d1 delta w: RunningFilter.
   [[nodiscard]] std::string filter_block(std::size_t index) const {
     const WallFilter& filter = wall_.filters[index];
-    const results::FilterCoefficients c = results::in_delta(filter_section(filter, device_.loop.sampling_period));
+    const FilterCoefficients c = in_delta(filter_section(filter, device_.loop.sampling_period));
     const auto n = [&](std::size_t i) { return literal(c.numerator[i]); };
     const auto d = [&](std::size_t i) { return literal(c.denominator[i]); };
     std::string text = fmt::format("  {{ /* {} */\n    double *w = wall->filter[{}];\n", filter_text(filter), index);

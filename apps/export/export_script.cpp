@@ -6,14 +6,9 @@
 
 #include "export/export.hpp"
 #include "report/text/trust_text.hpp"
-#include "results/filter_coefficients.hpp"
 
 namespace zwidth::report {
 namespace {
-
-using results::FilterCoefficients;
-using results::in_z;
-using results::velocity_filter_pole;
 
 /// How a language writes what the scripts hold.
 struct Notation {
@@ -349,7 +344,7 @@ std::string filled_in(std::string_view data, const DeviceModel& model, const Not
       fmt::arg("m", model.sampled.delay_samples), fmt::arg("damping", wall.damping),
       fmt::arg("K", wall.stiffness ? fmt::format("{:.17g}", *wall.stiffness) : std::string(words.missing)),
       fmt::arg("missing", wall.stiffness ? "" : ", not given"),
-      fmt::arg("a", velocity_filter_pole(wall, discrete.period)),
+      fmt::arg("a", velocity_filter_pole(wall.velocity_filter_hz, discrete.period)),
       fmt::arg("filters", filter_list(wall, discrete.period, notation, words.list_start, words.list_end)),
       fmt::arg("crossovers", matrix(crossover_rows(model.analysis.critical))));
 }

@@ -1,6 +1,5 @@
 #include "results/bode_json.hpp"
 
-#include <numbers>
 #include <vector>
 
 #include "results/csv.hpp"
@@ -29,7 +28,7 @@ Json bode_json(const Device& device, const Bode& bode) {
   json["device"] = device.name();
   json["sampling_period_s"] = device.loop().sampling_period;
   json["delay_s"] = device.loop().delay;
-  json["nyquist_rad_s"] = std::numbers::pi / device.loop().sampling_period;
+  json["nyquist_rad_s"] = bode.nyquist;
   json["sampled"] = response_json(bode.sampled);
   json["continuous"] = response_json(bode.continuous);
   json["crossovers"] = bode.analysis.critical.crossovers;

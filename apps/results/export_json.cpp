@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "results/device_json.hpp"
-#include "results/filter_coefficients.hpp"
 #include "results/stability_json.hpp"
 #include "results/units.hpp"
 #include "results/wall_filter_json.hpp"
@@ -80,7 +79,7 @@ Json wall_json(const Device& device) {
           {"stiffness", wall.stiffness},
           {"damping", wall.damping},
           {"velocity_filter_hz", wall.velocity_filter_hz},
-          {"a", velocity_filter_pole(wall, period)},
+          {"a", velocity_filter_pole(wall.velocity_filter_hz, period)},
           {"filters", wall_filters_json(wall, period)}};
 }
 

@@ -1,6 +1,5 @@
 #include "results/frf_json.hpp"
 
-#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -21,9 +20,8 @@ std::string in_brackets(const std::string& unit) {
 
 Interval in_hertz(const Interval& interval) { return {hertz(interval.lower), hertz(interval.upper)}; }
 
-std::optional<double> degrees(std::optional<double> radians) {
-  if (!radians) return std::nullopt;
-  return *radians * 180.0 / std::numbers::pi;
+std::optional<double> in_degrees(std::optional<double> angle) {
+  return angle ? std::optional(degrees(*angle)) : std::nullopt;
 }
 
 }  // namespace
@@ -122,8 +120,8 @@ std::string frf_csv(const FrequencyResponse& response) {
     const ResponseLine& line = lines[i];
     const std::complex<double>& value = response.points[i].value;
     csv.row(line.frequency, hertz(line.frequency), line.magnitude, line.magnitude_lower, line.magnitude_upper,
-            degrees(line.phase), degrees(line.phase_lower), degrees(line.phase_upper), line.coherence, value.real(),
-            value.imag());
+            in_degrees(line.phase), in_degrees(line.phase_lower), in_degrees(line.phase_upper), line.coherence,
+            value.real(), value.imag());
   }
   return csv.text();
 }

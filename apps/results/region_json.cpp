@@ -1,9 +1,7 @@
 #include "results/region_json.hpp"
 
-#include <cmath>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "results/csv.hpp"
 #include "results/stability_json.hpp"
@@ -43,7 +41,6 @@ static void to_json(Json& json, const ComparedApproximation& compared) {
   const RegionApproximation& formula = compared.formula;
   const ApproximationError& error = compared.error;
   const FormulaFacts facts = facts_of(formula.formula);
-  const bool at_zero_alone = formula.largest_damping == 0.0;
   json = {{"formula", formula.formula},
           {"source", facts.source},
           {"valid_for", facts.valid_for},
@@ -55,8 +52,8 @@ static void to_json(Json& json, const ComparedApproximation& compared) {
           {"exact_stiffness_at_zero_damping", error.at_zero_damping},
           {"ratio_at_zero_damping", error.ratio},
           {"off_db", decibels(error.ratio)},
-          {"unsafe_share", at_zero_alone ? std::nullopt : std::optional(error.unsafe_share)},
-          {"missed_share", at_zero_alone ? std::nullopt : std::optional(error.missed_share)}};
+          {"unsafe_share", error.unsafe_share},
+          {"missed_share", error.missed_share}};
 }
 
 namespace {
@@ -69,33 +66,18 @@ Json force_per_count_json(const WallRegion& walls, const Wall& wall) {
           {"exact", wall.filters.empty()}};
 }
 
-const char* status_of(const WallRegion& region) {
-  if (region.trust.refused()) return "refused";
-  if (!region.region.bounded) return "unbounded";
-  return region.region.components.empty() ? "none_stable" : "bounded";
-}
-
-std::vector<double> middles(double largest, std::size_t count) {
-  constexpr double beyond = 1.1;
-  std::vector<double> values(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    values[i] = beyond * largest * (static_cast<double>(i) + 0.5) / static_cast<double>(count);
-  }
-  return values;
-}
-
 }  // namespace
 
 Json region_json(const Device& device, const WallRegion& walls) {
   const DeviceParameters& parameters = device.parameters();
   const StableRegion& region = walls.region;
-  const bool refused = walls.trust.refused();
+  const bool refused = walls.status == WallRegion::Status::refused;
   Json json = document("zwidth.region/1");
   json["device"] = parameters.name;
   json["units"] = wall_units(parameters.motion);
   json["velocity_filter_hz"] = parameters.wall.velocity_filter_hz;
   json["wall_filters"] = wall_filters_json(parameters.wall, parameters.loop.sampling_period);
-  json["status"] = status_of(walls);
+  json["status"] = walls.status;
   json["critical_stiffness"] = refused ? std::nullopt : std::optional(region.critical_stiffness);
   json["stiffest"] = region.stiffest;
   json["most_damped"] = region.most_damped;
@@ -122,14 +104,11 @@ std::string region_csv(const StableRegion& region) {
   return csv.text();
 }
 
-std::string region_raster_csv(const WallRegion& walls, std::size_t count) {
+std::string region_raster_csv(const WallRaster& raster) {
   Csv csv({"stiffness", "damping", "stable"});
-  if (!walls.walls || !walls.region.stiffest) return csv.text();
-  const std::vector<double> stiffnesses = middles(walls.region.stiffest->stiffness, count);
-  const std::vector<double> dampings = middles(walls.region.most_damped->damping, count);
-  const std::vector<std::uint8_t> stable = stable_on_grid(*walls.walls, stiffnesses, dampings);
-  for (std::size_t i = 0; i < count; ++i) {
-    for (std::size_t j = 0; j < count; ++j) csv.row(stiffnesses[j], dampings[i], stable[i * count + j]);
+  const std::size_t columns = raster.stiffnesses.size();
+  for (std::size_t i = 0; i < raster.stable.size(); ++i) {
+    csv.row(raster.stiffnesses[i % columns], raster.dampings[i / columns], raster.stable[i]);
   }
   return csv.text();
 }

@@ -7,6 +7,10 @@
 
 namespace zwidth::results {
 
+NLOHMANN_JSON_SERIALIZE_ENUM(WallRegion::Status, {{WallRegion::Status::bounded, "bounded"},
+                                                  {WallRegion::Status::none_stable, "none_stable"},
+                                                  {WallRegion::Status::unbounded, "unbounded"},
+                                                  {WallRegion::Status::refused, "refused"}})
 NLOHMANN_JSON_SERIALIZE_ENUM(BoundaryKind, {{BoundaryKind::oscillation, "oscillation"},
                                             {BoundaryKind::nyquist, "nyquist"},
                                             {BoundaryKind::drift, "drift"},
@@ -24,8 +28,7 @@ NLOHMANN_JSON_SERIALIZE_ENUM(RegionApproximation::Formula,
 /// (0: the rigid body; empty on K = 0 and B = 0).
 [[nodiscard]] std::string region_csv(const StableRegion& region);
 
-/// `count` values of K and of B, the middles of equal cells over the region's extent and a tenth beyond, with a line
-/// per wall: K, B, 1 where it is stable.
-[[nodiscard]] std::string region_raster_csv(const WallRegion& walls, std::size_t count);
+/// A line per wall: K, B, 1 where it is stable.
+[[nodiscard]] std::string region_raster_csv(const WallRaster& raster);
 
 }  // namespace zwidth::results

@@ -1,7 +1,7 @@
 #include "results/wall_filter_json.hpp"
 
-#include "results/filter_coefficients.hpp"
 #include "zwidth/io/wall_filter_type.hpp"
+#include "zwidth/sampling/filter_section.hpp"
 
 namespace zwidth::results {
 namespace {

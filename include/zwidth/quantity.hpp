@@ -26,7 +26,15 @@ struct Units {
 /// 20 log10 of a ratio or of a value in SI units; value > 0.
 [[nodiscard]] double decibels(double value);
 
-/// w / (2 pi): rad/s to Hz.
+/// 10^(d/20): the ratio of d decibels.
+[[nodiscard]] double ratio_of_decibels(double value);
+
+/// w / (2 pi): rad/s to Hz, and back.
 [[nodiscard]] double hertz(double frequency);
+[[nodiscard]] double radians_per_second(double cycles);
+
+/// 180 w / pi: rad to degrees, and back.
+[[nodiscard]] double degrees(double angle);
+[[nodiscard]] double radians(double angle);
 
 }  // namespace zwidth

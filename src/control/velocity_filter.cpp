@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "zwidth/error.hpp"
+#include "zwidth/sampling/filter_section.hpp"
 
 namespace zwidth {
 
@@ -16,7 +16,7 @@ VelocityFilter::VelocityFilter(double cutoff_hz, double sampling_period) : rate_
   if (!(std::isfinite(cutoff_hz) && cutoff_hz >= 0.0)) {
     throw Error(ErrorCode::invalid_argument, fmt::format("velocity filter is {} Hz; must be >= 0", cutoff_hz));
   }
-  if (cutoff_hz > 0.0) pole_ = std::exp(-2.0 * std::numbers::pi * cutoff_hz * sampling_period);
+  pole_ = velocity_filter_pole(cutoff_hz, sampling_period);
 }
 
 }  // namespace zwidth

@@ -66,14 +66,14 @@ FilterSection normalised(const std::array<double, 3>& numerator, const std::arra
 }
 
 // z = 1 + delta
-std::array<double, 3> in_delta(const std::vector<double>& descending) {
+std::array<double, 3> delta_from_z(const std::vector<double>& descending) {
   const std::array<double, 3> c = ascending(descending);
   return {c[0] + c[1] + c[2], c[1] + 2.0 * c[2], c[2]};
 }
 
 FilterSection digital_section(const WallFilter& filter) {
   const std::size_t degree = filter.denominator.size() - 1;
-  std::array<double, 3> numerator = in_delta(filter.numerator);
+  std::array<double, 3> numerator = delta_from_z(filter.numerator);
   std::size_t zeros = 0;
   for (; zeros < degree; ++zeros) {
     const double at_minus_one = numerator[0] - 2.0 * numerator[1] + 4.0 * numerator[2];
@@ -81,7 +81,7 @@ FilterSection digital_section(const WallFilter& filter) {
     if (std::abs(at_minus_one) > vanishes * size) break;
     numerator = {numerator[1] - 2.0 * numerator[2], numerator[2]};  // over delta + 2
   }
-  return normalised(numerator, in_delta(filter.denominator), degree, zeros);
+  return normalised(numerator, delta_from_z(filter.denominator), degree, zeros);
 }
 
 }  // namespace
@@ -124,6 +124,29 @@ std::array<double, 3> whole_numerator(const FilterSection& section) {
   std::array<double, 3> n = section.numerator;
   for (std::size_t i = 0; i < section.nyquist_zeros; ++i) n = {2.0 * n[0], n[0] + 2.0 * n[1], n[1] + 2.0 * n[2]};
   return n;
+}
+
+FilterCoefficients in_delta(const FilterSection& section) {
+  const std::array<double, 3> n = whole_numerator(section);
+  const auto degree = static_cast<std::ptrdiff_t>(section.degree);
+  FilterCoefficients result{{n.begin(), n.begin() + degree + 1},
+                            {section.denominator.begin(), section.denominator.begin() + degree}};
+  result.denominator.push_back(1.0);
+  return result;
+}
+
+FilterCoefficients in_z(const FilterSection& section) {
+  // c0 + c1 (z - 1) + c2 (z - 1)²
+  const auto expanded = [](const std::vector<double>& c) {
+    if (c.size() == 2) return std::vector{c[1], c[0] - c[1]};
+    return std::vector{c[2], c[1] - 2.0 * c[2], c[0] - c[1] + c[2]};
+  };
+  const FilterCoefficients delta = in_delta(section);
+  return {expanded(delta.numerator), expanded(delta.denominator)};
+}
+
+double velocity_filter_pole(double cutoff_hz, double sampling_period) {
+  return cutoff_hz > 0.0 ? std::exp(-2.0 * pi * cutoff_hz * sampling_period) : 0.0;
 }
 
 }  // namespace zwidth

@@ -73,7 +73,7 @@ Bode bode(const Device& device, Analysis analysis, const BodeOptions& options) {
                 fmt::format("`{}` {}; {}", problem->member, problem->what, problem->allowed));
   }
   const double lowest = bode_range(device, analysis).from;
-  Bode bode{bode_range(device, analysis, options), {}, {}, std::move(analysis)};
+  Bode bode{bode_range(device, analysis, options), {}, {}, std::move(analysis), nyquist_of(device)};
   ModalForm form = modal_form(device);
   std::vector<Mode> modes = form.modes;
   if (form.suspended_rigid_body) modes.push_back(*form.suspended_rigid_body);

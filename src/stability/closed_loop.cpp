@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "eigenvalues.hpp"
 #include "model/balance.hpp"
+#include "zwidth/sampling/filter_section.hpp"
 
 namespace zwidth {
 using namespace internal;
@@ -19,7 +19,7 @@ std::vector<std::complex<double>> closed_loop_poles_minus_one(const DiscreteStat
   // y[k-1] for the backward difference; v[k-1] for its low-pass v = a v[k-1] + (1 - a)(y - y[k-1])/T.
   const bool damped = wall.damping > 0.0;
   const bool filtered = damped && wall.velocity_filter_hz > 0.0;
-  const double a = filtered ? std::exp(-2.0 * std::numbers::pi * wall.velocity_filter_hz * plant.period) : 0.0;
+  const double a = filtered ? velocity_filter_pole(wall.velocity_filter_hz, plant.period) : 0.0;
   std::vector<FilterSection> sections;
   Eigen::Index order = n + (damped ? 1 : 0) + (filtered ? 1 : 0);
   Eigen::Index next = order;

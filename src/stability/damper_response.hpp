@@ -2,8 +2,8 @@
 
 #include <cmath>
 #include <complex>
-#include <numbers>
 
+#include "zwidth/sampling/filter_section.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
 
 namespace zwidth::internal {
@@ -12,8 +12,7 @@ namespace zwidth::internal {
 inline std::complex<double> damper_response(VirtualDamper damper, double period, double frequency) {
   if (damper.damping == 0.0) return 0.0;
   const double angle = frequency * period;
-  const double filter =
-      damper.velocity_filter_hz > 0.0 ? std::exp(-2.0 * std::numbers::pi * damper.velocity_filter_hz * period) : 0.0;
+  const double filter = velocity_filter_pole(damper.velocity_filter_hz, period);
   // 1 - e^{-ja} = 2 j sin(a/2) e^{-ja/2}
   const double sine = std::sin(0.5 * angle);
   const std::complex<double> difference(2.0 * sine * sine, 2.0 * sine * std::cos(0.5 * angle));

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <complex>
 #include <cstddef>
-#include <numbers>
 #include <vector>
 
 #include "zwidth/error.hpp"
@@ -17,10 +16,6 @@ namespace {
 constexpr double time_constants = 40.0;
 constexpr double fewest_samples = 64.0;
 constexpr double most_samples = 1e6;
-
-double velocity_pole(const Wall& wall, double period) {
-  return wall.velocity_filter_hz > 0.0 ? std::exp(-2.0 * std::numbers::pi * wall.velocity_filter_hz * period) : 0.0;
-}
 
 /// A section running in the states w, delta w of
 ///
@@ -58,7 +53,7 @@ class RunningSection {
 double largest_after_step(const Wall& wall, double period, double spring, double damper) {
   if (wall.filters.empty()) return spring + damper;
   std::vector<RunningSection> sections;
-  const double pole = velocity_pole(wall, period);
+  const double pole = velocity_filter_pole(wall.velocity_filter_hz, period);
   double slowest = pole;
   for (const WallFilter& filter : wall.filters) {
     sections.emplace_back(filter_section(filter, period));
@@ -83,7 +78,7 @@ ForcePerCount force_per_count(const Wall& wall, double period, double resolution
   }
   ForcePerCount force;
   force.stiffness = wall.stiffness.value_or(0.0) * resolution;
-  force.damping = wall.damping * (1.0 - velocity_pole(wall, period)) * resolution / period;
+  force.damping = wall.damping * (1.0 - velocity_filter_pole(wall.velocity_filter_hz, period)) * resolution / period;
   force.largest = largest_after_step(wall, period, force.stiffness, force.damping);
   return force;
 }

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <complex>
-#include <numbers>
 #include <vector>
 
 #include "model/balance.hpp"
@@ -42,8 +41,7 @@ class ReturnDifference {
     gamma1_ = scales.cwiseInverse().asDiagonal() * plant.Gamma1;
     gamma2_ = scales.cwiseInverse().asDiagonal() * plant.Gamma2;
     output_ = plant.C * scales.asDiagonal();
-    pole_ = wall.velocity_filter_hz > 0.0 ? std::exp(-2.0 * std::numbers::pi * wall.velocity_filter_hz * plant.period)
-                                          : 0.0;
+    pole_ = velocity_filter_pole(wall.velocity_filter_hz, plant.period);
     rate_ = wall.damping * (1.0 - pole_) / plant.period;
     for (const WallFilter& filter : wall.filters) filters_.push_back(filter_section(filter, plant.period));
   }

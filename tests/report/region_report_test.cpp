@@ -141,7 +141,7 @@ TEST(RegionCsv, HasALinePerPoint) {
 }
 
 TEST(RegionCsv, OfARasterIsTheGrid) {
-  const std::string csv = results::region_raster_csv(lhifam_region().walls, 20);
+  const std::string csv = results::region_raster_csv(wall_raster(lhifam_region().walls, 20));
   std::istringstream lines(csv);
   std::string line;
   std::getline(lines, line);

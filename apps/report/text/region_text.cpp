@@ -126,10 +126,10 @@ class RegionWriter {
       const std::string off = error.ratio ? fmt::format("{:+.2f} dB{}", decibels(*error.ratio),
                                                         *error.ratio > 1.0 + negligible ? ", UNSAFE" : "")
                                           : std::string("-");
-      const std::string shares = formula.largest_damping == 0.0
-                                     ? std::string("B = 0 only")
-                                     : fmt::format("{:.3g} % of it unsafe, {:.3g} % missed", 100.0 * error.unsafe_share,
-                                                   100.0 * error.missed_share);
+      const std::string shares = error.unsafe_share
+                                     ? fmt::format("{:.3g} % of it unsafe, {:.3g} % missed",
+                                                   100.0 * *error.unsafe_share, 100.0 * *error.missed_share)
+                                     : std::string("B = 0 only");
       const FormulaFacts facts = facts_of(formula.formula);
       table.rows.push_back({std::string(facts.name), formula.any_user ? "any user" : "this device",
                             number(formula.at_zero_damping), number(error.at_zero_damping), off, shares});

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -32,6 +34,13 @@ struct ComparedApproximation {
 
 /// Every wall (K, B) that a device renders stably. Where it is refused (trust), no wall, region, limit or formula is held.
 struct WallRegion {
+  enum class Status {
+    bounded,      ///< the stiffest and the most damped stable wall are known
+    none_stable,  ///< no wall is
+    unbounded,    ///< every wall is: the force does not move what the wall senses
+    refused,
+  };
+  Status status = Status::refused;
   std::optional<StableWalls> walls;  ///< with the device's velocity filter and filters; absent where refused
   StableRegion region;
   /// Absent unless asked for; for a transfer function, above most_bodies_for_any_user, or where no wall is stable.
@@ -53,5 +62,16 @@ struct WallRegion {
 /// The device's wall.stiffness and wall.damping are left out.
 /// Throws Error (invalid_argument) where find_problem() finds one.
 [[nodiscard]] WallRegion region(const Device& device, const RegionOptions& options = {});
+
+/// A region by walls: those of a grid, each stable or not.
+struct WallRaster {
+  std::vector<double> stiffnesses;   ///< K, rising
+  std::vector<double> dampings;      ///< B, rising
+  std::vector<std::uint8_t> stable;  ///< of (stiffnesses[j], dampings[i]): element i * stiffnesses.size() + j; 1 or 0
+};
+
+/// `count` values of K and as many of B, the middles of equal cells over the region's extent and a tenth beyond; empty
+/// unless the region is bounded. Throws Error (invalid_argument) for a count of 0.
+[[nodiscard]] WallRaster wall_raster(const WallRegion& region, std::size_t count);
 
 }  // namespace zwidth

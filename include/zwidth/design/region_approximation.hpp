@@ -54,12 +54,13 @@ struct FormulaFacts {
 struct ApproximationError {
   double at_zero_damping = 0.0;  ///< exact limit at B = 0, the upper end of the interval that starts at K = 0
   std::optional<double> ratio;   ///< formula / exact at B = 0; above 1 it is unsafe; absent where exact is 0
-  double unsafe_share = 0.0;     ///< of the walls that the formula allows, those outside the exact region
-  double missed_share = 0.0;     ///< of the exact region, the walls that the formula does not allow
+  // Absent of a formula for B = 0 alone.
+  std::optional<double> unsafe_share;  ///< of the walls that the formula allows, those outside the exact region
+  std::optional<double> missed_share;  ///< of the exact region, the walls that the formula does not allow
 };
 inline constexpr int comparison_rows = 400;
 
-/// Against the stable walls of the device as it is. A formula for B = 0 alone is compared there alone (shares 0).
+/// Against the stable walls of the device as it is. A formula for B = 0 alone is compared there alone.
 [[nodiscard]] ApproximationError approximation_error(const RegionApproximation& approximation, const StableWalls& walls,
                                                      double largest_damping);
 

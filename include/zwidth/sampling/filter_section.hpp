@@ -3,6 +3,7 @@
 #include <array>
 #include <complex>
 #include <cstddef>
+#include <vector>
 
 #include "zwidth/model/wall_filter.hpp"
 
@@ -32,5 +33,23 @@ struct FilterSection {
 
 /// All degree + 1 coefficients of the numerator in delta, the zeros at z = -1 multiplied in.
 [[nodiscard]] std::array<double, 3> whole_numerator(const FilterSection& section);
+
+/// A section as a quotient of polynomials, degree + 1 coefficients each, the denominator monic.
+struct FilterCoefficients {
+  std::vector<double> numerator;
+  std::vector<double> denominator;
+};
+
+/// In delta = z - 1 by rising powers: every digit of the section.
+[[nodiscard]] FilterCoefficients in_delta(const FilterSection& section);
+
+/// In z by falling powers: the textbook form, which rounds away digits of a filter that is slow against the sampling
+/// period.
+[[nodiscard]] FilterCoefficients in_z(const FilterSection& section);
+
+/// The pole of the low-pass on a wall's velocity, (1 - a)/(1 - a z^-1); 0 for 0 Hz, without one.
+///
+///     a = exp(-2 pi f_c T)
+[[nodiscard]] double velocity_filter_pole(double cutoff_hz, double sampling_period);
 
 }  // namespace zwidth

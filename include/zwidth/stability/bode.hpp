@@ -31,6 +31,7 @@ struct Bode {
   std::vector<BodePoint> sampled;
   /// analysis.critical holds every crossover, inside the range or not; where it is refused, none.
   Analysis analysis;
+  double nyquist = 0.0;  ///< pi/T, rad/s
 };
 
 /// The range of bode(): where the options leave it open, from a power of ten below every crossover, mode and
