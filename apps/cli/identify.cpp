@@ -5,12 +5,12 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "cli/device_arguments.hpp"
-#include "cli/identify_in_time.hpp"
-#include "cli/identify_rigid_body.hpp"
+#include "cli/option_refusal.hpp"
 #include "cli/outputs.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/remark_lines.hpp"
@@ -25,6 +25,8 @@
 #include "results/identification_json.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/identification/identification.hpp"
+#include "zwidth/identification/rigid_body_identification.hpp"
+#include "zwidth/identification/time_domain.hpp"
 #include "zwidth/io/device_file.hpp"
 
 namespace zwidth::cli {
@@ -35,7 +37,7 @@ struct IdentifyArguments {
   InverseDynamicsOptions inverse_dynamics;
   ResponseArguments response;
   StructureArguments structure;
-  TimeDomainArguments in_time;
+  TimeDomainOptions in_time;  ///< the length of a segment
   bool from_structure = false;
   bool no_hold = false;
   std::string output_device;
@@ -43,13 +45,39 @@ struct IdentifyArguments {
   bool points = false;
 };
 
+constexpr const char* in_time_group = "Fit in time";
+constexpr const char* inverse_dynamics_group = "Inverse dynamics";
+
+/// What a method does, for who gives it an option that it does not have; nothing where it has it.
+std::optional<std::string_view> why_not(const CLI::Option& option, std::string_view method) {
+  const std::string name = option.get_name();
+  const std::string group = option.get_group();
+  const bool of_response = group == "Estimate" || group == "Table of a response" || name == "--velocity" ||
+                           name == "--acceleration" || name == "--from-structure" || name == "--no-hold" ||
+                           name == "--points";
+  if (method == "time-domain" && of_response) return "fits force and position";
+  const bool of_structure = group == "Structure" && name != "--motion" && name != "--sampling-period";
+  if (method == "inverse-dynamics" && (of_response || of_structure)) return "fits one rigid body to its position";
+  return std::nullopt;
+}
+
 void check_method(const CLI::App& command, const IdentifyArguments& arguments) {
-  const bool is_in_time = arguments.method == "time-domain";
-  if (!is_in_time) refuse_time_domain_options(command);
-  if (arguments.method == "inverse-dynamics") return check_inverse_dynamics_options(command);
-  refuse_inverse_dynamics_options(command);
-  if (is_in_time) check_time_domain_options(command);
-  if (arguments.structure.structure.empty() && !arguments.response.recording.list) {
+  const std::string& method = arguments.method;
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->count() == 0) continue;
+    const std::string name = option->get_name();
+    const std::string group = option->get_group();
+    for (const auto& [only, of_group] :
+         {std::pair{"time-domain", in_time_group}, std::pair{"inverse-dynamics", inverse_dynamics_group}}) {
+      if (group == of_group && method != only) throw BadInput(fmt::format("{}: is for --method {}", name, only));
+    }
+    if (const auto why = why_not(*option, method)) {
+      throw BadInput(fmt::format("{}: is not for --method {}, which {}", name, method, *why));
+    }
+  }
+  if (method == "inverse-dynamics") {
+    if (command.count("MORE") > 0) throw BadInput("more than one recording: is not for --method inverse-dynamics");
+  } else if (arguments.structure.structure.empty() && !arguments.response.recording.list) {
     throw BadInput("--structure: missing; a device file, or rigid, two-body or three-body");
   }
 }
@@ -82,19 +110,56 @@ IdentifyOptions identify_options(const IdentifyArguments& arguments, const Frequ
   return options;
 }
 
+/// Runs the library's work, with progress: what it refuses lies in the input, named where there is one.
+template <typename Work>
+auto fitted(const std::string& name, const Work& work) {
+  try {
+    ProgressLine line("identifying");
+    return work(line.progress());
+  } catch (const Error& error) {
+    const std::string text = (name.empty() ? "" : name + ": ") + error.what();
+    if (error.code() == ErrorCode::did_not_converge) throw WorkFailed(text);
+    throw BadInput(text);
+  }
+}
+
 Identification identified_device(const IdentifyArguments& arguments) {
   const ResponseSource source = response_source(arguments.response);
   const Device device = structure(arguments.structure, source.sampling_period());
   const IdentifyOptions options = identify_options(arguments, source.options);
-  try {
-    ProgressLine line("identifying");
-    return !source.recordings.empty() ? identify(source.recordings, device, options, line.progress())
+  return fitted(source.recordings.size() > 1 ? "" : source.name, [&](const Progress& progress) {
+    return !source.recordings.empty() ? identify(source.recordings, device, options, progress)
                                       : identify(source.table, device, options);
-  } catch (const Error& error) {
-    const std::string name = source.recordings.size() > 1 ? "" : source.name + ": ";
-    if (error.code() == ErrorCode::did_not_converge) throw WorkFailed(name + error.what());
-    throw BadInput(name + error.what());
-  }
+  });
+}
+
+TimeDomainIdentification device_fitted_in_time(const IdentifyArguments& arguments) {
+  const StructureArguments& given = arguments.structure;
+  const std::vector<Recording> recordings = read_motions(arguments.response.recording).recordings;
+  const Device device = structure(given, recordings.front().sampling_period);
+  TimeDomainOptions options = arguments.in_time;
+  options.free = given.free;
+  options.locked = given.locked;
+  if (is_named_structure(given)) options.structure_values = IdentifyOptions::StructureValues::placeholders;
+  constexpr std::pair<std::string_view, std::string_view> own_options[] = {{"segment", "--segment-duration"},
+                                                                           {"free", "--free"}};
+  if (const auto problem = find_problem(options)) refuse(*problem, own_options);
+  return fitted(arguments.response.recording.file,
+                [&](const Progress& progress) { return identify_in_time(recordings, device, options, progress); });
+}
+
+RigidBodyIdentification fitted_rigid_body(const IdentifyArguments& arguments) {
+  const RigidBodyOptions options{arguments.inverse_dynamics,
+                                 arguments.structure.motion == "rotary" ? Motion::rotary : Motion::linear,
+                                 arguments.structure.sampling_period};
+  constexpr std::pair<std::string_view, std::string_view> own_options[] = {
+      {"sampling_period", "--sampling-period"},
+      {"inverse_dynamics.cutoff_hz", "--cutoff-hz"},
+      {"inverse_dynamics.decimation", "--decimation"}};
+  if (const auto problem = find_problem(options)) refuse(*problem, own_options);
+  const RecordedMotion motion = read_motion(arguments.response.recording);
+  return fitted(arguments.response.recording.file,
+                [&](const Progress& progress) { return identify_rigid_body(motion.recording, options, progress); });
 }
 
 /// The device file, its warnings as comments at the top: whoever reads it later is told as well.
@@ -140,8 +205,7 @@ void print(const IdentifyArguments& arguments, const Identified& identified, con
 
 /// `identify --method inverse-dynamics`.
 void run_inverse_dynamics(const IdentifyArguments& arguments, Outputs& outputs) {
-  const RigidBodyIdentification identified =
-      fitted_rigid_body(arguments.response.recording, arguments.structure, arguments.inverse_dynamics);
+  const RigidBodyIdentification identified = fitted_rigid_body(arguments);
   const std::string device = write_device(identified.device.parameters());
   put(outputs, identified, device);
   print(arguments, identified, device, [&] { return results::identification_json(identified); });
@@ -149,8 +213,7 @@ void run_inverse_dynamics(const IdentifyArguments& arguments, Outputs& outputs) 
 
 /// `identify --method time-domain`.
 void run_in_time(const IdentifyArguments& arguments, Outputs& outputs) {
-  const TimeDomainIdentification identified =
-      fitted_in_time(arguments.response.recording, arguments.structure, arguments.in_time);
+  const TimeDomainIdentification identified = device_fitted_in_time(arguments);
   const std::string device = device_text(identified.device, identified.remarks);
   put(outputs, identified, device);
   print(arguments, identified, device, [&] { return results::identification_json(identified); });
@@ -180,8 +243,19 @@ void add_identify(CLI::App& app) {
   add_response_arguments(*command, arguments->response);
   add_structure_arguments(*command, arguments->structure);
   command->get_option("--structure")->required(false);  // check_method() asks for it where it is needed
-  add_inverse_dynamics_options(*command, arguments->inverse_dynamics);
-  add_time_domain_options(*command, arguments->in_time);
+  command
+      ->add_option("--cutoff-hz", arguments->inverse_dynamics.cutoff_hz, "Of the low-pass; else chosen from the motion")
+      ->type_name("HZ")
+      ->group(inverse_dynamics_group);
+  command
+      ->add_option("--decimation", arguments->inverse_dynamics.decimation,
+                   "Every N-th sample is kept; else chosen from the cutoff")
+      ->type_name("N")
+      ->group(inverse_dynamics_group);
+  command->add_option("--segment-duration", arguments->in_time.segment, "Each segment begins in a state of its own")
+      ->type_name("S")
+      ->capture_default_str()
+      ->group(in_time_group);
   command
       ->add_option("--method", arguments->method,
                    "frequency-response, time-domain (with dry friction), or\ninverse-dynamics (one rigid body)")
