@@ -89,7 +89,8 @@ class Judge {
           "the response hardly stands out of its noise anywhere; excite more strongly, and check that force and "
           "position are those of one experiment");
     }
-    if (std::ranges::none_of(fit_.estimates, &ParameterEstimate::identifiable)) {
+    // Each is a direction in which nothing shows: as many as there are numbers leave nothing.
+    if (fit_.unidentifiable.size() >= fit_.estimates.size()) {
       result_.trust.refuse("the record determines no parameter of the structure; free fewer, or excite more strongly");
     }
   }
@@ -125,7 +126,8 @@ class Judge {
     const double last_spacing = lines.size() > 1 ? lines.back() - lines[lines.size() - 2] : 0.0;
     const double lowest = lines.front() - spacing;
     const double highest = lines.back() + last_spacing;
-    if (limiting >= lowest && limiting <= highest) return;
+    is_in_band_ = limiting >= lowest && limiting <= highest;
+    if (is_in_band_) return;
     const bool above = limiting > highest;
     const std::string reason = fmt::format(
         "the crossover that limits, near {:.4g} Hz, lies {} the measured band, {:.4g} to {:.4g} Hz: {}; excite {} "
@@ -180,8 +182,9 @@ class Judge {
     const std::string reason =
         fmt::format("the data do not determine {}: taken as they stand in the structure", fmt::join(keys, ", "));
     result_.device_trust.doubt(reason);
-    // What the response shows by itself does not hang on how bodies share it.
-    if (!is_measured_) result_.trust.doubt(reason);
+    // Along what is open the response does not change, and within the band the critical stiffness is the response's.
+    const bool is_responses = is_in_band_ && judged_.options.fit.locked.empty();
+    if (!is_measured_ && !is_responses) result_.trust.doubt(reason);
     if (known_structure()) return;
     for (const std::string& key : keys) {
       result_.remarks.push_back({Remark::Severity::warning,
@@ -220,6 +223,7 @@ class Judge {
   const JudgedFit& judged_;
   const ParameterFit& fit_;
   Judgement result_;
+  bool is_in_band_ = false;   ///< the limiting crossover was excited
   bool is_measured_ = false;  ///< the response shows the fitted critical stiffness without any model
 };
 

@@ -128,5 +128,20 @@ TEST(IdentificationProperty, ASideMinimumIsLeft) {
   }
 }
 
+// Along numbers that the data leave open the response does not change: what it says of the critical stiffness within the
+// band does not hang on them. 0.1 and 0.25 % off within the interval, and called doubtful.
+TEST(IdentificationProperty, OpenNumbersThatTheLimitDoesNotHangOnAreNoDoubt) {
+  for (const std::uint64_t seed : {920001U, 920066U}) {
+    const auto made = test::random_recording(seed);
+    ASSERT_TRUE(made && made->right_structure && !made->has_friction);
+    const Identification found = identified(*made);
+    EXPECT_TRUE(found.trust.sound()) << "seed " << seed << ": " << found.trust.reasons.front();
+    EXPECT_FALSE(found.analysis.trust.sound()) << "the device itself has open numbers";
+    ASSERT_TRUE(found.analysis.interval);
+    EXPECT_LE(found.analysis.interval->lower, made->stiffness) << "seed " << seed;
+    EXPECT_GE(found.analysis.interval->upper, made->stiffness) << "seed " << seed;
+  }
+}
+
 }  // namespace
 }  // namespace zwidth
