@@ -135,9 +135,9 @@ Solution solve(const FitModel& model, const std::vector<ResponsePoint>& points, 
 Solution searched_widely(const FitModel& model, const std::vector<ResponsePoint>& points, Solution found,
                          double robust_threshold) {
   constexpr double poor = 1.5;  // mean square of the residuals, in variances of the noise
-  constexpr std::size_t most_starts = 8;
+  constexpr std::size_t most_starts = 12;
   constexpr std::size_t most_solved = 2;
-  constexpr int most_iterations = 40;
+  constexpr int most_iterations = 80;
   constexpr double promising = 0.8;  // of the cost at some of the points
   const bool is_noise_known = std::ranges::all_of(points, [](const ResponsePoint& p) { return p.variance > 0.0; });
   if (!is_noise_known || mean_misfit(model, points, found.x, 0.0) < poor) return found;
@@ -149,8 +149,9 @@ Solution searched_widely(const FitModel& model, const std::vector<ResponsePoint>
   const LeastSquares own = least_squares(model, data, found.x, weighted);
   std::vector<LeastSquares> fits;
   for (const Eigen::VectorXd& x : different_positions(model, some, features, most_starts)) {
-    const LeastSquares near = least_squares(model, fit_data(some, 0.0), x, rough_fit);
-    LeastSquares fit = least_squares(model, data, near.x, weighted);
+    // Unpulled a body that moves as one with the next would vanish.
+    const LeastSquares near = least_squares(model, fit_data(some, 0.0), x, rough_fit, start_at(model, x).pull);
+    LeastSquares fit = least_squares(model, data, near.x, weighted, start_at(model, near.x).pull);
     if (fit.x.allFinite() && fit.cost < promising * own.cost) fits.push_back(std::move(fit));
   }
   if (fits.empty()) return found;

@@ -120,6 +120,7 @@ class Fitting {
     } else {
       look_for_delay();
     }
+    leave_side_minimum();
   }
 
   /// A delay that the record shows, which was not to be fitted; s.
@@ -216,6 +217,18 @@ class Fitting {
       return whole_fit(fit_->fit.device, fit_->response, options);
     } catch (const Error&) {
       return std::nullopt;
+    }
+  }
+
+  /// What is left beyond the noise, now that all is free which shows, may be that of a side minimum.
+  void leave_side_minimum() {
+    constexpr double poor = 1.4;  // residuals over the noise: a right structure hardly leaves more
+    const ParameterFit& fit = fit_->fit;
+    if (fit_options_.start != ParameterFitOptions::Start::from_data || !fit.misfit || *fit.misfit < poor) return;
+    try {
+      RecordFit other = whole_fit(fit.device, fit_->response, fit_options_);
+      if (*other.fit.misfit < 0.9 * *fit.misfit && other.fit.model_error <= fit.model_error) fit_ = std::move(other);
+    } catch (const Error&) {  // then there is no other
     }
   }
 

@@ -60,11 +60,13 @@ class Candidates {
     return picked;
   }
 
-  /// Of a combination, where it puts each link's resonance.
-  [[nodiscard]] std::vector<std::size_t> links_of(const std::vector<std::size_t>& picked) const {
-    std::vector<std::size_t> links;
-    for (const Chosen& each : link_choices_) links.push_back(picked[each.choice]);
-    return links;
+  /// Of a combination, where it puts each link's resonance, and whether the bodies are alike.
+  [[nodiscard]] std::vector<std::size_t> kind_of(const std::vector<std::size_t>& picked) const {
+    std::vector<std::size_t> kind;
+    for (const Chosen& each : link_choices_) kind.push_back(picked[each.choice]);
+    const auto is_even = [&](std::size_t choice) { return choices_[choice][picked[choice]] == 1.0; };
+    kind.push_back(std::ranges::all_of(share_choices_, is_even) ? 1 : 0);
+    return kind;
   }
 
   /// The structure with the free parameters as the combination says.
@@ -238,7 +240,7 @@ double logarithmic_misfit(const FitModel& model, const Eigen::VectorXd& x, const
 struct Judged {
   double misfit = 0.0;
   Eigen::VectorXd x;
-  std::vector<std::size_t> links;  ///< see Candidates::links_of()
+  std::vector<std::size_t> kind;  ///< see Candidates::kind_of()
 };
 
 /// The structure's own position and all candidates, or a sample of them, the best first.
@@ -248,14 +250,14 @@ std::vector<Judged> judged_candidates(const FitModel& model, const std::vector<R
   std::vector<double> frequencies;
   for (const ResponsePoint& point : points) frequencies.push_back(point.frequency);
   std::vector<Judged> judged;
-  const auto judge_position = [&](const Eigen::VectorXd& x, std::vector<std::size_t> links) {
+  const auto judge_position = [&](const Eigen::VectorXd& x, std::vector<std::size_t> kind) {
     try {
-      judged.push_back({logarithmic_misfit(model, x, points, frequencies), x, std::move(links)});
+      judged.push_back({logarithmic_misfit(model, x, points, frequencies), x, std::move(kind)});
     } catch (const Error&) {  // a candidate whose poles are not found is no candidate
     }
   };
   const auto judge = [&](const std::vector<std::size_t>& picked) {
-    judge_position(model.position_of(candidates.parameters(picked)), candidates.links_of(picked));
+    judge_position(model.position_of(candidates.parameters(picked)), candidates.kind_of(picked));
   };
   judge_position(model.position_of(model.structure().parameters()), {});
   if (candidates.count() <= static_cast<double>(most_candidates)) {
@@ -290,7 +292,7 @@ std::vector<Eigen::VectorXd> different_positions(const FitModel& model, const st
   std::set<std::vector<std::size_t>> seen;
   for (const Judged& each : judged_candidates(model, points, features)) {
     if (starts.size() == most) break;
-    if (seen.insert(each.links).second) starts.push_back(each.x);
+    if (seen.insert(each.kind).second) starts.push_back(each.x);
   }
   return starts;
 }

@@ -18,8 +18,8 @@ namespace zwidth::internal {
                                                              const std::vector<ResponsePoint>& points,
                                                              const ResponseFeatures& features);
 
-/// The best of these for every choice of where the links resonate, in the band, below or above; at most so many, the
-/// most promising first.
+/// The best of these for every choice of where the links resonate, in the band, below or above, with bodies alike and
+/// not; at most so many, the most promising first.
 [[nodiscard]] std::vector<Eigen::VectorXd> different_positions(const FitModel& model,
                                                                const std::vector<ResponsePoint>& points,
                                                                const ResponseFeatures& features, std::size_t most);
