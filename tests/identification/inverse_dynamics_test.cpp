@@ -227,7 +227,7 @@ TEST(InverseDynamics, ASineWithoutFrictionLeavesTheDelayUntold) {
 
 TEST(InverseDynamics, PublishedBenchIsReproduced) {
   // EMPS (Janot, Gautier, Brunot 2019): published 95.1089 kg, 203.5034 N s/m, 20.3935 N, -3.1648 N; force 35.15 N/V.
-  const std::string path = std::string(ZWIDTH_SHARED_DIR) + "/data/emps/DATA_EMPS.mat";
+  const std::string path = ZWIDTH_SHARED_DIR "/data/emps/DATA_EMPS.mat";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "no recordings beside the project";
   RecordingOptions options;
   options.columns = {{"vir", 35.15}, {"qm", 1.0}};

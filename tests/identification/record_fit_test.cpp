@@ -142,7 +142,7 @@ TEST(RecordFit, LeakageIsNoLongerTakenForNoise) {
 class MotorBench : public testing::Test {
  protected:
   void SetUp() override {
-    const std::string file = std::string(ZWIDTH_SHARED_DIR) + "/data/two_mass_bench/MultisineTypeA.mat";
+    const std::string file = ZWIDTH_SHARED_DIR "/data/two_mass_bench/MultisineTypeA.mat";
     if (!std::filesystem::exists(file)) GTEST_SKIP() << "needs ../shared/data/two_mass_bench/MultisineTypeA.mat";
     RecordingOptions options;
     options.columns = {{"iq_refx", 1.0}, {"theta_mx", 1.0}};

@@ -13,7 +13,7 @@ namespace {
 
 /// Everything that decides the numbers; names are the files' own affair.
 void expect_same_physics(const DeviceParameters& ours, const std::string& file) {
-  const auto device = read_device_file(std::string(ZWIDTH_SOURCE_DIR) + "/devices/" + file);
+  const auto device = read_device_file(ZWIDTH_SOURCE_DIR "/devices/" + file);
   ASSERT_TRUE(device) << device.error().str();
   const DeviceParameters& theirs = device->parameters();
   ASSERT_EQ(ours.bodies.size(), theirs.bodies.size());
