@@ -44,11 +44,12 @@ class Hostile : public Served {
 };
 
 TEST_F(Hostile, ForeignHostsAreMisdirected) {
-  for (const char* host : {"Host: evil.example", "Host: evil.example:{P}", "Host: localhost", "Host: localhost:1",
-                           "Host: localhost.evil:{P}", "Host: 127.0.0.1", "Host: 127.0.0.1:{P}.evil", "Host: 0.0.0.0:{P}",
-                           "Host: [::1]:{P}", "Host: 127.1:{P}", "Host: 2130706433:{P}", "Host: localhost.:{P}",
-                           "Host: user@localhost:{P}", "Host: localhost:{P}, evil.example", "Host:", "X-None: 1",
-                           "Host: localhost:{P}\nHost: localhost:{P}", "Host: localhost:{P}\nHost: evil.example"}) {
+  for (const char* host :
+       {"Host: evil.example", "Host: evil.example:{P}", "Host: localhost", "Host: localhost:1",
+        "Host: localhost.evil:{P}", "Host: 127.0.0.1", "Host: 127.0.0.1:{P}.evil", "Host: 0.0.0.0:{P}",
+        "Host: [::1]:{P}", "Host: 127.1:{P}", "Host: 2130706433:{P}", "Host: localhost.:{P}",
+        "Host: user@localhost:{P}", "Host: localhost:{P}, evil.example", "Host:", "X-None: 1",
+        "Host: localhost:{P}\nHost: localhost:{P}", "Host: localhost:{P}\nHost: evil.example"}) {
     for (const char* path : {"/", "/api/v1/health"}) {
       expect_raw_refusal(421, fmt::format("GET {} HTTP/1.1\n{}\n\n", path, host));
     }
@@ -60,21 +61,42 @@ TEST_F(Hostile, ForeignHostsAreMisdirected) {
 }
 
 TEST_F(Hostile, ForeignOriginsAreForbidden) {
-  for (const char* origin : {"http://evil.example", "null", "https://127.0.0.1:{P}", "http://127.0.0.1", "http://localhost:{P}",
-                             "http://127.0.0.1:{P}.evil.example", "http://127.0.0.1:{P}/", "file://", "",
-                             "http://127.0.0.1:{P}\nOrigin: http://127.0.0.1:{P}"}) {
+  for (const char* origin : {"http://evil.example", "null", "https://127.0.0.1:{P}", "http://127.0.0.1",
+                             "http://localhost:{P}", "http://127.0.0.1:{P}.evil.example", "http://127.0.0.1:{P}/",
+                             "file://", "", "http://127.0.0.1:{P}\nOrigin: http://127.0.0.1:{P}"}) {
     expect_raw_refusal(403, fmt::format("GET /api/v1/health HTTP/1.1\nHost: 127.0.0.1:{{P}}\nOrigin: {}\n\n", origin));
   }
-  EXPECT_EQ(exchange(raw("GET /api/v1/health HTTP/1.1\nHost: 127.0.0.1:{P}\nOrigin: http://127.0.0.1:{P}\n\n")).status, 200);
-  EXPECT_EQ(exchange(raw("GET /api/v1/health HTTP/1.1\nHost: localhost:{P}\nOrigin: http://localhost:{P}\n\n")).status, 200);
+  EXPECT_EQ(exchange(raw("GET /api/v1/health HTTP/1.1\nHost: 127.0.0.1:{P}\nOrigin: http://127.0.0.1:{P}\n\n")).status,
+            200);
+  EXPECT_EQ(exchange(raw("GET /api/v1/health HTTP/1.1\nHost: localhost:{P}\nOrigin: http://localhost:{P}\n\n")).status,
+            200);
 }
 
 TEST_F(Hostile, PathsReachNoDisk) {
-  for (const char* path : {"/etc/passwd", "/../../../../etc/passwd", "/..%2f..%2fetc/passwd", "/%2e%2e/etc/passwd",
-                           "//etc/passwd", "/assets/../index.html", "/assets/%2e%2e/index.html", "/./", "/index.html/..",
-                           "/api", "/api/", "/api/v1", "/api/v1/", "/api/v1/health/", "/api/v1/../v1/health", "/api/v2/health",
-                           "/API/v1/health", "/api/v1/serve", "/api/v1/reproduce", "/api/v1/%61nalyze", "/proc/self/environ",
-                           "/devices/lhifam.toml", "/.git/config", "/\\..\\..\\etc"}) {
+  for (const char* path : {"/etc/passwd",
+                           "/../../../../etc/passwd",
+                           "/..%2f..%2fetc/passwd",
+                           "/%2e%2e/etc/passwd",
+                           "//etc/passwd",
+                           "/assets/../index.html",
+                           "/assets/%2e%2e/index.html",
+                           "/./",
+                           "/index.html/..",
+                           "/api",
+                           "/api/",
+                           "/api/v1",
+                           "/api/v1/",
+                           "/api/v1/health/",
+                           "/api/v1/../v1/health",
+                           "/api/v2/health",
+                           "/API/v1/health",
+                           "/api/v1/serve",
+                           "/api/v1/reproduce",
+                           "/api/v1/%61nalyze",
+                           "/proc/self/environ",
+                           "/devices/lhifam.toml",
+                           "/.git/config",
+                           "/\\..\\..\\etc"}) {
     expect_refusal(404, request("GET", path));
   }
   expect_raw_refusal(400, "GET http://evil.example/ HTTP/1.1\nHost: 127.0.0.1:{P}\n\n");
@@ -103,14 +125,16 @@ TEST_F(Hostile, MethodsTypesAndSizesAreThoseOfThePath) {
   expect_refusal(415, request("POST", "/api/v1/recordings", "a,b\n1,2\n", "Content-Type: text/csv\r\n"));
   const std::string json_type = "Content-Type: application/json\r\n";
   for (const char* encoding : {"gzip", "deflate", "br", "identity", "gzip, gzip"}) {
-    expect_refusal(415, request("POST", "/api/v1/analyze", "\x1f\x8b\x08",
-                                json_type + "Content-Encoding: " + encoding + "\r\n"));
+    expect_refusal(
+        415, request("POST", "/api/v1/analyze", "\x1f\x8b\x08", json_type + "Content-Encoding: " + encoding + "\r\n"));
   }
   expect_refusal(413, request("POST", "/api/v1/analyze", std::string((1 << 20) + 1, ' '), json_type));
-  expect_raw_refusal(413, "POST /api/v1/analyze HTTP/1.1\nHost: 127.0.0.1:{P}\nContent-Type: application/json\n"
-                          "Content-Length: 99999999999\n\n");
-  expect_raw_refusal(413, "POST /api/v1/recordings HTTP/1.1\nHost: 127.0.0.1:{P}\n"
-                          "Content-Type: application/octet-stream\nContent-Length: 67108865\n\n");
+  expect_raw_refusal(413,
+                     "POST /api/v1/analyze HTTP/1.1\nHost: 127.0.0.1:{P}\nContent-Type: application/json\n"
+                     "Content-Length: 99999999999\n\n");
+  expect_raw_refusal(413,
+                     "POST /api/v1/recordings HTTP/1.1\nHost: 127.0.0.1:{P}\n"
+                     "Content-Type: application/octet-stream\nContent-Length: 67108865\n\n");
   expect_raw_refusal(413, "GET /api/v1/health HTTP/1.1\nHost: 127.0.0.1:{P}\nContent-Length: 5\n\nhello");
   expect_raw_refusal(413, "GET / HTTP/1.1\nHost: 127.0.0.1:{P}\nX-Long: " + std::string(20000, 'x') + "\n\n");
   expect_raw_refusal(413, "GET /" + std::string(20000, 'x') + " HTTP/1.1\nHost: 127.0.0.1:{P}\n\n");
@@ -123,24 +147,26 @@ TEST_F(Hostile, MethodsTypesAndSizesAreThoseOfThePath) {
 TEST_F(Hostile, LengthsAreOneAndPlain) {
   const std::string head = "POST /api/v1/analyze HTTP/1.1\nHost: 127.0.0.1:{P}\nContent-Type: application/json\n";
   expect_raw_refusal(400, head + "\n{}");
-  for (const char* length : {"Content-Length: 2\nContent-Length: 3", "Content-Length: 2\nContent-Length: 2",
-                             "Content-Length: 2, 2", "Content-Length: -2", "Content-Length: +2", "Content-Length: 0x2",
-                             "Content-Length: two", "Content-Length: 99999999999999999999999", "Transfer-Encoding: chunked",
-                             "Transfer-Encoding: chunked\nContent-Length: 2", "Content-Length: 2\nTransfer-Encoding: chunked",
-                             "Transfer-Encoding: gzip, chunked", "Transfer-Encoding: xchunked\nContent-Length: 2",
-                             "Transfer-Encoding: identity\nContent-Length: 2",
-                             "Content-Length: 2\nTransfer-Encoding : chunked", "Content-Length: 2\nExpect: something"}) {
+  for (const char* length :
+       {"Content-Length: 2\nContent-Length: 3", "Content-Length: 2\nContent-Length: 2", "Content-Length: 2, 2",
+        "Content-Length: -2", "Content-Length: +2", "Content-Length: 0x2", "Content-Length: two",
+        "Content-Length: 99999999999999999999999", "Transfer-Encoding: chunked",
+        "Transfer-Encoding: chunked\nContent-Length: 2", "Content-Length: 2\nTransfer-Encoding: chunked",
+        "Transfer-Encoding: gzip, chunked", "Transfer-Encoding: xchunked\nContent-Length: 2",
+        "Transfer-Encoding: identity\nContent-Length: 2", "Content-Length: 2\nTransfer-Encoding : chunked",
+        "Content-Length: 2\nExpect: something"}) {
     expect_raw_refusal(400, head + length + "\n\n{}");
   }
   EXPECT_TRUE(is_alive());
 }
 
 TEST_F(Hostile, WhatIsNoHttpIsRefused) {
-  for (const char* text : {"hello\n\n", "GET\n\n", "GET / HTTP/3.0\nHost: 127.0.0.1:{P}\n\n",
-                           "GET / HTTP/1.1\nHost: 127.0.0.1:{P}\nno colon\n\n", "G\x01T / HTTP/1.1\nHost: 127.0.0.1:{P}\n\n",
-                           "GET / HTTP/1.1\nHo st: 127.0.0.1:{P}\n\n", "GET / HTTP/1.1\nHost: 127.0.0.1:{P}\nA: \x01\n\n",
-                           "GET  / HTTP/1.1\nHost: 127.0.0.1:{P}\n\n", "\x16\x03\x01\x02\x01\x01\x01\xfc\x03\x03\n\n",
-                           "PRI * HTTP/2.0\n\nSM\n\n"}) {
+  for (const char* text :
+       {"hello\n\n", "GET\n\n", "GET / HTTP/3.0\nHost: 127.0.0.1:{P}\n\n",
+        "GET / HTTP/1.1\nHost: 127.0.0.1:{P}\nno colon\n\n", "G\x01T / HTTP/1.1\nHost: 127.0.0.1:{P}\n\n",
+        "GET / HTTP/1.1\nHo st: 127.0.0.1:{P}\n\n", "GET / HTTP/1.1\nHost: 127.0.0.1:{P}\nA: \x01\n\n",
+        "GET  / HTTP/1.1\nHost: 127.0.0.1:{P}\n\n", "\x16\x03\x01\x02\x01\x01\x01\xfc\x03\x03\n\n",
+        "PRI * HTTP/2.0\n\nSM\n\n"}) {
     expect_raw_refusal(400, text);
   }
   EXPECT_TRUE(is_alive());
@@ -201,13 +227,18 @@ TEST_F(Hostile, NoOptionReachesADisk) {
     expect_bad("excite", {{"device", path}, {"amplitude", 1}});
   }
   const std::string made = (directory() / "made").string();
-  for (const auto& [command, option, ending] :
-       std::vector<std::array<std::string, 3>>{{"analyze", "report", ".html"}, {"bode", "output", ".csv"},
-                                               {"region", "csv", ".csv"}, {"region", "output", ".svg"},
-                                               {"design", "write", ".toml"}, {"recommend", "write", ".toml"},
-                                               {"simulate", "csv", ".csv"}, {"simulate", "figure", ".svg"},
-                                               {"relay", "csv", ".csv"}, {"export", "output", ".c"},
-                                               {"excite", "output", ".csv"}, {"excite", "figure", ".svg"}}) {
+  for (const auto& [command, option, ending] : std::vector<std::array<std::string, 3>>{{"analyze", "report", ".html"},
+                                                                                       {"bode", "output", ".csv"},
+                                                                                       {"region", "csv", ".csv"},
+                                                                                       {"region", "output", ".svg"},
+                                                                                       {"design", "write", ".toml"},
+                                                                                       {"recommend", "write", ".toml"},
+                                                                                       {"simulate", "csv", ".csv"},
+                                                                                       {"simulate", "figure", ".svg"},
+                                                                                       {"relay", "csv", ".csv"},
+                                                                                       {"export", "output", ".c"},
+                                                                                       {"excite", "output", ".csv"},
+                                                                                       {"excite", "figure", ".svg"}}) {
     json options{{option, made + ending}};
     if (command == "relay" || command == "excite") options["amplitude"] = 1;
     if (command == "export") options["format"] = "octave";
@@ -228,12 +259,14 @@ TEST_F(Hostile, NoOptionReachesADisk) {
   expect_bad("design", {{"sweep", std::string("loop.delay=0:1e-3:5\0x", 21)}});
   const std::string id = json::parse(upload(contents("secret.csv")).body).at("id");
   for (const char* name : {"../secret.csv", "/etc/passwd", "--list", "", "a\nb", "-"}) {
-    const json request{{"recording", {{"id", id}, {"name", name}}}, {"options", {{"force", "force"}, {"position", "position"}}}};
+    const json request{{"recording", {{"id", id}, {"name", name}}},
+                       {"options", {{"force", "force"}, {"position", "position"}}}};
     EXPECT_EQ(post("frf", request.dump()).status, 400) << name;
   }
   // A name that is a command's or an option's word is a name all the same.
   for (const char* name : {"frf", "device", "FILE", "force=2"}) {
-    const json request{{"recording", {{"id", id}, {"name", name}}}, {"options", {{"force", "nothing"}, {"position", "position"}}}};
+    const json request{{"recording", {{"id", id}, {"name", name}}},
+                       {"options", {{"force", "nothing"}, {"position", "position"}}}};
     EXPECT_THAT(post("frf", request.dump()).body, HasSubstr("\"where\":\"recording\"")) << name;
   }
   EXPECT_TRUE(is_alive());
@@ -241,15 +274,17 @@ TEST_F(Hostile, NoOptionReachesADisk) {
 
 TEST_F(Hostile, PipelinedRequestsAreEachJudged) {
   Client client(port());
-  client.send(raw("GET /api/v1/health HTTP/1.1\nHost: 127.0.0.1:{P}\n\n"
-                  "GET /api/v1/health HTTP/1.1\nHost: evil.example\n\n"
-                  "GET /api/v1/health HTTP/1.1\nHost: 127.0.0.1:{P}\n\n"));
+  client.send(
+      raw("GET /api/v1/health HTTP/1.1\nHost: 127.0.0.1:{P}\n\n"
+          "GET /api/v1/health HTTP/1.1\nHost: evil.example\n\n"
+          "GET /api/v1/health HTTP/1.1\nHost: 127.0.0.1:{P}\n\n"));
   EXPECT_EQ(client.answer().status, 200);
   EXPECT_EQ(client.answer().status, 421);
   EXPECT_TRUE(client.is_ended_within(5s));  // nothing more is read of who was refused
   Client smuggler(port());
-  smuggler.send(raw("POST /api/v1/analyze HTTP/1.1\nHost: 127.0.0.1:{P}\nContent-Type: application/json\nContent-Length: 2\n\n"
-                    "{}GET /api/v1/health HTTP/1.1\nHost: 127.0.0.1:{P}\n\n"));
+  smuggler.send(
+      raw("POST /api/v1/analyze HTTP/1.1\nHost: 127.0.0.1:{P}\nContent-Type: application/json\nContent-Length: 2\n\n"
+          "{}GET /api/v1/health HTTP/1.1\nHost: 127.0.0.1:{P}\n\n"));
   EXPECT_EQ(smuggler.answer().status, 400);
   EXPECT_EQ(smuggler.answer().status, 200);
   EXPECT_TRUE(is_alive());
@@ -287,7 +322,8 @@ TEST_F(Hostile, PagesMayLoadNothingForeign) {
   }
   EXPECT_THAT(page.head, ::testing::Not(HasSubstr("unsafe-")));
   EXPECT_THAT(page.head, ::testing::Not(HasSubstr("Access-Control-")));
-  for (const char* foreign : {"http://", "https://", "src=\"//"}) EXPECT_THAT(page.body, ::testing::Not(HasSubstr(foreign)));
+  for (const char* foreign : {"http://", "https://", "src=\"//"})
+    EXPECT_THAT(page.body, ::testing::Not(HasSubstr(foreign)));
   const HttpAnswer zipped = exchange(request("GET", "/", "", "Accept-Encoding: gzip, br\r\n"));
   EXPECT_THAT(zipped.head, HasSubstr("Content-Encoding: gzip\r\n"));
   EXPECT_TRUE(zipped.body.starts_with("\x1f\x8b"));

@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <thread>
@@ -85,7 +86,8 @@ TEST_F(Serve, ElsewhereThanOnLoopbackTheTokenIsNeeded) {
   EXPECT_EQ(status(""), 403);
   EXPECT_EQ(status("Authorization: Bearer " + token + "\r\n"), 200);
   EXPECT_EQ(status("Authorization: bearer " + token + "\r\n"), 200);
-  for (const std::string& wrong : {std::string(64, '0'), token.substr(1), token + "0", std::string(), token + "\r\nAuthorization: Bearer " + token}) {
+  for (const std::string& wrong : {std::string(64, '0'), token.substr(1), token + "0", std::string(),
+                                   token + "\r\nAuthorization: Bearer " + token}) {
     EXPECT_EQ(status("Authorization: Bearer " + wrong + "\r\n"), 403) << wrong;
   }
   EXPECT_EQ(status("Authorization: Basic " + token + "\r\n"), 403);
@@ -184,10 +186,13 @@ TEST_F(Serve, AnswersAtOnceAreThoseOneByOne) {
   std::vector<std::string> alone;
   for (const std::string& file : files) {
     // With a unit of its motion each: what the parsing remembers belongs to one request.
-    alone.push_back(json{{"device_toml", contents("devices/" + file + ".toml")},
-                         {"options", {{"set", "wall.stiffness=10"}, {"oscillates-hz", "5 Hz"},
-                                      {"stiffness", file == "capstan_paddle" || file == "two_mass_drive" ? "20 N m/rad" : "2 kN/m"}}}}
-                        .dump());
+    alone.push_back(
+        json{{"device_toml", contents("devices/" + file + ".toml")},
+             {"options",
+              {{"set", "wall.stiffness=10"},
+               {"oscillates-hz", "5 Hz"},
+               {"stiffness", file == "capstan_paddle" || file == "two_mass_drive" ? "20 N m/rad" : "2 kN/m"}}}}
+            .dump());
   }
   std::vector<std::string> expected;
   for (const std::string& request : alone) {
@@ -212,7 +217,9 @@ TEST_F(Serve, AnswersAtOnceAreThoseOneByOne) {
 TEST_F(Serve, TheRecordingLongestNotUsedGoes) {
   start();
   const auto recording = [](int number) { return fmt::format("a,b\n{},1\n2,2\n3,3\n", number); };
-  const auto id_of = [&](int number) { return json::parse(upload(recording(number)).body).at("id").get<std::string>(); };
+  const auto id_of = [&](int number) {
+    return json::parse(upload(recording(number)).body).at("id").get<std::string>();
+  };
   const std::string first = id_of(0);
   const std::string second = id_of(1);
   const auto is_there = [&](const std::string& id) {
@@ -228,9 +235,10 @@ TEST_F(Serve, TheRecordingLongestNotUsedGoes) {
 
 TEST_F(Serve, RecordingsOfAllFormatsAreTakenFromMemory) {
   start();
-  const Outcome made = run(
-      "/usr/bin/python3 -c 'import scipy.io, numpy as n; t = n.arange(50) * 0.01; "
-      "scipy.io.savemat(\"run.mat\", {\"force\": n.sin(t), \"position\": n.cos(t), \"time\": t}, do_compression=True)'");
+  const Outcome made =
+      run("/usr/bin/python3 -c 'import scipy.io, numpy as n; t = n.arange(50) * 0.01; "
+          "scipy.io.savemat(\"run.mat\", {\"force\": n.sin(t), \"position\": n.cos(t), \"time\": t}, "
+          "do_compression=True)'");
   ASSERT_EQ(made.status, 0) << made.errors;
   const json mat = json::parse(upload(contents("run.mat")).body);
   EXPECT_EQ(mat.at("format"), "mat");
@@ -249,22 +257,45 @@ TEST_F(Serve, LargeBodiesAreInvited) {
   Client client(port());
   std::string recording = "a,b\n";
   while (recording.size() < (8U << 20)) recording += "1.5,2.5\n";
-  client.send(fmt::format("POST /api/v1/recordings HTTP/1.1\r\nHost: 127.0.0.1:{}\r\nContent-Type: "
-                          "application/octet-stream\r\nContent-Length: {}\r\nExpect: 100-continue\r\n\r\n",
-                          port(), recording.size()));
+  client.send(
+      fmt::format("POST /api/v1/recordings HTTP/1.1\r\nHost: 127.0.0.1:{}\r\nContent-Type: "
+                  "application/octet-stream\r\nContent-Length: {}\r\nExpect: 100-continue\r\n\r\n",
+                  port(), recording.size()));
   EXPECT_EQ(client.answer().status, 100);
   client.send(recording);
   EXPECT_EQ(client.answer().status, 200);
 }
 
-// A client that people use, beside our own bytes.
+// Clients that people use, beside our own bytes: the example of the documentation.
+TEST_F(Serve, TheExamplesOfItsDocumentWork) {
+  start();
+  std::ifstream file(ZWIDTH_SOURCE_DIR "/docs/serve.md");
+  const std::string document((std::istreambuf_iterator<char>(file)), {});
+  const std::size_t begin = document.find("```sh\n") + 6;
+  std::string example = document.substr(begin, document.find("```", begin) - begin);
+  for (const std::string& own : {std::string("zwidth serve --port 8713 &\n"), std::string("kill %1\n")}) {
+    ASSERT_THAT(example, HasSubstr(own));
+    example.erase(example.find(own), own.size());
+  }
+  for (std::size_t at = example.find("8713"); at != std::string::npos; at = example.find("8713", at)) {
+    example.replace(at, 4, std::to_string(port()));
+  }
+  std::istringstream answers(run(example).output);
+  for (const char* schema : {"zwidth.analysis/1", "zwidth.frf/1"}) {
+    std::string line;
+    std::getline(answers, line);
+    EXPECT_EQ(json::parse(line, nullptr, false).value("schema", ""), schema) << line;
+  }
+}
+
 TEST_F(Serve, PythonGetsAnAnswer) {
   start();
   const std::string url = address() + "api/v1/analyze";
-  write("ask.py", "import json, sys, urllib.request\n"
-                  "body = json.dumps({'device_toml': open('devices/lhifam.toml').read()}).encode()\n"
-                  "asked = urllib.request.Request(sys.argv[1], body, {'Content-Type': 'application/json'})\n"
-                  "print(json.load(urllib.request.urlopen(asked))['critical_stiffness'])\n");
+  write("ask.py",
+        "import json, sys, urllib.request\n"
+        "body = json.dumps({'device_toml': open('devices/lhifam.toml').read()}).encode()\n"
+        "asked = urllib.request.Request(sys.argv[1], body, {'Content-Type': 'application/json'})\n"
+        "print(json.load(urllib.request.urlopen(asked))['critical_stiffness'])\n");
   EXPECT_THAT(run("/usr/bin/python3 ask.py " + url).output, StartsWith("8848.70869499"));
 }
 

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Holds the sources to the rules of CONTRIBUTING.md.
 
-usage: check_rules.py ROOT RULE      RULE: flow, words, sizes or names
+usage: check_rules.py ROOT RULE      RULE: flow, words, sizes, names or disk
 Prints every line that breaks the rule, and exits with 1 where there is one.
 """
 
@@ -123,9 +123,21 @@ def names(root):
                 yield path, 1, "a private header declares outside of namespace zwidth::internal"
 
 
+def disk(root):
+    """Commands reach files where a request's commands are kept from them: one place to read, one to write."""
+    reads = re.compile(r"\b(read_device_file|read_recording|list_recording|read_response_table|fopen|ifstream)\b")
+    writes = re.compile(r"\b(OutputFiles|write_whole|make_directory|ofstream)\b")
+    for path in files(root, "apps/cli"):
+        for number, line in lines(path):
+            if reads.search(line) and path.stem != "surroundings":
+                yield path, number, "reads a file beside surroundings.hpp"
+            if writes.search(line) and path.stem not in ("outputs", "reproduce"):
+                yield path, number, "writes a file beside outputs.hpp"
+
+
 def main():
     root = Path(sys.argv[1]).resolve()
-    rule = {"flow": flow, "words": words, "sizes": sizes, "names": names}[sys.argv[2]]
+    rule = {"flow": flow, "words": words, "sizes": sizes, "names": names, "disk": disk}[sys.argv[2]]
     broken = list(rule(root))
     for path, number, what in broken:
         print(f"{path.relative_to(root)}:{number}: {what}")

@@ -15,9 +15,11 @@
 namespace zwidth::report {
 namespace {
 
-constexpr std::size_t bullet = 4;
+constexpr std::size_t relay_bullet = 4;
 
-std::string bulleted(std::string_view text) { return wrap(text, line_width, bullet).replace(0, bullet, "  - "); }
+std::string bulleted(std::string_view text) {
+  return wrap(text, line_width, relay_bullet).replace(0, relay_bullet, "  - ");
+}
 
 std::string heading(const RelayResult& result) {
   const Units units = units_of(result.motion);

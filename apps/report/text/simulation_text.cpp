@@ -18,10 +18,10 @@
 namespace zwidth::report {
 namespace {
 
-constexpr std::size_t indent = 22;
+constexpr std::size_t simulation_indent = 22;
 
 std::string line(std::string_view label, std::string_view text) {
-  return wrap(text, line_width, indent).replace(0, label.size() + 2, fmt::format("  {}", label));
+  return wrap(text, line_width, simulation_indent).replace(0, label.size() + 2, fmt::format("  {}", label));
 }
 
 std::string wall_text(const Device& device, const Simulation& result) {
