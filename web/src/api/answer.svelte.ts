@@ -16,12 +16,15 @@ const textOf = ({ toml, options = {}, more = {} }: Question): string =>
 
 // What takes long waits for its turn, so that the quick panels follow a drag.
 let turns = 1
+let lastChange = 0
 const waiting: (() => void)[] = []
 async function turn(): Promise<void> {
   if (turns > 0) --turns
   else await new Promise<void>((resolve) => waiting.push(resolve))
 }
-function endTurn(): void {
+async function endTurn(took: number): Promise<void> {
+  // While questions change (a drag), the quick panels get most of the time.
+  if (performance.now() - lastChange < 200) await new Promise((resolve) => setTimeout(resolve, Math.min(500, 2 * took)))
   const next = waiting.shift()
   if (next) next()
   else ++turns
@@ -47,6 +50,7 @@ export class Answer<T> {
     if (text === this.wantedText) return
     this.wanted = question
     this.wantedText = text
+    lastChange = performance.now()
     if (question === null) {
       this.document = null
       this.problem = null
@@ -67,8 +71,9 @@ export class Answer<T> {
       if (this.isSlow) await turn()
       const question: Question | null = this.wanted
       const text = this.wantedText
+      const start = performance.now()
       if (question !== null) await this.once(question, text)
-      if (this.isSlow) endTurn()
+      if (this.isSlow) await endTurn(performance.now() - start)
     }
     this.running = false
   }

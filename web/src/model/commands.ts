@@ -3,17 +3,28 @@
 import { examples } from '../api/shared.svelte'
 import type { Options } from '../api/answer.svelte'
 import { groupsOf } from './keys'
-import { scan, type Entry } from './toml'
+import { scan, type Entry, type Scan } from './toml'
 import { workbench } from './workbench.svelte'
 
 const quoted = (text: string): string => (/^[\w./:=,+-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`)
+
+const known = new Map<string, Scan>()
+function scanned(text: string): Scan {
+  let found = known.get(text)
+  if (!found) {
+    if (known.size > 50) known.clear()
+    known.set(text, (found = scan(text)))
+  }
+  return found
+}
 
 const rawOf = (text: string, entry: Entry): string => text.slice(entry.start, entry.end)
 
 /** What --set makes of an example to get this text; null where it cannot. */
 export function setsFrom(example: string, text: string): string[] | null {
-  const [from, to] = [scan(example), scan(text)]
+  const [from, to] = [scanned(example), scanned(text)]
   if (!from.complete || !to.complete) return null
+  const isDefault = (key: string, value: unknown): boolean => value === 0 && key !== 'wall.stiffness'
   const keyOf = new Map(groupsOf(to).flatMap((group) => group.rows.map((row) => [row.path.join('\n'), row.key])))
   const before = new Map(from.entries.map((each) => [each.path.join('\n'), rawOf(example, each)]))
   const sets: string[] = []
@@ -21,8 +32,8 @@ export function setsFrom(example: string, text: string): string[] | null {
     const id = entry.path.join('\n')
     const old = before.get(id)
     before.delete(id)
-    if (old === rawOf(text, entry)) continue
     const key = keyOf.get(id)
+    if (old === undefined ? key !== undefined && isDefault(key, entry.value) : old === rawOf(text, entry) || (typeof entry.value === 'number' && Number(old) === entry.value)) continue
     if (!key || (typeof entry.value !== 'number' && typeof entry.value !== 'string')) return null
     sets.push(`${key}=${typeof entry.value === 'string' ? entry.value : rawOf(text, entry)}`)
   }
