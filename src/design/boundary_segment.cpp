@@ -39,7 +39,7 @@ bool is_narrow(double begin, double end, bool estimated) {
 }
 
 // No stable wall on the interval: outside the quadrant or the bounds.
-bool is_outside(const BoundaryCurve::Model& model, const WallBounds& bounds, double largest_wall) {
+bool is_outside(const BoundaryCurve::Model& model, const CurveBounds& bounds, double largest_wall) {
   if (greatest(model.stiffness) < 0.0 || greatest(model.damping) < 0.0) return true;
   const double seen = greatest(model.seen);
   // |K + B v| = |D|/|S|
@@ -153,7 +153,7 @@ class SegmentList {
 };
 
 // Nothing past the cap.
-std::optional<std::vector<BoundarySegment>> bounded_segments(const BoundaryCurve& curve, const WallBounds& bounds) {
+std::optional<std::vector<BoundarySegment>> bounded_segments(const BoundaryCurve& curve, const CurveBounds& bounds) {
   const double largest_wall = bounds.stiffness + bounds.damping * curve.velocity_at_nyquist();
   const std::size_t pieces = std::max<std::size_t>(1, curve.plant().delay_samples);
   std::vector<Interval> stack;
@@ -216,7 +216,7 @@ std::vector<double> first_divisions(const BoundaryCurve& curve) {
 }
 
 // Clearly outside the quadrant or the bounds, by twice what the samples show.
-bool is_outside(const BoundarySegment& segment, const WallBounds& bounds) {
+bool is_outside(const BoundarySegment& segment, const CurveBounds& bounds) {
   const auto reach = [](const Jet& a) { return 2.0 * std::abs(a.slope) + a.bend; };
   return segment.stiffness.value + reach(segment.stiffness) < 0.0 ||
          segment.damping.value + reach(segment.damping) < 0.0 ||
@@ -225,7 +225,7 @@ bool is_outside(const BoundarySegment& segment, const WallBounds& bounds) {
 }
 
 // Both ends of an interval that cannot be divided are outside: P vanishes between.
-bool leaves_through_infinity(const BoundaryCurve& curve, double begin, double end, const WallBounds& bounds) {
+bool leaves_through_infinity(const BoundaryCurve& curve, double begin, double end, const CurveBounds& bounds) {
   const auto outside = [&](double x) {
     const WallPoint wall = curve.at(angle_of(x));
     return !(wall.stiffness >= 0.0 && wall.stiffness <= bounds.stiffness && wall.damping >= 0.0 &&
@@ -234,7 +234,7 @@ bool leaves_through_infinity(const BoundaryCurve& curve, double begin, double en
   return outside(begin) && outside(end);
 }
 
-std::vector<BoundarySegment> estimated_segments(const BoundaryCurve& curve, const WallBounds& bounds) {
+std::vector<BoundarySegment> estimated_segments(const BoundaryCurve& curve, const CurveBounds& bounds) {
   const std::vector<double> divisions = first_divisions(curve);
   std::vector<Interval> stack;
   for (std::size_t i = divisions.size() - 1; i-- > 0;) stack.push_back({divisions[i], divisions[i + 1]});
@@ -263,7 +263,7 @@ std::vector<BoundarySegment> estimated_segments(const BoundaryCurve& curve, cons
 
 }  // namespace
 
-CurveSegments curve_segments(const BoundaryCurve& curve, const WallBounds& bounds) {
+CurveSegments curve_segments(const BoundaryCurve& curve, const CurveBounds& bounds) {
   if (auto bounded = bounded_segments(curve, bounds)) return {*std::move(bounded), true};
   return {estimated_segments(curve, bounds), false};
 }

@@ -58,6 +58,6 @@ struct CurveSegments {
   std::vector<BoundarySegment> segments;
   bool proven = true;  // no estimates
 };
-CurveSegments curve_segments(const BoundaryCurve& curve, const WallBounds& bounds);
+CurveSegments curve_segments(const BoundaryCurve& curve, const CurveBounds& bounds);
 
 }  // namespace zwidth::internal

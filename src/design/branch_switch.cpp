@@ -16,19 +16,19 @@
 namespace zwidth {
 namespace {
 
-constexpr double steps_per_decade = 12.0;
+constexpr double followed_per_decade = 12.0;
 constexpr double jump = 0.02;        // of log frequency: another crossover
 constexpr double resolution = 1e-9;  // of p
 constexpr int max_bisections = 60;
-constexpr double first_share = 1e-3;  // of the way from 0
+constexpr double first_share_of_way = 1e-3;  // of the way from 0
 
-struct Point {
+struct FollowedPoint {
   double value = 0.0;
   CriticalStiffness critical;
 };
 
 /// How far apart the limiting crossovers are: infinite where one is missing or at rest.
-double distance(const Point& a, const Point& b) {
+double distance(const FollowedPoint& a, const FollowedPoint& b) {
   if (!a.critical.limit || !b.critical.limit) return std::numeric_limits<double>::infinity();
   const double first = a.critical.limit->frequency;
   const double second = b.critical.limit->frequency;
@@ -43,16 +43,16 @@ class Way {
   }
 
   /// Nothing where the value makes no device.
-  [[nodiscard]] std::optional<Point> at(double value) const {
+  [[nodiscard]] std::optional<FollowedPoint> at(double value) const {
     DeviceParameters moved = parameters_;
     set_parameter(moved, key_, value);
     if (find_problem(moved)) return std::nullopt;
     const VirtualDamper damper{moved.wall.damping, moved.wall.velocity_filter_hz};
-    return Point{value, critical_stiffness(filtered_plant(Device(std::move(moved))), damper)};
+    return FollowedPoint{value, critical_stiffness(filtered_plant(Device(std::move(moved))), damper)};
   }
 
   /// Halves the way between two points towards the jump; nothing where it closes: one branch that moves fast.
-  [[nodiscard]] std::optional<BranchSwitch> switch_between(Point near, Point far) const {
+  [[nodiscard]] std::optional<BranchSwitch> switch_between(FollowedPoint near, FollowedPoint far) const {
     for (int i = 0; i < max_bisections && std::abs(far.value - near.value) > resolution * std::abs(far.value); ++i) {
       auto middle = at(0.5 * (near.value + far.value));
       if (!middle) return std::nullopt;
@@ -70,7 +70,7 @@ class Way {
   template <typename Values>
   [[nodiscard]] std::optional<BranchSwitch> first_switch(const CriticalStiffness& own, double value, int steps,
                                                          const Values& value_at) const {
-    Point last{value, own};
+    FollowedPoint last{value, own};
     for (int i = 1; i <= steps; ++i) {
       auto next = at(value_at(i));
       if (!next) return std::nullopt;
@@ -94,7 +94,7 @@ std::vector<BranchSwitch> switches_of(const Device& device, const CriticalStiffn
   const Way way(device, each.key);
   // From the device's own value, by equal factors from `start` to `end`.
   const auto follow = [&](double start, double end) {
-    const int steps = static_cast<int>(std::ceil(steps_per_decade * std::abs(std::log10(end / start))));
+    const int steps = static_cast<int>(std::ceil(followed_per_decade * std::abs(std::log10(end / start))));
     auto found = way.first_switch(own, each.value, steps, [&](int i) {
       return i == steps ? end : start * std::pow(end / start, static_cast<double>(i) / steps);
     });
@@ -105,7 +105,7 @@ std::vector<BranchSwitch> switches_of(const Device& device, const CriticalStiffn
     follow(each.value, each.value * factor);
   } else if (each.slope != 0.0) {
     const double full = own.stiffness / std::abs(each.slope);
-    follow(first_share * full, factor * full);
+    follow(first_share_of_way * full, factor * full);
   }
   return switches;
 }

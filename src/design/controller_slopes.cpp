@@ -188,11 +188,11 @@ DamperSlopes damper_slopes(const Device& device, double angle, std::span<const D
   const double decay = corner > 0.0 ? std::exp(-2.0 * pi * corner * period) : 0.0;     // a
   const double share = corner > 0.0 ? -std::expm1(-2.0 * pi * corner * period) : 1.0;  // 1 - a
   const double half = std::sin(0.5 * angle);
-  const Complex difference(2.0 * half * half, angle >= pi ? 0.0 : std::sin(angle));  // 1 - z^-1
-  const Complex denominator = share + decay * difference;                            // 1 - a z^-1
-  const Complex velocity = share / period * difference / denominator;                // v
-  const Complex turned = Complex(0.0, 1.0) * (1.0 - difference);                     // d(1 - z^-1)/d angle
-  const Complex by_decay = -difference * difference / (period * denominator * denominator);
+  const std::complex<double> difference(2.0 * half * half, angle >= pi ? 0.0 : std::sin(angle));  // 1 - z^-1
+  const std::complex<double> denominator = share + decay * difference;                            // 1 - a z^-1
+  const std::complex<double> velocity = share / period * difference / denominator;                // v
+  const std::complex<double> turned = std::complex<double>(0.0, 1.0) * (1.0 - difference);        // d(1 - z^-1)/d angle
+  const std::complex<double> by_decay = -difference * difference / (period * denominator * denominator);
   DamperSlopes slopes;
   slopes.value = damping * velocity;
   slopes.by_angle = damping * share / period * turned * share / (denominator * denominator);

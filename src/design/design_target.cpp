@@ -8,10 +8,10 @@
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <mutex>
 
 #include "design/design_parameter.hpp"
+#include "infinity.hpp"
 #include "require_valid.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/parameter.hpp"
@@ -27,7 +27,6 @@ constexpr double steps_per_decade_any_user = 6.0;
 constexpr std::uintmax_t max_refinements = 200;
 constexpr double reached = 1e-10;     // relative difference of the limit to the target
 constexpr double first_share = 1e-3;  // of a number that is 0 now: of the value at which its unit matters
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // A value of the number with its limit.
 struct Point {

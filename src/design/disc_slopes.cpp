@@ -167,23 +167,24 @@ DiscSlopes disc_slopes(const Device& free, const UserDiscs& discs, double angle,
   const double period = free.loop().sampling_period;
   const double spacing = 2.0 * pi / period;
   const SampledPlant& unfiltered = discs.free_plant();
-  const Complex reference = response(unfiltered, angle / period);
+  const std::complex<double> reference = response(unfiltered, angle / period);
   const PlantSlopes plant = plant_slopes(free, angle, parameters);
   const FilterSlopes filters = filter_slopes(free, angle, parameters);
   const Sums sums = sums_over_aliases(free, discs, angle, parameters);
-  const Complex hold = std::polar(2.0 * std::sin(0.5 * angle) / period, 0.5 * (pi - angle));  // (1 - z^-1)/T
+  const std::complex<double> hold =
+      std::polar(2.0 * std::sin(0.5 * angle) / period, 0.5 * (pi - angle));  // (1 - z^-1)/T
   const double hold_size = std::abs(hold);
-  const Complex centre = reference - hold * sums.shift;
+  const std::complex<double> centre = reference - hold * sums.shift;
   const double radius = hold_size * sums.radius;
   DiscSlopes slopes;
   slopes.disc = {filters.value * centre, std::abs(filters.value) * radius};
-  std::vector<Complex>& centre_by = slopes.centre_by_parameter;
+  std::vector<std::complex<double>>& centre_by = slopes.centre_by_parameter;
   std::vector<double>& radius_by = slopes.radius_by_parameter;
-  Complex in_time = 0.0;  // what a longer unit of time makes of centre and radius
+  std::complex<double> in_time = 0.0;  // what a longer unit of time makes of centre and radius
   double radius_in_time = 0.0;
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const DesignParameter& each = parameters[i];
-    Complex by = plant.by_parameter[i] - hold * sums.shift_by[i];
+    std::complex<double> by = plant.by_parameter[i] - hold * sums.shift_by[i];
     double radius_slope = hold_size * sums.radius_by[i];
     const bool is_new_lag = each.kind == Kind::time_constant && each.value == 0.0;
     if (each.kind == Kind::delay || is_new_lag) by = plant.by_parameter[i] - hold * sums.shift_by_delay;
@@ -205,7 +206,7 @@ DiscSlopes disc_slopes(const Device& free, const UserDiscs& discs, double angle,
       centre_by[i] = -in_time / period;
       radius_by[i] = -radius_in_time / period;
     }
-    const Complex filter = filters.log_by_parameter[i];
+    const std::complex<double> filter = filters.log_by_parameter[i];
     centre_by[i] = filters.value * (centre_by[i] + filter * centre);
     radius_by[i] = std::abs(filters.value) * (radius_by[i] + filter.real() * radius);
   }

@@ -5,9 +5,9 @@
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <numbers>
 
+#include "infinity.hpp"
 #include "stability/damper_response.hpp"
 #include "stability/disc_stiffness.hpp"
 #include "stability/loops_of_stiffness.hpp"
@@ -17,8 +17,6 @@ namespace zwidth::internal {
 namespace {
 
 using std::numbers::pi;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 constexpr int points_per_decade = 60;
 constexpr double lowest_angle = 1e-6;

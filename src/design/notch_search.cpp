@@ -2,17 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <numeric>
 #include <optional>
+
+#include "infinity.hpp"
 
 namespace zwidth::internal {
 namespace {
 
 using std::numbers::pi;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 constexpr double highest_centre = 0.95;  // of Nyquist
 constexpr double lowest_centre = 1e-4;

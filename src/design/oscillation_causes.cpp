@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <numbers>
 #include <utility>
 
 #include "design/wall_limits.hpp"
+#include "infinity.hpp"
 #include "stability/damper_response.hpp"
 #include "stability/disc_stiffness.hpp"
 #include "stability/user_discs.hpp"
@@ -23,7 +23,6 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double near = 0.15;                   // |ln| of two frequencies of one linear oscillation
 constexpr double near_harmonic = 0.4;           // of one that first harmonics tell
 constexpr double counts_of_quantisation = 3.0;  // largest amplitude, in encoder steps

@@ -6,12 +6,11 @@
 #include <numbers>
 
 #include "design/boundary_crossings.hpp"
+#include "infinity.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth::internal {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Levels of B closer than this, relative, are one.
 constexpr double same_level = 1e-11;

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "infinity.hpp"
 #include "require_valid.hpp"
 #include "stability/any_user_search.hpp"
 #include "stability/guarded_stiffness.hpp"
@@ -24,7 +24,6 @@ namespace zwidth {
 using namespace internal;
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int bisections = 24;  // of a stretch of B
 
 /// The end of the range from `holds` (true at `low`) to `fails` (false at `high`), from below.

@@ -118,8 +118,8 @@ std::optional<double> loop_gain_by_turn(const OpenLoop& open) {
 
 }  // namespace
 
-WallBounds wall_bounds(const BoundaryCurve& curve) {
-  WallBounds bounds{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+CurveBounds wall_bounds(const BoundaryCurve& curve) {
+  CurveBounds bounds{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   const auto add = [&bounds](double largest_wall, double velocity) {
     if (!std::isfinite(largest_wall)) return;
     bounds.stiffness = std::min(bounds.stiffness, largest_wall);

@@ -5,7 +5,7 @@
 namespace zwidth::internal {
 
 // A part of the (K, B) plane that holds every stable wall.
-struct WallBounds {
+struct CurveBounds {
   double stiffness = 0.0;  // >= every stable K
   double damping = 0.0;    // >= every stable B
 };
@@ -19,6 +19,6 @@ struct WallBounds {
 //     c(-1) (-1)^N > 0                 so  K + B v(-1) stays below the Nyquist line
 //
 // Each bounds |K + B v| at some z, which is at least K and at least B |v|. Infinite where nothing follows.
-WallBounds wall_bounds(const BoundaryCurve& curve);
+CurveBounds wall_bounds(const BoundaryCurve& curve);
 
 }  // namespace zwidth::internal

@@ -20,9 +20,9 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double lowest_angle = 1e-5;
+constexpr double lowest_checked_angle = 1e-5;
 constexpr int points_per_decade = 60;
-constexpr int bisections = 30;
+constexpr int check_bisections = 30;
 constexpr double tolerance = 1e-4;                                       // rad, of a phase margin from two routes
 constexpr std::array masses_of_users{0.0, 0.1, 1.0, 10.0, 1e3};          // times the device's
 constexpr std::array springs_of_users{0.0, 0.1, 1.0, 10.0, 100.0, 1e4};  // times the wall's
@@ -86,7 +86,7 @@ class StateSpaceLoop {
 /// Gain crossovers between the points of a grid, each refined by bisection.
 void check_phase(const Device& walled, double phase_margin, Trust& trust) {
   const StateSpaceLoop loop(walled);
-  const auto count = static_cast<int>(std::ceil(points_per_decade * std::log10(pi / lowest_angle)));
+  const auto count = static_cast<int>(std::ceil(points_per_decade * std::log10(pi / lowest_checked_angle)));
   double last_angle = 0.0;
   double last_gain = 0.0;
   for (int i = count; i >= 0; --i) {
@@ -95,7 +95,7 @@ void check_phase(const Device& walled, double phase_margin, Trust& trust) {
     if (i < count && (gain > 1.0) != (last_gain > 1.0)) {
       double low = last_angle;
       double high = angle;
-      for (int step = 0; step < bisections; ++step) {
+      for (int step = 0; step < check_bisections; ++step) {
         const double middle = std::sqrt(low * high);
         ((std::abs(loop.at(middle)) > 1.0) == (last_gain > 1.0) ? low : high) = middle;
       }

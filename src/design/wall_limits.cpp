@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <complex>
-#include <limits>
 #include <numbers>
 #include <utility>
 
 #include "design/margin_wall.hpp"
+#include "infinity.hpp"
 #include "zwidth/model/state_space.hpp"
 #include "zwidth/stability/analysis.hpp"
 #include "zwidth/stability/closed_loop.hpp"
@@ -14,12 +14,11 @@
 namespace zwidth::internal {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double shaved = 1e-6;    // off every limit
 constexpr double rounding = 1e-9;  // of margins that stand exactly at what is required
 constexpr double same = 1e-4;      // relative, of a margin that is the one that bounds
 constexpr double critical_ratio = 1.0 - 1e-6;
-constexpr int bisections = 40;
+constexpr int limit_bisections = 40;
 constexpr double softest = 1e-9;  // of the limit, before a contact counts as never damped
 
 VirtualDamper scaled(VirtualDamper damper, double factor) {
@@ -148,7 +147,7 @@ WallLimits::Stiffest WallLimits::critically_damped(double at_most, VirtualDamper
   double low = softest * at_most;
   double high = at_most;
   if (contact_damping(low, damper) < critical_ratio) return {0.0, WallBound::contact_damping};
-  for (int i = 0; i < bisections; ++i) {
+  for (int i = 0; i < limit_bisections; ++i) {
     const double middle = std::sqrt(low * high);
     (contact_damping(middle, damper) < critical_ratio ? high : low) = middle;
   }

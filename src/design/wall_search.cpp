@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
+
+#include "infinity.hpp"
 
 namespace zwidth::internal {
 namespace {
 
 using std::numbers::pi;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 constexpr std::array shares_of_damping{0.0, 0.001, 0.003, 0.01, 0.02, 0.05, 0.1, 0.2,
                                        0.3, 0.4,   0.5,   0.6,  0.7,  0.8,  0.9, 0.97};
@@ -26,7 +25,7 @@ constexpr double slow_filter = 0.01;    // of the sampling rate: as slow a one i
 constexpr double between_filters = 1.8;
 constexpr int filter_refinements = 4;
 constexpr int contact_bisections = 14;
-constexpr double critical_ratio = 1.0 - 1e-6;
+constexpr double critical_contact_ratio = 1.0 - 1e-6;
 
 /// The softest crossover of the device without a damper.
 std::optional<Crossover> softest_crossover(const FilteredPlant& plant) {
@@ -99,13 +98,13 @@ double WallSearch::value(const Filtered& filtered, double damping, WallGoal goal
 }
 
 double WallSearch::damped_contact(double at_most, VirtualDamper damper, double enough) const {
-  if (limits_.contact_damping(at_most, damper) >= critical_ratio) return at_most;
+  if (limits_.contact_damping(at_most, damper) >= critical_contact_ratio) return at_most;
   double low = std::max(enough, 1e-9 * at_most);
   double high = at_most;
-  if (limits_.contact_damping(low, damper) < critical_ratio) return 0.0;
+  if (limits_.contact_damping(low, damper) < critical_contact_ratio) return 0.0;
   for (int i = 0; i < contact_bisections; ++i) {
     const double middle = std::sqrt(low * high);
-    (limits_.contact_damping(middle, damper) < critical_ratio ? high : low) = middle;
+    (limits_.contact_damping(middle, damper) < critical_contact_ratio ? high : low) = middle;
   }
   return low;
 }

@@ -10,7 +10,7 @@ namespace {
 // Even perfect data are not trusted beyond this share of the response: the plant's own rounding and differencing.
 constexpr double least_relative_deviation = 1e-9;
 
-double median(std::vector<double> values) {
+double median_ratio(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
@@ -38,7 +38,7 @@ double model_error_of(const std::vector<ResponsePoint>& points, const Eigen::Vec
       const double variance = point.variance + relative * relative * std::norm(point.value);
       ratios.push_back(std::norm(point.value - fitted(static_cast<Eigen::Index>(i))) / variance);
     }
-    return median(std::move(ratios)) <= std::numbers::ln2;
+    return median_ratio(std::move(ratios)) <= std::numbers::ln2;
   };
   if (is_enough(0.0)) return 0.0;
   double low = std::log(least_relative_deviation);

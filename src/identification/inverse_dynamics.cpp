@@ -164,7 +164,7 @@ double interpolated(const std::vector<double>& values, const std::vector<double>
 enum Column : Eigen::Index { mass, viscous, coulomb, offset, delay, columns };
 
 /// The least-squares solution with what its covariance needs.
-struct Solution {
+struct DynamicsSolution {
   Eigen::MatrixXd regressors;
   Eigen::VectorXd parameters;
   Eigen::VectorXd force;
@@ -181,9 +181,9 @@ bool independent(const Eigen::MatrixXd& regressors) {
 }
 
 /// L[F](t - tau) ~ L[F](t - tau_0) - (tau - tau_0) L[F]'(t - tau_0): the last column finds the step of the delay.
-Solution solve(const Terms& terms, const std::vector<std::size_t>& kept, double period, double delay_so_far,
-               Eigen::Index count) {
-  Solution solution{Eigen::MatrixXd(kept.size(), count), {}, Eigen::VectorXd(kept.size()), {}};
+DynamicsSolution solve(const Terms& terms, const std::vector<std::size_t>& kept, double period, double delay_so_far,
+                       Eigen::Index count) {
+  DynamicsSolution solution{Eigen::MatrixXd(kept.size(), count), {}, Eigen::VectorXd(kept.size()), {}};
   for (std::size_t i = 0; i < kept.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
     const std::size_t k = kept[i];
@@ -237,7 +237,7 @@ RigidBodyFit identify_rigid_body(std::span<const double> force, std::span<const 
   fit.equations = kept.size();
   if (band.first_mode) fit.first_mode_hz = *band.first_mode / sampling_period;
 
-  Solution solution = solve(terms, kept, sampling_period, 0.0, columns);
+  DynamicsSolution solution = solve(terms, kept, sampling_period, 0.0, columns);
   double total_delay = 0.0;
   const bool delay_shows = independent(solution.regressors);
   if (delay_shows) {

@@ -14,14 +14,14 @@ namespace {
 
 // Blocks of lines this much wider than the last one: narrow at slow motions, smooth at fast ones.
 constexpr double block_growth = 1.25;
-constexpr double least_signal_to_noise = 3.0;
+constexpr double least_block_to_noise = 3.0;
 
 /// |1 - e^{-jw}|^4: what the second difference makes of the position's power.
 double second_difference_power(double cycles_per_sample) {
   return std::pow(2.0 * std::sin(std::numbers::pi * cycles_per_sample), 4.0);
 }
 
-double median(std::vector<double> values) {
+double median_power(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
@@ -43,7 +43,8 @@ MotionBandwidth motion_bandwidth(std::span<const double> position) {
   for (std::size_t k = lines.size() / 2; k < lines.size(); ++k) {
     upper.push_back(std::norm(lines[k]) / second_difference_power(cycles(k)));
   }
-  const double noise = median(std::move(upper)) / std::numbers::ln2;  // mean of an exponential law from its median
+  const double noise =
+      median_power(std::move(upper)) / std::numbers::ln2;  // mean of an exponential law from its median
 
   // Power above noise, cumulated up to where a block of lines sinks into it.
   std::vector<double> cumulated{0.0};
@@ -59,7 +60,7 @@ MotionBandwidth motion_bandwidth(std::span<const double> position) {
       block_noise += expected_noise;
       cumulated.push_back(cumulated.back() + power - expected_noise);
     }
-    if (first > 1 && block_power < least_signal_to_noise * block_noise) break;
+    if (first > 1 && block_power < least_block_to_noise * block_noise) break;
     first = end;
   }
   const double all = *std::max_element(cumulated.begin(), cumulated.end());

@@ -13,7 +13,7 @@ constexpr double two_sided_95 = 1.959963984540054;
 /// with what happens at -180 degrees.
 constexpr double near = std::numbers::pi / 3.0;
 /// Exact data are given the rounding of doubles, so that weights stay finite.
-constexpr double rounding = 1e-14;
+constexpr double least_sigma = 1e-14;
 
 /// The stretch of lines around `index` without far ones.
 struct Stretch {
@@ -28,7 +28,7 @@ Stretch stretch_around(std::span<const PhaseLine> lines, std::size_t index) {
 }
 
 double relative_sigma(const PhaseLine& line) {
-  return line.measured ? std::max(line.sigma / std::abs(line.value), rounding) : 1.0;
+  return line.measured ? std::max(line.sigma / std::abs(line.value), least_sigma) : 1.0;
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ std::optional<std::size_t> as_index(std::string_view text) {
   return index;
 }
 
-std::string_view trimmed(std::string_view text) {
+std::string_view without_blanks(std::string_view text) {
   const auto first = text.find_first_not_of(" \t");
   if (first == std::string_view::npos) return {};
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
@@ -187,11 +187,11 @@ tl::expected<toml::table, InputError> parse_value(std::string_view key, std::str
 std::optional<InputError> apply_override(toml::table& document, const std::string& assignment) {
   const std::string_view whole = assignment;
   const auto equals = whole.find('=');
-  const std::string_view key = trimmed(whole.substr(0, equals));
+  const std::string_view key = without_blanks(whole.substr(0, equals));
   if (equals == std::string_view::npos || key.empty()) {
     return refusal("", fmt::format("{} is not KEY=VALUE", in_quotes(whole)), "write for instance loop.delay=0.25e-3");
   }
-  auto value = parse_value(key, trimmed(whole.substr(equals + 1)));
+  auto value = parse_value(key, without_blanks(whole.substr(equals + 1)));
   if (!value) return value.error();
   const auto target = find_target(document, key);
   if (!target) return target.error();

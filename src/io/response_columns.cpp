@@ -20,7 +20,7 @@ namespace {
 using Refusal = tl::unexpected<InputError>;
 using Words = std::span<const std::string_view>;
 
-constexpr double hertz = 2.0 * std::numbers::pi;  // rad/s
+constexpr double rad_s_per_hertz = 2.0 * std::numbers::pi;  // rad/s
 
 // The first word is what the column is called in messages.
 constexpr std::array<std::string_view, 8> frequency_words{"frequency", "frequencies", "freq", "freqs",
@@ -62,8 +62,8 @@ Meaning meaning_of(const std::string& column) {
 
 /// rad/s per unit of frequency; nothing where the word is none.
 std::optional<double> rad_s_per(std::string_view unit) {
-  if (is_one_of(unit, {"hz", "1/s"})) return hertz;
-  if (unit == "khz") return 1e3 * hertz;
+  if (is_one_of(unit, {"hz", "1/s"})) return rad_s_per_hertz;
+  if (unit == "khz") return 1e3 * rad_s_per_hertz;
   if (is_one_of(unit, {"rad/s", "rad_s", "rad/sec"})) return 1.0;
   return std::nullopt;
 }
@@ -123,7 +123,7 @@ std::optional<std::size_t> Search::frequency_by_name() const {
   for (std::size_t i = 0; i < names_.size(); ++i) {
     const Meaning meaning = meaning_of(names_[i]);
     if (!is_one_of(meaning.word, frequency_words)) continue;
-    if (!found || rad_s_per(meaning.unit) == options_.frequency_scale.value_or(hertz)) found = i;
+    if (!found || rad_s_per(meaning.unit) == options_.frequency_scale.value_or(rad_s_per_hertz)) found = i;
   }
   return found;
 }
@@ -204,11 +204,11 @@ void Search::use_units_of_names() {
                               fmt::format("column {} is read in {}, as its name says", in_quotes(names_[column]), unit),
                               ""});
   };
-  found_.frequency_scale = options_.frequency_scale.value_or(hertz);
+  found_.frequency_scale = options_.frequency_scale.value_or(rad_s_per_hertz);
   if (found_.frequency && !options_.frequency_scale) {
     const std::string unit = meaning_of(names_[*found_.frequency]).unit;
-    const double scale = rad_s_per(unit).value_or(hertz);
-    if (scale != hertz) note(*found_.frequency, unit);
+    const double scale = rad_s_per(unit).value_or(rad_s_per_hertz);
+    if (scale != rad_s_per_hertz) note(*found_.frequency, unit);
     found_.frequency_scale = scale;
   }
   found_.magnitude_in_db = options_.magnitude_in_db;

@@ -16,7 +16,7 @@ namespace {
 // Each dot of a key may open a table in a table, and their destructors recurse; a line of a device file has few.
 constexpr std::ptrdiff_t most_dots_in_line = 200;
 
-struct Line {
+struct LineOfText {
   std::size_t number = 1;
   std::size_t column = 1;
 };
@@ -34,7 +34,7 @@ bool is_number_out_of_range(std::string_view description) {
 }
 
 std::optional<InputError> problem_of_text(std::string_view text, std::string_view source) {
-  const auto refusal = [&](Line line, std::string what, std::string allowed) {
+  const auto refusal = [&](LineOfText line, std::string what, std::string allowed) {
     return InputError{std::string(source), line.number, line.column, "", std::move(what), std::move(allowed)};
   };
   std::size_t number = 1;

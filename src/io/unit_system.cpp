@@ -91,7 +91,7 @@ struct FreeUnit {
 using Unit = std::unique_ptr<ut_unit, FreeUnit>;
 
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '%'; }
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_decimal_digit(char c) { return c >= '0' && c <= '9'; }
 
 /// The unit of a name, with a prefix or without; null: there is none.
 Unit named_unit(ut_system* system, const std::string& name) {
@@ -156,7 +156,7 @@ class UnitReader {
   /// A name, a number or a product in brackets, and its power.
   Unit power(bool may_be_number) {
     if (rest_.empty()) return nullptr;
-    if (is_digit(rest_.front())) return may_be_number ? number() : nullptr;
+    if (is_decimal_digit(rest_.front())) return may_be_number ? number() : nullptr;
     Unit unit;
     if (take("(")) {
       unit = product();
@@ -169,13 +169,13 @@ class UnitReader {
     }
     if (!unit) return nullptr;
     const bool has_sign = take("^") || take("**");
-    const bool has_digit =
-        rest_.size() > 1 && rest_.front() == '-' ? is_digit(rest_[1]) : !rest_.empty() && is_digit(rest_.front());
+    const bool has_digit = rest_.size() > 1 && rest_.front() == '-' ? is_decimal_digit(rest_[1])
+                                                                    : !rest_.empty() && is_decimal_digit(rest_.front());
     if (!has_digit) return has_sign ? nullptr : std::move(unit);
     const int sign = take("-") ? -1 : 1;
     const int exponent = sign * (rest_.front() - '0');
     rest_.remove_prefix(1);
-    if (!rest_.empty() && (is_digit(rest_.front()) || is_letter(rest_.front()))) return nullptr;
+    if (!rest_.empty() && (is_decimal_digit(rest_.front()) || is_letter(rest_.front()))) return nullptr;
     return Unit(ut_raise(unit.get(), exponent));
   }
 
@@ -245,7 +245,7 @@ std::optional<std::string> ascii_unit(std::string_view text) {
       continue;
     }
     const char c = text.front();
-    if (!is_letter(c) && !is_digit(c) && std::string_view(" .*/^()-").find(c) == std::string_view::npos) {
+    if (!is_letter(c) && !is_decimal_digit(c) && std::string_view(" .*/^()-").find(c) == std::string_view::npos) {
       return std::nullopt;
     }
     ascii += c;

@@ -14,7 +14,7 @@ namespace zwidth {
 using namespace internal;
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr int half_periods_scanned = 4000;
 constexpr int trajectory_points = 2000;
 constexpr int peak_bits = 26;  // half of the digits: all that a minimum has

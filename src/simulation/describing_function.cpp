@@ -17,7 +17,7 @@ namespace zwidth {
 using namespace internal;
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr int max_newton_steps = 12;
 constexpr double tolerance = 1e-11;           // on the logarithms of frequency and dampings
 constexpr double difference_step = 1e-6;      // of the same

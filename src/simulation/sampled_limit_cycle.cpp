@@ -12,7 +12,7 @@ namespace zwidth {
 using namespace internal;
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// The sign of the force at sample i of a cycle of 2 half samples, i may be negative: + in 0 .. half - 1.
 double sign_at(std::ptrdiff_t i, std::ptrdiff_t half) {

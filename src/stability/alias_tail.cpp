@@ -9,23 +9,23 @@
 namespace zwidth::internal {
 namespace {
 
-constexpr int node_count = 16;
+constexpr int tail_nodes = 16;
 
 struct LaguerreRule {
-  std::array<double, node_count> node{};
-  std::array<double, node_count> weight{};
+  std::array<double, tail_nodes> node{};
+  std::array<double, tail_nodes> weight{};
 };
 
 /// Nodes and weights of int_0^inf e^-u f(u) du from the recurrence's tridiagonal matrix (Golub & Welsch 1969).
 LaguerreRule make_rule() {
-  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(node_count, node_count);
-  for (int i = 0; i < node_count; ++i) {
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(tail_nodes, tail_nodes);
+  for (int i = 0; i < tail_nodes; ++i) {
     matrix(i, i) = 2.0 * i + 1.0;
     if (i > 0) matrix(i, i - 1) = matrix(i - 1, i) = i;
   }
   const SymmetricEigen eigen = symmetric_eigen(matrix);
   LaguerreRule rule;
-  for (int i = 0; i < node_count; ++i) {
+  for (int i = 0; i < tail_nodes; ++i) {
     rule.node[static_cast<std::size_t>(i)] = eigen.values[i];
     rule.weight[static_cast<std::size_t>(i)] = eigen.vectors(0, i) * eigen.vectors(0, i);
   }
@@ -40,7 +40,7 @@ std::complex<double> alias_tail(double first, double x, double angle, int power)
   const std::complex<double> turn = std::polar(1.0, -angle);
   const bool still = turn.real() == 1.0;
   std::complex<double> integral = 0.0;
-  for (std::size_t i = 0; i < node_count; ++i) {
+  for (std::size_t i = 0; i < tail_nodes; ++i) {
     const double t = rule.node[i] / start;
     const std::complex<double> sum = still ? -std::expm1(-t) : 1.0 - turn * std::exp(-t);
     integral += rule.weight[i] * std::pow(rule.node[i], power - 1) / sum;

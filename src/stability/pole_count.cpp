@@ -16,8 +16,6 @@
 namespace zwidth::internal {
 namespace {
 
-using Complex = std::complex<double>;
-
 // A pole this close to the circle, over |z - 1|, may be on either side: its eigenvalue is rounded.
 constexpr double rounding = 1e-12;
 // The same for a pole at z = 1 itself, such as the place of a body that dampers alone tie to the rest.
@@ -32,6 +30,8 @@ constexpr double radius = 1.0 + 1e-13;
 
 // det(delta I - Phi + (Gamma1 + Gamma2 / z) z^-l C(z) c) at z = radius e^{j angle}: zero where a closed-loop pole is.
 class ReturnDifference {
+  using Complex = std::complex<double>;
+
  public:
   ReturnDifference(const DiscreteStateSpace& plant, const Wall& wall, double stiffness)
       : delay_samples_(static_cast<double>(plant.delay_samples)), stiffness_(stiffness) {
@@ -113,7 +113,7 @@ std::optional<int> PoleCount::by_eigenvalues(double stiffness) const {
   Wall wall = device_.parameters().wall;
   wall.stiffness = stiffness;
   int outside = 0;
-  for (const Complex& delta : closed_loop_poles_minus_one(plant_, wall)) {
+  for (const std::complex<double>& delta : closed_loop_poles_minus_one(plant_, wall)) {
     // |1 + d| - 1 = (2 Re d + |d|²) / (|1 + d| + 1)
     const double excess = (2.0 * delta.real() + std::norm(delta)) / (std::abs(1.0 + delta) + 1.0);
     if (!(std::abs(excess) > std::max(rounding * std::abs(delta), rounding_at_one))) return std::nullopt;

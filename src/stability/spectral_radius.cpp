@@ -10,12 +10,13 @@
 namespace zwidth::internal {
 namespace {
 
-using Complex = std::complex<double>;
 using std::numbers::pi;
 
 // The characteristic polynomial, over positive numbers, and over z^L.
 class Characteristic {
  public:
+  using Complex = std::complex<double>;
+
   Characteristic(const FilteredPlant& plant, const Wall& wall) : plant_(plant) {
     c_ = wall.velocity_filter_hz > 0.0 ? -std::expm1(-2.0 * pi * wall.velocity_filter_hz * plant.period) : 1.0;
     stiffness_ = *wall.stiffness;
