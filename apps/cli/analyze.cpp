@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -7,18 +9,20 @@
 #include <vector>
 
 #include "cli/device_arguments.hpp"
+#include "cli/number_text.hpp"
 #include "cli/option_refusal.hpp"
+#include "cli/option_units.hpp"
 #include "cli/outputs.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
-#include "cli/users_argument.hpp"
 #include "report/analysed_device.hpp"
 #include "report/page/html_report.hpp"
 #include "report/text/analysis_text.hpp"
 #include "report/text/trust_text.hpp"
 #include "results/analysis_json.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/io/message_words.hpp"
 
 namespace zwidth::cli {
 namespace {
@@ -31,6 +35,60 @@ struct AnalyzeOptions {
   bool require_stable = false;
   std::string users;
 };
+
+constexpr std::string_view example_of_users = "for instance mass=0:2,damping=0:30,stiffness=0:1000";
+
+/// One of the three ranges that --users may name.
+struct Named {
+  std::optional<ValueRange>* range = nullptr;
+  Measure measure = Measure::mass;
+};
+
+ValueRange range_in(const std::string& key, const std::string& text, Measure measure, Motion motion) {
+  const std::vector<std::string> ends = parts_of(text, ':');
+  const std::string option = "--users: " + key;
+  const auto least_given = measured_number(ends.front(), measure, motion);
+  const auto greatest_given = measured_number(ends.back(), measure, motion);
+  if (ends.size() > 2 || !least_given || !greatest_given) {
+    const UnitProblem* problem = !least_given      ? &least_given.error()
+                                 : !greatest_given ? &greatest_given.error()
+                                                   : nullptr;
+    throw BadInput(fmt::format("{}: '{}' must be LEAST:GREATEST or one number{}", option, text,
+                               problem ? ": " + problem->what + "; " + problem->allowed : ""));
+  }
+  return {*least_given, *greatest_given};
+}
+
+Named place_of(UserRanges& ranges, const std::string& key) {
+  if (key == "mass" || key == "inertia") return {&ranges.mass, Measure::mass};
+  if (key == "damping") return {&ranges.damping, Measure::damping};
+  if (key == "stiffness") return {&ranges.stiffness, Measure::stiffness};
+  return {};
+}
+
+/// Reads "mass=0:2,damping=0:30,stiffness=1000": some of the three keys (inertia is the mass of a rotary axis), each
+/// with a range LEAST:GREATEST or one value, plain or with units ("mass=0:500 g"). Throws BadInput that names the key.
+UserRanges user_ranges(const std::string& text, Motion motion) {
+  UserRanges ranges;
+  for (const std::string& part : parts_of(text, ',')) {
+    const std::size_t equals = part.find('=');
+    if (equals == std::string::npos) {
+      throw BadInput(fmt::format("--users: '{}' must be KEY=LEAST:GREATEST; {}", part, example_of_users));
+    }
+    const std::string key = part.substr(0, equals);
+    const Named named = place_of(ranges, key);
+    if (named.range == nullptr) {
+      const std::string nearest =
+          nearest_word(key, std::vector<std::string>{"mass", "inertia", "damping", "stiffness"});
+      throw BadInput(
+          fmt::format("--users: there is no key '{}'; {}", key,
+                      nearest.empty() ? "one of mass, damping, stiffness" : "did you mean " + nearest + "?"));
+    }
+    if (*named.range) throw BadInput(fmt::format("--users: {} is given twice", key));
+    *named.range = range_in(key, part.substr(equals + 1), named.measure, motion);
+  }
+  return ranges;
+}
 
 /// The library's members as the options that set them.
 constexpr std::pair<std::string_view, std::string_view> options_of_analysis[] = {

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <charconv>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,13 +11,13 @@
 #include "cli/design_notch.hpp"
 #include "cli/design_recommend.hpp"
 #include "cli/device_arguments.hpp"
+#include "cli/number_text.hpp"
 #include "cli/option_refusal.hpp"
 #include "cli/option_units.hpp"
 #include "cli/outputs.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
-#include "cli/sweep_argument.hpp"
 #include "report/figure/design_sweep_figure.hpp"
 #include "report/text/design_text.hpp"
 #include "report/text/text_medium.hpp"
@@ -27,6 +28,7 @@
 #include "zwidth/design/parameter_sweep.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/io/device_variants.hpp"
+#include "zwidth/io/message_words.hpp"
 
 namespace zwidth::cli {
 namespace {
@@ -46,6 +48,46 @@ struct DesignArguments {
 /// The library's members as the options that set them.
 constexpr std::pair<std::string_view, std::string_view> options_of_design[] = {
     {"any_user", "--any-user"}, {"user", "--operator"}, {"goal", "--any-user"}, {"stiffness", "--target"}};
+
+[[noreturn]] void refuse_sweep(const std::string& argument, const std::string& why) {
+  throw BadInput(
+      fmt::format("--sweep: {}: {}; write KEY=FIRST:LAST:COUNT or KEY=FIRST:LAST:COUNT:log, for instance "
+                  "loop.delay=0:8e-3:81",
+                  in_quotes(argument), why));
+}
+
+double end_of(const std::string& argument, const std::string& text, std::string_view which, Measure measure,
+              Motion motion) {
+  const auto number = measured_number(text, measure, motion);
+  if (!number) refuse_sweep(argument, fmt::format("{}: {}; {}", which, number.error().what, number.error().allowed));
+  return *number;
+}
+
+/// KEY=FIRST:LAST:COUNT, evenly spaced, or KEY=FIRST:LAST:COUNT:log, by equal factors; FIRST and LAST in SI units or
+/// with one of the key's. Throws BadInput.
+SweepAxis sweep_axis(const std::string& argument, Motion motion) {
+  const std::size_t equals = argument.find('=');
+  if (equals == std::string::npos || equals == 0) refuse_sweep(argument, "has no KEY=");
+  const std::vector<std::string> parts = parts_of(argument.substr(equals + 1), ':');
+  if (parts.size() != 3 && parts.size() != 4) {
+    refuse_sweep(argument, fmt::format("has {} parts after KEY=", parts.size()));
+  }
+  SweepAxis axis;
+  axis.key = argument.substr(0, equals);
+  const Measure measure = measure_of(axis.key).value_or(Measure::ratio);
+  axis.first = end_of(argument, parts[0], "FIRST", measure, motion);
+  axis.last = end_of(argument, parts[1], "LAST", measure, motion);
+  const std::string& count = parts[2];
+  const auto [end, error] = std::from_chars(count.data(), count.data() + count.size(), axis.count);
+  if (error != std::errc{} || end != count.data() + count.size()) {
+    refuse_sweep(argument, fmt::format("COUNT {} is no whole number", in_quotes(count)));
+  }
+  if (parts.size() == 4) {
+    if (parts[3] != "log") refuse_sweep(argument, fmt::format("{} is not log", in_quotes(parts[3])));
+    axis.spacing = SweepAxis::Spacing::logarithmic;
+  }
+  return axis;
+}
 
 /// Runs work on the device of `file`; an Error of it is the work's failure.
 template <typename Work>

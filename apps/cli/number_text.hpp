@@ -3,8 +3,10 @@
 #include <charconv>
 #include <cmath>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 namespace zwidth::cli {
 
@@ -18,6 +20,15 @@ inline constexpr double largest_number = 1e30;  // of a quantity in SI units: sq
     return std::nullopt;
   }
   return value;
+}
+
+/// What stands between the separators: one part more than there are of them.
+[[nodiscard]] inline std::vector<std::string> parts_of(std::string_view text, char separator) {
+  std::vector<std::string> parts(1);
+  for (const char letter : text) {
+    letter == separator ? (void)parts.emplace_back() : parts.back().push_back(letter);
+  }
+  return parts;
 }
 
 }  // namespace zwidth::cli

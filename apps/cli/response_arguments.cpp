@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "cli/input_problem.hpp"
+#include "cli/number_text.hpp"
 #include "cli/option_refusal.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/subcommand.hpp"
@@ -130,10 +131,7 @@ double line_in_hertz(const std::string& text) {
 
 /// F or FIRST:LAST:COUNT, evenly spaced; rad/s.
 void add_lines(const std::string& text, std::vector<double>& lines) {
-  std::vector<std::string> parts(1);
-  for (const char letter : text) {
-    letter == ':' ? (void)parts.emplace_back() : parts.back().push_back(letter);
-  }
+  const std::vector<std::string> parts = parts_of(text, ':');
   std::size_t count = 1;
   if (parts.size() != 1) {
     const std::string& last = parts.back();
