@@ -60,11 +60,13 @@ TEST(IdentificationProperty, FrictionThatShowsIsNeverSound) {
   }
 }
 
-// Residuals of 3.6 times the noise: 25 % too high, called sound.
+// Residuals of 3.6 and 1.5 times the noise: 25 and 6 % too high, called sound.
 TEST(IdentificationProperty, ResidualsBeyondTheNoiseAreNeverSound) {
-  const auto made = test::random_recording(500431);
-  ASSERT_TRUE(made && made->has_friction);
-  EXPECT_FALSE(identified(*made).trust.sound());
+  for (const std::uint64_t seed : {500431U, 630008U}) {
+    const auto made = test::random_recording(seed);
+    ASSERT_TRUE(made && made->has_friction);
+    EXPECT_FALSE(identified(*made).trust.sound()) << "seed " << seed;
+  }
 }
 
 // What drifts from period to period leaks into all lines of a periodic response alike: 17 and 16 % were unexplained.
