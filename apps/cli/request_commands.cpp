@@ -152,7 +152,7 @@ tl::expected<std::string, Problem> RequestCommands::run(const CommandRequest& re
   } catch (const Refused& refused) {
     return tl::unexpected(refused.problem);
   } catch (const CLI::ParseError& error) {
-    return tl::unexpected(problem_in(std::string(error.what()), request));
+    return tl::unexpected(problem_of_option(error.what(), offered->device == positional ? "device" : "recording"));
   } catch (const BadInput& error) {
     return tl::unexpected(problem_in(error.what(), request));
   } catch (const WorkFailed& error) {

@@ -27,14 +27,14 @@ bool names(std::string_view text, std::string_view name) {
   return rest.empty() || (rest.front() == ':' && rest.find_first_not_of(":0123456789") == rest.npos);
 }
 
-bool is_key(std::string_view text) {
-  return !text.empty() && text.find_first_of(" '\"(") == text.npos;  // names of bodies may be of any letters
+bool is_key(std::string_view text) {  // names of bodies may be of any letters
+  return !text.empty() && (text.starts_with("body.") || text.find_first_of(" '\"(") == text.npos);
 }
 
 }  // namespace
 
 server::Problem problem_in(std::string message, const server::CommandRequest& request) {
-  std::ranges::replace(message, '\n', ' ');
+  message.erase(std::min(message.find('\n'), message.size()));  // what follows is further advice
   std::string where;
   const std::string option = take_place(message, is_option);
   if (!option.empty()) where = "options." + option.substr(2);
@@ -43,14 +43,28 @@ server::Problem problem_in(std::string message, const server::CommandRequest& re
     if (!name.empty() && where.empty()) where = "recording" + name.substr(recording.name.size());
   }
   const std::string device = take_place(message, [](std::string_view text) { return names(text, device_name); });
-  const bool is_override = option == "--set";
-  if (!device.empty() || is_override) {
+  if (option == "--set" || (option.empty() && !device.empty())) {
     const std::string key = take_place(message, is_key);
-    if (option.empty() || is_override) where = key.empty() ? "device" : "device." + key;
+    if (!key.empty()) {
+      where = std::string(device_name) + "." + key;
+    } else if (option.empty()) {
+      where = device;  // with line and column
+    }
   }
   const std::size_t end = message.find("; ");
   if (end == std::string::npos) return {where, message, ""};
   return {where, message.substr(0, end), message.substr(end + 2)};
+}
+
+server::Problem problem_of_option(const std::string& message, std::string_view file) {
+  constexpr std::string_view required = " is required";
+  if (message.ends_with(required) && !message.starts_with("--")) return {std::string(file), "is missing", ""};
+  const std::size_t begin = message.find("--");
+  if (begin == std::string::npos) return {"options", message, ""};
+  const std::size_t end = std::min(message.find_first_of(" :,", begin), message.size());
+  const std::string where = "options." + message.substr(begin + 2, end - begin - 2);
+  if (message.ends_with(required)) return {where, "is missing", ""};
+  return {where, begin == 0 && message.substr(end).starts_with(": ") ? message.substr(end + 2) : message, ""};
 }
 
 }  // namespace zwidth::cli

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "server/api/command_request.hpp"
 
@@ -12,5 +13,8 @@ inline constexpr const char* device_name = "device";
 /// A command's message "PLACE: ...: what is wrong; what is allowed" as the request's problem: its places are options,
 /// the device and its keys, and recordings.
 [[nodiscard]] server::Problem problem_in(std::string message, const server::CommandRequest& request);
+
+/// CLI11's message about an option as the request's problem. `file`: what its positional argument is, device or recording.
+[[nodiscard]] server::Problem problem_of_option(const std::string& message, std::string_view file);
 
 }  // namespace zwidth::cli

@@ -196,13 +196,47 @@ TEST_F(Hostile, DocumentsAreUtf8ObjectsOfKnownKeysAndNoGreatDepth) {
   expect_bad(R"({"device":{"name":null}})", "device.name");
   expect_bad(R"({"device":{},"device_toml":""})", "device_toml");
   expect_bad(R"({"device_toml":5})", "device_toml");
-  expect_bad(R"({"device_toml":")" + std::string(200000, '[') + "\"}", "device");
+  expect_bad(R"({"device_toml":")" + std::string(200000, '[') + "\"}", "device:1:3");
   expect_bad(R"({"recording":"0123"})", "recording");
   expect_bad(R"({"recording":{"id":"/etc/passwd"}})", "recording");
   expect_bad(R"({"recording":{"id":"a","path":"/etc/passwd"}})", "recording");
   expect_bad(R"({"recordings":"a"})", "recordings");
   expect_bad(R"({"options":[]})", "options");
   EXPECT_TRUE(is_alive());
+}
+
+TEST_F(Hostile, AnErrorNamesTheFieldThatCausedIt) {
+  const std::string device = contents("devices/lhifam.toml");
+  const auto expect_place = [&](const std::string& command, const json& options, const std::string& where,
+                                const std::string& text) {
+    json request{{"options", options}};
+    if (!text.empty()) request["device_toml"] = text;
+    const HttpAnswer answer = post(command, request.dump());
+    EXPECT_EQ(answer.status, 400) << command << options;
+    const json error = json::parse(answer.body).at("error");
+    EXPECT_EQ(error.at("where"), where) << answer.body;
+    EXPECT_THAT(error.at("what").get<std::string>(), ::testing::Not(::testing::IsEmpty()));
+  };
+  expect_place("bode", {{"points", "abc"}}, "options.points", device);
+  expect_place("bode", {{"points", 1}}, "options.points", device);
+  expect_place("bode", {{"pionts", 10}}, "options.pionts", device);
+  expect_place("bode", {{"from", 100}, {"to", 10}}, "options.to", device);
+  expect_place("export", json::object(), "options.format", device);
+  expect_place("export", {{"format", "docx"}}, "options.format", device);
+  expect_place("design", {{"sweep", "loop.delay=0:1e-3:3"}, {"target", 5}}, "options.sweep", device);
+  expect_place("design", {{"sweep", "loop.dely=0:1:3"}}, "options.sweep", device);
+  expect_place("recommend", {{"gain-margin-db", 1000}}, "options.gain-margin-db", device);
+  expect_place("simulate", {{"duration", "5 kg"}}, "options.duration", device);
+  expect_place("simulate", {{"overrun", {1, 2, 3}}}, "options.overrun", device);
+  expect_place("analyze", {{"users", "mass=2:1"}}, "options.users", device);
+  expect_place("analyze", {{"set", "loop.delay"}}, "options.set", device);
+  expect_place("analyze", {{"set", "loop.delay=-1"}}, "device.loop.delay", device);
+  expect_place("analyze", json::object(), "device", "");
+  expect_place("frf", {{"force", 1}}, "recording", "");
+  expect_place("frf", {{"force", 1}}, "device", device);
+  expect_place("analyze", json::object(), "device:1:7", "name =");
+  expect_place("analyze", json::object(), "device.body.a b.mass",
+               "body = [{name = \"a b\", mass = -1}]\nloop.sampling_period = 1e-3");
 }
 
 TEST_F(Hostile, NoOptionReachesADisk) {
