@@ -35,13 +35,13 @@ interface Judged {
   remarks: Remark[]
 }
 export interface Analysis extends Judged {
-  status: 'finite' | 'none_stable' | 'unbounded'
+  status: 'finite' | 'none_stable' | 'unbounded' | 'refused'
   critical_stiffness: number | null
   critical_stiffness_db: number | null
   critical_frequency_hz: number | null
   limited_by: LimitedBy | null
-  stable_intervals: [number, number | null][]
-  crossovers: Crossover[]
+  stable_intervals: [number, number | null][] | null
+  crossovers: Crossover[] | null
   modes: { frequency_hz: number; damping_ratio: number }[]
   any_user: { critical_stiffness: number | null; frequency_rad_s: number | null } | null
   wall: (Margins & { stiffness: number; damping: number }) | null
@@ -58,7 +58,7 @@ export interface Bode {
   nyquist_rad_s: number
   sampled: Curve
   continuous: Curve
-  crossovers: Crossover[]
+  crossovers: Crossover[] | null
   trust: Trust
   remarks: Remark[]
 }

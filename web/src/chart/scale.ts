@@ -1,6 +1,6 @@
 // Axes: from values to pixels and back, and where the ticks stand.
 
-import { shown } from '../model/decimal'
+import { shifted, shown } from '../model/decimal'
 
 export interface Scale {
   log: boolean
@@ -67,10 +67,15 @@ export function ticks(scale: Scale, about: number): number[] {
   return found
 }
 
-/** A tick with its prefix and no unit: "10k". */
-export function tickText(value: number, unit: string): string {
-  const { number, unit: full } = shown(value, unit, 6)
-  return number + full.slice(0, full.length - unit.length)
+/** One prefix for all ticks of an axis: that of its largest number, of a logarithm's middle. */
+export interface AxisUnit {
+  text: string // "kN/m"
+  number: (tick: number) => string
+}
+export function axisUnit(scale: Scale, unit: string): AxisUnit {
+  const typical = scale.log ? Math.sqrt(scale.from * scale.to) : Math.max(Math.abs(scale.from), Math.abs(scale.to))
+  const { unit: text, places } = shown(typical, unit, 3)
+  return { text, number: (tick) => shifted(String(Number(tick.toPrecision(6))), -places) }
 }
 
 /** An SVG path through the points; of many in one pixel column only first, lowest, highest and last. */

@@ -71,7 +71,8 @@ export function say(value: number | null | undefined, unit: string, digits = 4):
   return full ? `${number} ${full}` : number
 }
 
-export const percent = (share: number, digits = 3): string =>
+/** Three digits, two below 1 %. */
+export const percent = (share: number, digits = Math.abs(share) < 0.01 ? 2 : 3): string =>
   `${share > 0 ? '+' : share < 0 ? '−' : ''}${shown(Math.abs(share * 100), '', digits).number} %`
 
 const number = String.raw`[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?`

@@ -23,6 +23,10 @@ class Workbench {
   groups: Group[] = $derived(groupsOf(this.scanned))
   shape = $derived(shapeOf(this.scanned))
   rotary = $derived(isRotary(this.scanned))
+  /** Who holds the device where no other user is named: nobody, or the [operator] of the file. */
+  alone = $derived(
+    this.groups.some((group) => group.id === 'operator' && group.rows.some((row) => row.entry !== undefined && row.entry.value !== 0)) ? 'with the file’s user' : 'alone',
+  )
   stiffnessUnit = $derived(this.rotary ? 'N m/rad' : 'N/m')
   dampingUnit = $derived(this.rotary ? 'N m s/rad' : 'N s/m')
   forceUnit = $derived(this.rotary ? 'N m' : 'N')

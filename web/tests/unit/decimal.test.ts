@@ -25,6 +25,7 @@ describe('decimal', () => {
     expect(say(3.14e-6, 'm')).toBe('3.14 µm')
     expect(say(null, 'N/m')).toBe('none')
     expect(say(99995, 'N/m')).toBe('100 kN/m')
+    expect(percent(0.000406)).toBe('+0.041 %')
     expect(percent(-0.1338)).toBe('−13.4 %')
     expect(percent(0)).toBe('0 %')
   })

@@ -1,0 +1,87 @@
+import { afterEach, describe, expect, it, vi } from 'vitest'
+import { Answer } from '../../src/api/answer.svelte'
+import { Problem } from '../../src/api/client'
+
+interface Asked {
+  toml: string
+  reply: (status: number, body: unknown) => void
+}
+let asked: Asked[] = []
+const install = (): void => {
+  asked = []
+  vi.stubGlobal('fetch', (_: string, init: RequestInit) => {
+    const toml = (JSON.parse(init.body as string) as { device_toml: string }).device_toml
+    return new Promise<Response>((done) => asked.push({ toml, reply: (status, body) => done(new Response(JSON.stringify(body), { status })) }))
+  })
+}
+const turn = (): Promise<void> => new Promise((done) => setTimeout(done, 5))
+afterEach(() => vi.unstubAllGlobals())
+
+describe('answer', () => {
+  it('has one request in flight, and the newest wins', async () => {
+    install()
+    const answer = new Answer<{ n: number }>()
+    for (let i = 0; i < 10; ++i) answer.ask({ path: 'analyze', toml: String(i) })
+    expect(asked.map((each) => each.toml)).toEqual(['0'])
+    expect(answer.late).toBe(true)
+    asked[0]!.reply(200, { n: 0 })
+    await turn()
+    expect(answer.document).toEqual({ n: 0 })
+    expect(answer.late).toBe(true)
+    expect(asked.map((each) => each.toml)).toEqual(['0', '9'])
+    asked[1]!.reply(200, { n: 9 })
+    await turn()
+    expect(answer.document).toEqual({ n: 9 })
+    expect(answer.late).toBe(false)
+    expect(asked).toHaveLength(2)
+  })
+
+  it('is not late when what is shown is asked for again', async () => {
+    install()
+    const answer = new Answer()
+    answer.ask({ path: 'analyze', toml: 'a' })
+    asked[0]!.reply(200, {})
+    await turn()
+    answer.ask({ path: 'analyze', toml: 'a' })
+    expect(answer.late).toBe(false)
+    expect(asked).toHaveLength(1)
+  })
+
+  it('takes no number from before an error', async () => {
+    install()
+    const answer = new Answer()
+    answer.ask({ path: 'analyze', toml: 'good' })
+    asked[0]!.reply(200, { n: 1 })
+    await turn()
+    answer.ask({ path: 'analyze', toml: 'bad' })
+    asked[1]!.reply(400, { error: { where: 'device.body.a.mass', what: 'is -1', allowed: '> 0' } })
+    await turn()
+    expect(answer.document).toBeNull()
+    expect(answer.problem).toBeInstanceOf(Problem)
+    expect(answer.problem?.where).toBe('device.body.a.mass')
+    expect(answer.late).toBe(false)
+  })
+
+  it('asks again where the server is busy', async () => {
+    install()
+    const answer = new Answer()
+    answer.ask({ path: 'analyze', toml: 'a' })
+    asked[0]!.reply(503, { error: { what: 'busy' } })
+    await new Promise((done) => setTimeout(done, 150))
+    expect(asked).toHaveLength(2)
+    asked[1]!.reply(200, { n: 1 })
+    await turn()
+    expect(answer.document).toEqual({ n: 1 })
+  })
+
+  it('forgets what is no longer asked', async () => {
+    install()
+    const answer = new Answer()
+    answer.ask({ path: 'analyze', toml: 'a' })
+    answer.ask(null)
+    asked[0]!.reply(200, { n: 1 })
+    await turn()
+    expect(answer.document).toBeNull()
+    expect(answer.late).toBe(false)
+  })
+})

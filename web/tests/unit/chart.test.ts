@@ -1,0 +1,64 @@
+import { describe, expect, it } from 'vitest'
+import { csvOf } from '../../src/chart/save'
+import { axisUnit, extent, pathOf, pixel, ticks, valueAt, type Scale } from '../../src/chart/scale'
+import { setsFrom } from '../../src/model/commands'
+
+const linear: Scale = { log: false, from: 0, to: 10, start: 50, end: 450 }
+const log: Scale = { log: true, from: 1, to: 1e4, start: 300, end: 10 }
+
+describe('scale', () => {
+  it('goes to pixels and back', () => {
+    for (const [scale, values] of [
+      [linear, [0, 3, 10]],
+      [log, [1, 77, 1e4]],
+    ] as const) {
+      for (const value of values) expect(valueAt(scale, pixel(scale, value))).toBeCloseTo(value, 9)
+    }
+  })
+
+  it('ticks round numbers within the axis', () => {
+    expect(ticks(linear, 5)).toEqual([0, 2, 4, 6, 8, 10])
+    expect(ticks(log, 5)).toEqual([1, 10, 100, 1000, 10000])
+    for (const value of ticks({ ...linear, from: -1e-7, to: 3e-7 }, 4)) expect(String(value).length).toBeLessThan(8)
+  })
+
+  it('names one unit per axis', () => {
+    const kilo = axisUnit({ ...linear, to: 25e3 }, 'N/m')
+    expect([kilo.text, kilo.number(5000)]).toEqual(['kN/m', '5'])
+    const milli = axisUnit({ ...linear, from: -2e-3, to: 1e-3 }, 'm')
+    expect([milli.text, milli.number(-1.5e-3)]).toEqual(['mm', '-1.5'])
+    expect(axisUnit(linear, '').text).toBe('')
+  })
+
+  it('covers the values, whatever is missing', () => {
+    expect(extent([3, null, 97, undefined, NaN], false)).toEqual([0, 100])
+    expect(extent([], true)).toEqual([1, 10])
+    expect(extent([5], false)[0]).toBeLessThan(5)
+    expect(extent([0, -1, 10, 1000], true)).toEqual([10, 1000])
+  })
+
+  it('breaks a curve where there is no number, and keeps every peak of a dense one', () => {
+    expect(pathOf([1, 2, 3, 4], [1, null, 2, 3], linear, { ...linear, start: 100, end: 0 }).match(/M/g)).toHaveLength(2)
+    const xs = Array.from({ length: 100_000 }, (_, i) => i / 10_000)
+    const ys = xs.map((_, i) => (i === 54_321 ? 9 : 1))
+    const path = pathOf(xs, ys, linear, { ...linear, start: 100, end: 0 })
+    expect(path).toContain(' 10.00')
+    expect(path.length).toBeLessThan(100_000)
+  })
+})
+
+describe('out of the page', () => {
+  it('writes CSV that others read', () => {
+    expect(csvOf({ head: ['a, b', 'c'], rows: [[1.5, null], ['say "x"', 2]] })).toBe('"a, b",c\n1.5,\n"say ""x""",2\n')
+  })
+
+  it('finds what --set makes of an example', () => {
+    const example = 'name = "x"\nmotion = "linear"\n[[body]]\nname = "a"\nmass = 1.0\n[loop]\nsampling_period = 1e-3\n'
+    expect(setsFrom(example, example)).toEqual([])
+    expect(setsFrom(example, example.replace('1e-3', '0.001'))).toEqual([])
+    expect(setsFrom(example, example.replace('mass = 1.0', 'mass = "3 lb"\ncoulomb = 0.5\ndamping = 0.0'))).toEqual(['body.a.mass=3 lb', 'body.a.coulomb=0.5'])
+    expect(setsFrom(example, `${example}[wall]\nstiffness = 0.0\n`)).toEqual(['wall.stiffness=0.0'])
+    expect(setsFrom(example, example.replace('"x"', '"y"'))).toBeNull()
+    expect(setsFrom(example, example.replace('[loop]\nsampling_period = 1e-3\n', ''))).toBeNull()
+  })
+})
