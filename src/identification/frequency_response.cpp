@@ -19,7 +19,7 @@ namespace zwidth {
 using namespace internal;
 namespace {
 
-using Excitation = FrequencyResponseOptions::Excitation;
+using Excited = FrequencyResponseOptions::Excitation;
 
 constexpr std::size_t fewest_samples = 16;
 
@@ -92,16 +92,16 @@ FrequencyResponse estimate(std::span<const double> force, std::span<const double
   if (!options.lines.empty()) {
     return line_response(force, output, sampling_period, angles_of(options, sampling_period), options, progress);
   }
-  if (options.excitation == Excitation::aperiodic) {
+  if (options.excitation == Excited::aperiodic) {
     return welch_response(force, output, sampling_period, options, progress);
   }
-  if (options.period && options.excitation == Excitation::periodic) {
+  if (options.period && options.excitation == Excited::periodic) {
     check_period(force.size(), *options.period, options.skip_periods);
     return periodic_response(force, output, sampling_period,
                              {*options.period, options.skip_periods, PeriodicRecord::Transient::remark}, options,
                              progress);
   }
-  if (const auto tone = options.excitation == Excitation::detect ? only_tone(force) : std::nullopt) {
+  if (const auto tone = options.excitation == Excited::detect ? only_tone(force) : std::nullopt) {
     return line_response(force, output, sampling_period, {*tone}, options, progress);
   }
   if (const auto period = detect_period(force)) {
@@ -114,7 +114,7 @@ FrequencyResponse estimate(std::span<const double> force, std::span<const double
                             {Remark::Severity::note, fmt::format("the force repeats every {} samples", *period), ""});
     return response;
   }
-  if (options.excitation == Excitation::periodic) {
+  if (options.excitation == Excited::periodic) {
     refuse("the force does not repeat itself, within half the record; give the period, or take it as aperiodic");
   }
   return welch_response(force, output, sampling_period, options, progress);
@@ -143,9 +143,9 @@ void to_position(FrequencyResponse& response, OutputQuantity output, double samp
 }  // namespace
 
 FrequencyResponseOptions::Excitation excitation_of(const FrequencyResponseOptions& options) {
-  if (options.excitation != Excitation::detect) return options.excitation;
-  if (options.period) return Excitation::periodic;
-  return options.segment_length ? Excitation::aperiodic : Excitation::detect;
+  if (options.excitation != Excited::detect) return options.excitation;
+  if (options.period) return Excited::periodic;
+  return options.segment_length ? Excited::aperiodic : Excited::detect;
 }
 
 FrequencyResponse frequency_response(std::span<const double> force, std::span<const double> output,

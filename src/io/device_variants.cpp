@@ -25,7 +25,7 @@ std::vector<std::string> listed_values(std::string_view text) {
   return values;
 }
 
-InputError refusal(std::string key, std::string what, std::string allowed) {
+InputError variants_refusal(std::string key, std::string what, std::string allowed) {
   return {.source = override_source, .key = std::move(key), .what = std::move(what), .allowed = std::move(allowed)};
 }
 
@@ -37,15 +37,15 @@ tl::expected<DeviceVariants, std::vector<InputError>> device_variants(const Devi
   const std::size_t equals = assignment.find('=');
   DeviceVariants all{std::string(assignment.substr(0, equals)), {}};
   if (equals == std::string_view::npos || all.key.empty()) {
-    return refused(refusal("", "is not KEY=VALUE,VALUE", "write for instance sensed=motor,handle"));
+    return refused(variants_refusal("", "is not KEY=VALUE,VALUE", "write for instance sensed=motor,handle"));
   }
   constexpr std::array<std::string_view, 3> of_the_loop{"actuated", "sensed", "held"};
   if (std::ranges::find(of_the_loop, all.key) != of_the_loop.end()) all.key = "loop." + all.key;
   const std::vector<std::string> values = listed_values(assignment.substr(equals + 1));
-  if (values.size() < 2) return refused(refusal(all.key, "has one value", "give two or more"));
+  if (values.size() < 2) return refused(variants_refusal(all.key, "has one value", "give two or more"));
   for (const std::string& value : values) {
     if (std::ranges::count(values, value) > 1) {
-      return refused(refusal(all.key, fmt::format("has {} twice", value), "give each value once"));
+      return refused(variants_refusal(all.key, fmt::format("has {} twice", value), "give each value once"));
     }
   }
   const std::string text = write_device(device.parameters());
