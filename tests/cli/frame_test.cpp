@@ -32,11 +32,12 @@ std::vector<std::string> examples_in(const std::string& help) {
   return examples;
 }
 
-/// A server runs until it is interrupted: here after a moment, at any free port and without a browser.
+/// A server runs until it is interrupted: here when it has told its address, at any free port and without a browser.
 std::string runnable(std::string example) {
   if (!example.starts_with("zwidth serve")) return example;
   if (const std::size_t opens = example.find(" --open"); opens != std::string::npos) example.erase(opens, 7);
-  return "timeout --preserve-status --signal=INT 1 " + example + " --port 0";
+  return "rm -f address; " + example +
+         " --port 0 > address & until [ -s address ]; do sleep 0.05; done; kill -INT $!; wait $!";
 }
 
 TEST_F(Frame, EveryHelpHasExamplesAndEachOfThemWorks) {
