@@ -1,5 +1,6 @@
 // The documents that a panel shows: at most one request in flight, the newest wins, and what is late says so.
 
+import { deviceKey } from '../model/keys'
 import { post, Problem } from './client'
 
 export type Options = Record<string, unknown>
@@ -15,7 +16,7 @@ const textOf = ({ toml, options = {}, more = {} }: Question): string =>
   JSON.stringify({ ...(toml === undefined ? {} : { device_toml: toml }), ...more, options })
 
 // What takes long waits for its turn, so that the quick panels follow a drag.
-let turns = 1
+let turns = 2
 let lastChange = 0
 const waiting: (() => void)[] = []
 async function turn(): Promise<void> {
@@ -43,7 +44,25 @@ export class Answer<T> {
   private shownText = ''
   private running = false
 
+  private isInView = true
+  private timer: ReturnType<typeof setTimeout> | undefined
+
   constructor(private readonly isSlow = false) {}
+
+  /** What nobody sees waits until the questions rest. */
+  seen(inView: boolean): void {
+    this.isInView = inView
+    if (inView && this.late) this.start()
+  }
+
+  private start(): void {
+    clearTimeout(this.timer)
+    if (!this.running) void this.run()
+  }
+  private startLater(): void {
+    clearTimeout(this.timer)
+    this.timer = setTimeout(() => this.start(), 300)
+  }
 
   ask(question: Question | null): void {
     const text = question === null ? '' : question.path + textOf(question)
@@ -61,13 +80,23 @@ export class Answer<T> {
       this.late = false
     } else {
       this.late = true
-      if (!this.running) void this.run()
+      // The picture of another device is no picture of this one, however shortly.
+      if (this.question && deviceKey(this.question.toml) !== deviceKey(question.toml)) {
+        this.document = null
+        this.problem = null
+      }
+      if (this.isInView) this.start()
+      else this.startLater()
     }
   }
 
   private async run(): Promise<void> {
     this.running = true
-    while (this.wanted !== null && this.wantedText !== this.shownText) {
+    for (let first = true; this.wanted !== null && this.wantedText !== this.shownText; first = false) {
+      if (!first && !this.isInView) {
+        this.startLater()
+        break
+      }
       if (this.isSlow) await turn()
       const question: Question | null = this.wanted
       const text = this.wantedText
@@ -86,7 +115,7 @@ export class Answer<T> {
     } catch (error) {
       problem = error instanceof Problem ? error : new Problem('', String(error), '', 0)
     }
-    if (this.wanted === null) return
+    if (this.wanted === null || deviceKey(question.toml) !== deviceKey(this.wanted.toml)) return
     this.shownText = text
     this.document = document
     this.problem = problem

@@ -1,7 +1,7 @@
 // The numbers of a device file: their names, units and a word on each. What is allowed, the server says.
 
 import type { Entry, Scan, TomlValue } from './toml'
-import { find } from './toml'
+import { find, scan } from './toml'
 
 export interface Field {
   key: string
@@ -133,6 +133,19 @@ export function groupsOf(scanned: Scan): Group[] {
     group('sensor', 'Encoder', ['sensor'], sensor),
   ]
   return shape.hasTransferFunction ? groups : [...groups, group('operator', 'User who holds it', ['operator'], operator)]
+}
+
+const devices = new Map<string, string>()
+/** The same for one device whose numbers differ; another for another device. */
+export function deviceKey(toml = ''): string {
+  let key = devices.get(toml)
+  if (key === undefined) {
+    const scanned = scan(toml)
+    key = JSON.stringify([textAt(scanned, 'name'), isRotary(scanned), shapeOf(scanned)])
+    if (devices.size > 20) devices.clear()
+    devices.set(toml, key)
+  }
+  return key
 }
 
 /** link.stiffness and link.0.stiffness are one. */

@@ -16,7 +16,7 @@ export const simulationWord: Record<string, string> = {
   forced: 'It follows the user’s force.',
   unstable: 'UNSTABLE: the oscillation grows.',
   drifts: 'It drifts away.',
-  undecided: 'The run is too short to tell.',
+  undecided: 'The run is too short or too irregular to tell; simulate longer.',
 }
 
 export const causeWord: Record<string, string> = {
