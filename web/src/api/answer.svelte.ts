@@ -15,20 +15,25 @@ export interface Question {
 const textOf = ({ toml, options = {}, more = {} }: Question): string =>
   JSON.stringify({ ...(toml === undefined ? {} : { device_toml: toml }), ...more, options })
 
-// What takes long waits for its turn, so that the quick panels follow a drag.
-let turns = 2
+// What takes long waits for its turn, so that the quick panels follow a drag: then one at a time, with pauses.
+const mostTurns = 2
+let turns = mostTurns
 let lastChange = 0
+const dragPause = 200 // ms
 const waiting: (() => void)[] = []
 async function turn(): Promise<void> {
-  if (turns > 0) --turns
+  const most = performance.now() - lastChange < dragPause ? 1 : mostTurns
+  if (turns > mostTurns - most) --turns
   else await new Promise<void>((resolve) => waiting.push(resolve))
 }
 async function endTurn(took: number): Promise<void> {
-  // While questions change (a drag), the quick panels get most of the time.
-  if (performance.now() - lastChange < 200) await new Promise((resolve) => setTimeout(resolve, Math.min(500, 2 * took)))
-  const next = waiting.shift()
-  if (next) next()
-  else ++turns
+  if (performance.now() - lastChange < dragPause) await new Promise((resolve) => setTimeout(resolve, Math.min(1000, 3 * took)))
+  ++turns
+  const most = performance.now() - lastChange < dragPause ? 1 : mostTurns
+  while (waiting.length > 0 && turns > mostTurns - most) {
+    --turns
+    waiting.shift()!()
+  }
 }
 
 export class Answer<T> {

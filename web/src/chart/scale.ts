@@ -22,6 +22,13 @@ export const valueAt = (scale: Scale, at: number): number => {
   return scale.log ? scale.from * (scale.to / scale.from) ** share : scale.from + share * (scale.to - scale.from)
 }
 
+/** The next 1, 2 or 5 times a power of ten, below or above: an axis whose ends move seldom is read more easily. */
+export function roundEnd(value: number, above: boolean): number {
+  const power = Math.floor(Math.log10(value))
+  const steps = [1, 2, 5, 10].map((step) => Number(`${step}e${power}`))
+  return (above ? steps.find((each) => each >= value * 0.999999) : steps.findLast((each) => each <= value * 1.000001)) ?? value
+}
+
 /** The ends of an axis that shows all values: whole decades' parts on a logarithm, round numbers else. */
 export function extent(values: Iterable<number | null | undefined>, log: boolean): [number, number] {
   let low = Infinity
@@ -84,17 +91,25 @@ export function pathOf(xs: readonly number[], ys: readonly (number | null)[], x:
   let open = false
   let column = NaN
   let inColumn: [number, number][] = []
+  const put = ([px, py]: [number, number]): void => {
+    parts.push((open ? 'L' : 'M') + Math.round(px * 10) / 10 + ' ' + Math.round(py * 10) / 10)
+    open = true
+  }
   const flush = (): void => {
     if (inColumn.length === 0) return
     let low = 0
     let high = 0
+    if (inColumn.length === 1) {
+      put(inColumn[0]!)
+      inColumn = []
+      return
+    }
     for (let i = 1; i < inColumn.length; ++i) {
       if (inColumn[i]![1] < inColumn[low]![1]) low = i
       if (inColumn[i]![1] > inColumn[high]![1]) high = i
     }
     for (const i of [...new Set([0, low, high, inColumn.length - 1])].sort((a, b) => a - b)) {
-      parts.push(`${open ? 'L' : 'M'}${inColumn[i]![0].toFixed(2)} ${inColumn[i]![1].toFixed(2)}`)
-      open = true
+      put(inColumn[i]!)
     }
     inColumn = []
   }
