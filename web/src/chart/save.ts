@@ -5,7 +5,7 @@ export interface Table {
   rows: (string | number | null)[][]
 }
 
-const kept = ['fill', 'stroke', 'stroke-width', 'stroke-dasharray', 'stroke-linejoin', 'opacity', 'fill-opacity', 'font-size', 'font-weight', 'font-family', 'text-anchor', 'dominant-baseline']
+const kept = ['fill', 'stroke', 'stroke-width', 'stroke-dasharray', 'stroke-linejoin', 'opacity', 'fill-opacity', 'font-size', 'font-weight', 'font-family', 'text-anchor', 'dominant-baseline', 'paint-order']
 
 /** The figure as it looks, without the page's style sheet. */
 function standalone(svg: SVGSVGElement): { text: string; width: number; height: number } {
@@ -20,16 +20,36 @@ function standalone(svg: SVGSVGElement): { text: string; width: number; height: 
     if (style.display === 'none') element.setAttribute('display', 'none')
     for (const name of ['class', 'style', 'tabindex', 'role']) element.removeAttribute(name)
   })
-  const { width, height } = svg.getBoundingClientRect()
+  const { width, height: drawn } = svg.getBoundingClientRect()
+  const height = drawn + legend(svg, copy, drawn)
   copy.setAttribute('xmlns', 'http://www.w3.org/2000/svg')
   copy.setAttribute('width', String(width))
   copy.setAttribute('height', String(height))
+  copy.setAttribute('viewBox', `0 0 ${width} ${height}`)
   const ground = document.createElementNS('http://www.w3.org/2000/svg', 'rect')
   ground.setAttribute('width', '100%')
   ground.setAttribute('height', '100%')
   ground.setAttribute('fill', getComputedStyle(document.body).getPropertyValue('--ground') || '#fff')
   copy.prepend(ground)
   return { text: new XMLSerializer().serializeToString(copy), width, height }
+}
+
+/** The names of the curves, which stand beside the figure on the page, below it; returns how high they are. */
+function legend(svg: SVGSVGElement, copy: SVGSVGElement, top: number): number {
+  const items = [...(svg.closest('figure')?.querySelectorAll('.legend li') ?? [])]
+  const color = getComputedStyle(document.body).color
+  items.forEach((item, i) => {
+    const [x, y] = [60 + (i % 3) * 200, top + 14 + Math.floor(i / 3) * 18]
+    const line = item.querySelector('line')
+    const sample = document.createElementNS('http://www.w3.org/2000/svg', 'path')
+    sample.setAttribute('d', `M${x} ${y}h26`)
+    for (const name of ['stroke', 'stroke-width', 'stroke-dasharray']) sample.setAttribute(name, line ? getComputedStyle(line).getPropertyValue(name) : color)
+    const text = document.createElementNS('http://www.w3.org/2000/svg', 'text')
+    for (const [name, value] of Object.entries({ x: x + 32, y: y + 4, fill: color, 'font-size': 12, 'font-family': 'system-ui, sans-serif' })) text.setAttribute(name, String(value))
+    text.textContent = item.textContent
+    copy.append(sample, text)
+  })
+  return items.length > 0 ? 10 + 18 * Math.ceil(items.length / 3) : 0
 }
 
 export function download(name: string, content: Blob): void {
