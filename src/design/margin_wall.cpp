@@ -1,5 +1,7 @@
 #include "design/margin_wall.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <boost/math/tools/toms748_solve.hpp>
@@ -11,6 +13,7 @@
 #include "stability/damper_response.hpp"
 #include "stability/disc_stiffness.hpp"
 #include "stability/loops_of_stiffness.hpp"
+#include "zwidth/quantity.hpp"
 #include "zwidth/stability/any_user.hpp"
 
 namespace zwidth::internal {
@@ -122,6 +125,19 @@ std::optional<double> short_of_phase(std::complex<double> minus_one_over_plant, 
 }
 
 }  // namespace
+
+std::optional<OptionProblem> find_problem(const RequiredMargins& margins) {
+  constexpr double most_gain = 1e5;  // 100 dB
+  if (!(margins.gain >= 1.0 && margins.gain <= most_gain)) {
+    return OptionProblem{"gain_margin", fmt::format("is a factor of {}", margins.gain),
+                         "must be from 1 to 1e5, that is 0 to 100 dB"};
+  }
+  if (!(margins.phase >= 0.0 && margins.phase <= 0.5 * std::numbers::pi)) {
+    return OptionProblem{"phase_margin", fmt::format("is {} degrees", degrees(margins.phase)),
+                         "must be from 0 to 90 degrees"};
+  }
+  return std::nullopt;
+}
 
 double stiffest_wall(const Device& device, const RequiredMargins& margins) {
   const VirtualDamper damper = virtual_damper(device);

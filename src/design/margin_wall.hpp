@@ -10,6 +10,7 @@
 
 #include "stability/user_discs.hpp"
 #include "zwidth/model/device.hpp"
+#include "zwidth/option_problem.hpp"
 #include "zwidth/sampling/sampled_plant.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
 
@@ -22,6 +23,9 @@ struct RequiredMargins {
   double phase = 0.0;     // rad in [0, pi/2], lag and lead
   bool any_user = false;  // the gain margin of the stiffness holds with every passive user
 };
+
+/// What is wrong with the margins asked for: a gain from 1 to 1e5 (100 dB), a phase from 0 to pi/2.
+[[nodiscard]] std::optional<OptionProblem> find_problem(const RequiredMargins& margins);
 
 /// The stiffest K with gain * K inside the stable interval that begins at 0 (of every user where asked) and the margins
 /// of the loop kept at K; its softer neighbours keep them too, and all of them down to 0 where no gap is met on the way

@@ -181,14 +181,7 @@ std::optional<OptionProblem> find_problem(const NotchOptions& options, const Dev
   if (!(options.drift >= 0.0 && options.drift <= 0.9)) {
     return OptionProblem{"drift", fmt::format("is {} %", 100.0 * options.drift), "must be from 0 to 90 %"};
   }
-  if (!(options.gain_margin >= 1.0) || !std::isfinite(options.gain_margin)) {
-    return OptionProblem{"gain_margin", fmt::format("is a factor of {}", options.gain_margin),
-                         "must be finite and >= 1, that is 0 dB"};
-  }
-  if (!(options.phase_margin >= 0.0 && options.phase_margin <= pi / 2.0)) {
-    return OptionProblem{"phase_margin", fmt::format("is {} degrees", degrees(options.phase_margin)),
-                         "must be from 0 to 90 degrees"};
-  }
+  if (const auto problem = find_problem(RequiredMargins{options.gain_margin, options.phase_margin})) return problem;
   if (options.drift > 0.0 && device.links().empty()) {
     return OptionProblem{"drift", fmt::format("is {} %", 100.0 * options.drift),
                          "must be 0: there is no link whose modes drift"};

@@ -331,14 +331,7 @@ WallRecommendation refused(Trust trust) {
 }  // namespace
 
 std::optional<OptionProblem> find_problem(const RecommendationOptions& options, const Device& device) {
-  if (!(options.gain_margin >= 1.0) || !std::isfinite(options.gain_margin)) {
-    return OptionProblem{"gain_margin", fmt::format("is a factor of {}", options.gain_margin),
-                         "must be finite and >= 1, that is 0 dB"};
-  }
-  if (!(options.phase_margin >= 0.0 && options.phase_margin <= 0.5 * std::numbers::pi)) {
-    return OptionProblem{"phase_margin", fmt::format("is {} degrees", degrees(options.phase_margin)),
-                         "must be from 0 to 90 degrees"};
-  }
+  if (const auto problem = find_problem(RequiredMargins{options.gain_margin, options.phase_margin})) return problem;
   if (options.ripple && !(*options.ripple > 0.0 && std::isfinite(*options.ripple))) {
     return OptionProblem{"ripple", fmt::format("is {}", *options.ripple), "must be a force > 0"};
   }
