@@ -38,8 +38,8 @@ std::string unknown_argument(const CLI::App& app, const CLI::App& command, const
   }
   if (&command != &app) return fmt::format("unexpected argument {}; see {}", argument, help);
   const auto commands = command_names(app);
-  return fmt::format("unknown command {}{}; commands are {}", argument, did_you_mean(argument, commands),
-                     fmt::join(commands, ", "));
+  return fmt::format("unknown command {}{}; commands are {}; see {}", argument, did_you_mean(argument, commands),
+                     fmt::join(commands, ", "), help);
 }
 
 }  // namespace
