@@ -31,6 +31,7 @@ zwidth::RecordingOptions options_of(std::uint8_t first, std::uint8_t second) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size < 2) return 0;
   const zwidth::RecordingOptions options = options_of(data[0], data[1]);
+  if (zwidth::find_problem(options)) return 0;  // of options, not of the file
   const MemoryFile file(data + 2, size - 2);
   const auto contents = zwidth::list_recording(file.path(), options);
   if (!contents) require_one_line(contents.error());
