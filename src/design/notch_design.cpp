@@ -181,7 +181,7 @@ std::optional<OptionProblem> find_problem(const NotchOptions& options, const Dev
   if (!(options.drift >= 0.0 && options.drift <= 0.9)) {
     return OptionProblem{"drift", fmt::format("is {} %", 100.0 * options.drift), "must be from 0 to 90 %"};
   }
-  if (const auto problem = find_problem(RequiredMargins{options.gain_margin, options.phase_margin})) return problem;
+  if (auto problem = find_problem(RequiredMargins{options.gain_margin, options.phase_margin})) return problem;
   if (options.drift > 0.0 && device.links().empty()) {
     return OptionProblem{"drift", fmt::format("is {} %", 100.0 * options.drift),
                          "must be 0: there is no link whose modes drift"};

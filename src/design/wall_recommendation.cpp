@@ -331,7 +331,7 @@ WallRecommendation refused(Trust trust) {
 }  // namespace
 
 std::optional<OptionProblem> find_problem(const RecommendationOptions& options, const Device& device) {
-  if (const auto problem = find_problem(RequiredMargins{options.gain_margin, options.phase_margin})) return problem;
+  if (auto problem = find_problem(RequiredMargins{options.gain_margin, options.phase_margin})) return problem;
   if (options.ripple && !(*options.ripple > 0.0 && std::isfinite(*options.ripple))) {
     return OptionProblem{"ripple", fmt::format("is {}", *options.ripple), "must be a force > 0"};
   }

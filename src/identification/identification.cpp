@@ -359,19 +359,19 @@ Identification identify(const Recording& recording, const Device& structure, con
   return identify(std::span(&recording, 1), structure, options, progress);
 }
 
-Identification identify(std::span<const Recording> recordings, const Device& structure, const IdentifyOptions& given,
+Identification identify(std::span<const Recording> recordings, const Device& structure, const IdentifyOptions& options,
                         const Progress& progress) {
-  check(given);
-  IdentifyOptions options = given;
-  options.response.excitation = excitation_of(given.response);
+  check(options);
+  IdentifyOptions decided = options;
+  decided.response.excitation = excitation_of(options.response);
   Identification found =
-      identified(response_with_enough_lines(recordings, structure, options, progress), recordings, structure, options);
+      identified(response_with_enough_lines(recordings, structure, decided, progress), recordings, structure, decided);
   constexpr double clear = 0.005;
-  const bool is_detected = options.response.excitation == FrequencyResponseOptions::Excitation::detect;
-  if (!is_detected || found.fit.model_error < clear || !is_of_lines(recordings, options.response)) return found;
+  const bool is_detected = decided.response.excitation == FrequencyResponseOptions::Excitation::detect;
+  if (!is_detected || found.fit.model_error < clear || !is_of_lines(recordings, decided.response)) return found;
   // What drifts from the first period to the last leaks into all lines alike, which a fit cannot tell from the device;
   // a window keeps it out.
-  IdentifyOptions windowed = options;
+  IdentifyOptions windowed = decided;
   windowed.response.excitation = FrequencyResponseOptions::Excitation::aperiodic;
   try {
     Identification other =
