@@ -29,7 +29,7 @@ function standalone(svg: SVGSVGElement): { text: string; width: number; height: 
   const ground = document.createElementNS('http://www.w3.org/2000/svg', 'rect')
   ground.setAttribute('width', '100%')
   ground.setAttribute('height', '100%')
-  ground.setAttribute('fill', getComputedStyle(document.body).getPropertyValue('--ground') || '#fff')
+  ground.setAttribute('fill', getComputedStyle(document.body).backgroundColor)
   copy.prepend(ground)
   return { text: new XMLSerializer().serializeToString(copy), width, height }
 }

@@ -1,5 +1,6 @@
 import { execFileSync } from 'node:child_process'
-import { readFileSync } from 'node:fs'
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs'
+import { tmpdir } from 'node:os'
 import { dirname } from 'node:path'
 import axe from 'axe-core'
 import type { Browser, Page } from 'playwright-core'
@@ -279,4 +280,25 @@ describe('work habits', () => {
     expect(complaints).toEqual([])
     await context.close()
   })
+})
+
+it('says in every panel of numbers that a doubtful device is one', async () => {
+  const folder = mkdtempSync(`${tmpdir()}/zwidth-`)
+  const file = `${folder}/doubtful.toml`
+  const text = readFileSync(`${project}/devices/lhifam.toml`, 'utf8')
+  writeFileSync(file, `${text}\n[uncertainty]\nverdict = "doubtful"\nwarning = "measured by a guess"\n`)
+  const other = await serve(file)
+  const { page, context, complaints } = await openPage(browser, other, 1280)
+  expect(await page.locator('[data-answer="trust"]').innerText()).toContain('doubtful')
+  await withWall(page)
+  await openAll(page)
+  await page.setViewportSize({ width: 1280, height: 6000 }) // what is out of view waits
+  await settled(page)
+  for (const panel of ['limits', 'region', 'time', 'bode', 'recommend']) {
+    await expect.poll(() => page.locator(`#panel-${panel}`).innerText(), { timeout: 10_000 }).toMatch(/doubtful: .*measured by a guess/)
+  }
+  expect(complaints).toEqual([])
+  await context.close()
+  await other.stop()
+  rmSync(folder, { recursive: true })
 })
