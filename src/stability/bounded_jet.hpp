@@ -33,32 +33,35 @@ struct BoundedJet {
   }                                                                                    // >= sup |f|
   [[nodiscard]] double slope_size() const { return std::abs(leading(slope)) + bend; }  // >= sup |f'|
 
-  friend BoundedJet operator+(const BoundedJet& a, const BoundedJet& b) {
+  [[gnu::always_inline]] friend BoundedJet operator+(const BoundedJet& a, const BoundedJet& b) {
     return {a.value + b.value, a.slope + b.slope, a.bend + b.bend, a.weight + b.weight};
   }
-  friend BoundedJet operator-(const BoundedJet& a, const BoundedJet& b) {
+  [[gnu::always_inline]] friend BoundedJet operator-(const BoundedJet& a, const BoundedJet& b) {
     return {a.value - b.value, a.slope - b.slope, a.bend + b.bend, a.weight + b.weight};
   }
-  friend BoundedJet operator-(const BoundedJet& a) { return {-a.value, -a.slope, a.bend, a.weight}; }
-  friend BoundedJet operator+(const BoundedJet& a, double c) {
+  [[gnu::always_inline]] friend BoundedJet operator-(const BoundedJet& a) {
+    return {-a.value, -a.slope, a.bend, a.weight};
+  }
+  [[gnu::always_inline]] friend BoundedJet operator+(const BoundedJet& a, double c) {
     return {a.value + c, a.slope, a.bend, a.weight + std::abs(c)};
   }
-  friend BoundedJet operator+(const BoundedJet& a, const Extended& c) requires(!std::same_as<Scalar, double>) {
+  [[gnu::always_inline]] friend BoundedJet operator+(const BoundedJet& a,
+                                                     const Extended& c) requires(!std::same_as<Scalar, double>) {
     return {a.value + c, a.slope, a.bend, a.weight + std::abs(leading(c))};
   }
-  friend BoundedJet operator-(double c, const BoundedJet& a) {
+  [[gnu::always_inline]] friend BoundedJet operator-(double c, const BoundedJet& a) {
     return {c - a.value, -a.slope, a.bend, a.weight + std::abs(c)};
   }
-  friend BoundedJet operator*(double c, const BoundedJet& a) {
+  [[gnu::always_inline]] friend BoundedJet operator*(double c, const BoundedJet& a) {
     const double size = std::abs(c);
     return {c * a.value, c * a.slope, size * a.bend, size * a.weight};
   }
   // (f g)'' = f'' g + 2 f' g' + f g''
-  friend BoundedJet operator*(const BoundedJet& a, const BoundedJet& b) {
+  [[gnu::always_inline]] friend BoundedJet operator*(const BoundedJet& a, const BoundedJet& b) {
     return {a.value * b.value, a.value * b.slope + a.slope * b.value,
             a.bend * b.size() + 2.0 * a.slope_size() * b.slope_size() + a.size() * b.bend, a.weight * b.weight};
   }
-  friend BoundedJet square(const BoundedJet& a) {
+  [[gnu::always_inline]] friend BoundedJet square(const BoundedJet& a) {
     const double slope_size = a.slope_size();
     return {a.value * a.value, 2.0 * (a.value * a.slope), 2.0 * (a.bend * a.size() + slope_size * slope_size),
             a.weight * a.weight};
