@@ -2,8 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
@@ -28,9 +27,8 @@
 namespace zwidth::cli {
 namespace {
 
-constexpr double most_rows = 5e6;          // of a CSV file
-constexpr double most_drawn_points = 1e6;  // kept for a figure alone
-constexpr double most_points_in_json = 2e4;
+constexpr std::size_t most_drawn_points = 1000000;  // kept for a figure alone
+constexpr std::size_t most_points_in_json = 20000;
 
 struct SimulateArguments {
   DeviceArguments device;
@@ -53,6 +51,7 @@ constexpr std::pair<std::string_view, std::string_view> options_of_simulation[] 
     {"wall_position", "--wall-position"},
     {"contact", "--contact"},
     {"duration", "--duration"},
+    {"keep_every", "--every"},
     {"divergence", "--divergence"},
     {"initial_position", "--start"},
     {"initial_velocity", "--start-velocity"},
@@ -63,18 +62,6 @@ constexpr std::pair<std::string_view, std::string_view> options_of_simulation[] 
     {"faults.overrun_probability", "--overrun"},
     {"faults.overrun_delay", "--overrun"},
 };
-
-std::size_t kept_points(const SimulateArguments& arguments, double samples) {
-  if (!arguments.output.csv.empty()) {
-    if (samples / static_cast<double>(arguments.every) > most_rows) {
-      throw BadInput(fmt::format("--csv: would have {:.0f} rows; at most {:.0f}: thin them with --every N",
-                                 samples / static_cast<double>(arguments.every), most_rows));
-    }
-    return arguments.every;
-  }
-  const double most = arguments.output.figure.empty() ? most_points_in_json : most_drawn_points;
-  return std::max(arguments.every, static_cast<std::size_t>(std::ceil(samples / most)));
-}
 
 SimulationOptions options_of(const SimulateArguments& arguments, const Device& device) {
   SimulationOptions options;
@@ -89,13 +76,11 @@ SimulationOptions options_of(const SimulateArguments& arguments, const Device& d
   apply(arguments.motion, device, options);
   options.duration = arguments.duration;
   options.divergence = arguments.divergence;
+  const bool has_figure = !arguments.output.figure.empty();
+  const bool has_table = !arguments.output.csv.empty();
+  options.keep_every = has_table || has_figure || arguments.points ? arguments.every : 0;
+  if (!has_table) options.keep_at_most = arguments.points ? most_points_in_json : most_drawn_points;
   if (const auto problem = find_problem(options, device)) refuse(*problem, options_of_simulation);
-  if (arguments.output.csv.empty() && arguments.output.figure.empty() && !arguments.points) {
-    options.keep_every = 0;
-  } else {
-    if (!options.duration) options.duration = default_duration(device, options);
-    options.keep_every = kept_points(arguments, std::round(*options.duration / device.loop().sampling_period));
-  }
   return options;
 }
 

@@ -149,11 +149,16 @@ void check(const Device& device, const SimulationOptions& options) {
   require_valid(find_problem(options, device));
 }
 
+std::size_t samples_per_point(const SimulationOptions& options, std::size_t samples) {
+  if (options.keep_every == 0 || !options.keep_at_most) return options.keep_every;
+  return std::max(options.keep_every, (samples + *options.keep_at_most - 1) / *options.keep_at_most);
+}
+
 /// Runs the loop; what it did is not judged yet. Returns the sensed positions, one more than samples.
 std::vector<double> run(Simulation& result, HybridLoop& loop, const Device& device, const SimulationOptions& options,
                         const Progress& progress) {
   const auto samples = static_cast<std::size_t>(std::round(result.duration / device.loop().sampling_period));
-  TrajectoryKeeper keeper(device, samples, options.keep_every);
+  TrajectoryKeeper keeper(device, samples, samples_per_point(options, samples));
   RippleObserver ripple(device, result.loop, samples);
   const ControllerOptions& wall = result.loop.controller;
   const bool has_wall = wall.kind == ControllerOptions::Kind::wall;

@@ -102,6 +102,22 @@ void start_inside_the_wall(SimulationSetup& setup, const Device& device) {
   setup.loop.initial_position.assign(device.bodies().size(), wall.position + offset);
 }
 
+/// Where no duration is given, of the longest by default.
+std::optional<OptionProblem> kept_points_problem(const SimulationOptions& options, const Device& device) {
+  if (options.keep_at_most) {
+    if (*options.keep_at_most > 0) return std::nullopt;
+    return OptionProblem{"keep_at_most", "is 0", "1 point or more; keep_every = 0 keeps none"};
+  }
+  if (options.keep_every == 0) return std::nullopt;
+  const double period = device.loop().sampling_period;
+  const double samples = options.duration.value_or(default_samples * period + options.user_force.start) / period;
+  const double points = samples / static_cast<double>(options.keep_every);
+  if (points <= max_kept_points) return std::nullopt;
+  return OptionProblem{
+      "keep_every", fmt::format("is {}: {:.0f} points", options.keep_every, points),
+      fmt::format("{:.0f} or more: {:.0f} points at most", std::ceil(samples / max_kept_points), max_kept_points)};
+}
+
 std::optional<OptionProblem> duration_problem(const SimulationOptions& options, const Device& device) {
   const Loop& loop = device.loop();
   const double period = loop.sampling_period;
@@ -225,14 +241,11 @@ std::optional<OptionProblem> find_problem(const SimulationOptions& options, cons
     return problem;
   }
   if (auto problem = duration_problem(options, device)) return problem;
+  if (auto problem = kept_points_problem(options, device)) return problem;
   if (!(std::isfinite(options.divergence) && options.divergence > 0.0)) {
     return OptionProblem{"divergence", fmt::format("is {}", options.divergence), "a number of m or rad above 0"};
   }
   return start_problem(options, device);
-}
-
-double default_duration(const Device& device, const SimulationOptions& options) {
-  return internal::default_duration(device, internal::linear_answer(device, options).critical, options.user_force);
 }
 
 }  // namespace zwidth

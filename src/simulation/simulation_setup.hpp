@@ -20,7 +20,7 @@ struct SimulationSetup {
 /// The linear answer to the loop's controller; `agrees` is still open.
 [[nodiscard]] LinearAnswer linear_answer(const Device& device, const SimulationOptions& options);
 
-/// See default_duration(); `critical` is the linear answer's.
+/// How long a run lasts where SimulationOptions::duration is absent, s; `critical` is the linear answer's.
 [[nodiscard]] double default_duration(const Device& device, const CriticalStiffness& critical, const UserForce& force);
 
 /// Throws Error (needs_bodies) where a body is to be moved by the options of a loop or a simulation of a device without.

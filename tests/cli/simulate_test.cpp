@@ -221,7 +221,7 @@ TEST_F(Simulate, Refusals) {
   write("pushes.svg", "time,force\n0,1\n1e-3,1\n2e-3,1\n");
   expect_refused(lhifam + "--user-force pushes.svg --figure pushes.svg", "would overwrite the recording");
   EXPECT_THAT(contents("pushes.csv"), StartsWith("time,force\n0,1\n"));
-  expect_refused(lhifam + "--duration 10000 --csv a.csv", "thin them with --every");
+  expect_refused(lhifam + "--duration 10000 --csv a.csv", "--every: is 1: 10000000 points; 2 or more");
   expect_refused("devices/lhifam.toml devices/lhifam.toml", "");
   EXPECT_FALSE(std::filesystem::exists(directory() / "a.csv"));
 }

@@ -27,6 +27,7 @@ enum class LoopVerdict {
 };
 
 inline constexpr double max_simulated_samples = 2e7;  ///< of one simulate()
+inline constexpr double max_kept_points = 5e6;        ///< of its trajectory
 
 struct SimulationOptions {
   /// What runs at every sample. Absent: the device's own [wall], at 0; where it has neither stiffness nor damping, none.
@@ -40,21 +41,20 @@ struct SimulationOptions {
   /// (a transfer function: its wall begins there instead).
   std::vector<double> initial_position;
   std::vector<double> initial_velocity;
-  /// s; 1 to max_simulated_samples sampling periods, and more than the loop's delay. Absent: default_duration().
+  /// s; 1 to max_simulated_samples sampling periods, and more than the loop's delay. Absent: 40 periods of
+  /// the critical oscillation, at least 1 s and four delays, at most a million samples; counted from the start of the
+  /// user's force.
   std::optional<double> duration;
   /// m or rad, > 0: ends the run as unstable where |sensed position - start| passes it.
   double divergence = 1e3;
-  std::size_t keep_every = 1;  ///< samples per kept point of the trajectory; 0: none is kept
+  /// Samples per kept point of the trajectory; 0: none is kept. More than max_kept_points are refused.
+  std::size_t keep_every = 1;
+  std::optional<std::size_t> keep_at_most;  ///< points, > 0: with more of them keep_every grows
 };
 
 /// The first member outside its domain for this device, or that leaves the device at rest for ever.
 /// An empty member: nothing at all moves the device.
 [[nodiscard]] std::optional<OptionProblem> find_problem(const SimulationOptions& options, const Device& device);
-
-/// How long simulate() runs where options.duration is absent, s: 40 periods of the critical oscillation, at least 1 s
-/// and four delays, at most a million samples; counted from the start of the user's force.
-/// Requires options without a problem. Throws as critical_stiffness() does.
-[[nodiscard]] double default_duration(const Device& device, const SimulationOptions& options);
 
 /// Everything at the sampling instants; equal sizes.
 struct Trajectory {
