@@ -100,11 +100,7 @@ void ContinuousMotion::set_motion(const double* positions, const double* velocit
   }
 }
 
-double ContinuousMotion::sensed() const noexcept {
-  return bodies_ > 0 ? position(sensed_) : output_.dot(state_.head(output_.size()));
-}
-
-double ContinuousMotion::actuated() const noexcept { return bodies_ > 0 ? position(actuated_) : sensed(); }
+double ContinuousMotion::output() const noexcept { return output_.dot(state_.head(output_.size())); }
 
 double ContinuousMotion::rate() const noexcept {
   double rate = 0.0;
@@ -180,7 +176,7 @@ void ContinuousMotion::advance_recurring(std::size_t which) noexcept { advance_p
 void ContinuousMotion::advance_part(std::size_t which, std::size_t halvings) noexcept {
   const RecurringStep& step = pattern().steps[which * (most_halvings + 1) + halvings];
   multiply_(step.transition.data(), state_.data(), next_.data(), size_);
-  if (nothing_happens(step)) {
+  if (friction_.empty() || nothing_happens(step)) {
     if (tangent_ != nullptr) tangent_->step(step, stuck_, which * (most_halvings + 1) + halvings, state_.data());
     state_.swap(next_);
   } else if (halvings < most_halvings) {

@@ -68,9 +68,9 @@ class ContinuousMotion {
     return body == 0 ? state_.data()[0] : state_.data()[0] + state_.data()[body];
   }
   [[nodiscard]] double velocity(std::size_t body) const noexcept { return state_.data()[bodies_ + body]; }
-  [[nodiscard]] double sensed() const noexcept;
+  [[nodiscard]] double sensed() const noexcept { return bodies_ > 0 ? position(sensed_) : output(); }
   /// Position of the actuated body; of a transfer function, its output.
-  [[nodiscard]] double actuated() const noexcept;
+  [[nodiscard]] double actuated() const noexcept { return bodies_ > 0 ? position(actuated_) : output(); }
   [[nodiscard]] bool has_friction() const noexcept { return !friction_.empty(); }
   /// A bound of the device's fastest motion, rad/s: advance() takes that many parts per second.
   [[nodiscard]] double rate() const noexcept;
@@ -116,6 +116,7 @@ class ContinuousMotion {
   [[nodiscard]] Pattern make_pattern(const Eigen::MatrixXd& matrix, unsigned stuck) const;
   [[nodiscard]] const Pattern& pattern() const noexcept { return patterns_[stuck_]; }
   void advance_part(std::size_t which, std::size_t halvings) noexcept;
+  [[nodiscard]] double output() const noexcept;
   [[nodiscard]] bool nothing_happens(const RecurringStep& step) const noexcept;
   void expand(double length) noexcept;                           // series_ of the state over `length`
   void evaluate_series(double fraction) noexcept;                // state_ = series at fraction of its length

@@ -114,7 +114,7 @@ PlantFraction<Real> plant_fraction(const FilteredPlant& plant, const CirclePoint
       first = false;
     } else {
       if (add_up) s = sum(multiply(s, d_k, point), multiply(n_k, d, point));
-      d = multiply(d, d_k, point);
+      if (integrators == nullptr || &term != &plant.terms.back()) d = multiply(d, d_k, point);  // else of no more use
       if (integrators != nullptr) replaced = multiply(replaced, replaced_k, point);
     }
   }
