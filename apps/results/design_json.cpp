@@ -87,7 +87,8 @@ void to_json(Json& json, const SweepPoint& point) {
           {"critical_stiffness", point.stiffness},
           {"frequency_rad_s", frequency_of(point.limit)},
           {"limited_by", mechanism_of(point.limit)},
-          {"any_user_stiffness", stiffness_of(point.any_user)}};
+          {"any_user_stiffness", stiffness_of(point.any_user)},
+          {"trust", point.trust}};
 }
 
 void to_json(Json& json, const NotchAtDrift& each) {
@@ -126,6 +127,7 @@ Json sweep_json(const Device& swept, const ParameterSweep& sweep) {
   Json json = document("zwidth.design_sweep/1");
   json["device"] = device.name;
   json["units"] = stiffness_units(device.motion);
+  json["trust"] = sweep.trust;
   json["axes"] = Json::array();
   for (std::size_t i = 0; i < sweep.axes.size(); ++i) {
     const std::string& key = sweep.axes[i].key;
@@ -137,11 +139,10 @@ Json sweep_json(const Device& swept, const ParameterSweep& sweep) {
 }
 
 std::string sweep_csv(const ParameterSweep& sweep) {
-  const bool any_user = sweep.points.front().any_user.has_value();
   Csv csv;
   for (const SweepAxis& axis : sweep.axes) csv.cell(axis.key);
   for (const char* name : {"critical_stiffness", "frequency_rad_s", "mode"}) csv.cell(name);
-  if (any_user) csv.cell("any_user_stiffness");
+  if (sweep.has_any_user) csv.cell("any_user_stiffness");
   csv.end_row();
   const std::size_t columns = sweep.axes.size() == 2 ? sweep.values[1].size() : 1;
   for (std::size_t i = 0; i < sweep.points.size(); ++i) {
@@ -151,7 +152,7 @@ std::string sweep_csv(const ParameterSweep& sweep) {
     csv.cell(point.stiffness);
     csv.cell(frequency_of(point.limit));
     csv.cell(point.limit ? std::optional(point.limit->limited_by.mode) : std::nullopt);
-    if (any_user) csv.cell(point.any_user->stiffness);
+    if (sweep.has_any_user) csv.cell(point.any_user ? std::optional(point.any_user->stiffness) : std::nullopt);
     csv.end_row();
   }
   return csv.text();

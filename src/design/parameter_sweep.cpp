@@ -7,9 +7,11 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <mutex>
 
 #include "zwidth/error.hpp"
+#include "zwidth/model/device_trust.hpp"
 #include "zwidth/model/parameter.hpp"
 
 namespace zwidth {
@@ -81,14 +83,37 @@ class Points {
   std::vector<std::vector<double>> values_;
 };
 
-SweepPoint point_of(const Device& device, const SweepOptions& options) {
-  const Wall& wall = device.parameters().wall;
-  const VirtualDamper damper{wall.damping, wall.velocity_filter_hz};
-  CriticalStiffness critical = critical_stiffness(filtered_plant(device), damper);
-  SweepPoint point{critical.status, critical.stiffness, critical.limit, std::nullopt, {}};
-  if (options.any_user) point.any_user = any_user_limit(device, damper);
+/// `trust`: of the device that is swept.
+SweepPoint point_of(const Device& device, const SweepOptions& options, const Trust& trust) {
+  if (trust.refused()) {
+    return {StiffnessStatus::refused, std::numeric_limits<double>::quiet_NaN(), std::nullopt, std::nullopt, {}, trust};
+  }
+  CriticalStiffness critical = critical_stiffness(device);
+  critical.trust.inherit(trust);
+  SweepPoint point{critical.status, critical.stiffness, critical.limit, std::nullopt, {}, std::move(critical.trust)};
+  if (point.trust.refused()) return point;
+  if (options.any_user) {
+    point.any_user = any_user_limit(device, virtual_damper(device));
+    point.trust.inherit(point.any_user->trust);
+  }
   if (options.crossovers) point.crossovers = std::move(critical.crossovers);
   return point;
+}
+
+/// The points' reasons stand with them.
+Trust trust_of(const Device& device, const std::vector<SweepPoint>& points) {
+  Trust trust = trust_of(device);
+  if (!trust.sound()) return trust;
+  const auto count = [&points](auto is) { return std::count_if(points.begin(), points.end(), is); };
+  const auto refused = count([](const SweepPoint& each) { return each.trust.refused(); });
+  const auto unsound = count([](const SweepPoint& each) { return !each.trust.sound(); });
+  if (unsound == 0) return trust;
+  const SweepPoint& first =
+      *std::find_if(points.begin(), points.end(), [](const SweepPoint& each) { return !each.trust.sound(); });
+  trust.doubt(fmt::format("of {} points {} are refused and {} doubtful; the first: {}", points.size(), refused,
+                          unsound - refused, first.trust.reasons.front()));
+  if (refused == static_cast<std::ptrdiff_t>(points.size())) trust.verdict = Trust::Verdict::refused;
+  return trust;
 }
 
 /// Counts points of all threads; one of them at a time reports.
@@ -164,11 +189,12 @@ ParameterSweep parameter_sweep(const Device& device, const std::vector<SweepAxis
     throw Error(ErrorCode::needs_bodies, fmt::format("{} {}; {}", problem->member, problem->what, problem->allowed));
   }
   const Points points(device, axes);
-  ParameterSweep sweep{axes, points.values(), std::vector<SweepPoint>(points.count())};
+  ParameterSweep sweep{axes, points.values(), std::vector<SweepPoint>(points.count()), options.any_user, {}};
   for (SweepAxis& axis : sweep.axes) axis.key = without_alias(axis.key);
+  const Trust trust = trust_of(device);
   SharedProgress shared(progress, sweep.points.size());
   const auto compute = [&](std::size_t i) {
-    sweep.points[i] = point_of(Device(points.at(i)), options);
+    sweep.points[i] = point_of(Device(points.at(i)), options, trust);
     shared.add_one();
   };
   if (sweep.points.size() > worth_threads) {
@@ -176,6 +202,7 @@ ParameterSweep parameter_sweep(const Device& device, const std::vector<SweepAxis
   } else {
     for (std::size_t i = 0; i < sweep.points.size(); ++i) compute(i);
   }
+  sweep.trust = trust_of(device, sweep.points);
   return sweep;
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/column_unit.hpp"
 #include "io/number_cell.hpp"
 #include "io/prose.hpp"
 #include "zwidth/io/message_words.hpp"
@@ -80,7 +81,11 @@ std::string listed_columns(std::span<const std::string> columns) {
 tl::expected<std::size_t, InputError> find_column(std::span<const std::string> columns, const std::string& asked,
                                                   const std::string& source, std::span<const std::string> shown) {
   const std::string asked_lower = lower_case(asked);
-  const auto without_unit = [](std::string_view column) { return name_and_unit(column).name; };
+  const auto without_unit = [](std::string_view column) {
+    const std::string_view name = name_and_unit(column).name;
+    const std::size_t end = name.rfind('_');  // "force_N"
+    return end != std::string_view::npos && end > 0 && is_unit(name.substr(end + 1)) ? name.substr(0, end) : name;
+  };
   const std::function<bool(std::string_view)> readings[] = {
       [&](std::string_view column) { return column == asked; },
       [&](std::string_view column) { return without_unit(column) == asked; },

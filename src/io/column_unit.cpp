@@ -7,6 +7,7 @@
 #include "io/number_cell.hpp"
 
 namespace zwidth::internal {
+using namespace std::string_view_literals;
 namespace {
 
 struct Unit {
@@ -34,7 +35,10 @@ constexpr std::array others{Unit{"m"},
                             Unit{"mrad", 1e-3},
                             Unit{"deg", degree},
                             Unit{"\u00b0", degree},
+                            Unit{"degrees", degree},
                             Unit{"rev", 360.0 * degree},
+                            Unit{"turn", 360.0 * degree},
+                            Unit{"turns", 360.0 * degree},
                             Unit{"N"},
                             Unit{"mN", 1e-3},
                             Unit{"kN", 1e3},
@@ -94,6 +98,16 @@ bool is_unit(std::string_view word) {
 std::optional<double> seconds_per(std::string_view unit) {
   const Unit* found = find_unit(times, without_brackets(unit));
   return found == nullptr ? std::nullopt : std::optional(found->scale);
+}
+
+std::string_view unit_at_end(std::string_view name) {
+  // Those that could be part of a name ("force_in", "torque_nm") are none.
+  constexpr std::array clear{"mm"sv,  "cm"sv,   "um"sv,    "mrad"sv, "deg"sv, "degrees"sv,
+                             "rev"sv, "turn"sv, "turns"sv, "mN"sv,   "kN"sv,  "mNm"sv};
+  const std::size_t begin = name.find_last_of("_ .");
+  if (begin == std::string_view::npos || begin == 0) return {};
+  const std::string_view end = name.substr(begin + 1);
+  return std::find(clear.begin(), clear.end(), end) == clear.end() ? std::string_view() : end;
 }
 
 std::optional<double> base_units_per(std::string_view unit) {

@@ -16,25 +16,26 @@
 namespace zwidth::internal {
 namespace {
 
-/// A column in millimetres that is read as it stands makes newtons per millimetre: said, as only the user knows.
-void remark_unit(const RawColumn& column, const ColumnRequest& request, std::vector<Remark>& remarks) {
-  const std::string_view unit = name_and_unit(column.name).unit;
+/// What a column's values are multiplied by: the scale asked for, else (or where that only turns the sign) that of the
+/// unit in its name, which is said.
+double scale_of(const RawColumn& column, const ColumnRequest& request, std::vector<Remark>& remarks) {
+  const auto [name, in_brackets] = name_and_unit(column.name);
+  const std::string_view unit = in_brackets.empty() ? unit_at_end(name) : in_brackets;
   const auto scale = base_units_per(unit);
-  if (!scale || request.scale != 1.0) return;
-  remarks.push_back(
-      {Remark::Severity::warning,
-       fmt::format("{} is used as it stands, in {}", in_quotes(column.name), shortened(unit)),
-       fmt::format("results are in that unit; for base units (N, m, rad) scale the column by {:.6g}", *scale)});
+  if (!scale || std::abs(request.scale) != 1.0) return request.scale;
+  remarks.push_back({Remark::Severity::note, fmt::format("{} is in {}", in_quotes(column.name), shortened(unit)),
+                     fmt::format("read in base units (N, N m, m, rad, A, V): times {:.6g}", *scale)});
+  return request.scale * *scale;
 }
 
 tl::expected<Channel, InputError> make_channel(RawColumn column, const ColumnRequest& request,
                                                std::vector<Remark>& remarks) {
   if (auto filled = fill_missing(column, remarks); !filled) return tl::unexpected(std::move(filled.error()));
-  remark_unit(column, request, remarks);
+  const double scale = scale_of(column, request, remarks);
   for (std::size_t i = 0; i < column.values.size(); ++i) {
-    column.values[i] *= request.scale;
+    column.values[i] *= scale;
     if (!std::isfinite(column.values[i])) {
-      return tl::unexpected(refused_sample(column, i, fmt::format("is too large for the scale {:.6g}", request.scale),
+      return tl::unexpected(refused_sample(column, i, fmt::format("is too large for the scale {:.6g}", scale),
                                            "must be below 1e308 after scaling"));
     }
   }

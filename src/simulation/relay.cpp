@@ -10,6 +10,7 @@
 #include "require_valid.hpp"
 #include "simulation/relay_explanation.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/model/device_trust.hpp"
 #include "zwidth/quantity.hpp"
 #include "zwidth/signal/recording.hpp"
 
@@ -27,10 +28,11 @@ double friction_level(const Device& device, double amplitude) {
 
 Trust trust_of_reading(const RelayResult& result) {
   Trust trust;
-  // A device that is refused makes no limit of its own; what the relay reads stands beside it.
-  if (result.prediction) {
-    for (const std::string& reason : result.prediction->linear.trust.reasons) trust.doubt(reason);
-  }
+  // A device that is refused predicts nothing; what a recording shows stands beside it.
+  const Trust expected = result.prediction ? result.prediction->linear.trust
+                         : result.device   ? trust_of(*result.device)
+                                           : Trust{};
+  for (const std::string& reason : expected.reasons) trust.doubt(reason);
   if (!result.mean) {
     trust.refuse("no trial oscillates: start further out, push harder or record for longer");
     return trust;
@@ -54,7 +56,7 @@ void conclude(RelayResult& result) {
   result.mean = relay_mean(result.trials);
   if (result.device && result.relay.amplitude > 0.0) {
     result.friction_level = friction_level(*result.device, result.relay.amplitude);
-    result.prediction = relay_prediction(*result.device, result.relay);
+    if (!trust_of(*result.device).refused()) result.prediction = relay_prediction(*result.device, result.relay);
   }
   if (result.mean && result.prediction) {
     result.limit_reading = limit_reading(*result.mean, result.prediction->linear);
@@ -121,11 +123,16 @@ std::optional<OptionProblem> find_problem(const RelayRecordOptions& options, dou
 
 RelayResult relay(const Device& device, const RelayOptions& options, const Progress& progress) {
   RelayResult result;
-  result.trials = relay_trials(device, options, progress);
   result.motion = device.parameters().motion;
   result.sampling_period = device.loop().sampling_period;
   result.relay = options.relay;
   result.device = device;
+  if (trust_of(device).refused()) {  // nor are trials of it
+    require_valid(find_problem(options, device));
+    result.trust = trust_of(device);
+    return result;
+  }
+  result.trials = relay_trials(device, options, progress);
   conclude(result);
   return result;
 }

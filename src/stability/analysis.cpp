@@ -132,6 +132,13 @@ void answer_about_users(const Device& device, const AnalysisOptions& options, An
       if (is_held(device) && !stands(critical_stiffness(with_user(device, {})), "the limit over all users", analysis)) {
         analysis.any_user.reset();
       }
+      if (analysis.any_user && analysis.wall && analysis.wall->stable &&
+          analysis.wall->stiffness > analysis.any_user->stiffness) {
+        analysis.remarks.push_back({Remark::Severity::warning,
+                                    "the wall is stiffer than the limit with any passive user",
+                                    "alone it is stable, but some user's grasp makes it oscillate",
+                                    "stay below that limit, or give the users whom you expect as a family"});
+      }
       if (analysis.any_user) {
         analysis.any_user->trust.inherit(analysis.trust);
         analysis.trust.inherit(analysis.any_user->trust);
@@ -214,6 +221,11 @@ Analysis analyze(const Device& device, const AnalysisOptions& options) {
   const std::optional<Uncertainty>& uncertainty = device.parameters().uncertainty;
   if (uncertainty && !uncertainty->parameters.empty() && options.draws > 0) {
     analysis.interval = stiffness_interval(device, options.draws);
+    if (is_open(*analysis.interval)) {
+      analysis.trust.doubt(
+          "the uncertainty of the parameters in the file leaves the critical stiffness open within more than a factor "
+          "of 2: measure them more closely");
+    }
   }
   answer_about_users(device, options, analysis);
   return analysis;

@@ -21,6 +21,11 @@ bool same_mechanism(const CriticalStiffness& a, const CriticalStiffness& b) {
 
 }  // namespace
 
+bool is_open(const StiffnessInterval& interval) {
+  constexpr double widest = 2.0;  // times the lower end
+  return interval.upper > widest * interval.lower;
+}
+
 StiffnessInterval stiffness_interval(const Device& device, std::size_t draws, std::uint64_t seed) {
   const std::optional<Uncertainty>& uncertainty = device.parameters().uncertainty;
   if (!uncertainty || uncertainty->parameters.empty())

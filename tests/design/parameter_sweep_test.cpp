@@ -49,6 +49,25 @@ TEST(ParameterSweep, KeepsWhatIsAskedFor) {
   EXPECT_NEAR(sweep.points[0].any_user->stiffness, 5776.09, 0.01);
 }
 
+TEST(ParameterSweep, IsTrustedNoMoreThanItsDevice) {
+  DeviceParameters parameters = test::lhifam_parameters();
+  parameters.uncertainty = Uncertainty{};
+  parameters.uncertainty->warning = "measured by a guess";
+  const std::vector<SweepAxis> axes{{"loop.delay", 0.0, 1e-3, 3}};
+  const ParameterSweep doubtful = parameter_sweep(Device(parameters), axes, {.any_user = true});
+  EXPECT_EQ(doubtful.trust.verdict, Trust::Verdict::doubtful);
+  EXPECT_EQ(doubtful.points[1].trust.reasons.front(), "measured by a guess");
+  EXPECT_GT(doubtful.points[1].stiffness, 0.0);
+  parameters.uncertainty->verdict = Trust::Verdict::refused;
+  const ParameterSweep refused = parameter_sweep(Device(parameters), axes, {.any_user = true});
+  EXPECT_TRUE(refused.trust.refused());
+  for (const SweepPoint& point : refused.points) {
+    EXPECT_EQ(point.status, StiffnessStatus::refused);
+    EXPECT_TRUE(std::isnan(point.stiffness));
+    EXPECT_FALSE(point.limit || point.any_user);
+  }
+}
+
 TEST(ParameterSweep, ProgressNeverFallsAndEndsAtOne) {
   double last = 0.0;
   (void)parameter_sweep(Device(test::lhifam_parameters()), {{"loop.delay", 0.0, 1e-3, 200}}, {}, [&](double fraction) {

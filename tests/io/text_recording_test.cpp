@@ -1,8 +1,11 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <cmath>
+#include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "io/recording_folder.hpp"
@@ -160,13 +163,30 @@ TEST_F(TextRecording, ScalesAndKeepsTheOrderOfTheRequests) {
   EXPECT_EQ(recording->source, path("a.csv"));
 }
 
-TEST_F(TextRecording, SaysThatAColumnIsInMillimetres) {
-  RecordingOptions options = at_1_khz({"x"});
-  const auto plain = read("F [N],x [mm]\n1,2\n3,4\n", options);
-  ASSERT_TRUE(plain.has_value());
-  EXPECT_TRUE(mentions(plain->remarks, "\"x [mm]\" is used as it stands, in mm"));
-  options.columns[0].scale = 1e-3;
-  EXPECT_FALSE(mentions(read("F [N],x [mm]\n1,2\n3,4\n", options)->remarks, "as it stands"));
+TEST_F(TextRecording, ReadsAColumnInTheUnitOfItsName) {
+  constexpr double turn = 2.0 * std::numbers::pi;
+  const std::pair<const char*, double> cases[] = {{"x [mm]", 1e-3},
+                                                  {"x_mm", 1e-3},
+                                                  {"torque (mNm)", 1e-3},
+                                                  {"torque_mNm", 1e-3},
+                                                  {"angle_deg", turn / 360.0},
+                                                  {"position_turns", turn},
+                                                  {"x [m]", 1.0},
+                                                  {"force_in", 1.0},
+                                                  {"torque_nm", 1.0},
+                                                  {"x_um", 1e-6}};
+  for (const auto& [name, scale] : cases) {
+    RecordingOptions options = at_1_khz({"2"});
+    const std::string text = fmt::format("F [N],{}\n1,2\n3,4\n", name);
+    const auto recording = read(text, options);
+    ASSERT_TRUE(recording.has_value()) << recording.error().str();
+    EXPECT_DOUBLE_EQ(recording->channels[0].samples[1], 4.0 * scale) << name;
+    EXPECT_EQ(mentions(recording->remarks, "read in base units"), scale != 1.0) << name;
+    options.columns[0].scale = -1.0;
+    EXPECT_DOUBLE_EQ(read(text, options)->channels[0].samples[1], -4.0 * scale) << name;
+    options.columns[0].scale = 0.5;  // what the user says is all there is
+    EXPECT_EQ(read(text, options)->channels[0].samples[1], 2.0) << name;
+  }
 }
 
 TEST_F(TextRecording, ReadsTheTimeInTheUnitOfItsName) {

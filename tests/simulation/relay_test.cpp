@@ -113,6 +113,20 @@ TEST(Relay, TheDevicesDoubtIsTheReadings) {
   EXPECT_THAT(simulated(device, 0.01).trust.reasons, Contains(HasSubstr("the mass is not determined")));
 }
 
+TEST(Relay, ARefusedDeviceMakesNoNumber) {
+  DeviceParameters parameters = test::lhifam_parameters();
+  parameters.uncertainty = Uncertainty{};
+  parameters.uncertainty->verdict = Trust::Verdict::refused;
+  parameters.uncertainty->warning = "nothing was determined";
+  RelayOptions options;
+  options.relay.amplitude = 5.0;
+  const RelayResult result = relay(Device(parameters), options);
+  EXPECT_TRUE(result.trust.refused());
+  EXPECT_EQ(result.trust.reasons.front(), "nothing was determined");
+  EXPECT_TRUE(result.trials.empty());
+  EXPECT_FALSE(result.mean || result.prediction);
+}
+
 TEST(Relay, NothingThatOscillatesIsRefused) {
   const RelayResult stuck = simulated(with_friction(test::rigid_parameters(), 6.0), 0.0, 2.0);
   EXPECT_TRUE(stuck.trust.refused());

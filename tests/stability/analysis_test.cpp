@@ -185,6 +185,30 @@ TEST(Analysis, DoubtTravelsAndARefusedDeviceHasNoNumber) {
 }
 
 // With a damper closed the gain margin is of the whole wall, the stiffness margin of K alone.
+TEST(Analysis, AnOpenIntervalIsNoSureAnswer) {
+  DeviceParameters device = test::rigid_parameters();
+  device.uncertainty = Uncertainty{{"body.body.damping"}, {{0.01}}};
+  EXPECT_TRUE(analyze(Device(device)).trust.sound());
+  device.uncertainty->covariance = {{4.0}};
+  const Analysis open = analyze(Device(device));
+  EXPECT_EQ(open.trust.verdict, Trust::Verdict::doubtful);
+  EXPECT_TRUE(is_open(*open.interval));
+}
+
+TEST(Analysis, AWallAboveTheLimitWithAnyUserIsSaid) {
+  DeviceParameters device = test::lhifam_parameters();
+  device.wall.stiffness = 5000.0;  // limits: 8849 N/m alone, 5776 N/m with any user
+  EXPECT_TRUE(analyze(Device(device)).remarks.empty());
+  device.wall.stiffness = 7000.0;
+  const Analysis above = analyze(Device(device));
+  EXPECT_TRUE(above.wall->stable);
+  ASSERT_EQ(above.remarks.size(), 1U);
+  EXPECT_EQ(above.remarks[0].severity, Remark::Severity::warning);
+  EXPECT_NE(above.remarks[0].what.find("any passive user"), std::string::npos);
+  device.wall.stiffness = 9000.0;
+  EXPECT_TRUE(analyze(Device(device)).remarks.empty());  // it is unstable by itself
+}
+
 TEST(Analysis, StiffnessMarginIsOfTheStiffnessAlone) {
   DeviceParameters parameters = test::lhifam_parameters();
   parameters.wall = {2000.0, 5.0, 0.0};

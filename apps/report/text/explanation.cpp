@@ -133,7 +133,8 @@ std::string critical_stiffness_text(const CriticalStiffness& critical, Motion mo
                          unit);
     }
     case StiffnessStatus::none_stable:
-      return "none: no wall is stable, however soft";
+      return critical.stable_intervals.empty() ? "none: no wall is stable, however soft"
+                                               : "none: the softest walls are unstable, stiffer ones are stable";
     case StiffnessStatus::refused:
       return "refused: no number is given";
     case StiffnessStatus::unbounded:

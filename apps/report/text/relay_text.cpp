@@ -11,6 +11,7 @@
 #include "report/text/quantity.hpp"
 #include "report/text/remark_line.hpp"
 #include "report/text/text_table.hpp"
+#include "report/text/trust_text.hpp"
 
 namespace zwidth::report {
 namespace {
@@ -177,6 +178,7 @@ std::string remarks(const RelayResult& result) {
 }  // namespace
 
 std::string relay_text(const RelayResult& result) {
+  if (result.trials.empty()) return heading(result) + trust_lines(result.trust);
   std::string text = heading(result) + trial_table(result) + spectra_note(result);
   if (result.prediction) text += "\n" + prediction_table(result);
   if (!result.explanation.empty()) text += "\nWhat it means\n";

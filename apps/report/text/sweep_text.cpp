@@ -9,6 +9,7 @@
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
 #include "report/text/text_table.hpp"
+#include "report/text/trust_text.hpp"
 
 namespace zwidth::report {
 namespace {
@@ -46,7 +47,8 @@ class SweepWriter {
 
   [[nodiscard]] std::string text() const {
     const std::string title = shortened(display_name(device_), line_width) + "\n";
-    return title + (sweep_.axes.size() == 1 ? rows() : extremes());
+    if (sweep_.trust.refused()) return title + trust_lines(sweep_.trust);
+    return title + trust_lines(sweep_.trust) + (sweep_.axes.size() == 1 ? rows() : extremes());
   }
 
  private:
@@ -55,10 +57,9 @@ class SweepWriter {
   }
 
   [[nodiscard]] std::string rows() const {
-    const bool any_user = sweep_.points.front().any_user.has_value();
     TextTable table{{Align::right, Align::right, Align::right, Align::left},
                     {{sweep_.axes[0].key, "K_CR", "oscillates at", "limited by"}}};
-    if (any_user) {
+    if (sweep_.has_any_user) {
       table.alignment.push_back(Align::right);
       table.rows[0].emplace_back("any user");
     }
@@ -69,7 +70,7 @@ class SweepWriter {
       std::vector<std::string> cells = {value_text(0, sweep_.values[0][i]), status_text(point, unit_),
                                         point.limit ? quantity(hertz(point.limit->frequency), "Hz") : "-",
                                         point.limit ? mechanism_text(*point.limit) : "-"};
-      if (any_user) cells.push_back(any_user_text(*point.any_user, unit_));
+      if (sweep_.has_any_user) cells.push_back(point.any_user ? any_user_text(*point.any_user, unit_) : "-");
       table.rows.push_back(std::move(cells));
       if (i + 1 == count) break;
     }
@@ -90,10 +91,12 @@ class SweepWriter {
     std::optional<std::size_t> most;
     std::size_t none = 0;
     std::size_t unbounded = 0;
+    std::size_t refused = 0;
     for (std::size_t i = 0; i < sweep_.points.size(); ++i) {
       const SweepPoint& point = sweep_.points[i];
       none += point.status == StiffnessStatus::none_stable ? 1U : 0U;
       unbounded += point.status == StiffnessStatus::unbounded ? 1U : 0U;
+      refused += point.status == StiffnessStatus::refused ? 1U : 0U;
       if (!point.limit) continue;
       if (!least || point.stiffness < sweep_.points[*least].stiffness) least = i;
       if (!most || point.stiffness > sweep_.points[*most].stiffness) most = i;
@@ -107,6 +110,7 @@ class SweepWriter {
     }
     if (none > 0) text += fmt::format("  no wall is stable from K = 0 at {} points\n", none);
     if (unbounded > 0) text += fmt::format("  every wall is stable at {} points\n", unbounded);
+    if (refused > 0) text += fmt::format("  no answer is given at {} points\n", refused);
     return text + "  --output FILE.csv or --json gives all points, FILE.svg a map\n";
   }
 

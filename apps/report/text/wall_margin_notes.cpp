@@ -6,6 +6,7 @@
 
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
+#include "report/text/remark_line.hpp"
 
 namespace zwidth::report {
 namespace {
@@ -27,6 +28,9 @@ std::vector<std::string> wall_margin_notes(const Analysis& analysis) {
   const auto& wall = analysis.wall;
   if (!wall || !wall->stable) return {};
   std::vector<std::string> margins;
+  for (const Remark& remark : analysis.remarks) {
+    if (remark.severity == Remark::Severity::warning) margins.push_back(remark_line(remark));
+  }
   if (wall->gain_margin) {
     margins.push_back(fmt::format("gain margin {:.2f} dB: unstable when {} {} times", decibels(*wall->gain_margin),
                                   wall->damping > 0.0 ? "stiffness and damping grow" : "the stiffness grows",

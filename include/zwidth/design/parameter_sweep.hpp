@@ -10,6 +10,7 @@
 #include "zwidth/progress.hpp"
 #include "zwidth/stability/any_user.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
+#include "zwidth/trust.hpp"
 
 namespace zwidth {
 
@@ -36,16 +37,19 @@ struct SweepOptions {
 /// K_CR of the device with the axes' parameters at one of their values.
 struct SweepPoint {
   StiffnessStatus status = StiffnessStatus::finite;
-  double stiffness = 0.0;                ///< K_CR; 0 when none_stable, infinity when unbounded
+  double stiffness = 0.0;                ///< K_CR; 0 when none_stable, infinity when unbounded, NaN when refused
   std::optional<Crossover> limit;        ///< absent unless finite
-  std::optional<AnyUserLimit> any_user;  ///< where asked for
+  std::optional<AnyUserLimit> any_user;  ///< where asked for, unless refused
   std::vector<Crossover> crossovers;     ///< where asked for, by rising frequency
+  Trust trust;                           ///< of the device, and of both computations
 };
 
 struct ParameterSweep {
   std::vector<SweepAxis> axes;              ///< a body's inertia by its own name, mass
   std::vector<std::vector<double>> values;  ///< of each axis
   std::vector<SweepPoint> points;           ///< the last axis fastest: [i] or [i * values[1].size() + j]
+  bool has_any_user = false;                ///< it was asked for
+  Trust trust;                              ///< the device's; doubtful where a point is, refused where all are
 };
 
 /// The first combination of values that makes no device, or an axis that cannot be: what is wrong with the sweep.

@@ -22,7 +22,8 @@ enum class RecordingFormat {
 };
 
 /// A column to read: its name in the header, a variable or struct field ("run.position") of a MAT file, the name of a
-/// UFF record, or its number from 1. Its samples are multiplied by `scale` (mm to m: 1e-3).
+/// UFF record, or its number from 1. Its samples are multiplied by `scale` (mm to m: 1e-3); where that is 1 or -1, by the
+/// unit in its name too ("x [mm]", "x_mm", "angle_deg"), and a remark says so.
 struct ColumnRequest {
   std::string name;
   double scale = 1.0;

@@ -75,7 +75,8 @@ struct RelayResult {
   std::vector<Remark> remarks;  ///< of the recording, and that the device's [wall] is left out
 };
 
-/// Simulates the experiment on the device and sets it beside its predictions. The wall of the device is left out.
+/// Simulates the experiment on the device and sets it beside its predictions. The wall of the device is left out. A
+/// device that is refused makes no trials and no predictions: `trust` says why.
 ///
 /// Throws Error (invalid_argument) with member and value where find_problem() finds one, (needs_bodies) for a start
 /// offset of a transfer function. See relay_trials() for threads and progress.

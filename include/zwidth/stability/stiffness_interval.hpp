@@ -17,9 +17,12 @@ struct StiffnessInterval {
   std::size_t draws = 0;
 };
 
+/// Whether it spans more than a factor of 2: an order of magnitude, not an answer.
+[[nodiscard]] bool is_open(const StiffnessInterval& interval);
+
 /// The 95 % interval of K_CR: `draws` devices drawn from the uncertainty (seeded; an impossible value, such as a negative
-/// damping, goes to its bound, and correlated ones with it by regression), each analysed exactly. Unlike a gradient it holds where the limiting
-/// branch switches. Quantiles of 1000 draws lie within 0.09 standard deviations of the exact ones (one sigma).
+/// damping, goes to its bound, and correlated ones with it by regression), each analysed exactly. Unlike a gradient it
+/// holds where the limiting branch switches. Quantiles of 1000 draws lie within 0.09 standard deviations of the exact ones (one sigma).
 /// The draws are the same with every standard library. Requires an uncertainty and draws >= 1; throws Error
 /// (invalid_argument) otherwise.
 [[nodiscard]] StiffnessInterval stiffness_interval(const Device& device, std::size_t draws = 1000,
