@@ -18,6 +18,10 @@ struct FrictionEvidence {
   double equivalent_damping = 0.0;  ///< what the linear fit makes of it: force <|v|> / <v^2>, N s/m
 };
 
+/// In deviations; friction of more shows. Of 116 simulated records without friction the force that find_friction() gives
+/// had a root mean square of 1.2 deviations and twice 4.1 at most.
+inline constexpr double significant_friction = 4.8;
+
 /// Looks for friction in the recorded motion.
 ///
 ///     y - y_M = sum_j dy_M/dp_j dp_j + start + constant force + sum over bodies F_c (response to -sign v_M),   in the

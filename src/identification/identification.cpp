@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "identification/fit_judgement.hpp"
+#include "identification/friction_in_time.hpp"
 #include "identification/friction_test.hpp"
 #include "identification/interval_narrowing.hpp"
 #include "identification/response_choice.hpp"
@@ -165,9 +166,7 @@ class Fitting {
       }
     }
     // Its size is no reason to pass over it: where a body rests for long, a linear device explains little of it.
-    // Of 116 simulated records without friction the force had a root mean square of 1.2 deviations and twice 4.1 at most.
-    constexpr double significant = 4.8;
-    if (!found || found->force <= significant * found->deviation) return std::nullopt;
+    if (!found || found->force <= significant_friction * found->deviation) return std::nullopt;
     DeviceParameters parameters = fit_->fit.device.parameters();
     parameters.uncertainty.reset();
     for (Body& body : parameters.bodies) {
@@ -340,6 +339,7 @@ Identification identified(const MeasuredResponse& measured, std::span<const Reco
   }
   if (judgement.is_measured) narrow_interval(result);
   judge_interval(result, judgement.device_trust);
+  judge_friction_in_time(result, recordings, options, judgement.device_trust);
   return result;
 }
 

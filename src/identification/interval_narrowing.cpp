@@ -4,7 +4,9 @@
 #include <utility>
 #include <vector>
 
+#include "identification/fit_judgement.hpp"
 #include "model/uncertainty_problem.hpp"
+#include "stability/device_draws.hpp"
 #include "zwidth/model/parameter.hpp"
 
 namespace zwidth::internal {
@@ -42,6 +44,21 @@ std::optional<Device> without_least_known(const Device& device) {
   return Device(std::move(parameters));
 }
 
+/// The share of the draws that a crossover beyond the lines limits, and below a stiffness; the response says nothing there.
+double share_limited_elsewhere(const Device& device, const std::vector<double>& lines, double below) {
+  constexpr std::size_t count = 400;
+  constexpr double beyond = 1.1;
+  DeviceDraws drawn(device, 1);
+  std::size_t limited = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const CriticalStiffness critical = limit_of(drawn.next());
+    if (!critical.limit || critical.stiffness >= below) continue;
+    const double frequency = critical.limit->frequency;
+    if (frequency > beyond * lines.back() || beyond * frequency < lines.front()) ++limited;
+  }
+  return static_cast<double>(limited) / static_cast<double>(count);
+}
+
 }  // namespace
 
 bool is_open(const Identification& result) {
@@ -58,6 +75,10 @@ void narrow_interval(Identification& result) {
     const Analysis analysis = analyze(device, {.any_user = false});
     if (!analysis.interval) return;
     if (analysis.interval->upper > widest * analysis.interval->lower) continue;
+    constexpr double safe = 0.9;
+    constexpr double many = 0.25;
+    if (share_limited_elsewhere(result.fit.device, result.fit.frequencies, safe * analysis.interval->lower) > many)
+      return;
     result.fit.device = device;
     result.analysis = analysis;
   }

@@ -8,7 +8,8 @@ namespace zwidth::internal {
 [[nodiscard]] bool is_open(const Identification& result);
 
 /// A normal distribution around a parameter that the data hardly show draws devices that contradict them. Where the
-/// response shows the critical stiffness by itself, which does not hang on such parameters, they are taken as known.
+/// response shows the critical stiffness by itself, which does not hang on such parameters, they are taken as known;
+/// unless many of those devices are limited by a softer crossover outside the lines, where the response shows nothing.
 void narrow_interval(Identification& result);
 
 }  // namespace zwidth::internal

@@ -11,6 +11,7 @@
 #include "identification/fit_judgement.hpp"
 #include "identification/shot_covariance.hpp"
 #include "identification/shot_fit.hpp"
+#include "identification/shot_search.hpp"
 #include "identification/time_domain_judgement.hpp"
 #include "identification/time_domain_start.hpp"
 #include "require_valid.hpp"
@@ -45,28 +46,6 @@ void check(std::span<const Recording> recordings, const Device& structure, const
   }
 }
 
-/// The records cut into shots of about `length` s, the first after the forces on their way at its start.
-std::vector<Shot> cut(const std::vector<MotionRecord>& records, const Device& device, double length,
-                      std::size_t least) {
-  std::vector<Shot> shots;
-  for (std::size_t r = 0; r < records.size(); ++r) {
-    const MotionRecord& record = records[r];
-    constexpr double settled = 5.0;  // time constants
-    constexpr double most_skipped = 0.1;
-    const double late = 2.0 * device.loop().delay + settled * device.parameters().actuator.time_constant;
-    const auto size = static_cast<double>(record.force.size());
-    const auto skip = static_cast<std::size_t>(std::min(most_skipped * size, late / record.sampling_period + 2.0));
-    const std::size_t left = record.force.size() - skip;
-    const auto wanted = std::max(static_cast<double>(least), length / record.sampling_period);
-    const auto count = static_cast<std::size_t>(std::max(1.0, std::floor(static_cast<double>(left) / wanted + 0.5)));
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::size_t begin = skip + left * i / count;
-      shots.push_back({r, begin, skip + left * (i + 1) / count - begin});
-    }
-  }
-  return shots;
-}
-
 /// A few of the shots of each record, spread over it.
 std::vector<Shot> some_of(const std::vector<Shot>& shots, std::size_t records, std::size_t each) {
   std::vector<Shot> some;
@@ -78,61 +57,6 @@ std::vector<Shot> some_of(const std::vector<Shot>& shots, std::size_t records, s
   }
   return some;
 }
-
-/// A fit with the noise that its residuals have.
-struct Fitted {
-  ShotFit fit;
-  std::vector<ShotNoise> noise;
-};
-
-class Search {
- public:
-  Search(const ShotModel& model, std::vector<double> steps, std::size_t order)
-      : model_(model), steps_(std::move(steps)), order_(order) {}
-
-  /// From a device, with states from the record.
-  [[nodiscard]] std::optional<Fitted> from(const Eigen::VectorXd& x, const std::vector<Shot>& shots) const {
-    const ShotFit start{x, model_.recorded_states(shots)};
-    std::vector<ShotNoise> white(steps_.size());
-    for (std::size_t r = 0; r < steps_.size(); ++r) {
-      const auto& position = model_.records()[r].position;
-      double squares = 0.0;
-      for (std::size_t k = 1; k < position.size(); ++k) squares += std::pow(position[k] - position[k - 1], 2);
-      white[r].deviation = std::sqrt(squares / static_cast<double>(position.size())) + 1e-300;
-    }
-    constexpr int few = 8;
-    constexpr double coarse = 1e-3;
-    const auto rough = fit_shots(model_, shots, white, start, x, {few, coarse});
-    if (!rough) return std::nullopt;
-    return with_noise(*rough, shots, x, {few, 1e-3});
-  }
-
-  /// Noise from the residuals, then a fit under that noise.
-  [[nodiscard]] std::optional<Fitted> with_noise(const ShotFit& start, const std::vector<Shot>& shots,
-                                                 const Eigen::VectorXd& towards, const ShotFitOptions& options) const {
-    const auto residuals = shot_residuals(model_, shots, start.x, start.states);
-    if (!residuals) return std::nullopt;
-    std::vector<ShotNoise> noise = shot_noise(shots, *residuals, steps_, order_);
-    auto fit = fit_shots(model_, shots, noise, start, towards, options);
-    if (!fit) return std::nullopt;
-    return Fitted{*std::move(fit), std::move(noise)};
-  }
-
-  /// Log of the innovations' size, over all samples: what maximum likelihood makes small.
-  [[nodiscard]] double badness(const Fitted& fitted, const std::vector<Shot>& shots) const {
-    const auto residuals = shot_residuals(model_, shots, fitted.fit.x, fitted.fit.states);
-    if (!residuals) return std::numeric_limits<double>::infinity();
-    const std::vector<ShotNoise> noise = shot_noise(shots, *residuals, steps_, order_);
-    double sum = 0.0;
-    for (const Shot& shot : shots) sum += static_cast<double>(shot.count) * std::log(noise[shot.record].deviation);
-    return sum;
-  }
-
- private:
-  const ShotModel& model_;
-  std::vector<double> steps_;
-  std::size_t order_;
-};
 
 /// Lets go what is held at its bound although the data pull it away from there; whether there is any.
 bool release(ShotFit& fit, const ShotSlopes& slopes) {
@@ -253,7 +177,7 @@ void describe_parameters(TimeDomainIdentification& result, const ShotModel& mode
 }
 
 void describe_motions(TimeDomainIdentification& result, std::span<const Recording> recordings, const ShotModel& model,
-                      const std::vector<Shot>& shots, const Fitted& fitted, const Eigen::MatrixXd& covariance) {
+                      const std::vector<Shot>& shots, const FittedShots& fitted, const Eigen::MatrixXd& covariance) {
   const auto residuals = shot_residuals(model, shots, fitted.fit.x, fitted.fit.states);
   const std::vector<double> feedback = residuals ? feedback_evidence(model, shots, fitted.noise, *residuals)
                                                  : std::vector<double>(recordings.size(), 0.0);
@@ -310,18 +234,18 @@ TimeDomainIdentification identify_in_time(std::span<const Recording> recordings,
     steps.push_back(encoder_step(records.back().position));
   }
   const ShotModel model(start.device, records, time_domain_coordinates(start, recordings), options.locked);
-  const Search search(model, steps, options.noise_order);
+  const ShotSearch search(model, steps, options.noise_order);
   const std::size_t least = std::max<std::size_t>(256, 8 * options.noise_order);
 
   // Which friction to start from: short shots, a few of them.
   constexpr double part = 0.1;
   constexpr std::size_t few = 3;
   const std::vector<Shot> short_shots =
-      some_of(cut(records, start.device, part * options.segment, least), records.size(), few);
-  std::optional<Fitted> best;
+      some_of(cut_into_shots(records, start.device, part * options.segment, least), records.size(), few);
+  std::optional<FittedShots> best;
   double least_badness = std::numeric_limits<double>::infinity();
   for (const DeviceParameters& each : starting_frictions(start, recordings)) {
-    std::optional<Fitted> found = search.from(model.position_of(each), short_shots);
+    std::optional<FittedShots> found = search.from(model.position_of(each), short_shots);
     if (!found) continue;
     const double badness = search.badness(*found, short_shots);
     if (best && badness >= least_badness) continue;
@@ -334,12 +258,12 @@ TimeDomainIdentification identify_in_time(std::span<const Recording> recordings,
   }
   done(0.5);
 
-  const std::vector<Shot> shots = cut(records, start.device, options.segment, least);
+  const std::vector<Shot> shots = cut_into_shots(records, start.device, options.segment, least);
   const Eigen::VectorXd towards = best->fit.x;
   std::optional<ShotFit> whole = fit_shots(model, shots, best->noise, {towards, model.recorded_states(shots)}, towards,
                                            {.most_iterations = 20, .tolerance = 1e-6});
   std::optional<ShotCovariance> known;
-  std::optional<Fitted> fitted;
+  std::optional<FittedShots> fitted;
   constexpr int most_rounds = 5;
   if (whole) take_short_lag_for_delay(model, *whole);
   for (int round = 0; whole && round < most_rounds; ++round) {

@@ -60,6 +60,35 @@ TEST(IdentificationProperty, FrictionThatShowsIsNeverSound) {
   }
 }
 
+// Friction that no small disturbance of the linear fit's motion shows, since the device drifts until friction stops it, or
+// has modes above the band: 39, 18, 7 and 53 % too high at the interval's lower end, called sound.
+TEST(IdentificationProperty, FrictionThatTheLinearFitHidesIsFoundInTime) {
+  for (const std::uint64_t seed : {1000413U, 910134U, 1000307U, 1000868U}) {
+    const auto made = test::random_recording(seed);
+    ASSERT_TRUE(made && made->has_friction);
+    const Identification found = identified(*made);
+    EXPECT_FALSE(found.trust.sound()) << "seed " << seed;
+    EXPECT_FALSE(found.analysis.trust.sound()) << "seed " << seed;
+    ASSERT_TRUE(found.friction) << "seed " << seed;
+    double friction = 0.0;
+    for (const Body& body : made->truth.bodies) friction += body.coulomb;
+    EXPECT_NEAR(found.friction->force, friction, 0.1 * friction) << "seed " << seed;
+    EXPECT_NEAR(found.friction->stiffness_without, made->stiffness, 0.02 * made->stiffness) << "seed " << seed;
+  }
+}
+
+// A body too few, excited to 8.5 Hz: the response shows 1284 N/m at 2.8 Hz, but nothing of the damping of a mode near
+// 31 Hz, where half of the devices that the data allow are limited; the true one is, at 633 N/m. Was sound, with
+// [1280, 1288].
+TEST(IdentificationProperty, ASofterCrossoverAboveTheBandIsNotNarrowedAway) {
+  const auto made = test::random_recording(1000299);
+  ASSERT_TRUE(made && !made->right_structure);
+  const Identification found = identified(*made);
+  EXPECT_FALSE(found.trust.sound());
+  ASSERT_TRUE(found.analysis.interval);
+  EXPECT_LE(found.analysis.interval->lower, made->stiffness);
+}
+
 // Residuals of 3.6 and 1.5 times the noise: 25 and 6 % too high, called sound.
 TEST(IdentificationProperty, ResidualsBeyondTheNoiseAreNeverSound) {
   for (const std::uint64_t seed : {500431U, 630008U}) {

@@ -31,6 +31,9 @@ struct IdentifyOptions {
     from_data,
     as_given
   } loop_delay = LoopDelay::by_free;
+  /// Whether friction is looked for in the rest of the linear fit only (brief), or, where the answer would be sound, by a
+  /// fit in time too (thorough), which takes about as long as all else.
+  enum class FrictionSearch { thorough, brief } friction_search = FrictionSearch::thorough;
 };
 
 /// A structure for which there is no device file: bodies in a row, each linked to the next, the first actuated and
@@ -79,7 +82,7 @@ struct Identification {
 /// frees delay and lag where the record shows them; and judges.
 ///
 /// Sound: the excited band holds the limiting crossover, the structure explains the response, the record shows no other
-/// delay, every number that the limit hangs on is known or determined, no friction shows, and the response itself shows no softer crossover. Doubtful where
+/// delay, every number that the limit hangs on is known or determined, no friction shows nor could pass for the damping, and the response itself shows no softer crossover. Doubtful where
 /// one of these fails: where the crossover lies above the band, delay and lag enter the uncertainty whether or not they
 /// were free. Refused: nothing is determined, half of the response is unexplained, or the sign of the motion is turned.
 /// Requires two channels (force, motion), and what fit_parameters() does. Throws Error (invalid_argument) where

@@ -1,0 +1,143 @@
+#include "identification/friction_in_time.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "identification/fit_judgement.hpp"
+#include "identification/friction_test.hpp"
+#include "identification/shot_covariance.hpp"
+#include "identification/shot_search.hpp"
+#include "identification/time_domain_start.hpp"
+#include "simulation/continuous_motion.hpp"
+#include "zwidth/error.hpp"
+#include "zwidth/quantity.hpp"
+
+namespace zwidth::internal {
+namespace {
+
+const Body* heaviest(const Device& device, const std::vector<std::string>& locked) {
+  const Body* found = nullptr;
+  for (const Body& body : device.bodies()) {
+    if (std::ranges::count(locked, body.name) > 0) continue;
+    if (!found || body.mass > found->mass) found = &body;
+  }
+  return found;
+}
+
+/// The first shots of a record, as many as are played in a moment; at least one.
+void keep_what_is_quick(std::vector<Shot>& shots, const Device& device, double period) {
+  constexpr double most_parts = 60'000.0;
+  const double parts = std::max(1.0, ContinuousMotion(device, {}, {}).rate() * period);
+  double played = 0.0;
+  std::size_t kept = 0;
+  while (kept < shots.size() && (kept == 0 || played < most_parts)) {
+    played += parts * static_cast<double>(shots[kept++].count);
+  }
+  shots.resize(kept);
+}
+
+/// K_CR without the friction.
+double stiffness_beside(DeviceParameters parameters) {
+  for (Body& body : parameters.bodies) body.coulomb = 0.0;
+  return limit_of(Device(std::move(parameters))).stiffness;
+}
+
+/// Friction of the heaviest body beside all numbers of the fit; nothing where no such motion can be followed.
+std::optional<ShownFriction> friction_beside(const ParameterFit& fit, const std::vector<std::string>& locked,
+                                             const Recording& recording) {
+  const std::span one(&recording, 1);
+  const MotionRecord record{recording.channels[0].samples, recording.channels[1].samples, recording.sampling_period};
+  constexpr std::size_t shortest = 512;
+  const Body* body = heaviest(fit.device, locked);
+  if (record.force.size() < shortest || !body) return std::nullopt;
+  DeviceParameters parameters = fit.device.parameters();
+  parameters.uncertainty.reset();
+  TimeDomainStart start{.device = Device(std::move(parameters)), .free = {}};
+  for (const ParameterEstimate& each : fit.estimates) start.free.push_back(each.key);
+  start.free.push_back("body." + body->name + ".coulomb");
+
+  const ShotModel model(start.device, {record}, time_domain_coordinates(start, one), locked);
+  constexpr std::size_t noise_terms = 24;
+  const ShotSearch search(model, {encoder_step(record.position)}, noise_terms);
+  constexpr double length = 5.0;  // s
+  std::vector<Shot> shots = cut_into_shots(model.records(), start.device, length, shortest);
+  keep_what_is_quick(shots, device_in_experiment(start.device, locked, record.sampling_period),
+                     record.sampling_period);
+  std::optional<FittedShots> best;
+  double least_badness = std::numeric_limits<double>::infinity();
+  for (const DeviceParameters& each : starting_frictions(start, one)) {
+    std::optional<FittedShots> found = search.from(model.position_of(each), shots);
+    if (!found) continue;
+    const double badness = search.badness(*found, shots);
+    if (best && badness >= least_badness) continue;
+    least_badness = badness;
+    best = std::move(found);
+  }
+  if (!best) return std::nullopt;
+  const Eigen::VectorXd towards = best->fit.x;
+  best = search.with_noise(best->fit, shots, towards, {.most_iterations = 12, .tolerance = 1e-5});
+  if (!best) return std::nullopt;
+  const auto slopes = shot_slopes(model, shots, best->noise, best->fit.x, best->fit.states);
+  if (!slopes) return std::nullopt;
+  const Eigen::VectorXd& x = best->fit.x;
+  const ShotCovariance known = shot_covariance(*slopes, std::vector<bool>(static_cast<std::size_t>(x.size()), false));
+  const std::size_t last = start.free.size() - 1;
+  const auto at = static_cast<Eigen::Index>(last);
+  if (!(known.covariance(at, at) > 0.0)) return std::nullopt;
+  const double unit = model.coordinates()[last].slope(x(at));
+  return ShownFriction{body->name, x(at) * unit, std::sqrt(known.covariance(at, at)) * unit,
+                       stiffness_beside(model.parameters_at(x))};
+}
+
+/// Of all recordings that beside which the critical stiffness is lowest.
+std::optional<ShownFriction> lowering_friction(const Identification& result, std::span<const Recording> recordings,
+                                               const std::vector<std::string>& locked) {
+  std::optional<ShownFriction> lowest;
+  for (const Recording& each : recordings) {
+    try {
+      auto found = friction_beside(result.fit, locked, each);
+      if (found && (!lowest || found->stiffness_without < lowest->stiffness_without)) lowest = std::move(found);
+    } catch (const Error&) {  // no device has such numbers
+      continue;
+    }
+  }
+  return lowest;
+}
+
+}  // namespace
+
+void judge_friction_in_time(Identification& result, std::span<const Recording> recordings,
+                            const IdentifyOptions& options, Trust device_trust) {
+  if (!result.trust.sound() || !result.analysis.interval) return;
+  if (options.friction_search == IdentifyOptions::FrictionSearch::brief) return;
+  if (options.response.output != OutputQuantity::position) return;
+  const std::optional<ShownFriction> friction = lowering_friction(result, recordings, options.fit.locked);
+  if (!friction) return;
+  constexpr double notable = 0.9;
+  const bool shows = friction->force > significant_friction * friction->deviation;
+  if (!shows && !(friction->stiffness_without < notable * result.analysis.interval->lower)) return;
+  const Motion motion = result.fit.device.parameters().motion;
+  const std::string what =
+      fmt::format("{} dry friction of about {:.3g} {} on {}",
+                  shows ? "the record shows" : "the record does not tell damping from", friction->force,
+                  motion == Motion::rotary ? "N m" : "N", friction->body);
+  const std::string meaning = fmt::format("beside it the critical stiffness is about {:.3g} {}",
+                                          friction->stiffness_without, units_of(motion).stiffness);
+  result.trust.doubt(what + ": " + meaning);
+  result.analysis.trust.inherit(result.trust);
+  result.remarks.push_back(
+      {Remark::Severity::warning, what, meaning,
+       "fit the friction too, in time; or excite more strongly: its share falls with the amplitude"});
+  if (shows) result.friction = friction;
+  device_trust.inherit(result.trust);
+  result.fit.device = with_trust(result.fit.device, device_trust);
+}
+
+}  // namespace zwidth::internal

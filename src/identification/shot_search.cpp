@@ -1,0 +1,65 @@
+#include "identification/shot_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace zwidth::internal {
+
+std::vector<Shot> cut_into_shots(const std::vector<MotionRecord>& records, const Device& device, double length,
+                      std::size_t least) {
+  std::vector<Shot> shots;
+  for (std::size_t r = 0; r < records.size(); ++r) {
+    const MotionRecord& record = records[r];
+    constexpr double settled = 5.0;  // time constants
+    constexpr double most_skipped = 0.1;
+    const double late = 2.0 * device.loop().delay + settled * device.parameters().actuator.time_constant;
+    const auto size = static_cast<double>(record.force.size());
+    const auto skip = static_cast<std::size_t>(std::min(most_skipped * size, late / record.sampling_period + 2.0));
+    const std::size_t left = record.force.size() - skip;
+    const auto wanted = std::max(static_cast<double>(least), length / record.sampling_period);
+    const auto count = static_cast<std::size_t>(std::max(1.0, std::floor(static_cast<double>(left) / wanted + 0.5)));
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t begin = skip + left * i / count;
+      shots.push_back({r, begin, skip + left * (i + 1) / count - begin});
+    }
+  }
+  return shots;
+}
+
+std::optional<FittedShots> ShotSearch::from(const Eigen::VectorXd& x, const std::vector<Shot>& shots) const {
+  const ShotFit start{x, model_.recorded_states(shots)};
+  std::vector<ShotNoise> white(steps_.size());
+  for (std::size_t r = 0; r < steps_.size(); ++r) {
+    const auto& position = model_.records()[r].position;
+    double squares = 0.0;
+    for (std::size_t k = 1; k < position.size(); ++k) squares += std::pow(position[k] - position[k - 1], 2);
+    white[r].deviation = std::sqrt(squares / static_cast<double>(position.size())) + 1e-300;
+  }
+  constexpr int few = 8;
+  constexpr double coarse = 1e-3;
+  const auto rough = fit_shots(model_, shots, white, start, x, {few, coarse});
+  if (!rough) return std::nullopt;
+  return with_noise(*rough, shots, x, {few, 1e-3});
+}
+
+std::optional<FittedShots> ShotSearch::with_noise(const ShotFit& start, const std::vector<Shot>& shots,
+                                               const Eigen::VectorXd& towards, const ShotFitOptions& options) const {
+  const auto residuals = shot_residuals(model_, shots, start.x, start.states);
+  if (!residuals) return std::nullopt;
+  std::vector<ShotNoise> noise = shot_noise(shots, *residuals, steps_, order_);
+  auto fit = fit_shots(model_, shots, noise, start, towards, options);
+  if (!fit) return std::nullopt;
+  return FittedShots{*std::move(fit), std::move(noise)};
+}
+
+double ShotSearch::badness(const FittedShots& fitted, const std::vector<Shot>& shots) const {
+  const auto residuals = shot_residuals(model_, shots, fitted.fit.x, fitted.fit.states);
+  if (!residuals) return std::numeric_limits<double>::infinity();
+  const std::vector<ShotNoise> noise = shot_noise(shots, *residuals, steps_, order_);
+  double sum = 0.0;
+  for (const Shot& shot : shots) sum += static_cast<double>(shot.count) * std::log(noise[shot.record].deviation);
+  return sum;
+}
+
+}  // namespace zwidth::internal

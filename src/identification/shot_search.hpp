@@ -1,0 +1,50 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "identification/shot_fit.hpp"
+#include "identification/shot_model.hpp"
+#include "zwidth/model/device.hpp"
+
+namespace zwidth::internal {
+
+/// The records cut into shots of about `length` s and at least `least` samples, the first after the forces on their way
+/// at its start.
+[[nodiscard]] std::vector<Shot> cut_into_shots(const std::vector<MotionRecord>& records, const Device& device,
+                                               double length, std::size_t least);
+
+/// A fit with the noise that its residuals have.
+struct FittedShots {
+  ShotFit fit;
+  std::vector<ShotNoise> noise;
+};
+
+/// Looks for the parameters of a model, the noise unknown beforehand.
+class ShotSearch {
+ public:
+  /// `steps`: of each record's encoder; `order`: of the autoregression that describes the noise.
+  ShotSearch(const ShotModel& model, std::vector<double> steps, std::size_t order)
+      : model_(model), steps_(std::move(steps)), order_(order) {}
+
+  /// From a device, with states from the record: as if the noise were white, then under that of the residuals.
+  [[nodiscard]] std::optional<FittedShots> from(const Eigen::VectorXd& x, const std::vector<Shot>& shots) const;
+
+  /// Noise from the residuals, then a fit under that noise.
+  [[nodiscard]] std::optional<FittedShots> with_noise(const ShotFit& start, const std::vector<Shot>& shots,
+                                                      const Eigen::VectorXd& towards,
+                                                      const ShotFitOptions& options) const;
+
+  /// Log of the innovations' size, over all samples: what maximum likelihood makes small.
+  [[nodiscard]] double badness(const FittedShots& fitted, const std::vector<Shot>& shots) const;
+
+ private:
+  const ShotModel& model_;
+  std::vector<double> steps_;
+  std::size_t order_;
+};
+
+}  // namespace zwidth::internal
