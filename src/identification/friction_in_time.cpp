@@ -31,18 +31,6 @@ const Body* heaviest(const Device& device, const std::vector<std::string>& locke
   return found;
 }
 
-/// The first shots of a record, as many as are played in a moment; at least one.
-void keep_what_is_quick(std::vector<Shot>& shots, const Device& device, double period) {
-  constexpr double most_parts = 60'000.0;
-  const double parts = std::max(1.0, ContinuousMotion(device, {}, {}).rate() * period);
-  double played = 0.0;
-  std::size_t kept = 0;
-  while (kept < shots.size() && (kept == 0 || played < most_parts)) {
-    played += parts * static_cast<double>(shots[kept++].count);
-  }
-  shots.resize(kept);
-}
-
 /// K_CR without the friction.
 double stiffness_beside(DeviceParameters parameters) {
   for (Body& body : parameters.bodies) body.coulomb = 0.0;
@@ -63,13 +51,23 @@ std::optional<ShownFriction> friction_beside(const ParameterFit& fit, const std:
   for (const ParameterEstimate& each : fit.estimates) start.free.push_back(each.key);
   start.free.push_back("body." + body->name + ".coulomb");
 
-  const ShotModel model(start.device, {record}, time_domain_coordinates(start, one), locked);
+  // Of what takes long to play, the first part: the steps through it times what is followed in each.
+  const Device device = device_in_experiment(start.device, locked, record.sampling_period);
+  const double parts = ContinuousMotion(device, {}, {}).rate() * record.sampling_period;
+  const auto states = static_cast<double>(2 * device.bodies().size());
+  const double cost = std::max(1.0, parts) * states * (static_cast<double>(start.free.size()) + 1.0 + states);
+  constexpr double most_cost = 2.5e6;
+  const double affordable = std::max(static_cast<double>(shortest), most_cost / cost);
+  constexpr double stiffer = 2.0;  // a device that the search comes to
+  const ShotModel model(start.device, {record}, time_domain_coordinates(start, one), locked, stiffer * parts + 1.0);
   constexpr std::size_t noise_terms = 24;
   const ShotSearch search(model, {encoder_step(record.position)}, noise_terms);
   constexpr double length = 5.0;  // s
-  std::vector<Shot> shots = cut_into_shots(model.records(), start.device, length, shortest);
-  keep_what_is_quick(shots, device_in_experiment(start.device, locked, record.sampling_period),
-                     record.sampling_period);
+  std::vector<Shot> shots = cut_into_shots(model.records(), start.device,
+                                           std::min(length, 0.5 * affordable * record.sampling_period), shortest);
+  const double share = affordable / static_cast<double>(record.force.size());
+  const double kept = std::max(1.0, std::round(share * static_cast<double>(shots.size())));
+  if (kept < static_cast<double>(shots.size())) shots.resize(static_cast<std::size_t>(kept));
   std::optional<FittedShots> best;
   double least_badness = std::numeric_limits<double>::infinity();
   for (const DeviceParameters& each : starting_frictions(start, one)) {
@@ -124,10 +122,9 @@ void judge_friction_in_time(Identification& result, std::span<const Recording> r
   const bool shows = friction->force > significant_friction * friction->deviation;
   if (!shows && !(friction->stiffness_without < notable * result.analysis.interval->lower)) return;
   const Motion motion = result.fit.device.parameters().motion;
-  const std::string what =
-      fmt::format("{} dry friction of about {:.3g} {} on {}",
-                  shows ? "the record shows" : "the record does not tell damping from", friction->force,
-                  motion == Motion::rotary ? "N m" : "N", friction->body);
+  const std::string what = fmt::format("{} dry friction of about {:.3g} {} on {}",
+                                       shows ? "the record shows" : "the record does not tell damping from",
+                                       friction->force, motion == Motion::rotary ? "N m" : "N", friction->body);
   const std::string meaning = fmt::format("beside it the critical stiffness is about {:.3g} {}",
                                           friction->stiffness_without, units_of(motion).stiffness);
   result.trust.doubt(what + ": " + meaning);

@@ -25,8 +25,6 @@ namespace {
 constexpr const char* delay_key = "loop.delay";
 constexpr const char* lag_key = "actuator.time_constant";
 
-/// Stick-slip instants are met in parts of 1/rate: more of them per period would take for ever.
-constexpr double most_parts_per_period = 60.0;
 /// Sampling periods.
 constexpr double shortest_lag = 0.05;
 
@@ -106,9 +104,8 @@ class Player {
   Player& operator=(Player&&) = delete;
   ~Player() = default;
 
-  [[nodiscard]] bool can_be_followed() const {
-    return motion_.rate() * record_.sampling_period <= most_parts_per_period;
-  }
+  /// Stick-slip instants are met in parts of 1/rate: too many of them per period would take for ever.
+  [[nodiscard]] double parts_per_period() const { return motion_.rate() * record_.sampling_period; }
 
   /// From then on play() finds slopes too: by the parameters, the constant force, and the shot's state.
   void follow_slopes(std::vector<PlayedParameter> parameters) {
@@ -235,11 +232,12 @@ std::vector<std::size_t> batches(const std::vector<Shot>& shots) {
 }  // namespace
 
 ShotModel::ShotModel(Device structure, std::vector<MotionRecord> records, std::vector<Coordinate> coordinates,
-                     std::vector<std::string> locked)
+                     std::vector<std::string> locked, double most_parts)
     : structure_(std::move(structure)),
       records_(std::move(records)),
       coordinates_(std::move(coordinates)),
-      locked_(std::move(locked)) {
+      locked_(std::move(locked)),
+      most_parts_(most_parts) {
   for (const MotionRecord& record : records_) {
     const double change = rms_change(record.position);
     constexpr double typical_samples = 10.0;
@@ -356,7 +354,7 @@ std::optional<std::vector<ShotMotion>> ShotModel::play(const Eigen::VectorXd& x,
       const Device device = device_in(r, parameters);
       const double constant = x(static_cast<Eigen::Index>(coordinates_.size() + r)) * units_[r].force;
       Player player(device, records_[r], units_[r], constant);
-      if (!player.can_be_followed()) return;
+      if (player.parts_per_period() > most_parts_) return;
       if (slopes == Slopes::exact) {
         std::vector<PlayedParameter> all;
         for (std::size_t i = 0; i < coordinates_.size(); ++i) {

@@ -51,8 +51,9 @@ struct PlayedParameter;
 /// the sensed body, positions of the others less that one, velocities of all, each in its unit.
 class ShotModel {
  public:
+  /// A device that takes more parts per sampling period to follow than `most_parts` is not played.
   ShotModel(Device structure, std::vector<MotionRecord> records, std::vector<Coordinate> coordinates,
-            std::vector<std::string> locked);
+            std::vector<std::string> locked, double most_parts = 60.0);
 
   [[nodiscard]] const std::vector<Coordinate>& coordinates() const noexcept { return coordinates_; }
   [[nodiscard]] const std::vector<MotionRecord>& records() const noexcept { return records_; }
@@ -91,6 +92,7 @@ class ShotModel {
   std::vector<MotionRecord> records_;
   std::vector<Coordinate> coordinates_;
   std::vector<std::string> locked_;
+  double most_parts_;             ///< per sampling period
   std::vector<ShotUnits> units_;  ///< by record
   std::size_t bodies_ = 0;
 };

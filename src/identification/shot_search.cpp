@@ -7,7 +7,7 @@
 namespace zwidth::internal {
 
 std::vector<Shot> cut_into_shots(const std::vector<MotionRecord>& records, const Device& device, double length,
-                      std::size_t least) {
+                                 std::size_t least) {
   std::vector<Shot> shots;
   for (std::size_t r = 0; r < records.size(); ++r) {
     const MotionRecord& record = records[r];
@@ -44,7 +44,7 @@ std::optional<FittedShots> ShotSearch::from(const Eigen::VectorXd& x, const std:
 }
 
 std::optional<FittedShots> ShotSearch::with_noise(const ShotFit& start, const std::vector<Shot>& shots,
-                                               const Eigen::VectorXd& towards, const ShotFitOptions& options) const {
+                                                  const Eigen::VectorXd& towards, const ShotFitOptions& options) const {
   const auto residuals = shot_residuals(model_, shots, start.x, start.states);
   if (!residuals) return std::nullopt;
   std::vector<ShotNoise> noise = shot_noise(shots, *residuals, steps_, order_);
