@@ -20,6 +20,7 @@ const mostTurns = 2
 let turns = mostTurns
 let lastChange = 0
 const dragPause = 200 // ms
+const noticed = 120 // ms
 const waiting: (() => void)[] = []
 async function turn(): Promise<void> {
   const most = performance.now() - lastChange < dragPause ? 1 : mostTurns
@@ -41,6 +42,9 @@ export class Answer<T> {
   problem = $state.raw<Problem | null>(null)
   /** The document is not yet that of the newest question. */
   late = $state(false)
+  /** It has been late for so long that people see it; a panel says so. */
+  lags = $state(false)
+  private lagTimer: ReturnType<typeof setTimeout> | undefined
   /** What `document` answers. */
   question = $state.raw<Question | null>(null)
 
@@ -60,6 +64,13 @@ export class Answer<T> {
     if (inView && this.late) this.start()
   }
 
+  private setLate(late: boolean): void {
+    if (late === this.late) return
+    this.late = late
+    this.lags = false
+    clearTimeout(this.lagTimer)
+    if (late) this.lagTimer = setTimeout(() => (this.lags = true), noticed)
+  }
   private start(): void {
     clearTimeout(this.timer)
     if (!this.running) void this.run()
@@ -80,11 +91,11 @@ export class Answer<T> {
       this.problem = null
       this.question = null
       this.shownText = ''
-      this.late = false
+      this.setLate(false)
     } else if (text === this.shownText) {
-      this.late = false
+      this.setLate(false)
     } else {
-      this.late = true
+      this.setLate(true)
       // The picture of another device is no picture of this one, however shortly.
       if (this.question && deviceKey(this.question.toml) !== deviceKey(question.toml)) {
         this.document = null
@@ -125,7 +136,7 @@ export class Answer<T> {
     this.document = document
     this.problem = problem
     this.question = question
-    this.late = text !== this.wantedText
+    this.setLate(text !== this.wantedText)
   }
 }
 

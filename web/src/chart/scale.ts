@@ -29,8 +29,8 @@ export function roundEnd(value: number, above: boolean): number {
   return (above ? steps.find((each) => each >= value * 0.999999) : steps.findLast((each) => each <= value * 1.000001)) ?? value
 }
 
-/** The ends of an axis that shows all values: whole decades' parts on a logarithm, round numbers else. */
-export function extent(values: Iterable<number | null | undefined>, log: boolean): [number, number] {
+/** The least and the greatest of the values that an axis can show; empty where there is none. */
+export function ends(values: Iterable<number | null | undefined>, log: boolean): [] | [number, number] {
   let low = Infinity
   let high = -Infinity
   for (const value of values) {
@@ -38,7 +38,13 @@ export function extent(values: Iterable<number | null | undefined>, log: boolean
     if (value < low) low = value
     if (value > high) high = value
   }
-  if (low > high) return log ? [1, 10] : [0, 1]
+  return low > high ? [] : [low, high]
+}
+
+/** The ends of an axis that shows all values: whole decades' parts on a logarithm, round numbers else. */
+export function extent(values: Iterable<number | null | undefined>, log: boolean): [number, number] {
+  let [low, high] = ends(values, log)
+  if (low === undefined || high === undefined) return log ? [1, 10] : [0, 1]
   if (log) {
     return [low === high ? low / 3 : low, low === high ? high * 3 : high]
   }

@@ -3,26 +3,16 @@
 import { examples } from '../api/shared.svelte'
 import type { Options } from '../api/answer.svelte'
 import { groupsOf } from './keys'
-import { scan, type Entry, type Scan } from './toml'
+import { scan, type Entry } from './toml'
 import { workbench } from './workbench.svelte'
 
 const quoted = (text: string): string => (/^[\w./:=,+-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`)
-
-const known = new Map<string, Scan>()
-function scanned(text: string): Scan {
-  let found = known.get(text)
-  if (!found) {
-    if (known.size > 50) known.clear()
-    known.set(text, (found = scan(text)))
-  }
-  return found
-}
 
 const rawOf = (text: string, entry: Entry): string => text.slice(entry.start, entry.end)
 
 /** What --set makes of an example to get this text; null where it cannot. */
 export function setsFrom(example: string, text: string): string[] | null {
-  const [from, to] = [scanned(example), scanned(text)]
+  const [from, to] = [scan(example), scan(text)]
   if (!from.complete || !to.complete) return null
   const isDefault = (key: string, value: unknown): boolean => value === 0 && key !== 'wall.stiffness'
   const keyOf = new Map(groupsOf(to).flatMap((group) => group.rows.map((row) => [row.path.join('\n'), row.key])))
@@ -40,11 +30,11 @@ export function setsFrom(example: string, text: string): string[] | null {
   return before.size > 0 ? null : sets
 }
 
-function source(): { file: string; sets: string[] } | null {
+function source(text: string): { file: string; sets: string[] } | null {
   let best: { file: string; sets: string[] } | null = null
   for (const example of examples.list) {
     if (example.opened) continue // where it lies only its user knows
-    const sets = setsFrom(example.device_toml, workbench.toml)
+    const sets = setsFrom(example.device_toml, text)
     if (sets && (!best || sets.length < best.sets.length)) best = { file: `devices/${example.file}`, sets }
   }
   return best
@@ -59,12 +49,12 @@ const optionsText = (options: Options): string[] =>
   })
 
 /** The exact line: from an example with --set, else with the whole file behind it. */
-export function commandLine(command: string, options: Options = {}): string {
+export function commandLine(command: string, options: Options = {}, text = workbench.toml): string {
   const words = command === 'recommend' ? ['design'] : [command]
   const all = command === 'recommend' ? { recommend: true, ...options } : options
-  const from = source()
+  const from = source(text)
   if (from) return ['zwidth', ...words, quoted(from.file), ...from.sets.flatMap((each) => ['--set', quoted(each)]), ...optionsText(all)].join(' ')
-  return `${['zwidth', ...words, '-', ...optionsText(all)].join(' ')} <<'END_OF_DEVICE'\n${workbench.toml.replace(/\n*$/, '\n')}END_OF_DEVICE`
+  return `${['zwidth', ...words, '-', ...optionsText(all)].join(' ')} <<'END_OF_DEVICE'\n${text.replace(/\n*$/, '\n')}END_OF_DEVICE`
 }
 
 export function cppCode(): string {

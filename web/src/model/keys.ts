@@ -1,7 +1,6 @@
 // The numbers of a device file: their names, units and a word on each. What is allowed, the server says.
 
-import type { Entry, Scan, TomlValue } from './toml'
-import { find, scan } from './toml'
+import { find, samePath, scan, type Scan, type TomlValue } from './toml'
 
 export interface Field {
   key: string
@@ -53,6 +52,8 @@ const operator: Field[] = [
   { ...damping, about: 'Damping of the user’s hand.', first: [1, 1e-3] },
   { ...stiffness, about: 'Stiffness of the user’s hand.', first: [100, 0.1] },
 ]
+// What a mass is called in a rotary device.
+const inertias = new Map([...body, ...operator].filter((each) => each.key === 'mass').map((each): [Field, Field] => [each, { ...each, label: 'inertia' }]))
 
 export interface Row {
   key: string // as --set and the documents name it: body.motor.mass
@@ -60,7 +61,7 @@ export interface Row {
   field: Field
   unit: string
   group: string
-  entry: Entry | undefined // absent: the default of the file
+  value: TomlValue | undefined // absent: the default of the file
 }
 
 export interface Group {
@@ -105,18 +106,29 @@ export function shapeOf(scanned: Scan): Shape {
   }
 }
 
-/** Every number of the file and those that may be added, in groups as the schematic shows them. */
-export function groupsOf(scanned: Scan): Group[] {
+/** The old one where it is the same, so that what shows it is not drawn again. */
+function sharing(group: Group, before: Group[]): Group {
+  const old = before.find((each) => each.id === group.id)
+  if (!old) return group
+  const rows = group.rows.map((row, i) => {
+    const was = old.rows[i]
+    return was && was.key === row.key && was.value === row.value && was.field === row.field && was.unit === row.unit && samePath(was.path, row.path) ? was : row
+  })
+  return old.title === group.title && old.rows.length === rows.length && rows.every((row, i) => row === old.rows[i]) ? old : { ...group, rows }
+}
+
+/** Every number of the file and those that may be added, in groups as the schematic shows them; what is as `before` is the same object. */
+export function groupsOf(scanned: Scan, before: Group[] = []): Group[] {
   const side = isRotary(scanned) ? 1 : 0
   const shape = shapeOf(scanned)
   const group = (id: string, title: string, path: string[], fields: Field[]): Group => ({
     id,
     title,
-    rows: fields.map((field): Row => {
+    rows: fields.map((given): Row => {
+      const field = (side === 1 && inertias.get(given)) || given
       const inertia = field.key === 'mass' ? find(scanned, [...path, 'inertia']) : undefined
       const own = inertia?.path ?? [...path, field.key]
-      const named = side === 1 && field.key === 'mass' ? { ...field, label: 'inertia' } : field
-      return { key: `${id}.${field.key}`, path: own, field: named, unit: field.unit[side], group: id, entry: find(scanned, own) }
+      return { key: `${id}.${field.key}`, path: own, field, unit: field.unit[side], group: id, value: find(scanned, own)?.value }
     }),
   })
   const groups = [
@@ -127,12 +139,13 @@ export function groupsOf(scanned: Scan): Group[] {
     ...Array.from({ length: countOf(scanned, 'wall', 'filter') }, (_, i) => {
       const type = textAt(scanned, 'wall', 'filter', String(i), 'type') ?? ''
       const all = group(`wall.filter.${i}`, `Wall filter ${i + 1}: ${type.replace('_', ' ')}`, ['wall', 'filter', String(i)], filter)
-      return { ...all, rows: all.rows.filter((row) => row.entry !== undefined) }
+      return { ...all, rows: all.rows.filter((row) => row.value !== undefined) }
     }),
     group('actuator', 'Motor', ['actuator'], actuator),
     group('sensor', 'Encoder', ['sensor'], sensor),
   ]
-  return shape.hasTransferFunction ? groups : [...groups, group('operator', 'User who holds it', ['operator'], operator)]
+  if (!shape.hasTransferFunction) groups.push(group('operator', 'User who holds it', ['operator'], operator))
+  return groups.map((each) => sharing(each, before))
 }
 
 const devices = new Map<string, string>()
@@ -149,4 +162,5 @@ export function deviceKey(toml = ''): string {
 }
 
 /** link.stiffness and link.0.stiffness are one. */
-export const sameKey = (a: string, b: string): boolean => a.replace(/^link\.(?=[a-z])/, 'link.0.') === b.replace(/^link\.(?=[a-z])/, 'link.0.')
+export const fullKey = (key: string): string => key.replace(/^link\.(?=[a-z])/, 'link.0.')
+export const sameKey = (a: string, b: string): boolean => a === b || fullKey(a) === fullKey(b)

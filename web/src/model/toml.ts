@@ -191,7 +191,14 @@ class Reader {
   }
 }
 
-export const scan = (text: string): Scan => new Reader(text).run()
+const known = new Map<string, Scan>() // the least recently used first
+export function scan(text: string): Scan {
+  const found = known.get(text) ?? new Reader(text).run()
+  known.delete(text)
+  known.set(text, found)
+  if (known.size > 60) known.delete(known.keys().next().value!)
+  return found
+}
 
 export const find = (scanned: Scan, path: string[]): Entry | undefined => scanned.entries.find((each) => samePath(each.path, path))
 
@@ -215,7 +222,7 @@ export function set(text: string, path: string[], raw: string): string {
 /** The text without its comments and empty lines; every value is the same. */
 export function withoutComments(text: string): string {
   let out = text
-  for (const comment of scan(text).comments.reverse()) {
+  for (const comment of [...scan(text).comments].reverse()) {
     out = out.slice(0, comment.start) + out.slice(comment.end)
   }
   return out.replace(/[ \t]+$/gm, '').replace(/\n{2,}/g, '\n').replace(/^\n/, '')

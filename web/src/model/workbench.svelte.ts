@@ -3,7 +3,7 @@
 import { decode, encode } from './address'
 import { written } from './decimal'
 import { History } from './history'
-import { groupsOf, isRotary, sameKey, shapeOf, type Group, type Row } from './keys'
+import { fullKey, groupsOf, isRotary, sameKey, shapeOf, type Group, type Row } from './keys'
 import { empty, type Settings, type Snapshot } from './snapshot'
 import { scan, set } from './toml'
 
@@ -16,28 +16,28 @@ class Workbench {
   selected = $state('')
   /** Of the address: what had to be left out. */
   note = $state('')
+  /** The text as it was before the drag that is under way: for what nobody reads meanwhile. */
+  restedToml = $state('')
+  private restTimer: ReturnType<typeof setTimeout> | undefined
   private addressTimer: ReturnType<typeof setTimeout> | undefined
 
-  scanned = $derived(scan(this.state.toml))
+  toml = $derived(this.state.toml)
+  settings: Settings = $derived(this.state.settings)
   pins = $derived(this.state.pins)
-  groups: Group[] = $derived(groupsOf(this.scanned))
+  scanned = $derived(scan(this.toml))
+  private before: Group[] = []
+  groups: Group[] = $derived((this.before = groupsOf(this.scanned, this.before)))
+  private rows = $derived(new Map(this.groups.flatMap((group) => group.rows.map((row) => [row.key, row]))))
   shape = $derived(shapeOf(this.scanned))
   rotary = $derived(isRotary(this.scanned))
   /** Who holds the device where no other user is named: nobody, or the [operator] of the file. */
   alone = $derived(
-    this.groups.some((group) => group.id === 'operator' && group.rows.some((row) => row.entry !== undefined && row.entry.value !== 0)) ? 'with the file’s user' : 'alone',
+    this.groups.some((group) => group.id === 'operator' && group.rows.some((row) => row.value !== undefined && row.value !== 0)) ? 'with the file’s user' : 'alone',
   )
   stiffnessUnit = $derived(this.rotary ? 'N m/rad' : 'N/m')
   dampingUnit = $derived(this.rotary ? 'N m s/rad' : 'N s/m')
   forceUnit = $derived(this.rotary ? 'N m' : 'N')
   lengthUnit = $derived(this.rotary ? 'rad' : 'm')
-
-  get toml(): string {
-    return this.state.toml
-  }
-  get settings(): Settings {
-    return this.state.settings
-  }
 
   /** Begins anew, without anything to undo. */
   begin(state: Snapshot): void {
@@ -47,10 +47,11 @@ class Workbench {
 
   change(part: Partial<Snapshot>, gesture: string | null = null): void {
     this.history.change({ ...this.state, ...part }, gesture)
-    this.show()
+    this.show(gesture !== null)
   }
   endGesture(): void {
     this.history.endGesture()
+    this.restedToml = this.state.toml
   }
   undo(): void {
     this.history.undo()
@@ -67,11 +68,7 @@ class Workbench {
   }
 
   row(key: string): Row | undefined {
-    for (const group of this.groups) {
-      const found = group.rows.find((row) => sameKey(row.key, key))
-      if (found) return found
-    }
-    return undefined
+    return this.rows.get(fullKey(key))
   }
 
   isLocked(key: string): boolean {
@@ -95,8 +92,8 @@ class Workbench {
   /** The plain SI number of the file or its default of 0; null where it has a unit of its own or is none. */
   plain(key: string): number | null {
     const row = this.row(key)
-    if (row?.entry === undefined) return row?.field.mayBeZero ? 0 : null
-    const value = written(row.entry.value)
+    if (row?.value === undefined) return row?.field.mayBeZero ? 0 : null
+    const value = written(row.value)
     return value?.unit === null ? value.number : null
   }
 
@@ -114,8 +111,11 @@ class Workbench {
     this.change({ pins: this.state.pins.filter((_, i) => i !== index) })
   }
 
-  private show(): void {
+  private show(inGesture = false): void {
     this.state = this.history.current
+    clearTimeout(this.restTimer)
+    if (inGesture) this.restTimer = setTimeout(() => (this.restedToml = this.state.toml), 150)
+    else this.restedToml = this.state.toml
     this.canUndo = this.history.canUndo
     this.canRedo = this.history.canRedo
     clearTimeout(this.addressTimer)

@@ -66,7 +66,7 @@ describe('toml', () => {
     }
     const drive = scan(readFileSync(new URL('two_mass_drive.toml', devices), 'utf8'))
     const inertia = groupsOf(drive)[0]!.rows[0]!
-    expect([inertia.key, inertia.path.at(-1), inertia.unit, inertia.entry?.value]).toEqual(['body.motor.mass', 'inertia', 'kg m²', 0.005])
+    expect([inertia.key, inertia.path.at(-1), inertia.unit, inertia.value]).toEqual(['body.motor.mass', 'inertia', 'kg m²', 0.005])
     expect(shapeOf(drive)).toMatchObject({ bodies: ['motor', 'load'], links: [['motor', 'load']], actuated: 'motor', held: 'load' })
   })
 })
