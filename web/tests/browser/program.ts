@@ -86,3 +86,21 @@ export const runPalette = async (page: Page, text: string): Promise<void> => {
 
 export const row = (page: Page, key: string) => page.locator(`[data-key="${key}"]`)
 export const alone = (page: Page): Promise<string> => page.locator('[data-answer="alone"]').innerText()
+
+export const withWall = async (page: Page): Promise<void> => {
+  await page.getByRole('button', { name: /Put a wall/ }).click()
+  await page.waitForSelector('[data-answer="wall"]')
+}
+export const type = async (page: Page, key: string, text: string): Promise<void> => {
+  const input = row(page, key).locator('input[type="text"]')
+  await input.fill(text)
+  await input.press('Enter')
+}
+/** Every panel, each with a question. */
+export const openAll = async (page: Page): Promise<void> => {
+  await runPalette(page, 'open all panels')
+  await page.getByLabel(/Limit wanted/).fill('12 kN/m')
+  await page.getByLabel(/It oscillates at/).fill('41')
+  await page.getByLabel(/Force of the relay/).fill('5')
+  await page.getByLabel(/Force of the relay/).press('Enter')
+}
