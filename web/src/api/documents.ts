@@ -118,7 +118,7 @@ export interface WallToRender {
   stiffness: number
   damping: number
   velocity_filter_hz: number
-  filters: unknown[]
+  filters: ({ type: string } & Record<string, unknown>)[] // those of the file, then the new notch
   has_new_notch: boolean
 }
 export interface Option {

@@ -79,13 +79,14 @@ class Workbench {
     this.change({ locks })
   }
 
-  /** Values as TOML by key; locked ones stay. */
-  edit(values: Record<string, string>, gesture: string | null = null): void {
+  /** Values as TOML by key; locked ones stay. `more` comes behind the text, in the same step. */
+  edit(values: Record<string, string>, gesture: string | null = null, more = ''): void {
     let toml = this.state.toml
     for (const [key, raw] of Object.entries(values)) {
       const row = this.row(key)
       if (row && !this.isLocked(key)) toml = set(toml, row.path, raw)
     }
+    if (more) toml = `${toml.replace(/\n*$/, '\n')}\n${more}`
     if (toml !== this.state.toml) this.change({ toml }, gesture)
   }
 
