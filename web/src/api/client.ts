@@ -8,8 +8,12 @@ export class Problem extends Error {
     readonly allowed: string,
     readonly status: number,
   ) {
-    super([where, what, allowed].filter(Boolean).join(': '))
+    const place = /^device:(\d+):(\d+)$/.exec(where)
+    super([place ? `Line ${place[1]}, column ${place[2]} of the device file` : where, what, allowed].filter(Boolean).join(': '))
+    this.line = place ? Number(place[1]) : null
   }
+  /** Of the device file, where its text is no TOML. */
+  readonly line: number | null
 }
 
 let token = ''

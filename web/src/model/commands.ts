@@ -59,6 +59,7 @@ export function commandLine(command: string, options: Options = {}, text = workb
 
 export function cppCode(): string {
   return `#include <iostream>
+#include <string>
 #include <zwidth/zwidth.hpp>
 
 int main() {
@@ -68,7 +69,13 @@ int main() {
     return 2;
   }
   const zwidth::Analysis analysis = zwidth::analyze(*device);
-  std::cout << analysis.critical.stiffness << '\\n';  // infinite: every wall is stable; NaN: refused, see analysis.trust
+  for (const std::string& reason : analysis.trust.reasons) {
+    std::cerr << (analysis.trust.refused() ? "refused: " : "doubtful: ") << reason << '\\n';
+  }
+  if (analysis.trust.refused()) {
+    return 1;
+  }
+  std::cout << analysis.critical.stiffness << '\\n';  // infinite: every wall is stable
 }
 `
 }

@@ -16,6 +16,20 @@ export const panelNames: [id: string, title: string][] = [
   ['file', 'Device file and commands'],
 ]
 
+/** A line of the device file, selected in its panel. */
+export function showLine(line: number): void {
+  panels.file = true
+  setTimeout(() => {
+    const field = document.querySelector<HTMLTextAreaElement>('#toml')
+    if (!field) return
+    const lines = field.value.split('\n')
+    const start = lines.slice(0, line - 1).reduce((sum, each) => sum + each.length + 1, 0)
+    field.scrollIntoView({ block: 'center' })
+    field.focus()
+    field.setSelectionRange(start, start + (lines[line - 1]?.length ?? 0))
+  })
+}
+
 export function showPanel(id: string): void {
   panels[id] = true
   setTimeout(() => {

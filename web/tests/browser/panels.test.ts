@@ -1,7 +1,8 @@
 // What the panels state and do, beside the program's documents.
-import type { Browser } from 'playwright-core'
+import { readFileSync } from 'node:fs'
+import type { Browser, Page } from 'playwright-core'
 import { afterAll, beforeAll, expect, it } from 'vitest'
-import { documentOf, openBrowser, openPage, row, runPalette, type Served, serve, settled, type } from './program'
+import { documentOf, openAll, openBrowser, openPage, row, runPalette, type Served, serve, settled, withWall } from './program'
 
 let served: Served
 let browser: Browser
@@ -38,5 +39,66 @@ it('takes the wall recommended with its notch in one step', async () => {
   expect(await page.locator('#toml').inputValue()).not.toContain('notch')
   expect(await row(page, 'wall.stiffness').locator('input[type="text"]').inputValue()).not.toContain(String(asked.wall.stiffness))
   expect(complaints).toEqual([])
+  await context.close()
+})
+
+const replaceText = async (page: Page, change: (toml: string) => string): Promise<void> => {
+  await page.locator('#toml').fill(change(await page.locator('#toml').inputValue()))
+  await page.locator('#toml').blur()
+}
+
+it('shows no number of a device whose answer is refused, in no panel', async () => {
+  const { page, context, complaints } = await openPage(browser, served, 1280)
+  await withWall(page)
+  await openAll(page)
+  await page.setViewportSize({ width: 1280, height: 8000 }) // what is out of view waits
+  await settled(page)
+  const numbers = (): Promise<string[]> =>
+    page.evaluate(() => {
+      const parts = ['.answer dl', '.answer .wall-word', '.numbers .effect', ...['bar', 'limits', 'region', 'time', 'bode', 'recommend', 'sweep', 'diagnose', 'relay'].map((id) => `#body-${id}`)]
+      return parts.flatMap((part) => [...document.querySelectorAll<HTMLElement>(part)].filter((each) => /\d/.test(each.innerText) || each.querySelector('svg path.curve')).map(() => part))
+    })
+  expect((await numbers()).length).toBeGreaterThan(10)
+  await replaceText(page, (toml) => `${toml}\n[uncertainty]\nverdict = "refused"\nwarning = "the record was cut off"\n`)
+  await page.waitForFunction(() => /refused/.test(document.querySelector('[data-answer="trust"]')?.textContent ?? ''))
+  await settled(page)
+  expect(await numbers()).toEqual([])
+  expect(await page.locator('.answer').innerText()).toContain('the record was cut off')
+  for (const panel of ['time', 'bode', 'relay']) expect(await page.locator(`#body-${panel}`).innerText()).toMatch(/refused:.*cut off[^]*No number is given/)
+  await page.getByRole('button', { name: 'Save the wall as C' }).click()
+  await page.locator('#body-file .problem', { hasText: 'REFUSED' }).waitFor()
+  expect(complaints).toEqual([])
+  await context.close()
+})
+
+it('writes the wall of a doubtful device in C only when told to, and says so in the command', async () => {
+  const { page, context } = await openPage(browser, served, 1280)
+  await withWall(page)
+  await runPalette(page, 'show: device file')
+  await replaceText(page, (toml) => `${toml}\n[uncertainty]\nverdict = "doubtful"\nwarning = "measured by a guess"\n`)
+  await page.waitForFunction(() => /doubtful/.test(document.querySelector('[data-answer="trust"]')?.textContent ?? ''))
+  await page.getByRole('button', { name: 'Save the wall as C' }).click()
+  await page.locator('#body-file .problem', { hasText: '--accept-doubt' }).waitFor()
+  await page.getByLabel(/doubtful device all the same/).check()
+  const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name: 'Save the wall as C' }).click()])
+  expect(readFileSync(await download.path(), 'utf8')).toContain('measured by a guess')
+  await page.getByRole('button', { name: 'Copy as command: the wall as C' }).click()
+  expect(await page.evaluate(() => navigator.clipboard.readText())).toMatch(/^zwidth export .*--format c --accept-doubt/)
+  await page.getByRole('button', { name: 'Copy as C++' }).click()
+  expect(await page.evaluate(() => navigator.clipboard.readText())).toContain('analysis.trust.reasons')
+  await context.close()
+})
+
+it('leads from an error of the text to its line', async () => {
+  const { page, context } = await openPage(browser, served, 1280)
+  await runPalette(page, 'show: device file')
+  const line = (await page.locator('#toml').inputValue()).split('\n').findIndex((each) => each.startsWith('[loop]')) + 1
+  await replaceText(page, (toml) => toml.replace('\n[loop]', '\n[loop'))
+  await page.locator('.answer .problem', { hasText: `Line ${line}, column` }).waitFor()
+  expect(await page.locator('#toml-problem').innerText()).toContain(`Line ${line}, column`)
+  expect(await page.locator('#toml').getAttribute('aria-invalid')).toBe('true')
+  await page.getByRole('button', { name: 'Show the line' }).click()
+  await page.waitForFunction(() => document.activeElement?.id === 'toml')
+  expect(await page.locator('#toml').evaluate((field: HTMLTextAreaElement) => field.value.slice(field.selectionStart, field.selectionEnd))).toBe('[loop')
   await context.close()
 })
