@@ -12,6 +12,7 @@ export interface Entry {
 
 interface Table {
   path: string[]
+  start: number
   insertAt: number // where one more key goes
   kind: 'header' | 'inline' | 'dotted'
   empty: boolean
@@ -48,9 +49,10 @@ class Reader {
       this.blank(true)
       if (this.at >= this.text.length) return
       if (this.text[this.at] === '[') {
+        const start = this.at
         table = this.header()
         this.blank(false)
-        this.scan.tables.push({ path: table, insertAt: this.at, kind: 'header', empty: true })
+        this.scan.tables.push({ path: table, start, insertAt: this.at, kind: 'header', empty: true })
       } else {
         this.keyValue(table, 'header')
       }
@@ -128,13 +130,13 @@ class Reader {
     const home = this.scan.tables.findLast((each) => samePath(each.path, table))
     if (home) Object.assign(home, { insertAt: this.at, empty: false })
     if (kind !== 'inline' && names.length > 1) {
-      this.scan.tables.push({ path: path.slice(0, -1), insertAt: this.at, kind: 'dotted', empty: false })
+      this.scan.tables.push({ path: path.slice(0, -1), start, insertAt: this.at, kind: 'dotted', empty: false })
     }
   }
 
   private inlineTable(path: string[]): void {
     this.expect('{')
-    const table: Table = { path, insertAt: this.at, kind: 'inline', empty: true }
+    const table: Table = { path, start: this.at, insertAt: this.at, kind: 'inline', empty: true }
     this.scan.tables.push(table)
     for (;;) {
       this.blank(true)
@@ -202,6 +204,24 @@ export function scan(text: string): Scan {
 
 export const find = (scanned: Scan, path: string[]): Entry | undefined => scanned.entries.find((each) => samePath(each.path, path))
 
+function lineEnd(text: string, at: number): number {
+  const end = text.indexOf('\n', at)
+  return end < 0 ? text.length : end
+}
+
+/** The text with these lines behind the last table of that array, at its end where there is none. */
+export function append(text: string, path: string[], lines: string): string {
+  const last = scan(text).tables.findLast((each) => each.kind === 'header' && path.every((part, i) => each.path[i] === part))
+  const at = last ? lineEnd(text, last.insertAt) : text.replace(/\n*$/, '').length
+  return `${text.slice(0, at)}\n\n${lines}${text.slice(at) || '\n'}`
+}
+
+/** The text without that table; comments behind it stay, as they may be the next one's. */
+export function removeTable(text: string, path: string[]): string {
+  const table = scan(text).tables.find((each) => each.kind === 'header' && samePath(each.path, path))
+  return table ? text.slice(0, table.start) + text.slice(lineEnd(text, table.insertAt)).replace(/^\n+/, '') : text
+}
+
 /** The text with that value in place of the old one, or added to its table, which is added where it is missing. */
 export function set(text: string, path: string[], raw: string): string {
   const scanned = scan(text)
@@ -213,8 +233,7 @@ export function set(text: string, path: string[], raw: string): string {
   if (!table) return `${text.replace(/\n*$/, '\n')}\n[${parent.join('.')}]\n${key} = ${raw}\n`
   const insert = (what: string): string => text.slice(0, table.insertAt) + what + text.slice(table.insertAt)
   if (table.kind === 'inline') return insert(table.empty ? ` ${key} = ${raw} ` : `, ${key} = ${raw}`)
-  const lineEnd = text.indexOf('\n', table.insertAt)
-  const at = lineEnd < 0 ? text.length : lineEnd
+  const at = lineEnd(text, table.insertAt)
   const name = table.kind === 'dotted' ? path.join('.') : key
   return `${text.slice(0, at)}\n${name} = ${raw}${text.slice(at)}`
 }

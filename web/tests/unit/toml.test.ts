@@ -1,6 +1,7 @@
 import { readFileSync, readdirSync } from 'node:fs'
 import { describe, expect, it } from 'vitest'
 import { groupsOf, shapeOf } from '../../src/model/keys'
+import { addBody, choose, connect, freeName, removeBody, removeLink } from '../../src/model/parts'
 import { find, scan, set, withoutComments } from '../../src/model/toml'
 
 const devices = new URL('../../../devices/', import.meta.url)
@@ -68,5 +69,18 @@ describe('toml', () => {
     const inertia = groupsOf(drive)[0]!.rows[0]!
     expect([inertia.key, inertia.path.at(-1), inertia.unit, inertia.value]).toEqual(['body.motor.mass', 'inertia', 'kg m²', 0.005])
     expect(shapeOf(drive)).toMatchObject({ bodies: ['motor', 'load'], links: [['motor', 'load']], actuated: 'motor', held: 'load' })
+  })
+
+  it('adds and removes bodies and links, and leaves the rest as it was', () => {
+    const three = addBody(lhifam, 'finger "1"', 'handle')
+    expect(shapeOf(scan(three))).toMatchObject({ bodies: ['motor', 'handle', 'finger "1"'], links: [['motor', 'handle'], ['handle', 'finger "1"']], actuated: 'motor', held: 'handle' })
+    expect(removeBody(three, 'finger "1"').replace(/\n+/g, '\n')).toBe(lhifam.replace(/\n+/g, '\n'))
+    const alone = removeBody(lhifam, 'handle')
+    expect(shapeOf(scan(alone))).toMatchObject({ bodies: ['motor'], links: [], actuated: 'motor', sensed: 'motor', held: 'motor' })
+    expect(alone).toContain('# LHIfAM, a large haptic interface')
+    const other = connect(choose(three, 'sensed', 'handle'), 1, 'motor', 'finger "1"')
+    expect(shapeOf(scan(other))).toMatchObject({ links: [['motor', 'handle'], ['motor', 'finger "1"']], sensed: 'handle' })
+    expect(shapeOf(scan(removeLink(other, 0))).links).toEqual([['motor', 'finger "1"']])
+    expect(freeName(three)).toBe('body 4')
   })
 })

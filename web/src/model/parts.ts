@@ -1,0 +1,49 @@
+// Bodies and links of a device, added and removed in its text. What makes no device, the server says.
+
+import { isRotary, shapeOf, type Shape } from './keys'
+import { append, removeTable, scan, set } from './toml'
+
+export type Role = 'actuated' | 'sensed' | 'held'
+export const roles: [Role, string][] = [
+  ['actuated', 'The motor pushes'],
+  ['sensed', 'The encoder sees'],
+  ['held', 'The hand holds'],
+]
+
+const shape = (text: string): Shape => shapeOf(scan(text))
+export const choose = (text: string, role: Role, name: string): string => set(text, ['loop', role], JSON.stringify(name))
+
+/** A name that no body has. */
+export function freeName(text: string): string {
+  const { bodies } = shape(text)
+  for (let i = bodies.length + 1; ; ++i) if (!bodies.includes(`body ${i}`)) return `body ${i}`
+}
+
+/** A body of a first mass, linked to another, for one alone is no device. Who holds what stays. */
+export function addBody(text: string, name: string, to: string): string {
+  const { held } = shape(text)
+  const mass = isRotary(scan(text)) ? 'inertia = 1e-4' : 'mass = 0.1'
+  const added = append(text, ['body'], `[[body]]\nname = ${JSON.stringify(name)}\n${mass}`)
+  return addLink(held === undefined ? added : choose(added, 'held', held), to, name)
+}
+
+export function addLink(text: string, a: string, b: string): string {
+  const stiffness = isRotary(scan(text)) ? '1.0' : '1000.0'
+  return append(text, [shape(text).links.length > 0 ? 'link' : 'body'], `[[link]]\nbetween = ${JSON.stringify([a, b])}\nstiffness = ${stiffness}\ndamping = 0.0`)
+}
+
+export const connect = (text: string, link: number, a: string, b: string): string => set(text, ['link', String(link), 'between'], JSON.stringify([a, b]))
+export const removeLink = (text: string, link: number): string => removeTable(text, ['link', String(link)])
+
+/** The body with its links; what pushed, saw or held it goes to the first or last body left. */
+export function removeBody(text: string, name: string): string {
+  const { bodies, links, ...given } = shape(text)
+  const left = bodies.filter((each) => each !== name)
+  let out = text
+  for (const [role] of roles) {
+    const next = role === 'held' ? left.at(-1) : left[0]
+    if (next !== undefined) out = choose(out, role, given[role] === name ? next : (given[role] ?? next))
+  }
+  for (let i = links.length - 1; i >= 0; --i) if (links[i]!.includes(name)) out = removeLink(out, i)
+  return removeTable(out, ['body', String(bodies.indexOf(name))])
+}
