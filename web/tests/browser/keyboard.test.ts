@@ -1,0 +1,124 @@
+// The work of a session by keyboard alone, and what is heard.
+import type { Browser, Locator, Page } from 'playwright-core'
+import { afterAll, beforeAll, expect, it } from 'vitest'
+import { say } from '../../src/model/decimal'
+import { alone, documentOf, openBrowser, openPage, project, runPalette, type Served, serve, settled, type } from './program'
+
+let served: Served
+let browser: Browser
+beforeAll(async () => {
+  served = await serve()
+  browser = await openBrowser()
+})
+afterAll(async () => {
+  await browser?.close()
+  await served?.stop()
+})
+
+/** Tab until it has the focus. */
+async function tabTo(page: Page, target: Locator): Promise<void> {
+  await target.waitFor()
+  for (let i = 0; i < 150; ++i) {
+    if (await target.evaluate((element) => element === document.activeElement)) return
+    await page.keyboard.press('Tab')
+  }
+  throw new Error('150 tabs do not reach it')
+}
+
+it.each([1280, 390])('says what limits my wheel and what wall to run, at %d px', async (width) => {
+  const { page, context, complaints } = await openPage(browser, served, width)
+  const started = Date.now()
+  await runPalette(page, 'open example quanser')
+  await page.waitForFunction(() => /quanser/i.test(document.title))
+  await runPalette(page, 'go to body servo inertia')
+  await page.waitForFunction(() => document.activeElement?.matches('[data-key="body.servo.mass"] input'))
+  await page.keyboard.type('22 kg cm^2')
+  await page.keyboard.press('Enter')
+  await settled(page)
+  const set = ['devices/quanser_torsion.toml', '--set', 'body.servo.mass=22 kg cm^2']
+  const answer = documentOf('analyze', ...set) as { critical_stiffness: number; limited_by: { kind: string; mode?: number } }
+  expect(await alone(page)).toBe(say(answer.critical_stiffness, 'N m/rad'))
+  expect(await page.locator('[data-answer="limited-by"]').innerText()).toContain(answer.limited_by.kind === 'rigid_body' ? 'the rigid body' : `vibration mode ${answer.limited_by.mode}`)
+  await runPalette(page, 'which wall')
+  await tabTo(page, page.getByRole('button', { name: 'Use this wall: recommended' }))
+  await page.keyboard.press('Enter')
+  await settled(page)
+  const wall = (documentOf('design', ...set, '--recommend') as { wall: { stiffness: number } }).wall
+  expect(await page.locator('[data-answer="wall"]').innerText()).toMatch(/is stable/)
+  expect(await page.locator('[data-answer="wall"]').innerText()).toContain(say(wall.stiffness, 'N m/rad'))
+  console.log(`by keyboard at ${width} px: ${((Date.now() - started) / 1000).toFixed(1)} s`)
+  expect(complaints).toEqual([])
+  await context.close()
+})
+
+it('makes a device of a recording', async () => {
+  const { page, context, complaints } = await openPage(browser, served, 1280)
+  await runPalette(page, 'show: from a recording')
+  await tabTo(page, page.getByLabel(/choose it/))
+  const [chooser] = await Promise.all([page.waitForEvent('filechooser'), page.keyboard.press('Space')])
+  await chooser.setFiles(`${project}/recordings/locked_chirp.csv`)
+  await tabTo(page, page.getByLabel('Fit'))
+  await page.keyboard.type('the device')
+  await tabTo(page, page.getByLabel('handle', { exact: true }))
+  await page.keyboard.press('Space')
+  await tabTo(page, page.getByRole('button', { name: 'Fit', exact: true }))
+  await page.keyboard.press('Enter')
+  const use = page.getByRole('button', { name: 'Use this device' })
+  await use.waitFor()
+  await settled(page)
+  await tabTo(page, use)
+  await page.keyboard.press('Enter')
+  await page.waitForFunction(() => /between/.test(document.querySelector('.answer')?.textContent ?? ''))
+  const fitted = documentOf('identify', 'recordings/locked_chirp.csv', '--force', 'force', '--position', 'position', '--structure', 'devices/lhifam.toml', '--locked', 'handle')
+  expect(await alone(page)).toBe(say(Number(fitted.critical_stiffness), 'N/m'))
+  expect(complaints).toEqual([])
+  await context.close()
+})
+
+it('sounds as the oscillation swings', async () => {
+  const { page, context, complaints } = await openPage(browser, served, 1280)
+  await type(page, 'wall.stiffness', '8.8 kN/m')
+  await settled(page)
+  // What is played is kept, and rendered by an OfflineAudioContext.
+  await page.evaluate(() => {
+    class Silent extends OfflineAudioContext {
+      constructor() {
+        super(1, 1, 44100)
+      }
+      override createBufferSource(): AudioBufferSourceNode {
+        const source = super.createBufferSource()
+        source.start = () => Object.assign(window, { played: source.buffer })
+        return source
+      }
+    }
+    Object.assign(window, { AudioContext: Silent })
+  })
+  await page.getByRole('button', { name: 'Listen' }).click()
+  const factor = Number(/(\d+) times faster/.exec(await page.locator('#body-time').innerText())?.[1] ?? 1)
+  const heard = await page.evaluate(async () => {
+    const { played } = window as unknown as { played: AudioBuffer }
+    const offline = new OfflineAudioContext(1, played.length, played.sampleRate)
+    const source = offline.createBufferSource()
+    source.buffer = played
+    source.connect(offline.destination)
+    source.start()
+    const samples = (await offline.startRendering()).getChannelData(0)
+    let best = { hertz: 0, size: 0 }
+    for (let hertz = 50; hertz < 1000; hertz += 0.25) {
+      let [re, im] = [0, 0]
+      for (let i = 0; i < samples.length; i += 8) {
+        const angle = (2 * Math.PI * hertz * i) / played.sampleRate
+        re += samples[i]! * Math.cos(angle)
+        im += samples[i]! * Math.sin(angle)
+      }
+      const size = Math.hypot(re, im)
+      if (size > best.size) best = { hertz, size }
+    }
+    return best.hertz
+  })
+  const { oscillation } = documentOf('simulate', 'devices/lhifam.toml', '--set', 'wall.stiffness=8800') as { oscillation: { frequency_hz: number } }
+  console.log(`heard ${heard} Hz, ${factor} times the oscillation's ${oscillation.frequency_hz} Hz`)
+  expect(Math.abs(heard / factor / oscillation.frequency_hz - 1)).toBeLessThan(0.02)
+  expect(complaints).toEqual([])
+  await context.close()
+})
