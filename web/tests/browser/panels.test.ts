@@ -82,7 +82,7 @@ it('writes the wall of a doubtful device in C only when told to, and says so in 
   await page.getByLabel(/doubtful device all the same/).check()
   const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name: 'Save the wall as C' }).click()])
   expect(readFileSync(await download.path(), 'utf8')).toContain('measured by a guess')
-  await page.getByRole('button', { name: 'Copy as command: the wall as C' }).click()
+  await page.getByRole('button', { name: 'Copy the command for C' }).click()
   expect(await page.evaluate(() => navigator.clipboard.readText())).toMatch(/^zwidth export .*--format c --accept-doubt/)
   await page.getByRole('button', { name: 'Copy as C++' }).click()
   expect(await page.evaluate(() => navigator.clipboard.readText())).toContain('analysis.trust.reasons')
