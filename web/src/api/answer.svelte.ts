@@ -20,6 +20,7 @@ const mostTurns = 2
 let turns = mostTurns
 let lastChange = 0
 const dragPause = 200 // ms
+const untilRest = 300 // ms
 const noticed = 120 // ms
 const waiting: (() => void)[] = []
 async function turn(): Promise<void> {
@@ -73,11 +74,17 @@ export class Answer<T> {
   }
   private start(): void {
     clearTimeout(this.timer)
+    this.timer = undefined
     if (!this.running) void this.run()
   }
-  private startLater(): void {
-    clearTimeout(this.timer)
-    this.timer = setTimeout(() => this.start(), 300)
+  /** When nothing has been asked anywhere for a while; the timer that runs is kept, for a drag asks often. */
+  private startLater(after = untilRest): void {
+    this.timer ??= setTimeout(() => {
+      this.timer = undefined
+      const left = lastChange + untilRest - performance.now()
+      if (left > 1) this.startLater(left)
+      else this.start()
+    }, after)
   }
 
   ask(question: Question | null): void {
