@@ -115,11 +115,8 @@ std::vector<report::AnalysedDevice> analysed_devices(const AnalyzeOptions& optio
   }
   std::vector<report::AnalysedDevice> analysed;
   for (std::size_t i = 0; i < devices.size(); ++i) {
-    std::optional<ProgressLine> line;
-    if (asked[i].family) {
-      line.emplace("searching the users");
-      asked[i].progress = line->progress();
-    }
+    ProgressLine line("analysing " + options.devices.files[i]);
+    asked[i].progress = line.progress();
     try {
       analysed.push_back(report::analysed_device(std::move(devices[i]), asked[i]));
     } catch (const Error& error) {

@@ -9,6 +9,7 @@
 #include "cli/device_arguments.hpp"
 #include "cli/option_refusal.hpp"
 #include "cli/outputs.hpp"
+#include "cli/progress_line.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
 #include "report/figure/device_bode_figure.hpp"
@@ -20,6 +21,8 @@ namespace zwidth::cli {
 namespace {
 
 using report::AnalysedDevice;
+
+constexpr double analysis_share = 0.5;  // of the progress
 
 struct BodeArguments {
   DeviceArguments devices;
@@ -65,11 +68,16 @@ void check_devices(const std::vector<AnalysedDevice>& devices, bool in_one_figur
 void run_bode(const BodeArguments& arguments) {
   Outputs outputs(arguments.output);
   outputs.keep(arguments.devices.files, "device file");
-  const std::vector<AnalysedDevice> devices = analyze_devices(arguments.devices, limit_and_wall_only());
+  ProgressLine line("computing the responses");
+  AnalysisOptions of_analysis = limit_and_wall_only();
+  of_analysis.progress = line.progress(0.0, analysis_share);
+  const std::vector<AnalysedDevice> devices = analyze_devices(arguments.devices, of_analysis);
   for (const AnalysedDevice& each : devices) {
     if (const auto problem = find_problem(arguments.bode, each.device)) refuse(*problem, options_of_bode);
   }
-  const auto bode_of = [&](const AnalysedDevice& each) { return bode(each.device, each.analysis, arguments.bode); };
+  BodeOptions options = arguments.bode;
+  options.progress = line.progress(analysis_share, 1.0);
+  const auto bode_of = [&](const AnalysedDevice& each) { return bode(each.device, each.analysis, options); };
   if (!arguments.output.figure.empty()) check_devices(devices, outputs.figure("--output").has_value());
   outputs.put("--output", [&] { return results::bode_csv(bode_of(devices.front())); });
   outputs.draw("--output",

@@ -105,7 +105,10 @@ void run_sensitivities(const DesignArguments& arguments) {
   const std::vector<Device> devices = read_devices(arguments.devices);
   std::string text;
   for (std::size_t i = 0; i < devices.size(); ++i) {
-    const Design answer = worked(arguments.devices.files[i], [&] { return design(devices[i]); });
+    const Design answer = worked(arguments.devices.files[i], [&] {
+      ProgressLine line("moving the numbers of " + arguments.devices.files[i]);
+      return design(devices[i], {.progress = line.progress()});
+    });
     if (arguments.output.json) {
       text += results::line(results::design_json(devices[i], answer));
     } else {
@@ -163,7 +166,10 @@ void run_comparison(const DesignArguments& arguments) {
     user = {number(0, Measure::mass), number(1, Measure::damping), number(2, Measure::stiffness)};
   }
   if (const auto problem = find_problem(*variants, user)) refuse(*problem, options_of_design);
-  const auto comparison = worked(arguments.devices.files.front(), [&] { return compare_designs(*variants, user); });
+  const auto comparison = worked(arguments.devices.files.front(), [&] {
+    ProgressLine line("judging the designs");
+    return compare_designs(*variants, user, line.progress());
+  });
   write_standard_output(arguments.output.json ? results::line(results::comparison_json(comparison))
                                               : report::for_medium(report::comparison_text(comparison)));
 }

@@ -9,6 +9,7 @@
 
 #include "cli/option_refusal.hpp"
 #include "cli/outputs.hpp"
+#include "cli/progress_line.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
 #include "report/text/design_text.hpp"
@@ -48,8 +49,11 @@ constexpr std::pair<std::string_view, std::string_view> options_of_recommendatio
 
 WallRecommendation recommended(const Device& device, const RecommendationOptions& options, const std::string& file) {
   if (const auto problem = find_problem(options, device)) refuse(*problem, options_of_recommendation, file);
+  ProgressLine line("searching the wall for " + file);
+  RecommendationOptions asked = options;
+  asked.progress = line.progress();
   try {
-    return recommend_wall(device, options);
+    return recommend_wall(device, asked);
   } catch (const Error& error) {
     throw WorkFailed(file + ": " + error.what());
   }

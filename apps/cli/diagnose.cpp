@@ -51,6 +51,17 @@ constexpr std::pair<std::string_view, std::string_view> options_of_diagnosis[] =
                                                                                   {"stiffness", "--stiffness"},
                                                                                   {"damping", "--damping"}};
 
+Diagnosis diagnosed(const Device& device, const std::optional<Recording>& recording, DiagnosisOptions options,
+                    const std::string& file) {
+  ProgressLine line("diagnosing " + file);
+  options.progress = line.progress();
+  try {
+    return recording ? diagnose(device, *recording, options) : diagnose(device, options);
+  } catch (const Error& error) {
+    throw WorkFailed(file + ": " + error.what());
+  }
+}
+
 void run_diagnose(const CLI::App& command, DiagnoseArguments arguments) {
   const bool recorded = !arguments.recording.file.empty();
   if (recorded && arguments.recording.list) return write_text(contents_text(arguments.recording));
@@ -73,15 +84,10 @@ void run_diagnose(const CLI::App& command, DiagnoseArguments arguments) {
   if (!recorded) options.frequency = radians_per_second(*arguments.oscillates_hz);
   const auto problem = recording ? find_problem(options, device, *recording) : find_problem(options, device);
   if (problem) refuse(*problem, options_of_diagnosis, file);
-  std::optional<Diagnosis> diagnosis;
-  try {
-    diagnosis = recording ? diagnose(device, *recording, options) : diagnose(device, options);
-  } catch (const Error& error) {
-    throw WorkFailed(file + ": " + error.what());
-  }
-  if (arguments.output.json) write_standard_output(results::line(results::diagnosis_json(device, *diagnosis)));
-  if (diagnosis->trust.refused()) throw WorkFailed(file + ": " + report::verdict_text(diagnosis->trust));
-  if (!arguments.output.json) write_text(report::diagnosis_text(device, *diagnosis));
+  const Diagnosis diagnosis = diagnosed(device, recording, options, file);
+  if (arguments.output.json) write_standard_output(results::line(results::diagnosis_json(device, diagnosis)));
+  if (diagnosis.trust.refused()) throw WorkFailed(file + ": " + report::verdict_text(diagnosis.trust));
+  if (!arguments.output.json) write_text(report::diagnosis_text(device, diagnosis));
 }
 
 }  // namespace

@@ -23,17 +23,23 @@ ProgressLine::ProgressLine(std::string work)
       terminal_(::isatty(STDERR_FILENO) == 1),
       next_(std::chrono::steady_clock::now() + quiet_for) {}
 
-ProgressLine::~ProgressLine() {
-  if (shown_) write_standard_error(back_and_wipe);
+ProgressLine::~ProgressLine() { wipe(); }
+
+void ProgressLine::wipe() {
+  if (std::exchange(shown_, false)) write_standard_error(back_and_wipe);
 }
 
-Progress ProgressLine::progress() {
-  if (const Surroundings* own = surroundings()) return own->progress;
+Progress ProgressLine::progress(double from, double to) {
+  if (const Surroundings* own = surroundings()) {
+    if (!own->progress) return {};
+    return [own, from, to](double fraction) { own->progress(from + fraction * (to - from)); };
+  }
   if (!terminal_) return {};
-  return [this](double fraction) { show(fraction); };
+  return [this, from, to](double fraction) { show(from + fraction * (to - from)); };
 }
 
 void ProgressLine::show(double fraction) {
+  if (fraction >= 1.0) return wipe();  // the answer may be printed before this is gone
   const auto now = std::chrono::steady_clock::now();
   if (now < next_) return;
   next_ = now + apart;

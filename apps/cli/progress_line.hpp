@@ -16,11 +16,12 @@ class ProgressLine {
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
-  /// To hand to the library; must not outlive this.
-  [[nodiscard]] Progress progress();
+  /// To hand to the library, for the part of the work from one fraction to another; must not outlive this.
+  [[nodiscard]] Progress progress(double from = 0.0, double to = 1.0);
 
  private:
   void show(double fraction);
+  void wipe();
 
   std::string work_;
   bool terminal_;

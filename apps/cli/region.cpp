@@ -9,6 +9,7 @@
 
 #include "cli/device_arguments.hpp"
 #include "cli/outputs.hpp"
+#include "cli/progress_line.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
 #include "report/figure/region_figure.hpp"
@@ -26,12 +27,18 @@ struct RegionArguments {
   std::optional<std::size_t> raster;
 };
 
+/// Bound to its progress line, which is gone before anything is printed.
+WallRegion found_region(const Device& device, const std::string& file) {
+  ProgressLine line("following the boundary of " + file);
+  return region(device, {.progress = line.progress()});
+}
+
 void run_region(const RegionArguments& arguments) {
   Outputs outputs(arguments.output);
   outputs.keep(arguments.devices.files, "device file");
   if (arguments.raster && arguments.output.csv.empty()) throw BadInput("--raster: is for a csv file; add --csv FILE");
   const Device device = std::move(read_devices(arguments.devices).front());
-  const WallRegion walls = region(device);
+  const WallRegion walls = found_region(device, arguments.devices.files.front());
   if (walls.trust.refused()) {
     if (arguments.output.json) write_standard_output(results::line(results::region_json(device, walls)));
     throw WorkFailed(arguments.devices.files.front() + ": " + report::verdict_text(walls.trust));

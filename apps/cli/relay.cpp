@@ -80,7 +80,8 @@ RelayResult recorded(const RelayArguments& arguments, std::optional<Device> devi
     if (problem->member != "device") refuse(*problem, options_of_relay);
     throw BadInput(fmt::format("{}: {}; {}", arguments.devices.files.front(), problem->what, problem->allowed));
   }
-  return relay(std::move(motion.recording), options);
+  ProgressLine line("predicting");
+  return relay(std::move(motion.recording), options, line.progress());
 }
 
 std::string drawn(const RelayResult& result, report::FigureFormat format) {

@@ -23,6 +23,12 @@ auto read_by_name(const std::string& name, const Read& read) -> decltype(read(na
   return result;
 }
 
+/// Reading from memory comes before the work that is asked for: the progress of that begins at 0.
+Progress of_reading(const Progress& progress) {
+  if (of_this_thread == nullptr || !progress) return progress;
+  return [&progress](double) { progress(0.0); };
+}
+
 }  // namespace
 
 Surroundings* surroundings() { return of_this_thread; }
@@ -41,7 +47,8 @@ tl::expected<Device, InputError> read_named_device(const std::string& name, std:
 
 tl::expected<Recording, InputError> read_named_recording(const std::string& name, const RecordingOptions& options,
                                                          const Progress& progress) {
-  return read_by_name(name, [&](const std::string& path) { return read_recording(path, options, progress); });
+  const Progress told = of_reading(progress);
+  return read_by_name(name, [&](const std::string& path) { return read_recording(path, options, told); });
 }
 
 tl::expected<RecordingContents, InputError> list_named_recording(const std::string& name,
@@ -52,7 +59,8 @@ tl::expected<RecordingContents, InputError> list_named_recording(const std::stri
 tl::expected<FrequencyResponse, InputError> read_named_table(const std::string& name,
                                                              const ResponseTableOptions& options,
                                                              const Progress& progress) {
-  return read_by_name(name, [&](const std::string& path) { return read_response_table(path, options, progress); });
+  const Progress told = of_reading(progress);
+  return read_by_name(name, [&](const std::string& path) { return read_response_table(path, options, told); });
 }
 
 }  // namespace zwidth::cli

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <string>
 
+#include "infinity.hpp"
 #include "stability/any_user_search.hpp"
+#include "staged_progress.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth {
@@ -15,16 +17,21 @@ namespace {
 
 constexpr double first_ratio = 1e-6;  // the least B > 0 sampled, as a share of the largest
 constexpr double scan_ratio = 1.5;
+constexpr double scan_share = 0.25;  // of the progress
 constexpr int end_bisections = 24;
 constexpr int max_depth = 7;
 
 class Sampler {
  public:
-  Sampler(const Device& device, double velocity_filter_hz, double deviation)
-      : search_(device), velocity_filter_hz_(velocity_filter_hz), deviation_(deviation) {}
+  Sampler(const Device& device, double velocity_filter_hz, double deviation, const Progress& progress)
+      : search_(device, progress),
+        velocity_filter_hz_(velocity_filter_hz),
+        deviation_(deviation),
+        progress_(progress) {}
 
   [[nodiscard]] AnyUserPoint at(double damping) {
-    const AnyUserLimit limit = search_.limit({damping, velocity_filter_hz_});
+    tell(progress_, 0.0);
+    const AnyUserLimit limit = search_.limit({damping, velocity_filter_hz_}, progress_);
     return {damping, limit.stiffness, limit.frequency};
   }
 
@@ -50,16 +57,19 @@ class Sampler {
       refine(middle, to, depth + 1, points);
       return;
     }
+    tell(progress_, to.damping / largest);
     points.push_back(to);
   }
 
   double stiffness_extent = 0.0;
   double damping_extent = 0.0;
+  double largest = infinity;  // B of all ranges
 
  private:
   AnyUserSearch search_;
   double velocity_filter_hz_;
   double deviation_;
+  const Progress& progress_;
 };
 
 std::vector<AnyUserPoint> scan(Sampler& sampler, double largest) {
@@ -99,7 +109,9 @@ AnyUserRegion any_user_region(const Device& device, double velocity_filter_hz, d
     throw Error(ErrorCode::invalid_argument,
                 "the region's deviation is " + fmt::format("{}", options.deviation) + "; must be above 0 and below 1");
   }
-  Sampler sampler(device, velocity_filter_hz, options.deviation);
+  StagedProgress stages(options.progress);
+  stages.next(scan_share);
+  Sampler sampler(device, velocity_filter_hz, options.deviation, stages.stage());
   AnyUserRegion region;
   const auto coarse = ranges_of(sampler, scan(sampler, largest_damping));
   for (const auto& range : coarse) {
@@ -109,6 +121,8 @@ AnyUserRegion any_user_region(const Device& device, double velocity_filter_hz, d
         sampler.stiffness_extent = std::max(sampler.stiffness_extent, point.stiffness);
     }
   }
+  stages.next(1.0);
+  sampler.largest = coarse.empty() ? largest_damping : coarse.back().back().damping;
   for (const auto& range : coarse) {
     std::vector<AnyUserPoint> points{range.front()};
     for (std::size_t i = 0; i + 1 < range.size(); ++i) sampler.refine(range[i], range[i + 1], 0, points);
@@ -121,6 +135,7 @@ AnyUserRegion any_user_region(const Device& device, double velocity_filter_hz, d
     region.most_damped = points.back();
     region.ranges.push_back(std::move(points));
   }
+  stages.done();
   return region;
 }
 

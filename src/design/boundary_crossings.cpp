@@ -8,6 +8,8 @@
 #include <optional>
 #include <utility>
 
+#include "staged_progress.hpp"
+
 namespace zwidth::internal {
 namespace {
 
@@ -190,7 +192,8 @@ std::vector<std::size_t> monotone_runs(std::span<const BoundarySegment> segments
 
 }  // namespace
 
-BoundaryCrossings boundary_crossings(const BoundaryCurve& curve, std::span<const BoundarySegment> segments) {
+BoundaryCrossings boundary_crossings(const BoundaryCurve& curve, std::span<const BoundarySegment> segments,
+                                     const Progress& progress) {
   const std::vector<std::size_t> by_damping = monotone_runs(segments, &BoundarySegment::damping_sign);
   const std::vector<std::size_t> by_stiffness = monotone_runs(segments, &BoundarySegment::stiffness_sign);
   std::vector<std::size_t> order(segments.size());
@@ -199,6 +202,7 @@ BoundaryCrossings boundary_crossings(const BoundaryCurve& curve, std::span<const
             [&](std::size_t i, std::size_t j) { return least(segments[i].damping) < least(segments[j].damping); });
   CrossingSearch search(curve);
   for (std::size_t k = 0; k < order.size(); ++k) {
+    tell(progress, static_cast<double>(k) / static_cast<double>(order.size()));
     const double top = greatest(segments[order[k]].damping);
     for (std::size_t l = k + 1; l < order.size() && least(segments[order[l]].damping) <= top; ++l) {
       const auto [i, j] = std::minmax(order[k], order[l]);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "design/boundary_segment.hpp"
+#include "zwidth/progress.hpp"
 
 namespace zwidth::internal {
 
@@ -15,6 +16,7 @@ struct BoundaryCrossings {
   // false where a cap on the number of pairs was hit, or the models are estimates.
   bool complete = true;
 };
-BoundaryCrossings boundary_crossings(const BoundaryCurve& curve, std::span<const BoundarySegment> segments);
+BoundaryCrossings boundary_crossings(const BoundaryCurve& curve, std::span<const BoundarySegment> segments,
+                                     const Progress& progress = {});
 
 }  // namespace zwidth::internal

@@ -8,6 +8,7 @@
 
 #include "stability/plant_fraction.hpp"
 #include "stability/root_isolation.hpp"
+#include "staged_progress.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth::internal {
@@ -16,6 +17,7 @@ namespace {
 using Jet = BoundaryCurve::Jet;
 
 // Intervals looked at: with bounds, and for each whole sample of delay; with estimates.
+constexpr std::size_t intervals_per_report = 64;  // of progress
 constexpr std::size_t max_bounded_intervals = 30000;
 constexpr std::size_t max_bounded_per_piece = 300;
 constexpr std::size_t max_estimated_intervals = 200000;
@@ -153,7 +155,8 @@ class SegmentList {
 };
 
 // Nothing past the cap.
-std::optional<std::vector<BoundarySegment>> bounded_segments(const BoundaryCurve& curve, const CurveBounds& bounds) {
+std::optional<std::vector<BoundarySegment>> bounded_segments(const BoundaryCurve& curve, const CurveBounds& bounds,
+                                                             const Progress& progress) {
   const double largest_wall = bounds.stiffness + bounds.damping * curve.velocity_at_nyquist();
   const std::size_t pieces = std::max<std::size_t>(1, curve.plant().delay_samples);
   std::vector<Interval> stack;
@@ -166,6 +169,7 @@ std::optional<std::vector<BoundarySegment>> bounded_segments(const BoundaryCurve
   SegmentList list;
   for (std::size_t left = max_bounded_intervals + max_bounded_per_piece * pieces; !stack.empty(); --left) {
     if (left == 0) return std::nullopt;
+    if (left % intervals_per_report == 0) tell(progress, 0.0);
     const auto [begin, end] = stack.back();
     stack.pop_back();
     const BoundaryCurve::Model model = curve.model(begin, end);
@@ -234,7 +238,8 @@ bool leaves_through_infinity(const BoundaryCurve& curve, double begin, double en
   return outside(begin) && outside(end);
 }
 
-std::vector<BoundarySegment> estimated_segments(const BoundaryCurve& curve, const CurveBounds& bounds) {
+std::vector<BoundarySegment> estimated_segments(const BoundaryCurve& curve, const CurveBounds& bounds,
+                                                const Progress& progress) {
   const std::vector<double> divisions = first_divisions(curve);
   std::vector<Interval> stack;
   for (std::size_t i = divisions.size() - 1; i-- > 0;) stack.push_back({divisions[i], divisions[i + 1]});
@@ -244,6 +249,7 @@ std::vector<BoundarySegment> estimated_segments(const BoundaryCurve& curve, cons
       throw Error(ErrorCode::did_not_converge,
                   "the boundary of the stable walls could not be followed: it turns too often");
     }
+    if (left % intervals_per_report == 0) tell(progress, 0.0);
     const auto [begin, end] = stack.back();
     stack.pop_back();
     const std::optional<BoundarySegment> segment = estimated_segment(curve, begin, end);
@@ -263,9 +269,9 @@ std::vector<BoundarySegment> estimated_segments(const BoundaryCurve& curve, cons
 
 }  // namespace
 
-CurveSegments curve_segments(const BoundaryCurve& curve, const CurveBounds& bounds) {
-  if (auto bounded = bounded_segments(curve, bounds)) return {*std::move(bounded), true};
-  return {estimated_segments(curve, bounds), false};
+CurveSegments curve_segments(const BoundaryCurve& curve, const CurveBounds& bounds, const Progress& progress) {
+  if (auto bounded = bounded_segments(curve, bounds, progress)) return {*std::move(bounded), true};
+  return {estimated_segments(curve, bounds, progress), false};
 }
 
 }  // namespace zwidth::internal

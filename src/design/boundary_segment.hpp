@@ -6,6 +6,7 @@
 
 #include "design/boundary_curve.hpp"
 #include "design/wall_bounds.hpp"
+#include "zwidth/progress.hpp"
 
 namespace zwidth::internal {
 
@@ -58,6 +59,6 @@ struct CurveSegments {
   std::vector<BoundarySegment> segments;
   bool proven = true;  // no estimates
 };
-CurveSegments curve_segments(const BoundaryCurve& curve, const CurveBounds& bounds);
+CurveSegments curve_segments(const BoundaryCurve& curve, const CurveBounds& bounds, const Progress& progress = {});
 
 }  // namespace zwidth::internal

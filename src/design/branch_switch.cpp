@@ -9,11 +9,13 @@
 #include <limits>
 #include <utility>
 
+#include "staged_progress.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/parameter.hpp"
 #include "zwidth/sampling/sampled_plant.hpp"
 
 namespace zwidth {
+using namespace internal;
 namespace {
 
 constexpr double followed_per_decade = 12.0;
@@ -38,12 +40,14 @@ double distance(const FollowedPoint& a, const FollowedPoint& b) {
 
 class Way {
  public:
-  Way(const Device& device, std::string key) : parameters_(device.parameters()), key_(std::move(key)) {
+  Way(const Device& device, std::string key, SharedProgress& progress)
+      : parameters_(device.parameters()), key_(std::move(key)), progress_(progress) {
     parameters_.uncertainty.reset();
   }
 
   /// Nothing where the value makes no device.
   [[nodiscard]] std::optional<FollowedPoint> at(double value) const {
+    progress_.go_on();
     DeviceParameters moved = parameters_;
     set_parameter(moved, key_, value);
     if (find_problem(moved)) return std::nullopt;
@@ -86,12 +90,13 @@ class Way {
  private:
   DeviceParameters parameters_;
   std::string key_;
+  SharedProgress& progress_;
 };
 
 std::vector<BranchSwitch> switches_of(const Device& device, const CriticalStiffness& own, const Sensitivity& each,
-                                      double factor) {
+                                      double factor, SharedProgress& progress) {
   std::vector<BranchSwitch> switches;
-  const Way way(device, each.key);
+  const Way way(device, each.key, progress);
   // From the device's own value, by equal factors from `start` to `end`.
   const auto follow = [&](double start, double end) {
     const int steps = static_cast<int>(std::ceil(followed_per_decade * std::abs(std::log10(end / start))));
@@ -121,8 +126,11 @@ std::vector<BranchSwitch> branch_switches(const Device& device, BranchSwitchOpti
   const CriticalStiffness own = critical_stiffness(filtered_plant(device), {wall.damping, wall.velocity_filter_hz});
   const std::vector<Sensitivity> sensitivities = stiffness_sensitivities(device, own);
   std::vector<std::vector<BranchSwitch>> found(sensitivities.size());
-  tbb::parallel_for(std::size_t{0}, sensitivities.size(),
-                    [&](std::size_t i) { found[i] = switches_of(device, own, sensitivities[i], options.factor); });
+  SharedProgress progress(options.progress, sensitivities.size());
+  tbb::parallel_for(std::size_t{0}, sensitivities.size(), [&](std::size_t i) {
+    found[i] = switches_of(device, own, sensitivities[i], options.factor, progress);
+    progress.add();
+  });
   std::vector<BranchSwitch> switches;
   for (auto& each : found) std::ranges::move(each, std::back_inserter(switches));
   return switches;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "require_valid.hpp"
+#include "staged_progress.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth {
@@ -19,17 +20,22 @@ std::optional<OptionProblem> find_problem(const DesignOptions& options) {
 Design design(const Device& device, const DesignOptions& options) {
   internal::require_valid(find_problem(options));
   Design design;
-  design.analysis = analyze(device, {.any_user = options.any_user, .draws = 0});
+  internal::StagedProgress stages(options.progress);
+  stages.next(0.1);
+  design.analysis = analyze(device, {.any_user = options.any_user, .draws = 0, .progress = stages.stage()});
   design.trust = design.analysis.trust;
   design.remarks = design.analysis.remarks;
   if (design.trust.refused()) return design;
+  stages.next(0.15);
   design.sensitivities = stiffness_sensitivities(device, design.analysis.critical);
+  stages.next(0.2);
   if (design.analysis.any_user) {
     design.any_user_sensitivities = any_user_sensitivities(device, *design.analysis.any_user);
   }
+  stages.next(1.0);
   if (!options.branch_switches) return design;
   if (device.bodies().size() <= most_bodies_for_branch_switches) {
-    design.branch_switches = branch_switches(device, {options.branch_switch_factor});
+    design.branch_switches = branch_switches(device, {options.branch_switch_factor, stages.stage()});
   } else {
     design.remarks.push_back({Remark::Severity::note,
                               fmt::format("with more than {} bodies it is not searched where another mechanism takes "
@@ -37,6 +43,7 @@ Design design(const Device& device, const DesignOptions& options) {
                                           most_bodies_for_branch_switches),
                               "the slopes hold near the device's own values only", "sweep the number that you change"});
   }
+  stages.done();
   return design;
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "require_valid.hpp"
+#include "staged_progress.hpp"
 #include "zwidth/stability/analysis.hpp"
 
 namespace zwidth {
@@ -72,12 +73,14 @@ std::optional<OptionProblem> find_problem(const DeviceVariants& variants, const 
   return std::nullopt;
 }
 
-DesignComparison compare_designs(const DeviceVariants& variants, const std::optional<Operator>& user) {
+DesignComparison compare_designs(const DeviceVariants& variants, const std::optional<Operator>& user,
+                                 const Progress& progress) {
   require_valid(find_problem(variants, user));
   const std::vector<DeviceVariant>& all = variants.variants;
   DesignComparison comparison{variants.key, user.value_or(all.front().device.parameters().user), {}, {}, {}, {}, {}};
   for (const DeviceVariant& variant : all) {
     comparison.designs.push_back(judged(variant, comparison.user, comparison.trust));
+    internal::tell(progress, static_cast<double>(comparison.designs.size()) / static_cast<double>(all.size()));
   }
   comparison.best_free = best_of(comparison.designs, [](const auto& each) { return stiffness_of(each.free); });
   comparison.best_any_user = best_of(comparison.designs, [](const auto& each) {

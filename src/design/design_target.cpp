@@ -4,15 +4,14 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <atomic>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <cstdint>
-#include <mutex>
 
 #include "design/design_parameter.hpp"
 #include "infinity.hpp"
 #include "require_valid.hpp"
+#include "staged_progress.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/parameter.hpp"
 #include "zwidth/quantity.hpp"
@@ -60,8 +59,8 @@ double natural_size(const Device& device, const DesignParameter& parameter, doub
 
 class Search {
  public:
-  Search(const Device& device, const DesignTargetOptions& options, double limit_now)
-      : device_(device), options_(options), limit_now_(limit_now) {}
+  Search(const Device& device, const DesignTargetOptions& options, double limit_now, SharedProgress& progress)
+      : device_(device), options_(options), limit_now_(limit_now), progress_(progress) {}
 
   [[nodiscard]] DesignTarget target_of(const DesignParameter& parameter) const {
     DesignTarget target{parameter.key, parameter.value, std::nullopt, {}};
@@ -91,6 +90,7 @@ class Search {
   }
 
   [[nodiscard]] std::optional<double> limit_at(const DesignParameter& parameter, double value) const {
+    progress_.go_on();
     DeviceParameters moved = device_.parameters();
     moved.uncertainty.reset();
     set_parameter(moved, parameter.key, value);
@@ -210,6 +210,7 @@ class Search {
   const Device& device_;
   const DesignTargetOptions& options_;
   double limit_now_;
+  SharedProgress& progress_;
 };
 
 // Where in the answer: relative change, then numbers that are 0 now, then those without a value.
@@ -254,18 +255,16 @@ DesignTargets design_targets(const Device& device, const DesignTargetOptions& op
   if (limit == options.stiffness) {
     result.remarks.push_back({Remark::Severity::note, "the limit is the target already", "nothing needs to change"});
   }
-  const Search search(device, options, limit);
   std::vector<DesignParameter> parameters = design_parameters(device);
   if (options.goal == StiffnessGoal::any_user_limit) {  // which is over all users
     std::erase_if(parameters, [](const DesignParameter& each) { return each.key.starts_with("operator."); });
   }
   result.targets.resize(parameters.size());
-  std::mutex progress_mutex;
-  std::size_t done = 0;
+  SharedProgress progress(options.progress, parameters.size());
+  const Search search(device, options, limit, progress);
   tbb::parallel_for(std::size_t{0}, parameters.size(), [&](std::size_t i) {
     result.targets[i] = search.target_of(parameters[i]);
-    const std::lock_guard lock(progress_mutex);
-    if (options.progress) options.progress(static_cast<double>(++done) / static_cast<double>(parameters.size()));
+    progress.add();
   });
   std::ranges::stable_sort(result.targets, {}, cost);
   return result;

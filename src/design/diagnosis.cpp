@@ -12,6 +12,7 @@
 #include "design/oscillation_causes.hpp"
 #include "design/wall_limits.hpp"
 #include "require_valid.hpp"
+#include "staged_progress.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/device_trust.hpp"
 #include "zwidth/signal/dominant_oscillation.hpp"
@@ -82,8 +83,11 @@ void collect(const ObservedLoop& loop, Diagnosis& diagnosis) {
   } else {
     candidates.push_back(linear_candidate(loop, OscillationCause::device, loop.device));
   }
+  tell(loop.progress, 0.2);
   if (auto friction = friction_candidate(loop)) candidates.push_back(*std::move(friction));
+  tell(loop.progress, 0.6);
   if (auto steps = quantisation_candidate(loop)) candidates.push_back(*std::move(steps));
+  tell(loop.progress, 0.8);
   if (can_be_held(loop.device)) candidates.push_back(user_candidate(loop));
   rank(candidates, loop);
 }
@@ -156,18 +160,24 @@ Diagnosis diagnose(const Device& device, const DiagnosisOptions& options) {
   diagnosis.amplitude = options.amplitude;
   diagnosis.trust = trust_of(device);
   if (diagnosis.trust.refused()) return diagnosis;
+  StagedProgress stages(options.progress);
   ObservedLoop loop = observed(device, options);
+  loop.progress = stages.stage();
+  stages.next(0.05);
   if (loop.stiffness && *loop.stiffness == 0.0) loop.stiffness.reset();
   diagnosis.stiffness = loop.stiffness;
   diagnosis.damping = loop.device.parameters().wall.damping;
   diagnosis.trust.inherit(critical_stiffness(loop.device).trust);
   if (diagnosis.trust.refused()) return diagnosis;
+  stages.next(0.3);
   collect(loop, diagnosis);
+  stages.next(1.0);
   if (!diagnosis.candidates.empty() && diagnosis.candidates.front().fits) {
     diagnosis.cause = diagnosis.candidates.front().cause;
     diagnosis.changes = changes_of(loop, diagnosis.candidates.front());
   }
   remark_on(loop, diagnosis);
+  stages.done();
   return diagnosis;
 }
 

@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "staged_progress.hpp"
 #include "zwidth/stability/any_user.hpp"
 
 namespace zwidth::internal {
@@ -20,22 +21,24 @@ constexpr double half = 0.5;
 constexpr double finer = 0.25;
 constexpr double softer = 0.5;                                                    // of the limit: 6 dB
 constexpr std::array dampers{0.5, 0.8, 1.25, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0};  // times B, or the device's damping
+constexpr double usual_changes = 16.0;                                            // for the progress
 constexpr std::size_t most_links = 3;
 constexpr std::size_t shares_looked_at = 4;  // every fourth share of friction
 
 /// The stiffness up to which the cause is absent.
-double limit_of(OscillationCause cause, const Device& device) {
+double limit_of(OscillationCause cause, const Device& device, const Progress& progress) {
   switch (cause) {
     case OscillationCause::device:
       return critical_stiffness(without_operator(device)).stiffness;
     case OscillationCause::with_operator:
       return critical_stiffness(device).stiffness;
     case OscillationCause::passive_user:
-      return any_user_limit(device, virtual_damper(device)).stiffness;
+      return any_user_limit(device, virtual_damper(device), progress).stiffness;
     case OscillationCause::friction: {
       double least = critical_stiffness(device).stiffness;
       const std::vector<double> shares = friction_shares(device);
       for (std::size_t i = 0; i < shares.size(); i += shares_looked_at) {
+        tell(progress, 0.0);
         const Device rubbing = with_friction_as_damping(device, shares[i]);
         least = std::min(least, critical_stiffness(filtered_plant(rubbing), virtual_damper(rubbing)).stiffness);
       }
@@ -50,7 +53,7 @@ double limit_of(OscillationCause cause, const Device& device) {
 class Changes {
  public:
   Changes(const ObservedLoop& loop, const OscillationCandidate& cause) : loop_(loop), cause_(cause) {
-    if (!is_quantisation()) limit_ = limit_of(cause.cause, loop.device);
+    if (!is_quantisation()) limit_ = limit_of(cause.cause, loop.device, loop.progress);
   }
 
   [[nodiscard]] std::vector<DiagnosisChange> all() {
@@ -96,6 +99,7 @@ class Changes {
   /// The change, recomputed; left out where it makes no device.
   template <typename Change>
   void add(std::string what, std::string key, double now, double then, const Change& change) {
+    tell(loop_.progress, std::min(1.0, static_cast<double>(changes_.size()) / usual_changes));
     DeviceParameters parameters = loop_.device.parameters();
     change(parameters);
     if (find_problem(parameters)) return;
@@ -110,7 +114,7 @@ class Changes {
       if (!is_stable(changed)) return;  // worse than the cycle
     } else {
       result.limit_now = limit_;
-      result.limit_then = limit_of(cause_.cause, changed);
+      result.limit_then = limit_of(cause_.cause, changed, loop_.progress);
       if (std::isnan(*result.limit_then)) return;
       const std::optional<double> stiffness = changed.parameters().wall.stiffness;
       if (loop_.stiffness) result.ends_it = *result.limit_then > *stiffness;

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "stability/device_draws.hpp"
+#include "staged_progress.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -20,6 +21,7 @@ constexpr int most_softer = 40;
 LowerEnd::LowerEnd(const Device& device, const std::optional<WallFilter>& notch, const RecommendationOptions& options) {
   DeviceDraws drawn(device, seed);
   for (std::size_t i = 0; i < options.draws; ++i) {
+    tell(options.progress, static_cast<double>(i) / static_cast<double>(options.draws));
     const Device each = drawn.next();
     Draw draw{std::make_unique<WallLimits>(notch ? with_filter(each, *notch) : each, options), nullptr};
     draw.search = std::make_unique<WallSearch>(*draw.limits, options);

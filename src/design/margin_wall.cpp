@@ -13,6 +13,7 @@
 #include "stability/damper_response.hpp"
 #include "stability/disc_stiffness.hpp"
 #include "stability/loops_of_stiffness.hpp"
+#include "staged_progress.hpp"
 #include "zwidth/quantity.hpp"
 #include "zwidth/stability/any_user.hpp"
 
@@ -22,6 +23,7 @@ namespace {
 using std::numbers::pi;
 
 constexpr int points_per_decade = 60;
+constexpr std::size_t angles_per_report = 64;  // of progress
 constexpr double lowest_angle = 1e-6;
 constexpr int points_near_nyquist = 60;  // evenly, over the upper half
 // Around a resonance of damping ratio zeta, in units of its half width zeta w.
@@ -41,8 +43,10 @@ bool loop_keeps(const LoopsOfStiffness& loops, double stiffness, const RequiredM
 }
 
 // Between a stiffness that keeps the margins and one that does not.
-double last_that_keeps(const LoopsOfStiffness& loops, const RequiredMargins& margins, double keeps, double fails) {
+double last_that_keeps(const LoopsOfStiffness& loops, const RequiredMargins& margins, double keeps, double fails,
+                       const Progress& progress) {
   const auto slack = [&](double stiffness) {
+    tell(progress, 0.0);
     return std::min(loops.slack(stiffness, margins.gain, margins.phase) + rounding, 1.0);
   };
   std::uintmax_t evaluations = most_evaluations;
@@ -147,7 +151,7 @@ double stiffest_wall(const Device& device, const RequiredMargins& margins) {
 }
 
 double stiffest_wall(const FilteredPlant& plant, VirtualDamper damper, const RequiredMargins& margins,
-                     const StiffnessRange& range) {
+                     const StiffnessRange& range, const Progress& progress) {
   const LoopsOfStiffness loops(plant, damper);
   const double limit = critical_stiffness_of(plant, loops.crossings()).stiffness;
   const double top = std::min(limit / margins.gain, range.at_most);
@@ -158,11 +162,13 @@ double stiffest_wall(const FilteredPlant& plant, VirtualDamper damper, const Req
   double high = top * (1.0 - rounding);
   if (loop_keeps(loops, high, margins)) return high;
   if (range.at_least > 0.0) {
-    return loop_keeps(loops, range.at_least, margins) ? last_that_keeps(loops, margins, range.at_least, high) : 0.0;
+    return loop_keeps(loops, range.at_least, margins) ? last_that_keeps(loops, margins, range.at_least, high, progress)
+                                                      : 0.0;
   }
   for (int i = 0; i < most_steps; ++i) {
+    tell(progress, 0.0);
     const double low = step_down * high;
-    if (loop_keeps(loops, low, margins)) return last_that_keeps(loops, margins, low, high);
+    if (loop_keeps(loops, low, margins)) return last_that_keeps(loops, margins, low, high, progress);
     high = low;
   }
   return 0.0;
@@ -177,14 +183,16 @@ bool keeps_margins(const Device& device, double stiffness, const RequiredMargins
          (!margins.any_user || grown < any_user_limit(device, damper).stiffness);
 }
 
-LoopGrid::LoopGrid(const Device& device, bool with_users)
+LoopGrid::LoopGrid(const Device& device, bool with_users, const Progress& progress)
     : period_(device.loop().sampling_period), angles_(grid_of(device)) {
   const FilteredPlant plant = filtered_plant(device);
   std::optional<UserDiscs> users;
-  if (with_users) users.emplace(device);
+  if (with_users) users.emplace(device, progress);
   plant_.reserve(angles_.size());
   damper_.reserve(angles_.size());
+  tell(progress, 0.0);
   for (const double angle : angles_) {
+    if (plant_.size() % angles_per_report == 0) tell(progress, 0.0);
     const double frequency = angle / period_;
     plant_.push_back(response(plant, frequency));
     damper_.push_back(damper_response(virtual_damper(device), period_, frequency));

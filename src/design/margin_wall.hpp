@@ -11,6 +11,7 @@
 #include "stability/user_discs.hpp"
 #include "zwidth/model/device.hpp"
 #include "zwidth/option_problem.hpp"
+#include "zwidth/progress.hpp"
 #include "zwidth/sampling/sampled_plant.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
 
@@ -40,7 +41,7 @@ struct StiffnessRange {
 
 /// The same within a range, behind the plant's own filters; whoever holds the device is left out.
 [[nodiscard]] double stiffest_wall(const FilteredPlant& plant, VirtualDamper damper, const RequiredMargins& margins,
-                                   const StiffnessRange& range);
+                                   const StiffnessRange& range, const Progress& progress = {});
 
 /// Whether that wall keeps the margins; stable, strictly.
 [[nodiscard]] bool keeps_margins(const Device& device, double stiffness, const RequiredMargins& margins);
@@ -51,7 +52,7 @@ class LoopGrid {
  public:
   using Response = std::vector<std::complex<double>>;  // one value per frequency
 
-  LoopGrid(const Device& device, bool with_users);
+  LoopGrid(const Device& device, bool with_users, const Progress& progress = {});
 
   [[nodiscard]] std::size_t size() const { return angles_.size(); }
 

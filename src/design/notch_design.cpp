@@ -6,13 +6,13 @@
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <cstdint>
-#include <functional>
 #include <numbers>
 #include <utility>
 
 #include "design/margin_wall.hpp"
 #include "design/notch_search.hpp"
 #include "require_valid.hpp"
+#include "staged_progress.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/quantity.hpp"
 #include "zwidth/stability/any_user.hpp"
@@ -54,11 +54,12 @@ struct Verified {
 class Verification {
  public:
   Verification(const Device& device, const NotchOptions& options, bool keep_any_user)
-      : device_(device), margins_(required(options)) {
+      : device_(device), margins_(required(options)), progress_(options.progress) {
     const std::size_t count = options.drift > 0.0 ? drifts_verified : 1;
     for (std::size_t i = 0; i < count; ++i) {
       const double share =
           count == 1 ? 0.0 : 2.0 * static_cast<double>(i) / static_cast<double>(drifts_verified - 1) - 1.0;
+      tell(progress_, static_cast<double>(i) / static_cast<double>(count));
       Device each = drifted(device, share * options.drift);
       const double any_user = keep_any_user ? any_user_limit(each, virtual_damper(each)).stiffness : 0.0;
       const double without = internal::stiffest_wall(each, margins_);
@@ -74,6 +75,7 @@ class Verification {
   [[nodiscard]] std::vector<NotchAtDrift> with(const WallFilter& notch) const {
     std::vector<NotchAtDrift> samples = without_;
     for (std::size_t i = 0; i < drifts_.size(); ++i) {
+      tell(progress_, 0.0);
       samples[i].with = internal::stiffest_wall(with_filter(drifts_[i].device, notch), margins_);
     }
     return samples;
@@ -92,6 +94,7 @@ class Verification {
       if (stiffness < result.stiffness) result = {stiffness, drift};
     };
     const auto at = [&](double drift) {
+      tell(progress_, 0.0);
       const Device plain = drifted(device_, drift);
       return internal::stiffest_wall(notch != nullptr ? with_filter(plain, *notch) : plain, margins_);
     };
@@ -117,6 +120,7 @@ class Verification {
   [[nodiscard]] double kept_everywhere(const WallFilter& notch, double stiffness) const {
     std::vector<Device> notched;
     for (const Verified& each : drifts_) {
+      tell(progress_, 0.0);
       notched.push_back(with_filter(each.device, notch));
       const Device& device = notched.back();
       if (each.any_user > 0.0 &&
@@ -126,7 +130,11 @@ class Verification {
     }
     const RequiredMargins margins{margins_.gain * (1.0 - shaved), margins_.phase * (1.0 - shaved), margins_.any_user};
     for (int step = 0; step < most_steps_down; ++step, stiffness *= step_down) {
-      if (std::ranges::all_of(notched, [&](const Device& each) { return keeps_margins(each, stiffness, margins); })) {
+      const auto keeps = [&](const Device& each) {
+        tell(progress_, 0.0);
+        return keeps_margins(each, stiffness, margins);
+      };
+      if (std::ranges::all_of(notched, keeps)) {
         return stiffness;
       }
     }
@@ -136,6 +144,7 @@ class Verification {
  private:
   const Device& device_;
   RequiredMargins margins_;
+  const Progress& progress_;
   std::vector<Verified> drifts_;
   std::vector<NotchAtDrift> without_;
 };
@@ -216,23 +225,21 @@ double stiffest_wall(const Device& device, const NotchOptions& options) {
   return internal::stiffest_wall(device, required(options));
 }
 
-NotchDesign design_notch(const Device& device, const NotchOptions& options) {
-  require_valid(find_problem(options, device));
+NotchDesign design_notch(const Device& device, const NotchOptions& given) {
+  require_valid(find_problem(given, device));
+  StagedProgress stages(given.progress);
+  NotchOptions options = given;
+  options.progress = stages.stage();
   NotchDesign design;
   design.trust = critical_stiffness(device).trust;
   if (design.trust.refused()) return design;
   const std::vector<double> modes = seen_modes(device);
-  double reported = 0.0;
-  const auto report = [&](double fraction) {
-    reported = std::max(reported, fraction);
-    if (options.progress) options.progress(reported);
-  };
-
+  stages.next(0.2);
   const bool keep_any_user = !options.lower_any_user && can_be_held(device);
   const Verification verification(device, options, keep_any_user);
   design.over_drift = verification.without();
   design.without = design.with = verification.least(design.over_drift, &NotchAtDrift::without, nullptr).stiffness;
-  report(0.2);
+  stages.next(0.5);
   if (std::isfinite(design.without)) {
     NotchSearch search(options, modes, device.loop().sampling_period, keep_any_user);
     search.add(device);
@@ -240,9 +247,10 @@ NotchDesign design_notch(const Device& device, const NotchOptions& options) {
       search.add(verification.at(0));
       search.add(verification.at(verification.size() - 1));
     }
-    std::vector<NotchSearch::Point> candidates = search.candidates([&](double done) { report(0.2 + 0.3 * done); });
+    std::vector<NotchSearch::Point> candidates = search.candidates(options.progress);
     bool settled = false;
     for (int round = 0; round < rounds && !candidates.empty() && !settled; ++round) {
+      stages.next(0.5 + 0.5 * (round + 1) / rounds);
       std::vector<std::pair<double, NotchSearch::Point>> found;
       for (const NotchSearch::Point& start : candidates) {
         for (const auto& each : search.refine(start)) found.push_back(each);
@@ -267,7 +275,6 @@ NotchDesign design_notch(const Device& device, const NotchOptions& options) {
         }
         settled = with > 0.0 && worst.stiffness >= promised * 0.99;
       }
-      report(0.5 + 0.5 * (round + 1) / rounds);
       if (found.front().first <= design.without * (1.0 + worth_having)) break;  // nothing to gain
       search.add(drifted(device, worst_drift));
       candidates = {found.front().second};
@@ -275,7 +282,7 @@ NotchDesign design_notch(const Device& device, const NotchOptions& options) {
   }
   add_states(device, design);
   remark_on(options, design);
-  report(1.0);
+  stages.done();
   return design;
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "infinity.hpp"
+#include "staged_progress.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -76,7 +77,7 @@ NotchSearch::NotchSearch(const NotchOptions& options, std::vector<double> modes,
       keep_any_user_(keep_any_user) {}
 
 void NotchSearch::add(const Device& device) {
-  LoopGrid grid(device, keep_any_user_ || margins_.any_user);
+  LoopGrid grid(device, keep_any_user_ || margins_.any_user, options_.progress);
   const LoopGrid::Response none(grid.size(), 1.0);
   const double any_user = keep_any_user_ ? grid.any_user(none) * (1.0 - same_on_grid) : 0.0;
   scenarios_.push_back({filtered_plant(device), virtual_damper(device), std::move(grid), any_user});
@@ -104,6 +105,7 @@ double NotchSearch::least_on_grid(const WallFilter& notch, double enough, Route 
 
 // The same; exactly but for the users, who are seen on the grid alone: their exact limit takes longer than all the rest.
 double NotchSearch::least(const Point& at, double enough, Route route) const {
+  tell(options_.progress, 0.0);
   const WallFilter notch = notch_at(at);
   std::vector<double> of_scenarios;
   const double on_grid = least_on_grid(notch, enough, route, of_scenarios);
@@ -112,13 +114,13 @@ double NotchSearch::least(const Point& at, double enough, Route route) const {
   for (const std::size_t i : by_value(of_scenarios)) {
     const Scenario& scenario = scenarios_[i];
     result = std::min(result, stiffest_wall(filtered_plant(scenario.plant, {notch}), scenario.damper, margins_,
-                                            {.at_least = enough, .at_most = result}));
+                                            {.at_least = enough, .at_most = result}, options_.progress));
     if (result <= enough) return result;
   }
   return result;
 }
 
-std::vector<NotchSearch::Point> NotchSearch::candidates(const std::function<void(double)>& on_step) const {
+std::vector<NotchSearch::Point> NotchSearch::candidates(const Progress& progress) const {
   std::vector<double> factors(centres_on_grid.begin(), centres_on_grid.end());
   if (options_.far_from_modes) factors.insert(factors.end(), far_centres_on_grid.begin(), far_centres_on_grid.end());
   // Without the look between the frequencies the climb may start in a better place.
@@ -132,7 +134,7 @@ std::vector<NotchSearch::Point> NotchSearch::candidates(const std::function<void
       std::optional<Point> best;
       double most = 0.0;
       for (const double factor : factors) {
-        on_step(static_cast<double>(step++) / steps);
+        tell(progress, static_cast<double>(step++) / steps);
         if (factor * mode > highest_centre * nyquist_) continue;
         for (const double width : widths_on_grid) {
           for (const double depth : depths_on_grid) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <functional>
 #include <utility>
 #include <vector>
 
@@ -24,14 +23,15 @@ class NotchSearch {
   using Point = std::array<double, 3>;
   [[nodiscard]] static WallFilter notch_at(const Point& at);
 
-  /// `modes`: where the wall sees them, rad/s. `options` must outlive the search.
+  /// `modes`: where the wall sees them, rad/s. `options` must outlive the search, whose work they
+  /// are told within a step.
   NotchSearch(const NotchOptions& options, std::vector<double> modes, double period, bool keep_any_user);
 
   /// One drift of the device more.
   void add(const Device& device);
 
-  /// The best of a grid around each mode, with and without a look between the frequencies; `on_step` takes the fraction done.
-  [[nodiscard]] std::vector<Point> candidates(const std::function<void(double)>& on_step) const;
+  /// The best of a grid around each mode, with and without a look between the frequencies.
+  [[nodiscard]] std::vector<Point> candidates(const Progress& progress) const;
 
   /// Pattern search: the best of the 26 neighbours of a cube, halved where none is better; at first on the grids, then
   /// exactly, since a grid may miss a narrow dip. With their stiffest walls; two where the look between the frequencies

@@ -13,6 +13,7 @@
 #include "stability/damper_response.hpp"
 #include "stability/disc_stiffness.hpp"
 #include "stability/user_discs.hpp"
+#include "staged_progress.hpp"
 #include "zwidth/model/state_space.hpp"
 #include "zwidth/quantity.hpp"
 #include "zwidth/sampling/filter_section.hpp"
@@ -186,7 +187,7 @@ OscillationCandidate linear_candidate(const ObservedLoop& loop, OscillationCause
 }
 
 OscillationCandidate user_candidate(const ObservedLoop& loop) {
-  const UserDiscs discs(loop.device);
+  const UserDiscs discs(loop.device, loop.progress);
   const VirtualDamper damper = virtual_damper(loop.device);
   const double period = loop.device.loop().sampling_period;
   OscillationCandidate candidate;
@@ -267,6 +268,7 @@ std::optional<OscillationCandidate> friction_candidate(const ObservedLoop& loop)
   double sliding = is_stable(loop.device) ? 0.0 : -1.0;
   std::optional<double> best;
   for (const double share : friction_shares(loop.device)) {
+    tell(loop.progress, 0.0);
     if (is_stable(with_friction_as_damping(loop.device, share))) {
       sliding = share;
       continue;
@@ -275,6 +277,7 @@ std::optional<OscillationCandidate> friction_candidate(const ObservedLoop& loop)
     double low = sliding;
     double high = share;
     for (int i = 0; i < bisections; ++i) {
+      tell(loop.progress, 0.0);
       const double middle = low > 0.0 ? std::sqrt(low * high) : 0.5 * high;
       (is_stable(with_friction_as_damping(loop.device, middle)) ? low : high) = middle;
     }

@@ -13,6 +13,7 @@ struct ObservedLoop {
   double frequency = 0.0;  // observed, rad/s
   std::optional<double> amplitude;
   std::optional<double> stiffness;
+  Progress progress = {};  // of the stage of work that looks at it
 };
 
 [[nodiscard]] bool is_held(const Device& device);

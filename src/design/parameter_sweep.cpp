@@ -5,20 +5,19 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
-#include <mutex>
 
+#include "staged_progress.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/device_trust.hpp"
 #include "zwidth/model/parameter.hpp"
 
 namespace zwidth {
+using namespace internal;
 namespace {
 
-constexpr std::size_t worth_threads = 64;      // points
-constexpr std::size_t points_per_report = 16;  // of progress
+constexpr std::size_t worth_threads = 64;  // points
 
 /// Numbers of the device that no limit depends on.
 bool is_for_simulation(const std::string& key) {
@@ -116,27 +115,6 @@ Trust trust_of(const Device& device, const std::vector<SweepPoint>& points) {
   return trust;
 }
 
-/// Counts points of all threads; one of them at a time reports.
-class SharedProgress {
- public:
-  SharedProgress(const Progress& progress, std::size_t total) : progress_(progress), total_(total) {}
-
-  void add_one() {
-    const std::size_t done = ++done_;
-    if (!progress_ || (done % points_per_report != 0 && done < total_)) return;
-    const std::lock_guard lock(mutex_);
-    reported_ = std::max(reported_, static_cast<double>(done) / static_cast<double>(total_));
-    progress_(reported_);
-  }
-
- private:
-  const Progress& progress_;
-  std::size_t total_;
-  std::atomic<std::size_t> done_{0};
-  std::mutex mutex_;
-  double reported_ = 0.0;
-};
-
 }  // namespace
 
 std::vector<double> values_of(const SweepAxis& axis) {
@@ -195,7 +173,7 @@ ParameterSweep parameter_sweep(const Device& device, const std::vector<SweepAxis
   SharedProgress shared(progress, sweep.points.size());
   const auto compute = [&](std::size_t i) {
     sweep.points[i] = point_of(Device(points.at(i)), options, trust);
-    shared.add_one();
+    shared.add();
   };
   if (sweep.points.size() > worth_threads) {
     tbb::parallel_for(std::size_t{0}, sweep.points.size(), compute);

@@ -8,6 +8,7 @@
 #include "design/region_check.hpp"
 #include "design/region_structure.hpp"
 #include "require_valid.hpp"
+#include "staged_progress.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/device_trust.hpp"
 #include "zwidth/quantity.hpp"
@@ -16,6 +17,8 @@
 namespace zwidth {
 using namespace internal;
 namespace {
+
+constexpr double walls_share = 0.2;  // of the progress; the rest is of the users
 
 std::vector<ComparedApproximation> compared(const Device& device, const WallRegion& walls) {
   std::vector<ComparedApproximation> result;
@@ -39,10 +42,13 @@ void refuse(WallRegion& result, std::string reason) {
 }
 
 // Follows the boundary and asks the second route.
-void find_walls(const Device& device, const OutlineOptions& outline, WallRegion& result) {
-  result.walls.emplace(filtered_plant(device), device.parameters().wall.velocity_filter_hz);
+void find_walls(const Device& device, const OutlineOptions& outline, WallRegion& result, const Progress& progress) {
+  StagedProgress stages(progress);
+  stages.next(0.7);
+  result.walls.emplace(filtered_plant(device), device.parameters().wall.velocity_filter_hz, stages.stage());
+  stages.next(1.0);
   result.region = stable_region(*result.walls, outline);
-  const RegionCheck check = check_region(device, *result.walls, result.region, outline.deviation);
+  const RegionCheck check = check_region(device, *result.walls, result.region, outline.deviation, stages.stage());
   const Units units = units_of(device.parameters().motion);
   if (check.contradiction) {
     refuse(result, fmt::format("two computations contradict each other on whether the wall of {} and {} {} is stable: "
@@ -91,10 +97,12 @@ std::optional<OptionProblem> find_problem(const RegionOptions& options) {
 WallRegion region(const Device& device, const RegionOptions& options) {
   require_valid(find_problem(options));
   WallRegion result;
+  StagedProgress stages(options.progress);
   result.trust = trust_of(device);
   if (result.trust.refused()) return result;
   try {
-    find_walls(device, options.outline, result);
+    stages.next(options.any_user && device.has_bodies() ? walls_share : 0.95);
+    find_walls(device, options.outline, result, stages.stage());
   } catch (const Error& error) {
     if (error.code() != ErrorCode::did_not_converge) throw;
     refuse(result,
@@ -112,7 +120,9 @@ WallRegion region(const Device& device, const RegionOptions& options) {
   if (options.any_user && device.has_bodies() && result.region.most_damped &&
       result.region.most_damped->damping > 0.0) {
     if (device.bodies().size() <= most_bodies_for_any_user) {
-      result.any_user = any_user_region(device, result.walls->velocity_filter_hz(), result.region.most_damped->damping);
+      stages.next(0.95);
+      result.any_user = any_user_region(device, result.walls->velocity_filter_hz(), result.region.most_damped->damping,
+                                        {.progress = stages.stage()});
     } else {
       result.remarks.push_back({Remark::Severity::note,
                                 fmt::format("no limit for any passive user: the device has {} bodies, more than {}",
@@ -121,7 +131,9 @@ WallRegion region(const Device& device, const RegionOptions& options) {
                                 "merge bodies that hardly move against each other"});
     }
   }
+  stages.next(1.0);
   if (options.approximations) result.approximations = compared(device, result);
+  stages.done();
   return result;
 }
 

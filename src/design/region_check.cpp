@@ -8,6 +8,7 @@
 
 #include "stability/pole_count.hpp"
 #include "stability/routh_count.hpp"
+#include "staged_progress.hpp"
 #include "zwidth/stability/closed_loop.hpp"
 
 namespace zwidth::internal {
@@ -185,7 +186,7 @@ bool is_stable(const StableWalls& walls, const WallPoint& wall) {
 
 // Beside modes that hardly anything damps every pole is on the circle to rounding: a few walls with a hundred digits.
 void check_in_digits(const Device& device, const StableWalls& walls, const std::vector<WallPoint>& asked,
-                     RegionCheck& check) {
+                     RegionCheck& check, const Progress& progress) {
   const auto poles_outside = [&](const WallPoint& at) {
     DeviceParameters parameters = device.parameters();
     parameters.wall.damping = at.damping;
@@ -203,6 +204,7 @@ void check_in_digits(const Device& device, const StableWalls& walls, const std::
   };
   const std::size_t count = std::min(walls_in_digits, asked.size());
   for (std::size_t i = 0; i < count; ++i) {
+    tell(progress, 1.0);
     const WallPoint& wall = asked[i * asked.size() / count];
     const std::optional<int> outside = poles_outside(wall);
     if (!outside) continue;
@@ -217,7 +219,8 @@ void check_in_digits(const Device& device, const StableWalls& walls, const std::
 
 }  // namespace
 
-RegionCheck check_region(const Device& device, const StableWalls& walls, const StableRegion& region, double deviation) {
+RegionCheck check_region(const Device& device, const StableWalls& walls, const StableRegion& region, double deviation,
+                         const Progress& progress) {
   RegionCheck check;
   const ClosedLoop loop(device);
   if (loop.order() > largest_order || !region.bounded) return check;
@@ -247,7 +250,7 @@ RegionCheck check_region(const Device& device, const StableWalls& walls, const S
   }
   for (const WallPoint& wall : asked) {
     const bool stable = is_stable(walls, wall);
-    ++check.asked;
+    tell(progress, static_cast<double>(check.asked++) / static_cast<double>(asked.size()));
     const bool confirmed = loop.confirms(wall, stable);
     const bool drawn = outlines && outlines->contains(wall);
     const bool misdrawn = drawn != stable && outlines && outlines->distance(wall) > clear_of_outline * deviation;
@@ -266,7 +269,7 @@ RegionCheck check_region(const Device& device, const StableWalls& walls, const S
     }
   }
   if (check.confirmed == 0 && loop.order() <= static_cast<Eigen::Index>(PoleCount::most_states_for_digits)) {
-    check_in_digits(device, walls, asked, check);
+    check_in_digits(device, walls, asked, check, progress);
   }
   return check;
 }

@@ -19,6 +19,7 @@ struct RegionCheck {
 // Walls over the extent of the region and somewhat beyond, evenly and by ratios, and beside the boundary on both sides.
 // The same walls must be in the outline as in the intervals. Their number falls with the order of the loop, to none
 // beyond a cap.
-RegionCheck check_region(const Device& device, const StableWalls& walls, const StableRegion& region, double deviation);
+RegionCheck check_region(const Device& device, const StableWalls& walls, const StableRegion& region, double deviation,
+                         const Progress& progress = {});
 
 }  // namespace zwidth::internal

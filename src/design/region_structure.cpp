@@ -7,11 +7,16 @@
 
 #include "design/boundary_crossings.hpp"
 #include "infinity.hpp"
+#include "staged_progress.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth::internal {
 namespace {
 
+// Of the progress: the curve followed, its crossings found, the slabs told.
+constexpr double following_share = 0.4;
+constexpr double crossing_share = 0.7;
+constexpr double slab_share = 0.9;
 // Levels of B closer than this, relative, are one.
 constexpr double same_level = 1e-11;
 // A slab is checked this share of its height from either end, and by this ratio of B between down to this share of its
@@ -61,49 +66,60 @@ std::optional<double> drift_stiffness(const BoundaryCurve& curve) {
 
 }  // namespace
 
-RegionStructure::RegionStructure(FilteredPlant plant, double velocity_filter_hz)
+RegionStructure::RegionStructure(FilteredPlant plant, double velocity_filter_hz, const Progress& progress)
     : curve(std::move(plant), velocity_filter_hz) {
   if (curve.plant().terms.empty()) {  // the wall does not see the device
     const RegionCell all{RegionEdge{BoundaryKind::no_stiffness, 0}, std::nullopt};
     slabs.push_back({0.0, infinity, {all}});
     return;
   }
+  StagedProgress stages(progress);
+  stages.next(following_share);
   nyquist = if_positive(curve.nyquist_stiffness());
   drift = drift_stiffness(curve);
   by_damping_ = damping_crossings(curve.plant(), {0.0, curve.velocity_filter_hz()});
-  const auto [segments, all_proven] = curve_segments(curve, wall_bounds(curve));
+  const auto [segments, all_proven] = curve_segments(curve, wall_bounds(curve), stages.stage());
   proven = all_proven;
   branches = boundary_branches(curve, segments);
-  const std::vector<double> found = levels(segments);
+  stages.next(crossing_share);
+  const std::vector<double> found = levels(segments, stages.stage());
   try {
-    find_slabs(found);
-    if (!(slabs.empty() && !told_apart_) && are_slabs_confirmed()) return;
+    stages.next(slab_share);
+    find_slabs(found, stages.stage());
+    if (!(slabs.empty() && !told_apart_) && are_slabs_confirmed(stages.stage())) {
+      stages.done();
+      return;
+    }
   } catch (const Error& error) {
     if (error.code() != ErrorCode::did_not_converge) throw;
   }
   by_branches_ = false;
   divisions_left_ = max_divisions;
-  find_slabs(found);
+  stages.next(1.0);
+  find_slabs(found, stages.stage());
   // Nothing stable, where pieces of boundary lie on one another to rounding, is no answer.
   if (slabs.empty() && !told_apart_) {
     throw Error(ErrorCode::did_not_converge,
                 "pieces of the boundary of the stable walls lie on one another to rounding: a mode is not damped");
   }
+  stages.done();
 }
 
-void RegionStructure::find_slabs(const std::vector<double>& found) {
+void RegionStructure::find_slabs(const std::vector<double>& found, const Progress& progress) {
   slabs.clear();
   for (std::size_t i = found.size() - 1; i > 0; --i) {
     // Where everything meets at K = B = 0 rounding moves levels: what is below is not resolved.
     const double unresolved = slabs.empty() ? 0.0 : finest_detail * slabs.front().upper;
-    add_slabs(found[i] > unresolved ? found[i - 1] : 0.0, found[i]);
+    add_slabs(found[i] > unresolved ? found[i - 1] : 0.0, found[i], progress);
+    tell(progress, 1.0 - static_cast<double>(i) / static_cast<double>(found.size()));
     if (found[i] <= unresolved) break;
   }
   std::reverse(slabs.begin(), slabs.end());
 }
 
-bool RegionStructure::are_slabs_confirmed() const {
+bool RegionStructure::are_slabs_confirmed(const Progress& progress) const {
   return std::all_of(slabs.begin(), slabs.end(), [&](const RegionSlab& slab) {
+    tell(progress, 1.0);
     const double middle = slab.lower + 0.5 * (slab.upper - slab.lower);
     return agree(slab.cells, cells_by_isolation(middle), middle);
   });
@@ -122,13 +138,13 @@ std::vector<BoundarySegment> RegionStructure::straight_segments(double top) cons
 }
 
 // Every B at which the stable intervals of K may change, from 0.
-std::vector<double> RegionStructure::levels(const std::vector<BoundarySegment>& segments) {
+std::vector<double> RegionStructure::levels(const std::vector<BoundarySegment>& segments, const Progress& progress) {
   std::vector<double> found;
   double top = 0.0;
   for (const BoundarySegment& segment : segments) top = std::max(top, greatest(segment.damping));
   std::vector<BoundarySegment> all = segments;
   for (const BoundarySegment& each : straight_segments(top)) all.push_back(each);
-  const BoundaryCrossings crossings = boundary_crossings(curve, all);
+  const BoundaryCrossings crossings = boundary_crossings(curve, all, progress);
   proven = proven && crossings.complete;
   told_apart_ = crossings.complete;
   for (const WallPoint& wall : crossings.walls) found.push_back(wall.damping);
@@ -299,13 +315,14 @@ void RegionStructure::add_below(double lower, double upper, std::vector<RegionCe
   }
 }
 
-void RegionStructure::add_slabs(double bottom, double top) {
+void RegionStructure::add_slabs(double bottom, double top, const Progress& progress) {
   struct Range {
     double lower;
     double upper;
   };
   std::vector<Range> ranges{{bottom, top}};  // the highest last
   while (!ranges.empty()) {
+    tell(progress, 0.0);
     const auto [lower, upper] = ranges.back();
     ranges.pop_back();
     const double height = upper - lower;

@@ -7,6 +7,7 @@
 #include "design/boundary_branch.hpp"
 #include "stability/gain_crossings.hpp"
 #include "zwidth/design/stable_region.hpp"
+#include "zwidth/progress.hpp"
 
 namespace zwidth::internal {
 
@@ -38,7 +39,7 @@ struct RegionStructure {
   // The cells are told by the branches at each B; those of every slab are confirmed by critical_stiffness(), which
   // knows no branch. Where it contradicts, it tells the cells everywhere.
   // Throws Error (did_not_converge) at the cap, and as boundary_segments() and critical_stiffness() do.
-  RegionStructure(FilteredPlant plant, double velocity_filter_hz);
+  RegionStructure(FilteredPlant plant, double velocity_filter_hz, const Progress& progress);
 
   struct EdgePoint {
     double stiffness = 0.0;
@@ -58,7 +59,7 @@ struct RegionStructure {
 
  private:
   [[nodiscard]] std::vector<BoundarySegment> straight_segments(double top) const;
-  [[nodiscard]] std::vector<double> levels(const std::vector<BoundarySegment>& segments);
+  [[nodiscard]] std::vector<double> levels(const std::vector<BoundarySegment>& segments, const Progress& progress);
   [[nodiscard]] std::vector<RegionCell> cells_at(double damping) const;
   [[nodiscard]] std::vector<RegionCell> cells_by_branches(double damping) const;
   [[nodiscard]] std::vector<RegionCell> cells_by_isolation(double damping) const;
@@ -67,9 +68,9 @@ struct RegionStructure {
   [[nodiscard]] bool agree_within(const std::vector<RegionCell>& cells, double lower, double upper) const;
   [[nodiscard]] double stiffest_of(const std::vector<RegionCell>& cells, double damping) const;
   void add_below(double lower, double upper, std::vector<RegionCell> cells);
-  void add_slabs(double bottom, double top);
-  void find_slabs(const std::vector<double>& found);
-  [[nodiscard]] bool are_slabs_confirmed() const;
+  void add_slabs(double bottom, double top, const Progress& progress);
+  void find_slabs(const std::vector<double>& found, const Progress& progress);
+  [[nodiscard]] bool are_slabs_confirmed(const Progress& progress) const;
 
   GainCrossings by_damping_;  // of the damper alone
   bool by_branches_ = true;

@@ -23,9 +23,9 @@ FilteredPlant checked(FilteredPlant plant, double velocity_filter_hz) {
 
 }  // namespace
 
-StableWalls::StableWalls(FilteredPlant plant, double velocity_filter_hz)
-    : structure_(
-          std::make_shared<const RegionStructure>(checked(std::move(plant), velocity_filter_hz), velocity_filter_hz)) {}
+StableWalls::StableWalls(FilteredPlant plant, double velocity_filter_hz, const Progress& progress)
+    : structure_(std::make_shared<const RegionStructure>(checked(std::move(plant), velocity_filter_hz),
+                                                         velocity_filter_hz, progress)) {}
 
 double StableWalls::velocity_filter_hz() const { return structure_->curve.velocity_filter_hz(); }
 

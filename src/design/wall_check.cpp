@@ -13,6 +13,7 @@
 #include "stability/damper_response.hpp"
 #include "stability/guarded_stiffness.hpp"
 #include "stability/pole_count.hpp"
+#include "staged_progress.hpp"
 #include "zwidth/model/state_space.hpp"
 
 namespace zwidth::internal {
@@ -32,20 +33,22 @@ Device grown(const Device& walled, double spring, double damper) {
   return with_wall(walled, spring * *wall.stiffness, {damper * wall.damping, wall.velocity_filter_hz});
 }
 
-void check_stable(const Device& walled, Trust& trust) {
+void check_stable(const Device& walled, const Progress& progress, Trust& trust) {
+  tell(progress, 0.0);
   if (trust.refused()) return;
   const double stiffness = *walled.parameters().wall.stiffness;
   distrust(agreement(PoleCount(walled), stiffness, true), stiffness, trust);
 }
 
 /// With users on a grid of masses and springs: poles outside the circle contradict; those too near it to tell do not.
-void check_users(const Device& walled, Trust& trust) {
+void check_users(const Device& walled, const Progress& progress, Trust& trust) {
   double mass = 0.0;
   for (const Body& body : walled.bodies()) mass += body.mass;
   const double stiffness = *walled.parameters().wall.stiffness;
   for (const double heavy : masses_of_users) {
     for (const double stiff : springs_of_users) {
       if (trust.refused()) return;
+      tell(progress, 0.0);
       DeviceParameters held = walled.parameters();
       held.user = {heavy * mass, 0.0, stiff * stiffness};
       if (find_problem(held)) continue;
@@ -84,12 +87,13 @@ class StateSpaceLoop {
 };
 
 /// Gain crossovers between the points of a grid, each refined by bisection.
-void check_phase(const Device& walled, double phase_margin, Trust& trust) {
+void check_phase(const Device& walled, double phase_margin, const Progress& progress, Trust& trust) {
   const StateSpaceLoop loop(walled);
   const auto count = static_cast<int>(std::ceil(points_per_decade * std::log10(pi / lowest_checked_angle)));
   double last_angle = 0.0;
   double last_gain = 0.0;
   for (int i = count; i >= 0; --i) {
+    tell(progress, 0.0);
     const double angle = pi * std::pow(10.0, -static_cast<double>(i) / points_per_decade);
     const double gain = std::abs(loop.at(angle));
     if (i < count && (gain > 1.0) != (last_gain > 1.0)) {
@@ -115,13 +119,13 @@ void check_phase(const Device& walled, double phase_margin, Trust& trust) {
 }  // namespace
 
 void check_wall(const Device& walled, const RecommendationOptions& options, bool any_user, Trust& trust) {
-  check_stable(walled, trust);
+  check_stable(walled, options.progress, trust);
   for (const Device& each :
        {grown(walled, options.gain_margin, 1.0), grown(walled, options.gain_margin, options.gain_margin)}) {
-    check_stable(each, trust);
-    if (any_user) check_users(each, trust);
+    check_stable(each, options.progress, trust);
+    if (any_user) check_users(each, options.progress, trust);
   }
-  if (!trust.refused()) check_phase(walled, options.phase_margin, trust);
+  if (!trust.refused()) check_phase(walled, options.phase_margin, options.progress, trust);
 }
 
 }  // namespace zwidth::internal

@@ -7,6 +7,7 @@
 
 #include "design/margin_wall.hpp"
 #include "infinity.hpp"
+#include "staged_progress.hpp"
 #include "zwidth/model/state_space.hpp"
 #include "zwidth/stability/analysis.hpp"
 #include "zwidth/stability/closed_loop.hpp"
@@ -79,14 +80,17 @@ WallLimits::WallLimits(const Device& device, const RecommendationOptions& option
       options_(options),
       plant_(filtered_plant(device)),
       system_(sample(state_space(device), {device.loop().sampling_period, device.loop().delay})) {
-  if (can_be_held(device)) users_ = std::make_unique<AnyUserSearch>(device);
+  tell(options.progress, 0.0);
+  if (can_be_held(device)) users_ = std::make_unique<AnyUserSearch>(device, options.progress);
 }
 
 double WallLimits::limit(VirtualDamper damper) {
-  return users_ ? users_->limit(damper).stiffness : critical_stiffness(plant_, damper).stiffness;
+  tell(options_.progress, 0.0);
+  return users_ ? users_->limit(damper, options_.progress).stiffness : critical_stiffness(plant_, damper).stiffness;
 }
 
 bool WallLimits::loop_keeps(double stiffness, VirtualDamper damper) const {
+  tell(options_.progress, 0.0);
   const LoopMargins has = loop_margins(plant_, wall_of(device_, stiffness, damper));
   return has.stable && has.gain_margin.value_or(infinity) >= options_.gain_margin * (1.0 - rounding) &&
          has.stiffness_margin.value_or(infinity) >= options_.gain_margin * (1.0 - rounding) &&
@@ -126,7 +130,7 @@ WallLimits::Stiffest WallLimits::stiffest(VirtualDamper damper, WallGoal goal) {
   const auto keep_margins = [&] {
     if (loop_keeps(least.stiffness, damper)) return;
     const RequiredMargins margins{gain, options_.phase_margin, false};
-    const double kept = stiffest_wall(plant_, damper, margins, {.at_most = least.stiffness});
+    const double kept = stiffest_wall(plant_, damper, margins, {.at_most = least.stiffness}, options_.progress);
     least.stiffness = std::min(least.stiffness, kept * (1.0 - shaved));
     const LoopMargins has = loop_margins(plant_, wall_of(device_, least.stiffness, damper));
     const bool phase = has.phase_margin && *has.phase_margin <= options_.phase_margin * (1.0 + same) + shaved;

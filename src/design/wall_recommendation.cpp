@@ -13,6 +13,7 @@
 #include "design/wall_limits.hpp"
 #include "design/wall_search.hpp"
 #include "require_valid.hpp"
+#include "staged_progress.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/device_trust.hpp"
 #include "zwidth/quantity.hpp"
@@ -59,11 +60,16 @@ struct Candidate {
 class Recommendation {
  public:
   Recommendation(const Device& device, const RecommendationOptions& options)
-      : device_(without_wall(device)), options_(options), limits_(device_, options), search_(limits_, options) {}
+      : stages_(options.progress),
+        device_(without_wall(device)),
+        options_(told(options, stages_)),
+        limits_(device_, options_),
+        search_(limits_, options_) {}
 
   [[nodiscard]] WallRecommendation answer() {
     WallRecommendation result;
     remark_on_bounds(result);
+    stages_.next(0.4);
     std::optional<Candidate> best = best_without_notch();
     if (best && !std::isfinite(best->stiffest.stiffness)) {
       result.status = WallRecommendation::Status::unbounded;
@@ -71,13 +77,16 @@ class Recommendation {
       return result;
     }
     const std::optional<Candidate> plain = best;
+    stages_.next(0.6);
     if (options_.notch) best = with_notch(best);
+    stages_.next(0.7);
     if (best && is_uncertain(device_)) best = lowered(*best, options_.goal, result);
     if (!best) {
       result.reason = result.reason.empty() ? why_none() : result.reason;
       return result;
     }
     Trust trust;
+    stages_.next(0.8);
     RecommendedWall wall = described("recommended", *best, trust);
     result.trust.inherit(trust);
     if (trust.refused()) {
@@ -94,7 +103,9 @@ class Recommendation {
                        quantity(result.wall->force_per_count->largest, units_of(device_.parameters().motion).force)),
            "ask for a ripple where that can be felt or heard"});
     }
+    stages_.next(1.0);
     add_alternatives(*best, plain, result);
+    stages_.done();
     return result;
   }
 
@@ -113,7 +124,11 @@ class Recommendation {
 
   /// The best of no velocity filter and the most promising ones, recomputed exactly.
   [[nodiscard]] std::optional<Candidate> best_without_notch() {
-    for (const double cutoff : search_.velocity_filters()) found_.push_back(search_.best(cutoff, options_.goal));
+    const std::vector<double> cutoffs = search_.velocity_filters();
+    for (const double cutoff : cutoffs) {
+      found_.push_back(search_.best(cutoff, options_.goal));
+      tell(options_.progress, static_cast<double>(found_.size()) / static_cast<double>(cutoffs.size()));
+    }
     const auto by_value = [](const auto& a, const auto& b) { return a.value > b.value; };
     std::stable_sort(found_.begin() + 1, found_.end(), by_value);
     std::optional<Candidate> best;
@@ -141,11 +156,12 @@ class Recommendation {
     const NotchOptions notch_options{
         .goal = limits_.has_users() ? StiffnessGoal::any_user_limit : StiffnessGoal::critical_stiffness,
         .gain_margin = options_.gain_margin,
-        .phase_margin = options_.phase_margin};
+        .phase_margin = options_.phase_margin,
+        .progress = options_.progress};
     NotchSearch search(notch_options, modes, device_.loop().sampling_period, limits_.has_users());
     search.add(with_wall(device_, best->stiffest.stiffness, best->damper));
     std::pair<double, NotchSearch::Point> found{0.0, {}};
-    for (const NotchSearch::Point& start : search.candidates([](double) {})) {
+    for (const NotchSearch::Point& start : search.candidates(options_.progress)) {
       found = std::max(found, search.refine_on_grid(start));
     }
     if (!(found.first > best->stiffest.stiffness * (1.0 + worth_a_notch))) return best;
@@ -213,6 +229,7 @@ class Recommendation {
     wall.what = std::move(what);
     wall.wall = walled.parameters().wall;
     wall.notch = candidate.notch;
+    tell(options_.progress, 0.0);
     check_wall(walled, options_, limits.has_users(), trust);
     if (trust.refused()) return wall;
     if (!limits.keeps(candidate.stiffest.stiffness, damper)) {
@@ -220,7 +237,9 @@ class Recommendation {
       return wall;
     }
     wall.bounded_by.stiffness = candidate.stiffest.bound;
+    tell(options_.progress, 0.0);
     wall.margins = wall_margins(walled);
+    tell(options_.progress, 0.0);
     if (limits.has_users()) wall.any_user_limit = limits.limit(damper);
     wall.contact_damping_ratio = contact_damping_ratio(walled);
     wall.force_per_count = force_per_count(walled);
@@ -310,8 +329,15 @@ class Recommendation {
     }
   }
 
+  /// The options of the parts, whose progress is that of the stage.
+  [[nodiscard]] static RecommendationOptions told(RecommendationOptions options, const StagedProgress& stages) {
+    options.progress = stages.stage();
+    return options;
+  }
+
+  StagedProgress stages_;
   Device device_;
-  const RecommendationOptions& options_;
+  RecommendationOptions options_;
   WallLimits limits_;
   WallSearch search_;
   std::unique_ptr<WallLimits> notched_;

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "infinity.hpp"
+#include "staged_progress.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -43,7 +44,7 @@ WallSearch::WallSearch(const WallLimits& limits, const RecommendationOptions& op
     : limits_(limits),
       options_(options),
       period_(limits.device().loop().sampling_period),
-      grid_(limits.device(), limits.has_users()),
+      grid_(limits.device(), limits.has_users(), options.progress),
       one_(grid_.size(), 1.0) {
   if (const auto softest = softest_crossover(filtered_plant(limits.device()))) {
     critical_frequency_ = softest->frequency;
@@ -74,6 +75,7 @@ double WallSearch::most_damping(const Filtered& filtered) const {
 
 /// The goal at this B; some value not above `enough` as soon as it is seen to be that.
 double WallSearch::value(const Filtered& filtered, double damping, WallGoal goal, double enough) const {
+  tell(options_.progress, 0.0);
   LoopGrid::Response damper = filtered.unit_damper;
   for (std::complex<double>& each : damper) each *= damping;
   const double gain = options_.gain_margin;

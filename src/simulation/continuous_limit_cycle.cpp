@@ -8,6 +8,7 @@
 
 #include "linear_systems.hpp"
 #include "simulation/check_relay.hpp"
+#include "staged_progress.hpp"
 #include "zwidth/simulation/limit_cycle.hpp"
 
 namespace zwidth {
@@ -117,7 +118,7 @@ class HalfPeriod {
 }  // namespace
 
 std::vector<LimitCycle> relay_limit_cycles(const ContinuousStateSpace& system, const Relay& relay, double shortest,
-                                           double longest, double delay) {
+                                           double longest, double delay, const Progress& progress) {
   check_relay(relay);
   require(std::isfinite(longest) && shortest > 0.0 && shortest < longest,
           "half-periods must be 0 < shortest < longest");
@@ -131,6 +132,7 @@ std::vector<LimitCycle> relay_limit_cycles(const ContinuousStateSpace& system, c
   double lower = shortest;
   double at_lower = excess(lower);
   for (int i = 1; i <= half_periods_scanned; ++i) {
+    tell(progress, static_cast<double>(i - 1) / half_periods_scanned);
     const double upper = shortest * std::pow(step, i);
     const double at_upper = excess(upper);
     if ((at_lower < 0.0) != (at_upper < 0.0)) {

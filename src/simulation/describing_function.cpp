@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "simulation/check_relay.hpp"
+#include "staged_progress.hpp"
 #include "zwidth/simulation/limit_cycle.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
 
@@ -50,7 +51,8 @@ bool has_friction(const Device& device) {
 /// c_i.
 class FrictionBalance {
  public:
-  FrictionBalance(const Device& device, const Relay& relay) : device_(device), relay_(relay) {
+  FrictionBalance(const Device& device, const Relay& relay, const Progress& progress)
+      : device_(device), relay_(relay), progress_(progress) {
     for (std::size_t i = 0; i < device.bodies().size(); ++i) {
       total_mass_ += device.bodies()[i].mass;
       if (device.bodies()[i].coulomb > 0.0) rubbing_.push_back(i);
@@ -85,6 +87,7 @@ class FrictionBalance {
     const Eigen::VectorXd start = unknowns;
     const double highest = std::log(pi / device_.loop().sampling_period);
     for (int i = 0; i < max_newton_steps; ++i) {
+      tell(progress_, 0.0);
       const Eigen::VectorXd at = excess(unknowns, share);
       Eigen::MatrixXd slopes(at.size(), at.size());
       for (Eigen::Index k = 0; k < at.size(); ++k) {
@@ -144,13 +147,15 @@ class FrictionBalance {
 
   const Device& device_;
   Relay relay_;
+  const Progress& progress_;
   double total_mass_ = 0.0;
   std::vector<std::size_t> rubbing_;
 };
 
 /// Follows one cycle while friction grows from nothing to its full share; nothing where the balance is lost.
-std::optional<LimitCycle> with_friction(const Device& device, const LimitCycle& frictionless, const Relay& relay) {
-  const FrictionBalance balance(device, relay);
+std::optional<LimitCycle> with_friction(const Device& device, const LimitCycle& frictionless, const Relay& relay,
+                                        const Progress& progress) {
+  const FrictionBalance balance(device, relay, progress);
   double share = 0.0;
   double step = 1.0;
   std::optional<Eigen::VectorXd> unknowns;
@@ -211,7 +216,9 @@ std::vector<LimitCycle> without_hysteresis(const SampledPlant& plant, const Rela
 
 }  // namespace
 
-std::vector<LimitCycle> describing_function_limit_cycles(const Device& device, const Relay& relay) {
+std::vector<LimitCycle> describing_function_limit_cycles(const Device& device, const Relay& relay,
+                                                         const Progress& progress) {
+  StagedProgress stages(progress);
   check_relay(relay);
   const SampledPlant plant = sampled_plant(device);
   const std::vector<LimitCycle> frictionless =
@@ -222,9 +229,11 @@ std::vector<LimitCycle> describing_function_limit_cycles(const Device& device, c
   std::sort(stiffnesses.begin(), stiffnesses.end());
   std::vector<LimitCycle> cycles;
   for (const LimitCycle& each : frictionless) {
+    stages.next(static_cast<double>(&each - frictionless.data() + 1) / static_cast<double>(frictionless.size()));
     if (stiffnesses.size() > most_followed && each.stiffness >= stiffnesses[most_followed]) continue;
-    if (const auto cycle = with_friction(device, each, relay)) cycles.push_back(*cycle);
+    if (const auto cycle = with_friction(device, each, relay, stages.stage())) cycles.push_back(*cycle);
   }
+  stages.done();
   return cycles;
 }
 

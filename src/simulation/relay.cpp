@@ -9,6 +9,7 @@
 
 #include "require_valid.hpp"
 #include "simulation/relay_explanation.hpp"
+#include "staged_progress.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/device_trust.hpp"
 #include "zwidth/quantity.hpp"
@@ -19,6 +20,7 @@ using namespace internal;
 namespace {
 
 constexpr double same_period = 0.01;  // relative
+constexpr double trials_share = 0.7;  // of the progress
 
 double friction_level(const Device& device, double amplitude) {
   double largest = 0.0;
@@ -52,11 +54,13 @@ Trust trust_of_reading(const RelayResult& result) {
 }
 
 /// What follows from the trials and the device.
-void conclude(RelayResult& result) {
+void conclude(RelayResult& result, const Progress& progress) {
   result.mean = relay_mean(result.trials);
   if (result.device && result.relay.amplitude > 0.0) {
     result.friction_level = friction_level(*result.device, result.relay.amplitude);
-    if (!trust_of(*result.device).refused()) result.prediction = relay_prediction(*result.device, result.relay);
+    if (!trust_of(*result.device).refused()) {
+      result.prediction = relay_prediction(*result.device, result.relay, progress);
+    }
   }
   if (result.mean && result.prediction) {
     result.limit_reading = limit_reading(*result.mean, result.prediction->linear);
@@ -132,12 +136,16 @@ RelayResult relay(const Device& device, const RelayOptions& options, const Progr
     result.trust = trust_of(device);
     return result;
   }
-  result.trials = relay_trials(device, options, progress);
-  conclude(result);
+  StagedProgress stages(progress);
+  stages.next(trials_share);
+  result.trials = relay_trials(device, options, stages.stage());
+  stages.next(1.0);
+  conclude(result, stages.stage());
+  stages.done();
   return result;
 }
 
-RelayResult relay(Recording recording, const RelayRecordOptions& options) {
+RelayResult relay(Recording recording, const RelayRecordOptions& options, const Progress& progress) {
   require_valid(find_problem(options, recording.sampling_period));
   if (recording.channels.size() != 2) {
     throw Error(
@@ -168,7 +176,7 @@ RelayResult relay(Recording recording, const RelayRecordOptions& options) {
     }
   }
   result.device = options.device;
-  conclude(result);
+  conclude(result, progress);
   return result;
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "simulation/check_relay.hpp"
+#include "staged_progress.hpp"
 
 namespace zwidth {
 using namespace internal;
@@ -27,8 +28,10 @@ double half_period_samples(const CriticalStiffness& linear, double period) {
 
 }  // namespace
 
-RelayPrediction relay_prediction(const Device& device, const Relay& relay) {
+RelayPrediction relay_prediction(const Device& device, const Relay& relay, const Progress& progress) {
   check_relay(relay);
+  StagedProgress stages(progress);
+  stages.next(0.1);
   const double period = device.loop().sampling_period;
   const double delay = device.loop().delay;
   const ContinuousStateSpace system = state_space(device);
@@ -40,10 +43,15 @@ RelayPrediction relay_prediction(const Device& device, const Relay& relay) {
   const double longest =
       std::max(2.0, std::min(half_period_samples(prediction.linear, period), most_work / std::pow(states, 3)));
   prediction.lowest_frequency = std::numbers::pi / (longest * period);
-  prediction.describing_function = describing_function_limit_cycles(device, relay);
-  prediction.sampled_relay =
-      sampled_relay_limit_cycles(sample(system, {period, delay}), relay, static_cast<std::size_t>(longest));
-  prediction.continuous_relay = relay_limit_cycles(system, relay, period, longest * period, delay + 0.5 * period);
+  stages.next(0.5);
+  prediction.describing_function = describing_function_limit_cycles(device, relay, stages.stage());
+  stages.next(0.7);
+  prediction.sampled_relay = sampled_relay_limit_cycles(sample(system, {period, delay}), relay,
+                                                        static_cast<std::size_t>(longest), stages.stage());
+  stages.next(1.0);
+  prediction.continuous_relay =
+      relay_limit_cycles(system, relay, period, longest * period, delay + 0.5 * period, stages.stage());
+  stages.done();
   return prediction;
 }
 

@@ -5,25 +5,26 @@
 #include <tbb/task_arena.h>
 
 #include <cmath>
-#include <mutex>
 #include <random>
 #include <string>
 #include <utility>
 
 #include "require_valid.hpp"
+#include "staged_progress.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/simulation/hybrid_loop.hpp"
 
 namespace zwidth {
+using namespace internal;
 namespace {
 
-constexpr std::size_t samples_per_report = 1 << 14;
+constexpr std::size_t samples_per_report = 1 << 10;
 
 std::size_t samples_per_trial(const Device& device, const RelayOptions& options) {
   if (!device.has_bodies() && options.start_offset != 0.0) {
     throw Error(ErrorCode::needs_bodies, "a start offset needs bodies; a transfer function starts at rest at 0");
   }
-  internal::require_valid(find_problem(options, device));
+  require_valid(find_problem(options, device));
   return static_cast<std::size_t>(std::round(options.duration / device.loop().sampling_period));
 }
 
@@ -41,25 +42,6 @@ std::vector<RelayTrial> drawn_trials(const RelayOptions& options) {
   }
   return trials;
 }
-
-/// Samples done by all threads, told one at a time.
-class SharedProgress {
- public:
-  SharedProgress(const Progress& progress, std::size_t all) : progress_(progress), all_(static_cast<double>(all)) {}
-
-  void add(std::size_t samples) {
-    if (!progress_) return;
-    const std::lock_guard lock(mutex_);
-    done_ += samples;
-    progress_(static_cast<double>(done_) / all_);
-  }
-
- private:
-  const Progress& progress_;
-  double all_;
-  std::mutex mutex_;
-  std::size_t done_ = 0;
-};
 
 HybridLoop loop_of(const Device& device, const Relay& relay, const RelayTrial& trial) {
   DeviceParameters parameters = device.parameters();

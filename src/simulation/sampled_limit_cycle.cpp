@@ -6,6 +6,7 @@
 
 #include "linear_systems.hpp"
 #include "simulation/check_relay.hpp"
+#include "staged_progress.hpp"
 #include "zwidth/simulation/limit_cycle.hpp"
 
 namespace zwidth {
@@ -72,7 +73,7 @@ class PartialSums {
 }  // namespace
 
 std::vector<LimitCycle> sampled_relay_limit_cycles(const DiscreteStateSpace& system, const Relay& relay,
-                                                   std::size_t longest) {
+                                                   std::size_t longest, const Progress& progress) {
   check_relay(relay);
   const Eigen::Index n = system.Phi.rows();
   const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(n, n);
@@ -82,6 +83,7 @@ std::vector<LimitCycle> sampled_relay_limit_cycles(const DiscreteStateSpace& sys
   Eigen::MatrixXd power = one;  // F^k
   std::vector<LimitCycle> cycles;
   for (std::size_t half = 1; half <= longest; ++half) {
+    tell(progress, static_cast<double>(half - 1) / static_cast<double>(longest));
     power = transition * power;
     const Eigen::VectorXd forced =
         newer.of_delayed_force(half, system.delay_samples) + older.of_delayed_force(half, system.delay_samples + 1);

@@ -22,7 +22,7 @@ constexpr std::size_t end_part = 16;     // of the run: its last sixteenth shows
 constexpr double same_frequency = 0.01;  // relative: a multiple of the user's frequency
 constexpr double small_share = 0.01;     // of the user's rhythm: a motion beside it that does not count
 constexpr double never = std::numeric_limits<double>::infinity();
-constexpr std::size_t samples_per_report = 1 << 16;
+constexpr std::size_t samples_per_report = 1 << 10;
 
 /// Keeps every n-th point of the loop.
 class TrajectoryKeeper {

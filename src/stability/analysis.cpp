@@ -9,6 +9,7 @@
 
 #include "require_valid.hpp"
 #include "stability/guarded_stiffness.hpp"
+#include "staged_progress.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/two_mass.hpp"
 
@@ -123,11 +124,13 @@ bool stands(const CriticalStiffness& limit, std::string_view what, Analysis& ana
 }
 
 /// The worst user, the family and the limit over all users: what is asked for and can be answered.
-void answer_about_users(const Device& device, const AnalysisOptions& options, Analysis& analysis) {
+void answer_about_users(const Device& device, const AnalysisOptions& options, StagedProgress& stages,
+                        Analysis& analysis) {
   const VirtualDamper damper = virtual_damper(device);
   if (options.any_user && device.has_bodies()) {
     if (device.bodies().size() <= most_bodies_for_any_user) {
-      analysis.any_user = any_user_limit(device, damper);
+      analysis.any_user = any_user_limit(device, damper, stages.stage());
+      stages.next(0.4);
       // That limit rests on the critical stiffness of the device that nobody holds.
       if (is_held(device) && !stands(critical_stiffness(with_user(device, {})), "the limit over all users", analysis)) {
         analysis.any_user.reset();
@@ -143,7 +146,9 @@ void answer_about_users(const Device& device, const AnalysisOptions& options, An
         analysis.any_user->trust.inherit(analysis.trust);
         analysis.trust.inherit(analysis.any_user->trust);
       }
-      if (options.worst_user && analysis.any_user) analysis.worst_user = worst_user(device, *analysis.any_user, damper);
+      if (options.worst_user && analysis.any_user) {
+        analysis.worst_user = worst_user(device, *analysis.any_user, damper, stages.stage());
+      }
     } else {
       analysis.remarks.push_back(
           {Remark::Severity::note,
@@ -153,8 +158,9 @@ void answer_about_users(const Device& device, const AnalysisOptions& options, An
     }
   }
   if (!options.family) return;
+  stages.next(1.0);
   const UserFamily family = user_family(*options.family, device.parameters().user);
-  UserFamilyAnswer answer{family, worst_of_family(device, family, damper, options.progress),
+  UserFamilyAnswer answer{family, worst_of_family(device, family, damper, stages.stage()),
                           critical_stiffness(with_user(device, {}))};
   if (stands(answer.free, "the family of users", analysis) &&
       stands(critical_stiffness(with_user(device, answer.worst.user)), "the family of users", analysis)) {
@@ -204,6 +210,8 @@ Analysis analyze(const Device& device, const AnalysisOptions& options) {
   const FilteredPlant plant = filtered_plant(sample(form, {device.loop().sampling_period, device.loop().delay}),
                                              device.parameters().wall.filters);
   Analysis analysis;
+  StagedProgress stages(options.progress);
+  stages.next(0.05);
   const PoleCount poles(device);
   analysis.critical = guarded_stiffness(device, plant, poles);
   analysis.trust = analysis.critical.trust;
@@ -213,21 +221,25 @@ Analysis analyze(const Device& device, const AnalysisOptions& options) {
     analysis.rigid = rigid_approximation(device, analysis.critical);
     analysis.q_criterion = q_criterion(device, *analysis.rigid);
   }
+  stages.next(0.1);
   if (analysis.trust.refused()) return analysis;
   if (device.parameters().wall.stiffness) judge_wall(device, plant, poles, analysis);
   if (analysis.trust.refused()) return analysis;
+  stages.next(0.3);
   analysis.force_per_count = force_per_count(device);
   analysis.quantisation = quantisation_passivity(device);
   const std::optional<Uncertainty>& uncertainty = device.parameters().uncertainty;
   if (uncertainty && !uncertainty->parameters.empty() && options.draws > 0) {
-    analysis.interval = stiffness_interval(device, options.draws);
+    analysis.interval = stiffness_interval(device, options.draws, usual_draws_seed, stages.stage());
     if (is_open(*analysis.interval)) {
       analysis.trust.doubt(
           "the uncertainty of the parameters in the file leaves the critical stiffness open within more than a factor "
           "of 2: measure them more closely");
     }
   }
-  answer_about_users(device, options, analysis);
+  stages.next(0.35);
+  answer_about_users(device, options, stages, analysis);
+  stages.done();
   return analysis;
 }
 

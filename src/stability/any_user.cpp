@@ -5,6 +5,8 @@
 namespace zwidth {
 using namespace internal;
 
-AnyUserLimit any_user_limit(const Device& device, VirtualDamper damper) { return AnyUserSearch(device).limit(damper); }
+AnyUserLimit any_user_limit(const Device& device, VirtualDamper damper, const Progress& progress) {
+  return AnyUserSearch(device, progress).limit(damper, progress);
+}
 
 }  // namespace zwidth

@@ -16,6 +16,7 @@
 #include "stability/damper_response.hpp"
 #include "stability/disc_stiffness.hpp"
 #include "stability/wall_condition.hpp"
+#include "staged_progress.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -85,7 +86,8 @@ double typical_of(std::vector<double> stiffnesses) {
 
 }  // namespace
 
-AnyUserSearch::AnyUserSearch(const Device& device) : discs_(device), period_(device.loop().sampling_period) {
+AnyUserSearch::AnyUserSearch(const Device& device, const Progress& progress)
+    : discs_(device, progress), period_(device.loop().sampling_period) {
   if (discs_.is_undamped()) return;
   pieces_ = DiscPieces(discs_, device);
   frequencies_ = frequencies_to_scan(discs_, period_, device.loop().delay, device.parameters().wall.filters);
@@ -184,7 +186,7 @@ AnyUserSearch::Sample AnyUserSearch::least_within(VirtualDamper damper, const Di
 
 /// Shows that no K below the least found violates the condition, or finds the lower ones and shows it of those.
 /// The share of the least by which that could not be shown. What the free device itself reaches stands in any case.
-double AnyUserSearch::prove(VirtualDamper damper, double free_stiffness, Sample& least) {
+double AnyUserSearch::prove(VirtualDamper damper, double free_stiffness, const Progress& progress, Sample& least) {
   struct Open {
     std::size_t piece;
     std::size_t divisions;  // because it was undecided
@@ -196,6 +198,7 @@ double AnyUserSearch::prove(VirtualDamper damper, double free_stiffness, Sample&
   const double filter_pole =
       damper.damping > 0.0 && damper.velocity_filter_hz > 0.0 ? 2.0 * pi * damper.velocity_filter_hz : infinity;
   while (!stack.empty()) {
+    tell(progress, 0.0);
     const std::size_t index = stack.back().piece;
     const std::size_t divisions = stack.back().divisions;
     // No piece needs to be shown closer than the worst so far.
@@ -251,7 +254,7 @@ double AnyUserSearch::prove(VirtualDamper damper, double free_stiffness, Sample&
   return within;
 }
 
-AnyUserLimit AnyUserSearch::limit(VirtualDamper damper) {
+AnyUserLimit AnyUserSearch::limit(VirtualDamper damper, const Progress& progress) {
   AnyUserLimit limit;
   const CriticalStiffness free = critical_stiffness(discs_.free_plant(), damper);
   if (free.status == StiffnessStatus::none_stable || discs_.is_undamped()) return limit;
@@ -267,7 +270,7 @@ AnyUserLimit AnyUserSearch::limit(VirtualDamper damper) {
   const bool is_nothing = least.stiffness <= nothing * typical_of(stiffnesses);
   if (is_nothing) least.stiffness = 0.0;
   double unproven = 0.0;
-  if (least.stiffness > 0.0) unproven = prove(damper, free.stiffness, least);
+  if (least.stiffness > 0.0) unproven = prove(damper, free.stiffness, progress, least);
   if (least.stiffness == 0.0) return limit;
   limit.needs_no_user = nobody();
   limit.frequency = std::isfinite(least.stiffness) ? least.frequency : 0.0;

@@ -15,12 +15,12 @@ namespace zwidth::internal {
 class AnyUserSearch {
  public:
   /// Throws as any_user_limit().
-  explicit AnyUserSearch(const Device& device);
+  explicit AnyUserSearch(const Device& device, const Progress& progress = {});
   AnyUserSearch(const AnyUserSearch&) = delete;
   AnyUserSearch& operator=(const AnyUserSearch&) = delete;
   ~AnyUserSearch() = default;
 
-  [[nodiscard]] AnyUserLimit limit(VirtualDamper damper);
+  [[nodiscard]] AnyUserLimit limit(VirtualDamper damper, const Progress& progress = {});
 
  private:
   /// The stiffness that the condition allows at one frequency, rad/s.
@@ -33,7 +33,7 @@ class AnyUserSearch {
   [[nodiscard]] std::vector<Sample> scan(VirtualDamper damper, const CriticalStiffness& free) const;
   void take_least_of(VirtualDamper damper, const std::vector<Sample>& samples, Sample& least) const;
   [[nodiscard]] Sample least_within(VirtualDamper damper, const DiscPieces::Piece& piece, double at) const;
-  [[nodiscard]] double prove(VirtualDamper damper, double free_stiffness, Sample& least);
+  [[nodiscard]] double prove(VirtualDamper damper, double free_stiffness, const Progress& progress, Sample& least);
 
   UserDiscs discs_;
   double period_ = 0.0;

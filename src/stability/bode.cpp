@@ -5,18 +5,34 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
+#include <functional>
 #include <numbers>
 #include <utility>
 
+#include "staged_progress.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth {
+using namespace internal;
 namespace {
+
+using Complex = std::complex<double>;
 
 constexpr std::size_t least_points = 2;
 constexpr std::size_t most_points = 100000;
 
 double nyquist_of(const Device& device) { return std::numbers::pi / device.loop().sampling_period; }
+
+/// The same response; it tells now and then that the work goes on.
+std::function<Complex(double)> telling(std::function<Complex(double)> value, const Progress& progress) {
+  constexpr std::size_t values_per_report = 64;
+  if (!progress) return value;
+  return [value = std::move(value), &progress, asked = std::size_t{0}](double frequency) mutable {
+    if (++asked % values_per_report == 0) tell(progress, 0.0);
+    return value(frequency);
+  };
+}
 
 std::optional<OptionProblem> find_problem(const char* member, const std::optional<double>& frequency) {
   if (!frequency || (std::isfinite(*frequency) && *frequency > 0.0)) return std::nullopt;
@@ -64,7 +80,15 @@ FrequencyRange bode_range(const Device& device, const Analysis& analysis, const 
 }
 
 Bode bode(const Device& device, const BodeOptions& options) {
-  return bode(device, analyze(device, limit_and_wall_only()), options);
+  StagedProgress stages(options.progress);
+  stages.next(0.5);
+  AnalysisOptions of_analysis = limit_and_wall_only();
+  of_analysis.progress = stages.stage();
+  Analysis analysis = analyze(device, of_analysis);
+  stages.next(1.0);
+  BodeOptions rest = options;
+  rest.progress = stages.stage();
+  return bode(device, std::move(analysis), rest);
 }
 
 Bode bode(const Device& device, Analysis analysis, const BodeOptions& options) {
@@ -77,8 +101,11 @@ Bode bode(const Device& device, Analysis analysis, const BodeOptions& options) {
   ModalForm form = modal_form(device);
   std::vector<Mode> modes = form.modes;
   if (form.suspended_rigid_body) modes.push_back(*form.suspended_rigid_body);
-  const std::array responses{delayed_response(filtered_plant(device), virtual_damper(device)),
-                             delayed_response(std::move(form))};
+  std::array responses{delayed_response(filtered_plant(device), virtual_damper(device)),
+                       delayed_response(std::move(form))};
+  StagedProgress stages(options.progress);
+  stages.next(0.9);
+  for (DelayedResponse& each : responses) each.value = telling(std::move(each.value), stages.stage());
   // The phase is unwrapped from well below everything, whatever part is asked for.
   std::vector<double> frequencies = bode_frequencies(responses, {std::min(bode.range.from, lowest), bode.range.to},
                                                      modes, device.loop().sampling_period, options.points);
@@ -91,11 +118,13 @@ Bode bode(const Device& device, Analysis analysis, const BodeOptions& options) {
     frequencies.insert(start, bode.range.from);
   }
   const auto above_nyquist = std::ranges::upper_bound(frequencies, nyquist_of(device));
+  stages.next(1.0);
   bode.sampled = bode_points(responses[0], {frequencies.begin(), above_nyquist});
   bode.continuous = bode_points(responses[1], frequencies);
   const auto outside = [&](const BodePoint& point) { return point.frequency < bode.range.from; };
   std::erase_if(bode.continuous, outside);
   std::erase_if(bode.sampled, outside);
+  stages.done();
   return bode;
 }
 

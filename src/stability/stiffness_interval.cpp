@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "stability/device_draws.hpp"
+#include "staged_progress.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth {
@@ -26,7 +27,8 @@ bool is_open(const StiffnessInterval& interval) {
   return interval.upper > widest * interval.lower;
 }
 
-StiffnessInterval stiffness_interval(const Device& device, std::size_t draws, std::uint64_t seed) {
+StiffnessInterval stiffness_interval(const Device& device, std::size_t draws, std::uint64_t seed,
+                                     const Progress& progress) {
   const std::optional<Uncertainty>& uncertainty = device.parameters().uncertainty;
   if (!uncertainty || uncertainty->parameters.empty())
     throw Error(ErrorCode::invalid_argument, "the device has no uncertainty");
@@ -40,6 +42,7 @@ StiffnessInterval stiffness_interval(const Device& device, std::size_t draws, st
     const CriticalStiffness critical = critical_stiffness_of(drawn.next());
     stiffness.push_back(critical.stiffness);
     if (!same_mechanism(own, critical)) ++others;
+    internal::tell(progress, static_cast<double>(draw + 1) / static_cast<double>(draws));
   }
   std::ranges::sort(stiffness);
   const auto tail = static_cast<std::size_t>(0.025 * static_cast<double>(draws));

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "staged_progress.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth::internal {
@@ -55,7 +56,7 @@ ModalForm difference(ModalForm first, const ModalForm& second) {
 
 }  // namespace
 
-UserDiscs::UserDiscs(const Device& device)
+UserDiscs::UserDiscs(const Device& device, const Progress& progress)
     : sensed_(device.loop().sensed),
       actuated_(device.loop().actuated),
       held_(device.loop().held),
@@ -67,7 +68,10 @@ UserDiscs::UserDiscs(const Device& device)
   const Device free = without_operator(device);
   const auto motion_of = [&](std::size_t body) { return modal_form(free, {held_, body}, ActuatorLag::left_out); };
   std::vector<ModalForm> motions;
-  for (std::size_t i = 0; i < free.bodies().size(); ++i) motions.push_back(motion_of(i));
+  for (std::size_t i = 0; i < free.bodies().size(); ++i) {
+    tell(progress, 0.0);
+    motions.push_back(motion_of(i));
+  }
   motions_.add(motions[sensed_]);
   motions_.add(motions[actuated_]);
   for (std::size_t i = 0; i < free.bodies().size(); ++i) {

@@ -8,6 +8,7 @@
 #include "stability/alias_rule.hpp"
 #include "stability/shared_poles.hpp"
 #include "zwidth/model/modal_form.hpp"
+#include "zwidth/progress.hpp"
 #include "zwidth/sampling/sampled_plant.hpp"
 
 namespace zwidth::internal {
@@ -19,7 +20,7 @@ inline constexpr double clear_angle = 0.1;
 class UserDiscs {
  public:
   /// The device must have bodies; its operator is left out.
-  explicit UserDiscs(const Device& device);
+  explicit UserDiscs(const Device& device, const Progress& progress = {});
 
   struct Disc {
     std::complex<double> centre;  // c_T

@@ -10,9 +10,11 @@
 #include <utility>
 #include <vector>
 
+#include "staged_progress.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth {
+using namespace internal;
 namespace {
 
 constexpr int levels = 5;  // of each range
@@ -41,8 +43,8 @@ void check(const ValueRange& range, const char* name) {
 
 class FamilySearch {
  public:
-  FamilySearch(const Device& device, const UserFamily& family, VirtualDamper damper)
-      : device_(device), ranges_{family.mass, family.damping, family.stiffness}, damper_(damper) {}
+  FamilySearch(const Device& device, const UserFamily& family, VirtualDamper damper, const Progress& progress)
+      : device_(device), ranges_{family.mass, family.damping, family.stiffness}, damper_(damper), progress_(progress) {}
 
   [[nodiscard]] Operator user_at(const Place& place) const {
     const auto value = [&](std::size_t i) {
@@ -55,6 +57,7 @@ class FamilySearch {
   }
 
   [[nodiscard]] double stiffness_at(const Place& place) const {
+    tell(progress_, 0.0);
     DeviceParameters parameters = device_.parameters();
     parameters.uncertainty.reset();  // it may be of the operator that is replaced
     parameters.user = user_at(place);
@@ -62,7 +65,7 @@ class FamilySearch {
   }
 
   /// Places 0, 1/4, ..., 1 of each range in all combinations; of an empty range only 0.
-  [[nodiscard]] std::vector<Found> grid(const Progress& progress) const {
+  [[nodiscard]] std::vector<Found> grid() const {
     std::array<int, 3> counts{};
     for (std::size_t i = 0; i < 3; ++i) counts[i] = is_open(i) ? levels : 1;
     std::vector<Found> points;
@@ -73,8 +76,7 @@ class FamilySearch {
           const Place place{i / (levels - 1.0), j / (levels - 1.0), k / (levels - 1.0)};
           points.push_back({place, stiffness_at(place)});
         }
-        if (progress)
-          progress(grid_share * static_cast<double>(points.size()) / static_cast<double>(points.capacity()));
+        tell(progress_, static_cast<double>(points.size()) / static_cast<double>(points.capacity()));
       }
     }
     return points;
@@ -128,6 +130,7 @@ class FamilySearch {
   const Device& device_;
   std::array<ValueRange, 3> ranges_;
   VirtualDamper damper_;
+  const Progress& progress_;
 };
 
 /// The points of the grid that no neighbour undercuts, the best few of them.
@@ -164,17 +167,18 @@ WorstOfFamily worst_of_family(const Device& device, const UserFamily& family, Vi
   check(family.mass, "mass");
   check(family.damping, "damping");
   check(family.stiffness, "stiffness");
-  const FamilySearch search(device, family, damper);
-  const std::vector<Found> grid = search.grid(progress);
+  StagedProgress stages(progress);
+  stages.next(grid_share);
+  const FamilySearch search(device, family, damper, stages.stage());
+  const std::vector<Found> grid = search.grid();
   Found worst = grid.front();
   const std::vector<Found> from = starts(grid);
   for (std::size_t i = 0; i < from.size(); ++i) {
+    stages.next(grid_share + (1.0 - grid_share) * static_cast<double>(i + 1) / static_cast<double>(from.size()));
     const Found found = from[i].stiffness > 0.0 ? search.descended(from[i]) : from[i];
     if (found.stiffness < worst.stiffness) worst = found;
-    if (progress)
-      progress(grid_share + (1.0 - grid_share) * static_cast<double>(i + 1) / static_cast<double>(from.size()));
   }
-  if (progress) progress(1.0);
+  stages.done();
   return {search.user_at(worst.place), worst.stiffness};
 }
 

@@ -10,6 +10,7 @@
 
 #include "stability/damper_response.hpp"
 #include "stability/user_discs.hpp"
+#include "staged_progress.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/state_space.hpp"
 #include "zwidth/sampling/discrete_state_space.hpp"
@@ -103,14 +104,15 @@ std::optional<UserNetwork> heaviest_network(const std::vector<Alias>& aliases) {
 class Search {
  public:
   Search(const Device& device, const UserDiscs& discs, const AnyUserLimit& limit, VirtualDamper damper,
-         double frequency)
+         double frequency, const Progress& progress)
       : device_(device),
         discs_(discs),
         virtual_damper_(damper),
         damper_(damper_response(damper, device.loop().sampling_period, frequency)),
         frequency_(frequency),
         is_nyquist_(frequency >= std::numbers::pi / device.loop().sampling_period),
-        direction_(std::arg(-1.0 / (limit.stiffness + damper_) - discs.at(frequency).centre)) {}
+        direction_(std::arg(-1.0 / (limit.stiffness + damper_) - discs.at(frequency).centre)),
+        progress_(progress) {}
 
   /// The user that serves the base frequency and the `count` aliases of largest radius.
   [[nodiscard]] std::optional<WorstUser> with_absorbers(std::size_t count) {
@@ -122,6 +124,7 @@ class Search {
     // The aliases left out move the plant off the real stiffnesses a little: the base frequency's term turns back.
     double turn = 0.0;
     for (int i = 0; i < max_corrections; ++i) {
+      tell(progress_, 0.0);
       aliases.front() = discs_.alias(frequency_, 0, direction_ + turn);
       auto user = heaviest_network(aliases);
       if (!user) return std::nullopt;
@@ -171,6 +174,7 @@ class Search {
   double frequency_;
   bool is_nyquist_;
   double direction_;
+  const Progress& progress_;
   std::vector<Alias> others_;  // than the base frequency, by falling radius
 };
 
@@ -219,13 +223,14 @@ Device held_by(const Device& device, const UserNetwork& user) {
   return Device(std::move(parameters));
 }
 
-std::optional<WorstUser> worst_user(const Device& device, const AnyUserLimit& limit, VirtualDamper damper) {
+std::optional<WorstUser> worst_user(const Device& device, const AnyUserLimit& limit, VirtualDamper damper,
+                                    const Progress& progress) {
   if (limit.stiffness == 0.0 || !std::isfinite(limit.stiffness)) return std::nullopt;
   if (limit.needs_no_user) return WorstUser{{}, limit.stiffness, limit.frequency};
-  const UserDiscs discs(device);
+  const UserDiscs discs(device, progress);
   std::vector<Search> searches;
   for (const double frequency : frequencies_to_try(device, discs, limit, damper)) {
-    searches.emplace_back(device, discs, limit, damper, frequency);
+    searches.emplace_back(device, discs, limit, damper, frequency, progress);
   }
   std::optional<WorstUser> worst;
   Search* best = nullptr;
@@ -242,6 +247,7 @@ std::optional<WorstUser> worst_user(const Device& device, const AnyUserLimit& li
     }
   }
   if (best != nullptr && !is_reached()) try_absorbers(*best, most_absorbers);
+  tell(progress, 1.0);
   return worst;
 }
 

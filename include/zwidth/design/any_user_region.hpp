@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "zwidth/model/device.hpp"
+#include "zwidth/progress.hpp"
 
 namespace zwidth {
 
@@ -24,6 +25,7 @@ struct AnyUserRegion {
 
 struct AnyUserRegionOptions {
   double deviation = 1e-3;  ///< aimed distance of the limit from the polygon, as a share of its extent in K and in B
+  Progress progress = {};
 };
 
 /// Samples any_user_limit() over 0 <= B <= largest_damping, more densely where it bends. A range of B narrower than a

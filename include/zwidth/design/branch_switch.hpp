@@ -6,6 +6,7 @@
 
 #include "zwidth/design/sensitivity.hpp"
 #include "zwidth/model/device.hpp"
+#include "zwidth/progress.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
 
 namespace zwidth {
@@ -23,6 +24,7 @@ struct BranchSwitch {
 
 struct BranchSwitchOptions {
   double factor = 10.0;  ///< p is followed from p / factor to p * factor; > 1
+  Progress progress = {};
 };
 
 /// For each of stiffness_sensitivities(), the nearest switch as p falls and as p grows, where there is one.

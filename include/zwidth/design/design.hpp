@@ -8,6 +8,7 @@
 #include "zwidth/design/sensitivity.hpp"
 #include "zwidth/model/device.hpp"
 #include "zwidth/option_problem.hpp"
+#include "zwidth/progress.hpp"
 #include "zwidth/remark.hpp"
 #include "zwidth/stability/analysis.hpp"
 #include "zwidth/trust.hpp"
@@ -22,6 +23,7 @@ struct DesignOptions {
   bool any_user = true;              ///< the any-user limit and its slopes, where analyze() gives that limit
   bool branch_switches = true;       ///< where another crossover takes over; a device of at most 8 bodies
   double branch_switch_factor = 10;  ///< each number is followed from p / factor to p * factor; > 1, finite
+  Progress progress = {};
 };
 
 /// Checks the factor.

@@ -7,6 +7,7 @@
 
 #include "zwidth/model/device_variants.hpp"
 #include "zwidth/option_problem.hpp"
+#include "zwidth/progress.hpp"
 #include "zwidth/stability/any_user.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
 #include "zwidth/trust.hpp"
@@ -49,7 +50,7 @@ struct DesignComparison {
 /// Judges every variant, its own [operator] replaced by `user`, or by the first one's where there is none:
 /// critical_stiffness() of the free and the held device, any_user_limit().
 /// Throws Error (invalid_argument) where find_problem(variants, user) finds one, (did_not_converge) as its parts do.
-[[nodiscard]] DesignComparison compare_designs(const DeviceVariants& variants,
-                                               const std::optional<Operator>& user = {});
+[[nodiscard]] DesignComparison compare_designs(const DeviceVariants& variants, const std::optional<Operator>& user = {},
+                                               const Progress& progress = {});
 
 }  // namespace zwidth

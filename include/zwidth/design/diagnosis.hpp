@@ -6,6 +6,7 @@
 
 #include "zwidth/model/device.hpp"
 #include "zwidth/option_problem.hpp"
+#include "zwidth/progress.hpp"
 #include "zwidth/remark.hpp"
 #include "zwidth/signal/recording.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
@@ -27,6 +28,7 @@ struct DiagnosisOptions {
   std::optional<double> amplitude = {};  ///< observed, of the sensed position, m or rad; > 0
   std::optional<double> stiffness = {};  ///< K of the wall; absent: the device's own wall.stiffness, or unknown
   std::optional<double> damping = {};    ///< B; absent: the device's own wall.damping
+  Progress progress = {};
 };
 
 /// Checks every member's range for the device.

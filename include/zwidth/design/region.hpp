@@ -11,6 +11,7 @@
 #include "zwidth/model/device.hpp"
 #include "zwidth/model/modal_form.hpp"
 #include "zwidth/option_problem.hpp"
+#include "zwidth/progress.hpp"
 #include "zwidth/remark.hpp"
 #include "zwidth/stability/force_per_count.hpp"
 #include "zwidth/trust.hpp"
@@ -21,6 +22,7 @@ struct RegionOptions {
   OutlineOptions outline = {};
   bool any_user = true;        ///< the walls that no passive user destabilises, where the device has a body to hold
   bool approximations = true;  ///< the formulas of the literature and how far each is off
+  Progress progress = {};
 };
 
 /// Checks: outline.deviation above 0 and below 1.

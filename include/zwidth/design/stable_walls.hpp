@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "zwidth/progress.hpp"
 #include "zwidth/sampling/sampled_plant.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
 
@@ -28,7 +29,7 @@ class StableWalls {
  public:
   /// Throws Error (invalid_argument) for a negative or non-finite filter frequency (0: no filter), (did_not_converge)
   /// when subdivision hits its cap.
-  explicit StableWalls(FilteredPlant plant, double velocity_filter_hz = 0.0);
+  explicit StableWalls(FilteredPlant plant, double velocity_filter_hz = 0.0, const Progress& progress = {});
 
   /// All stable intervals of K at this B >= 0, by rising K: critical_stiffness().stable_intervals at the cost of a few
   /// evaluations of P. Throws Error (invalid_argument) for a negative or NaN B.

@@ -8,6 +8,7 @@
 
 #include "zwidth/model/device.hpp"
 #include "zwidth/option_problem.hpp"
+#include "zwidth/progress.hpp"
 #include "zwidth/remark.hpp"
 #include "zwidth/stability/force_per_count.hpp"
 #include "zwidth/stability/wall_margins.hpp"
@@ -32,6 +33,7 @@ struct RecommendationOptions {
   std::optional<double> ripple = {};
   bool notch = true;        ///< a notch near a mode may be added to the wall's filters
   std::size_t draws = 100;  ///< of the device's uncertainty, where it has one
+  Progress progress = {};
 };
 
 /// Checks every member's range; of the device: critical damping needs bodies.

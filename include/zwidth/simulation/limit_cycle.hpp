@@ -6,6 +6,7 @@
 
 #include "zwidth/model/device.hpp"
 #include "zwidth/model/state_space.hpp"
+#include "zwidth/progress.hpp"
 #include "zwidth/sampling/discrete_state_space.hpp"
 
 namespace zwidth {
@@ -45,7 +46,8 @@ struct CycleBand {
 /// Requires 0 < shortest < longest, delay >= 0; throws Error (invalid_argument) otherwise.
 /// Source: Åström 1995; Gonçalves, Megretski, Dahleh 2001.
 [[nodiscard]] std::vector<LimitCycle> relay_limit_cycles(const ContinuousStateSpace& system, const Relay& relay,
-                                                         double shortest, double longest, double delay = 0.0);
+                                                         double shortest, double longest, double delay = 0.0,
+                                                         const Progress& progress = {});
 
 /// Symmetric oscillations of period 2 k samples of a sampled relay, for k = 1..longest.
 ///
@@ -55,7 +57,7 @@ struct CycleBand {
 /// stability is not judged. A sampled relay has many oscillations side by side: which one a device settles at depends
 /// on the start.
 [[nodiscard]] std::vector<LimitCycle> sampled_relay_limit_cycles(const DiscreteStateSpace& system, const Relay& relay,
-                                                                 std::size_t longest);
+                                                                 std::size_t longest, const Progress& progress = {});
 
 /// What first harmonics predict for a sampled relay on the device, one per phase crossover of its sampled plant.
 ///
@@ -66,6 +68,7 @@ struct CycleBand {
 /// strong for the relay) has no prediction. With friction only the 50 softest crossovers are followed: a long delay has
 /// thousands. By rising frequency of the cycles without friction.
 /// Source: Åström & Hägglund 1995; theory, section 4.
-[[nodiscard]] std::vector<LimitCycle> describing_function_limit_cycles(const Device& device, const Relay& relay);
+[[nodiscard]] std::vector<LimitCycle> describing_function_limit_cycles(const Device& device, const Relay& relay,
+                                                                       const Progress& progress = {});
 
 }  // namespace zwidth

@@ -86,6 +86,7 @@ struct RelayResult {
 ///
 /// Throws Error (invalid_argument) for other channels, with member and value where find_problem() finds one, and for a
 /// record that analyse_relay_record() refuses.
-[[nodiscard]] RelayResult relay(Recording recording, const RelayRecordOptions& options = {});
+[[nodiscard]] RelayResult relay(Recording recording, const RelayRecordOptions& options = {},
+                                const Progress& progress = {});
 
 }  // namespace zwidth

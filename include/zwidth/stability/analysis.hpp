@@ -49,7 +49,7 @@ struct AnalysisOptions {
   bool worst_user = false;                ///< the user who proves that limit; needs any_user
   std::optional<UserRanges> family = {};  ///< worst_of_family() of user_family() of these
   std::size_t draws = 1000;               ///< of the uncertainty, for the interval; 0: no interval
-  Progress progress = {};                 ///< of the search in the family
+  Progress progress = {};
 };
 
 /// The critical stiffness, the modes and the margins of a given wall alone: for who prints nothing more.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "zwidth/model/device.hpp"
+#include "zwidth/progress.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
 #include "zwidth/trust.hpp"
 
@@ -37,6 +38,7 @@ struct AnyUserLimit {
 /// proven). Never above the critical stiffness of the free device. The device's [operator] is left out: it is one of
 /// the users. Throws Error (needs_bodies) for a transfer function, and what critical_stiffness() throws. Source:
 /// theory, section 5; Colgate & Schenkel 1997 is the rigid case without delay.
-[[nodiscard]] AnyUserLimit any_user_limit(const Device& device, VirtualDamper damper = {});
+[[nodiscard]] AnyUserLimit any_user_limit(const Device& device, VirtualDamper damper = {},
+                                          const Progress& progress = {});
 
 }  // namespace zwidth

@@ -6,6 +6,7 @@
 
 #include "zwidth/model/device.hpp"
 #include "zwidth/option_problem.hpp"
+#include "zwidth/progress.hpp"
 #include "zwidth/stability/analysis.hpp"
 #include "zwidth/stability/bode_points.hpp"
 
@@ -15,6 +16,7 @@ struct BodeOptions {
   std::optional<double> from = {};  ///< rad/s; absent: below everything that matters
   std::optional<double> to = {};    ///< rad/s; absent: Nyquist
   std::size_t points = 400;         ///< even on the logarithmic axis; more are added where a curve bends
+  Progress progress = {};
 };
 
 /// Checks: frequencies finite and > 0, `to` above `from`, 2 to 100 000 points.

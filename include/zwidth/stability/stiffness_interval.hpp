@@ -4,9 +4,12 @@
 #include <cstdint>
 
 #include "zwidth/model/device.hpp"
+#include "zwidth/progress.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
 
 namespace zwidth {
+
+inline constexpr std::uint64_t usual_draws_seed = 1;
 
 /// What a device's uncertainty makes of its critical stiffness.
 struct StiffnessInterval {
@@ -26,6 +29,7 @@ struct StiffnessInterval {
 /// The draws are the same with every standard library. Requires an uncertainty and draws >= 1; throws Error
 /// (invalid_argument) otherwise.
 [[nodiscard]] StiffnessInterval stiffness_interval(const Device& device, std::size_t draws = 1000,
-                                                   std::uint64_t seed = 1);
+                                                   std::uint64_t seed = usual_draws_seed,
+                                                   const Progress& progress = {});
 
 }  // namespace zwidth

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "zwidth/model/device.hpp"
+#include "zwidth/progress.hpp"
 #include "zwidth/stability/any_user.hpp"
 
 namespace zwidth {
@@ -52,6 +53,6 @@ inline constexpr std::size_t most_absorbers = 12;
 /// on: their resonances share one sampled frequency, closer together than double precision separates. Nothing where the
 /// limit is 0 or infinite. Throws what any_user_limit() throws.
 [[nodiscard]] std::optional<WorstUser> worst_user(const Device& device, const AnyUserLimit& limit,
-                                                  VirtualDamper damper = {});
+                                                  VirtualDamper damper = {}, const Progress& progress = {});
 
 }  // namespace zwidth
