@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <charconv>
+#include <cstdint>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -10,6 +14,7 @@
 
 #include "cli/number_text.hpp"
 #include "cli/subcommand.hpp"
+#include "zwidth/io/message_words.hpp"
 
 namespace zwidth::cli {
 namespace {
@@ -35,6 +40,8 @@ std::vector<GivenUnit>& given_units() {
   return given;
 }
 
+constexpr std::string_view range_begin = ":INT in [";
+
 std::string problem_text(const UnitProblem& problem) { return problem.what + "; " + problem.allowed; }
 
 bool has_unit(std::string_view text) {
@@ -42,15 +49,49 @@ bool has_unit(std::string_view text) {
          text.find_first_not_of("0123456789.+-eE") != std::string_view::npos;
 }
 
-/// A number with a unit as the number in SI units; all else as it is, for CLI11 to judge.
+/// A number with a unit as the number in SI units, and one without as it is.
 std::string without_unit(const std::string& text, Measure measure, const std::string& option) {
-  if (!has_unit(text)) return text;
+  if (!has_unit(text)) {
+    if (number_in(text.starts_with('+') ? text.substr(1) : text)) return text;
+    throw CLI::ValidationError(
+        fmt::format("{} is no number of at most 1e30; {}", in_quotes(text), allowed_numbers(measure, Motion::linear)));
+  }
   given_units().push_back({option, text, measure});
   const auto linear = number_with_unit(text, measure, Motion::linear);
   if (linear) return fmt::format("{}", *linear);
   const auto rotary = number_with_unit(text, measure, Motion::rotary);
   if (rotary) return fmt::format("{}", *rotary);
   throw CLI::ValidationError(problem_text(linear.error()));
+}
+
+struct WholeNumbers {
+  std::uint64_t least = 0;
+  std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
+};
+
+/// What the checks of an option allow, by its description: "N:INT in [64 - 16777216]".
+WholeNumbers allowed_by(const std::string& type) {
+  WholeNumbers allowed{.least = type.ends_with(":POSITIVE") ? 1U : 0U};
+  if (type == "PORT") allowed.most = std::numeric_limits<std::uint16_t>::max();
+  const std::size_t begin = type.find(range_begin);
+  if (begin == std::string::npos) return allowed;
+  const char* const text = type.data() + begin + range_begin.size();
+  const char* const end = type.data() + type.size();
+  const auto least = std::from_chars(text, end, allowed.least);
+  std::from_chars(std::min(least.ptr + std::string_view(" - ").size(), end), end, allowed.most);
+  return allowed;
+}
+
+/// CLI11 takes more: -1 as 2^64 - 1, 010 as 8, 0x10 as 16.
+std::string whole_number(const std::string& text, const WholeNumbers& allowed) {
+  std::uint64_t value = 0;
+  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool is_whole = failure == std::errc() && end == text.data() + text.size();
+  if (is_whole && value >= allowed.least && value <= allowed.most) return fmt::format("{}", value);
+  const std::string range = allowed.most == WholeNumbers{}.most
+                                ? fmt::format("a whole number, {} or more", allowed.least)
+                                : fmt::format("a whole number from {} to {}", allowed.least, allowed.most);
+  throw CLI::ValidationError(fmt::format("is {}; {}", text, range));
 }
 
 }  // namespace
@@ -73,8 +114,13 @@ void accept_units(CLI::App& app) {
   for (CLI::App* command : app.get_subcommands({})) {
     for (CLI::Option* option : command->get_options()) {
       const std::string type = option->get_type_name();
+      const std::string_view plain = std::string_view(type).substr(0, type.find(':'));
+      if (plain == "N" || plain == "BITS" || plain == "PORT") {
+        option->transform(
+            [allowed = allowed_by(type)](const std::string& text) { return whole_number(text, allowed); });
+      }
       for (const auto& [name, measure] : measured_values) {
-        if (type.substr(0, type.find(':')) != name) continue;
+        if (plain != name) continue;
         option->transform([unit = measure, called = option->get_name()](const std::string& text) {
           return without_unit(text, unit, called);
         });

@@ -1,12 +1,15 @@
 #include "cli/request_problem.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <string_view>
 
 #include "zwidth/io/input_error.hpp"
 
 namespace zwidth::cli {
 namespace {
+
+constexpr std::string_view no_number = "Could not convert: ";  // of CLI11
 
 /// Takes "PLACE: " from the front of the message where `is_place` says yes to PLACE.
 template <typename IsPlace>
@@ -31,6 +34,22 @@ bool is_key(std::string_view text) {  // names of bodies may be of any letters
   return !text.empty() && (text.starts_with("body.") || text.find_first_of(" '\"(") == text.npos);
 }
 
+/// "WHAT; ALLOWED"
+server::Problem split(const std::string& where, const std::string& message) {
+  const std::size_t end = message.find("; ");
+  if (end == std::string::npos) return {where, message, ""};
+  return {where, message.substr(0, end), message.substr(end + 2)};
+}
+
+/// Of "NAME:LINE:COLUMN".
+void put_place(std::string_view text, server::Problem& problem) {
+  const std::size_t begin = text.find(':');
+  if (begin == text.npos) return;
+  const char* const end = text.data() + text.size();
+  const auto line = std::from_chars(text.data() + begin + 1, end, problem.line);
+  if (line.ptr != end) std::from_chars(line.ptr + 1, end, problem.column);
+}
+
 }  // namespace
 
 server::Problem problem_in(std::string message, const server::CommandRequest& request) {
@@ -48,23 +67,39 @@ server::Problem problem_in(std::string message, const server::CommandRequest& re
     if (!key.empty()) {
       where = std::string(device_name) + "." + key;
     } else if (option.empty()) {
-      where = device;  // with line and column
+      where = request.device_is_text ? device : device_name;  // with line and column
     }
   }
-  const std::size_t end = message.find("; ");
-  if (end == std::string::npos) return {where, message, ""};
-  return {where, message.substr(0, end), message.substr(end + 2)};
+  server::Problem problem = split(where, message);
+  if (request.device_is_text) put_place(device, problem);
+  return problem;
 }
 
 server::Problem problem_of_option(const std::string& message, std::string_view file) {
   constexpr std::string_view required = " is required";
-  if (message.ends_with(required) && !message.starts_with("--")) return {std::string(file), "is missing", ""};
+  if (message.ends_with(required) && !message.starts_with("--"))
+    return {std::string(file), "is missing",
+            file == device_name ? "device_toml, or device" : "the id that POST /api/v1/recordings returned"};
   const std::size_t begin = message.find("--");
   if (begin == std::string::npos) return {"options", message, ""};
   const std::size_t end = std::min(message.find_first_of(" :,", begin), message.size());
   const std::string where = "options." + message.substr(begin + 2, end - begin - 2);
-  if (message.ends_with(required)) return {where, "is missing", ""};
-  return {where, begin == 0 && message.substr(end).starts_with(": ") ? message.substr(end + 2) : message, ""};
+  if (message.ends_with(required)) return {where, "is missing", "a value: the command needs it"};
+  if (message.starts_with(no_number)) {
+    const std::size_t value = message.find(" = ");
+    return {where, "is " + (value == std::string::npos ? "no number" : message.substr(value + 3)), "a number"};
+  }
+  if (begin != 0 || !message.substr(end).starts_with(": ")) return {where, message, ""};
+  const std::string told = message.substr(end + 2);
+  const std::size_t words = told.find(" not in {");
+  if (words != std::string::npos && told.ends_with('}')) {
+    const std::size_t first = words + std::string_view(" not in {").size();
+    std::string allowed;
+    for (const char letter : told.substr(first, told.size() - 1 - first))
+      allowed += letter == ',' ? ", " : std::string(1, letter);
+    return {where, "is " + told.substr(0, words), allowed};
+  }
+  return split(where, told);
 }
 
 }  // namespace zwidth::cli

@@ -77,7 +77,28 @@ TEST_F(UnitsOnTheCommandLine, OfTheWrongKindAreRefused) {
   expect_refusal("zwidth analyze devices/lhifam.toml --set 'wall.stiffness=5 N m/deg'",
                  "--set: wall.stiffness: \"N m/deg\" is no unit of a stiffness");
   expect_refusal("zwidth excite --amplitude 1 --rate '1 ms'", "excite: --rate: \"ms\" is no unit of a frequency");
-  expect_refusal("zwidth excite --amplitude 1 --rate abc", "excite: Could not convert: --rate = abc");
+  expect_refusal("zwidth excite --amplitude 1 --rate abc",
+                 "excite: --rate: \"abc\" is no number of at most 1e30; must be");
+}
+
+TEST_F(UnitsOnTheCommandLine, WholeNumbersAreThoseThatAreWritten) {
+  const std::string device = " devices/lhifam.toml --json ";
+  expect_refusal("zwidth bode" + device + "--points -5", "--points: is -5; a whole number, 0 or more");
+  expect_refusal("zwidth bode" + device + "--points 1", "--points: is 1; 2 to 100000");
+  for (const char* text : {"abc", "0x20", "1e3", "4.5", "99999999999999999999"}) {
+    expect_refusal("zwidth bode" + device + "--points " + text,
+                   std::string("--points: is ") + text + "; a whole number, 0 or more");
+  }
+  EXPECT_EQ(run("zwidth bode" + device + "--points 010").output, run("zwidth bode" + device + "--points 10").output);
+  expect_refusal("zwidth relay" + device + "--amplitude 5 --seed -1", "--seed: is -1; a whole number, 0 or more");
+  expect_refusal("zwidth relay" + device + "--amplitude 5 --trials 0", "--trials: is 0; a whole number from 1 to 1000");
+  expect_refusal("zwidth relay" + device + "--amplitude 5 --segment -5",
+                 "--segment: is -5; a whole number from 64 to 16777216");
+  expect_refusal("zwidth serve --port -1", "--port: is -1; a whole number from 0 to 65535");
+  expect_refusal("zwidth frf recordings/locked_chirp.csv --force force --position position --period 0",
+                 "--period: is 0; a whole number, 1 or more");
+  expect_refusal("zwidth identify recordings/locked_chirp.csv --force force --position position --decimation -2",
+                 "--decimation: is -2; a whole number, 0 or more");
 }
 
 }  // namespace

@@ -61,7 +61,12 @@ std::string text_document(const std::string& text) {
 }  // namespace
 
 std::string error_document(const Problem& problem) {
-  return results::line({{"error", {{"where", problem.where}, {"what", problem.what}, {"allowed", problem.allowed}}}});
+  Json error{{"where", problem.where}, {"what", problem.what}, {"allowed", problem.allowed}};
+  if (problem.line > 0) {
+    error["line"] = problem.line;
+    error["column"] = problem.column;
+  }
+  return results::line({{"error", std::move(error)}});
 }
 
 Api::Api(const Commands& commands, const std::vector<OfferedDevice>& devices, const RecordingLimits& limits)

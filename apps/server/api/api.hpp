@@ -23,7 +23,7 @@ struct ApiAnswer {
   std::string document;  ///< one line of JSON
 };
 
-/// {"error": {"where": ..., "what": ..., "allowed": ...}}
+/// {"error": {"where": ..., "what": ..., "allowed": ...}}, with "line" and "column" where they are known
 [[nodiscard]] std::string error_document(const Problem& problem);
 
 /// A device to begin with.

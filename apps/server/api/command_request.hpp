@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -14,9 +15,11 @@ namespace zwidth::server {
 
 /// Why a request is not answered, and what would be.
 struct Problem {
-  std::string where;    ///< "options.points", "device.loop.delay"; empty where the work itself failed
-  std::string what;     ///< what is wrong
-  std::string allowed;  ///< what is allowed, or the remedy; may be empty
+  std::string where;     ///< "options.points", "device.loop.delay"; empty where the work itself failed
+  std::string what;      ///< what is wrong
+  std::string allowed;   ///< what is allowed, or the remedy; may be empty
+  std::size_t line = 0;  ///< of the device file's text, from 1; 0: of none
+  std::size_t column = 0;
 };
 
 /// A command of the program with what it works on.
@@ -33,6 +36,7 @@ struct CommandRequest {
   std::string command;
   std::vector<Option> options;
   std::optional<std::string> device;  ///< TOML text
+  bool device_is_text = false;        ///< it came as that: places in it mean something to who sent it
   std::vector<Recorded> recordings;
 };
 

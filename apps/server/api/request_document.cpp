@@ -155,6 +155,7 @@ CommandRequest request_of(std::string_view command, const Json& document, Record
     if (request.device) refuse("device_toml", "is given beside device", "one of them");
     if (!document["device_toml"].is_string()) refuse("device_toml", "is no text", "a device file's text");
     request.device = document["device_toml"].get<std::string>();
+    request.device_is_text = true;
   }
   if (document.contains("recording")) request.recordings.push_back(recorded(document["recording"], recordings));
   if (document.contains("recordings")) {
