@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <thread>
@@ -202,6 +203,9 @@ TEST_F(Hostile, DocumentsAreUtf8ObjectsOfKnownKeysAndNoGreatDepth) {
   expect_bad(R"({"recording":{"id":"a","path":"/etc/passwd"}})", "recording");
   expect_bad(R"({"recordings":"a"})", "recordings");
   expect_bad(R"({"options":[]})", "options");
+  const std::string zipped("\x1f\x8b\x08\x00\x00\x00\x00\x00\x00\x03\xab\xae\x05\x00\x43\xbf\xa6\xa3\x02\x00\x00\x00",
+                           22);
+  expect_bad(zipped, "request");  // {} in gzip, of which no header tells
   EXPECT_TRUE(is_alive());
 }
 
@@ -219,6 +223,10 @@ TEST_F(Hostile, AnErrorNamesTheFieldThatCausedIt) {
   };
   expect_place("bode", {{"points", "abc"}}, "options.points", device);
   expect_place("bode", {{"points", 1}}, "options.points", device);
+  expect_place("bode", {{"points", -5}}, "options.points", device);
+  expect_place("bode", {{"from", "abc"}}, "options.from", device);
+  expect_place("simulate", {{"contact", "soft"}}, "options.contact", device);
+  expect_place("region", {{"raster", 1}}, "options.raster", device);
   expect_place("bode", {{"pionts", 10}}, "options.pionts", device);
   expect_place("bode", {{"from", 100}, {"to", 10}}, "options.to", device);
   expect_place("export", json::object(), "options.format", device);
@@ -237,6 +245,44 @@ TEST_F(Hostile, AnErrorNamesTheFieldThatCausedIt) {
   expect_place("analyze", json::object(), "device:1:7", "name =");
   expect_place("analyze", json::object(), "device.body.a b.mass",
                "body = [{name = \"a b\", mass = -1}]\nloop.sampling_period = 1e-3");
+}
+
+TEST_F(Hostile, AnErrorSaysWhatWasGivenAndWhatIsAllowed) {
+  const std::string device = contents("devices/lhifam.toml");
+  const auto error_of = [&](const std::string& command, const json& options, const std::string& text) {
+    const HttpAnswer answer = post(command, json{{"device_toml", text}, {"options", options}}.dump());
+    return json::parse(answer.body).at("error");
+  };
+  const auto expect_error = [&](const std::string& command, const json& options, const std::string& what,
+                                const std::string& allowed) {
+    const json error = error_of(command, options, device);
+    EXPECT_EQ(error.at("what"), what) << error;
+    EXPECT_THAT(error.at("allowed").get<std::string>(), HasSubstr(allowed)) << error;
+    EXPECT_FALSE(error.contains("line")) << error;
+  };
+  expect_error("bode", {{"points", "-5"}}, "is -5", "a whole number, 0 or more");
+  expect_error("bode", {{"points", -5}}, "is -5", "a whole number, 0 or more");
+  expect_error("bode", {{"points", 1}}, "is 1", "2 to 100000");
+  expect_error("bode", {{"points", 40.5}}, "is 40.5", "a whole number");
+  expect_error("bode", {{"from", "abc"}}, "\"abc\" is no number of at most 1e30", "a number of rad/s");
+  expect_error("export", json::object(), "is missing", "a value");
+  expect_error("relay", {{"amplitude", 5}, {"variation", "abc"}}, "is abc", "a number");
+  expect_error("relay", {{"amplitude", 5}, {"trials", 2000}}, "is 2000", "a whole number from 1 to 1000");
+  expect_error("simulate", {{"contact", "soft"}}, "is soft", "bilateral, unilateral");
+  // Places in the text, of its grammar and of its keys.
+  json error = error_of("analyze", json::object(), "name = \"a\"\nbody = [\n");
+  EXPECT_EQ(error.at("line"), 2) << error;
+  EXPECT_EQ(error.at("column"), 10) << error;
+  error = error_of("analyze", json::object(),
+                   "name = \"a\"\n[[body]]\nname = \"b\"\n  mass = -1\n[loop]\nsampling_period = 1e-3\n");
+  EXPECT_EQ(error.at("where"), "device.body.b.mass") << error;
+  EXPECT_EQ(error.at("line"), 4) << error;
+  error = error_of("analyze", json::object(), device + "\n[lop]\ndelay = 1\n");
+  EXPECT_THAT(error.dump(), HasSubstr("did you mean")) << error;
+  EXPECT_EQ(error.at("line"), std::count(device.begin(), device.end(), '\n') + 2) << error;
+  // Of a device that came as JSON there are no lines.
+  const HttpAnswer of_json = post("analyze", R"({"device":{"body":[{"name":"b","mass":-1}]}})");
+  EXPECT_FALSE(json::parse(of_json.body).at("error").contains("line")) << of_json.body;
 }
 
 TEST_F(Hostile, NoOptionReachesADisk) {
@@ -321,6 +367,11 @@ TEST_F(Hostile, PipelinedRequestsAreEachJudged) {
           "{}GET /api/v1/health HTTP/1.1\nHost: 127.0.0.1:{P}\n\n"));
   EXPECT_EQ(smuggler.answer().status, 400);
   EXPECT_EQ(smuggler.answer().status, 200);
+  Client many(port());
+  std::string requests;
+  for (int i = 0; i < 300; ++i) requests += request("GET", "/api/v1/health");
+  many.send(requests);
+  for (int i = 0; i < 300; ++i) ASSERT_EQ(many.answer().status, 200) << i;
   EXPECT_TRUE(is_alive());
 }
 
@@ -338,10 +389,22 @@ TEST_F(Hostile, SlowClientsAreCutOff) {
       dripped_away = drips.is_ended_within(1s);
     }
   });
+  bool body_is_cut_off = false;
+  others.emplace_back([&] {
+    Client slow_body(port());
+    slow_body.send(
+        raw("POST /api/v1/analyze HTTP/1.1\nHost: 127.0.0.1:{P}\nContent-Type: application/json\n"
+            "Content-Length: 1000\n\n"));
+    for (int i = 0; i < 90 && !body_is_cut_off; ++i) {
+      slow_body.send(" ");
+      body_is_cut_off = slow_body.is_ended_within(1s);
+    }
+  });
   EXPECT_TRUE(silent.is_ended_within(20s));
   EXPECT_TRUE(slow_head.is_ended_within(10s));
   for (std::thread& each : others) each.join();
   EXPECT_TRUE(dripped_away);
+  EXPECT_TRUE(body_is_cut_off);
   EXPECT_TRUE(is_alive());
 }
 
