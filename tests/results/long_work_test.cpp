@@ -44,18 +44,12 @@ std::vector<Work> works() {
                                                                             ValueRange{0.0, 1000.0}},
                                                        .progress = progress}));
        }},
-      {"bode",
-       [](const Device& device, const Progress& progress) {
-         return bode_json(device, bode(device, {.progress = progress}));
-       }},
-      {"region",
-       [](const Device& device, const Progress& progress) {
-         return region_json(device, region(device, {.progress = progress}));
-       }},
-      {"design",
-       [](const Device& device, const Progress& progress) {
-         return design_json(device, design(device, {.progress = progress}));
-       }},
+      {"bode", [](const Device& device,
+                  const Progress& progress) { return bode_json(device, bode(device, {.progress = progress})); }},
+      {"region", [](const Device& device,
+                    const Progress& progress) { return region_json(device, region(device, {.progress = progress})); }},
+      {"design", [](const Device& device,
+                    const Progress& progress) { return design_json(device, design(device, {.progress = progress})); }},
       {"recommend",
        [](const Device& device, const Progress& progress) {
          const RecommendationOptions options{.draws = 4, .progress = progress};
@@ -63,8 +57,7 @@ std::vector<Work> works() {
        }},
       {"diagnose",
        [](const Device& device, const Progress& progress) {
-         return diagnosis_json(device,
-                               diagnose(device, {.frequency = 190.0, .stiffness = 5e4, .progress = progress}));
+         return diagnosis_json(device, diagnose(device, {.frequency = 190.0, .stiffness = 5e4, .progress = progress}));
        }},
       {"target",
        [](const Device& device, const Progress& progress) {

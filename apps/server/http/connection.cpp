@@ -4,12 +4,12 @@
 #include <netinet/tcp.h>
 #include <sys/socket.h>
 
+#include <algorithm>
 #include <boost/asio/post.hpp>
 #include <boost/asio/write.hpp>
 #include <boost/beast/http/error.hpp>
 #include <boost/beast/http/read.hpp>
 #include <boost/beast/http/write.hpp>
-#include <cerrno>
 #include <exception>
 #include <sstream>
 #include <utility>
@@ -59,6 +59,13 @@ void add_host(std::vector<std::string>& hosts, const std::string& host) {
   if (host.ends_with(":80")) hosts.push_back(host.substr(0, host.size() - 3));
 }
 
+/// By the state of the connection: bytes of a next request that were not read would hide its end from a reader.
+bool is_there(int socket) {
+  tcp_info state{};
+  socklen_t size = sizeof state;
+  return ::getsockopt(socket, IPPROTO_TCP, TCP_INFO, &state, &size) == 0 && state.tcpi_state == TCP_ESTABLISHED;
+}
+
 std::string chunk(const std::string& text) { return fmt::format("{:x}\r\n{}\r\n", text.size(), text); }
 
 }  // namespace
@@ -90,6 +97,8 @@ void Connection::stop() {
 void Connection::cancel() {
   if (cancelled_) *cancelled_ = true;
 }
+
+void Connection::close() { stream_.close(); }
 
 void Connection::release_body() { shared_.bodies -= std::exchange(body_, 0); }
 
@@ -179,6 +188,14 @@ void Connection::invite_body() {
 }
 
 void Connection::read_body() {
+  // Mostly it came with the head: without another turn of the sockets.
+  if (parser_->is_done()) return on_body({});
+  if (buffer_.size() >= parser_->content_length().value_or(buffer_.size() + 1)) {
+    Error error;
+    parser_->eager(true);
+    buffer_.consume(parser_->put(buffer_.data(), error));
+    if (error || parser_->is_done()) return on_body(error);
+  }
   stream_.expires_after(shared_.limits.body_time);
   http::async_read(stream_, buffer_, *parser_,
                    [self = shared_from_this()](Error error, std::size_t) { self->on_body(error); });
@@ -205,20 +222,20 @@ void Connection::dispatch_work(const Route& route) {
              view(parser_->get()[http::field::accept]).find(stream_type) != std::string_view::npos;
   stream_.expires_never();
   const auto begin = Clock::now();
-  const auto next_line = std::make_shared<std::atomic<Clock::rep>>((begin + between_lines).time_since_epoch().count());
-  // Called from other threads, while the work holds this connection.
-  const Progress progress = [this, cancelled = cancelled_, begin, next_line, streams = streams_](double fraction) {
+  struct Told {
+    Clock::time_point next;
+    double most = 0.0;  // of a command of several parts, each of which begins at 0
+  };
+  const auto told = std::make_shared<Told>(Told{begin + between_lines});
+  // Called from other threads, one at a time, while the work holds this connection.
+  const Progress progress = [this, cancelled = cancelled_, begin, told, streams = streams_](double fraction) {
     const auto now = Clock::now();
     if (*cancelled) throw Cancelled("cancelled");
     if (now - begin > shared_.limits.work_time) throw Cancelled("took too long");
-    if (!streams) return;
-    auto due = next_line->load();
-    if (now.time_since_epoch().count() < due ||
-        !next_line->compare_exchange_strong(due, (now + between_lines).time_since_epoch().count())) {
-      return;
-    }
-    net::post(stream_.get_executor(), [self = shared_from_this(), fraction] {
-      self->put_in_stream(fmt::format("{{\"progress\":{:.4f}}}\n", fraction));
+    if (!streams || now < told->next) return;
+    *told = {now + between_lines, std::max(told->most, fraction)};
+    net::post(stream_.get_executor(), [self = shared_from_this(), most = told->most] {
+      self->put_in_stream(fmt::format("{{\"progress\":{:.4f}}}\n", most));
     });
   };
   // Gives the connection back to the sockets' thread, where alone it may end.
@@ -243,26 +260,17 @@ void Connection::dispatch_work(const Route& route) {
     busy.body() = error_document({"", "busy: too many requests wait", "the same later"});
     return send(std::move(busy));
   }
-  ++request_;
   if (streams_) begin_stream();
-  if (buffer_.size() == 0) watch_client();
+  shared_.work_runs();
 }
 
-/// Cancels the work of a client that leaves. One that sends its next request already is not watched further.
-void Connection::watch_client() {
-  stream_.socket().async_wait(tcp::socket::wait_read, [self = shared_from_this(), request = request_](Error error) {
-    if (error || !self->works_ || request != self->request_) return;
-    char next = 0;
-    const ssize_t got = ::recv(self->stream_.socket().native_handle(), &next, 1, MSG_PEEK | MSG_DONTWAIT);
-    if (got == 0 || (got < 0 && errno != EAGAIN && errno != EINTR)) return self->cancel();
-    if (got < 0) self->watch_client();
-  });
+bool Connection::look() {
+  if (works_ && !is_there(stream_.socket().native_handle())) cancel();
+  return works_;
 }
 
 void Connection::on_answer(const ApiAnswer& answer) {
   works_ = false;
-  Error ignored;
-  stream_.socket().cancel(ignored);  // the watch
   if (streams_) return end_stream(answer.document);
   send(answer.status, answer.document);
 }

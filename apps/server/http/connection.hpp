@@ -38,7 +38,8 @@ struct Shared {
   std::set<Connection*> connections = {};
   std::size_t bodies = 0;  ///< bytes that requests announced
   bool stops = false;
-  std::function<void()> all_gone = {};  ///< called when it stops and the last connection has ended
+  std::function<void()> all_gone = {};   ///< called when it stops and the last connection has ended
+  std::function<void()> work_runs = {};  ///< called when some begins: from now on who leaves is looked for
 };
 
 /// One client: reads a request, has it answered, writes the answer, and so on. Lives as long as something of it waits.
@@ -52,8 +53,11 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void start();
   /// The server ends: what runs is answered, what does not yet run goes.
   void stop();
-  /// What runs is ended where it tells its progress.
+  /// What runs is ended where it next tells its progress.
   void cancel();
+  void close();
+  /// Whether work runs; that of a client that has left is ended.
+  bool look();
 
  private:
   using Error = boost::beast::error_code;
@@ -66,7 +70,6 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void on_body(Error error);
   void dispatch();
   void dispatch_work(const Route& route);
-  void watch_client();
   void on_answer(const ApiAnswer& answer);
   void send_page(const Page& page);
   void send(int status, std::string document, const std::string& allow = {});
@@ -93,7 +96,6 @@ class Connection : public std::enable_shared_from_this<Connection> {
   std::size_t body_ = 0;  // bytes announced
   bool works_ = false;
   bool keeps_ = true;
-  std::uint64_t request_ = 0;  // number of
   std::shared_ptr<std::atomic<bool>> cancelled_;
   std::shared_ptr<Response> response_;
   bool streams_ = false;

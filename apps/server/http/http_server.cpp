@@ -18,16 +18,30 @@
 namespace zwidth::server {
 namespace {
 
+constexpr std::chrono::milliseconds between_looks{50};  // whether clients are still there
+
 /// The listening socket, and the signals that end it.
 class Listener {
  public:
   Listener(net::io_context& sockets, Shared& shared, const tcp::endpoint& endpoint)
-      : acceptor_(sockets), pause_(sockets), signals_(sockets, SIGINT, SIGTERM), shared_(shared) {
+      : acceptor_(sockets),
+        pause_(sockets),
+        grace_(sockets),
+        looks_(sockets),
+        signals_(sockets, SIGINT, SIGTERM),
+        shared_(shared) {
     acceptor_.open(endpoint.protocol());
     acceptor_.set_option(net::socket_base::reuse_address(true));
     acceptor_.bind(endpoint);
     acceptor_.listen();
-    shared_.all_gone = [this] { signals_.cancel(); };
+    shared_.all_gone = [this] {
+      signals_.cancel();
+      grace_.cancel();
+      looks_.cancel();
+    };
+    shared_.work_runs = [this] {
+      if (!std::exchange(looks_around_, true)) look_around();
+    };
     accept();
     wait_for_signal();
   }
@@ -68,7 +82,9 @@ class Listener {
   void wait_for_signal() {
     signals_.async_wait([this](beast::error_code error, int) {
       if (error) return;
-      shared_.stops ? cancel() : stop();
+      if (!shared_.stops) return stop();
+      cancel();
+      wait_for_signal();
     });
   }
 
@@ -80,15 +96,40 @@ class Listener {
     if (shared_.connections.empty()) return;
     for (Connection* each : shared_.connections) each->stop();
     wait_for_signal();
+    grace_.expires_after(shared_.limits.last_time);
+    grace_.async_wait([this](beast::error_code error) {
+      if (error) return;
+      cancel();
+      grace_.expires_after(shared_.limits.last_answer);
+      grace_.async_wait([this](beast::error_code ended) {
+        if (ended) return;
+        for (Connection* each : shared_.connections) each->close();
+      });
+    });
   }
 
   void cancel() {
     for (Connection* each : shared_.connections) each->cancel();
-    wait_for_signal();
+  }
+
+  /// As long as any work runs.
+  void look_around() {
+    looks_.expires_after(between_looks);
+    looks_.async_wait([this](beast::error_code error) {
+      if (error) return;
+      looks_around_ = false;
+      for (Connection* each : shared_.connections) {
+        if (each->look()) looks_around_ = true;
+      }
+      if (looks_around_) look_around();
+    });
   }
 
   tcp::acceptor acceptor_;
   net::steady_timer pause_;
+  net::steady_timer grace_;
+  net::steady_timer looks_;
+  bool looks_around_ = false;
   net::signal_set signals_;
   Shared& shared_;
 };

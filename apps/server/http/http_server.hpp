@@ -17,7 +17,9 @@ struct HttpLimits {
   std::chrono::seconds head_time{10};  ///< until a head is whole; also how long a connection may idle
   std::chrono::seconds body_time{60};
   std::chrono::seconds write_time{60};
-  std::chrono::seconds work_time{600};  ///< of work that tells its progress
+  std::chrono::seconds work_time{600};
+  std::chrono::milliseconds last_time{500};    ///< that work still has when the server is to end
+  std::chrono::milliseconds last_answer{250};  ///< and after it answers, before they are dropped
 };
 
 struct HttpOptions {
@@ -29,8 +31,8 @@ struct HttpOptions {
 /// Whether `host` is an IP address or localhost.
 [[nodiscard]] bool is_address(const std::string& host);
 
-/// Serves the API and the embedded front end until SIGINT or SIGTERM, and then finishes what runs; a second signal
-/// cancels it. `started` is called once with the address, which has the token in its fragment where one is needed.
+/// Serves the API and the embedded front end until SIGINT or SIGTERM, and then finishes what can be within last_time; the
+/// rest, and with a second signal all of it, is cancelled. `started` is called once with the address, which has the token in its fragment where one is needed.
 ///
 /// Throws std::system_error where the address cannot be bound.
 void serve(Api& api, const HttpOptions& options, const std::function<void(const std::string& address)>& started);
