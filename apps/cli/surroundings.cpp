@@ -48,7 +48,9 @@ tl::expected<Device, InputError> read_named_device(const std::string& name, std:
 tl::expected<Recording, InputError> read_named_recording(const std::string& name, const RecordingOptions& options,
                                                          const Progress& progress) {
   const Progress told = of_reading(progress);
-  return read_by_name(name, [&](const std::string& path) { return read_recording(path, options, told); });
+  auto recording = read_by_name(name, [&](const std::string& path) { return read_recording(path, options, told); });
+  if (recording) recording->source = name;  // not where the system has its bytes
+  return recording;
 }
 
 tl::expected<RecordingContents, InputError> list_named_recording(const std::string& name,

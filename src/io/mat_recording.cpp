@@ -298,8 +298,9 @@ tl::expected<Recording, InputError> read_mat_recording(const std::string& path, 
 }
 
 tl::expected<RecordingContents, InputError> list_mat_recording(const std::string& path,
-                                                               const RecordingOptions& /*options*/) {
-  const auto table = open_table(path, {});
+                                                               const RecordingOptions& /*options*/,
+                                                               const Progress& progress) {
+  const auto table = open_table(path, progress);
   if (!table) return Refusal(table.error());
   RecordingContents contents{RecordingFormat::mat, {}, remarks_on_skipped(table->file.contents.skipped)};
   for (const Signal& signal : table->signals) {

@@ -21,6 +21,7 @@ namespace zwidth::internal {
 
 /// The columns that read_mat_recording() finds; single numbers are in a remark.
 [[nodiscard]] tl::expected<RecordingContents, InputError> list_mat_recording(const std::string& path,
-                                                                             const RecordingOptions& options = {});
+                                                                             const RecordingOptions& options = {},
+                                                                             const Progress& progress = {});
 
 }  // namespace zwidth::internal

@@ -93,17 +93,17 @@ tl::expected<Recording, InputError> read_recording(const std::string& path, cons
   return tl::unexpected(too_large(path));
 }
 
-tl::expected<RecordingContents, InputError> list_recording(const std::string& path,
-                                                           const RecordingOptions& options) try {
+tl::expected<RecordingContents, InputError> list_recording(const std::string& path, const RecordingOptions& options,
+                                                           const Progress& progress) try {
   auto input = open_recording(path, options.format);
   if (!input) return tl::unexpected(std::move(input.error()));
   switch (input->format) {
     case RecordingFormat::mat:
-      return list_mat_recording(path, options);
+      return list_mat_recording(path, options, progress);
     case RecordingFormat::uff:
-      return list_uff_recording(path, options);
+      return list_uff_recording(path, options, progress);
     default:
-      return list_text_recording(std::move(input->lines), options);
+      return list_text_recording(std::move(input->lines), options, progress);
   }
 } catch (const std::bad_alloc&) {
   return tl::unexpected(too_large(path));

@@ -140,7 +140,8 @@ tl::expected<Recording, InputError> read_text_recording(TextLines lines, const R
   return recording;
 }
 
-tl::expected<RecordingContents, InputError> list_text_recording(TextLines lines, const RecordingOptions& options) {
+tl::expected<RecordingContents, InputError> list_text_recording(TextLines lines, const RecordingOptions& options,
+                                                                const Progress& progress) {
   auto table = TextTable::open(std::move(lines), options);
   if (!table) return tl::unexpected(std::move(table.error()));
   std::size_t rows = 0;
@@ -153,7 +154,7 @@ tl::expected<RecordingContents, InputError> list_text_recording(TextLines lines,
     }
     return {};
   };
-  if (auto counted = table->each_row(count); !counted) return tl::unexpected(std::move(counted.error()));
+  if (auto counted = table->each_row(count, progress); !counted) return tl::unexpected(std::move(counted.error()));
   RecordingContents contents;
   contents.remarks = table->remarks();
   const auto names = table->names();

@@ -13,6 +13,7 @@ namespace zwidth::internal {
 
 /// Names the columns of a text table and counts its rows.
 [[nodiscard]] tl::expected<RecordingContents, InputError> list_text_recording(TextLines lines,
-                                                                              const RecordingOptions& options);
+                                                                              const RecordingOptions& options,
+                                                                              const Progress& progress = {});
 
 }  // namespace zwidth::internal

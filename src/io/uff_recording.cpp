@@ -151,8 +151,9 @@ tl::expected<Recording, InputError> read_uff_recording(const std::string& path, 
 }
 
 tl::expected<RecordingContents, InputError> list_uff_recording(const std::string& path,
-                                                               const RecordingOptions& /*options*/) {
-  const auto file = read_uff_file(path, {});
+                                                               const RecordingOptions& /*options*/,
+                                                               const Progress& progress) {
+  const auto file = read_uff_file(path, progress);
   if (!file) return Refusal(file.error());
   RecordingContents contents{RecordingFormat::uff, {}, file->remarks};
   const auto names = uff_names(*file);

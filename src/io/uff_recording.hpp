@@ -18,6 +18,7 @@ namespace zwidth::internal {
 
 /// The records of a universal file, time records and others.
 [[nodiscard]] tl::expected<RecordingContents, InputError> list_uff_recording(const std::string& path,
-                                                                             const RecordingOptions& options = {});
+                                                                             const RecordingOptions& options = {},
+                                                                             const Progress& progress = {});
 
 }  // namespace zwidth::internal

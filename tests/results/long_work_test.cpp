@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <ctime>
+#include <filesystem>
+#include <fstream>
 #include <functional>
 #include <stdexcept>
 #include <string>
@@ -133,6 +135,23 @@ TEST_P(LongWork, CanBeEndedAtAnyCall) {
 
 INSTANTIATE_TEST_SUITE_P(All, LongWork, ::testing::Range(std::size_t{0}, works().size()),
                          [](const auto& each) { return works()[each.param].name; });
+
+TEST(LongWorkOnARecording, ListingItCanBeEnded) {
+  const std::string path = ::testing::TempDir() + "long_work.csv";
+  {
+    std::ofstream file(path);
+    file << "a,b\n";
+    for (int i = 0; i < 200000; ++i) file << i << ",2.5\n";
+  }
+  std::vector<double> told;
+  const auto contents = list_recording(path, {}, [&](double fraction) { told.push_back(fraction); });
+  ASSERT_TRUE(contents);
+  EXPECT_EQ(contents->columns.front().size, 200000U);
+  EXPECT_FALSE(told.empty());
+  EXPECT_TRUE(std::ranges::is_sorted(told));
+  EXPECT_THROW((void)list_recording(path, {}, [](double) { throw Ended("ended"); }), Ended);
+  std::filesystem::remove(path);
+}
 
 Device chain(std::size_t bodies) {
   DeviceParameters parameters;

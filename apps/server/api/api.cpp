@@ -87,9 +87,9 @@ ApiAnswer Api::answer_command(std::string_view command, std::string_view body, c
   return {200, printed->starts_with('{') ? *std::move(printed) : text_document(*printed)};
 }
 
-ApiAnswer Api::answer_recording(std::string_view body) {
+ApiAnswer Api::answer_recording(std::string_view body, const Progress& progress) {
   const RecordingStore::Stored stored = recordings_.put(body);
-  const auto contents = list_recording(stored.bytes->path());
+  const auto contents = list_recording(stored.bytes->path(), {}, progress);
   if (!contents) return {400, error_document({"recording", contents.error().what, contents.error().allowed})};
   return {200, contents_document(stored.id, stored.bytes->size(), *contents)};
 }
@@ -98,7 +98,7 @@ ApiAnswer Api::answer(std::string_view path, std::string_view body, const Progre
   const std::string_view name = path.substr(std::min(path.size(), base.size()));
   if (name == "health") return {200, results::line({{"status", "ok"}, {"version", ZWIDTH_VERSION}})};
   if (name == "devices") return {200, devices_};
-  if (name == "recordings") return answer_recording(body);
+  if (name == "recordings") return answer_recording(body, progress);
   return answer_command(name, body, progress);
 } catch (const std::bad_alloc&) {
   return {503, error_document({"", "out of memory", "a smaller request, or the same later"})};

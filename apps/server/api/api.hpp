@@ -47,7 +47,7 @@ class Api {
 
  private:
   [[nodiscard]] ApiAnswer answer_command(std::string_view command, std::string_view body, const Progress& progress);
-  [[nodiscard]] ApiAnswer answer_recording(std::string_view body);
+  [[nodiscard]] ApiAnswer answer_recording(std::string_view body, const Progress& progress);
 
   const Commands& commands_;
   std::vector<Route> routes_;

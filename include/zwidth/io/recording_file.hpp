@@ -79,7 +79,8 @@ struct RecordingContents {
 };
 
 [[nodiscard]] tl::expected<RecordingContents, InputError> list_recording(const std::string& path,
-                                                                         const RecordingOptions& options = {});
+                                                                         const RecordingOptions& options = {},
+                                                                         const Progress& progress = {});
 
 /// Which column of a table is what. Names, or numbers from 1; the first set of three that is given counts. Where none
 /// is, columns whose names say what they are ("frequency_hz", "mag [dB]", "phase (rad)", "re"). Units that are not
