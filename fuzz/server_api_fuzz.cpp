@@ -78,7 +78,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     require(answer.document.find('\n') == answer.document.size() - 1);
     const Json document = Json::parse(answer.document);
     require(document.contains("error") == (answer.status != 200));
-    if (answer.status != 200) require(document["error"].size() == 3 && document["error"]["where"].is_string());
+    if (answer.status == 200) return 0;
+    const Json& error = document["error"];
+    require(error["where"].is_string());
+    const bool has_place = error.contains("line") && error["line"] > 0 && error["column"] > 0;
+    require(error.size() == (has_place ? 5 : 3));
   } catch (const zwidth::server::Cancelled&) {
     answers = false;
   }
