@@ -18,8 +18,8 @@ struct HttpLimits {
   std::chrono::seconds body_time{60};
   std::chrono::seconds write_time{60};
   std::chrono::seconds work_time{600};
-  std::chrono::milliseconds last_time{500};    ///< that work still has when the server is to end
-  std::chrono::milliseconds last_answer{250};  ///< and after it answers, before they are dropped
+  std::chrono::milliseconds last_time{400};    ///< that work still has when the server is to end
+  std::chrono::milliseconds last_answer{400};  ///< and after it answers, before they are dropped
 };
 
 struct HttpOptions {
