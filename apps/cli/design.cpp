@@ -21,6 +21,7 @@
 #include "report/figure/design_sweep_figure.hpp"
 #include "report/text/design_text.hpp"
 #include "report/text/text_medium.hpp"
+#include "report/text/trust_text.hpp"
 #include "results/design_json.hpp"
 #include "results/design_target_json.hpp"
 #include "zwidth/design/design_comparison.hpp"
@@ -139,6 +140,10 @@ void run_sweep(const DesignArguments& arguments) {
   ProgressLine line("sweeping");
   const ParameterSweep sweep =
       worked(arguments.devices.files.front(), [&] { return parameter_sweep(device, axes, options, line.progress()); });
+  if (sweep.trust.refused()) {
+    if (arguments.output.json) write_standard_output(results::line(results::sweep_json(device, sweep)));
+    throw WorkFailed(arguments.devices.files.front() + ": " + report::verdict_text(sweep.trust));
+  }
   outputs.put("--output", [&] { return results::sweep_csv(sweep); });
   outputs.draw("--output", [&](report::FigureFormat format) { return report::draw_sweep(device, sweep, format); });
   outputs.commit();

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "zwidth/model/device.hpp"
+#include "zwidth/progress.hpp"
+#include "zwidth/stability/critical_stiffness.hpp"
+
+namespace zwidth {
+
+/// The values that one number takes, one for each of many devices.
+struct ParameterValues {
+  std::string key;             ///< as in model/parameter.hpp
+  std::vector<double> values;  ///< SI units
+};
+
+/// The critical stiffness of one of many devices, or why there is none.
+struct CriticalStiffnessOfOne {
+  StiffnessStatus status = StiffnessStatus::refused;
+  double stiffness = 0.0;  ///< as in CriticalStiffness; NaN where refused
+  double frequency = 0.0;  ///< rad/s, of the limiting crossover; NaN unless finite
+  std::optional<Mechanism> limited_by;
+  Trust trust = {};
+  std::string failure = {};  ///< the values make no device, or the computation failed; empty: neither
+};
+
+/// What is wrong with the keys: one that is no number of the device, one twice, different counts of values.
+[[nodiscard]] std::optional<DeviceProblem> find_problem(const Device& device, std::span<const ParameterValues> changes);
+
+/// critical_stiffness() of the device with the i-th value of every key set, for every i: each element is that of the
+/// function called for it alone, bit for bit.
+///
+/// On all cores, whatever their number with the same results; `progress` may be called from any thread, never from two
+/// at once. Values that make no device, and what does not converge, end nothing: that element is refused and says why.
+/// Throws Error (invalid_argument) where find_problem() finds one.
+[[nodiscard]] std::vector<CriticalStiffnessOfOne> critical_stiffness_many(const Device& device,
+                                                                          std::span<const ParameterValues> changes,
+                                                                          const Progress& progress = {});
+
+}  // namespace zwidth

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <tl/expected.hpp>
+#include <vector>
+
+#include "zwidth/io/input_error.hpp"
+#include "zwidth/io/recording_file.hpp"
+
+namespace zwidth {
+
+/// Samples in memory, as the column of a file would hold them.
+struct RecordedColumn {
+  std::string name;
+  std::vector<double> samples;  ///< NaN or infinite where there is none
+};
+
+/// Signals that were recorded together and lie in memory, not in a file.
+struct RecordedColumns {
+  std::string source;                     ///< what messages call them
+  std::vector<RecordedColumn> columns;    ///< names that differ
+  std::optional<double> sampling_period;  ///< s; what the recording itself states, where it does
+};
+
+/// Reads the asked-for columns as read_recording() reads those of a file: the same choice of columns and of the time
+/// axis, the same checks, scales, fillings and remarks.
+///
+/// Refused, besides: a sampling period that is not finite and > 0, and columns of different sizes.
+[[nodiscard]] tl::expected<Recording, InputError> read_recording(const RecordedColumns& recorded,
+                                                                 const RecordingOptions& options);
+
+/// Their names and sizes.
+[[nodiscard]] RecordingContents list_recording(const RecordedColumns& recorded);
+
+}  // namespace zwidth

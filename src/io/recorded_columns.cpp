@@ -1,0 +1,102 @@
+#include "zwidth/io/recorded_columns.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "io/column_names.hpp"
+#include "io/prose.hpp"
+#include "io/raw_column.hpp"
+#include "io/recording_channels.hpp"
+#include "io/time_axis.hpp"
+
+namespace zwidth {
+using namespace internal;
+namespace {
+
+InputError refused(const RecordedColumns& recorded, std::string key, std::string what, std::string allowed) {
+  return {recorded.source, 0, 0, std::move(key), std::move(what), std::move(allowed)};
+}
+
+std::vector<std::string> names_of(const RecordedColumns& recorded) {
+  std::vector<std::string> names;
+  for (const RecordedColumn& each : recorded.columns) names.push_back(each.name);
+  return names;
+}
+
+/// The column of times: the one asked for, or the first whose name says time.
+tl::expected<const RecordedColumn*, InputError> find_times(const RecordedColumns& recorded,
+                                                           const RecordingOptions& options) {
+  if (options.time_column) {
+    const auto found = find_column(names_of(recorded), *options.time_column, recorded.source);
+    if (!found) return tl::unexpected(found.error());
+    return &recorded.columns[*found];
+  }
+  for (const RecordedColumn& each : recorded.columns) {
+    if (names_a_time(each.name)) return &each;
+  }
+  return nullptr;
+}
+
+std::optional<InputError> find_size_problem(const RecordedColumns& recorded) {
+  const RecordedColumn& first = recorded.columns.front();
+  for (const RecordedColumn& each : recorded.columns) {
+    if (each.samples.size() == first.samples.size()) continue;
+    return refused(
+        recorded, shortened(each.name),
+        fmt::format("has {} samples, {} has {}", each.samples.size(), shortened(first.name), first.samples.size()),
+        "signals of one recording must have equally many");
+  }
+  if (first.samples.size() >= 2) return std::nullopt;
+  return refused(recorded, shortened(first.name), fmt::format("has {} samples", first.samples.size()),
+                 "must have two at least");
+}
+
+RawColumn raw(const RecordedColumns& recorded, const RecordedColumn& column) {
+  return {recorded.source, column.name, column.samples, {}};
+}
+
+}  // namespace
+
+tl::expected<Recording, InputError> read_recording(const RecordedColumns& recorded, const RecordingOptions& options) {
+  check_recording_options(options);
+  if (options.rate && options.time_column) {
+    return tl::unexpected(refused(recorded, shortened(*options.time_column),
+                                  "a column of times is asked for beside a rate", "must be one of the two"));
+  }
+  const auto& period = recorded.sampling_period;
+  if (period && !(std::isfinite(*period) && *period > 0.0)) {
+    return tl::unexpected(refused(recorded, "sampling_period", fmt::format("is {} s", *period), "must be above 0"));
+  }
+  std::vector<RawColumn> columns;
+  for (const ColumnRequest& request : options.columns) {
+    const auto found = find_column(names_of(recorded), request.name, recorded.source);
+    if (!found) return tl::unexpected(found.error());
+    columns.push_back(raw(recorded, recorded.columns[*found]));
+  }
+  const auto found_times = find_times(recorded, options);
+  if (!found_times) return tl::unexpected(found_times.error());
+  const RecordedColumn* times = *found_times;
+  if (auto problem = find_size_problem(recorded)) return tl::unexpected(*std::move(problem));
+  std::optional<Remark> contradicting;
+  if (options.rate && times != nullptr) {
+    contradicting = contradiction(
+        *options.rate, {times->name, times->samples.front(), times->samples.back(), times->samples.size()}, options);
+  }
+  const bool uses_times = times != nullptr && !options.rate && (options.time_column || !period);
+  auto recording = make_recording(std::move(columns), uses_times ? std::optional(raw(recorded, *times)) : std::nullopt,
+                                  options, period);
+  if (recording && contradicting) recording->remarks.push_back(*contradicting);
+  return recording;
+}
+
+RecordingContents list_recording(const RecordedColumns& recorded) {
+  RecordingContents contents;
+  for (const RecordedColumn& each : recorded.columns) {
+    contents.columns.push_back({each.name, each.samples.size(), "in memory"});
+  }
+  return contents;
+}
+
+}  // namespace zwidth
