@@ -12,6 +12,7 @@
 #include "cli/remark_lines.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
+#include "cli/surroundings.hpp"
 #include "report/figure/excitation_figure.hpp"
 #include "report/text/excitation_text.hpp"
 #include "report/text/remark_line.hpp"
@@ -78,6 +79,7 @@ void run_excite(const ExciteArguments& arguments) {
   outputs.put("--output", samples);
   outputs.draw("--figure", [&](report::FigureFormat format) { return report::draw_excitation(excitation, format); });
   outputs.commit();
+  hand_over_series("samples", excitation.samples);
   if (to_standard_output) samples(write_standard_output);
   if (arguments.output.json) {
     write_standard_output(results::line(results::excitation_json(excitation)));

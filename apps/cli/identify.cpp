@@ -18,6 +18,7 @@
 #include "cli/standard_output.hpp"
 #include "cli/structure_arguments.hpp"
 #include "cli/subcommand.hpp"
+#include "cli/surroundings.hpp"
 #include "report/figure/identification_figure.hpp"
 #include "report/text/identification_text.hpp"
 #include "report/text/quantity.hpp"
@@ -184,6 +185,7 @@ std::string device_hint(const IdentifyArguments& arguments) {
 template <typename Identified>
 void put(Outputs& outputs, const Identified& identified, const std::string& device) {
   outputs.put("--output-device", [&] { return device; });
+  hand_over_device(device);
   outputs.draw("--figure",
                [&](report::FigureFormat format) { return report::draw_identification(identified, format); });
   outputs.commit();

@@ -17,6 +17,7 @@
 #include "cli/recording_arguments.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
+#include "cli/surroundings.hpp"
 #include "report/figure/relay_figure.hpp"
 #include "report/text/relay_text.hpp"
 #include "report/text/text_medium.hpp"
@@ -105,6 +106,10 @@ void run_relay(const RelayArguments& arguments) {
   outputs.put("--csv", [&] { return results::relay_csv(result); });
   outputs.draw("--figure", [&](report::FigureFormat format) { return drawn(result, format); });
   outputs.commit();
+  for (std::size_t i = 0; i < result.trials.size(); ++i) {
+    hand_over_series(fmt::format("force_{}", i + 1), result.trials[i].force);
+    hand_over_series(fmt::format("position_{}", i + 1), result.trials[i].position);
+  }
   write_standard_output(arguments.output.json ? results::line(results::relay_json(result))
                                               : report::for_medium(report::relay_text(result)));
 }

@@ -6,9 +6,13 @@
 #include <CLI/App.hpp>
 #include <algorithm>
 #include <array>
+#include <filesystem>
+#include <memory>
 #include <string_view>
 #include <utility>
+#include <variant>
 
+#include "cli/command_description.hpp"
 #include "cli/option_units.hpp"
 #include "cli/request_problem.hpp"
 #include "cli/subcommand.hpp"
@@ -59,6 +63,19 @@ void put_named(std::vector<std::string>& arguments, std::string_view argument, c
   }
 }
 
+/// False where there is one of that name.
+bool put_recording(const CommandRequest::Recorded& recorded, Surroundings& own) {
+  if (own.recordings.contains(recorded.name) || own.columns.contains(recorded.name)) return false;
+  if (const auto* columns = std::get_if<std::shared_ptr<const RecordedColumns>>(&recorded.held)) {
+    own.columns.emplace(recorded.name, *columns);
+  } else if (const auto* file = std::get_if<std::filesystem::path>(&recorded.held)) {
+    own.recordings.emplace(recorded.name, file->string());
+  } else {
+    own.recordings.emplace(recorded.name, std::get<std::shared_ptr<const server::MemoryFile>>(recorded.held)->path());
+  }
+  return true;
+}
+
 /// What a request names is in its surroundings; the arguments name it.
 void put_inputs(const CommandRequest& request, const OfferedCommand& command, Surroundings& own,
                 std::vector<std::string>& arguments) {
@@ -73,7 +90,7 @@ void put_inputs(const CommandRequest& request, const OfferedCommand& command, Su
     throw Refused{{"recordings", fmt::format("{} takes one", command.name), "one recording"}};
   }
   for (auto each = request.recordings.rbegin(); each != request.recordings.rend(); ++each) {
-    if (!own.recordings.emplace(each->name, each->bytes->path()).second) {
+    if (!put_recording(*each, own)) {
       throw Refused{{"recordings", "two have the same name", "names that differ"}};
     }
     put_named(arguments, command.recording, each->name);
@@ -110,7 +127,15 @@ void put_option(const CLI::App& command, const CommandRequest::Option& given, st
   }
 }
 
-std::string answer(const CommandRequest& request, const OfferedCommand& offered, Surroundings& own) {
+auto find_command(std::string_view name) {
+  return std::ranges::find(offered_commands, name == recommend ? "design" : name, &OfferedCommand::name);
+}
+
+RequestAnswer answer_in(Surroundings& own) {
+  return {std::move(own.output), std::move(own.device), std::move(own.series)};
+}
+
+RequestAnswer answered(const CommandRequest& request, const OfferedCommand& offered, Surroundings& own) {
   CLI::App app("", "zwidth");
   app.require_subcommand(1);
   offered.add(app);
@@ -129,7 +154,7 @@ std::string answer(const CommandRequest& request, const OfferedCommand& offered,
   arguments.insert(arguments.begin(), std::string(offered.name));
   std::ranges::reverse(arguments);  // CLI11 takes them from the back
   app.parse(arguments);
-  return std::move(own.output);
+  return answer_in(own);
 }
 
 }  // namespace
@@ -140,15 +165,37 @@ std::vector<std::string> RequestCommands::names() const {
   return all;
 }
 
+std::vector<OfferedOption> RequestCommands::options(const std::string& command) const {
+  const auto offered = find_command(command);
+  std::vector<OfferedOption> options;
+  if (offered == offered_commands.end()) return options;
+  CLI::App app("", "zwidth");
+  offered->add(app);
+  for (const CommandDescription& each : describe(app)) {
+    if (each.name != offered->name) continue;
+    for (const OptionDescription& option : each.options) {
+      const std::string& name = option.names.back();
+      const bool is_input = name == offered->recording || name == offered->device;
+      if (name == "--json" || name == "--help" || name == "--list" || (option.takes_file && !is_input)) continue;
+      options.push_back({name.substr(2), option.value, option.text});
+    }
+  }
+  return options;
+}
+
 tl::expected<std::string, Problem> RequestCommands::run(const CommandRequest& request, const Progress& progress) const {
-  const std::string_view name = request.command == recommend ? "design" : std::string_view(request.command);
-  const auto offered = std::ranges::find(offered_commands, name, &OfferedCommand::name);
+  return answer(request, progress).map([](RequestAnswer&& given) { return std::move(given.printed); });
+}
+
+tl::expected<RequestAnswer, Problem> RequestCommands::answer(const CommandRequest& request,
+                                                             const Progress& progress) const {
+  const auto offered = find_command(request.command);
   if (offered == offered_commands.end()) return tl::unexpected(Problem{"request", "there is no such command", ""});
   Surroundings own;
   own.progress = progress;
   const InSurroundings inside(own);
   try {
-    return answer(request, *offered, own);
+    return answered(request, *offered, own);
   } catch (const Refused& refused) {
     return tl::unexpected(refused.problem);
   } catch (const CLI::ParseError& error) {
@@ -157,7 +204,7 @@ tl::expected<std::string, Problem> RequestCommands::run(const CommandRequest& re
     return tl::unexpected(problem_in(error.what(), request));
   } catch (const WorkFailed& error) {
     // The document says itself what of it is refused.
-    if (!own.output.empty()) return std::move(own.output);
+    if (!own.output.empty()) return answer_in(own);
     return tl::unexpected(problem_in(error.what(), request));
   } catch (const Error& error) {
     return tl::unexpected(Problem{"", error.what(), ""});

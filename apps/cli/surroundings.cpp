@@ -11,6 +11,13 @@ InputError no_such_name(const std::string& name, const char* allowed) {
   return {name, 0, 0, "", "is not what came with the request", allowed};
 }
 
+const RecordedColumns* columns_in_memory(const std::string& name) {
+  const Surroundings* own = of_this_thread;
+  if (own == nullptr) return nullptr;
+  const auto found = own->columns.find(name);
+  return found == own->columns.end() ? nullptr : found->second.get();
+}
+
 /// Calls `read` with where the recording of that name lies; errors call it by its name.
 template <typename Read>
 auto read_by_name(const std::string& name, const Read& read) -> decltype(read(name)) {
@@ -33,6 +40,14 @@ Progress of_reading(const Progress& progress) {
 
 Surroundings* surroundings() { return of_this_thread; }
 
+void hand_over_device(const std::string& text) {
+  if (of_this_thread != nullptr) of_this_thread->device = text;
+}
+
+void hand_over_series(const std::string& name, const std::vector<double>& samples) {
+  if (of_this_thread != nullptr) of_this_thread->series[name] = samples;
+}
+
 InSurroundings::InSurroundings(Surroundings& own) { of_this_thread = &own; }
 
 InSurroundings::~InSurroundings() { of_this_thread = nullptr; }
@@ -47,6 +62,7 @@ tl::expected<Device, InputError> read_named_device(const std::string& name, std:
 
 tl::expected<Recording, InputError> read_named_recording(const std::string& name, const RecordingOptions& options,
                                                          const Progress& progress) {
+  if (const RecordedColumns* columns = columns_in_memory(name)) return read_recording(*columns, options);
   const Progress told = of_reading(progress);
   auto recording = read_by_name(name, [&](const std::string& path) { return read_recording(path, options, told); });
   if (recording) recording->source = name;  // not where the system has its bytes
@@ -55,12 +71,16 @@ tl::expected<Recording, InputError> read_named_recording(const std::string& name
 
 tl::expected<RecordingContents, InputError> list_named_recording(const std::string& name,
                                                                  const RecordingOptions& options) {
+  if (const RecordedColumns* columns = columns_in_memory(name)) return list_recording(*columns);
   return read_by_name(name, [&](const std::string& path) { return list_recording(path, options); });
 }
 
 tl::expected<FrequencyResponse, InputError> read_named_table(const std::string& name,
                                                              const ResponseTableOptions& options,
                                                              const Progress& progress) {
+  if (columns_in_memory(name) != nullptr) {
+    return tl::unexpected(InputError{name, 0, 0, "", "is in no file", "a table of a response must be a file"});
+  }
   const Progress told = of_reading(progress);
   return read_by_name(name, [&](const std::string& path) { return read_response_table(path, options, told); });
 }

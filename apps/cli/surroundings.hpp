@@ -1,11 +1,15 @@
 #pragma once
 
 #include <map>
+#include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <tl/expected.hpp>
+#include <vector>
 
 #include "zwidth/io/device_file.hpp"
+#include "zwidth/io/recorded_columns.hpp"
 #include "zwidth/io/recording_file.hpp"
 #include "zwidth/progress.hpp"
 
@@ -16,12 +20,20 @@ namespace zwidth::cli {
 struct Surroundings {
   std::map<std::string, std::string> devices;     ///< TOML text by name
   std::map<std::string, std::string> recordings;  ///< by name, where the system has the bytes open: /proc/self/fd/7
-  Progress progress;                              ///< of long work; throwing from it ends the work
-  std::string output;                             ///< what the command wrote to standard output
+  std::map<std::string, std::shared_ptr<const RecordedColumns>> columns;  ///< recordings that are in no file, by name
+  Progress progress;   ///< of long work; throwing from it ends the work
+  std::string output;  ///< what the command wrote to standard output
+  // What the document does not hold, for who takes it from here.
+  std::optional<std::string> device;                  ///< the device that was found, as a file's text
+  std::map<std::string, std::vector<double>> series;  ///< samples by name
 };
 
 /// Those of the command that this thread runs; null: the disk and the standard streams.
 [[nodiscard]] Surroundings* surroundings();
+
+/// Keeps what a document does not hold; nothing is done on the command line.
+void hand_over_device(const std::string& text);
+void hand_over_series(const std::string& name, const std::vector<double>& samples);
 
 /// Sets them for its lifetime.
 class InSurroundings {

@@ -68,6 +68,11 @@ def flow(root):
                     yield path, number, f"{own} may not include {included}"
                 if base == "include/zwidth" and not included.startswith("zwidth/"):
                     yield path, number, f"a public header includes the private {included}"
+    for path in files(root, "bindings"):
+        for number, included in includes(path):
+            beside = (path.parent / included).exists()
+            if not beside and included.split("/")[0] not in ("zwidth", "results", "server", "cli"):
+                yield path, number, f"bindings may not include {included}"
     for path in files(root, "apps"):
         own = path.relative_to(root / "apps").parts[0]
         for number, included in includes(path):
@@ -95,7 +100,7 @@ def words(root):
 
 def sizes(root):
     """One concept per file."""
-    for path in files(root, "include", "src", "apps", "tests", "benchmarks", "fuzz"):
+    for path in files(root, "include", "src", "apps", "bindings", "tests", "benchmarks", "fuzz"):
         count = len(path.read_text(encoding="utf-8").splitlines())
         if count > MOST_LINES:
             yield path, count, f"has more than {MOST_LINES} lines"

@@ -1,14 +1,17 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <tl/expected.hpp>
+#include <variant>
 #include <vector>
 
 #include "server/api/memory_file.hpp"
+#include "zwidth/io/recorded_columns.hpp"
 #include "zwidth/progress.hpp"
 
 namespace zwidth::server {
@@ -29,9 +32,10 @@ struct CommandRequest {
     std::string name;
     std::vector<std::string> values;
   };
+  /// A file that is open in memory, the path of one, or columns that are in no file.
   struct Recorded {
     std::string name;
-    std::shared_ptr<const MemoryFile> bytes;
+    std::variant<std::shared_ptr<const MemoryFile>, std::filesystem::path, std::shared_ptr<const RecordedColumns>> held;
   };
   std::string command;
   std::vector<Option> options;

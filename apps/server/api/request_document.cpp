@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "results/json.hpp"
+#include "server/api/device_toml.hpp"
 #include "zwidth/io/message_words.hpp"
 
 namespace zwidth::server {
@@ -47,42 +48,6 @@ Json parsed(std::string_view document) {
     refuse("request", "is no JSON: " + shown(std::string(message.substr(end == message.npos ? 0 : end + 2))),
            "one JSON object in UTF-8");
   }
-}
-
-/// A value of the device file as TOML: JSON's texts and numbers are TOML's, an object is an inline table.
-void put_toml(std::string& toml, const std::string& where, const Json& value) {
-  const auto put_list = [&](char open, char close, const auto& put_item) {
-    toml += open;
-    for (auto item = value.begin(); item != value.end(); ++item) {
-      if (item != value.begin()) toml += ", ";
-      put_item(item);
-    }
-    toml += close;
-  };
-  if (value.is_object()) {
-    put_list('{', '}', [&](const auto& item) {
-      toml += Json(item.key()).dump() + " = ";
-      put_toml(toml, where + "." + item.key(), item.value());
-    });
-  } else if (value.is_array()) {
-    put_list('[', ']', [&](const auto& item) { put_toml(toml, where, *item); });
-  } else if (value.is_null()) {
-    refuse(where, "is null", "a value; leave out what the device has not");
-  } else {
-    toml += value.dump();
-  }
-}
-
-/// One key a line, so that an error's line is of that key.
-std::string device_toml(const Json& device) {
-  if (!device.is_object()) refuse("device", "is no object", "the keys of a device file");
-  std::string toml;
-  for (const auto& [key, value] : device.items()) {
-    toml += Json(key).dump() + " = ";
-    put_toml(toml, "device." + key, value);
-    toml += '\n';
-  }
-  return toml;
 }
 
 /// A number with the digits that it takes, a text as it is.
@@ -150,7 +115,11 @@ CommandRequest request_of(std::string_view command, const Json& document, Record
   }
   CommandRequest request;
   request.command = command;
-  if (document.contains("device")) request.device = device_toml(document["device"]);
+  if (document.contains("device")) {
+    auto toml = device_toml(document["device"]);
+    if (!toml) throw Refused{toml.error()};
+    request.device = *std::move(toml);
+  }
   if (document.contains("device_toml")) {
     if (request.device) refuse("device_toml", "is given beside device", "one of them");
     if (!document["device_toml"].is_string()) refuse("device_toml", "is no text", "a device file's text");

@@ -1,0 +1,122 @@
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "answer.hpp"
+#include "parts.hpp"
+#include "python_error.hpp"
+#include "results/device_json.hpp"
+#include "server/api/device_toml.hpp"
+#include "zwidth/io/device_file.hpp"
+#include "zwidth/model/device_trust.hpp"
+#include "zwidth/model/parameter.hpp"
+
+namespace zwidth::python {
+namespace py = pybind11;
+namespace {
+
+using Overrides = std::vector<std::string>;
+
+Device device_of(tl::expected<Device, InputError> read) {
+  if (!read) raise_input_error(read.error());
+  return *std::move(read);
+}
+
+Device from_file(const std::string& path, const Overrides& overrides) {
+  if (path == "-") raise_input_error("device", "is standard input", "a file, or the text itself");
+  return device_of([&] {
+    const py::gil_scoped_release released;
+    return read_device_file(path, overrides);
+  }());
+}
+
+std::string toml_of(const Device& device) { return write_device(device.parameters()); }
+
+Device changed(const Device& device, const Overrides& overrides) {
+  return device_of(parse_device(toml_of(device), "device", overrides));
+}
+
+/// A file's path, or a text: that has more than one line, which no path has.
+Device from_toml(const py::object& source, const Overrides& overrides) {
+  if (py::isinstance<py::str>(source)) {
+    const auto text = source.cast<std::string>();
+    if (text.find('\n') != std::string::npos) return device_of(parse_device(text, "device", overrides));
+  }
+  const auto path = py::module_::import("os").attr("fsencode")(source).cast<std::string>();
+  if (path.find('\0') != std::string::npos) raise_input_error("device", "has a character of code 0", "a path");
+  return from_file(path, overrides);
+}
+
+/// The keys of a device file, with tables as dicts.
+Device from_keys(const py::kwargs& keys) {
+  const auto json = py::module_::import("zwidth._device").attr("json_of")(keys).cast<std::string>();
+  const auto toml = server::device_toml(results::Json::parse(json));
+  if (!toml) raise_input_error(toml.error().where, toml.error().what, toml.error().allowed);
+  return device_of(parse_device(*toml, "device"));
+}
+
+Device with(const Device& device, const py::dict& changes, const py::kwargs& keywords) {
+  const py::object overrides = py::module_::import("zwidth._device").attr("overrides")(changes, keywords);
+  return changed(device, overrides.cast<Overrides>());
+}
+
+py::dict numbers_of(const Device& device) {
+  py::dict numbers;
+  for (const std::string& key : parameter_keys(device.parameters())) {
+    numbers[py::str(key)] = py::cast(parameter(device.parameters(), key));
+  }
+  return numbers;
+}
+
+}  // namespace
+
+void bind_device(py::module_& module) {
+  py::class_<Device, std::shared_ptr<Device>>(module, "Device", "A haptic device and its sampled loop; never changes.")
+      .def(py::init(&from_keys),
+           "The device of these keys of a device file, tables as dicts: Device(body=[{\"name\": ...}], loop={...}). "
+           "Numbers "
+           "in SI units, or texts with a unit. Raises InputError with the key.")
+      .def_static(
+          "from_toml", &from_toml, py::arg("source"), py::arg("set") = Overrides{},
+          "Reads a device file: its path, or the text itself (more than one line). `set`: \"KEY=VALUE\" as --set "
+          "of the command line. Raises InputError with file, line and column.")
+      .def("with_", &with, py::arg("changes") = py::dict(),
+           "The device with other numbers: with_(link__stiffness=8e4, body__motor__mass=\"300 g\") or "
+           "with_({\"link.stiffness\": 8e4}); the keys of --set, \"__\" for a dot. Raises InputError with the key.")
+      .def("to_toml", &toml_of, "The device as TOML text that from_toml() reads back to exactly the same numbers.")
+      .def(
+          "to_dict", [](const Device& device) { return to_python(results::device_json(device.parameters())); },
+          "The keys of the device file, in SI units: Device(**device.to_dict()) is the same device.")
+      .def_property_readonly("name", &Device::name, "The device's name.")
+      .def_property_readonly(
+          "motion",
+          [](const Device& device) { return device.parameters().motion == Motion::linear ? "linear" : "rotary"; },
+          "\"linear\" (kg, N s/m, N/m) or \"rotary\" (kg m², N m s/rad, N m/rad).")
+      .def_property_readonly(
+          "sampling_period", [](const Device& device) { return device.loop().sampling_period; }, "T of the loop, s.")
+      .def_property_readonly(
+          "delay", [](const Device& device) { return device.loop().delay; },
+          "Of the loop, in addition to the zero-order hold, s.")
+      .def_property_readonly("numbers", &numbers_of,
+                             "Every number by its key, as with_() and critical_stiffness_many() take them, SI units; "
+                             "None where the device leaves it out.")
+      .def("__eq__",
+           [](const Device& one, const py::object& other) {
+             return py::isinstance<Device>(other) && toml_of(one) == toml_of(other.cast<const Device&>());
+           })
+      .def("__hash__", [](const Device& device) { return py::hash(py::str(toml_of(device))); })
+      .def("__repr__",
+           [](const Device& device) {
+             return "<zwidth.Device " + py::repr(py::str(device.name())).cast<std::string>() + ">";
+           })
+      .def(py::pickle([](const Device& device) { return py::str(toml_of(device)); },
+                      [](const py::str& text) {
+                        return std::make_shared<Device>(device_of(parse_device(text.cast<std::string>(), "device")));
+                      }));
+}
+
+}  // namespace zwidth::python

@@ -1,0 +1,202 @@
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "answer.hpp"
+#include "interruptible.hpp"
+#include "parts.hpp"
+#include "python_error.hpp"
+#include "results/stability_json.hpp"
+#include "zwidth/design/critical_stiffness_many.hpp"
+#include "zwidth/error.hpp"
+#include "zwidth/stability/analysis.hpp"
+
+namespace zwidth::python {
+namespace py = pybind11;
+namespace {
+
+using results::Json;
+
+/// Calls the library without the GIL; what it throws is raised.
+template <typename Work>
+auto computed(const Work& work) {
+  try {
+    const py::gil_scoped_release released;
+    return work();
+  } catch (const Error& error) {
+    if (error.code() == ErrorCode::did_not_converge) raise_work_failed(error.what());
+    raise_input_error("device", error.what(), "");
+  }
+}
+
+CriticalStiffness checked_stiffness(const Device& device) {
+  CriticalStiffness critical = computed([&] { return critical_stiffness(device); });
+  warn_of(critical.trust);
+  return critical;
+}
+
+/// As analyze() states it: the wall's damper closed, trusted no more than the device.
+AnyUserLimit checked_any_user_limit(const Device& device) {
+  const Analysis analysis = computed([&] { return analyze(device, {.draws = 0}); });
+  warn_of(analysis.trust);
+  if (!analysis.any_user && !analysis.trust.refused()) {
+    raise_input_error("device", "has no limit over all passive users that is known",
+                      "a device of bodies, not too many");
+  }
+  AnyUserLimit limit = analysis.any_user.value_or(AnyUserLimit{std::numeric_limits<double>::quiet_NaN()});
+  limit.trust = analysis.trust;
+  return limit;
+}
+
+Json json_of(const CriticalStiffness& critical) {
+  Json json = Json::object();
+  results::add_critical(json, critical);
+  json["stable_intervals"] = critical.stable_intervals;
+  json["crossovers"] = critical.crossovers;
+  json["trust"] = critical.trust;
+  return json;
+}
+
+Json json_of(const AnyUserLimit& limit) {
+  const bool has_frequency = limit.stiffness > 0.0 && std::isfinite(limit.stiffness);
+  Json json = Json::object();
+  json["critical_stiffness"] = limit.stiffness;
+  json["frequency_rad_s"] = has_frequency ? Json(limit.frequency) : Json(nullptr);
+  json["truncation"] = limit.trust.refused() ? Json(nullptr) : Json(limit.truncation);
+  json["trust"] = limit.trust;
+  return json;
+}
+
+/// A property for each key that json_of() has.
+template <typename Result, typename... Documented>
+void add_properties(py::class_<Result>& bound, const std::pair<const char*, const char*>& first, Documented... others) {
+  const auto add = [&](const std::pair<const char*, const char*>& each) {
+    const std::string key = each.first;
+    bound.def_property_readonly(
+        each.first, [key](const Result& result) { return to_python(json_of(result)[key]); }, each.second);
+  };
+  add(first);
+  (add(others), ...);
+  bound.def(
+      "to_dict", [](const Result& result) { return to_python(json_of(result)); },
+      "All of it as a new dict, with the keys of analyze's document.");
+}
+
+using Documented = std::pair<const char*, const char*>;
+
+void bind_critical_stiffness(py::module_& module) {
+  py::class_<CriticalStiffness> bound(module, "CriticalStiffness",
+                                      "The stiffest stable virtual wall, with everything that decides it.");
+  add_properties(
+      bound, Documented{"status", "\"finite\", \"none_stable\", \"unbounded\" or \"refused\"."},
+      Documented{
+          "critical_stiffness",
+          "K_CR, N/m or N m/rad: stable for 0 < K < K_CR; 0 where none is stable; None where unbounded or refused."},
+      Documented{"critical_stiffness_db", "20 log10 of it; None unless finite."},
+      Documented{"critical_frequency_rad_s", "Of the oscillation just above it, rad/s; None unless finite."},
+      Documented{"critical_frequency_hz", "The same in Hz."},
+      Documented{"limited_by",
+                 "{\"kind\": \"rigid_body\"} or {\"kind\": \"vibration_mode\", \"mode\": N}; None unless finite."},
+      Documented{"stable_intervals", "[lower, upper] of every stable interval of K > 0; an unbounded end is None."},
+      Documented{"crossovers", "Every K that puts a closed-loop pole on the unit circle, by rising frequency."},
+      Documented{"trust", "{\"verdict\": \"sound\", \"doubtful\" or \"refused\", \"reasons\": [...]}"});
+  bound.def("__repr__", [](const CriticalStiffness& critical) {
+    return "<zwidth.CriticalStiffness " + json_of(critical)["critical_stiffness"].dump() + ", " +
+           results::name_of(critical.status) + ">";
+  });
+  module.def("critical_stiffness", &checked_stiffness, py::arg("device"),
+             "The stiffest stable virtual wall of a device, its own damper and filters closed (eqs. 21-23 of Díaz & "
+             "Gil): N/m or N m/rad. Warns with DoubtfulResult where it is not sound.");
+}
+
+void bind_any_user_limit(py::module_& module) {
+  py::class_<AnyUserLimit> bound(module, "AnyUserLimit", "The stiffest wall that is stable whoever holds the device.");
+  add_properties(bound,
+                 Documented{"critical_stiffness",
+                            "N/m or N m/rad; 0: some user destabilises every wall; None: none does, or refused."},
+                 Documented{"frequency_rad_s",
+                            "Where the worst user destabilises it, rad/s; 0: towards zero frequency; None: nowhere."},
+                 Documented{"truncation", "Relative: what the bounds leave open; it is taken off the limit."},
+                 Documented{"trust", "{\"verdict\": ..., \"reasons\": [...]}"});
+  module.def(
+      "any_user_limit", &checked_any_user_limit, py::arg("device"),
+      "The stiffest wall that is stable with every passive user (docs/any_user.md): N/m or N m/rad, as analyze() "
+      "states it. Warns with DoubtfulResult where it is not sound.");
+}
+
+/// The median of the library's own call, for who measures what a call from Python costs beside it.
+double seconds_of_critical_stiffness(const Device& device, std::size_t repeats) {
+  using Clock = std::chrono::steady_clock;
+  std::vector<double> times;
+  for (std::size_t i = 0; i < repeats; ++i) {
+    const auto begun = Clock::now();
+    const CriticalStiffness critical = critical_stiffness(device);
+    times.push_back(std::chrono::duration<double>(Clock::now() - begun).count());
+  }
+  std::ranges::nth_element(times, times.begin() + static_cast<std::ptrdiff_t>(repeats / 2));
+  return times[repeats / 2];
+}
+
+std::vector<ParameterValues> values_of(const py::dict& changes) {
+  std::vector<ParameterValues> all;
+  for (const auto& [key, values] : changes) {
+    const auto numbers = py::cast<py::array_t<double, py::array::c_style>>(values);
+    if (numbers.ndim() != 1) throw py::value_error("values must be of one dimension");
+    all.push_back({py::cast<std::string>(key), {numbers.data(), numbers.data() + numbers.size()}});
+  }
+  return all;
+}
+
+/// The columns of CriticalStiffnessMany, in its order.
+py::dict many(const Device& device, const py::dict& changes, const py::object& progress) {
+  const std::vector<ParameterValues> values = values_of(changes);
+  if (const auto problem = find_problem(device, values)) raise_input_error(*problem);
+  const std::vector<CriticalStiffnessOfOne> answers =
+      interruptible(progress, [&](const Progress& told) { return critical_stiffness_many(device, values, told); });
+  std::vector<double> stiffnesses;
+  std::vector<double> frequencies;
+  py::list statuses;
+  py::list mechanisms;
+  py::dict reasons;
+  Trust trust;
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    const CriticalStiffnessOfOne& each = answers[i];
+    stiffnesses.push_back(each.stiffness);
+    frequencies.push_back(each.frequency);
+    statuses.append(results::name_of(each.status));
+    mechanisms.append(each.limited_by ? to_python(Json(*each.limited_by)) : py::none());
+    std::vector<std::string> why = each.trust.reasons;
+    if (!each.failure.empty()) why.insert(why.begin(), each.failure);
+    if (!why.empty()) reasons[py::int_(i)] = why;
+    trust.inherit(each.trust);
+  }
+  warn_of(trust);
+  py::dict made;
+  made["critical_stiffness"] = array_over(std::move(stiffnesses));
+  made["critical_frequency_rad_s"] = array_over(std::move(frequencies));
+  made["status"] = statuses;
+  made["limited_by"] = mechanisms;
+  made["reasons"] = reasons;
+  return made;
+}
+
+}  // namespace
+
+void bind_limits(py::module_& module) {
+  bind_critical_stiffness(module);
+  bind_any_user_limit(module);
+  module.def("critical_stiffness_many", &many);
+  module.def("seconds_of_critical_stiffness", &seconds_of_critical_stiffness);
+}
+
+}  // namespace zwidth::python

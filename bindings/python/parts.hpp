@@ -1,0 +1,14 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+namespace zwidth::python {
+
+/// Device, critical_stiffness, any_user_limit, critical_stiffness_many.
+void bind_device(pybind11::module_& module);
+void bind_limits(pybind11::module_& module);
+
+/// Answer, run(command, ...) and options(command).
+void bind_commands(pybind11::module_& module);
+
+}  // namespace zwidth::python

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <string>
+
+#include "zwidth/io/input_error.hpp"
+#include "zwidth/model/device.hpp"
+#include "zwidth/trust.hpp"
+
+namespace zwidth::python {
+
+/// Raises zwidth.InputError(where, what, allowed).
+[[noreturn]] void raise_input_error(const std::string& where, const std::string& what, const std::string& allowed);
+
+/// The same of what the library refuses: where is "FILE:LINE:COLUMN: key", as far as there is each.
+[[noreturn]] void raise_input_error(const InputError& error);
+[[noreturn]] void raise_input_error(const DeviceProblem& problem);
+
+/// Raises zwidth.WorkFailed.
+[[noreturn]] void raise_work_failed(const std::string& what);
+
+/// Warns with zwidth.DoubtfulResult unless it is sound; raises that where warnings are errors.
+void warn_of(const Trust& trust);
+
+}  // namespace zwidth::python

@@ -1,0 +1,123 @@
+"""The stiffest virtual wall that a haptic device renders stably.
+
+    import zwidth
+    device = zwidth.Device.from_toml("devices/lhifam.toml")
+    zwidth.analyze(device).critical_stiffness
+
+Options are keywords named as the command line's (`zwidth.options("analyze")` lists them). SI units and radians.
+Bad input raises InputError; what is doubtful or refused warns with DoubtfulResult.
+"""
+
+from . import _core
+
+if not _core.is_main_interpreter():
+    raise ImportError("zwidth works in the main interpreter alone, not in a subinterpreter")
+
+from ._commands import (
+    CriticalStiffnessMany,
+    Recording,
+    analyze,
+    bode,
+    compare,
+    critical_stiffness_many,
+    design,
+    design_notch,
+    design_targets,
+    diagnose,
+    excite,
+    export,
+    frequency_response,
+    identify,
+    model,
+    options,
+    recommend_wall,
+    region,
+    relay,
+    simulate,
+    sweep,
+)
+from ._core import AnyUserLimit, CriticalStiffness, Device, __version__, any_user_limit, critical_stiffness
+from ._errors import DoubtfulResult, Error, InputError, ResultWarning, WorkFailed
+from ._record import Record, Result
+from ._device_results import (
+    Analysis,
+    Bode,
+    Comparison,
+    Design,
+    DesignTargets,
+    Diagnosis,
+    Notch,
+    Region,
+    Sweep,
+    WallRecommendation,
+)
+from ._measured_results import (
+    Excitation,
+    FrequencyResponse,
+    Identification,
+    Relay,
+    RigidBodyIdentification,
+    Simulation,
+)
+from ._parts import Crossover, Mechanism, Mode, Remark, Trust, WallMargins
+from ._results import Model
+
+__all__ = [
+    "Analysis",
+    "AnyUserLimit",
+    "Bode",
+    "Comparison",
+    "CriticalStiffness",
+    "CriticalStiffnessMany",
+    "Crossover",
+    "Design",
+    "DesignTargets",
+    "Device",
+    "Diagnosis",
+    "DoubtfulResult",
+    "Error",
+    "Excitation",
+    "FrequencyResponse",
+    "Identification",
+    "InputError",
+    "Mechanism",
+    "Mode",
+    "Model",
+    "Notch",
+    "Record",
+    "Recording",
+    "Region",
+    "Relay",
+    "Remark",
+    "Result",
+    "ResultWarning",
+    "RigidBodyIdentification",
+    "Simulation",
+    "Sweep",
+    "Trust",
+    "WallMargins",
+    "WallRecommendation",
+    "WorkFailed",
+    "__version__",
+    "analyze",
+    "any_user_limit",
+    "bode",
+    "compare",
+    "critical_stiffness",
+    "critical_stiffness_many",
+    "design",
+    "design_notch",
+    "design_targets",
+    "diagnose",
+    "excite",
+    "export",
+    "frequency_response",
+    "identify",
+    "model",
+    "options",
+    "recommend_wall",
+    "region",
+    "relay",
+    "simulate",
+    "sweep",
+]

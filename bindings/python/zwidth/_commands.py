@@ -1,0 +1,331 @@
+"""One job, one call. Each runs the program's command of the same name: the same declarations parse the options."""
+
+from __future__ import annotations
+
+import os
+from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core, _device_results, _measured_results, _results
+from ._core import Device
+from ._errors import InputError, warn_of_document
+
+Option = Union[bool, int, float, str, None, Sequence[Any]]
+"""Of a command: True for a flag, a number (SI) or a text with a unit, a list for what repeats; None leaves it out."""
+
+Progress = Optional[Callable[[float], object]]
+"""Called with the fraction done, 0 to 1; what it raises ends the work."""
+
+
+class Recording:
+    """Signals that were recorded together: columns of equal length in memory.
+
+    `columns`: arrays by name (a pandas DataFrame is such a mapping). The time axis is `sampling_period` (s), or a column
+    whose name says time, or what the command's options say (rate, time). NaN where a sample is missing.
+    """
+
+    def __init__(
+        self, columns: Mapping[str, npt.ArrayLike], *, sampling_period: Optional[float] = None, name: str = "recording"
+    ) -> None:
+        if not name or name.startswith("-"):
+            raise InputError("recording", f"{name!r} is no name", "a text that begins with no '-'")
+        held: List[Tuple[str, npt.NDArray[np.float64]]] = []
+        for key in columns:
+            try:
+                samples = np.array(columns[key], dtype=np.float64)
+            except (TypeError, ValueError) as error:
+                raise InputError(f"{name}: {key}", f"is no column of numbers: {error}", "numbers") from None
+            if samples.ndim != 1:
+                raise InputError(f"{name}: {key}", f"has {samples.ndim} dimensions", "one")
+            held.append((str(key), samples))
+        if not held:
+            raise InputError(name, "has no columns", "arrays by name")
+        self.name = name
+        self.columns = tuple(key for key, _ in held)
+        self._held = _core.RecordedColumns(name, held, None if sampling_period is None else float(sampling_period))
+
+    def __repr__(self) -> str:
+        return f"<zwidth.Recording {self.name!r}: {', '.join(self.columns)}>"
+
+
+Recorded = Union[str, "os.PathLike[str]", Recording, Mapping[str, npt.ArrayLike]]
+"""A recording: a file's path (CSV, MAT, UFF), a Recording, or columns by name (a pandas DataFrame)."""
+
+
+def _held(recorded: Recorded, number: int) -> Tuple[str, Any]:
+    if isinstance(recorded, Recording):
+        return recorded.name, recorded._held
+    if isinstance(recorded, (str, os.PathLike)):
+        path = os.fspath(recorded)
+        if not isinstance(path, str):
+            raise InputError("recording", "is a path of bytes", "a path of text")
+        if path == "-":
+            raise InputError("recording", "is standard input", "a file, or columns")
+        from pathlib import Path
+
+        return path if not path.startswith("-") else f"./{path}", Path(path)
+    if hasattr(recorded, "keys"):
+        made = Recording(recorded, name="recording" if number == 0 else f"recording {number + 1}")
+        return made.name, made._held
+    raise InputError("recording", f"is of type {type(recorded).__name__}", "a path, a Recording, or columns by name")
+
+
+def _value(name: str, value: Any) -> str:
+    if isinstance(value, np.generic):
+        value = value.item()
+    if isinstance(value, os.PathLike):
+        value = os.fspath(value)
+    if isinstance(value, str):
+        if not value or "\0" in value:
+            raise InputError(f"options.{name}", "is empty or has a character of code 0", "a text")
+        return value
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        raise InputError(f"options.{name}", f"is of type {type(value).__name__}", "a number or a text")
+    return repr(value)
+
+
+def _options(options: Mapping[str, Any]) -> List[Tuple[str, List[str]]]:
+    given: List[Tuple[str, List[str]]] = []
+    for key, value in options.items():
+        name = key.rstrip("_").replace("_", "-")
+        if isinstance(value, np.bool_):
+            value = bool(value)
+        if value is None or value is False:
+            continue
+        if value is True:
+            given.append((name, []))
+        elif isinstance(value, (list, tuple, np.ndarray)):
+            if np.ndim(value) != 1:
+                raise InputError(f"options.{name}", f"has {np.ndim(value)} dimensions", "a list")
+            if len(value) > 0:
+                given.append((name, [_value(name, each) for each in value]))
+        else:
+            given.append((name, [_value(name, value)]))
+    return given
+
+
+def _run(
+    command: str,
+    device: Optional[Device],
+    recordings: Sequence[Recorded],
+    progress: Progress,
+    options: Mapping[str, Any],
+) -> _core.Answer:
+    if device is not None and not isinstance(device, Device):
+        raise InputError("device", f"is of type {type(device).__name__}", "a zwidth.Device")
+    held = [_held(each, number) for number, each in enumerate(recordings)]
+    return _core.run(command, _options(options), device, held, progress)
+
+
+def _result(
+    command: str,
+    device: Optional[Device],
+    recordings: Sequence[Recorded],
+    progress: Progress,
+    options: Mapping[str, Any],
+) -> Any:
+    answer = _run(command, device, recordings, progress, options)
+    result = _results.result_of(answer)
+    warn_of_document(result._values)
+    return result
+
+
+def analyze(device: Device, *, progress: Progress = None, **options: Option) -> _device_results.Analysis:
+    """Critical stiffness of a device, what limits it, and the margins of its wall."""
+    result: _device_results.Analysis = _result("analyze", device, (), progress, options)
+    return result
+
+
+def bode(device: Device, *, progress: Progress = None, **options: Option) -> _device_results.Bode:
+    """Frequency responses of a device with every crossover (`from_` is the option --from)."""
+    result: _device_results.Bode = _result("bode", device, (), progress, options)
+    return result
+
+
+def region(device: Device, *, progress: Progress = None, **options: Option) -> _device_results.Region:
+    """Every stable wall, stiff and damped: the region in the plane of K and B."""
+    result: _device_results.Region = _result("region", device, (), progress, options)
+    return result
+
+
+def design(device: Device, *, progress: Progress = None, **options: Option) -> _device_results.Design:
+    """What each number of the device does to the limits."""
+    _refuse("design", options, "sweep", "compare", "notch", "target", "recommend")
+    result: _device_results.Design = _result("design", device, (), progress, options)
+    return result
+
+
+def sweep(
+    device: Device, axis: Union[str, Sequence[str]], *, progress: Progress = None, **options: Option
+) -> _device_results.Sweep:
+    """The limit along one number or two: `axis` is "KEY=FIRST:LAST:COUNT", or with ":log", or two of these."""
+    result: _device_results.Sweep = _result("design", device, (), progress, {"sweep": axis, **options})
+    return result
+
+
+def compare(device: Device, values: str, *, progress: Progress = None, **options: Option) -> _device_results.Comparison:
+    """Several values of one key side by side: "KEY=VALUE,VALUE"."""
+    result: _device_results.Comparison = _result("design", device, (), progress, {"compare": values, **options})
+    return result
+
+
+def design_notch(device: Device, *, progress: Progress = None, **options: Option) -> _device_results.Notch:
+    """A notch on the wall's force that lets the wall be stiffer."""
+    result: _device_results.Notch = _result("design", device, (), progress, {"notch": True, **options})
+    return result
+
+
+def design_targets(
+    device: Device, target: Union[float, str], *, progress: Progress = None, **options: Option
+) -> _device_results.DesignTargets:
+    """What each number alone must be for the limit to reach `target`, N/m or N m/rad."""
+    result: _device_results.DesignTargets = _result("design", device, (), progress, {"target": target, **options})
+    return result
+
+
+def recommend_wall(device: Device, *, progress: Progress = None, **options: Option) -> _device_results.WallRecommendation:
+    """The wall to render: K, B, velocity filter and optional notch, stable for any passive user with margins."""
+    result: _device_results.WallRecommendation = _result("recommend", device, (), progress, options)
+    return result
+
+
+def diagnose(
+    device: Device, *, recording: Optional[Recorded] = None, progress: Progress = None, **options: Option
+) -> _device_results.Diagnosis:
+    """What an oscillation is, by its frequency (oscillates_hz) or a recording of it, and what moves it."""
+    recordings = () if recording is None else (recording,)
+    result: _device_results.Diagnosis = _result("diagnose", device, recordings, progress, options)
+    return result
+
+
+def simulate(
+    device: Device, *, user_force: Union[str, Recorded, None] = None, progress: Progress = None, **options: Option
+) -> _measured_results.Simulation:
+    """The sampled loop in time. `points=True` keeps the motion; `user_force`: "step:5@0.1" and the like, or a recording."""
+    recordings: Tuple[Recorded, ...] = ()
+    if isinstance(user_force, str) and user_force.partition(":")[0] in ("step", "ramp", "sine"):
+        options["user_force"] = user_force
+    elif user_force is not None:
+        recordings = (user_force,)
+    result: _measured_results.Simulation = _result("simulate", device, recordings, progress, options)
+    return result
+
+
+def relay(
+    device: Optional[Device] = None,
+    *,
+    recording: Optional[Recorded] = None,
+    progress: Progress = None,
+    **options: Option,
+) -> _measured_results.Relay:
+    """The relay experiment, simulated or recorded: the stiffness it reads, beside what theory expects."""
+    recordings = () if recording is None else (recording,)
+    result: _measured_results.Relay = _result("relay", device, recordings, progress, options)
+    return result
+
+
+def frequency_response(
+    recording: Recorded, *more: Recorded, progress: Progress = None, **options: Option
+) -> _measured_results.FrequencyResponse:
+    """The measured frequency response of recordings, and the critical stiffness it shows: the command frf."""
+    result: _measured_results.FrequencyResponse = _result("frf", None, (recording, *more), progress, options)
+    return result
+
+
+def identify(
+    recording: Recorded,
+    *more: Recorded,
+    structure: Union[Device, str, None] = None,
+    progress: Progress = None,
+    **options: Option,
+) -> Any:
+    """A device's parameters from recordings: an Identification, or with method="inverse-dynamics" a
+    RigidBodyIdentification. `structure`: a Device, or the name of a structure ("rigid", "two-body", "three-body")."""
+    if isinstance(structure, str):
+        options["structure"] = structure
+    device = None if isinstance(structure, str) else structure
+    return _result("identify", device, (recording, *more), progress, options)
+
+
+def excite(device: Optional[Device] = None, *, progress: Progress = None, **options: Option) -> _measured_results.Excitation:
+    """A signal to excite a device with, played through a model of it where one is given."""
+    result: _measured_results.Excitation = _result("excite", device, (), progress, options)
+    return result
+
+
+def model(device: Device) -> _results.Model:
+    """The continuous and the exact discrete model of a device, and its wall: `export --format json`."""
+    result: _results.Model = _result("export", device, (), None, {"format": "json"})
+    return result
+
+
+def export(device: Device, format: str, **options: Option) -> str:
+    """The model or the wall as the text of a program: "octave", "python", "json", "c" or "chai3d"."""
+    return _run("export", device, (), None, {"format": format, **options}).printed
+
+
+def _refuse(command: str, options: Mapping[str, Any], *names: str) -> None:
+    own = {"sweep": "sweep", "compare": "compare", "notch": "design_notch", "target": "design_targets"}
+    for name in names:
+        if name in options:
+            call = own.get(name, "recommend_wall")
+            raise InputError(f"options.{name}", f"has a function of its own", f"zwidth.{call}()")
+
+
+class CriticalStiffnessMany:
+    """The critical stiffness of many devices, an array element each."""
+
+    def __init__(self, columns: Dict[str, Any]) -> None:
+        self.critical_stiffness: npt.NDArray[np.float64] = columns["critical_stiffness"]
+        """K_CR, N/m or N m/rad: 0 where none is stable, inf where unbounded, NaN where refused or failed."""
+        self.critical_frequency_rad_s: npt.NDArray[np.float64] = columns["critical_frequency_rad_s"]
+        """rad/s; NaN unless finite."""
+        self.status: List[str] = columns["status"]
+        """As of Analysis."""
+        self.limited_by: List[Optional[Dict[str, Any]]] = columns["limited_by"]
+        """{"kind": ...}; None unless finite."""
+        self.reasons: Dict[int, List[str]] = columns["reasons"]
+        """By index: why an element is refused, doubtful or failed."""
+
+    def __len__(self) -> int:
+        return len(self.status)
+
+    def __repr__(self) -> str:
+        return f"<zwidth.CriticalStiffnessMany of {len(self)}, {len(self.reasons)} with reasons>"
+
+
+def critical_stiffness_many(
+    device: Device, changes: Mapping[str, npt.ArrayLike], *, progress: Progress = None
+) -> CriticalStiffnessMany:
+    """critical_stiffness() of the device with the i-th value of every key set, for every i, on all cores.
+
+    `changes`: arrays of numbers in SI units by key ({"link.stiffness": ...}), all of one length.
+    """
+    arrays: Dict[str, npt.NDArray[np.float64]] = {}
+    for key, values in changes.items():
+        try:
+            array = np.ascontiguousarray(values, dtype=np.float64)
+        except (TypeError, ValueError) as error:
+            raise InputError(f"device.{key}", f"is no array of numbers: {error}", "numbers in SI units") from None
+        if np.ndim(values) != 1:
+            raise InputError(f"device.{key}", f"has {np.ndim(values)} dimensions", "one")
+        arrays[str(key)] = array
+    return CriticalStiffnessMany(_core.critical_stiffness_many(device, arrays, progress))
+
+
+_COMMANDS = {
+    "analyze": analyze, "bode": bode, "region": region, "design": design, "diagnose": diagnose, "simulate": simulate,
+    "relay": relay, "frf": frequency_response, "identify": identify, "excite": excite, "export": export,
+}  # fmt: skip
+
+
+def options(command: str) -> Dict[str, str]:
+    """What each option of a command says of itself, by keyword: the program's own declarations."""
+    listed = _core.options(command)
+    if not listed:
+        raise InputError("command", f"{command!r} is none", ", ".join(sorted(_core.commands())))
+    return {
+        name.replace("-", "_"): f"{text} ({value})" if value else f"{text} (True)" for name, value, text in listed
+    }

@@ -1,0 +1,52 @@
+"""Python's values as a device file's keys; called by _core.Device."""
+
+from __future__ import annotations
+
+import json
+import math
+import numbers
+from typing import Any, Dict, List, Mapping
+
+from ._errors import InputError
+
+
+def _plain(where: str, value: Any) -> Any:
+    """A value with NumPy's numbers and arrays as Python's."""
+    if isinstance(value, (str, bool)) or value is None:
+        return value
+    if isinstance(value, Mapping):
+        return {str(key): _plain(f"{where}.{key}", each) for key, each in value.items()}
+    if isinstance(value, numbers.Integral):
+        return int(value)
+    if isinstance(value, numbers.Real):
+        number = float(value)
+        if not math.isfinite(number):
+            raise InputError(where, f"is {number}", "a finite number")
+        return number
+    if hasattr(value, "tolist"):
+        return _plain(where, value.tolist())
+    if isinstance(value, (list, tuple)):
+        return [_plain(where, each) for each in value]
+    raise InputError(where, f"is of type {type(value).__name__}", "a number, text, list or dict")
+
+
+def json_of(keys: Mapping[str, Any]) -> str:
+    """The keys of a device file as JSON."""
+    return json.dumps(_plain("device", keys))
+
+
+def overrides(changes: Mapping[str, Any], keywords: Mapping[str, Any]) -> List[str]:
+    """The changes as "KEY=VALUE"; in keywords "__" stands for a dot."""
+    merged: Dict[str, Any] = dict(changes)
+    for name, value in keywords.items():
+        key = name.replace("__", ".")
+        if key in merged:
+            raise InputError(f"device.{key}", "is given twice", "once")
+        merged[key] = value
+    texts = []
+    for key, value in merged.items():
+        if not isinstance(key, str) or not key or "=" in key:
+            raise InputError("device", f"{key!r} is no key", 'a key such as "link.stiffness"')
+        plain = _plain(f"device.{key}", value)
+        texts.append(f"{key}={plain if isinstance(plain, str) else json.dumps(plain)}")
+    return texts

@@ -1,0 +1,67 @@
+"""What is raised and what is warned of."""
+
+from __future__ import annotations
+
+import os
+import sys
+import warnings
+from typing import Any, Mapping, Sequence
+
+_PACKAGE = os.path.dirname(os.path.abspath(__file__))
+
+
+class Error(Exception):
+    """What zwidth raises."""
+
+
+class InputError(Error, ValueError):
+    """An input was refused: `where` it is, `what` is wrong, what is `allowed`."""
+
+    def __init__(self, where: str, what: str, allowed: str = "") -> None:
+        super().__init__(where, what, allowed)
+        self.where = where
+        self.what = what
+        self.allowed = allowed
+
+    def __str__(self) -> str:
+        text = f"{self.where}: {self.what}" if self.where else self.what
+        return f"{text}; {self.allowed}" if self.allowed else text
+
+
+class WorkFailed(Error, RuntimeError):
+    """The input is good, but the work did not succeed."""
+
+
+class ResultWarning(UserWarning):
+    """A result may be wrong, or is less than was asked for: a remark of severity "warning"."""
+
+
+class DoubtfulResult(ResultWarning):
+    """The verdict on a result is "doubtful", or "refused": then its numbers are None."""
+
+
+def _level_of_caller() -> int:
+    """Of the first frame outside this package, as warnings.warn() counts from the function that calls this."""
+    level = 1
+    frame = sys._getframe(1)
+    while frame.f_back is not None and os.path.dirname(os.path.abspath(frame.f_code.co_filename)) == _PACKAGE:
+        frame = frame.f_back
+        level += 1
+    return level
+
+
+def warn_of_trust(verdict: str, reasons: Sequence[str]) -> None:
+    """Warns unless the verdict is sound."""
+    if verdict != "sound":
+        warnings.warn(f"{verdict}: " + "; ".join(reasons), DoubtfulResult, stacklevel=_level_of_caller())
+
+
+def warn_of_document(document: Mapping[str, Any]) -> None:
+    """Warns of a document's trust, and of its remarks that are warnings."""
+    trust = document.get("trust")
+    if trust is not None:
+        warn_of_trust(trust["verdict"], trust["reasons"])
+    for remark in document.get("remarks") or ():
+        if remark["severity"] == "warning":
+            meaning = f": {remark['meaning']}" if remark["meaning"] else ""
+            warnings.warn(remark["what"] + meaning, ResultWarning, stacklevel=_level_of_caller())

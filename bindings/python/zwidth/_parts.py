@@ -1,0 +1,82 @@
+"""Parts that several results have."""
+
+from __future__ import annotations
+
+from typing import Optional
+
+from ._record import Record, Result, count, flag, many, maybe, maybe_one, number, one, text, texts
+
+
+class Trust(Record):
+    """How far a number that states a limit may be relied on."""
+
+    verdict = text('"sound", "doubtful" or "refused": then no number is given.')
+    reasons = texts("Why, each with its remedy; empty when sound.")
+
+
+class Remark(Record):
+    """Something that a result's user should know."""
+
+    severity = text('"note" or "warning".')
+    what = text("What was noticed, in one line.")
+    meaning = text("Consequence and remedy in one line.")
+    consequence = text("What it means for the result; may be empty.")
+    remedy = text("What to do about it; may be empty.")
+
+
+class Mechanism(Record):
+    """What limits: the rigid body or a vibration mode."""
+
+    kind = text('"rigid_body" or "vibration_mode".')
+
+    @property
+    def mode(self) -> Optional[int]:
+        """Number of the vibration mode by rising frequency, from 1; None for the rigid body."""
+        return self._values.get("mode")
+
+
+class Mode(Record):
+    """A mode of the free device."""
+
+    frequency_rad_s = number("rad/s")
+    frequency_hz = number("Hz")
+    damping_ratio = number("1; above 1: two real poles.")
+
+
+class Crossover(Record):
+    """A stiffness that puts a closed-loop pole on the unit circle."""
+
+    frequency_rad_s = number("rad/s; 0 where a real pole passes z = 1.")
+    frequency_hz = number("Hz")
+    stiffness = number("K, N/m or N m/rad.")
+    stiffness_db = number("20 log10 of it.")
+    limited_by = one(Mechanism, "The modal term of largest magnitude there.")
+    poles_leaving = count("Poles that leave the circle as K rises through it; negative: that return.")
+
+
+class WallMargins(Record):
+    """Margins of a wall (K, B); None where the loop is unstable or there is none."""
+
+    stiffness = number("K, N/m or N m/rad.")
+    damping = number("B, N s/m or N m s/rad.")
+    stable = flag("Whether the loop is.")
+    gain_margin_db = maybe("How far the wall may be scaled up, dB.")
+    phase_margin_rad = maybe("rad")
+    delay_margin_s = maybe("Least added delay that destabilises, s.")
+    spectral_radius = maybe("Largest closed-loop |z|.")
+    lower_gain_margin_db = maybe("How far it may be scaled down, dB.")
+    stiffness_margin_db = maybe("How far K alone may grow while B stays, dB.")
+
+
+class AnyUser(Record):
+    """The limit over all passive users."""
+
+    critical_stiffness = maybe("N/m or N m/rad; 0: some user destabilises every wall; None: none does.")
+    frequency_rad_s = maybe("Of the worst user, rad/s; None where the limit is 0 or None.")
+    truncation = maybe("Relative: what the bounds leave open; it is taken off.")
+    worst_user = maybe_one(Record, "With worst_user=True: a user that proves the limit tight.")
+
+
+class _Limited(Result):
+    trust = one(Trust, "How far the numbers may be relied on.")
+    remarks = many(Remark, "What was left out or noticed.")

@@ -1,0 +1,192 @@
+"""Bad input raises, with its place; nothing crashes."""
+
+import io
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import numpy as np
+import pytest
+import zwidth
+
+
+def refusal(call):
+    with pytest.raises(zwidth.InputError) as caught:
+        call()
+    return caught.value
+
+
+def test_the_place_of_what_is_wrong(tmp_path, lhifam):
+    file = tmp_path / "bad.toml"
+    file.write_text("[[body]]\nname = 'a'\nmass = -1\n[loop]\nsampling_period = 1e-3\n")
+    error = refusal(lambda: zwidth.Device.from_toml(file))
+    assert error.where.startswith(f"{file}:3:") and error.what == "is -1" and error.allowed
+    assert isinstance(error, ValueError) and str(file) in str(error)
+    assert refusal(lambda: lhifam.with_(link__stiffness=-5)).where == "device.link.0.stiffness"
+    assert refusal(lambda: zwidth.analyze(lhifam, worst_usr=True)).where == "options.worst-usr"
+    assert "worst-user" in refusal(lambda: zwidth.analyze(lhifam, worst_usr=True)).allowed
+    assert refusal(lambda: zwidth.diagnose(lhifam, oscillates_hz=-1)).where == "options.oscillates-hz"
+    assert "loop.dely" in refusal(lambda: lhifam.with_(loop__dely=1)).where
+    assert "body" in refusal(lambda: zwidth.Device(body=[{"name": "a", "mass": float("nan")}], loop={})).where
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"link.stiffness": "stiff"},
+        {"link.stiffness": [[1.0]]},
+        {"link.stiffness": 1.0},
+        {"link.stiffness": [1.0], "loop.delay": [0.0, 0.1]},
+        {"link.stifness": [1.0]},
+        {"link.stiffness": [1.0], "link.0.stiffness": [1.0]},
+        {},
+        {"link.stiffness": [1j]},
+        {1: [1.0]},
+    ],
+)
+def test_many_refuses(lhifam, changes):
+    with pytest.raises((zwidth.InputError, TypeError)):
+        zwidth.critical_stiffness_many(lhifam, changes)
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda device: zwidth.analyze(None),
+        lambda device: zwidth.analyze("device"),
+        lambda device: zwidth.critical_stiffness(None),
+        lambda device: zwidth.critical_stiffness(object()),
+        lambda device: zwidth.Device.from_toml("nowhere.toml"),
+        lambda device: zwidth.Device.from_toml(""),
+        lambda device: zwidth.Device.from_toml("-"),
+        lambda device: zwidth.Device.from_toml("\n\0\xff"),
+        lambda device: zwidth.Device.from_toml(b"\xff\xfe"),
+        lambda device: zwidth.Device.from_toml(7),
+        lambda device: zwidth.Device.from_toml(None),
+        lambda device: zwidth.Device.from_toml(os.devnull),
+        lambda device: zwidth.Device.from_toml(io.StringIO("x")),
+        lambda device: zwidth.Device(),
+        lambda device: zwidth.Device(body=lambda: 0),
+        lambda device: zwidth.Device(body=[[]] * 5),
+        lambda device: zwidth.Device(body=None),
+        lambda device: device.with_({None: 1}),
+        lambda device: device.with_({"link.stiffness": object()}),
+        lambda device: device.with_(link__stiffness=float("inf")),
+        lambda device: device.with_(link__stiffness="22 kg"),
+        lambda device: device.with_({"link.stiffness": 1}, link__stiffness=2),
+        lambda device: zwidth.analyze(device, users=""),
+        lambda device: zwidth.analyze(device, users="\0"),
+        lambda device: zwidth.analyze(device, users=object()),
+        lambda device: zwidth.analyze(device, worst_user=3),
+        lambda device: zwidth.analyze(device, help=True),
+        lambda device: zwidth.analyze(device, report="x.html"),
+        lambda device: zwidth.bode(device, points=float("nan")),
+        lambda device: zwidth.bode(device, from_=np.array([[1.0]])),
+        lambda device: zwidth.region(device, csv="x.csv"),
+        lambda device: zwidth.design(device, sweep="loop.delay=0:1:2"),
+        lambda device: zwidth.simulate(device, duration=-1),
+        lambda device: zwidth.simulate(device, user_force=7),
+        lambda device: zwidth.relay(device),
+        lambda device: zwidth.relay(),
+        lambda device: zwidth.frequency_response("nowhere.csv", force=1, position=2),
+        lambda device: zwidth.frequency_response("-", force=1, position=2),
+        lambda device: zwidth.frequency_response(b"x", force=1, position=2),
+        lambda device: zwidth.frequency_response(None),
+        lambda device: zwidth.frequency_response({}, force="f"),
+        lambda device: zwidth.frequency_response({"f": [1.0, 2.0], "x": [1.0]}, force="f", position="x", rate=1000),
+        lambda device: zwidth.frequency_response({"f": ["a", "b"]}, force="f", position="f", rate=1000),
+        lambda device: zwidth.frequency_response({"f": np.zeros((2, 2))}, force="f", position="f", rate=1000),
+        lambda device: zwidth.frequency_response({"f": [], "x": []}, force="f", position="x", rate=1000),
+        lambda device: zwidth.frequency_response({"f": [np.nan] * 9, "x": [0.0] * 9}, force="f", position="x", rate=1e3),
+        lambda device: zwidth.frequency_response({"f": [1.0] * 9, "x": [0.0] * 9}, force="f", position="x"),
+        lambda device: zwidth.frequency_response({"f": [1.0] * 9, "x": [0.0] * 9}, table=True, rate=1000),
+        lambda device: zwidth.Recording({"f": [1.0]}, sampling_period="fast"),
+        lambda device: zwidth.Recording({"f": [1.0]}, name="--json"),
+        lambda device: zwidth.identify({"f": [1.0] * 9, "x": [0.0] * 9}, structure="none", force="f", position="x", rate=1),
+        lambda device: zwidth.export(device, "fortran"),
+        lambda device: zwidth.export(device, "c"),
+        lambda device: zwidth.frequency_response("recordings/locked_chirp.csv", list=True),
+    ],
+)
+@pytest.mark.filterwarnings("ignore")
+def test_raises(lhifam, call, tmp_path, monkeypatch):
+    before = set(os.listdir("."))
+    with pytest.raises((zwidth.Error, TypeError, ValueError)):
+        call(lhifam)
+    assert set(os.listdir(".")) == before
+
+
+def test_a_closed_file_raises(tmp_path, lhifam):
+    file = tmp_path / "device.toml"
+    file.write_text(lhifam.to_toml())
+    with open(file) as opened:
+        pass
+    with pytest.raises((zwidth.Error, TypeError, ValueError)):
+        zwidth.Device.from_toml(opened)
+    with pytest.raises((zwidth.Error, TypeError, ValueError)):
+        zwidth.frequency_response(opened, force=1, position=2)
+
+
+def test_the_callers_own_error_ends_the_work(lhifam):
+    def stop(fraction):
+        raise KeyError(fraction)
+
+    with pytest.raises(KeyError):
+        zwidth.sweep(lhifam, "loop.delay=0:8e-3:2000", progress=stop)
+    with pytest.raises(KeyError):
+        zwidth.critical_stiffness_many(lhifam, {"loop.delay": np.linspace(0, 8e-3, 2000)}, progress=stop)
+
+
+def test_interrupt_ends_long_work(lhifam):
+    begun = time.monotonic()
+    threading.Timer(0.3, signal.raise_signal, [signal.SIGINT]).start()
+    with pytest.raises(KeyboardInterrupt):
+        zwidth.critical_stiffness_many(lhifam, {"loop.delay": np.linspace(0, 8e-3, 2_000_000)})
+    assert time.monotonic() - begun < 10
+
+
+def test_threads_see_the_same_numbers(lhifam):
+    expected = zwidth.analyze(lhifam).to_json()
+    answers = []
+    threads = [threading.Thread(target=lambda: answers.append(zwidth.analyze(lhifam).to_json())) for _ in range(8)]
+    for each in threads:
+        each.start()
+    for each in threads:
+        each.join()
+    assert answers == [expected] * 8
+
+
+def test_a_thread_that_outlives_the_interpreter_is_no_crash():
+    program = (
+        "import threading, numpy, zwidth\n"
+        "device = zwidth.Device.from_toml('devices/lhifam.toml')\n"
+        "work = lambda: zwidth.critical_stiffness_many(device, {'loop.delay': numpy.linspace(0, 8e-3, 5000)})\n"
+        "threading.Thread(target=work, daemon=True).start()\n"
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60)
+    assert done.returncode == 0, done.stderr
+
+
+def test_a_subinterpreter_is_refused():
+    program = (
+        "import _xxsubinterpreters as interpreters, sys\n"
+        "if '{first}': import zwidth\n"
+        "made = interpreters.create()\n"
+        "try:\n"
+        "    interpreters.run_string(made, 'import zwidth')\n"
+        "except interpreters.RunFailedError as error:\n"
+        "    print(error)\n"
+    )
+    for first in ("", "first"):
+        done = subprocess.run([sys.executable, "-c", program.format(first=first)], capture_output=True, text=True, timeout=60)
+        assert done.returncode == 0 and "ImportError" in done.stdout + done.stderr, done.stdout + done.stderr
+
+
+def test_a_forked_child_works(lhifam):
+    child = os.fork()
+    if child == 0:
+        os._exit(0 if zwidth.analyze(lhifam).critical_stiffness else 1)
+    assert os.waitpid(child, 0)[1] == 0
