@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "answer.hpp"
+#include "interruptible.hpp"
 #include "parts.hpp"
 #include "python_error.hpp"
 #include "results/device_json.hpp"
@@ -28,10 +29,7 @@ Device device_of(tl::expected<Device, InputError> read) {
 
 Device from_file(const std::string& path, const Overrides& overrides) {
   if (path == "-") raise_input_error("device", "is standard input", "a file, or the text itself");
-  return device_of([&] {
-    const py::gil_scoped_release released;
-    return read_device_file(path, overrides);
-  }());
+  return device_of(without_lock([&] { return read_device_file(path, overrides); }));
 }
 
 std::string toml_of(const Device& device) { return write_device(device.parameters()); }
@@ -109,6 +107,11 @@ void bind_device(py::module_& module) {
              return py::isinstance<Device>(other) && toml_of(one) == toml_of(other.cast<const Device&>());
            })
       .def("__hash__", [](const Device& device) { return py::hash(py::str(toml_of(device))); })
+      .def("_repr_html_",
+           [](const Device& device) {
+             return "<pre>" + py::module_::import("html").attr("escape")(toml_of(device)).cast<std::string>() +
+                    "</pre>";
+           })
       .def("__repr__",
            [](const Device& device) {
              return "<zwidth.Device " + py::repr(py::str(device.name())).cast<std::string>() + ">";

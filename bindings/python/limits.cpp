@@ -27,12 +27,11 @@ namespace {
 
 using results::Json;
 
-/// Calls the library without the GIL; what it throws is raised.
+/// Calls the library without the interpreter's lock; what it throws is raised.
 template <typename Work>
 auto computed(const Work& work) {
   try {
-    const py::gil_scoped_release released;
-    return work();
+    return without_lock(work);
   } catch (const Error& error) {
     if (error.code() == ErrorCode::did_not_converge) raise_work_failed(error.what());
     raise_input_error("device", error.what(), "");
@@ -90,6 +89,9 @@ void add_properties(py::class_<Result>& bound, const std::pair<const char*, cons
   bound.def(
       "to_dict", [](const Result& result) { return to_python(json_of(result)); },
       "All of it as a new dict, with the keys of analyze's document.");
+  bound.def("_repr_html_", [](const Result& result) {
+    return py::module_::import("zwidth._record").attr("html_of")(to_python(json_of(result)));
+  });
 }
 
 using Documented = std::pair<const char*, const char*>;

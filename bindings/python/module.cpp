@@ -1,5 +1,6 @@
 #include <pybind11/pybind11.h>
 
+#include "interruptible.hpp"
 #include "parts.hpp"
 
 namespace py = pybind11;
@@ -19,6 +20,7 @@ extern "C" PYBIND11_EXPORT PyObject* PyInit__core() {
     module.attr("__version__") = ZWIDTH_VERSION;
     // A module that the main interpreter has loaded is copied into others without the question above.
     module.def("is_main_interpreter", [] { return PyInterpreterState_Get() == PyInterpreterState_Main(); });
+    py::module_::import("atexit").attr("register")(py::cpp_function(&zwidth::python::InterpreterEnd::begin));
     zwidth::python::bind_device(module);
     zwidth::python::bind_limits(module);
     zwidth::python::bind_commands(module);

@@ -7,7 +7,6 @@ import sys
 from pathlib import Path
 
 import zwidth
-import zwidth.plot
 
 
 def main(structure: str, recording: str, folder: Path) -> None:

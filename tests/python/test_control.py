@@ -7,7 +7,6 @@ import types
 import numpy as np
 import pytest
 import zwidth
-import zwidth.control
 
 
 @pytest.mark.parametrize("delay", [0.0, 0.25e-3, 1e-3, 2.75e-3])

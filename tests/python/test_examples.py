@@ -8,7 +8,6 @@ import sys
 import matplotlib.pyplot as plt
 import pytest
 import zwidth
-import zwidth.plot
 from conftest import ROOT
 
 

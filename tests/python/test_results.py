@@ -180,6 +180,12 @@ def test_what_an_option_says_of_itself():
         zwidth.options("nothing")
 
 
+def test_notebooks_show_a_table(lhifam):
+    assert "link" in lhifam._repr_html_() and "<pre>" in lhifam._repr_html_()
+    for result in (zwidth.critical_stiffness(lhifam), zwidth.any_user_limit(lhifam), zwidth.region(lhifam)):
+        assert "critical_stiffness" in result._repr_html_()
+
+
 def test_texts_are_exported(lhifam):
     assert "zwidth" in zwidth.export(lhifam, "octave")
     assert zwidth.model(lhifam).schema == json.loads(zwidth.model(lhifam).to_json())["schema"]

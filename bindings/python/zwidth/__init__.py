@@ -8,6 +8,9 @@ Options are keywords named as the command line's (`zwidth.options("analyze")` li
 Bad input raises InputError; what is doubtful or refused warns with DoubtfulResult.
 """
 
+import importlib
+from typing import TYPE_CHECKING, Any
+
 from . import _core
 
 if not _core.is_main_interpreter():
@@ -61,6 +64,17 @@ from ._measured_results import (
 )
 from ._parts import Crossover, Mechanism, Mode, Remark, Trust, WallMargins
 from ._results import Model
+
+if TYPE_CHECKING:
+    from . import control as control, plot as plot
+
+
+def __getattr__(name: str) -> Any:
+    """zwidth.plot and zwidth.control are imported where they are first used: they bring matplotlib, python-control."""
+    if name in ("control", "plot"):
+        return importlib.import_module(f"zwidth.{name}")
+    raise AttributeError(f"module 'zwidth' has no attribute {name!r}")
+
 
 __all__ = [
     "Analysis",

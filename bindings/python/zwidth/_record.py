@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import html
-from typing import Any, Callable, Dict, Generic, Iterator, List, Optional, Tuple, Type, TypeVar, Union, overload
+from typing import Any, Callable, Dict, Generic, Iterator, List, Mapping, Optional, Tuple, Type, TypeVar, Union, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -58,12 +58,17 @@ class Record:
         return f"<{type(self).__name__} {shown}{', ...' if len(self._values) > 8 else ''}>"
 
     def _repr_html_(self) -> str:
-        rows = "".join(
-            f'<tr><th style="text-align:left">{html.escape(key)}</th>'
-            f'<td style="text-align:left">{html.escape(_short(value))}</td></tr>'
-            for key, value in self._values.items()
-        )
-        return f"<table>{rows}</table>"
+        return html_of(self._values)
+
+
+def html_of(values: Mapping[str, Any]) -> str:
+    """A table for notebooks."""
+    rows = "".join(
+        f'<tr><th style="text-align:left">{html.escape(key)}</th>'
+        f'<td style="text-align:left">{html.escape(_short(value))}</td></tr>'
+        for key, value in values.items()
+    )
+    return f"<table>{rows}</table>"
 
 
 def _short(value: Any) -> str:
