@@ -13,8 +13,8 @@ namespace zwidth::internal {
 /// Fits the motion of the device with friction of its heaviest body to each recording, from the linear fit on, as
 /// identify_in_time() does but briefly, and to the first part of a recording that takes long to play. It finds what
 /// find_friction() does not: friction that is no small disturbance of the linear fit's motion, as where a body drifts
-/// until friction stops it, or where modes above the band are not known. Doubtful: the friction shows, or the data allow
-/// one beside which the critical stiffness is more than 10 % below its interval. `device_trust`: of the device for any
+/// until friction stops it, or where modes above the band are not known. Doubtful: the friction shows, or one of more than
+/// two deviations would put the critical stiffness more than 10 % below its interval. `device_trust`: of the device for any
 /// other purpose.
 void judge_friction_in_time(Identification& result, std::span<const Recording> recordings,
                             const IdentifyOptions& options, Trust device_trust);

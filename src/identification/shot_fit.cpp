@@ -31,10 +31,13 @@ class SharedShots : public ceres::EvaluationCallback {
               const ShotFit& start)
       : x(start.x), states(start.states), model_(model), shots_(shots), noise_(noise) {}
 
-  void PrepareForEvaluation(bool with_slopes, bool is_new_position) override {
-    if (!is_new_position && is_evaluated_ && (has_slopes_ || !with_slopes)) return;
+  void PrepareForEvaluation(bool with_slopes, bool) override {
+    const bool is_known = is_evaluated_ && x == evaluated_x_ && states == evaluated_states_;
+    if (is_known && (has_slopes_ || !with_slopes)) return;
     is_evaluated_ = true;
     has_slopes_ = with_slopes;
+    evaluated_x_ = x;
+    evaluated_states_ = states;
     if (with_slopes) {
       std::optional<ShotSlopes> slopes = shot_slopes(model_, shots_, noise_, x, states);
       is_valid_ = slopes.has_value();
@@ -61,6 +64,8 @@ class SharedShots : public ceres::EvaluationCallback {
   const std::vector<Shot>& shots_;
   const std::vector<ShotNoise>& noise_;
   ShotSlopes now_;
+  Eigen::VectorXd evaluated_x_;
+  std::vector<Eigen::VectorXd> evaluated_states_;
   bool is_evaluated_ = false;
   bool has_slopes_ = false;
   bool is_valid_ = false;
@@ -163,6 +168,8 @@ bool search(const ShotModel& model, const std::vector<Shot>& shots, const std::v
   const std::vector<Eigen::VectorXd> states = shared.states;
   std::ranges::sort(shared.states, {}, [](const Eigen::VectorXd& each) { return each.data(); });
   for (std::size_t i = 0; i < states.size(); ++i) shared.states[i] = states[i];
+  shared.PrepareForEvaluation(true, true);
+  if (!shared.is_valid()) return false;  // of a start without slopes Ceres writes to the terminal
   ceres::Problem::Options problem_options;
   problem_options.evaluation_callback = &shared;
   ceres::Problem problem(problem_options);

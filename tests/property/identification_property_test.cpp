@@ -183,5 +183,14 @@ TEST(IdentificationProperty, ARecordWithoutFrictionShowsNone) {
   EXPECT_TRUE(found.trust.sound());
 }
 
+// A fit with friction in time that ends in a side minimum, its friction a third of a deviation, tells nothing.
+TEST(IdentificationProperty, FrictionThatIsNoneCastsNoDoubt) {
+  const auto made = test::random_recording(1000006);
+  ASSERT_TRUE(made && !made->has_friction);
+  const Identification found = identified(*made);
+  EXPECT_FALSE(found.friction);
+  EXPECT_TRUE(found.trust.sound());
+}
+
 }  // namespace
 }  // namespace zwidth
