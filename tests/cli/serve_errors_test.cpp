@@ -73,7 +73,7 @@ TEST_F(ServedErrors, AnErrorSaysWhatWasGivenAndWhatIsAllowed) {
   expect_error("bode", {{"points", -5}}, "is -5", "a whole number, 0 or more");
   expect_error("bode", {{"points", 1}}, "is 1", "2 to 100000");
   expect_error("bode", {{"points", 40.5}}, "is 40.5", "a whole number");
-  expect_error("bode", {{"from", "abc"}}, "\"abc\" is no number of at most 1e30", "a number of rad/s");
+  expect_error("bode", {{"from", "abc"}}, "\"abc\" is no number", "a number of rad/s");
   expect_error("export", json::object(), "is missing", "a value");
   expect_error("relay", {{"amplitude", 5}, {"variation", "abc"}}, "is abc", "a number");
   expect_error("relay", {{"amplitude", 5}, {"trials", 2000}}, "is 2000", "a whole number from 1 to 1000");

@@ -77,8 +77,7 @@ TEST_F(UnitsOnTheCommandLine, OfTheWrongKindAreRefused) {
   expect_refusal("zwidth analyze devices/lhifam.toml --set 'wall.stiffness=5 N m/deg'",
                  "--set: wall.stiffness: \"N m/deg\" is no unit of a stiffness");
   expect_refusal("zwidth excite --amplitude 1 --rate '1 ms'", "excite: --rate: \"ms\" is no unit of a frequency");
-  expect_refusal("zwidth excite --amplitude 1 --rate abc",
-                 "excite: --rate: \"abc\" is no number of at most 1e30; must be");
+  expect_refusal("zwidth excite --amplitude 1 --rate abc", "excite: --rate: \"abc\" is no number; must be");
 }
 
 TEST_F(UnitsOnTheCommandLine, WholeNumbersAreThoseThatAreWritten) {
