@@ -114,7 +114,7 @@ class Sweep(Result):
     units = one(Record, "Names of the units.")
     axes = many(SweepAxis, "One or two.")
     points = many(SweepPoint, "The last axis runs fastest.")
-    trust = one(Trust, "The device's own: no second computation checks each point.")
+    trust = one(Trust, "Of the device, and of the points as a whole; each point has its own.")
 
 
 class Comparison(Result):
