@@ -268,6 +268,7 @@ TimeDomainIdentification identify_in_time(std::span<const Recording> recordings,
   if (whole) take_short_lag_for_delay(model, *whole);
   for (int round = 0; whole && round < most_rounds; ++round) {
     const Eigen::VectorXd before = whole->x;
+    known.reset();  // of the round before: without this one's there is none
     fitted =
         search.with_noise(*whole, shots, towards, {.most_iterations = 12, .tolerance = 2e-7, .holds_bounds = true});
     if (!fitted) break;
