@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace zwidth::internal {
@@ -25,6 +26,17 @@ std::vector<Shot> cut_into_shots(const std::vector<MotionRecord>& records, const
     }
   }
   return shots;
+}
+
+std::vector<Shot> some_of(const std::vector<Shot>& shots, std::size_t records, std::size_t each) {
+  std::vector<Shot> some;
+  for (std::size_t r = 0; r < records; ++r) {
+    std::vector<Shot> own;
+    std::ranges::copy_if(shots, std::back_inserter(own), [&](const Shot& shot) { return shot.record == r; });
+    const std::size_t count = std::min(each, own.size());
+    for (std::size_t i = 0; i < count; ++i) some.push_back(own[(2 * i + 1) * own.size() / (2 * count)]);
+  }
+  return some;
 }
 
 std::optional<FittedShots> ShotSearch::from(const Eigen::VectorXd& x, const std::vector<Shot>& shots) const {

@@ -17,6 +17,9 @@ namespace zwidth::internal {
 [[nodiscard]] std::vector<Shot> cut_into_shots(const std::vector<MotionRecord>& records, const Device& device,
                                                double length, std::size_t least);
 
+/// A few of the shots of each record, spread over it.
+[[nodiscard]] std::vector<Shot> some_of(const std::vector<Shot>& shots, std::size_t records, std::size_t each);
+
 /// A fit with the noise that its residuals have.
 struct FittedShots {
   ShotFit fit;

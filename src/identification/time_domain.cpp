@@ -46,18 +46,6 @@ void check(std::span<const Recording> recordings, const Device& structure, const
   }
 }
 
-/// A few of the shots of each record, spread over it.
-std::vector<Shot> some_of(const std::vector<Shot>& shots, std::size_t records, std::size_t each) {
-  std::vector<Shot> some;
-  for (std::size_t r = 0; r < records; ++r) {
-    std::vector<Shot> own;
-    std::ranges::copy_if(shots, std::back_inserter(own), [&](const Shot& shot) { return shot.record == r; });
-    const std::size_t count = std::min(each, own.size());
-    for (std::size_t i = 0; i < count; ++i) some.push_back(own[(2 * i + 1) * own.size() / (2 * count)]);
-  }
-  return some;
-}
-
 /// Lets go what is held at its bound although the data pull it away from there; whether there is any.
 bool release(ShotFit& fit, const ShotSlopes& slopes) {
   bool any = false;
