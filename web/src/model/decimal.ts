@@ -92,12 +92,14 @@ export function written(value: unknown): Written | null {
   return match ? { number: Number(match[1]), unit: match[2]! } : null
 }
 
-/** What was typed, as TOML. A number alone is of the unit that stood there; anything else goes to the server as it is. */
-export function tomlOfTyped(typed: string, places: number, unit: string | null): string {
+/**
+ * What was typed, as TOML. A number alone is SI, whatever unit stood there; with the unit that is shown of an SI number, prefix
+ * and all, the point moves. Anything else goes to the server as it is.
+ */
+export function tomlOfTyped(typed: string, { unit, places }: { unit: string; places: number } = { unit: '', places: 0 }): string {
   const text = typed.trim().replace(/−/g, '-')
-  if (!plain.test(text)) return JSON.stringify(text)
-  if (unit !== null) return JSON.stringify(`${text} ${unit}`)
-  return shifted(text.replace(/^\+/, ''), places)
+  const bare = unit && text.endsWith(unit) ? text.slice(0, -unit.length).trim() : text
+  return plain.test(bare) ? shifted(bare.replace(/^\+/, ''), bare === text ? 0 : places) : JSON.stringify(text)
 }
 
 /** A number as TOML; "2000" is a good number there. */

@@ -80,6 +80,26 @@ describe.each([
     await context.close()
   })
 
+  it('takes a bare number as SI; nothing of the text before it sticks', async () => {
+    const { page, context, complaints } = await openPage(browser, served, width)
+    const field = (key: string) => row(page, key).locator('input[type="text"]')
+    await type(page, 'link.0.stiffness', '79500')
+    expect(await field('link.0.stiffness').inputValue()).toBe('79.5 kN/m')
+    await type(page, 'link.0.stiffness', '65 N/mm')
+    expect(await field('link.0.stiffness').inputValue()).toBe('65 N/mm')
+    await type(page, 'link.0.stiffness', '79500')
+    expect(await field('link.0.stiffness').inputValue()).toBe('79.5 kN/m')
+    expect(await field('link.0.stiffness').getAttribute('title')).toContain('79500 or 79.5 kN/m')
+    await settled(page)
+    expect(await alone(page)).toBe('8.849 kN/m')
+    await type(page, 'sensor.resolution', '4096 counts')
+    await row(page, 'sensor.resolution').locator('.problem').waitFor()
+    await type(page, 'sensor.resolution', '4096')
+    expect(await field('sensor.resolution').inputValue()).toBe('4.096 km')
+    expect(complaints).toEqual([])
+    await context.close()
+  })
+
   it('drags the wall on the bar and in the region, one step each', async () => {
     const { page, context, complaints } = await openPage(browser, served, width)
     await withWall(page)

@@ -11,8 +11,8 @@ describe('decimal', () => {
       seed = (seed * 48271) % 2147483647
       const value = (seed / 2147483647 - 0.5) * 10 ** ((seed % 40) - 20)
       for (const unit of ['N/m', 's', 'kg', 'Hz']) {
-        const { number, places } = shown(value, unit)
-        expect(Number(tomlOfTyped(number, places, null)), `${value} ${unit}`).toBe(value)
+        const text = shown(value, unit)
+        expect(Number(tomlOfTyped(`${text.number} ${text.unit}`, text)), `${value} ${unit}`).toBe(value)
       }
     }
   })
@@ -30,12 +30,29 @@ describe('decimal', () => {
     expect(percent(0)).toBe('0 %')
   })
 
-  it('takes a bare number in the unit that stood there', () => {
-    expect(tomlOfTyped('2', -3, null)).toBe('0.002')
-    expect(tomlOfTyped(' 1.5 ms', -3, null)).toBe('"1.5 ms"')
-    expect(tomlOfTyped('3', 0, 'ms')).toBe('"3 ms"')
-    expect(tomlOfTyped('−4', 0, null)).toBe('-4')
-    expect(tomlOfTyped('abc', 0, null)).toBe('"abc"')
+  it('takes a bare number as SI, whatever stood there', () => {
+    const kilo = shown(79500, 'N/m')
+    expect(kilo).toEqual({ number: '79.5', unit: 'kN/m', places: 3 })
+    expect(tomlOfTyped('79500', kilo)).toBe('79500')
+    expect(tomlOfTyped(' 2 ', { unit: 'ms', places: -3 })).toBe('2')
+    expect(tomlOfTyped('4096', shown(1e-6, 'rad'))).toBe('4096')
+    expect(tomlOfTyped('−4')).toBe('-4')
+    expect(tomlOfTyped('+1.50e3')).toBe('1500')
+  })
+
+  it('takes a text with its own unit', () => {
+    expect(tomlOfTyped('80 kN/m', shown(79500, 'N/m'))).toBe('80000')
+    expect(tomlOfTyped('80 N/m', shown(79500, 'N/m'))).toBe('"80 N/m"')
+    expect(tomlOfTyped('0.08 MN/m', shown(79500, 'N/m'))).toBe('"0.08 MN/m"')
+    expect(tomlOfTyped(' 1.5 ms', shown(0.002, 's'))).toBe('0.0015')
+    expect(tomlOfTyped(' 1.5 ms')).toBe('"1.5 ms"')
+    expect(tomlOfTyped('4096 counts', shown(1e-6, 'rad'))).toBe('"4096 counts"')
+    expect(tomlOfTyped('5 s', shown(0.002, 's'))).toBe('"5 s"')
+    expect(tomlOfTyped('5 ms', shown(2, 's'))).toBe('"5 ms"')
+    expect(tomlOfTyped('abc')).toBe('"abc"')
+  })
+
+  it('reads and writes the values of a file', () => {
     expect(written('1.5 ms')).toEqual({ number: 1.5, unit: 'ms' })
     expect(written('1 turn/4096')).toEqual({ number: 1, unit: 'turn/4096' })
     expect(written(0.3)).toEqual({ number: 0.3, unit: null })
