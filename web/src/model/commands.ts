@@ -6,7 +6,17 @@ import { groupsOf } from './keys'
 import { scan, type Entry } from './toml'
 import { workbench } from './workbench.svelte'
 
-const quoted = (text: string): string => (/^[\w./:=,+-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`)
+/** What a terminal may act on when it is pasted. */
+const hasControls = (text: string): boolean => /[\u0000-\u0008\u000b-\u001f\u007f-\u009f]/.test(text)
+
+/** Between the single quotes of a shell, for printf: every byte of a control character as \ooo. */
+const printfFormat = (text: string): string =>
+  text.replaceAll('\\', '\\\\').replaceAll('%', '%%').replaceAll("'", "'\\''").replace(/[\u0000-\u0008\u000b-\u001f\u007f-\u009f]/g, (c) =>
+    [...new TextEncoder().encode(c)].map((byte) => `\\${byte.toString(8).padStart(3, '0')}`).join(''),
+  )
+
+const quoted = (text: string): string =>
+  /^[\w./:=,+-]+$/.test(text) ? text : hasControls(text) ? `"$(printf '${printfFormat(text)}')"` : `'${text.replaceAll("'", "'\\''")}'`
 
 const rawOf = (text: string, entry: Entry): string => text.slice(entry.start, entry.end)
 
@@ -24,7 +34,7 @@ export function setsFrom(example: string, text: string): string[] | null {
     before.delete(id)
     const key = keyOf.get(id)
     if (old === undefined ? key !== undefined && isDefault(key, entry.value) : old === rawOf(text, entry) || (typeof entry.value === 'number' && Number(old) === entry.value)) continue
-    if (!key || (typeof entry.value !== 'number' && typeof entry.value !== 'string')) return null
+    if (!key || hasControls(rawOf(text, entry)) || (typeof entry.value !== 'number' && typeof entry.value !== 'string')) return null
     sets.push(`${key}=${typeof entry.value === 'string' ? entry.value : rawOf(text, entry)}`)
   }
   return before.size > 0 ? null : sets
@@ -48,22 +58,36 @@ const optionsText = (options: Options): string[] =>
     return (Array.isArray(value) ? value : [value]).flatMap((each) => [name, quoted(String(each))])
   })
 
+/** The word itself where it is free, else with the first number behind it that is. */
+function unused(word: string, isFree: (each: string) => boolean): string {
+  for (let i = 0; ; ++i) {
+    const each = i === 0 ? word : `${word}${i}`
+    if (isFree(each)) return each
+  }
+}
+
 /** The exact line: from an example with --set, else with the whole file behind it. */
 export function commandLine(command: string, options: Options = {}, text = workbench.toml): string {
   const words = command === 'recommend' ? ['design'] : [command]
   const all = command === 'recommend' ? { recommend: true, ...options } : options
   const from = source(text)
   if (from) return ['zwidth', ...words, quoted(from.file), ...from.sets.flatMap((each) => ['--set', quoted(each)]), ...optionsText(all)].join(' ')
-  return `${['zwidth', ...words, '-', ...optionsText(all)].join(' ')} <<'END_OF_DEVICE'\n${text.replace(/\n*$/, '\n')}END_OF_DEVICE`
+  const line = ['zwidth', ...words, '-', ...optionsText(all)].join(' ')
+  if (hasControls(text)) return `printf '${printfFormat(text)}' | ${line}`
+  const lines = new Set(text.split('\n'))
+  const end = unused('END_OF_DEVICE', (each) => !lines.has(each))
+  return `${line} <<'${end}'\n${text.replace(/\n*$/, '\n')}${end}`
 }
 
-export function cppCode(): string {
+/** The text's own end of a raw string must not occur in it. */
+export function cppCode(toml = workbench.toml): string {
+  const end = unused('toml', (each) => !toml.includes(`)${each}"`))
   return `#include <iostream>
 #include <string>
 #include <zwidth/zwidth.hpp>
 
 int main() {
-  const auto device = zwidth::parse_device(R"toml(${workbench.toml})toml", "workbench");
+  const auto device = zwidth::parse_device(R"${end}(${toml})${end}", "workbench");
   if (!device) {
     std::cerr << device.error().what << '\\n';
     return 2;
@@ -80,8 +104,9 @@ int main() {
 `
 }
 
-export function pythonCode(): string {
-  const text = workbench.toml.replaceAll('\\', '\\\\').replaceAll('"""', '\\"\\"\\"')
+export function pythonCode(toml = workbench.toml): string {
+  const escape = (quotes: string): string => quotes.replaceAll('"', '\\"')
+  const text = toml.replaceAll('\\', '\\\\').replace(/"{3,}|"+$/g, escape).replace(/[\u0000\r]/g, (c) => (c === '\r' ? '\\r' : '\\x00'))
   return `import json
 import subprocess
 
