@@ -21,7 +21,7 @@ let turns = mostTurns
 let lastChange = 0
 const dragPause = 200 // ms
 const untilRest = 300 // ms
-const noticed = 120 // ms
+const noticed = 150 // ms
 const waiting: (() => void)[] = []
 async function turn(): Promise<void> {
   const most = performance.now() - lastChange < dragPause ? 1 : mostTurns
@@ -43,7 +43,7 @@ export class Answer<T> {
   problem = $state.raw<Problem | null>(null)
   /** The document is not yet that of the newest question. */
   late = $state(false)
-  /** It has been late for so long that people see it; a panel says so. */
+  /** What is shown has been of another question for so long that people see it; a panel says so. */
   lags = $state(false)
   private lagTimer: ReturnType<typeof setTimeout> | undefined
   /** What `document` answers. */
@@ -53,6 +53,8 @@ export class Answer<T> {
   private wantedText = ''
   private shownText = ''
   private running = false
+  private askedText = '' // of the request under way
+  private replacedAt = 0 // when something newer than that was asked
 
   private isInView = true
   private timer: ReturnType<typeof setTimeout> | undefined
@@ -65,12 +67,13 @@ export class Answer<T> {
     if (inView && this.late) this.start()
   }
 
-  private setLate(late: boolean): void {
-    if (late === this.late) return
+  /** `since`: when what is shown ceased to be what is asked. */
+  private setLate(late: boolean, since = performance.now()): void {
     this.late = late
-    this.lags = false
     clearTimeout(this.lagTimer)
-    if (late) this.lagTimer = setTimeout(() => (this.lags = true), noticed)
+    const left = since + noticed - performance.now()
+    this.lags = late && left <= 0
+    if (late && left > 0) this.lagTimer = setTimeout(() => (this.lags = true), left)
   }
   private start(): void {
     clearTimeout(this.timer)
@@ -90,6 +93,7 @@ export class Answer<T> {
   ask(question: Question | null): void {
     const text = question === null ? '' : question.path + textOf(question)
     if (text === this.wantedText) return
+    const before = this.wantedText
     this.wanted = question
     this.wantedText = text
     lastChange = performance.now()
@@ -102,7 +106,8 @@ export class Answer<T> {
     } else if (text === this.shownText) {
       this.setLate(false)
     } else {
-      this.setLate(true)
+      if (this.askedText !== text && this.askedText === before) this.replacedAt = performance.now()
+      if (!this.late) this.setLate(true)
       // The picture of another device is no picture of this one, however shortly.
       if (this.question && deviceKey(this.question.toml) !== deviceKey(question.toml)) {
         this.document = null
@@ -133,6 +138,7 @@ export class Answer<T> {
   private async once(question: Question, text: string): Promise<void> {
     let document: T | null = null
     let problem: Problem | null = null
+    this.askedText = text
     try {
       document = await post<T>(question.path, textOf(question))
     } catch (error) {
@@ -143,7 +149,7 @@ export class Answer<T> {
     this.document = document
     this.problem = problem
     this.question = question
-    this.setLate(text !== this.wantedText)
+    this.setLate(text !== this.wantedText, this.replacedAt)
   }
 }
 

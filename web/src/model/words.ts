@@ -8,6 +8,9 @@ export const limiter = (limited: LimitedBy | null | undefined): string =>
 export const trustWord: Record<Trust['verdict'], string> = { sound: 'sound', doubtful: 'doubtful', refused: 'refused' }
 export const trustSign: Record<Trust['verdict'], string> = { sound: '✓', doubtful: '!', refused: '✕' }
 
+/** Beside numbers that are not yet those of what the page shows. */
+export const stale = 'of the device before; computing …'
+
 export const plainWord = (word: string | null | undefined): string => (word ?? '–').replaceAll('_', ' ')
 
 export const simulationWord: Record<string, string> = {

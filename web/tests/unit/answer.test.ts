@@ -95,6 +95,38 @@ describe('answer', () => {
     expect(answer.late).toBe(false)
   })
 
+  it('lags where what it shows is of another question for more than 150 ms, and not while it follows', async () => {
+    install()
+    const answer = new Answer<{ n: number }>()
+    const pause = (ms: number): Promise<void> => new Promise((done) => setTimeout(done, ms))
+    answer.ask({ path: 'analyze', toml: '0' })
+    asked[0]!.reply(200, { n: 0 })
+    await turn()
+    for (let i = 1; i <= 8; ++i) {
+      answer.ask({ path: 'analyze', toml: `${i}` })
+      await pause(20)
+      answer.ask({ path: 'analyze', toml: `${i}.5` })
+      await pause(20)
+      asked.at(-1)!.reply(200, { n: i })
+      await turn()
+      expect(answer.lags, `${i}`).toBe(false)
+      asked.at(-1)!.reply(200, { n: i + 0.5 })
+      await turn()
+    }
+    expect(answer.late).toBe(false)
+    answer.ask({ path: 'analyze', toml: '10' })
+    await pause(200)
+    expect([answer.lags, answer.document]).toEqual([true, { n: 8.5 }])
+    answer.ask({ path: 'analyze', toml: '11' })
+    await pause(200)
+    asked.at(-1)!.reply(200, { n: 10 })
+    await turn()
+    expect([answer.lags, answer.document]).toEqual([true, { n: 10 }]) // of what was replaced 200 ms ago
+    asked.at(-1)!.reply(200, { n: 11 })
+    await turn()
+    expect([answer.lags, answer.late]).toEqual([false, false])
+  })
+
   it('waits out of view until the questions rest, and comes at once in view', async () => {
     install()
     const answer = new Answer()

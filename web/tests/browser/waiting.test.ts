@@ -1,0 +1,43 @@
+// What the page says while there is no answer yet.
+import type { Browser, Page } from 'playwright-core'
+import { afterAll, beforeAll, expect, it } from 'vitest'
+import { alone, openBrowser, openPage, row, type Served, serve, settled, type, withWall } from './program'
+
+let served: Served
+let browser: Browser
+beforeAll(async () => {
+  served = await serve('devices/lhifam.toml')
+  browser = await openBrowser()
+})
+afterAll(async () => {
+  await browser?.close()
+  await served?.stop()
+})
+
+const answered = (page: Page): Promise<string> => page.locator('.answer').innerText()
+
+it('marks an answer that is of the device before, without a tick', async () => {
+  const { page, context, complaints } = await openPage(browser, served, 1280)
+  await withWall(page)
+  await settled(page)
+  expect(await answered(page)).toMatch(/✓ sound[^]*✓ The wall/)
+  let free = (): void => {}
+  const held = new Promise<void>((done) => (free = done))
+  await page.route('**/api/v1/*', async (route) => {
+    await held
+    await route.continue()
+  })
+  await type(page, 'body.handle.mass', '4.0')
+  await page.locator('.answer.stale').waitFor()
+  expect(await answered(page)).toContain('of the device before; computing …')
+  expect(await answered(page)).not.toContain('✓')
+  expect(await page.locator('#panel-bar').innerText()).toContain('of the device before; computing …')
+  expect(await page.locator('#body-bar.stale, #body-limits.stale').count()).toBe(2)
+  free()
+  await page.locator('.answer:not(.stale)').waitFor()
+  await settled(page)
+  expect(await answered(page)).toContain('✓ sound')
+  expect(await page.locator('.stale').count()).toBe(0)
+  expect(complaints).toEqual([])
+  await context.close()
+})
