@@ -1,4 +1,4 @@
-// The whole state in the address: JSON, deflated against the words of a device file, base64url.
+// The whole state in the address: JSON, deflated against the words of a device file, behind the CRC-32 of that, as base64url.
 
 import { deflateSync, inflateSync, strFromU8, strToU8 } from 'fflate'
 import type { Pin, Settings, Snapshot } from './snapshot'
@@ -17,7 +17,7 @@ const dictionary = strToU8(
     '[loop]\\nactuated = \\"motor\\"\\nsensed = \\"motor\\"\\nheld = \\"handle\\"\\nsampling_period = 1e-3\\ndelay = 0.0\\n["',
 )
 
-const version = 'a'
+const version = 'b' // 'a' had no checksum
 
 export interface Address {
   text: string
@@ -34,24 +34,44 @@ export function encode(state: Snapshot): Address | null {
   ]
   for (const [each, left] of tries) {
     const json = JSON.stringify([each.toml, each.pins.map((pin) => [pin.name, pin.toml]), each.locks, each.settings])
-    const text = version + toBase64Url(deflateSync(strToU8(json), { level: 9, dictionary }))
+    const packed = deflateSync(strToU8(json), { level: 9, dictionary })
+    const text = version + toBase64Url(new Uint8Array([...checksum(packed), ...packed]))
     if (text.length <= longestAddress) return { text, left }
   }
   return null
 }
 
-/** null: not an address of this program. */
-export function decode(text: string): Snapshot | null {
-  if (!text.startsWith(version) || text.length > longestAddress) return null
+export type Decoded = { state: Snapshot } | { problem: string }
+
+/** What the text holds, or what is wrong with it. */
+export function decode(text: string): Decoded {
+  const given = text.slice(0, 1)
+  if (given < version && given >= 'a') return { problem: 'it is of an older version of the program' }
+  if (given > version && given <= 'z') return { problem: 'it is of a newer version of the program' }
+  const damaged = { problem: 'it was changed or cut off on its way' }
+  if (given !== version || text.length > longestAddress) return damaged
   try {
-    const json: unknown = JSON.parse(strFromU8(inflateSync(fromBase64Url(text.slice(1)), { dictionary })))
-    if (!Array.isArray(json)) return null
+    const bytes = fromBase64Url(text.slice(1))
+    const packed = bytes.subarray(4)
+    if (toBase64Url(bytes) !== text.slice(1) || checksum(packed).some((each, i) => each !== bytes[i])) return damaged
+    const json: unknown = JSON.parse(strFromU8(inflateSync(packed, { dictionary })))
+    if (!Array.isArray(json)) return damaged
     const [toml, pins, locks, settings] = json as unknown[]
-    if (typeof toml !== 'string' || !isPins(pins) || !isTexts(locks) || !isSettings(settings)) return null
-    return { toml, pins: pins.map(([name, own]): Pin => ({ name, toml: own })), locks, settings }
+    if (typeof toml !== 'string' || !isPins(pins) || !isTexts(locks) || !isSettings(settings)) return damaged
+    return { state: { toml, pins: pins.map(([name, own]): Pin => ({ name, toml: own })), locks, settings } }
   } catch {
-    return null
+    return damaged
   }
+}
+
+/** CRC-32 (ISO 3309, as in PNG), big endian. */
+function checksum(bytes: Uint8Array): Uint8Array {
+  let crc = 0xffffffff
+  for (const byte of bytes) {
+    crc ^= byte
+    for (let bit = 0; bit < 8; ++bit) crc = (crc >>> 1) ^ (crc & 1 ? 0xedb88320 : 0)
+  }
+  return new Uint8Array([24, 16, 8, 0].map((shift) => (~crc >>> shift) & 0xff))
 }
 
 const isTexts = (value: unknown): value is string[] => Array.isArray(value) && value.every((each) => typeof each === 'string')

@@ -1,6 +1,6 @@
 // The one state of the page. Panels read it; whatever changes it is a step that undo takes back.
 
-import { decode, encode } from './address'
+import { decode, encode, type Decoded } from './address'
 import { written } from './decimal'
 import { History } from './history'
 import { fullKey, groupsOf, isRotary, sameKey, shapeOf, type Group, type Row } from './keys'
@@ -65,6 +65,11 @@ class Workbench {
   /** Another device: pins stay, so that it can be compared. */
   load(toml: string): void {
     this.change({ toml, locks: [] })
+  }
+
+  /** The whole state of a link, as one step. */
+  follow(state: Snapshot): void {
+    if (JSON.stringify(state) !== JSON.stringify(this.state)) this.change(state)
   }
 
   row(key: string): Row | undefined {
@@ -138,7 +143,7 @@ class Workbench {
   }
 
   /** What the address holds; null: nothing. */
-  static fromAddress(hash: string): Snapshot | null {
+  static fromAddress(hash: string): Decoded | null {
     const text = new URLSearchParams(hash.replace(/^#/, '')).get('d')
     return text === null ? null : decode(text)
   }

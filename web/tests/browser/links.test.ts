@@ -1,0 +1,73 @@
+// Links: opened, pasted into the tab, followed back, broken.
+import type { Browser, Page } from 'playwright-core'
+import { afterAll, beforeAll, expect, it } from 'vitest'
+import { alone, openBrowser, openPage, row, type Served, serve, settled, type } from './program'
+
+let served: Served
+let browser: Browser
+beforeAll(async () => {
+  served = await serve('devices/lhifam.toml')
+  browser = await openBrowser()
+})
+afterAll(async () => {
+  await browser?.close()
+  await served?.stop()
+})
+
+const stiffness = (page: Page): Promise<string> => row(page, 'link.0.stiffness').locator('input[type="text"]').inputValue()
+const hashOf = async (page: Page): Promise<string> => {
+  await page.waitForTimeout(400) // the address is written behind a change
+  return new URL(page.url()).hash
+}
+
+it('follows a link pasted into its tab, and Back, as steps to undo', async () => {
+  const { page, context, complaints } = await openPage(browser, served, 1280)
+  const first = await hashOf(page)
+  await type(page, 'link.0.stiffness', '70000')
+  await settled(page)
+  const answer = await alone(page)
+  const changed = await hashOf(page)
+  await page.keyboard.press('Control+z')
+  expect(await hashOf(page)).toBe(first)
+
+  await page.evaluate((hash) => (location.hash = hash), changed)
+  await expect.poll(() => stiffness(page)).toBe('70 kN/m')
+  await settled(page)
+  expect(await alone(page)).toBe(answer)
+  await page.getByRole('button', { name: 'Undo' }).click()
+  expect(await stiffness(page)).toBe('79.5 kN/m')
+  await page.getByRole('button', { name: 'Redo' }).click()
+  expect(await stiffness(page)).toBe('70 kN/m')
+  await page.waitForTimeout(400)
+  await page.goBack()
+  await expect.poll(() => stiffness(page)).toBe('79.5 kN/m')
+  await page.goForward()
+  await expect.poll(() => stiffness(page)).toBe('70 kN/m')
+  expect(complaints).toEqual([])
+  await context.close()
+})
+
+it('says what is wrong with a link, and keeps what it shows', async () => {
+  const { page, context, complaints } = await openPage(browser, served, 1280)
+  await type(page, 'link.0.stiffness', '70000')
+  const hash = await hashOf(page)
+  const at = hash.length - 10
+  for (const [broken, why] of [
+    [hash.slice(0, at) + (hash[at] === 'A' ? 'B' : 'A') + hash.slice(at + 1), /changed or cut off/],
+    [hash.slice(0, -5), /changed or cut off/],
+    ['#d=', /changed or cut off/],
+    [hash.replace('#d=b', '#d=a'), /older version/],
+  ] as const) {
+    await page.evaluate((each) => (location.hash = each), broken)
+    await expect.poll(() => page.locator('main > .problem').allInnerTexts(), broken).toEqual([expect.stringMatching(why)])
+    expect(await stiffness(page)).toBe('70 kN/m')
+    const opened = await openPage(browser, served, 1280, broken)
+    expect(await opened.page.locator('main > .problem').innerText()).toMatch(why)
+    expect(await stiffness(opened.page)).toBe('79.5 kN/m')
+    await opened.context.close()
+  }
+  await page.evaluate((each) => (location.hash = each), hash)
+  await expect.poll(() => page.locator('main > .problem').count()).toBe(0)
+  expect(complaints).toEqual([])
+  await context.close()
+})
