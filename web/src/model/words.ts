@@ -1,12 +1,22 @@
 // The documents' enums as words, and what the terms mean.
 
-import type { LimitedBy, Trust } from '../api/documents'
+import type { Analysis, LimitedBy, Trust } from '../api/documents'
 
 export const limiter = (limited: LimitedBy | null | undefined): string =>
   !limited ? 'not known' : limited.kind === 'rigid_body' ? 'the rigid body' : `vibration mode ${limited.mode}`
 
 export const trustWord: Record<Trust['verdict'], string> = { sound: 'sound', doubtful: 'doubtful', refused: 'refused' }
 export const trustSign: Record<Trust['verdict'], string> = { sound: '✓', doubtful: '!', refused: '✕' }
+
+/** In place of a limit that is no number. */
+export const limitWord = ({ status, stable_intervals }: Pick<Analysis, 'status' | 'stable_intervals'>): string =>
+  status === 'unbounded'
+    ? 'every wall is stable'
+    : status !== 'none_stable'
+      ? plainWord(status)
+      : (stable_intervals ?? []).length > 0
+        ? 'none: the softest walls are unstable, stiffer ones are stable'
+        : 'none: no wall is stable, however soft'
 
 /** Beside numbers that are not yet those of what the page shows. */
 export const stale = 'of the device before; computing …'
