@@ -2,7 +2,7 @@
 import { readFileSync } from 'node:fs'
 import type { Browser, Page } from 'playwright-core'
 import { afterAll, beforeAll, expect, it } from 'vitest'
-import { documentOf, openAll, openBrowser, openPage, row, runPalette, type Served, serve, settled, withWall } from './program'
+import { documentOf, openAll, openBrowser, openPage, row, runPalette, type Served, serve, settled, type, withWall } from './program'
 
 let served: Served
 let browser: Browser
@@ -152,6 +152,18 @@ it('shows warnings beside the wall, without a tick', async () => {
   expect(await page.locator('[data-answer="wall-warnings"]').innerText()).not.toContain('by the way')
   expect(await page.locator('[data-answer="wall"]').innerText()).toMatch(/^! The wall/)
   expect(await page.locator('.answer').innerText()).toContain('by the way')
+  expect(complaints).toEqual([])
+  await context.close()
+})
+
+it.each([1280, 390])('cuts no unit from a number, %i pixels wide', async (width) => {
+  const { page, context, complaints } = await openPage(browser, served, width)
+  const digits = '1.23456789e-2'
+  for (const key of ['loop.delay', 'wall.stiffness', 'wall.damping']) await type(page, key, digits)
+  await runPalette(page, 'show: device file')
+  await replaceText(page, (toml) => toml.replace(/^(inertia|damping|stiffness) = [^\n#]*/gm, `$1 = ${digits}`))
+  const cut = await page.locator('.numbers input[type="text"]').evaluateAll((all) => all.filter((each) => each.scrollWidth > each.clientWidth).map((each) => (each as HTMLInputElement).value))
+  expect(cut).toEqual([])
   expect(complaints).toEqual([])
   await context.close()
 })
