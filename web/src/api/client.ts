@@ -1,5 +1,10 @@
 // One function from a request to a document. Every number on the page comes from here.
 
+interface Place {
+  line?: number
+  column?: number
+}
+
 /** Why there is no answer: bad input with its place, or a server that is busy or gone. */
 export class Problem extends Error {
   constructor(
@@ -7,12 +12,17 @@ export class Problem extends Error {
     readonly what: string,
     readonly allowed: string,
     readonly status: number,
+    given: Place = {},
   ) {
-    const place = /^device:(\d+):(\d+)$/.exec(where)
-    super([place ? `Line ${place[1]}, column ${place[2]} of the device file` : where, what, allowed].filter(Boolean).join(': '))
-    this.line = place ? Number(place[1]) : null
+    const [, text, textLine, textColumn] = /^(device|recording)\b(?::(\d+)(?::(\d+))?$)?/.exec(where) ?? []
+    const line = given.line ?? (textLine ? Number(textLine) : null)
+    const column = given.column ?? (textColumn ? Number(textColumn) : null)
+    const file = text === 'recording' ? 'the recording' : 'the device file'
+    const place = line === null ? '' : `Line ${line}${column === null ? '' : `, column ${column}`} of ${file}`
+    super([place, text && (textLine || (place && where === text)) ? '' : where, what, allowed].filter(Boolean).join(': '))
+    this.line = text === 'recording' ? null : line
   }
-  /** Of the device file, where its text is no TOML. */
+  /** Of the device file, where it is known. */
   readonly line: number | null
 }
 
@@ -31,9 +41,9 @@ async function fetched(path: string, init: RequestInit): Promise<Response> {
     throw new Problem('', 'the program does not answer', 'start it again with zwidth serve', 0)
   }
   if (response.ok) return response
-  const body = (await response.json().catch(() => null)) as { error?: Partial<Problem> } | null
+  const body = (await response.json().catch(() => null)) as { error?: Partial<Problem & Place> } | null
   const error = body?.error
-  throw new Problem(error?.where ?? '', error?.what ?? `the server says ${response.status}`, error?.allowed ?? '', response.status)
+  throw new Problem(error?.where ?? '', error?.what ?? `the server says ${response.status}`, error?.allowed ?? '', response.status, { line: error?.line ?? undefined, column: error?.column })
 }
 
 const wait = (ms: number): Promise<void> => new Promise((resolve) => setTimeout(resolve, ms))

@@ -10,6 +10,8 @@ import { scan, set } from './toml'
 class Workbench {
   private history = new History<Snapshot>(empty(''))
   state = $state.raw<Snapshot>(empty(''))
+  /** There is a device, if only an empty text. */
+  hasBegun = $state(false)
   canUndo = $state(false)
   canRedo = $state(false)
   /** What the schematic or a panel points at: a group or a key. */
@@ -119,6 +121,7 @@ class Workbench {
 
   private show(inGesture = false): void {
     this.state = this.history.current
+    this.hasBegun = true
     clearTimeout(this.restTimer)
     if (inGesture) this.restTimer = setTimeout(() => (this.restedToml = this.state.toml), 150)
     else this.restedToml = this.state.toml
