@@ -22,6 +22,8 @@ let lastChange = 0
 const dragPause = 200 // ms
 const untilRest = 300 // ms
 const noticed = 150 // ms
+const firstPause = 1000 // ms, before a server that does not answer is asked again; then each twice as long
+const longestPause = 30_000 // ms
 const waiting: (() => void)[] = []
 async function turn(): Promise<void> {
   const most = performance.now() - lastChange < dragPause ? 1 : mostTurns
@@ -53,6 +55,7 @@ export class Answer<T> {
   private wantedText = ''
   private shownText = ''
   private running = false
+  private pause = firstPause
   private askedText = '' // of the request under way
   private replacedAt = 0 // when something newer than that was asked
 
@@ -131,6 +134,11 @@ export class Answer<T> {
       const start = performance.now()
       if (question !== null) await this.once(question, text)
       if (this.isSlow) await endTurn(performance.now() - start)
+      if (this.problem?.isPassing && this.wantedText === text) {
+        this.timer = setTimeout(() => this.start(), this.pause)
+        this.pause = Math.min(longestPause, 2 * this.pause)
+        break
+      }
     }
     this.running = false
   }
@@ -145,7 +153,9 @@ export class Answer<T> {
       problem = error instanceof Problem ? error : new Problem('', String(error), '', 0)
     }
     if (this.wanted === null || deviceKey(question.toml) !== deviceKey(this.wanted.toml)) return
-    this.shownText = text
+    if (problem?.isPassing) problem.again = Math.round(this.pause / 1000)
+    else this.pause = firstPause
+    this.shownText = problem?.isPassing ? '' : text // what may pass is asked again
     this.document = document
     this.problem = problem
     this.question = question

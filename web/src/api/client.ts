@@ -22,6 +22,16 @@ export class Problem extends Error {
     super([place, text && (textLine || (place && where === text)) ? '' : where, what, allowed].filter(Boolean).join(': '))
     this.line = text === 'recording' ? null : line
   }
+  /** Not of the question: the server is gone or busy. */
+  get isPassing(): boolean {
+    return this.status === 0 || this.status === 429 || this.status === 503
+  }
+  /** In how many seconds the same is asked again, where it is. */
+  again: number | null = null
+  /** "Asked again in 4 s." */
+  get retry(): string {
+    return this.again === null ? '' : ` Asked again in ${this.again} s.`
+  }
   /** Of the device file, where it is known. */
   readonly line: number | null
 }

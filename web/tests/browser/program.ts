@@ -15,8 +15,9 @@ export interface Served {
 }
 
 /** `zwidth serve` on a free port; it must have the page built in. */
-export async function serve(...files: string[]): Promise<Served> {
-  const child: ChildProcess = spawn(program, ['serve', ...files, '--port', '0'], { cwd: project, stdio: ['ignore', 'pipe', 'inherit'] })
+export const serve = (...files: string[]): Promise<Served> => serveAt(0, ...files)
+export async function serveAt(port: number, ...files: string[]): Promise<Served> {
+  const child: ChildProcess = spawn(program, ['serve', ...files, '--port', String(port)], { cwd: project, stdio: ['ignore', 'pipe', 'inherit'] })
   const address = await new Promise<string>((done, failed) => {
     let text = ''
     child.stdout!.on('data', (data: Buffer) => {

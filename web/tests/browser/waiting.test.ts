@@ -1,7 +1,7 @@
 // What the page says while there is no answer yet.
 import type { Browser, Page } from 'playwright-core'
 import { afterAll, beforeAll, expect, it } from 'vitest'
-import { alone, openBrowser, openPage, row, type Served, serve, settled, type, withWall } from './program'
+import { alone, openBrowser, openPage, type Served, serve, serveAt, settled, type, withWall } from './program'
 
 let served: Served
 let browser: Browser
@@ -40,4 +40,20 @@ it('marks an answer that is of the device before, without a tick', async () => {
   expect(await page.locator('.stale').count()).toBe(0)
   expect(complaints).toEqual([])
   await context.close()
+})
+
+it('asks again where the program was ended, and goes on when it is started again', async () => {
+  const first = await serve('devices/lhifam.toml')
+  const { page, context } = await openPage(browser, first, 1280)
+  await settled(page)
+  const before = await alone(page)
+  await first.stop()
+  await type(page, 'loop.delay', '0.1 ms')
+  await page.locator('.answer .problem', { hasText: /does not answer.*Asked again in \d+ s/ }).waitFor()
+  await type(page, 'loop.delay', '0')
+  const second = await serveAt(Number(new URL(first.address).port), 'devices/lhifam.toml')
+  await page.waitForSelector('[data-answer="alone"]')
+  expect(await alone(page)).toBe(before)
+  await context.close()
+  await second.stop()
 })

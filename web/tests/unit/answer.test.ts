@@ -74,6 +74,32 @@ describe('answer', () => {
     expect(answer.document).toEqual({ n: 1 })
   })
 
+  it('asks again, ever later, where the server is gone', async () => {
+    vi.useFakeTimers()
+    let count = 0
+    let isGone = true
+    vi.stubGlobal('fetch', () => (++count, isGone ? Promise.reject(new TypeError('gone')) : Promise.resolve(new Response('{"n":1}'))))
+    const answer = new Answer<{ n: number }>()
+    answer.ask({ path: 'analyze', toml: 'a' })
+    const counts: number[] = []
+    for (const seconds of [0, 1, 2, 4, 8, 16, 30, 30]) {
+      await vi.advanceTimersByTimeAsync(seconds * 1000)
+      counts.push(count)
+      expect(answer.document).toBeNull()
+    }
+    expect(counts).toEqual([1, 2, 3, 4, 5, 6, 7, 8])
+    expect(answer.problem?.retry).toBe(' Asked again in 30 s.')
+    answer.ask({ path: 'analyze', toml: 'b' }) // at once
+    await vi.advanceTimersByTimeAsync(1)
+    expect(count).toBe(9)
+    isGone = false
+    await vi.advanceTimersByTimeAsync(30_000)
+    expect([answer.document, answer.problem, answer.late]).toEqual([{ n: 1 }, null, false])
+    await vi.advanceTimersByTimeAsync(100_000)
+    expect(count).toBe(10)
+    vi.useRealTimers()
+  })
+
   it('shows nothing of another device', async () => {
     install()
     const answer = new Answer()
