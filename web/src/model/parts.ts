@@ -10,6 +10,10 @@ export const roles: [Role, string][] = [
   ['held', 'The hand holds'],
 ]
 
+/** One rigid body with a first mass, as a device to begin with. */
+export const newDevice = (motion: 'linear' | 'rotary'): string =>
+  `name = "new device"\n${motion === 'rotary' ? 'motion = "rotary"\n' : ''}\n[[body]]\nname = "body 1"\n${motion === 'rotary' ? 'inertia = 1e-4\ndamping = 1e-4' : 'mass = 0.1\ndamping = 0.1'}\n\n[loop]\nsampling_period = 1e-3\n`
+
 const shape = (text: string): Shape => shapeOf(scan(text))
 export const choose = (text: string, role: Role, name: string): string => set(text, ['loop', role], JSON.stringify(name))
 

@@ -2,7 +2,7 @@
 import { readFileSync } from 'node:fs'
 import type { Browser, Page } from 'playwright-core'
 import { afterAll, beforeAll, expect, it } from 'vitest'
-import { documentOf, openAll, openBrowser, openPage, row, runPalette, type Served, serve, settled, type, withWall } from './program'
+import { alone, documentOf, openAll, openBrowser, openPage, row, runPalette, type Served, serve, settled, type, withWall } from './program'
 
 let served: Served
 let browser: Browser
@@ -179,6 +179,22 @@ it('says what is missing in an empty device file, and keeps the panels', async (
   await page.locator('.answer .problem button').click()
   await page.getByLabel('Examples').selectOption({ index: 1 })
   await page.waitForSelector('[data-answer="alone"]')
+  for (const motion of ['linear', 'rotary']) {
+    await page.getByRole('button', { name: `New device, ${motion}` }).click()
+    await settled(page)
+    expect(await page.locator('h1').innerText()).toBe('new device')
+    expect(await alone(page)).toContain(motion === 'rotary' ? 'N m/rad' : 'N/m')
+  }
   expect(complaints).toEqual([])
+  await context.close()
+})
+
+it('opens the panel of the device file by its name, and downloads nothing', async () => {
+  const { page, context } = await openPage(browser, served, 1280)
+  let downloads = 0
+  page.on('download', () => ++downloads)
+  await runPalette(page, 'Device file')
+  await page.locator('#toml').waitFor()
+  expect(downloads).toBe(0)
   await context.close()
 })
