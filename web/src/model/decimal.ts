@@ -55,6 +55,7 @@ export interface Shown {
 
 /** With all its digits, or rounded to so many where `digits` is given. */
 export function shown(value: number, unit: string, digits?: number): Shown {
+  unit = unit.replace('m^2', 'm²') // as the documents write it
   const text = digits === undefined ? String(value) : Number(value.toPrecision(digits)).toString()
   if (!Number.isFinite(value)) return { number: String(value), unit, places: 0 }
   const decimal = decimalOf(text)

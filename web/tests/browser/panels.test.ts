@@ -198,3 +198,27 @@ it('opens the panel of the device file by its name, and downloads nothing', asyn
   expect(downloads).toBe(0)
   await context.close()
 })
+
+it.each([1280, 390])('cuts no wall recommended, no label and no long name, %i pixels wide', async (width) => {
+  const { page, context, complaints } = await openPage(browser, served, width)
+  await runPalette(page, 'show: which wall')
+  await page.getByRole('button', { name: 'Use this wall: recommended' }).waitFor()
+  await settled(page)
+  const table = page.locator('#body-recommend .scroll-x')
+  expect(await table.evaluate((each) => each.scrollWidth - each.clientWidth)).toBeLessThanOrEqual(0)
+  expect(await table.innerText()).not.toContain('m^2')
+  await runPalette(page, 'show: device file')
+  await replaceText(page, (toml) => toml.replace(/^name = .*/m, `name = "${'W'.repeat(200)}"`).replace(/^inertia = .*/m, 'inertia = "1234.5678 kg cm^2"'))
+  await settled(page)
+  expect(await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth)).toBeLessThanOrEqual(0)
+  expect(await page.locator('h1').evaluate((each) => each.scrollWidth - each.clientWidth)).toBeLessThanOrEqual(0)
+  const outside = await page.locator('.schematic svg .part').evaluateAll((parts) =>
+    parts.flatMap((part) => {
+      const box = part.querySelector('rect.box')?.getBoundingClientRect()
+      return box ? [...part.querySelectorAll('text')].filter((text) => text.getBoundingClientRect().right > box.right || text.getBoundingClientRect().left < box.left).map((text) => text.textContent) : []
+    }),
+  )
+  expect(outside).toEqual([])
+  expect(complaints).toEqual([])
+  await context.close()
+})
