@@ -71,27 +71,28 @@ std::optional<ShownFriction> friction_beside(const ParameterFit& fit, const std:
   const double share = affordable / static_cast<double>(record.force.size());
   const double kept = std::max(1.0, std::round(share * static_cast<double>(shots.size())));
   if (kept < static_cast<double>(shots.size())) shots.resize(static_cast<std::size_t>(kept));
-  // From which friction to start is asked of short shots, a few of them: long ones lead to side minima without any.
+  std::optional<FittedShots> best;
+  double least_badness = std::numeric_limits<double>::infinity();
+  const auto keep_better = [&](std::optional<FittedShots> found) {
+    if (!found) return;
+    const double badness = search.badness(*found, shots);
+    if (best && badness >= least_badness) return;
+    least_badness = badness;
+    best = std::move(found);
+  };
+  // Of long shots some searches end in side minima without friction, of short ones others.
   constexpr double part = 0.1;
   constexpr std::size_t few = 3;
   const std::vector<Shot> short_shots =
       some_of(cut_into_shots(model.records(), start.device, part * length, shortest), 1, few);
-  std::optional<FittedShots> best;
-  double least_badness = std::numeric_limits<double>::infinity();
   for (const DeviceParameters& each : starting_frictions(start, one)) {
-    std::optional<FittedShots> found = search.from(model.position_of(each), short_shots);
-    if (!found) continue;
-    const double badness = search.badness(*found, short_shots);
-    if (best && badness >= least_badness) continue;
-    least_badness = badness;
-    best = std::move(found);
+    keep_better(search.from(model.position_of(each), shots));
+    const auto of_short = search.from(model.position_of(each), short_shots);
+    if (of_short) keep_better(search.from(of_short->fit.x, shots));
   }
   if (!best) return std::nullopt;
   const Eigen::VectorXd towards = best->fit.x;
-  const auto whole = fit_shots(model, shots, best->noise, {towards, model.recorded_states(shots)}, towards,
-                               {.most_iterations = 12, .tolerance = 1e-5});
-  if (!whole) return std::nullopt;
-  best = search.with_noise(*whole, shots, towards, {.most_iterations = 12, .tolerance = 1e-5});
+  best = search.with_noise(best->fit, shots, towards, {.most_iterations = 12, .tolerance = 1e-5});
   if (!best) return std::nullopt;
   const auto slopes = shot_slopes(model, shots, best->noise, best->fit.x, best->fit.states);
   if (!slopes) return std::nullopt;
