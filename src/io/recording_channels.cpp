@@ -23,6 +23,11 @@ double scale_of(const RawColumn& column, const ColumnRequest& request, std::vect
   const std::string_view unit = in_brackets.empty() ? unit_at_end(name) : in_brackets;
   const auto scale = base_units_per(unit);
   if (!scale || std::abs(request.scale) != 1.0) return request.scale;
+  if (unit == "g") {  // of acceleration, or grams: only the user knows
+    remarks.push_back({Remark::Severity::warning, fmt::format("{} is used as it stands, in g", in_quotes(column.name)),
+                       fmt::format("results are in that unit; for m/s^2 scale the column by {:.6g}", *scale)});
+    return request.scale;
+  }
   remarks.push_back({Remark::Severity::note, fmt::format("{} is in {}", in_quotes(column.name), shortened(unit)),
                      fmt::format("read in base units (N, N m, m, rad, A, V): times {:.6g}", *scale)});
   return request.scale * *scale;

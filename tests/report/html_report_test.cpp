@@ -98,7 +98,7 @@ TEST(HtmlReport, SaysWhatUsersLeave) {
 
 TEST(HtmlReport, SpeaksOfRotaryUnitsAndOfNoStableWall) {
   const std::string page = report_of({undamped_paddle()});
-  EXPECT_THAT(page, HasSubstr("none: no wall is stable"));
+  EXPECT_THAT(page, HasSubstr("none: the softest walls are unstable, stiffer ones are stable"));
   EXPECT_THAT(page, HasSubstr("dB re 1 rad/(N m)"));
   EXPECT_THAT(page, HasSubstr("K (N m/rad), from 0 on the left"));
   EXPECT_THAT(page, HasSubstr("kg m²"));

@@ -72,6 +72,21 @@ TEST(SimulationDefaults, DurationIsBoundedAndCountedFromTheUsersForce) {
   EXPECT_NEAR(simulate(Device(fast), {}).duration, 0.1, 1e-12);
 }
 
+TEST(SimulationOptions, MorePointsThanCanBeKeptAreRefused) {
+  const Device device(lhifam_with_wall(5000.0));
+  SimulationOptions options;
+  options.duration = 5e6 * device.loop().sampling_period + 1.0;
+  const auto problem = find_problem(options, device);
+  ASSERT_TRUE(problem);
+  EXPECT_EQ(problem->member, "keep_every");
+  EXPECT_EQ(problem->allowed, "2 or more: 5000000 points at most");
+  options.keep_every = 2;
+  EXPECT_FALSE(find_problem(options, device));
+  options.keep_every = 1;
+  options.keep_at_most = 0;
+  EXPECT_EQ(find_problem(options, device)->member, "keep_at_most");
+}
+
 TEST(SimulationDefaults, ATransferFunctionsWallBeginsOneMillimetreBehindIt) {
   DeviceParameters device = test::transfer_function_parameters({1.0}, {5.4, 3.5, 0.0}, 1e-3);
   device.wall.stiffness = 5000.0;

@@ -310,21 +310,6 @@ TEST(Simulate, KeepsWhatIsAskedFor) {
   EXPECT_TRUE(simulate(Device(lhifam_parameters()), options).trajectory.time.empty());
 }
 
-TEST(Simulate, MorePointsThanCanBeKeptAreRefused) {
-  const Device device(lhifam_parameters());
-  SimulationOptions options = simulation_of(starting_at(spring_wall(5000.0), {1e-3, 2e-3}));
-  options.duration = 5e6 * device.loop().sampling_period + 1.0;
-  const auto problem = find_problem(options, device);
-  ASSERT_TRUE(problem);
-  EXPECT_EQ(problem->member, "keep_every");
-  EXPECT_EQ(problem->allowed, "2 or more: 5000000 points at most");
-  options.keep_every = 2;
-  EXPECT_FALSE(find_problem(options, device));
-  options.keep_every = 1;
-  options.keep_at_most = 0;
-  EXPECT_EQ(find_problem(options, device)->member, "keep_at_most");
-}
-
 TEST(Simulate, ATransferFunctionMovesWhereItsWallIsElsewhere) {
   const DeviceParameters device = test::transfer_function_parameters({1.0}, {5.4, 3.5, 0.0}, 1e-3);
   HybridLoopOptions options = spring_wall(5000.0);
