@@ -139,19 +139,14 @@ it('adds, connects and removes parts by key, takes it back, and says what is wro
 it('shows warnings beside the wall, without a tick', async () => {
   const { page, context, complaints } = await openPage(browser, served, 1280)
   await withWall(page)
+  await type(page, 'wall.stiffness', '1 N m/rad')
   await settled(page)
   expect(await page.locator('[data-answer="wall"]').innerText()).toContain('✓')
-  const warning = { severity: 'warning', what: 'the wall is stiffer than the limit with any passive user', consequence: 'some hand makes it oscillate', remedy: 'soften it' }
-  await page.route('**/api/v1/analyze', async (route) => {
-    const response = await route.fetch()
-    const document = (await response.json()) as { remarks: unknown[] }
-    await route.fulfill({ response, json: { ...document, remarks: [warning, { ...warning, severity: 'note', what: 'by the way' }] } })
-  })
-  await row(page, 'wall.stiffness').locator('input[type="text"]').press('ArrowDown')
-  await page.locator('[data-answer="wall-warnings"]', { hasText: warning.what }).waitFor()
-  expect(await page.locator('[data-answer="wall-warnings"]').innerText()).not.toContain('by the way')
+  expect(await page.locator('[data-answer="wall-warnings"]').count()).toBe(0)
+  await type(page, 'wall.stiffness', '30.07 N m/rad') // stable alone, above the limit with any passive user
+  await settled(page)
+  await page.locator('[data-answer="wall-warnings"]', { hasText: 'any passive user' }).waitFor()
   expect(await page.locator('[data-answer="wall"]').innerText()).toMatch(/^! The wall/)
-  expect(await page.locator('.answer').innerText()).toContain('by the way')
   expect(complaints).toEqual([])
   await context.close()
 })
