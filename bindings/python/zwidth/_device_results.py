@@ -97,6 +97,7 @@ class SweepPoint(Record):
     frequency_rad_s = maybe("rad/s")
     limited_by = maybe_one(Mechanism, "What limits it.")
     any_user_stiffness = maybe("With any_user=True: the limit over all passive users.")
+    trust = one(Trust, "Of the device, and of the computations at this point.")
 
 
 class SweepAxis(Record):
