@@ -21,7 +21,6 @@
 #include "report/text/analysis_text.hpp"
 #include "report/text/trust_text.hpp"
 #include "results/analysis_json.hpp"
-#include "zwidth/error.hpp"
 #include "zwidth/io/message_words.hpp"
 
 namespace zwidth::cli {
@@ -117,11 +116,8 @@ std::vector<report::AnalysedDevice> analysed_devices(const AnalyzeOptions& optio
   for (std::size_t i = 0; i < devices.size(); ++i) {
     ProgressLine line("analysing " + options.devices.files[i]);
     asked[i].progress = line.progress();
-    try {
-      analysed.push_back(report::analysed_device(std::move(devices[i]), asked[i]));
-    } catch (const Error& error) {
-      throw WorkFailed(options.devices.files[i] + ": " + error.what());
-    }
+    analysed.push_back(worked(options.devices.files[i],
+                              [&] { return report::analysed_device(std::move(devices[i]), asked[i]); }));
   }
   return analysed;
 }

@@ -27,7 +27,6 @@
 #include "zwidth/design/design_comparison.hpp"
 #include "zwidth/design/design_target.hpp"
 #include "zwidth/design/parameter_sweep.hpp"
-#include "zwidth/error.hpp"
 #include "zwidth/io/device_variants.hpp"
 #include "zwidth/io/message_words.hpp"
 
@@ -88,16 +87,6 @@ SweepAxis sweep_axis(const std::string& argument, Motion motion) {
     axis.spacing = SweepAxis::Spacing::logarithmic;
   }
   return axis;
-}
-
-/// Runs work on the device of `file`; an Error of it is the work's failure.
-template <typename Work>
-auto worked(const std::string& file, const Work& work) {
-  try {
-    return work();
-  } catch (const Error& error) {
-    throw WorkFailed(file + ": " + error.what());
-  }
 }
 
 void run_sensitivities(const DesignArguments& arguments) {

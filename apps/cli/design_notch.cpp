@@ -15,7 +15,6 @@
 #include "report/text/design_text.hpp"
 #include "report/text/text_medium.hpp"
 #include "results/design_json.hpp"
-#include "zwidth/error.hpp"
 #include "zwidth/io/device_file.hpp"
 #include "zwidth/quantity.hpp"
 
@@ -51,12 +50,7 @@ NotchDesign designed(const Device& device, NotchOptions options, const std::stri
   if (const auto problem = find_problem(options, device)) refuse(*problem, options_of_notch_design, file);
   ProgressLine line("designing the notch");
   options.progress = line.progress();
-  try {
-    return design_notch(device, options);
-  } catch (const Error& error) {
-    if (error.code() == ErrorCode::did_not_converge) throw WorkFailed(file + ": " + error.what());
-    throw BadInput(file + ": " + error.what());
-  }
+  return worked(file, [&] { return design_notch(device, options); });
 }
 
 }  // namespace

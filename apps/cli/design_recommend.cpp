@@ -16,7 +16,6 @@
 #include "report/text/text_medium.hpp"
 #include "report/text/trust_text.hpp"
 #include "results/wall_recommendation_json.hpp"
-#include "zwidth/error.hpp"
 #include "zwidth/io/device_file.hpp"
 #include "zwidth/quantity.hpp"
 
@@ -52,11 +51,7 @@ WallRecommendation recommended(const Device& device, const RecommendationOptions
   ProgressLine line("searching the wall for " + file);
   RecommendationOptions asked = options;
   asked.progress = line.progress();
-  try {
-    return recommend_wall(device, asked);
-  } catch (const Error& error) {
-    throw WorkFailed(file + ": " + error.what());
-  }
+  return worked(file, [&] { return recommend_wall(device, asked); });
 }
 
 }  // namespace

@@ -7,7 +7,6 @@
 #include "cli/option_units.hpp"
 #include "cli/subcommand.hpp"
 #include "cli/surroundings.hpp"
-#include "zwidth/error.hpp"
 #include "zwidth/io/device_file.hpp"
 
 namespace zwidth::cli {
@@ -44,11 +43,8 @@ std::vector<report::AnalysedDevice> analyze_devices(const DeviceArguments& argum
                                                     const AnalysisOptions& options) {
   std::vector<report::AnalysedDevice> analysed;
   for (Device& device : devices) {
-    try {
-      analysed.push_back(report::analysed_device(std::move(device), options));
-    } catch (const Error& error) {
-      throw WorkFailed(arguments.files[analysed.size()] + ": " + error.what());
-    }
+    analysed.push_back(worked(arguments.files[analysed.size()],
+                              [&] { return report::analysed_device(std::move(device), options); }));
   }
   return analysed;
 }

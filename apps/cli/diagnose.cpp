@@ -19,7 +19,6 @@
 #include "report/text/trust_text.hpp"
 #include "results/diagnosis_json.hpp"
 #include "zwidth/design/diagnosis.hpp"
-#include "zwidth/error.hpp"
 #include "zwidth/quantity.hpp"
 
 namespace zwidth::cli {
@@ -55,18 +54,17 @@ Diagnosis diagnosed(const Device& device, const std::optional<Recording>& record
                     const std::string& file) {
   ProgressLine line("diagnosing " + file);
   options.progress = line.progress();
-  try {
-    return recording ? diagnose(device, *recording, options) : diagnose(device, options);
-  } catch (const Error& error) {
-    throw WorkFailed(file + ": " + error.what());
-  }
+  return worked(file, [&] { return recording ? diagnose(device, *recording, options) : diagnose(device, options); });
 }
 
 void run_diagnose(const CLI::App& command, DiagnoseArguments arguments) {
   const bool recorded = !arguments.recording.file.empty();
   if (recorded && arguments.recording.list) return write_text(contents_text(arguments.recording));
-  if (recorded == arguments.oscillates_hz.has_value()) {
-    throw BadInput("--oscillates-hz: give the frequency, or a recording that shows it with --recording");
+  if (recorded && arguments.oscillates_hz) {
+    throw BadInput("--oscillates-hz: excludes --recording, which shows the frequency; give one of them");
+  }
+  if (!recorded && !arguments.oscillates_hz) {
+    throw BadInput("--oscillates-hz: missing; give the frequency, or a recording that shows it with --recording");
   }
   for (const CLI::Option* option : command.parse_order()) {
     if (!recorded && option->get_group() == recording_group) {
@@ -74,7 +72,7 @@ void run_diagnose(const CLI::App& command, DiagnoseArguments arguments) {
     }
   }
   for (const char* option : {"--force", "--velocity", "--acceleration"}) {
-    if (command.count(option) > 0) throw BadInput(fmt::format("{}: is not used; give --position", option));
+    if (command.count(option) > 0) throw BadInput(fmt::format("{}: is not used here; --position alone is", option));
   }
   const std::string& file = arguments.devices.files.front();
   const Device device = read_devices(arguments.devices).front();

@@ -20,7 +20,6 @@
 #include "results/export_json.hpp"
 #include "results/json.hpp"
 #include "zwidth/design/wall_to_run.hpp"
-#include "zwidth/error.hpp"
 
 namespace zwidth::cli {
 namespace {
@@ -64,16 +63,6 @@ void check_share(const ExportArguments& arguments, const SafeWall& wall) {
   throw BadInput(file + ": --safety-factor: " + why + "; give --stiffness");
 }
 
-/// Runs the library's work on the device; an Error of it is the work's failure.
-template <typename Work>
-auto worked(const ExportArguments& arguments, const Work& work) {
-  try {
-    return work();
-  } catch (const Error& error) {
-    throw WorkFailed(arguments.devices.files.front() + ": " + error.what());
-  }
-}
-
 /// Says how K was chosen.
 std::string source_of(const ExportArguments& arguments, const WallToRun& wall) {
   if (!wall.share) return arguments.stiffness ? "--stiffness" : "wall.stiffness";
@@ -91,7 +80,7 @@ report::CodedWall coded_wall(const ExportArguments& arguments) {
     throw BadInput(
         fmt::format("{}: {}; {}, or give --stiffness or --safety-factor", file, problem->what, problem->allowed));
   }
-  WallToRun wall = worked(arguments, [&] { return wall_to_run(device, options); });
+  WallToRun wall = worked(arguments.devices.files.front(), [&] { return wall_to_run(device, options); });
   if (wall.share) check_share(arguments, *wall.share);
   if (!wall.released) {
     const Trust& trust = wall.analysis.trust;
@@ -118,7 +107,7 @@ std::string exported_chai3d(const ExportArguments& arguments) {
   SafeWallOptions options{.damping = SafeWallOptions::Damping::ceiling};
   options.safety_factor = arguments.safety_factor.value_or(options.safety_factor);
   if (const auto problem = find_problem(options)) refuse(*problem, options_of_wall);
-  const SafeWall wall = worked(arguments, [&] { return safe_wall(device, options); });
+  const SafeWall wall = worked(arguments.devices.files.front(), [&] { return safe_wall(device, options); });
   check_share(arguments, wall);
   return report::export_chai3d(device, wall, options.safety_factor);
 }

@@ -24,7 +24,6 @@
 #include "report/text/quantity.hpp"
 #include "report/text/remark_line.hpp"
 #include "results/identification_json.hpp"
-#include "zwidth/error.hpp"
 #include "zwidth/identification/identification.hpp"
 #include "zwidth/identification/rigid_body_identification.hpp"
 #include "zwidth/identification/time_domain.hpp"
@@ -111,17 +110,13 @@ IdentifyOptions identify_options(const IdentifyArguments& arguments, const Frequ
   return options;
 }
 
-/// Runs the library's work, with progress: what it refuses lies in the input, named where there is one.
+/// The library's work, with progress.
 template <typename Work>
 auto fitted(const std::string& name, const Work& work) {
-  try {
+  return worked(name, [&] {
     ProgressLine line("identifying");
     return work(line.progress());
-  } catch (const Error& error) {
-    const std::string text = (name.empty() ? "" : name + ": ") + error.what();
-    if (error.code() == ErrorCode::did_not_converge) throw WorkFailed(text);
-    throw BadInput(text);
-  }
+  });
 }
 
 Identification identified_device(const IdentifyArguments& arguments) {

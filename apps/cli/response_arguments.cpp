@@ -14,7 +14,6 @@
 #include "cli/progress_line.hpp"
 #include "cli/subcommand.hpp"
 #include "cli/surroundings.hpp"
-#include "zwidth/error.hpp"
 #include "zwidth/io/message_words.hpp"
 #include "zwidth/io/number_with_unit.hpp"
 #include "zwidth/quantity.hpp"
@@ -225,13 +224,10 @@ ResponseSource response_source(const ResponseArguments& arguments) {
 
 MeasuredResponse measured_response(const ResponseSource& source) {
   if (source.recordings.empty()) return source.table;
-  try {
+  return worked(source.recordings.size() == 1 ? source.name : "", [&] {
     ProgressLine line("estimating the response");
     return frequency_response(source.recordings, source.options, line.progress());
-  } catch (const Error& error) {
-    // What the estimate refuses lies in the recording, or in an option that does not fit it.
-    throw BadInput((source.recordings.size() == 1 ? source.name + ": " : "") + error.what());
-  }
+  });
 }
 
 }  // namespace zwidth::cli

@@ -22,7 +22,6 @@
 #include "report/figure/simulation_figure.hpp"
 #include "report/text/simulation_text.hpp"
 #include "results/simulation_json.hpp"
-#include "zwidth/error.hpp"
 
 namespace zwidth::cli {
 namespace {
@@ -90,15 +89,11 @@ void run_simulate(const SimulateArguments& arguments) {
   outputs.keep(arguments.motion.user_force, "recording");
   const Device device = read_devices(arguments.device).front();
   const std::string& file = arguments.device.files.front();
-  Simulation result;
-  try {
+  const Simulation result = worked(file, [&] {
     const SimulationOptions options = options_of(arguments, device);
     ProgressLine line("simulating " + file);
-    result = simulate(device, options, line.progress());
-  } catch (const Error& error) {
-    if (error.code() == ErrorCode::did_not_converge) throw WorkFailed(file + ": " + error.what());
-    throw BadInput(file + ": " + error.what());
-  }
+    return simulate(device, options, line.progress());
+  });
   outputs.put("--csv", [&] { return results::simulation_csv(device, result); });
   outputs.draw("--figure",
                [&](report::FigureFormat format) { return report::draw_simulation_figure(device, result, format); });

@@ -14,7 +14,7 @@ Json margins_json(const RecommendedWall& each) {
   json.erase("damping");
   json["any_user_critical_stiffness"] = each.any_user_limit;
   json["any_user_stiffness_margin_db"] =
-      each.any_user_limit ? Json(decibels(*each.any_user_limit / *each.wall.stiffness)) : Json(nullptr);
+      each.any_user_stiffness_margin ? Json(decibels(*each.any_user_stiffness_margin)) : Json(nullptr);
   json["contact_damping_ratio"] = each.contact_damping_ratio;
   return json;
 }

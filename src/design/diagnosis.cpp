@@ -25,6 +25,7 @@ using std::numbers::pi;
 
 constexpr double of_a_user = 0.05;       // |ln f| that a user's grasp counts as: it fits a whole band
 constexpr double of_a_crossover = 0.25;  // of apart, where K is not known
+constexpr double of_linear_loop = 0.15;  // of an unstable loop: farther away something else moves its frequency
 constexpr double of_a_step = 0.02;       // the same, of a cycle of about a step of the encoder
 constexpr double ambiguous = 0.1;        // |ln f| of two causes beside each other
 
@@ -38,13 +39,18 @@ ObservedLoop observed(const Device& device, const DiagnosisOptions& options) {
   return {Device(std::move(parameters)), options.frequency, options.amplitude, stiffness};
 }
 
+double apart_from(const OscillationCandidate& candidate, const ObservedLoop& loop) {
+  return std::abs(std::log(candidate.frequency / loop.frequency));
+}
+
 /// How badly a candidate that fits does so; what is proven comes before what is possible.
 double mismatch(const OscillationCandidate& candidate, const ObservedLoop& loop) {
-  const double apart = std::abs(std::log(candidate.frequency / loop.frequency));
+  const double apart = apart_from(candidate, loop);
   switch (candidate.cause) {
     case OscillationCause::device:
     case OscillationCause::with_operator:
-      return loop.stiffness ? apart - 1.0 : of_a_crossover * apart;  // unstable with this wall: nothing else is needed
+      if (!loop.stiffness) return of_a_crossover * apart;
+      return apart <= of_linear_loop ? apart - 1.0 : apart;  // unstable with this wall: nothing else is needed
     case OscillationCause::passive_user:
       return of_a_user;
     case OscillationCause::quantisation:
@@ -101,7 +107,15 @@ void remark_on(const ObservedLoop& loop, Diagnosis& diagnosis) {
          "left out",
          "give the stiffness and the damping of the wall"});
   }
-  if (!diagnosis.cause || candidates.size() < 2 || !candidates[1].fits) return;
+  if (!diagnosis.cause) return;
+  const bool is_linear =
+      diagnosis.cause == OscillationCause::device || diagnosis.cause == OscillationCause::with_operator;
+  if (is_linear && loop.stiffness && apart_from(candidates[0], loop) > of_linear_loop) {
+    diagnosis.trust.doubt(
+        "the loop is unstable with this wall, but grows at another frequency than the one observed: a force limit, a "
+        "wall that only pushes, or a hand may move it; soften the wall first, then look again");
+  }
+  if (candidates.size() < 2 || !candidates[1].fits) return;
   if (mismatch(candidates[1], loop) - mismatch(candidates[0], loop) > ambiguous) return;
   diagnosis.trust.doubt(
       "two mechanisms fit the frequency nearly as well: give the amplitude of the oscillation too, or "

@@ -181,8 +181,11 @@ OscillationCandidate linear_candidate(const ObservedLoop& loop, OscillationCause
   if (apart(unstable, loop.frequency) < apart(std::max(candidate.frequency, 1e-300), loop.frequency)) {
     candidate.frequency = unstable;
   }
-  candidate.fits = between || apart(candidate.frequency, loop.frequency) <= near;
+  candidate.fits = true;  // whatever else is in the loop: it does not stay at rest
   candidate.why = fmt::format("the loop is unstable with this wall: it grows at {}", hertz_text(unstable));
+  if (!between && apart(candidate.frequency, loop.frequency) > near) {
+    candidate.why += ", and where a force limit, a wall that only pushes or a hand lets it settle may be elsewhere";
+  }
   return candidate;
 }
 
@@ -207,6 +210,10 @@ OscillationCandidate user_candidate(const ObservedLoop& loop) {
   candidate.stiffness = least;
   candidate.fits = !loop.stiffness || *loop.stiffness >= of_user_limit * least;
   candidate.why = fmt::format("some passive user can make walls from {} on oscillate there", quantity(least, unit));
+  if (candidate.fits && loop.stiffness && !is_stable(without_operator(loop.device))) {
+    candidate.fits = false;
+    candidate.why += "; this one oscillates with nobody holding";
+  }
   return candidate;
 }
 

@@ -240,7 +240,10 @@ class Recommendation {
     tell(options_.progress, 0.0);
     wall.margins = wall_margins(walled);
     tell(options_.progress, 0.0);
-    if (limits.has_users()) wall.any_user_limit = limits.limit(damper);
+    if (limits.has_users()) {
+      wall.any_user_limit = limits.limit(damper);
+      wall.any_user_stiffness_margin = *wall.any_user_limit / *wall.wall.stiffness;
+    }
     wall.contact_damping_ratio = contact_damping_ratio(walled);
     wall.force_per_count = force_per_count(walled);
     return wall;

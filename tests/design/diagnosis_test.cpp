@@ -34,6 +34,22 @@ TEST(Diagnosis, NamesAUserWhereTheDeviceAloneIsStable) {
   EXPECT_NEAR(*diagnosis.candidates.front().stiffness, 5776.09, 0.1);
 }
 
+// A rigid device of 6.1 kg at T = 0.25 ms: K_CR = 2 b / T = 4000 N/m, growing at 4.64 Hz with 5200 N/m. On a wall that
+// only pushes it swings at 3.29 Hz, which is no user's doing.
+TEST(Diagnosis, BlamesNoUserForALoopThatIsUnstableByItself) {
+  DeviceParameters device;
+  device.name = "rigid";
+  device.bodies = {{"b0", 6.107564301523623, 0.5}};
+  device.loop.sampling_period = 0.25e-3;
+  device.actuator.force_limit = 2.0;
+  const Diagnosis diagnosis = diagnose(Device(device), {.frequency = 2.0 * pi * 3.287, .stiffness = 5200.0});
+  EXPECT_EQ(diagnosis.cause, OscillationCause::device);
+  EXPECT_EQ(diagnosis.trust.verdict, Trust::Verdict::doubtful);  // of the frequency
+  const auto user = std::ranges::find(diagnosis.candidates, OscillationCause::passive_user, &OscillationCandidate::cause);
+  ASSERT_NE(user, diagnosis.candidates.end());
+  EXPECT_FALSE(user->fits);
+}
+
 TEST(Diagnosis, NamesNothingWhereNothingFits) {
   // Softer than any user's limit, no encoder, no friction.
   const Diagnosis diagnosis = diagnose(lhifam(), {.frequency = 259.9, .stiffness = 5000.0});

@@ -67,6 +67,7 @@ struct RecommendedWall {
   WallMargins margins;  ///< of the device as it is
   /// any_user_limit() at this B, at least gain_margin times K; the whole force may grow by gain_margin too. Absent for a transfer function and above most_bodies_for_any_user.
   std::optional<double> any_user_limit;
+  std::optional<double> any_user_stiffness_margin;  ///< any_user_limit / K
   std::optional<double> contact_damping_ratio;
   std::optional<ForcePerCount> force_per_count;  ///< absent without an encoder resolution
 };
