@@ -25,6 +25,8 @@ constexpr double steps_per_decade = 12.0;
 constexpr double steps_per_decade_any_user = 6.0;
 constexpr std::uintmax_t max_refinements = 200;
 constexpr double reached = 1e-10;     // relative difference of the limit to the target
+constexpr double jump_width = 1e-9;   // relative, of the bracket of a jump: closer by, a touch takes seconds to prove
+constexpr double least_jump = 1e-3;   // relative
 constexpr double first_share = 1e-3;  // of a number that is 0 now: of the value at which its unit matters
 
 // A value of the number with its limit.
@@ -84,7 +86,7 @@ class Search {
       target.value_needed.reset();
       target.why = "the limit at the value found is refused: " + there.trust.reasons.front();
     } else {
-      target.why = reason_there(there);
+      target.why = reason_there(there, limit_at(parameter, *target.value_needed).value_or(0.0));
     }
     return target;
   }
@@ -160,17 +162,24 @@ class Search {
   // Between two values on either side of the target: where the limit is the target; at a jump the side that has it.
   [[nodiscard]] std::optional<double> refined(const DesignParameter& parameter, Point a, Point b) const {
     bool lost = false;
+    double nearest = 1.0;  // of the limits found to the target, relative
     const auto difference = [&](double value) {
       const std::optional<double> limit = limit_at(parameter, value);
       if (!limit) lost = true;
-      return limit ? std::clamp(excess(*limit) / options_.stiffness, -1.0, 1.0) : 0.0;
+      const double apart = limit ? std::clamp(excess(*limit) / options_.stiffness, -1.0, 1.0) : 0.0;
+      nearest = std::min(nearest, std::abs(apart));
+      return apart;
+    };
+    const auto is_done = [&](double left, double right) {
+      const bool is_jump = nearest > least_jump && std::abs(right - left) <= jump_width * std::abs(left);
+      return is_jump || boost::math::tools::eps_tolerance<double>(52)(left, right);
     };
     const auto [low, high] = std::minmax(a.value, b.value);
     const double at_low = std::clamp(excess(a.value <= b.value ? a.limit : b.limit) / options_.stiffness, -1.0, 1.0);
     const double at_high = std::clamp(excess(a.value <= b.value ? b.limit : a.limit) / options_.stiffness, -1.0, 1.0);
     std::uintmax_t iterations = max_refinements;
-    const auto [left, right] = boost::math::tools::toms748_solve(
-        difference, low, high, at_low, at_high, boost::math::tools::eps_tolerance<double>(52), iterations);
+    const auto [left, right] =
+        boost::math::tools::toms748_solve(difference, low, high, at_low, at_high, is_done, iterations);
     if (lost) return std::nullopt;
     const double at_left = difference(left);
     const double at_right = difference(right);
@@ -186,11 +195,11 @@ class Search {
     return critical_stiffness(Device(std::move(moved)));
   }
 
-  [[nodiscard]] std::string reason_there(const CriticalStiffness& there) const {
-    if (options_.goal == StiffnessGoal::any_user_limit) return "the limit with any passive user is the target there";
-    if (std::abs(excess(there.stiffness)) > reached * options_.stiffness) {
+  [[nodiscard]] std::string reason_there(const CriticalStiffness& there, double limit) const {
+    if (std::abs(excess(limit)) > reached * options_.stiffness) {
       return "the limit jumps across the target there: another mechanism takes over";
     }
+    if (options_.goal == StiffnessGoal::any_user_limit) return "the limit with any passive user is the target there";
     return there.limit->limited_by.kind == Mechanism::Kind::rigid_body
                ? "the limit is the target there, set by the rigid body"
                : fmt::format("the limit is the target there, set by vibration mode {}", there.limit->limited_by.mode);

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "identification/response_features.hpp"
+#include "signal/median.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/parameter.hpp"
 #include "zwidth/sampling/sampled_plant.hpp"
@@ -18,12 +19,6 @@ namespace {
 
 // Of a central difference: the response is known to some 1e-13, its curvature is felt from 1e-3 of a light damping on.
 constexpr double difference_step = 1e-6;
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 bool ends_with_mass(std::string_view key) { return key.ends_with(".mass"); }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "signal/fourier.hpp"
+#include "signal/median.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -19,12 +20,6 @@ constexpr double least_block_to_noise = 3.0;
 /// |1 - e^{-jw}|^4: what the second difference makes of the position's power.
 double second_difference_power(double cycles_per_sample) {
   return std::pow(2.0 * std::sin(std::numbers::pi * cycles_per_sample), 4.0);
-}
-
-double median_power(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 }  // namespace
@@ -43,8 +38,7 @@ MotionBandwidth motion_bandwidth(std::span<const double> position) {
   for (std::size_t k = lines.size() / 2; k < lines.size(); ++k) {
     upper.push_back(std::norm(lines[k]) / second_difference_power(cycles(k)));
   }
-  const double noise =
-      median_power(std::move(upper)) / std::numbers::ln2;  // mean of an exponential law from its median
+  const double noise = median(std::move(upper)) / std::numbers::ln2;  // mean of an exponential law from its median
 
   // Power above noise, cumulated up to where a block of lines sinks into it.
   std::vector<double> cumulated{0.0};

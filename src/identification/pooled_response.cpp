@@ -6,6 +6,8 @@
 #include <limits>
 #include <vector>
 
+#include "signal/median.hpp"
+
 namespace zwidth::internal {
 namespace {
 
@@ -114,11 +116,6 @@ std::optional<AmplitudeDependence> compare(const std::vector<Line>& lines, doubl
     louder += size > std::abs(weakest->point->value) ? 1.0 : -1.0;
   }
   if (differences.empty() || sum - count < significant * std::sqrt(count * correlation)) return std::nullopt;
-  const auto median = [](std::vector<double>& values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::ranges::nth_element(values, middle);
-    return *middle;
-  };
   AmplitudeDependence found;
   found.difference = median(differences);
   found.force_ratio = median(ratios);

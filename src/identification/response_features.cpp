@@ -6,18 +6,14 @@
 #include <numbers>
 #include <set>
 
+#include "signal/median.hpp"
+
 namespace zwidth::internal {
 namespace {
 
 double inertance(const ResponsePoint& point) { return std::abs(point.value) * point.frequency * point.frequency; }
 
 double relative_deviation(const ResponsePoint& point) { return std::sqrt(point.variance) / std::abs(point.value); }
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// Median over the first or last few points of what `of` says about each.
 template <typename Points, typename Of>

@@ -13,6 +13,7 @@
 #include "io/column_names.hpp"
 #include "io/column_unit.hpp"
 #include "io/prose.hpp"
+#include "signal/median.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/io/message_words.hpp"
 
@@ -113,9 +114,7 @@ class Periods {
     const std::size_t stride = (size() + most_for_median - 1) / most_for_median;
     std::vector<double> sample;
     for (std::size_t i = 0; i < size(); i += stride) sample.push_back((*this)[i]);
-    const auto middle = sample.begin() + static_cast<std::ptrdiff_t>(sample.size() / 2);
-    std::nth_element(sample.begin(), middle, sample.end());
-    return *middle;
+    return internal::median(std::move(sample));
   }
 
  private:

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "signal/clipping.hpp"
+#include "signal/median.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/signal/recording.hpp"
 
@@ -181,20 +182,14 @@ Plateaus plateaus_at(std::span<const double> x, const Extent& extent, double ext
   return found;
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// `usual_move`: the signal's rms change over the lag of the plateaus.
 bool is_clipped(const Plateaus& plateaus, const Extent& extent, double usual_move, std::size_t size) {
   if (plateaus.count < fewest_plateaus) return false;
   const auto samples = static_cast<double>(plateaus.samples);
   return samples >= least_clipped_share * static_cast<double>(size) &&
          samples >= clipped_to_next * static_cast<double>(plateaus.samples_in_next) &&
-         median(plateaus.entry_moves) >= least_corner * usual_move &&
-         median(plateaus.entry_jumps) < switched_corner * extent.range();
+         internal::median(plateaus.entry_moves) >= least_corner * usual_move &&
+         internal::median(plateaus.entry_jumps) < switched_corner * extent.range();
 }
 
 /// The extreme values at which the signal is clipped.

@@ -48,7 +48,7 @@ TEST_F(Diagnose, ReadsTheFrequencyFromARecording) {
 }
 
 TEST_F(Diagnose, RefusesWhatItCannotMean) {
-  expect_refusal("zwidth diagnose devices/lhifam.toml", "--oscillates-hz: give the frequency");
+  expect_refusal("zwidth diagnose devices/lhifam.toml", "--oscillates-hz: missing; give the frequency");
   expect_refusal("zwidth diagnose devices/lhifam.toml --oscillates-hz 600",
                  "--oscillates-hz: devices/lhifam.toml: is 600");
   expect_refusal("zwidth diagnose devices/lhifam.toml --oscillates-hz 6 --position 2",
