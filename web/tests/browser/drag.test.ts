@@ -1,21 +1,12 @@
-import type { Browser, Page } from 'playwright-core'
-import { afterAll, beforeAll, expect, it } from 'vitest'
-import { alone, documentOf, openAll, openBrowser, openPage, row, type Served, serve, settled, withWall } from './program'
+import type { Page } from 'playwright-core'
+import { expect, it } from 'vitest'
+import { alone, documentOf, openAll, openPage, place, row, settled, withWall } from './program'
 
-let served: Served
-let browser: Browser
-beforeAll(async () => {
-  served = await serve('devices/lhifam.toml')
-  browser = await openBrowser()
-})
-afterAll(async () => {
-  await browser?.close()
-  await served?.stop()
-})
+const here = place('devices/lhifam.toml')
 
 const key = 'body.handle.damping'
 const opened = async (): Promise<{ page: Page; end: () => Promise<void> }> => {
-  const { page, context, complaints } = await openPage(browser, served, 1280)
+  const { page, context, complaints } = await openPage(here, 1280)
   await withWall(page)
   await openAll(page)
   await row(page, key).scrollIntoViewIfNeeded()

@@ -1,19 +1,10 @@
 // The work of a session by keyboard alone, and what is heard.
-import type { Browser, Locator, Page } from 'playwright-core'
-import { afterAll, beforeAll, expect, it } from 'vitest'
+import type { Locator, Page } from 'playwright-core'
+import { expect, it } from 'vitest'
 import { say } from '../../src/model/decimal'
-import { alone, documentOf, openBrowser, openPage, project, runPalette, type Served, serve, settled, type } from './program'
+import { alone, documentOf, openPage, place, project, runPalette, settled, type } from './program'
 
-let served: Served
-let browser: Browser
-beforeAll(async () => {
-  served = await serve()
-  browser = await openBrowser()
-})
-afterAll(async () => {
-  await browser?.close()
-  await served?.stop()
-})
+const here = place()
 
 /** Tab until it has the focus. */
 async function tabTo(page: Page, target: Locator): Promise<void> {
@@ -26,7 +17,7 @@ async function tabTo(page: Page, target: Locator): Promise<void> {
 }
 
 it.each([1280, 390])('says what limits my wheel and what wall to run, at %d px', async (width) => {
-  const { page, context, complaints } = await openPage(browser, served, width)
+  const { page, context, complaints } = await openPage(here, width)
   const started = Date.now()
   await runPalette(page, 'open example quanser')
   await page.waitForFunction(() => /quanser/i.test(document.title))
@@ -52,7 +43,7 @@ it.each([1280, 390])('says what limits my wheel and what wall to run, at %d px',
 })
 
 it('makes a device of a recording', async () => {
-  const { page, context, complaints } = await openPage(browser, served, 1280)
+  const { page, context, complaints } = await openPage(here, 1280)
   await runPalette(page, 'show: from a recording')
   await tabTo(page, page.getByLabel(/choose it/))
   const [chooser] = await Promise.all([page.waitForEvent('filechooser'), page.keyboard.press('Space')])
@@ -76,7 +67,7 @@ it('makes a device of a recording', async () => {
 })
 
 it('sounds as the oscillation swings', async () => {
-  const { page, context, complaints } = await openPage(browser, served, 1280)
+  const { page, context, complaints } = await openPage(here, 1280)
   await type(page, 'wall.stiffness', '8.8 kN/m')
   await settled(page)
   // What is played is kept, and rendered by an OfflineAudioContext.

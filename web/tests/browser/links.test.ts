@@ -1,18 +1,9 @@
 // Links: opened, pasted into the tab, followed back, broken.
-import type { Browser, Page } from 'playwright-core'
-import { afterAll, beforeAll, expect, it } from 'vitest'
-import { alone, openBrowser, openPage, row, type Served, serve, settled, type } from './program'
+import type { Page } from 'playwright-core'
+import { expect, it } from 'vitest'
+import { alone, openPage, place, row, settled, type } from './program'
 
-let served: Served
-let browser: Browser
-beforeAll(async () => {
-  served = await serve('devices/lhifam.toml')
-  browser = await openBrowser()
-})
-afterAll(async () => {
-  await browser?.close()
-  await served?.stop()
-})
+const here = place('devices/lhifam.toml')
 
 const stiffness = (page: Page): Promise<string> => row(page, 'link.0.stiffness').locator('input[type="text"]').inputValue()
 const hashOf = async (page: Page): Promise<string> => {
@@ -21,7 +12,7 @@ const hashOf = async (page: Page): Promise<string> => {
 }
 
 it('follows a link pasted into its tab, and Back, as steps to undo', async () => {
-  const { page, context, complaints } = await openPage(browser, served, 1280)
+  const { page, context, complaints } = await openPage(here, 1280)
   const first = await hashOf(page)
   await type(page, 'link.0.stiffness', '70000')
   await settled(page)
@@ -48,7 +39,7 @@ it('follows a link pasted into its tab, and Back, as steps to undo', async () =>
 })
 
 it('says what is wrong with a link, and keeps what it shows', async () => {
-  const { page, context, complaints } = await openPage(browser, served, 1280)
+  const { page, context, complaints } = await openPage(here, 1280)
   await type(page, 'link.0.stiffness', '70000')
   const hash = await hashOf(page)
   const at = hash.length - 10
@@ -61,7 +52,7 @@ it('says what is wrong with a link, and keeps what it shows', async () => {
     await page.evaluate((each) => (location.hash = each), broken)
     await expect.poll(() => page.locator('main > .problem').allInnerTexts(), broken).toEqual([expect.stringMatching(why)])
     expect(await stiffness(page)).toBe('70 kN/m')
-    const opened = await openPage(browser, served, 1280, broken)
+    const opened = await openPage(here, 1280, broken)
     expect(await opened.page.locator('main > .problem').innerText()).toMatch(why)
     expect(await stiffness(opened.page)).toBe('79.5 kN/m')
     await opened.context.close()

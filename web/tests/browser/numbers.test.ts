@@ -1,25 +1,15 @@
 // Every panel's numbers are those that the program prints with --json.
-import type { Browser } from 'playwright-core'
-import { afterAll, beforeAll, expect, it } from 'vitest'
+import { expect, it } from 'vitest'
 import { percent, say } from '../../src/model/decimal'
-import { documentOf, openAll, openBrowser, openPage, type Served, serve, settled, type } from './program'
+import { documentOf, openAll, openPage, place, settled, type } from './program'
 
-let served: Served
-let browser: Browser
-beforeAll(async () => {
-  served = await serve('devices/lhifam.toml')
-  browser = await openBrowser()
-})
-afterAll(async () => {
-  await browser?.close()
-  await served?.stop()
-})
+const here = place('devices/lhifam.toml')
 
 const wall = ['devices/lhifam.toml', '--set', 'wall.stiffness=3000', '--set', 'wall.damping=4']
 const [K, B] = ['N/m', 'N s/m']
 
 it('shows the numbers of every document', async () => {
-  const { page, context, complaints } = await openPage(browser, served, 1280)
+  const { page, context, complaints } = await openPage(here, 1280)
   await type(page, 'wall.stiffness', '3000 N/m')
   await type(page, 'wall.damping', '4 N s/m')
   await openAll(page)

@@ -1,19 +1,10 @@
 // What the panels state and do, beside the program's documents.
 import { readFileSync } from 'node:fs'
-import type { Browser, Page } from 'playwright-core'
-import { afterAll, beforeAll, expect, it } from 'vitest'
-import { alone, documentOf, openAll, openBrowser, openPage, row, runPalette, type Served, serve, settled, type, withWall } from './program'
+import type { Page } from 'playwright-core'
+import { expect, it } from 'vitest'
+import { alone, documentOf, openAll, openPage, place, row, runPalette, settled, type, withWall } from './program'
 
-let served: Served
-let browser: Browser
-beforeAll(async () => {
-  served = await serve('devices/quanser_torsion.toml')
-  browser = await openBrowser()
-})
-afterAll(async () => {
-  await browser?.close()
-  await served?.stop()
-})
+const here = place('devices/quanser_torsion.toml')
 
 interface Wall {
   stiffness: number
@@ -22,7 +13,7 @@ interface Wall {
 }
 
 it('takes the wall recommended with its notch in one step', async () => {
-  const { page, context, complaints } = await openPage(browser, served, 1280)
+  const { page, context, complaints } = await openPage(here, 1280)
   await runPalette(page, 'show: which wall')
   await page.getByRole('button', { name: 'Use this wall: recommended' }).click()
   await settled(page)
@@ -48,7 +39,7 @@ const replaceText = async (page: Page, change: (toml: string) => string): Promis
 }
 
 it('shows no number of a device whose answer is refused, in no panel', async () => {
-  const { page, context, complaints } = await openPage(browser, served, 1280)
+  const { page, context, complaints } = await openPage(here, 1280)
   await withWall(page)
   await openAll(page)
   await page.setViewportSize({ width: 1280, height: 8000 }) // what is out of view waits
@@ -72,7 +63,7 @@ it('shows no number of a device whose answer is refused, in no panel', async () 
 })
 
 it('writes the wall of a doubtful device in C only when told to, and says so in the command', async () => {
-  const { page, context } = await openPage(browser, served, 1280)
+  const { page, context } = await openPage(here, 1280)
   await withWall(page)
   await runPalette(page, 'show: device file')
   await replaceText(page, (toml) => `${toml}\n[uncertainty]\nverdict = "doubtful"\nwarning = "measured by a guess"\n`)
@@ -90,7 +81,7 @@ it('writes the wall of a doubtful device in C only when told to, and says so in 
 })
 
 it('leads from an error of the text to its line', async () => {
-  const { page, context } = await openPage(browser, served, 1280)
+  const { page, context } = await openPage(here, 1280)
   await runPalette(page, 'show: device file')
   const line = (await page.locator('#toml').inputValue()).split('\n').findIndex((each) => each.startsWith('[loop]')) + 1
   await replaceText(page, (toml) => toml.replace('\n[loop]', '\n[loop'))
@@ -104,7 +95,7 @@ it('leads from an error of the text to its line', async () => {
 })
 
 it('adds, connects and removes parts by key, takes it back, and says what is wrong at its field', async () => {
-  const { page, context, complaints } = await openPage(browser, served, 390)
+  const { page, context, complaints } = await openPage(here, 390)
   const bodies = (): Promise<number> => page.locator('.schematic svg [aria-label^="Body"]').count()
   const before = await bodies()
   await page.getByText('Add, remove and connect parts').focus()
@@ -137,7 +128,7 @@ it('adds, connects and removes parts by key, takes it back, and says what is wro
 })
 
 it('shows warnings beside the wall, without a tick', async () => {
-  const { page, context, complaints } = await openPage(browser, served, 1280)
+  const { page, context, complaints } = await openPage(here, 1280)
   await withWall(page)
   await type(page, 'wall.stiffness', '1 N m/rad')
   await settled(page)
@@ -152,7 +143,7 @@ it('shows warnings beside the wall, without a tick', async () => {
 })
 
 it.each([1280, 390])('cuts no unit from a number, %i pixels wide', async (width) => {
-  const { page, context, complaints } = await openPage(browser, served, width)
+  const { page, context, complaints } = await openPage(here, width)
   const digits = '1.23456789e-2'
   for (const key of ['loop.delay', 'wall.stiffness', 'wall.damping']) await type(page, key, digits)
   await runPalette(page, 'show: device file')
@@ -164,7 +155,7 @@ it.each([1280, 390])('cuts no unit from a number, %i pixels wide', async (width)
 })
 
 it('says what is missing in an empty device file, and keeps the panels', async () => {
-  const { page, context, complaints } = await openPage(browser, served, 1280)
+  const { page, context, complaints } = await openPage(here, 1280)
   await runPalette(page, 'show: device file')
   await replaceText(page, () => '')
   await page.locator('.answer .problem', { hasText: 'The device file is empty' }).waitFor()
@@ -185,7 +176,7 @@ it('says what is missing in an empty device file, and keeps the panels', async (
 })
 
 it('opens the panel of the device file by its name, and downloads nothing', async () => {
-  const { page, context } = await openPage(browser, served, 1280)
+  const { page, context } = await openPage(here, 1280)
   let downloads = 0
   page.on('download', () => ++downloads)
   await runPalette(page, 'Device file')
@@ -195,7 +186,7 @@ it('opens the panel of the device file by its name, and downloads nothing', asyn
 })
 
 it.each([1280, 390])('cuts no wall recommended, no label and no long name, %i pixels wide', async (width) => {
-  const { page, context, complaints } = await openPage(browser, served, width)
+  const { page, context, complaints } = await openPage(here, width)
   await runPalette(page, 'show: which wall')
   await page.getByRole('button', { name: 'Use this wall: recommended' }).waitFor()
   await settled(page)

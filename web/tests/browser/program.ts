@@ -5,6 +5,7 @@ import { existsSync } from 'node:fs'
 import { dirname, resolve } from 'node:path'
 import { fileURLToPath } from 'node:url'
 import { type Browser, type BrowserContext, chromium, type Page } from 'playwright-core'
+import { afterAll, beforeAll } from 'vitest'
 
 export const project = resolve(dirname(fileURLToPath(import.meta.url)), '../../..')
 export const program = resolve(process.env.ZWIDTH ?? `${project}/build/release/bin/zwidth`)
@@ -44,13 +45,31 @@ export const openBrowser = (): Promise<Browser> => {
   return chromium.launch({ executablePath: found, args: process.getuid?.() === 0 ? ['--no-sandbox'] : [] })
 }
 
+/** A server with these devices and a browser, for all tests of a file. */
+export interface Place {
+  served: Served
+  browser: Browser
+}
+export function place(...files: string[]): Place {
+  const here = {} as Place
+  beforeAll(async () => {
+    here.served = await serve(...files)
+    here.browser = await openBrowser()
+  })
+  afterAll(async () => {
+    await here.browser?.close()
+    await here.served?.stop()
+  })
+  return here
+}
+
 export interface Opened {
   page: Page
   context: BrowserContext
   complaints: string[] // errors of the console, requests that went elsewhere
 }
 
-export async function openPage(browser: Browser, served: Served, width: number, hash = '', scheme: 'light' | 'dark' = 'light'): Promise<Opened> {
+export async function openPage({ browser, served }: Place, width: number, hash = '', scheme: 'light' | 'dark' = 'light'): Promise<Opened> {
   const context = await browser.newContext({ viewport: { width, height: 900 }, colorScheme: scheme, reducedMotion: 'reduce', acceptDownloads: true })
   await context.grantPermissions(['clipboard-read', 'clipboard-write'])
   const page = await context.newPage()

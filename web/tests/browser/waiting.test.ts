@@ -1,23 +1,14 @@
 // What the page says while there is no answer yet.
-import type { Browser, Page } from 'playwright-core'
-import { afterAll, beforeAll, expect, it } from 'vitest'
-import { alone, openBrowser, openPage, type Served, serve, serveAt, settled, type, withWall } from './program'
+import type { Page } from 'playwright-core'
+import { expect, it } from 'vitest'
+import { alone, openPage, place, serve, serveAt, settled, type, withWall } from './program'
 
-let served: Served
-let browser: Browser
-beforeAll(async () => {
-  served = await serve('devices/lhifam.toml')
-  browser = await openBrowser()
-})
-afterAll(async () => {
-  await browser?.close()
-  await served?.stop()
-})
+const here = place('devices/lhifam.toml')
 
 const answered = (page: Page): Promise<string> => page.locator('.answer').innerText()
 
 it('marks an answer that is of the device before, without a tick', async () => {
-  const { page, context, complaints } = await openPage(browser, served, 1280)
+  const { page, context, complaints } = await openPage(here, 1280)
   await withWall(page)
   await settled(page)
   expect(await answered(page)).toMatch(/✓ sound[^]*✓ The wall/)
@@ -44,7 +35,7 @@ it('marks an answer that is of the device before, without a tick', async () => {
 
 it('asks again where the program was ended, and goes on when it is started again', async () => {
   const first = await serve('devices/lhifam.toml')
-  const { page, context } = await openPage(browser, first, 1280)
+  const { page, context } = await openPage({ browser: here.browser, served: first }, 1280)
   await settled(page)
   const before = await alone(page)
   await first.stop()

@@ -3,20 +3,10 @@ import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs'
 import { tmpdir } from 'node:os'
 import { dirname } from 'node:path'
 import axe from 'axe-core'
-import type { Browser } from 'playwright-core'
-import { afterAll, beforeAll, describe, expect, it } from 'vitest'
-import { alone, documentOf, openAll, openBrowser, openPage, program, project, row, runPalette, type Served, serve, settled, type, withWall } from './program'
+import { describe, expect, it } from 'vitest'
+import { alone, documentOf, openAll, openPage, place, program, project, row, runPalette, serve, settled, type, withWall } from './program'
 
-let served: Served
-let browser: Browser
-beforeAll(async () => {
-  served = await serve('devices/lhifam.toml')
-  browser = await openBrowser()
-})
-afterAll(async () => {
-  await browser?.close()
-  await served?.stop()
-})
+const here = place('devices/lhifam.toml')
 
 describe.each([
   ['desktop', 1280],
@@ -24,7 +14,7 @@ describe.each([
 ])('%s', (_, width) => {
   it('shows the program’s own answer, prints how soon, and asks nobody else', async () => {
     const started = Date.now()
-    const { page, context, complaints } = await openPage(browser, served, width)
+    const { page, context, complaints } = await openPage(here, width)
     const took = Date.now() - started
     const sincePage = await page.evaluate(() => performance.now())
     console.log(`first answer at most ${sincePage.toFixed(0)} ms after the start of the page, ${took} ms with opening the tab`)
@@ -41,7 +31,7 @@ describe.each([
   })
 
   it('takes numbers with units, by key and by drag, and takes them back', async () => {
-    const { page, context, complaints } = await openPage(browser, served, width)
+    const { page, context, complaints } = await openPage(here, width)
     await type(page, 'loop.delay', '0.25 ms')
     await settled(page)
     const delayed = documentOf('analyze', 'devices/lhifam.toml', '--set', 'loop.delay=0.25 ms')
@@ -81,7 +71,7 @@ describe.each([
   })
 
   it('takes a bare number as SI; nothing of the text before it sticks', async () => {
-    const { page, context, complaints } = await openPage(browser, served, width)
+    const { page, context, complaints } = await openPage(here, width)
     const field = (key: string) => row(page, key).locator('input[type="text"]')
     await type(page, 'link.0.stiffness', '79500')
     expect(await field('link.0.stiffness').inputValue()).toBe('79.5 kN/m')
@@ -101,7 +91,7 @@ describe.each([
   })
 
   it('shows the unit of every number, and all digits where it is edited', async () => {
-    const { page, context, complaints } = await openPage(browser, served, width)
+    const { page, context, complaints } = await openPage(here, width)
     const field = row(page, 'body.handle.damping').locator('input[type="text"]')
     await type(page, 'body.handle.damping', '0.0127828981167')
     expect(await field.inputValue()).toBe('12.7828981167 mN s/m')
@@ -124,7 +114,7 @@ describe.each([
   })
 
   it('drags the wall on the bar and in the region, one step each', async () => {
-    const { page, context, complaints } = await openPage(browser, served, width)
+    const { page, context, complaints } = await openPage(here, width)
     await withWall(page)
     await settled(page)
     const stiffness = row(page, 'wall.stiffness').locator('input[type="text"]')
@@ -159,7 +149,7 @@ describe.each([
   })
 
   it('says an error at its field, and gives no number', async () => {
-    const { page, context } = await openPage(browser, served, width)
+    const { page, context } = await openPage(here, width)
     await type(page, 'body.motor.mass', '-1')
     await row(page, 'body.motor.mass').locator('.problem').waitFor()
     expect(await row(page, 'body.motor.mass').locator('input[type="text"]').getAttribute('aria-invalid')).toBe('true')
@@ -174,7 +164,7 @@ describe.each([
   })
 
   it('shares all of it in the address', async () => {
-    const { page, context } = await openPage(browser, served, width)
+    const { page, context } = await openPage(here, width)
     await type(page, 'link.0.stiffness', '65.4321 kN/m')
     await row(page, 'body.handle.mass').getByRole('button', { name: /Lock/ }).click()
     await page.getByRole('button', { name: 'Pin', exact: true }).click()
@@ -184,7 +174,7 @@ describe.each([
     const [answer, file, hash] = [await alone(page), await page.locator('#toml').count(), new URL(page.url()).hash]
     expect(file).toBe(0)
     expect(hash.length).toBeLessThanOrEqual(2048 + 3)
-    const again = await openPage(browser, served, width, hash)
+    const again = await openPage(here, width, hash)
     expect(await alone(again.page)).toBe(answer)
     expect(await row(again.page, 'body.handle.mass').locator('input[type="text"]').isDisabled()).toBe(true)
     await settled(again.page)
@@ -195,7 +185,7 @@ describe.each([
 
   it('is usable by all: no violation, light and dark, with every panel open', async () => {
     for (const scheme of ['light', 'dark'] as const) {
-      const { page, context, complaints } = await openPage(browser, served, width, '', scheme)
+      const { page, context, complaints } = await openPage(here, width, '', scheme)
       await withWall(page)
       await openAll(page)
       await page.getByRole('button', { name: 'Pin', exact: true }).click()
@@ -217,7 +207,7 @@ describe.each([
   })
 
   it('goes from a recording to a device', async () => {
-    const { page, context, complaints } = await openPage(browser, served, width)
+    const { page, context, complaints } = await openPage(here, width)
     await runPalette(page, 'show: from a recording')
     await page.getByLabel(/choose it/).setInputFiles(`${project}/recordings/locked_chirp.csv`)
     await page.getByLabel('Fit').selectOption('device')
@@ -237,7 +227,7 @@ describe.each([
 
 describe('work habits', () => {
   it('copies a command that gives the same numbers', async () => {
-    const { page, context } = await openPage(browser, served, 1280)
+    const { page, context } = await openPage(here, 1280)
     await type(page, 'loop.delay', '0.3 ms')
     await type(page, 'body.handle.damping', '4.2')
     await settled(page)
@@ -260,7 +250,7 @@ describe('work habits', () => {
   })
 
   it('saves every figure as SVG, PNG and CSV', async () => {
-    const { page, context, complaints } = await openPage(browser, served, 1280)
+    const { page, context, complaints } = await openPage(here, 1280)
     await withWall(page)
     await settled(page)
     for (const [name, start] of [
@@ -284,7 +274,7 @@ it('says in every panel of numbers that a doubtful device is one', async () => {
   const text = readFileSync(`${project}/devices/lhifam.toml`, 'utf8')
   writeFileSync(file, `${text}\n[uncertainty]\nverdict = "doubtful"\nwarning = "measured by a guess"\n`)
   const other = await serve(file)
-  const { page, context, complaints } = await openPage(browser, other, 1280)
+  const { page, context, complaints } = await openPage({ browser: here.browser, served: other }, 1280)
   expect(await page.locator('[data-answer="trust"]').innerText()).toContain('doubtful')
   await withWall(page)
   await openAll(page)
