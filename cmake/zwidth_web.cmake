@@ -1,5 +1,5 @@
 # What the program carries in itself: zwidth_embedded_sources. The front end is built in web/ with Debian's nodejs and npm
-# (ZWIDTH_WEB=ON); without it the program serves a page that says how.
+# (ZWIDTH_WEB=ON), or was before (ZWIDTH_FRONT_END); without it the program serves a page that says how.
 set(embed ${PROJECT_SOURCE_DIR}/cmake/zwidth_embed.cmake)
 
 file(GLOB devices CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/devices/*.toml)
@@ -10,7 +10,9 @@ add_custom_command(OUTPUT ${devices_source} DEPENDS ${devices} ${embed} VERBATIM
 
 set(web ${PROJECT_SOURCE_DIR}/web)
 set(web_source ${CMAKE_CURRENT_BINARY_DIR}/embedded_front_end.cpp)
-if(ZWIDTH_WEB)
+if(ZWIDTH_FRONT_END)
+  set(web_files ${ZWIDTH_FRONT_END})
+elseif(ZWIDTH_WEB)
   find_program(npm npm REQUIRED)
   set(web_files ${web}/dist)
   file(GLOB_RECURSE web_inputs CONFIGURE_DEPENDS ${web}/src/* ${web}/public/*)
