@@ -116,8 +116,8 @@ std::vector<report::AnalysedDevice> analysed_devices(const AnalyzeOptions& optio
   for (std::size_t i = 0; i < devices.size(); ++i) {
     ProgressLine line("analysing " + options.devices.files[i]);
     asked[i].progress = line.progress();
-    analysed.push_back(worked(options.devices.files[i],
-                              [&] { return report::analysed_device(std::move(devices[i]), asked[i]); }));
+    analysed.push_back(
+        worked(options.devices.files[i], [&] { return report::analysed_device(std::move(devices[i]), asked[i]); }));
   }
   return analysed;
 }

@@ -43,8 +43,8 @@ std::vector<report::AnalysedDevice> analyze_devices(const DeviceArguments& argum
                                                     const AnalysisOptions& options) {
   std::vector<report::AnalysedDevice> analysed;
   for (Device& device : devices) {
-    analysed.push_back(worked(arguments.files[analysed.size()],
-                              [&] { return report::analysed_device(std::move(device), options); }));
+    analysed.push_back(
+        worked(arguments.files[analysed.size()], [&] { return report::analysed_device(std::move(device), options); }));
   }
   return analysed;
 }

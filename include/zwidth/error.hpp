@@ -18,7 +18,9 @@ enum class ErrorCode {
 /// Bad *input files* never throw: they return `tl::expected` with the place (see io/device_file.hpp).
 class Error : public std::runtime_error {
  public:
+  /// A message of one line, with the value that offends.
   Error(ErrorCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
+  /// What kind of failure it is.
   [[nodiscard]] ErrorCode code() const noexcept { return code_; }
 
  private:

@@ -7,16 +7,19 @@ namespace zwidth {
 
 /// How far a number that states a limit may be relied on. Decided by the library, repeated by everything downstream.
 struct Trust {
+  /// From good to bad.
   enum class Verdict {
     sound,     ///< the data and the model carry the number
     doubtful,  ///< the number stands, but something does not carry it (extrapolation, misfit, a model outside its
                ///< domain)
     refused,   ///< no number is given
   };
-  Verdict verdict = Verdict::sound;
+  Verdict verdict = Verdict::sound;       ///< of this answer
   std::vector<std::string> reasons = {};  ///< why, each with its remedy; empty only when sound
 
+  /// Nothing speaks against the number.
   [[nodiscard]] bool sound() const { return verdict == Verdict::sound; }
+  /// There is no number.
   [[nodiscard]] bool refused() const { return verdict == Verdict::refused; }
 
   /// At least doubtful, for this reason.
@@ -27,6 +30,7 @@ struct Trust {
   /// once.
   void inherit(const Trust& source);
 
+  /// The verdict and its reasons.
   [[nodiscard]] bool operator==(const Trust&) const = default;
 };
 

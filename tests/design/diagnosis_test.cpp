@@ -45,7 +45,8 @@ TEST(Diagnosis, BlamesNoUserForALoopThatIsUnstableByItself) {
   const Diagnosis diagnosis = diagnose(Device(device), {.frequency = 2.0 * pi * 3.287, .stiffness = 5200.0});
   EXPECT_EQ(diagnosis.cause, OscillationCause::device);
   EXPECT_EQ(diagnosis.trust.verdict, Trust::Verdict::doubtful);  // of the frequency
-  const auto user = std::ranges::find(diagnosis.candidates, OscillationCause::passive_user, &OscillationCandidate::cause);
+  const auto user =
+      std::ranges::find(diagnosis.candidates, OscillationCause::passive_user, &OscillationCandidate::cause);
   ASSERT_NE(user, diagnosis.candidates.end());
   EXPECT_FALSE(user->fits);
 }

@@ -28,8 +28,11 @@ void draw_drift(Canvas& canvas, const Box& frame, double drift, const NotchDesig
   double top = 0.0;
   for (const NotchAtDrift& each : notch.over_drift) {
     rows += fmt::format("{:.9g} {:.9g} {:.9g}\n", 100.0 * each.drift, each.without, each.with);
-    top = std::max({top, each.without, each.with});
+    for (const double limit : {each.without, each.with}) {
+      if (std::isfinite(limit)) top = std::max(top, limit);
+    }
   }
+  if (top == 0.0) top = 1.0;  // no wall keeps the margins: a line at 0
   const AxisUnit unit = axis_unit(top);
   data_block(canvas, "drift", rows);
   const double reach = std::max(100.0 * drift, 1.0);

@@ -21,6 +21,7 @@ class RunningFilter {
  public:
   /// Lets nothing through.
   RunningFilter() = default;
+  /// At rest: every past sample is 0.
   explicit RunningFilter(const FilterSection& section) noexcept
       : degree_(section.degree), n_(whole_numerator(section)), d_(section.denominator) {}
 

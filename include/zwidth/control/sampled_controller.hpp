@@ -14,8 +14,9 @@ namespace zwidth {
 
 /// Force from position, once per sampling period: none, a virtual wall, or a relay.
 struct ControllerOptions {
+  /// What the actuator is commanded by.
   enum class Kind { none, wall, relay };
-  Kind kind = Kind::none;
+  Kind kind = Kind::none;  ///< nothing: the actuator rests
 
   // Wall: C(z) = F(z) (K + B v(z)) on the penetration of the measured position into `position`.
   double stiffness = 0.0;                ///< K, N/m or N m/rad; >= 0
@@ -23,11 +24,12 @@ struct ControllerOptions {
   double velocity_filter_hz = 0.0;       ///< f_c; 0: none
   std::vector<WallFilter> filters = {};  ///< F: on the whole force, in the order in which they run; at most 20
   double position = 0.0;                 ///< where the wall begins, m or rad; it fills all beyond
+  /// On which side of its surface a wall acts.
   enum class Contact {
     bilateral,   ///< a spring on both sides: the linear loop
     unilateral,  ///< what enters the filters is 0 outside the wall and never pulls; what leaves them never pulls
   };
-  Contact contact = Contact::bilateral;
+  Contact contact = Contact::bilateral;  ///< both sides, as the linear theory has it
 
   // Relay: -amplitude where the measured position lies above `position` + hysteresis, +amplitude below
   // `position` - hysteresis, unchanged in between (and exactly at `position`).

@@ -23,9 +23,10 @@ struct AnyUserRegion {
   double area = 0.0;                              ///< in (K, B), of the polygons
 };
 
+/// How finely the region for any passive user is traced.
 struct AnyUserRegionOptions {
   double deviation = 1e-3;  ///< aimed distance of the limit from the polygon, as a share of its extent in K and in B
-  Progress progress = {};
+  Progress progress = {};   ///< told how far the work is; ends it by throwing
 };
 
 /// Samples any_user_limit() over 0 <= B <= largest_damping, more densely where it bends. A range of B narrower than a

@@ -13,7 +13,7 @@ namespace zwidth {
 
 /// Where, as one number p of the device moves, another crossover takes over and the gain stops or turns.
 struct BranchSwitch {
-  std::string key;
+  std::string key;                  ///< of the number that moves, as in model/parameter.hpp
   double value = 0.0;               ///< p there
   double stiffness = 0.0;           ///< K_CR just before, on the way from the device's own p
   double stiffness_beyond = 0.0;    ///< just beyond: equal, unless a new pair of crossovers is born below; 0: none
@@ -22,9 +22,10 @@ struct BranchSwitch {
   std::optional<Crossover> beyond;  ///< absent where K_CR is not finite beyond
 };
 
+/// Where to look for another mechanism taking over.
 struct BranchSwitchOptions {
-  double factor = 10.0;  ///< p is followed from p / factor to p * factor; > 1
-  Progress progress = {};
+  double factor = 10.0;    ///< p is followed from p / factor to p * factor; > 1
+  Progress progress = {};  ///< told how far the work is; ends it by throwing
 };
 
 /// For each of stiffness_sensitivities(), the nearest switch as p falls and as p grows, where there is one.

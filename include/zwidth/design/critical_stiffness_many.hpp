@@ -19,11 +19,11 @@ struct ParameterValues {
 
 /// The critical stiffness of one of many devices, or why there is none.
 struct CriticalStiffnessOfOne {
-  StiffnessStatus status = StiffnessStatus::refused;
-  double stiffness = 0.0;  ///< as in CriticalStiffness; NaN where refused
-  double frequency = 0.0;  ///< rad/s, of the limiting crossover; NaN unless finite
-  std::optional<Mechanism> limited_by;
-  Trust trust = {};
+  StiffnessStatus status = StiffnessStatus::refused;  ///< whether there is a limit
+  double stiffness = 0.0;                             ///< as in CriticalStiffness; NaN where refused
+  double frequency = 0.0;                             ///< rad/s, of the limiting crossover; NaN unless finite
+  std::optional<Mechanism> limited_by;                ///< absent unless finite
+  Trust trust = {};                                   ///< of this device's answer
   std::string failure = {};  ///< the values make no device, or the computation failed; empty: neither
 };
 

@@ -23,7 +23,7 @@ struct DesignOptions {
   bool any_user = true;              ///< the any-user limit and its slopes, where analyze() gives that limit
   bool branch_switches = true;       ///< where another crossover takes over; a device of at most 8 bodies
   double branch_switch_factor = 10;  ///< each number is followed from p / factor to p * factor; > 1, finite
-  Progress progress = {};
+  Progress progress = {};            ///< told how far the work is; ends it by throwing
 };
 
 /// Checks the factor.
@@ -31,7 +31,7 @@ struct DesignOptions {
 
 /// What each number of a device does to the stiffest wall.
 struct Design {
-  Analysis analysis;
+  Analysis analysis;                                ///< of the device as it is
   std::vector<Sensitivity> sensitivities;           ///< of K_CR
   std::vector<Sensitivity> any_user_sensitivities;  ///< of the any-user limit; empty where there is none
   /// Of K_CR; absent above most_bodies_for_branch_switches, and where not asked for.

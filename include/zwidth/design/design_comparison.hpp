@@ -16,9 +16,9 @@ namespace zwidth {
 
 /// One of several ways to build a device, judged with three users: none, any passive one, and a given one.
 struct ComparedDesign {
-  std::string value;  ///< of the key that is compared
-  Device device;      ///< without the user
-  CriticalStiffness free;
+  std::string value;                      ///< of the key that is compared
+  Device device;                          ///< without the user
+  CriticalStiffness free;                 ///< nobody holding
   std::optional<AnyUserLimit> any_user;   ///< absent for a transfer function and many bodies
   std::optional<CriticalStiffness> held;  ///< with the user; absent without one
 };
@@ -34,13 +34,13 @@ struct BestDesigns {
 
 /// Several designs side by side. A user's best designs are absent where fewer than two of them have a limit for it.
 struct DesignComparison {
-  std::string key;  ///< "loop.sensed"
-  Operator user;    ///< the given one; all 0: none
-  std::vector<ComparedDesign> designs;
-  std::optional<BestDesigns> best_free;
-  std::optional<BestDesigns> best_any_user;
-  std::optional<BestDesigns> best_held;
-  Trust trust;  ///< the worst of the designs'
+  std::string key;                           ///< "loop.sensed"
+  Operator user;                             ///< the given one; all 0: none
+  std::vector<ComparedDesign> designs;       ///< in the order given
+  std::optional<BestDesigns> best_free;      ///< the stiffest with nobody holding; absent where none can be told
+  std::optional<BestDesigns> best_any_user;  ///< the stiffest in every passive hand
+  std::optional<BestDesigns> best_held;      ///< the stiffest with the operator of its file
+  Trust trust;                               ///< the worst of the designs'
 };
 
 /// Checks: at least one variant; `user` (see compare_designs()) not negative, and of devices with a body to hold.

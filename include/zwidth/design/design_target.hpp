@@ -13,11 +13,12 @@
 
 namespace zwidth {
 
+/// What is to be reached, and how far to look.
 struct DesignTargetOptions {
-  double stiffness = 0.0;  ///< the limit to reach, N/m or N m/rad; > 0
-  StiffnessGoal goal = StiffnessGoal::critical_stiffness;
+  double stiffness = 0.0;                                  ///< the limit to reach, N/m or N m/rad; > 0
+  StiffnessGoal goal = StiffnessGoal::critical_stiffness;  ///< which limit is to reach it
   double factor = 1000.0;  ///< each number is followed from p / factor to p * factor; above 1, at most 1e6
-  Progress progress = {};
+  Progress progress = {};  ///< told how far the work is; ends it by throwing
 };
 
 /// Checks the stiffness and the factor; of the device: the any-user limit needs a body to hold, and not too many.
@@ -34,10 +35,10 @@ struct DesignTarget {
 /// The ways to a stiffness, the cheapest first: least relative change |ln(needed/now)|; numbers that are 0 now after
 /// those, in the order of the device file, then those that do not get there.
 struct DesignTargets {
-  std::optional<double> limit_now;  ///< of the device as it is; infinite where unbounded, absent where refused
-  std::vector<DesignTarget> targets;
-  Trust trust;
-  std::vector<Remark> remarks;
+  std::optional<double> limit_now;    ///< of the device as it is; infinite where unbounded, absent where refused
+  std::vector<DesignTarget> targets;  ///< cheapest relative change first
+  Trust trust;                        ///< of the whole answer
+  std::vector<Remark> remarks;        ///< what is worth knowing beside it
 };
 
 /// For each number p that the limit depends on: the value nearest to today's at which the limit reaches the target.

@@ -23,12 +23,13 @@ enum class OscillationCause {
   friction,       ///< Coulomb friction holds a body still: a limit cycle of the rest
 };
 
+/// What was seen of the oscillation.
 struct DiagnosisOptions {
   double frequency = 0.0;                ///< observed, rad/s; above 0, at most pi/T
   std::optional<double> amplitude = {};  ///< observed, of the sensed position, m or rad; > 0
   std::optional<double> stiffness = {};  ///< K of the wall; absent: the device's own wall.stiffness, or unknown
   std::optional<double> damping = {};    ///< B; absent: the device's own wall.damping
-  Progress progress = {};
+  Progress progress = {};                ///< told how far the work is; ends it by throwing
 };
 
 /// Checks every member's range for the device.
@@ -38,31 +39,33 @@ struct DiagnosisOptions {
 [[nodiscard]] std::optional<OptionProblem> find_problem(const DiagnosisOptions& options, const Device& device,
                                                         const Recording& recording);
 
+/// One thing that the oscillation may be.
 struct OscillationCandidate {
-  OscillationCause cause = OscillationCause::device;
-  bool fits = false;
-  double frequency = 0.0;               ///< rad/s, where it would oscillate, nearest to the one observed
-  std::optional<double> stiffness;      ///< K from which on it may
-  std::optional<double> amplitude;      ///< of the sensed position; of quantisation and friction
-  std::optional<Mechanism> limited_by;  ///< of a linear crossover
-  std::string why;                      ///< why it fits or not
+  OscillationCause cause = OscillationCause::device;  ///< what it would be
+  bool fits = false;                                  ///< whether what was seen agrees with it
+  double frequency = 0.0;                             ///< rad/s, where it would oscillate, nearest to the one observed
+  std::optional<double> stiffness;                    ///< K from which on it may
+  std::optional<double> amplitude;                    ///< of the sensed position; of quantisation and friction
+  std::optional<Mechanism> limited_by;                ///< of a linear crossover
+  std::string why;                                    ///< why it fits or not
 };
 
 /// One change of the device or the wall alone, recomputed.
 struct DiagnosisChange {
-  std::string what;  ///< "damping of every body + 20 %"
-  std::string key;   ///< of the device file; "body.*.damping" for all bodies, "wall.filter" for a filter more
-  double value_now = 0.0;
+  std::string what;         ///< "damping of every body + 20 %"
+  std::string key;          ///< of the device file; "body.*.damping" for all bodies, "wall.filter" for a filter more
+  double value_now = 0.0;   ///< SI units
   double value_then = 0.0;  ///< of wall.filter: the centre of a notch, Hz
   /// The stiffness up to which the cause is absent: K_CR, that with friction holding, or the any-user limit; absent of
   /// quantisation, whose amplitude the change alters.
   std::optional<double> limit_now;
-  std::optional<double> limit_then;  ///< infinite where unbounded
-  std::optional<double> amplitude_now;
-  std::optional<double> amplitude_then;
-  std::optional<bool> ends_it;  ///< absent where K is not known
+  std::optional<double> limit_then;      ///< infinite where unbounded
+  std::optional<double> amplitude_now;   ///< m or rad, of a cycle; absent where its size is not known
+  std::optional<double> amplitude_then;  ///< the same, after the change
+  std::optional<bool> ends_it;           ///< absent where K is not known
 };
 
+/// What an oscillation is, and what moves it.
 struct Diagnosis {
   std::optional<double> frequency;               ///< observed, rad/s; absent where a recording shows no oscillation
   std::optional<double> amplitude;               ///< observed, where it is known
@@ -72,7 +75,7 @@ struct Diagnosis {
   std::optional<OscillationCause> cause;         ///< of the first, where it fits; absent: none does
   std::vector<DiagnosisChange> changes;          ///< what moves it, by falling limit; none where there is no cause
   Trust trust;                                   ///< where refused, nothing else is held
-  std::vector<Remark> remarks;
+  std::vector<Remark> remarks;                   ///< what is worth knowing beside it
 };
 
 /// Which mechanism an oscillation at a given frequency is, and what moves it.

@@ -19,8 +19,9 @@ enum class StiffnessGoal {
   any_user_limit,      ///< with every passive user
 };
 
+/// What the notch is to be designed for.
 struct NotchOptions {
-  StiffnessGoal goal = StiffnessGoal::critical_stiffness;
+  StiffnessGoal goal = StiffnessGoal::critical_stiffness;  ///< which limit is to become highest
   /// The vibration modes may lie anywhere from (1 - drift) to (1 + drift) times their frequency (a cable's tension
   /// changes); from 0 to 0.9. See drifted().
   double drift = 0.0;
@@ -29,7 +30,7 @@ struct NotchOptions {
   double phase_margin = std::numbers::pi / 6.0;  ///< least phase margin of the wall, rad; from 0 to pi/2
   bool far_from_modes = false;  ///< the centre may lie anywhere; else within half to twice a mode as the wall sees it
   bool lower_any_user = false;  ///< the limit with any passive user may become lower than without the notch
-  Progress progress = {};
+  Progress progress = {};       ///< told how far the work is; ends it by throwing
 };
 
 /// Checks every member's range; of the device: a vibration mode below Nyquist or an alias of one, and for the any-user
@@ -45,22 +46,23 @@ struct NotchAtDrift {
 
 /// The device as it is with the designed wall in [wall], and its answer.
 struct NotchState {
-  Device device;
-  Analysis analysis;
+  Device device;      ///< with that wall
+  Analysis analysis;  ///< of it
 };
 
+/// The notch found, and what it gives.
 struct NotchDesign {
-  std::optional<WallFilter> notch;  ///< absent: none makes the worst wall stiffer
-  double without = 0.0;             ///< least over the drift, without a notch
-  double with = 0.0;                ///< least over the drift, with it; equal to `without` where there is none
-  std::vector<NotchAtDrift> over_drift;
+  std::optional<WallFilter> notch;       ///< absent: none makes the worst wall stiffer
+  double without = 0.0;                  ///< least over the drift, without a notch
+  double with = 0.0;                     ///< least over the drift, with it; equal to `without` where there is none
+  std::vector<NotchAtDrift> over_drift;  ///< by rising drift
   /// What it costs: below its centre it delays the force by this much, 2 z (1 - depth)/w, s; the wall feels less damped
   /// by K times it.
   double low_frequency_delay = 0.0;
   std::optional<NotchState> state_without;  ///< absent where refused
   std::optional<NotchState> state_with;     ///< absent where there is no notch
-  Trust trust;
-  std::vector<Remark> remarks;
+  Trust trust;                              ///< of the whole answer
+  std::vector<Remark> remarks;              ///< what is worth knowing beside it
 };
 
 /// The device with its vibration modes shifted by the factor 1 + drift: stiffness of every link times (1 + drift)²,

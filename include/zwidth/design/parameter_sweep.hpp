@@ -18,17 +18,19 @@ inline constexpr std::size_t most_sweep_points = 1'000'000;  ///< of all axes to
 
 /// The values that one number of the device takes in turn.
 struct SweepAxis {
+  /// Equal steps, or equal factors.
   enum class Spacing { linear, logarithmic };
-  std::string key;        ///< as in model/parameter.hpp
-  double first = 0.0;     ///< logarithmic: > 0, as `last`
-  double last = 0.0;      ///< above or below `first`
-  std::size_t count = 2;  ///< >= 2, both ends included
-  Spacing spacing = Spacing::linear;
+  std::string key;                    ///< as in model/parameter.hpp
+  double first = 0.0;                 ///< logarithmic: > 0, as `last`
+  double last = 0.0;                  ///< above or below `first`
+  std::size_t count = 2;              ///< >= 2, both ends included
+  Spacing spacing = Spacing::linear;  ///< logarithmic for positive ends only
 };
 
 /// first, ..., last: both exactly.
 [[nodiscard]] std::vector<double> values_of(const SweepAxis& axis);
 
+/// What a sweep computes at each point.
 struct SweepOptions {
   bool any_user = false;    ///< the limit over all passive users too: slower; a device of bodies only
   bool crossovers = false;  ///< keep every crossover of every point, not only the limiting one
@@ -36,7 +38,7 @@ struct SweepOptions {
 
 /// K_CR of the device with the axes' parameters at one of their values.
 struct SweepPoint {
-  StiffnessStatus status = StiffnessStatus::finite;
+  StiffnessStatus status = StiffnessStatus::finite;  ///< whether there is a limit
   double stiffness = 0.0;                ///< K_CR; 0 when none_stable, infinity when unbounded, NaN when refused
   std::optional<Crossover> limit;        ///< absent unless finite
   std::optional<AnyUserLimit> any_user;  ///< where asked for, unless refused
@@ -44,6 +46,7 @@ struct SweepPoint {
   Trust trust;                           ///< of the device, and of both computations
 };
 
+/// The limits over a grid of one or two numbers.
 struct ParameterSweep {
   std::vector<SweepAxis> axes;              ///< a body's inertia by its own name, mass
   std::vector<std::vector<double>> values;  ///< of each axis

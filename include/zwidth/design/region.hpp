@@ -18,11 +18,12 @@
 
 namespace zwidth {
 
+/// How finely the region is traced.
 struct RegionOptions {
-  OutlineOptions outline = {};
-  bool any_user = true;        ///< the walls that no passive user destabilises, where the device has a body to hold
-  bool approximations = true;  ///< the formulas of the literature and how far each is off
-  Progress progress = {};
+  OutlineOptions outline = {};  ///< of the outline
+  bool any_user = true;         ///< the walls that no passive user destabilises, where the device has a body to hold
+  bool approximations = true;   ///< the formulas of the literature and how far each is off
+  Progress progress = {};       ///< told how far the work is; ends it by throwing
 };
 
 /// Checks: outline.deviation above 0 and below 1.
@@ -30,21 +31,22 @@ struct RegionOptions {
 
 /// A formula of the literature beside the exact region.
 struct ComparedApproximation {
-  RegionApproximation formula;
-  ApproximationError error;
+  RegionApproximation formula;  ///< of the literature
+  ApproximationError error;     ///< of that formula, against the exact region
 };
 
 /// Every wall (K, B) that a device renders stably. Where it is refused (trust), no wall, region, limit or formula is held.
 struct WallRegion {
+  /// Whether there is a region.
   enum class Status {
     bounded,      ///< the stiffest and the most damped stable wall are known
     none_stable,  ///< no wall is
     unbounded,    ///< every wall is: the force does not move what the wall senses
     refused,
   };
-  Status status = Status::refused;
+  Status status = Status::refused;   ///< refused until it has been checked
   std::optional<StableWalls> walls;  ///< with the device's velocity filter and filters; absent where refused
-  StableRegion region;
+  StableRegion region;               ///< of the device by itself
   /// Absent unless asked for; for a transfer function, above most_bodies_for_any_user, or where no wall is stable.
   std::optional<AnyUserRegion> any_user;
   std::vector<ComparedApproximation> approximations;  ///< none for a transfer function, or unless asked for

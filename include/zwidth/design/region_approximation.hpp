@@ -23,12 +23,13 @@ namespace zwidth {
 /// condition at Nyquist, where it is tightest); Gil et al. 2007, Hulin et al. (small delay, fast sampling, low
 /// damping); Diolaiti et al. 2006 (exact for a rigid device whose delay is a whole number of samples).
 struct RegionApproximation {
+  /// By the names of its authors.
   enum class Formula { colgate_schenkel, gil_hulin, diolaiti };
-  Formula formula = Formula::colgate_schenkel;
-  bool any_user = false;                  ///< it is about any passive user, not about the device as it is
-  double at_zero_damping = 0.0;           ///< K at B = 0
-  double slope = 0.0;                     ///< 1/s
-  std::optional<double> largest_damping;  ///< it ends at this B; absent: without end
+  Formula formula = Formula::colgate_schenkel;  ///< whose
+  bool any_user = false;                        ///< it is about any passive user, not about the device as it is
+  double at_zero_damping = 0.0;                 ///< K at B = 0
+  double slope = 0.0;                           ///< 1/s
+  std::optional<double> largest_damping;        ///< it ends at this B; absent: without end
   /// What the formula assumes and the device is not: "flexible links", "a delay". Empty where it holds.
   std::vector<std::string> not_met = {};
 };

@@ -12,14 +12,16 @@
 
 namespace zwidth {
 
+/// How a safe wall is chosen.
 struct SafeWallOptions {
   double safety_factor = 0.5;  ///< of every limit
+  /// Which B the wall is to have.
   enum class Damping {
     own,      ///< the device's own wall.damping, closed while the stiffness is chosen
     ceiling,  ///< chosen too: ceilings of both that may be used alone or together
   };
-  Damping damping = Damping::own;
-  std::size_t draws = 1000;  ///< of the device's uncertainty, where it has one
+  Damping damping = Damping::own;  ///< of the device's own wall unless asked
+  std::size_t draws = 1000;        ///< of the device's uncertainty, where it has one
 };
 
 /// Checks: safety_factor above 0 and below 1; draws at least 1.
@@ -27,21 +29,23 @@ struct SafeWallOptions {
 
 /// A wall with a margin to the limit, to be rendered.
 struct SafeWall {
+  /// What the ceiling is a share of.
   enum class Basis {
     any_user,  ///< whoever holds the device
     device,    ///< the device as it is, with its own user if it has one
   };
+  /// Whether a wall was chosen.
   enum class Status {
     chosen,
     none_stable,  ///< no wall is stable from K = 0 on: there is nothing to take a share of
     unbounded,    ///< every wall is stable: there is no limit to take a share of
     refused,      ///< see trust
   };
-  Status status = Status::chosen;
-  Basis basis = Basis::device;
-  double limit = 0.0;      ///< K where stability ends: the any-user limit, or K_CR
-  double stiffness = 0.0;  ///< K chosen
-  double damping = 0.0;    ///< B of it: the device's own, or the ceiling
+  Status status = Status::chosen;  ///< chosen, or why not
+  Basis basis = Basis::device;     ///< what the ceiling is a share of
+  double limit = 0.0;              ///< K where stability ends: the any-user limit, or K_CR
+  double stiffness = 0.0;          ///< K chosen
+  double damping = 0.0;            ///< B of it: the device's own, or the ceiling
   /// With Damping::ceiling the least B at which some wall of 0 < K <= stiffness is not stable.
   std::optional<double> damping_limit;
   std::optional<StiffnessInterval> interval;  ///< of K_CR, where the device has an uncertainty

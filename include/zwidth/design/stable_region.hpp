@@ -26,18 +26,18 @@ struct BoundaryPoint {
 
 /// A stretch of boundary of one kind; straight between points unless `oscillation`.
 struct BoundaryArc {
-  BoundaryKind kind = BoundaryKind::oscillation;
-  std::vector<BoundaryPoint> points;  ///< at least two; the last is the next arc's first, to rounding
+  BoundaryKind kind = BoundaryKind::oscillation;  ///< what happens on it
+  std::vector<BoundaryPoint> points;              ///< at least two; the last is the next arc's first, to rounding
 };
 
 /// A closed boundary, counter-clockwise in (K, B): the stable walls lie on its left.
 struct ClosedBoundary {
-  std::vector<BoundaryArc> arcs;
+  std::vector<BoundaryArc> arcs;  ///< end to end, the last one to the first
 };
 
 /// A connected part of the stable region. It has no holes (docs/region.md).
 struct StableComponent {
-  ClosedBoundary outline;
+  ClosedBoundary outline;  ///< its outer boundary
   double area = 0.0;       ///< in (K, B), of the polygon
   bool from_zero = false;  ///< it reaches K = 0: the wall may be softened to nothing
 };
@@ -58,6 +58,7 @@ struct StableRegion {
 
 inline constexpr double usual_vertex_error = 1e-4;
 
+/// How finely an outline is drawn; its corners are exact whatever is asked.
 struct OutlineOptions {
   /// Greatest distance of the curve from the polygon, as a share of the region's extent in K and in B. Every vertex
   /// lies on the boundary to rounding whatever it is.

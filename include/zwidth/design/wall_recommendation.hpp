@@ -23,8 +23,9 @@ enum class WallGoal {
   critical_damping,  ///< greatest K of those whose contact does not swing: contact_damping_ratio() of 1
 };
 
+/// What the wall to run has to keep, and what it is to be best at.
 struct RecommendationOptions {
-  WallGoal goal = WallGoal::stiffness;
+  WallGoal goal = WallGoal::stiffness;  ///< what it is best at
   /// Least factor by which the stiffness alone, and the whole force, may grow before any passive user (or nobody)
   /// destabilises the loop; from 1 to 1e5.
   double gain_margin = 2.0;                      // 6 dB
@@ -33,7 +34,7 @@ struct RecommendationOptions {
   std::optional<double> ripple = {};
   bool notch = true;        ///< a notch near a mode may be added to the wall's filters
   std::size_t draws = 100;  ///< of the device's uncertainty, where it has one
-  Progress progress = {};
+  Progress progress = {};   ///< told how far the work is; ends it by throwing
 };
 
 /// Checks every member's range; of the device: critical damping needs bodies.
@@ -50,12 +51,13 @@ enum class WallBound {
   uncertainty,      ///< the device is not known better
 };
 
+/// What keeps each number of the wall from being larger.
 struct WallBounds {
   WallBound stiffness = WallBound::none;  ///< met first with more K
   /// What bounds K, and lower, with more B, and with a faster velocity filter or none; absent of an alternative (and
   /// where there is no such filter).
   std::optional<WallBound> damping = {};
-  std::optional<WallBound> velocity_filter = {};
+  std::optional<WallBound> velocity_filter = {};  ///< absent where there is no filter
 };
 
 /// A wall and what stands behind it. Checked, see recommend_wall().
@@ -63,28 +65,30 @@ struct RecommendedWall {
   std::string what;                 ///< "recommended", "no velocity filter", "stiffest": how it differs from the others
   Wall wall;                        ///< with the filters that the device's wall has, and the notch behind them
   std::optional<WallFilter> notch;  ///< that of wall.filters which was added
-  WallBounds bounded_by;
-  WallMargins margins;  ///< of the device as it is
+  WallBounds bounded_by;            ///< what keeps each number from being larger
+  WallMargins margins;              ///< of the device as it is
   /// any_user_limit() at this B, at least gain_margin times K; the whole force may grow by gain_margin too. Absent for a transfer function and above most_bodies_for_any_user.
   std::optional<double> any_user_limit;
   std::optional<double> any_user_stiffness_margin;  ///< any_user_limit / K
-  std::optional<double> contact_damping_ratio;
-  std::optional<ForcePerCount> force_per_count;  ///< absent without an encoder resolution
+  std::optional<double> contact_damping_ratio;      ///< see contact_damping_ratio()
+  std::optional<ForcePerCount> force_per_count;     ///< absent without an encoder resolution
 };
 
+/// The wall to run, and what else could be run.
 struct WallRecommendation {
+  /// Whether there is one.
   enum class Status {
     found,
     none,       ///< no wall keeps what is asked
     unbounded,  ///< no stiffness is too much: there is nothing to recommend
     refused,    ///< see trust
   };
-  Status status = Status::none;
+  Status status = Status::none;               ///< found, or why not
   std::optional<RecommendedWall> wall;        ///< only where found
   std::string reason;                         ///< why there is none; empty where found
   std::vector<RecommendedWall> alternatives;  ///< the trade-off: other goals, dampers, filters
-  Trust trust;
-  std::vector<Remark> remarks;
+  Trust trust;                                ///< of the whole answer
+  std::vector<Remark> remarks;                ///< what is worth knowing beside it
 };
 
 /// The damping ratio of a device on its wall: the least of the closed-loop poles z = e^{sT} up to twice the natural

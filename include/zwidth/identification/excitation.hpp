@@ -15,9 +15,10 @@ namespace zwidth {
 
 enum class ExcitationKind { linear_chirp, logarithmic_chirp, multisine, noise, relay };
 
+/// Which signal, how long, how strong.
 struct ExcitationOptions {
-  ExcitationKind kind = ExcitationKind::linear_chirp;
-  double amplitude = 1.0;      ///< peak force, N or N m
+  ExcitationKind kind = ExcitationKind::linear_chirp;  ///< of the signal
+  double amplitude = 1.0;                              ///< peak force, N or N m
   double lowest_hz = 10.0;     ///< lower end of the band; of a relay, how often per second it runs through both signs
   double highest_hz = 200.0;   ///< upper end of the band; a relay has none
   double duration = 20.0;      ///< s
@@ -38,8 +39,8 @@ inline constexpr double max_transformed_samples = 1e7;
 
 /// Largest sample, root mean square, and their quotient.
 struct CrestFactor {
-  double peak = 0.0;
-  double rms = 0.0;
+  double peak = 0.0;    ///< largest magnitude, N or N m
+  double rms = 0.0;     ///< N or N m
   double factor = 0.0;  ///< peak / rms; 0 for no signal
 };
 [[nodiscard]] CrestFactor crest_factor(std::span<const double> signal);
@@ -53,6 +54,7 @@ struct ExcitationCheck {
   std::vector<Remark> remarks;   ///< doubts: friction left out, motion of few encoder steps
 };
 
+/// A signal for the actuator, sample by sample.
 struct Excitation {
   ExcitationOptions options;             ///< as given
   double rate = 0.0;                     ///< Hz, the one taken

@@ -17,22 +17,23 @@ enum class ResponseEstimator {
 };
 enum class OutputQuantity { position, velocity, acceleration };
 
+/// How a frequency response is estimated from a recording.
 struct FrequencyResponseOptions {
-  OutputQuantity output = OutputQuantity::position;
-  ResponseEstimator estimator = ResponseEstimator::h1;
+  OutputQuantity output = OutputQuantity::position;     ///< what was sensed
+  ResponseEstimator estimator = ResponseEstimator::h1;  ///< which noise it tolerates
   // Welch
-  Window window = Window::hann;
+  Window window = Window::hann;               ///< of each segment of an aperiodic signal
   std::optional<std::size_t> segment_length;  ///< samples; chosen from the record when absent
   /// Of a segment, in [0, 1). Three quarters of Hann segments weigh every instant alike, which a sweep needs: it passes
   /// each frequency once.
   double overlap = 0.75;
-  // Periodic excitation: the average over periods, with the noise measured from their scatter. See excitation_of().
-  enum class Excitation { detect, periodic, aperiodic } excitation = Excitation::detect;
+  /// Periodic: the average over periods, with the noise measured from their scatter. See excitation_of().
+  enum class Excitation { detect, periodic, aperiodic } excitation = Excitation::detect;  ///< detect: as recorded
   std::optional<std::size_t> period;  ///< samples; with Excitation::periodic, detected when absent
   std::size_t skip_periods = 0;       ///< leading periods in which the transient dies out (with a given period)
   bool detrend = true;                ///< remove mean and drift before the transform
   std::optional<double> lowest;       ///< rad/s; points outside are left out
-  std::optional<double> highest;
+  std::optional<double> highest;      ///< rad/s; absent: as far as the excitation goes
   /// rad/s, all that the force excites where that is known: only these are estimated, whatever the record's length.
   /// Empty: found by their power.
   std::vector<double> lines;

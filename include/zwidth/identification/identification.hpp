@@ -20,20 +20,21 @@
 
 namespace zwidth {
 
+/// How a device is identified from recordings.
 struct IdentifyOptions {
   FrequencyResponseOptions response;  ///< how the response of a recording is estimated
   ParameterFitOptions fit;            ///< what is free and locked, and how it is fitted
   /// Whether the structure's numbers are those of the device (a device file), or of nobody (a named structure).
-  enum class StructureValues { known, placeholders } structure_values = StructureValues::known;
+  enum class StructureValues { known, placeholders } structure_values = StructureValues::known;  ///< of the device
   /// Whether a delay that the record shows beyond the structure's is fitted too, or the structure's taken as it is.
   enum class LoopDelay {
     by_free,  ///< from_data where frees_all(fit.free); as_given where what is free is named
     from_data,
     as_given
-  } loop_delay = LoopDelay::by_free;
+  } loop_delay = LoopDelay::by_free;  ///< by what fit.free says
   /// Whether friction is looked for in the rest of the linear fit only (brief), or, where the answer would be sound, by a
   /// fit in time too (thorough), which takes about as long as all else.
-  enum class FrictionSearch { thorough, brief } friction_search = FrictionSearch::thorough;
+  enum class FrictionSearch { thorough, brief } friction_search = FrictionSearch::thorough;  ///< in time too
 };
 
 /// A structure for which there is no device file: bodies in a row, each linked to the next, the first actuated and

@@ -12,6 +12,7 @@
 
 namespace zwidth {
 
+/// How forces are computed back from motion.
 struct InverseDynamicsOptions {
   std::optional<double> cutoff_hz;        ///< of the zero-phase low-pass; chosen from the record when absent
   std::optional<std::size_t> decimation;  ///< chosen from the cutoff when absent
@@ -19,21 +20,21 @@ struct InverseDynamicsOptions {
 
 /// mass a + viscous v + coulomb sign(v) + offset = force, fitted to a record of a rigid body that moves both ways.
 struct RigidBodyFit {
-  ParameterEstimate mass;          ///< kg or kg m^2
-  ParameterEstimate viscous;       ///< N s/m or N m s/rad
-  ParameterEstimate coulomb;       ///< N or N m
-  ParameterEstimate offset;        ///< N or N m
-  ParameterEstimate delay;         ///< s: how much later than its sample the recorded force acts
-  Eigen::Matrix4d covariance;      ///< of mass, viscous, coulomb, offset
-  double relative_residual = 0.0;  ///< rms of the residual force / rms of the force, both filtered
-  double cutoff_hz = 0.0;
-  std::optional<double> first_mode_hz;  ///< where the response of the record turns back: the body is not rigid there
-  std::size_t decimation = 1;
+  ParameterEstimate mass;                 ///< kg or kg m^2
+  ParameterEstimate viscous;              ///< N s/m or N m s/rad
+  ParameterEstimate coulomb;              ///< N or N m
+  ParameterEstimate offset;               ///< N or N m
+  ParameterEstimate delay;                ///< s: how much later than its sample the recorded force acts
+  Eigen::Matrix4d covariance;             ///< of mass, viscous, coulomb, offset
+  double relative_residual = 0.0;         ///< rms of the residual force / rms of the force, both filtered
+  double cutoff_hz = 0.0;                 ///< Hz, of the zero-phase filter that was used
+  std::optional<double> first_mode_hz;    ///< where the response of the record turns back: the body is not rigid there
+  std::size_t decimation = 1;             ///< every so many samples were kept
   std::size_t equations = 0;              ///< samples left after filtering, decimation and removal of rests
   std::vector<double> times{};            ///< s, of the equations
   std::vector<double> forces{};           ///< N or N m, measured and filtered, by equation
   std::vector<double> residual_forces{};  ///< what the fit leaves of them
-  std::vector<Remark> remarks;
+  std::vector<Remark> remarks;            ///< what is worth knowing beside it
 };
 
 /// Mass, viscous and Coulomb friction, offset and delay, in this order.

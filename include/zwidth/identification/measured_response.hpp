@@ -64,14 +64,14 @@ struct MeasuredResponse {
 /// One line of a response by magnitude and phase. Bounds are those of 95 % confidence; absent where the noise is not
 /// known, or leaves them open.
 struct ResponseLine {
-  double frequency = 0.0;  ///< rad/s
-  double magnitude = 0.0;
-  std::optional<double> magnitude_lower;
-  std::optional<double> magnitude_upper;
-  double phase = 0.0;  ///< rad, unwrapped from the lowest line, where it lies in (-3 pi/2, pi/2]
-  std::optional<double> phase_lower;
-  std::optional<double> phase_upper;
-  double coherence = 0.0;
+  double frequency = 0.0;                 ///< rad/s
+  double magnitude = 0.0;                 ///< of P, m/N or rad/(N m)
+  std::optional<double> magnitude_lower;  ///< of its 95 % interval
+  std::optional<double> magnitude_upper;  ///< of its 95 % interval
+  double phase = 0.0;                     ///< rad, unwrapped from the lowest line, where it lies in (-3 pi/2, pi/2]
+  std::optional<double> phase_lower;      ///< rad, of its 95 % interval
+  std::optional<double> phase_upper;      ///< rad, of its 95 % interval
+  double coherence = 0.0;                 ///< 0 to 1
 };
 
 [[nodiscard]] std::vector<ResponseLine> response_lines(const FrequencyResponse& response);

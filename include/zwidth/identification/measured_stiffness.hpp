@@ -7,9 +7,10 @@
 
 namespace zwidth {
 
+/// Of 95 %.
 struct Interval {
-  double lower = 0.0;
-  double upper = 0.0;
+  double lower = 0.0;  ///< its lower end
+  double upper = 0.0;  ///< its upper end
 };
 
 /// A wall stiffness at which the measured response says that a closed-loop pole lies on the unit circle.
@@ -30,7 +31,7 @@ enum class MeasuredStiffnessStatus {
 
 /// The critical stiffness read off a measured response of the sampled plant, without any model.
 struct MeasuredStiffness {
-  MeasuredStiffnessStatus status = MeasuredStiffnessStatus::found;
+  MeasuredStiffnessStatus status = MeasuredStiffnessStatus::found;  ///< whether the response shows a crossover
   /// The crossover of least stiffness that the data prove. It is the critical stiffness only when found; when
   /// undetermined, the critical stiffness is at most this. Absent when not_in_band.
   std::optional<MeasuredCrossover> limit;

@@ -11,6 +11,7 @@
 
 namespace zwidth {
 
+/// What is fitted, from where, and what is held to be known.
 struct ParameterFitOptions {
   /// Keys as in model/parameter.hpp. Empty, or "all" among them: every mass and damping of a body, every stiffness and
   /// damping of a link, and stiffnesses to ground, delay and lag where they are not 0 in the structure; of what is not
@@ -26,10 +27,10 @@ struct ParameterFitOptions {
   enum class CriticalPoint {
     held,  ///< where the response is of the free device, and the fit comes near the measured critical point by itself
     free,  ///< all points count alike
-  } critical_point = CriticalPoint::held;
+  } critical_point = CriticalPoint::held;  ///< held: the fit goes through the measured crossover
   /// Whether the structure's values of the free parameters are the starting point, or the starting point is found from
   /// the data (antiresonance, resonance, low-frequency line).
-  enum class Start { from_data, from_structure } start = Start::from_data;
+  enum class Start { from_data, from_structure } start = Start::from_data;  ///< from the data alone
   /// From the data, where the fit leaves more than their noise: whether other places of the resonances are tried too.
   bool search_widely = true;
 };
@@ -38,34 +39,35 @@ inline constexpr std::size_t max_free_parameters = 40;
 
 /// One fitted parameter.
 struct ParameterEstimate {
-  std::string key;  ///< in full: links with their index
-  double value = 0.0;
+  std::string key;     ///< in full: links with their index
+  double value = 0.0;  ///< SI units
   /// The data determine it by itself. If not, they determine at most a combination of it with others (see
   /// ParameterFit::unidentifiable); `value` is then as near to the starting point (the structure's value) as the data
   /// allow, and the interval is absent.
   bool identifiable = true;
-  std::optional<double> standard_deviation;
-  std::optional<double> lower;  ///< 95 %; 0 where the value itself is at that bound
-  std::optional<double> upper;
+  std::optional<double> standard_deviation;  ///< absent where the data do not determine it
+  std::optional<double> lower;               ///< 95 %; 0 where the value itself is at that bound
+  std::optional<double> upper;               ///< absent where nothing bounds it
 };
 
 /// Two parameters that the data hardly tell apart.
 struct StrongCorrelation {
-  std::string first, second;
+  std::string first;         ///< key of the one
+  std::string second;        ///< key of the other
   double correlation = 0.0;  ///< |correlation| > 0.95
 };
 
 /// Parameters of which the data determine only a combination, or nothing.
 struct UnidentifiableCombination {
-  std::vector<std::string> parameters;
+  std::vector<std::string> parameters;  ///< keys of the numbers of which only a combination shows
 };
 
 /// A structure fitted to a measured response.
 struct ParameterFit {
   Device device;  ///< the structure with the fitted values, and the uncertainty of the identifiable ones
-  std::vector<ParameterEstimate> estimates{};  ///< in the order of `free`
-  std::vector<StrongCorrelation> correlations{};
-  std::vector<UnidentifiableCombination> unidentifiable{};
+  std::vector<ParameterEstimate> estimates{};               ///< in the order of `free`
+  std::vector<StrongCorrelation> correlations{};            ///< the pairs that go together
+  std::vector<UnidentifiableCombination> unidentifiable{};  ///< what the data leave free
   /// Root mean square of residual / standard deviation of the noise: near 1 for a right structure. Absent where the
   /// response has no variances.
   std::optional<double> misfit;

@@ -11,8 +11,8 @@ namespace zwidth {
 
 /// A structure fitted to a record, and the response that it was fitted to.
 struct RecordFit {
-  ParameterFit fit;
-  FrequencyResponse response;
+  ParameterFit fit;            ///< of the parameters
+  FrequencyResponse response;  ///< that they were fitted to
 };
 
 /// Fits a device to a record of force and motion: frequency_response(), fit_parameters(), without_leakage().

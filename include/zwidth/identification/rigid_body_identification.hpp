@@ -14,10 +14,11 @@
 
 namespace zwidth {
 
+/// How a rigid body is identified from forces computed back from motion.
 struct RigidBodyOptions {
-  InverseDynamicsOptions inverse_dynamics;
-  Motion motion = Motion::linear;
-  std::optional<double> sampling_period;  ///< s, of the loop to judge; absent: the recording's
+  InverseDynamicsOptions inverse_dynamics;  ///< of the forces
+  Motion motion = Motion::linear;           ///< whose units the answer has
+  std::optional<double> sampling_period;    ///< s, of the loop to judge; absent: the recording's
 };
 
 /// Checks cutoff, decimation and sampling period by themselves.
@@ -29,7 +30,7 @@ struct RigidBodyIdentification {
   RigidBodyFit fit;             ///< its remarks moved to the ones below
   Device device;                ///< with the covariance of its parameters, the verdict and the reasons
   std::vector<Remark> remarks;  ///< of reading, fit and judgement
-  Trust trust;
+  Trust trust;                  ///< of the whole answer
 };
 
 /// Identifies one rigid body with dry friction from force and position: identify_rigid_body(), judged.

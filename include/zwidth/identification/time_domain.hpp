@@ -18,11 +18,13 @@
 
 namespace zwidth {
 
+/// What is fitted to the motion itself.
 struct TimeDomainOptions {
   /// Keys as in model/parameter.hpp. Empty, or "all" among them: what identify() frees, and the Coulomb friction of every
   /// body that moves.
   std::vector<std::string> free{};
   std::vector<std::string> locked{};  ///< bodies held still during the experiment, by name
+  /// What the numbers of the structure stand for.
   IdentifyOptions::StructureValues structure_values = IdentifyOptions::StructureValues::known;
   /// Whether delay and lag are fitted too where frees_all(free), or the structure's taken as they are.
   IdentifyOptions::LoopDelay loop_delay = IdentifyOptions::LoopDelay::by_free;
@@ -35,7 +37,7 @@ struct TimeDomainOptions {
 
 /// A recording beside the motion of the fitted device.
 struct FittedMotion {
-  std::string source;
+  std::string source;                     ///< of the record: a file's name
   double sampling_period = 0.0;           ///< s
   double constant_force = 0.0;            ///< N or N m, beside the recorded one
   double constant_force_deviation = 0.0;  ///< one standard deviation
@@ -49,18 +51,18 @@ struct FittedMotion {
 /// A device with dry friction identified from records, and the critical stiffness of its linear part.
 struct TimeDomainIdentification {
   Device device;  ///< with its Coulomb friction and the uncertainty of all; its file keeps the verdict and the reasons
-  std::vector<ParameterEstimate> estimates{};  ///< in the order of `free`
-  std::vector<StrongCorrelation> correlations{};
-  std::vector<UnidentifiableCombination> unidentifiable{};
-  std::vector<FittedMotion> motions{};  ///< by recording
-  double lowest = 0.0;                  ///< rad/s, excited band of all recordings
-  double highest = 0.0;
-  double model_error = 0.0;   ///< the largest `unexplained` of the recordings
-  bool settled = true;        ///< the search came to rest
-  Analysis analysis = {};     ///< of the device, as analyze() gives it, without users
-  StiffnessBasis basis = {};  ///< of analysis.critical
-  std::vector<Remark> remarks{};
-  Trust trust = {};  ///< of analysis.critical
+  std::vector<ParameterEstimate> estimates{};               ///< in the order of `free`
+  std::vector<StrongCorrelation> correlations{};            ///< the pairs that go together
+  std::vector<UnidentifiableCombination> unidentifiable{};  ///< what the data leave free
+  std::vector<FittedMotion> motions{};                      ///< by recording
+  double lowest = 0.0;                                      ///< rad/s, excited band of all recordings
+  double highest = 0.0;                                     ///< rad/s, up to which the records excite the device
+  double model_error = 0.0;                                 ///< the largest `unexplained` of the recordings
+  bool settled = true;                                      ///< the search came to rest
+  Analysis analysis = {};                                   ///< of the device, as analyze() gives it, without users
+  StiffnessBasis basis = {};                                ///< of analysis.critical
+  std::vector<Remark> remarks{};                            ///< what is worth knowing beside it
+  Trust trust = {};                                         ///< of analysis.critical
 };
 
 /// Identifies a device with Coulomb friction from records of force and position.

@@ -16,6 +16,7 @@ struct InputError {
   std::string key;         ///< dotted key as in an override, or the name of a recording's column; may be empty
   std::string what;        ///< what is wrong
   std::string allowed;     ///< what is allowed, or the remedy, members of options in `backquotes`; may be empty
+  /// One line: "FILE:LINE:COLUMN: key: what is wrong; what is allowed".
   [[nodiscard]] std::string str() const;
 };
 

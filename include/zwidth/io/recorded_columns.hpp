@@ -12,7 +12,7 @@ namespace zwidth {
 
 /// Samples in memory, as the column of a file would hold them.
 struct RecordedColumn {
-  std::string name;
+  std::string name;             ///< as its header has it
   std::vector<double> samples;  ///< NaN or infinite where there is none
 };
 

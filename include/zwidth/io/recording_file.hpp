@@ -25,26 +25,27 @@ enum class RecordingFormat {
 /// UFF record, or its number from 1. Its samples are multiplied by `scale` (mm to m: 1e-3); where that is 1 or -1, by the
 /// unit in its name too ("x [mm]", "x_mm", "angle_deg"), and a remark says so.
 struct ColumnRequest {
-  std::string name;
-  double scale = 1.0;
+  std::string name;    ///< of the column, or its number from 1
+  double scale = 1.0;  ///< what its samples are multiplied by, to get SI units
 };
 
 /// How to read a recording. What is absent is detected.
 struct RecordingOptions {
-  RecordingFormat format = RecordingFormat::detect;
-  std::vector<ColumnRequest> columns;  ///< required; become the recording's channels, in this order
+  RecordingFormat format = RecordingFormat::detect;  ///< of the file
+  std::vector<ColumnRequest> columns;                ///< required; become the recording's channels, in this order
 
   // The time axis: a rate, or a column of times; with neither, a column whose name says time, or what the file states.
-  std::optional<double> rate;  ///< Hz
-  std::optional<std::string> time_column;
+  std::optional<double> rate;              ///< Hz
+  std::optional<std::string> time_column;  ///< name or number; absent: found by its name
   /// s per unit of the time column (milliseconds: 1e-3); absent: what the unit in its name says ("t [ms]"), else 1
   std::optional<double> time_scale;
   std::optional<unsigned> timer_bits;  ///< the time column counts up and wraps at 2^timer_bits
 
   // Text only.
-  std::optional<char> delimiter;  ///< ',', ';', '\t' or ' ' (any run of blanks)
-  std::optional<char> decimal_mark;
-  enum class Header { detect, present, absent } header = Header::detect;
+  std::optional<char> delimiter;     ///< comma, semicolon, tab or space (any run of blanks)
+  std::optional<char> decimal_mark;  ///< absent: detected
+  /// Whether the first line of a text names the columns.
+  enum class Header { detect, present, absent } header = Header::detect;  ///< detect: by what stands in it
   std::string comment = "#%";  ///< lines that begin with one of these are skipped
 };
 
@@ -67,15 +68,16 @@ struct RecordingOptions {
 
 /// What a recording file holds, for "what columns are there?".
 struct RecordingColumn {
-  std::string name;
+  std::string name;      ///< as the file has it, or its number from 1
   std::size_t size = 0;  ///< samples
   std::string detail;    ///< "double 50000x1", "time record, 0.0004 s", "frequency response"; may be empty
 };
 
+/// What a recording file holds, before columns are chosen.
 struct RecordingContents {
   RecordingFormat format = RecordingFormat::text;  ///< never detect
-  std::vector<RecordingColumn> columns;
-  std::vector<Remark> remarks;  ///< what was skipped and why
+  std::vector<RecordingColumn> columns;            ///< in the order of the file
+  std::vector<Remark> remarks;                     ///< what was skipped and why
 };
 
 [[nodiscard]] tl::expected<RecordingContents, InputError> list_recording(const std::string& path,
@@ -89,12 +91,14 @@ struct ResponseTableOptions {
   RecordingOptions file;  ///< format, delimiter, decimal mark, header, comment; `columns` and time are not used
   std::string frequency;  ///< empty: a column named f, freq, frequency, ..., or the first (a UFF record has its own)
   std::optional<double> frequency_scale;  ///< rad/s per unit; absent: as the name says, else Hz
-  std::string magnitude, phase;           ///< or
-  std::string real, imaginary;            ///< or a column of complex numbers "(re+imj)", named by `real`
-  bool magnitude_in_db = false;
-  std::optional<bool> phase_in_degrees;  ///< absent: as the name says, else degrees
-  double scale = 1.0;                    ///< of the value
-  std::optional<std::string> coherence;  ///< a column, where there is one
+  std::string magnitude;                  ///< with `phase`; or
+  std::string phase;                      ///< beside `magnitude`
+  std::string real;                       ///< with `imaginary`, or a column of complex numbers "(re+imj)"
+  std::string imaginary;                  ///< beside `real`
+  bool magnitude_in_db = false;           ///< else as a factor
+  std::optional<bool> phase_in_degrees;   ///< absent: as the name says, else degrees
+  double scale = 1.0;                     ///< of the value
+  std::optional<std::string> coherence;   ///< a column, where there is one
   /// s: the table is the sampled plant's response; absent: that of file.rate, and without that it is continuous.
   std::optional<double> sampling_period;
   double frequency_step = 0.0;    ///< rad/s, for a list of values without frequencies: they are k step, k >= 0

@@ -15,7 +15,7 @@ enum class Motion { linear, rotary };
 
 /// A rigid body of one degree of freedom: mass x'' + damping x' + stiffness x = sum of forces.
 struct Body {
-  std::string name;
+  std::string name;        ///< unique in the device
   double mass = 0.0;       ///< kg or kg m²; > 0
   double damping = 0.0;    ///< to ground, N s/m or N m s/rad; >= 0
   double stiffness = 0.0;  ///< to ground, N/m or N m/rad; >= 0
@@ -35,8 +35,8 @@ struct Link {
 /// Requires finite coefficients, a non-zero leading denominator coefficient, a non-zero numerator, and
 /// degree(numerator) < degree(denominator).
 struct TransferFunction {
-  std::vector<double> numerator;
-  std::vector<double> denominator;
+  std::vector<double> numerator;    ///< by falling powers of s
+  std::vector<double> denominator;  ///< by falling powers of s
 };
 
 /// How the loop is closed around the device. Body members are indices into DeviceParameters::bodies.
@@ -48,11 +48,13 @@ struct Loop {
   double delay = 0.0;            ///< t_d, s, in addition to the zero-order hold; >= 0
 };
 
+/// What is between the commanded force and the real one.
 struct Actuator {
   double time_constant = 0.0;         ///< s, first-order lag 1/(tau s + 1); >= 0
   std::optional<double> force_limit;  ///< N or N m; > 0; simulation only
 };
 
+/// What is between the position and what is read of it.
 struct Sensor {
   double resolution = 0.0;  ///< m or rad, encoder step; >= 0; simulation only
 };
@@ -68,24 +70,24 @@ struct Wall {
 
 /// A user at the held body: a mass, damper and spring to ground, all >= 0.
 struct Operator {
-  double mass = 0.0;
-  double damping = 0.0;
-  double stiffness = 0.0;
+  double mass = 0.0;       ///< kg or kg m^2
+  double damping = 0.0;    ///< N s/m or N m s/rad, to ground
+  double stiffness = 0.0;  ///< N/m or N m/rad, to ground
 };
 
 /// Everything a device file says. Plain data; Device checks it.
 struct DeviceParameters {
-  std::string name;
-  Motion motion = Motion::linear;
-  std::vector<Body> bodies;
-  std::vector<Link> links;
+  std::string name;                                   ///< for people
+  Motion motion = Motion::linear;                     ///< which units all numbers have
+  std::vector<Body> bodies;                           ///< empty for a transfer function
+  std::vector<Link> links;                            ///< between the bodies
   std::optional<TransferFunction> transfer_function;  ///< instead of bodies and links
-  Loop loop;
-  Actuator actuator;
-  Sensor sensor;
-  Wall wall;
-  Operator user;
-  std::optional<Uncertainty> uncertainty;  ///< of some of the numbers above
+  Loop loop;                                          ///< how it is sampled, and where
+  Actuator actuator;                                  ///< lag and limit of the force
+  Sensor sensor;                                      ///< step of the encoder
+  Wall wall;                                          ///< to judge
+  Operator user;                                      ///< at the held body
+  std::optional<Uncertainty> uncertainty;             ///< of some of the numbers above
 };
 
 /// The first thing that makes DeviceParameters impossible.
@@ -117,11 +119,17 @@ class Device {
   /// Throws Error (invalid_argument) with the key and the value when find_problem() finds one.
   explicit Device(DeviceParameters parameters);
 
+  /// All that it was made of.
   [[nodiscard]] const DeviceParameters& parameters() const noexcept { return parameters_; }
+  /// For people.
   [[nodiscard]] const std::string& name() const noexcept { return parameters_.name; }
+  /// Empty for a transfer function.
   [[nodiscard]] const std::vector<Body>& bodies() const noexcept { return parameters_.bodies; }
+  /// Between the bodies.
   [[nodiscard]] const std::vector<Link>& links() const noexcept { return parameters_.links; }
+  /// How it is sampled, and where.
   [[nodiscard]] const Loop& loop() const noexcept { return parameters_.loop; }
+  /// False for a transfer function.
   [[nodiscard]] bool has_bodies() const noexcept { return !parameters_.bodies.empty(); }
 
   /// Index of the body of that name; throws Error (no_such_body).

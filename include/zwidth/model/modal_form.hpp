@@ -16,13 +16,13 @@ namespace zwidth {
 /// Degree 1: a lone real pole; 2: a mode (or the rigid body, d[0] = 0 when nothing ties it to ground); more: poles so
 /// close together that separate terms would cancel.
 struct ModalTerm {
-  static constexpr std::size_t max_degree = 24;
-  std::size_t degree = 0;
-  double numerator[max_degree] = {};
-  double denominator[max_degree] = {};  ///< monic; the leading 1 is not stored
+  static constexpr std::size_t max_degree = 24;  ///< of a cluster of poles
+  std::size_t degree = 0;                        ///< how many poles it has
+  double numerator[max_degree] = {};             ///< by rising powers, `degree` of them
+  double denominator[max_degree] = {};           ///< monic; the leading 1 is not stored
   /// What rounding to double left out of each coefficient, for sums of terms that nearly cancel
   double numerator_rest[max_degree] = {};
-  double denominator_rest[max_degree] = {};
+  double denominator_rest[max_degree] = {};  ///< by rising powers, without the leading 1
   /// 0: rigid body; i > 0: vibration mode i, by rising frequency; -1: actuator lag
   int mode = 0;
   /// The part of the lag term's numerator that stems from this mode: lag_numerator / (s + 1/tau)
@@ -56,8 +56,8 @@ struct ModalForm {
 
 /// From which body's force to which body's position.
 struct Path {
-  std::size_t force_at = 0;
-  std::size_t position_of = 0;
+  std::size_t force_at = 0;     ///< the body that is pushed
+  std::size_t position_of = 0;  ///< the body that is seen
 };
 
 enum class ActuatorLag { included, left_out };

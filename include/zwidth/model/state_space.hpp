@@ -9,9 +9,9 @@ namespace zwidth {
 
 /// x' = A x + B u, y = C x: one force in, one position out; A is n x n, B n x 1, C 1 x n.
 struct ContinuousStateSpace {
-  Eigen::MatrixXd A;
-  Eigen::VectorXd B;
-  Eigen::RowVectorXd C;
+  Eigen::MatrixXd A;     ///< n x n
+  Eigen::VectorXd B;     ///< n, of the actuator's force
+  Eigen::RowVectorXd C;  ///< n, to the sensed position
 };
 
 /// The device in physical coordinates: positions of all bodies, their velocities, then the lagged force if any.

@@ -18,8 +18,12 @@ struct TwoMass {
 
 /// Natural frequency and coefficients of the factorised form, eqs. 11-16.
 struct TwoMassFactors {
-  double omega_1, omega_2, omega_n;  ///< rad/s
-  double z_1, z_2, z_n;              ///< 1/s
+  double omega_1;  ///< rad/s
+  double omega_2;  ///< rad/s
+  double omega_n;  ///< rad/s
+  double z_1;      ///< 1/s
+  double z_2;      ///< 1/s
+  double z_n;      ///< 1/s
   /// Error of the denominator's s² coefficient relative to the exact one (theory, section 3.4).
   double relative_error;
 };

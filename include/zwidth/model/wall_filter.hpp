@@ -25,8 +25,9 @@ namespace zwidth {
 ///
 /// so that gain and phase at w are those of F(s). All but biquad and digital have static gain 1: the user feels K.
 struct WallFilter {
+  /// Which of its numbers it is made of.
   enum class Kind { low_pass, notch, lead_lag, biquad, digital };
-  Kind kind = Kind::low_pass;
+  Kind kind = Kind::low_pass;                  ///< of this one
   double frequency_hz = 0.0;                   ///< in (0, 1/(2T)); a biquad may have 0: no prewarping; digital: 0
   int order = 1;                               ///< low_pass: 1 or 2
   double damping_ratio = 0.70710678118654752;  ///< low_pass of order 2 and notch: of the poles; > 0
@@ -34,8 +35,9 @@ struct WallFilter {
   double ratio = 4.0;                          ///< lead_lag: from 1e-6 to 1e6
   /// biquad and digital: 1 to 3 coefficients, the numerator of no higher degree; stable, static gain > 0.
   std::vector<double> numerator = {};
-  std::vector<double> denominator = {};
+  std::vector<double> denominator = {};  ///< of a digital one: by rising powers of 1/z
 
+  /// Number by number.
   bool operator==(const WallFilter&) const = default;
 };
 

@@ -36,8 +36,8 @@ struct FilterSection {
 
 /// A section as a quotient of polynomials, degree + 1 coefficients each, the denominator monic.
 struct FilterCoefficients {
-  std::vector<double> numerator;
-  std::vector<double> denominator;
+  std::vector<double> numerator;    ///< by rising powers of 1/z
+  std::vector<double> denominator;  ///< by rising powers of 1/z, the first one 1
 };
 
 /// In delta = z - 1 by rising powers: every digit of the section.

@@ -16,6 +16,7 @@ namespace zwidth {
 /// Exact for a force that is held over each period: the continuous device is met at every sample.
 class ForcedMotion {
  public:
+  /// At rest.
   explicit ForcedMotion(DiscreteStateSpace system);
 
   /// The position y[k]; then takes u[k], the force from now to the next sample.

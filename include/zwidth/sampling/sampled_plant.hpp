@@ -21,7 +21,7 @@ struct Sampling {
 ///
 ///     (n[0] + n[1] delta + ...) / (d[0] + d[1] delta + ... + delta^degree)
 struct SampledTerm {
-  std::size_t degree = 0;
+  std::size_t degree = 0;                            ///< how many poles it has
   double numerator[ModalTerm::max_degree + 1] = {};  ///< degree + 1 coefficients
   double denominator[ModalTerm::max_degree] = {};    ///< monic; the leading 1 is not stored
   int mode = 0;                                      ///< as in ModalTerm
@@ -32,14 +32,14 @@ struct SampledTerm {
   double undamped_angle = 0.0;                       ///< their angle in [0, pi]
   /// What rounding to double left out of each coefficient: where poles crowd (degree > 2); 0 elsewhere
   double numerator_rest[ModalTerm::max_degree + 1] = {};
-  double denominator_rest[ModalTerm::max_degree] = {};
+  double denominator_rest[ModalTerm::max_degree] = {};  ///< by rising powers, without the leading 1
 };
 
 /// The plant that the sampled wall sees: Z[H(s) G(s) e^{-t_d s}] = z^-delay_samples sum_k N_k(z - 1) / D_k(z - 1).
 struct SampledPlant {
-  double period = 0.0;            ///< T, s
-  std::size_t delay_samples = 0;  ///< whole samples outside the sum
-  std::vector<SampledTerm> terms;
+  double period = 0.0;             ///< T, s
+  std::size_t delay_samples = 0;   ///< whole samples outside the sum
+  std::vector<SampledTerm> terms;  ///< which add up to P(z)
   /// sum_k N_k prod_{j != k} D_j as one polynomial in delta, ascending. Only where the terms nearly cancel (position
   /// sensed across several links, far above the modes), computed in double-double; empty elsewhere.
   std::vector<double> numerator;

@@ -9,7 +9,7 @@ namespace zwidth {
 
 /// One measured signal.
 struct Channel {
-  std::string name;
+  std::string name;             ///< as the file has it
   std::vector<double> samples;  ///< finite, in the unit that the user asked for (already scaled)
 };
 

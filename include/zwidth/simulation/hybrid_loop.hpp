@@ -14,6 +14,7 @@ namespace zwidth {
 
 /// A force of the user on the held body.
 struct UserForce {
+  /// How the user pushes.
   enum class Kind {
     none,
     step,      ///< `amplitude` from `start` on
@@ -21,12 +22,12 @@ struct UserForce {
     sine,      ///< amplitude sin(frequency (t - start)), from `start` on
     recorded,  ///< `samples` at start + k period, linear in between, 0 before and after
   };
-  Kind kind = Kind::none;
-  double amplitude = 0.0;  ///< N or N m (ramp: per s)
-  double frequency = 0.0;  ///< rad/s; > 0 for a sine
-  double start = 0.0;      ///< s; >= 0
-  std::vector<double> samples;
-  double period = 0.0;  ///< s; > 0 for a recorded force
+  Kind kind = Kind::none;       ///< of this push
+  double amplitude = 0.0;       ///< N or N m (ramp: per s)
+  double frequency = 0.0;       ///< rad/s; > 0 for a sine
+  double start = 0.0;           ///< s; >= 0
+  std::vector<double> samples;  ///< N or N m, of a recorded push
+  double period = 0.0;          ///< s; > 0 for a recorded force
 };
 
 /// What goes wrong in a real controller now and then. A force that would arrive after a newer one never does.
@@ -35,13 +36,14 @@ struct Faults {
   double sampling_jitter = 0.0;          ///< s; each sample is late by a uniform part of it; < T
   double overrun_probability = 0.0;      ///< the force is delivered late
   double overrun_delay = 0.0;            ///< s, by which it then is late; at most max_delay_samples periods
-  std::uint64_t seed = 1;
+  std::uint64_t seed = 1;                ///< of all that is drawn at random
 };
 
+/// The loop to run: what commands it, who pushes, what goes wrong.
 struct HybridLoopOptions {
-  ControllerOptions controller;
-  UserForce user_force;
-  Faults faults;
+  ControllerOptions controller;          ///< of the actuator's force
+  UserForce user_force;                  ///< on the held body
+  Faults faults;                         ///< none by default
   std::vector<double> initial_position;  ///< of every body, m or rad; empty: 0
   std::vector<double> initial_velocity;  ///< m/s or rad/s; empty: 0
 };
@@ -65,7 +67,9 @@ class HybridLoop {
   /// motion has more than some 10 000 rad per sampling period; (needs_bodies) for a user force, motion or friction on a
   /// transfer function.
   HybridLoop(const Device& device, const HybridLoopOptions& options);
+  /// Leaves the other without a loop.
   HybridLoop(HybridLoop&&) noexcept;
+  /// Leaves the other without a loop.
   HybridLoop& operator=(HybridLoop&&) noexcept;
   ~HybridLoop();
 
@@ -78,10 +82,15 @@ class HybridLoop {
   // At the end of the last step, k T:
   [[nodiscard]] std::size_t sample() const noexcept;  ///< k
   [[nodiscard]] double time() const noexcept;         ///< k T, s
+  /// Of the sensed body, m or rad, without the encoder's steps.
   [[nodiscard]] double sensed_position() const noexcept;
+  /// Of a body by its index, m or rad.
   [[nodiscard]] double position(std::size_t body) const noexcept;
+  /// Of a body by its index, m/s or rad/s.
   [[nodiscard]] double velocity(std::size_t body) const noexcept;
+  /// Whether friction holds that body still.
   [[nodiscard]] bool sticks(std::size_t body) const noexcept;
+  /// Now, N or N m.
   [[nodiscard]] double user_force() const noexcept;
   // Within the last step:
   [[nodiscard]] double measured() const noexcept;  ///< what the encoder gave

@@ -28,9 +28,9 @@ struct LimitCycle {
 
 /// Oscillations that lie side by side: each within a tenth of the next one's frequency.
 struct CycleBand {
-  std::size_t count = 0;
-  LimitCycle lowest;
-  LimitCycle highest;
+  std::size_t count = 0;  ///< how many there are
+  LimitCycle lowest;      ///< of the lowest frequency
+  LimitCycle highest;     ///< of the highest frequency
 };
 
 /// `cycles` by rising frequency.

@@ -20,11 +20,12 @@ namespace zwidth {
 /// The device with its loop's delay longer by `added` s >= 0, as section V of Díaz & Gil varies it; or what is wrong.
 [[nodiscard]] tl::expected<Device, DeviceProblem> with_added_delay(const Device& device, double added);
 
+/// How a recorded relay experiment is read.
 struct RelayRecordOptions {
   std::optional<Device> device;    ///< that was recorded, with the whole delay: to compare with; may be absent
   Motion motion = Motion::linear;  ///< of the units, without a device
   double hysteresis = 0.0;         ///< of the relay that was used, m or rad; >= 0; for the predictions
-  RelayAnalysisOptions analysis;
+  RelayAnalysisOptions analysis;   ///< of the oscillation
 };
 
 /// The first member outside its domain; `sampling_period` is the record's: the device's must agree within 1 %.
@@ -32,10 +33,10 @@ struct RelayRecordOptions {
 
 /// Means over the trials that oscillate.
 struct RelayMean {
-  std::size_t trials = 0;
-  double frequency = 0.0;  ///< rad/s
-  double stiffness = 0.0;  ///< geometric: the mean of the decibels
-  double amplitude = 0.0;
+  std::size_t trials = 0;          ///< how many were read
+  double frequency = 0.0;          ///< rad/s
+  double stiffness = 0.0;          ///< geometric: the mean of the decibels
+  double amplitude = 0.0;          ///< m or rad, of the position's first harmonic
   double lowest_frequency = 0.0;   ///< of a trial, rad/s
   double highest_frequency = 0.0;  ///< rad/s
 };
@@ -54,18 +55,19 @@ enum class LimitReading {
 
 /// A relay experiment, simulated or recorded, beside what theory expects of it.
 struct RelayResult {
+  /// Where the motion comes from.
   enum class Source { simulation, recording };
-  Source source = Source::simulation;
-  std::string recording;  ///< its name; empty for a simulation
-  Motion motion = Motion::linear;
-  double sampling_period = 0.0;    ///< s
-  Relay relay;                     ///< of a recording: half of the force's peak to peak
-  std::vector<RelayTrial> trials;  ///< a recording is one
-  std::optional<RelayMean> mean;
-  std::optional<Device> device;
-  std::optional<double> friction_level;       ///< largest friction of the device over the relay's force
-  std::optional<RelayPrediction> prediction;  ///< with a device
-  LimitReading limit_reading = LimitReading::none;
+  Source source = Source::simulation;               ///< of this result
+  std::string recording;                            ///< its name; empty for a simulation
+  Motion motion = Motion::linear;                   ///< which units its numbers have
+  double sampling_period = 0.0;                     ///< s
+  Relay relay;                                      ///< of a recording: half of the force's peak to peak
+  std::vector<RelayTrial> trials;                   ///< a recording is one
+  std::optional<RelayMean> mean;                    ///< absent where no trial oscillates
+  std::optional<Device> device;                     ///< absent for a recording
+  std::optional<double> friction_level;             ///< largest friction of the device over the relay's force
+  std::optional<RelayPrediction> prediction;        ///< with a device
+  LimitReading limit_reading = LimitReading::none;  ///< how it compares with the device's own limit
   /// What the experiment says about the wall's limit, a sentence or two each: whether it agrees with linear theory, what
   /// friction does to it, which other oscillations exist. Empty where no trial oscillates or without a device.
   std::vector<std::string> explanation;

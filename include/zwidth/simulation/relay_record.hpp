@@ -12,6 +12,7 @@
 
 namespace zwidth {
 
+/// How an oscillation is read from a record.
 struct RelayAnalysisOptions {
   /// Samples of each spectrum; 8192 at 1 kHz gives the lines of Table II of Díaz & Gil. >= 64
   std::size_t segment_length = 8192;
@@ -43,7 +44,7 @@ struct RelayReading {
 
 /// Why a record holds no oscillation: one line.
 struct NoOscillation {
-  std::string reason;
+  std::string reason;  ///< in words, for people
 };
 
 /// Reads frequency and critical stiffness off a record of force and position, simulated or real.

@@ -29,18 +29,19 @@ enum class LoopVerdict {
 inline constexpr double max_simulated_samples = 2e7;  ///< of one simulate()
 inline constexpr double max_kept_points = 5e6;        ///< of its trajectory
 
+/// What the loop starts from, and for how long it runs.
 struct SimulationOptions {
   /// What runs at every sample. Absent: the device's own [wall], at 0; where it has neither stiffness nor damping, none.
   std::optional<ControllerOptions> controller;
   std::optional<ControllerOptions::Contact> contact;  ///< instead of the controller's
   std::optional<double> wall_position;                ///< m or rad, instead of the controller's
-  UserForce user_force;
-  Faults faults;
+  UserForce user_force;                               ///< on the held body
+  Faults faults;                                      ///< none by default
   /// Of every body, m or rad, and m/s or rad/s; empty: 0. Where both are empty and the user does not push, every body
   /// starts at rest 1 mm (1 mrad) inside the wall, or further in where that lies inside the stiction or an encoder step
   /// (a transfer function: its wall begins there instead).
   std::vector<double> initial_position;
-  std::vector<double> initial_velocity;
+  std::vector<double> initial_velocity;  ///< m/s or rad/s, of each body; empty: at rest
   /// s; 1 to max_simulated_samples sampling periods, and more than the loop's delay. Absent: 40 periods of
   /// the critical oscillation, at least 1 s and four delays, at most a million samples; counted from the start of the
   /// user's force.
@@ -58,10 +59,10 @@ struct SimulationOptions {
 
 /// Everything at the sampling instants; equal sizes.
 struct Trajectory {
-  std::vector<double> time;      ///< s
-  std::vector<double> measured;  ///< what the encoder gave at that instant, m or rad
-  std::vector<double> command;   ///< the force commanded then, N or N m
-  std::vector<double> user_force;
+  std::vector<double> time;                   ///< s
+  std::vector<double> measured;               ///< what the encoder gave at that instant, m or rad
+  std::vector<double> command;                ///< the force commanded then, N or N m
+  std::vector<double> user_force;             ///< N or N m, at each point kept
   std::vector<std::vector<double>> position;  ///< per body (a transfer function: its output)
   std::vector<std::vector<double>> velocity;  ///< per body
 };
@@ -93,19 +94,20 @@ enum class NonlinearPart {
 struct LinearAnswer {
   CriticalStiffness critical;  ///< with the wall's damper and filters
   // Absent where the wall has no stiffness, or the critical stiffness is refused:
-  std::optional<double> wall_share;  ///< wall's stiffness over the critical one; absent unless that is finite
-  std::optional<bool> wall_stable;
+  std::optional<double> wall_share;       ///< wall's stiffness over the critical one; absent unless that is finite
+  std::optional<bool> wall_stable;        ///< absent without a wall
   std::optional<double> spectral_radius;  ///< largest closed-loop |z|
   /// The run did what it says: absent where the wall has no stiffness, and of a verdict that is undecided.
   std::optional<bool> agrees;
 };
 
+/// The motion, and what it says.
 struct Simulation {
-  HybridLoopOptions loop;  ///< as it ran: the controller, and where the bodies started
-  double duration = 0.0;   ///< s, as asked for or by default
-  Trajectory trajectory;
-  LoopVerdict verdict = LoopVerdict::undecided;
-  std::optional<Oscillation> oscillation;  ///< at the end of the run; absent where there is none
+  HybridLoopOptions loop;                        ///< as it ran: the controller, and where the bodies started
+  double duration = 0.0;                         ///< s, as asked for or by default
+  Trajectory trajectory;                         ///< the points kept
+  LoopVerdict verdict = LoopVerdict::undecided;  ///< of the last part of the run
+  std::optional<Oscillation> oscillation;        ///< at the end of the run; absent where there is none
   /// 1/s, of its envelope over the second half of the run; negative: decays. Absent without an oscillation. Beside a
   /// user's sine: of the loop's own oscillation.
   std::optional<double> growth_rate;
@@ -125,13 +127,13 @@ struct Simulation {
   /// The encoder's steps are what moves the force at the end: the device itself drifts, is at rest or swings by a step
   /// or two.
   bool encoder_chatters = false;
-  std::size_t friction_events = 0;
-  std::size_t overloaded_steps = 0;  ///< see HybridLoop; 0 in every sound simulation
-  std::size_t samples = 0;           ///< simulated; fewer than asked for where it diverged
-  bool diverged = false;             ///< the run ended early: the position passed options.divergence
-  std::vector<NonlinearPart> nonlinear_parts;
-  LinearAnswer linear;
-  Trust trust;                  ///< of linear.critical: the device's, and of the computation
+  std::size_t friction_events = 0;             ///< changes between sticking and sliding
+  std::size_t overloaded_steps = 0;            ///< see HybridLoop; 0 in every sound simulation
+  std::size_t samples = 0;                     ///< simulated; fewer than asked for where it diverged
+  bool diverged = false;                       ///< the run ended early: the position passed options.divergence
+  std::vector<NonlinearPart> nonlinear_parts;  ///< what of the device the linear answer leaves out
+  LinearAnswer linear;                         ///< beside the motion
+  Trust trust;                                 ///< of linear.critical: the device's, and of the computation
   std::vector<Remark> remarks;  ///< what the verdict does not say: never touched or moved, ended early, still pushed
 };
 

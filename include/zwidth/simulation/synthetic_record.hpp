@@ -15,6 +15,7 @@ struct SyntheticRecord {
   double sampling_period = 0.0;  ///< s
 };
 
+/// What is wrong with the sensors and the clock.
 struct SyntheticNoise {
   double force = 0.0;      ///< standard deviation of the white noise that the device feels besides the command
   std::uint64_t seed = 1;  ///< of that noise

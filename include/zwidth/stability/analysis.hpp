@@ -23,8 +23,8 @@ namespace zwidth {
 
 /// The device with every link rigid: one mass, damper and spring (operator included).
 struct RigidApproximation {
-  double mass = 0.0;
-  double damping = 0.0;
+  double mass = 0.0;           ///< kg or kg m^2, of all bodies
+  double damping = 0.0;        ///< N s/m or N m s/rad, of all bodies
   double stiffness = 0.0;      ///< to ground
   CriticalStiffness critical;  ///< of the same loop: period, delay, lag, virtual damper
 };
@@ -49,7 +49,7 @@ struct AnalysisOptions {
   bool worst_user = false;                ///< the user who proves that limit; needs any_user
   std::optional<UserRanges> family = {};  ///< worst_of_family() of user_family() of these
   std::size_t draws = 1000;               ///< of the uncertainty, for the interval; 0: no interval
-  Progress progress = {};
+  Progress progress = {};                 ///< told how far the work is; ends it by throwing
 };
 
 /// The critical stiffness, the modes and the margins of a given wall alone: for who prints nothing more.
@@ -64,7 +64,7 @@ struct AnalysisOptions {
 
 /// The whole answer for one device. Where it is refused (trust), no stiffness, margin or interval is held.
 struct Analysis {
-  CriticalStiffness critical;
+  CriticalStiffness critical;                         ///< the limit with nobody holding, and every crossover
   std::vector<Mode> modes;                            ///< vibration modes, by rising frequency
   std::optional<Mode> suspended_rigid_body;           ///< where springs tie the device to ground
   std::optional<RigidApproximation> rigid;            ///< absent for a transfer function

@@ -12,11 +12,12 @@
 
 namespace zwidth {
 
+/// Where the responses are computed.
 struct BodeOptions {
   std::optional<double> from = {};  ///< rad/s; absent: below everything that matters
   std::optional<double> to = {};    ///< rad/s; absent: Nyquist
   std::size_t points = 400;         ///< even on the logarithmic axis; more are added where a curve bends
-  Progress progress = {};
+  Progress progress = {};           ///< told how far the work is; ends it by throwing
 };
 
 /// Checks: frequencies finite and > 0, `to` above `from`, 2 to 100 000 points.
@@ -27,7 +28,7 @@ struct BodeOptions {
 
 /// The two frequency responses of a device at the same frequencies, and the crossovers to mark on them.
 struct Bode {
-  FrequencyRange range;
+  FrequencyRange range;               ///< that was covered
   std::vector<BodePoint> continuous;  ///< G, the virtual damper and the delay left out
   /// F P / (1 + B v F P), P = Z[H G e^{-t_d s}], behind the wall's filters F; to Nyquist
   std::vector<BodePoint> sampled;

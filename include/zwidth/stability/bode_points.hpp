@@ -15,6 +15,7 @@ namespace zwidth {
 /// A frequency response value(w) e^{-jw delay}. The delay is kept apart so that the unwrapped phase needs no sample per
 /// turn.
 struct DelayedResponse {
+  /// Of the response at w in rad/s.
   std::function<std::complex<double>(double)> value;
   double delay = 0.0;       ///< s, >= 0
   double loop_delay = 0.0;  ///< s; of a loop closed inside value, which ripples once per turn of that delay
@@ -30,6 +31,7 @@ struct DelayedResponse {
 /// Its negative-real values are those at which -1/K lies on it: the crossovers of critical_stiffness().
 [[nodiscard]] DelayedResponse delayed_response(FilteredPlant plant, VirtualDamper damper = {});
 
+/// Of a response, rad/s.
 struct FrequencyRange {
   double from = 0.0;  ///< rad/s, > 0
   double to = 0.0;    ///< rad/s, > from
@@ -44,6 +46,7 @@ struct FrequencyRange {
 [[nodiscard]] std::vector<double> bode_frequencies(std::span<const DelayedResponse> responses, FrequencyRange range,
                                                    std::span<const Mode> modes, double period, std::size_t points);
 
+/// Of a response at one frequency.
 struct BodePoint {
   double frequency = 0.0;     ///< rad/s
   double magnitude_db = 0.0;  ///< 20 log10 |.|

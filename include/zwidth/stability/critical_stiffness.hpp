@@ -10,9 +10,10 @@ namespace zwidth {
 
 /// What a crossover belongs to: the modal term of largest magnitude at its frequency.
 struct Mechanism {
+  /// What oscillates.
   enum class Kind { rigid_body, vibration_mode };
-  Kind kind = Kind::rigid_body;
-  int mode = 0;  ///< number of the vibration mode, from 1; 0 for the rigid body
+  Kind kind = Kind::rigid_body;  ///< of this one
+  int mode = 0;                  ///< number of the vibration mode, from 1; 0 for the rigid body
 };
 
 /// A wall stiffness at which a closed-loop pole lies on the unit circle: a phase crossover of the loop.
@@ -20,7 +21,7 @@ struct Crossover {
   /// rad/s, in (0, pi/T]; exactly pi/T at Nyquist; 0 where a real pole passes z = 1 (negative static response)
   double frequency = 0.0;
   double stiffness = 0.0;  ///< K > 0
-  Mechanism limited_by;
+  Mechanism limited_by;    ///< what oscillates there
   /// Poles that leave the unit circle as K rises through this crossover: +2 or -2 (+1, -1 at Nyquist),
   /// 0 where they touch it without crossing.
   int poles_leaving = 0;
@@ -28,7 +29,7 @@ struct Crossover {
 
 /// An open interval of K in which the loop is stable.
 struct StableInterval {
-  double lower = 0.0;
+  double lower = 0.0;           ///< N/m or N m/rad
   std::optional<double> upper;  ///< absent: unbounded
 };
 
@@ -41,7 +42,7 @@ enum class StiffnessStatus {
 
 /// The stiffest stable virtual wall, with everything that decides it.
 struct CriticalStiffness {
-  StiffnessStatus status = StiffnessStatus::finite;
+  StiffnessStatus status = StiffnessStatus::finite;  ///< whether there is a limit
   double stiffness = 0.0;             ///< K_CR; 0 when none_stable, infinity when unbounded, NaN when refused
   std::optional<Crossover> limit;     ///< the crossover at K_CR; absent unless finite
   std::vector<Crossover> crossovers;  ///< all, by rising frequency

@@ -17,13 +17,13 @@ inline constexpr std::size_t most_delay_states = 200;
 
 /// Everything about a device that another program needs to go on from.
 struct DeviceModel {
-  Device device;
-  ContinuousStateSpace continuous;
-  DiscreteStateSpace discrete;
+  Device device;                                        ///< that the models are of
+  ContinuousStateSpace continuous;                      ///< from the actuator's force to the sensed position
+  DiscreteStateSpace discrete;                          ///< with hold, delay and the wall's filters
   std::optional<DiscreteStateSpace> with_delay_states;  ///< absent beyond most_delay_states samples of delay
-  ModalForm modal;
-  SampledPlant sampled;  ///< without the wall's filters
-  Analysis analysis;     ///< the critical stiffness, the modes and the wall's margins
+  ModalForm modal;                                      ///< as a sum of modes
+  SampledPlant sampled;                                 ///< without the wall's filters
+  Analysis analysis;                                    ///< the critical stiffness, the modes and the wall's margins
 };
 
 /// The continuous model of a device, the exact discrete ones and its critical stiffness. Throws as analyze() does.

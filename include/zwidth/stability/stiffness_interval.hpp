@@ -17,7 +17,7 @@ struct StiffnessInterval {
   double upper = 0.0;  ///< K_CR at 97.5 %; infinity where that draw is unbounded
   /// Share of the draws whose K_CR belongs to a mechanism of another kind or mode than the device's own, 0..1.
   double other_mechanism = 0.0;
-  std::size_t draws = 0;
+  std::size_t draws = 0;  ///< how many devices were drawn
 };
 
 /// Whether it spans more than a factor of 2: an order of magnitude, not an answer.

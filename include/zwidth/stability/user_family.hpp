@@ -10,8 +10,8 @@ namespace zwidth {
 
 /// least <= greatest; equal: one value.
 struct ValueRange {
-  double least = 0.0;
-  double greatest = 0.0;
+  double least = 0.0;     ///< its lower end
+  double greatest = 0.0;  ///< its upper end
 };
 
 /// The users that a device is meant for: every mass, damper and spring of these ranges, in any combination.
@@ -23,23 +23,23 @@ struct UserFamily {
 
 /// A family by the ranges that are told of it: what is absent is that of the device's own [operator].
 struct UserRanges {
-  std::optional<ValueRange> mass = {};
-  std::optional<ValueRange> damping = {};
-  std::optional<ValueRange> stiffness = {};
+  std::optional<ValueRange> mass = {};       ///< kg or kg m^2
+  std::optional<ValueRange> damping = {};    ///< N s/m or N m s/rad
+  std::optional<ValueRange> stiffness = {};  ///< N/m or N m/rad
 };
 
 [[nodiscard]] UserFamily user_family(const UserRanges& ranges, const Operator& own);
 
 /// The user of a family that leaves the least stable wall, as far as the search sees.
 struct WorstOfFamily {
-  Operator user;
+  Operator user;                    ///< with whom the limit is lowest
   double critical_stiffness = 0.0;  ///< K_CR held by that user; 0: no wall is stable; infinity: all are, for every user
 };
 
 /// What a family of users makes of a device.
 struct UserFamilyAnswer {
-  UserFamily family;
-  WorstOfFamily worst;
+  UserFamily family;       ///< that was searched
+  WorstOfFamily worst;     ///< of all its users
   CriticalStiffness free;  ///< of the device that nobody holds
 };
 

@@ -16,7 +16,7 @@ struct GainCrossover {
 
 /// How far a loop L under negative feedback is from instability. Margins are absent when the loop is unstable.
 struct LoopMargins {
-  bool stable = false;
+  bool stable = false;                      ///< every closed-loop pole inside the unit circle
   std::optional<double> gain_margin;        ///< least factor > 1 on L that destabilises; absent: none does
   std::optional<double> lower_gain_margin;  ///< largest factor in (0, 1) that destabilises; absent: none does
   std::optional<double>

@@ -30,7 +30,7 @@ struct UserNetwork {
 
 /// A passive user that (nearly) reaches the any-user limit.
 struct WorstUser {
-  UserNetwork user;
+  UserNetwork user;  ///< with whom the limit for any user is reached
   /// With this wall a pole of the device held by this user lies on the unit circle, at `frequency`: its K_CR is no
   /// more.
   double critical_stiffness = 0.0;
