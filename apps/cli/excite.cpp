@@ -43,10 +43,12 @@ Excitation made_excitation(const ExciteArguments& arguments) {
   options.kind = results::Json(arguments.kind).get<ExcitationKind>();
   if (arguments.device.empty()) {
     if (const auto problem = find_problem(options)) refuse(*problem, options_of_excitation);
+    check_samples("--duration", options.duration * options.rate.value_or(default_excitation_rate));
     return excite(options);
   }
   const Device device = std::move(read_devices({{arguments.device}, arguments.overrides}).front());
   if (const auto problem = find_problem(options, device)) refuse(*problem, options_of_excitation);
+  check_samples("--duration", options.duration * options.rate.value_or(1.0 / device.loop().sampling_period));
   return excite(options, device);
 }
 

@@ -18,10 +18,12 @@
 namespace zwidth::cli {
 namespace {
 
-void add_column(CLI::App& command, const std::string& name, ColumnRequest& column, const std::string& what) {
+/// `unit`: "M" or "F", of which the scale may be given with a unit; "X": none is known for it.
+void add_column(CLI::App& command, const std::string& name, ColumnRequest& column, const std::string& what,
+                const char* unit = "X") {
   command.add_option("--" + name, column.name, what)->type_name("COLUMN")->group(recording_group);
   command.add_option("--" + name + "-scale", column.scale, "What its samples are multiplied by, to get SI units")
-      ->type_name("X")
+      ->type_name(unit)
       ->capture_default_str()
       ->group(recording_group);
 }
@@ -111,8 +113,8 @@ void add_recording_arguments(CLI::App& command, RecordingArguments& arguments) {
 
 void add_recording_options(CLI::App& command, RecordingArguments& arguments) {
   command.add_flag("--list", arguments.list, "Print what the file holds, and do nothing else")->group(recording_group);
-  add_column(command, "force", arguments.force, "Commanded force: a column's name, or its number from 1");
-  add_column(command, "position", arguments.position, "Sensed position");
+  add_column(command, "force", arguments.force, "Commanded force: a column's name, or its number from 1", "F");
+  add_column(command, "position", arguments.position, "Sensed position", "M");
   add_column(command, "velocity", arguments.velocity, "Sensed velocity, where no position is recorded");
   add_column(command, "acceleration", arguments.acceleration, "Sensed acceleration, where no position is recorded");
   command.add_option("--rate", arguments.options.rate, "Samples per second, where no column holds the time")

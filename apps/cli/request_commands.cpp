@@ -16,7 +16,6 @@
 #include "cli/option_units.hpp"
 #include "cli/request_problem.hpp"
 #include "cli/subcommand.hpp"
-#include "cli/surroundings.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/io/message_words.hpp"
 
@@ -193,6 +192,7 @@ tl::expected<RequestAnswer, Problem> RequestCommands::answer(const CommandReques
   if (offered == offered_commands.end()) return tl::unexpected(Problem{"request", "there is no such command", ""});
   Surroundings own;
   own.progress = progress;
+  own.bounds = bounds_;
   const InSurroundings inside(own);
   try {
     return answered(request, *offered, own);

@@ -6,6 +6,7 @@
 #include <tl/expected.hpp>
 #include <vector>
 
+#include "cli/surroundings.hpp"
 #include "server/api/command_request.hpp"
 
 namespace zwidth::cli {
@@ -28,6 +29,7 @@ struct RequestAnswer {
 /// declarations; names of files stand for what the request brought along, and nothing is read or written beside it.
 class RequestCommands : public server::Commands {
  public:
+  explicit RequestCommands(const RequestBounds& bounds = {}) : bounds_(bounds) {}
   [[nodiscard]] std::vector<std::string> names() const override;
   [[nodiscard]] tl::expected<std::string, server::Problem> run(const server::CommandRequest& request,
                                                                const Progress& progress) const override;
@@ -36,6 +38,9 @@ class RequestCommands : public server::Commands {
                                                                     const Progress& progress) const;
   /// In the order of the help, those that name a file to write left out; none where there is no such command.
   [[nodiscard]] std::vector<OfferedOption> options(const std::string& command) const;
+
+ private:
+  RequestBounds bounds_;
 };
 
 }  // namespace zwidth::cli

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <spawn.h>
 #include <sys/wait.h>
 
@@ -64,11 +65,17 @@ void run_serve(const ServeArguments& arguments) {
     throw BadInput(
         fmt::format("--host: {}: is no address; an IP address of this machine, or localhost", arguments.http.host));
   }
-  const RequestCommands commands;
-  server::Api api(commands, offered_devices(arguments.devices));
-  const auto started = [&](const std::string& address) {
-    write_standard_output(address + "\n");
-    if (arguments.opens) open_browser(address);
+  const server::RecordingLimits recordings;
+  const RequestCommands commands({.samples = 2e6, .answer = std::size_t{64} << 20, .unpacked = recordings.unpacked});
+  server::Api api(commands, offered_devices(arguments.devices), recordings);
+  const auto started = [&](const server::Started& at) {
+    write_standard_output(at.address + "\n");
+    if (!at.hosts.empty()) {
+      write_standard_error(
+          fmt::format("zwidth: it listens at every address of this machine; callers may name it as {}\n",
+                      fmt::join(at.hosts, ", ")));
+    }
+    if (arguments.opens) open_browser(at.address);
   };
   try {
     server::serve(api, arguments.http, started);
@@ -93,7 +100,8 @@ void add_serve(CLI::App& app) {
       ->capture_default_str();
   command->add_flag("--open", arguments->opens, "Open the page in the browser");
   command->footer(
-      "Prints the address, and runs until interrupted; what runs then is finished.\n"
+      "Prints the address, and runs until interrupted; what runs then is finished within 10 s, a second interrupt\n"
+      "ends it at once.\n"
       "\n"
       "Examples:\n"
       "  zwidth serve\n"

@@ -19,6 +19,7 @@
 #include "cli/remark_lines.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
+#include "cli/surroundings.hpp"
 #include "report/figure/simulation_figure.hpp"
 #include "report/text/simulation_text.hpp"
 #include "results/simulation_json.hpp"
@@ -80,6 +81,7 @@ SimulationOptions options_of(const SimulateArguments& arguments, const Device& d
   options.keep_every = has_table || has_figure || arguments.points ? arguments.every : 0;
   if (!has_table) options.keep_at_most = arguments.points ? most_points_in_json : most_drawn_points;
   if (const auto problem = find_problem(options, device)) refuse(*problem, options_of_simulation);
+  check_samples("--duration", options.duration.value_or(0.0) / device.loop().sampling_period);
   return options;
 }
 

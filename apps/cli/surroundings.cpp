@@ -1,6 +1,11 @@
 #include "cli/surroundings.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <utility>
+
+#include "cli/subcommand.hpp"
 
 namespace zwidth::cli {
 namespace {
@@ -30,6 +35,12 @@ auto read_by_name(const std::string& name, const Read& read) -> decltype(read(na
   return result;
 }
 
+RecordingOptions bounded(const RecordingOptions& options) {
+  RecordingOptions own = options;
+  if (of_this_thread != nullptr) own.most_unpacked = std::min(own.most_unpacked, of_this_thread->bounds.unpacked);
+  return own;
+}
+
 /// Reading from memory comes before the work that is asked for: the progress of that begins at 0.
 Progress of_reading(const Progress& progress) {
   if (of_this_thread == nullptr || !progress) return progress;
@@ -39,6 +50,12 @@ Progress of_reading(const Progress& progress) {
 }  // namespace
 
 Surroundings* surroundings() { return of_this_thread; }
+
+void check_samples(const char* option, double samples) {
+  if (of_this_thread == nullptr || !(samples > of_this_thread->bounds.samples)) return;
+  throw BadInput(fmt::format("{}: makes {:.9g} samples; a request may make at most {:.9g}, the command line more",
+                             option, samples, of_this_thread->bounds.samples));
+}
 
 void hand_over_device(const std::string& text) {
   if (of_this_thread != nullptr) of_this_thread->device = text;
@@ -64,7 +81,8 @@ tl::expected<Recording, InputError> read_named_recording(const std::string& name
                                                          const Progress& progress) {
   if (const RecordedColumns* columns = columns_in_memory(name)) return read_recording(*columns, options);
   const Progress told = of_reading(progress);
-  auto recording = read_by_name(name, [&](const std::string& path) { return read_recording(path, options, told); });
+  auto recording =
+      read_by_name(name, [&](const std::string& path) { return read_recording(path, bounded(options), told); });
   if (recording) recording->source = name;  // not where the system has its bytes
   return recording;
 }
@@ -72,7 +90,7 @@ tl::expected<Recording, InputError> read_named_recording(const std::string& name
 tl::expected<RecordingContents, InputError> list_named_recording(const std::string& name,
                                                                  const RecordingOptions& options) {
   if (const RecordedColumns* columns = columns_in_memory(name)) return list_recording(*columns);
-  return read_by_name(name, [&](const std::string& path) { return list_recording(path, options); });
+  return read_by_name(name, [&](const std::string& path) { return list_recording(path, bounded(options)); });
 }
 
 tl::expected<FrequencyResponse, InputError> read_named_table(const std::string& name,

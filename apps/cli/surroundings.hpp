@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -15,12 +17,20 @@
 
 namespace zwidth::cli {
 
+/// What one request may make. On the command line and in Python there are no such bounds.
+struct RequestBounds {
+  double samples = std::numeric_limits<double>::infinity();
+  std::size_t answer = std::numeric_limits<std::size_t>::max();    ///< bytes
+  std::size_t unpacked = std::numeric_limits<std::size_t>::max();  ///< bytes of a recording that came compressed
+};
+
 /// What a command reads and writes where it does not run on the command line: the names that its arguments give stand
 /// for what is here and for nothing else, no file is written, and the answer stays in memory.
 struct Surroundings {
   std::map<std::string, std::string> devices;     ///< TOML text by name
   std::map<std::string, std::string> recordings;  ///< by name, where the system has the bytes open: /proc/self/fd/7
   std::map<std::string, std::shared_ptr<const RecordedColumns>> columns;  ///< recordings that are in no file, by name
+  RequestBounds bounds;
   Progress progress;   ///< of long work; throwing from it ends the work
   std::string output;  ///< what the command wrote to standard output
   // What the document does not hold, for who takes it from here.
@@ -30,6 +40,9 @@ struct Surroundings {
 
 /// Those of the command that this thread runs; null: the disk and the standard streams.
 [[nodiscard]] Surroundings* surroundings();
+
+/// Throws BadInput, naming the option, where a request asks for more samples than it may.
+void check_samples(const char* option, double samples);
 
 /// Keeps what a document does not hold; nothing is done on the command line.
 void hand_over_device(const std::string& text);

@@ -14,8 +14,6 @@ namespace zwidth {
 using namespace internal;
 namespace {
 
-constexpr double default_rate = 1000.0;  // Hz
-
 bool positive(double value) { return std::isfinite(value) && value > 0.0; }
 
 /// In samples of the whole signal; of a multisine, of one period.
@@ -187,14 +185,16 @@ double rate_for(const ExcitationOptions& options, const Device& device) {
 }  // namespace
 
 std::optional<OptionProblem> find_problem(const ExcitationOptions& options) {
-  return find_problem(options, options.rate.value_or(default_rate));
+  return find_problem(options, options.rate.value_or(default_excitation_rate));
 }
 
 std::optional<OptionProblem> find_problem(const ExcitationOptions& options, const Device& device) {
   return find_problem(options, rate_for(options, device));
 }
 
-Excitation excite(const ExcitationOptions& options) { return made(options, options.rate.value_or(default_rate)); }
+Excitation excite(const ExcitationOptions& options) {
+  return made(options, options.rate.value_or(default_excitation_rate));
+}
 
 Excitation excite(const ExcitationOptions& options, const Device& device) {
   Excitation excitation = made(options, rate_for(options, device));

@@ -30,8 +30,8 @@ class Stream {
 
 }  // namespace
 
-tl::expected<std::vector<unsigned char>, std::string> inflate_all(std::span<const unsigned char> input,
-                                                                  std::size_t limit) {
+tl::expected<std::vector<unsigned char>, InflateFailure> inflate_all(std::span<const unsigned char> input,
+                                                                     std::size_t limit) {
   Stream stream;
   z_stream& z = *stream;
   std::vector<unsigned char> output;
@@ -45,7 +45,9 @@ tl::expected<std::vector<unsigned char>, std::string> inflate_all(std::span<cons
       input = input.subspan(taken);
     }
     if (size == output.size()) {
-      if (size >= limit) return tl::unexpected(fmt::format("it unpacks to more than {} bytes", limit));
+      if (size >= limit) {
+        return tl::unexpected(InflateFailure{fmt::format("it unpacks to more than {} bytes", limit), true});
+      }
       output.resize(std::min(limit, std::max(least_room, 2 * size)));
     }
     const std::size_t room = std::min(output.size() - size, most_at_once);
@@ -53,7 +55,8 @@ tl::expected<std::vector<unsigned char>, std::string> inflate_all(std::span<cons
     z.avail_out = static_cast<uInt>(room);
     state = ::inflate(&z, Z_NO_FLUSH);
     size += room - z.avail_out;
-    if (state != Z_OK && state != Z_STREAM_END) return tl::unexpected(std::string("its compressed bytes are damaged"));
+    if (state != Z_OK && state != Z_STREAM_END)
+      return tl::unexpected(InflateFailure{"its compressed bytes are damaged"});
   }
   output.resize(size);
   return output;

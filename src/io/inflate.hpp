@@ -8,9 +8,14 @@
 
 namespace zwidth::internal {
 
+struct InflateFailure {
+  std::string why;
+  bool is_too_large = false;  ///< more than the limit came out; else the stream is damaged or unfinished
+};
+
 /// The bytes that a zlib stream holds. Memory grows with what comes out, never with what the stream claims.
-/// Refused, saying why: a damaged or unfinished stream, and one of more than `limit` bytes.
-[[nodiscard]] tl::expected<std::vector<unsigned char>, std::string> inflate_all(std::span<const unsigned char> stream,
-                                                                                std::size_t limit);
+/// Refused: a damaged or unfinished stream, and one of more than `limit` bytes.
+[[nodiscard]] tl::expected<std::vector<unsigned char>, InflateFailure> inflate_all(
+    std::span<const unsigned char> stream, std::size_t limit);
 
 }  // namespace zwidth::internal

@@ -30,7 +30,7 @@ struct Variable {
 /// The variables of a file of version 5, one after the other.
 class Variables {
  public:
-  static tl::expected<Variables, InputError> start(InputFile file);
+  static tl::expected<Variables, InputError> start(InputFile file, std::size_t most_unpacked);
 
   /// The next variable; nothing at the file's end. A variable that does not unpack is the inner refusal, saying why.
   using Result = tl::expected<Variable, std::string>;
@@ -45,13 +45,15 @@ class Variables {
   [[nodiscard]] std::uintmax_t subsystem() const { return subsystem_; }
 
  private:
-  explicit Variables(InputFile file) : file_(std::move(file)) {}
+  Variables(InputFile file, std::size_t most_unpacked) : file_(std::move(file)), most_unpacked_(most_unpacked) {}
   [[nodiscard]] tl::unexpected<InputError> damaged(const std::string& how) const {
     return tl::unexpected(InputError{file_.source(), 0, 0, "", fmt::format("is damaged at byte {}: {}", position_, how),
                                      "save or copy it again"});
   }
 
   InputFile file_;
+  std::size_t most_unpacked_;
+  std::size_t unpacked_ = 0;  // so far
   ByteOrder order_ = ByteOrder::little;
   std::uintmax_t position_ = header_size;
   std::uintmax_t subsystem_ = 0;
@@ -61,8 +63,8 @@ std::span<char> as_characters(std::span<unsigned char> bytes) {
   return {reinterpret_cast<char*>(bytes.data()), bytes.size()};
 }
 
-tl::expected<Variables, InputError> Variables::start(InputFile file) {
-  Variables variables(std::move(file));
+tl::expected<Variables, InputError> Variables::start(InputFile file, std::size_t most_unpacked) {
+  Variables variables(std::move(file), most_unpacked);
   std::array<unsigned char, header_size> header{};
   const auto size = variables.file_.read(as_characters(header));
   if (!size) return tl::unexpected(size.error());
@@ -97,8 +99,15 @@ tl::expected<std::optional<Variables::Result>, InputError> Variables::next() {
   position_ += tag.size() + size;
   if (type == mat5_matrix) return Result(std::move(variable));
 
-  auto unpacked = inflate_all(variable.matrix, largest_variable);
-  if (!unpacked) return Result(tl::unexpected(std::move(unpacked.error())));
+  const std::size_t left = most_unpacked_ - unpacked_;
+  auto unpacked = inflate_all(variable.matrix, std::min(largest_variable, left));
+  if (!unpacked && unpacked.error().is_too_large && left < largest_variable) {
+    return tl::unexpected(InputError{file_.source(), 0, 0, "",
+                                     fmt::format("unpacks to more than {} bytes", most_unpacked_),
+                                     fmt::format("at most {} bytes in all", most_unpacked_)});
+  }
+  if (!unpacked) return Result(tl::unexpected(std::move(unpacked.error().why)));
+  unpacked_ += unpacked->size();
   // The outermost size is not used: matio writes one too large for text, and what is inside is checked anyway.
   constexpr std::ptrdiff_t tag_bytes = 8;
   if (unpacked->size() < tag_bytes || load<std::uint32_t>(unpacked->data(), order_) != mat5_matrix) {
@@ -112,6 +121,7 @@ tl::expected<std::optional<Variables::Result>, InputError> Variables::next() {
 tl::expected<Variable, InputError> Variables::at(std::uintmax_t offset) {
   if (auto sought = file_.seek(offset); !sought) return tl::unexpected(std::move(sought.error()));
   position_ = offset;
+  unpacked_ = 0;
   auto variable = next();
   if (!variable) return tl::unexpected(std::move(variable.error()));
   if (!*variable || !**variable) return damaged("the file has changed while it was read");
@@ -157,8 +167,8 @@ void append(std::vector<SkippedMatArray>& skipped, std::vector<SkippedMatArray> 
 
 }  // namespace
 
-tl::expected<MatFile, InputError> open_mat5_file(InputFile file, const Progress& progress) {
-  auto variables = Variables::start(std::move(file));
+tl::expected<MatFile, InputError> open_mat5_file(InputFile file, std::size_t most_unpacked, const Progress& progress) {
+  auto variables = Variables::start(std::move(file), most_unpacked);
   if (!variables) return tl::unexpected(std::move(variables.error()));
   MatContents contents;
   std::vector<Place> places;

@@ -54,7 +54,8 @@ InputError refused(const std::string& source, std::string what, std::string allo
   return {source, 0, 0, std::move(key), std::move(what), std::move(allowed)};
 }
 
-tl::expected<MatFile, InputError> open_mat_file(const std::string& path, const Progress& progress) {
+tl::expected<MatFile, InputError> open_mat_file(const std::string& path, std::size_t most_unpacked,
+                                                const Progress& progress) {
   auto file = InputFile::open(path, "MAT file");
   if (!file) return Refusal(std::move(file.error()));
   if (!file->is_regular()) return Refusal(refused(file->source(), "is a pipe", "must be a file: MAT is read by parts"));
@@ -69,7 +70,7 @@ tl::expected<MatFile, InputError> open_mat_file(const std::string& path, const P
   if (has(0, hdf5_signature) || has(512, hdf5_signature)) return open_mat73_file(path);
   if (has(124, "\x00\x01IM"sv) || has(124, "\x01\x00MI"sv)) {
     if (auto sought = file->seek(0); !sought) return Refusal(std::move(sought.error()));
-    return open_mat5_file(std::move(*file), progress);
+    return open_mat5_file(std::move(*file), most_unpacked, progress);
   }
   if (has(0, "MATLAB 7.3"sv)) {
     return Refusal(refused(path, "is a damaged MAT file of version 7.3", "save or copy it again"));
@@ -127,12 +128,17 @@ InputError nothing_to_read(const MatTable& table) {
                  "must hold numeric arrays of two samples at least");
 }
 
-tl::expected<MatTable, InputError> open_table(const std::string& path, const Progress& progress) {
-  auto file = open_mat_file(path, progress);
+tl::expected<MatTable, InputError> open_table(const std::string& path, std::size_t most_unpacked,
+                                              const Progress& progress) {
+  auto file = open_mat_file(path, most_unpacked, progress);
   if (!file) return Refusal(std::move(file.error()));
   MatTable table{path, std::move(*file), {}, {}, {}};
   for (std::size_t i = 0; i < table.file.contents.arrays.size(); ++i) {
     const auto& [name, class_name, rows, columns] = table.array(i);
+    if (rows * columns > most_unpacked / sizeof(double)) {
+      return Refusal(refused(path, fmt::format("has {} values", rows * columns),
+                             fmt::format("at most {} in an array", most_unpacked / sizeof(double)), shortened(name)));
+    }
     if (rows == 1 && columns == 1) {
       table.scalars.push_back(i);
     } else if (rows == 1 || columns == 1) {
@@ -253,7 +259,7 @@ tl::expected<RawColumn, InputError> read_signal(const MatTable& table, const Sig
 tl::expected<Recording, InputError> read_mat_recording(const std::string& path, const RecordingOptions& options,
                                                        const Progress& progress) {
   check_recording_options(options);
-  const auto table = open_table(path, progress);
+  const auto table = open_table(path, options.most_unpacked, progress);
   if (!table) return Refusal(table.error());
   std::vector<std::size_t> asked;
   for (const ColumnRequest& request : options.columns) {
@@ -297,10 +303,9 @@ tl::expected<Recording, InputError> read_mat_recording(const std::string& path, 
   return recording;
 }
 
-tl::expected<RecordingContents, InputError> list_mat_recording(const std::string& path,
-                                                               const RecordingOptions& /*options*/,
+tl::expected<RecordingContents, InputError> list_mat_recording(const std::string& path, const RecordingOptions& options,
                                                                const Progress& progress) {
-  const auto table = open_table(path, progress);
+  const auto table = open_table(path, options.most_unpacked, progress);
   if (!table) return Refusal(table.error());
   RecordingContents contents{RecordingFormat::mat, {}, remarks_on_skipped(table->file.contents.skipped)};
   for (const Signal& signal : table->signals) {

@@ -94,5 +94,45 @@ TEST_F(ServedErrors, AnErrorSaysWhatWasGivenAndWhatIsAllowed) {
   EXPECT_FALSE(json::parse(of_json.body).at("error").contains("line")) << of_json.body;
 }
 
+// Another reader may take the first of two, ours would take the last.
+TEST_F(ServedErrors, AKeyThatIsGivenTwiceIsRefusedWithItsPlace) {
+  for (const auto& [place, document] : std::vector<std::pair<std::string, std::string>>{
+           {"device_toml", R"({"device_toml":"a","device_toml":"b"})"},
+           {"options.set", R"({"options":{"set":"a=1","points":3,"set":"b=1"}})"},
+           {"device.loop.delay", R"({"device":{"name":"x","loop":{"delay":1,"delay":2}}})"},
+           {"device.body.mass", R"({"device":{"body":[{"mass":1},{"name":"b","mass":1,"\u006dass":2}]}})"}}) {
+    const HttpAnswer answer = post("analyze", document);
+    EXPECT_EQ(answer.status, 400) << document;
+    const json error = json::parse(answer.body).at("error");
+    EXPECT_EQ(error.at("where"), place) << error;
+    EXPECT_EQ(error.at("what"), "is given twice") << error;
+  }
+  // The same key of two objects is none twice.
+  const HttpAnswer once =
+      post("analyze", R"({"device":{"body":[{"name":"a","mass":1,"damping":2}],"loop":{"sampling_period":1e-3}}})");
+  EXPECT_EQ(once.status, 200) << once.body;
+}
+
+TEST_F(ServedErrors, WhatARequestMayMakeIsBounded) {
+  const json asked{{"options", {{"amplitude", 1}, {"duration", 30000}, {"output", "-"}}}};
+  const HttpAnswer many = post("excite", asked.dump());
+  EXPECT_EQ(many.status, 400);
+  EXPECT_EQ(json::parse(many.body).at("error").at("where"), "options.duration") << many.body;
+  EXPECT_THAT(many.body, HasSubstr("makes 30000000 samples"));
+  const json long_run{{"device_toml", contents("devices/lhifam.toml")},
+                      {"options", {{"set", "wall.stiffness=3000"}, {"duration", 1e5}}}};
+  EXPECT_THAT(post("simulate", long_run.dump()).body, HasSubstr("makes 100000000 samples"));
+  // 400 kB that unpack to 400 MB.
+  const Outcome made =
+      run("/usr/bin/python3 -c 'import scipy.io, numpy as n; "
+          "scipy.io.savemat(\"bomb.mat\", {\"force\": n.zeros(50_000_000)}, do_compression=True)'");
+  ASSERT_EQ(made.status, 0) << made.errors;
+  const std::string bomb = contents("bomb.mat");
+  EXPECT_LT(bomb.size(), 500'000U);
+  const HttpAnswer unpacked = upload(bomb);
+  EXPECT_EQ(unpacked.status, 400);
+  EXPECT_THAT(unpacked.body, HasSubstr("at most 134217728 bytes"));
+}
+
 }  // namespace
 }  // namespace zwidth::cli

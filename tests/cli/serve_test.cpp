@@ -93,7 +93,8 @@ TEST_F(Serve, WhatItCannotServeIsRefused) {
 
 TEST_F(Serve, ElsewhereThanOnLoopbackTheTokenIsNeeded) {
   start({"--host", "0.0.0.0"});
-  ASSERT_THAT(address(), ::testing::MatchesRegex("http://0\\.0\\.0\\.0:[0-9]+/#token=[0-9a-f]+"));
+  // One that a browser can open, of this machine's own.
+  ASSERT_THAT(address(), ::testing::MatchesRegex("http://[1-9][0-9.]+:[0-9]+/#token=[0-9a-f]+"));
   const std::string token = address().substr(address().find('=') + 1);
   EXPECT_EQ(token.size(), 64U);
   EXPECT_EQ(get("/").status, 200);  // the page itself: the token is in its address' fragment
@@ -131,6 +132,28 @@ TEST_F(Serve, AnInterruptFinishesWhatRuns) {
   EXPECT_EQ(answer.status, 200);
   EXPECT_THAT(answer.head, HasSubstr("Connection: close"));
   EXPECT_THAT(answer.body, StartsWith("{\"schema\":"));
+}
+
+TEST_F(Serve, AnInterruptWithoutWorkEndsItWhoeverIsConnected) {
+  start();
+  Client client(port());
+  client.send(request("GET", "/api/v1/health"));
+  EXPECT_EQ(client.answer().status, 200);
+  const Client silent(port());
+  EXPECT_EQ(stop(), 0);
+}
+
+// On a loop of many samples of delay some work tells nothing for seconds.
+TEST_F(Serve, ASecondInterruptEndsWorkThatDoesNotHeedIt) {
+  start();
+  Client client(port());
+  const json request{{"device_toml", contents("devices/lhifam.toml")},
+                     {"options", {{"set", {"loop.delay=10", "wall.stiffness=0.1"}}, {"oscillates-hz", 0.05}}}};
+  client.send(whole("diagnose", request.dump()));
+  wait_until_it_works();
+  ::kill(process(), SIGINT);
+  std::this_thread::sleep_for(100ms);
+  EXPECT_EQ(stop(), 0);
 }
 
 TEST_F(Serve, ASecondInterruptEndsTheWork) {
@@ -195,16 +218,18 @@ TEST_F(Serve, WorkOfEveryKindIsEndedWhereTheClientLeaves) {
   EXPECT_TRUE(is_alive());
 }
 
-TEST_F(Serve, AnInterruptEndsSlowWorkSoon) {
+TEST_F(Serve, ASecondInterruptEndsSlowWorkAtOnce) {
   start();
   Client client(port());
   client.send(whole("region", json{{"device_toml", chain(10)}}.dump()));
   Client slow_reader(port());  // does not take its answer
   slow_reader.send(whole("bode", json{{"device_toml", chain(2)}, {"options", {{"points", 20000}}}}.dump()));
   wait_until_it_works();
+  ::kill(process(), SIGINT);
+  std::this_thread::sleep_for(100ms);
   const auto begin = std::chrono::steady_clock::now();
   EXPECT_EQ(stop(), 0);
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, 2s);        // 1 s, and what else the machine does
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, 3s);        // 0.8 s, and what else the machine does
   EXPECT_THAT(client.answer().status, ::testing::AnyOf(503, 0));  // 0: not within the time for answers
 }
 

@@ -89,7 +89,9 @@ ApiAnswer Api::answer_command(std::string_view command, std::string_view body, c
 
 ApiAnswer Api::answer_recording(std::string_view body, const Progress& progress) {
   const RecordingStore::Stored stored = recordings_.put(body);
-  const auto contents = list_recording(stored.bytes->path(), {}, progress);
+  RecordingOptions options;
+  options.most_unpacked = recordings_.limits().unpacked;
+  const auto contents = list_recording(stored.bytes->path(), options, progress);
   if (!contents) return {400, error_document({"recording", contents.error().what, contents.error().allowed})};
   return {200, contents_document(stored.id, stored.bytes->size(), *contents)};
 }

@@ -13,7 +13,8 @@ namespace zwidth::server {
 
 struct RecordingLimits {
   std::size_t count = 32;
-  std::size_t bytes = std::size_t{256} << 20;  ///< of all together
+  std::size_t bytes = std::size_t{256} << 20;     ///< of all together
+  std::size_t unpacked = std::size_t{128} << 20;  ///< of one that came compressed
 };
 
 /// Recordings by the digest of their bytes; where there are too many, the one that was longest not used goes. What a
@@ -27,6 +28,7 @@ class RecordingStore {
     std::shared_ptr<const MemoryFile> bytes;
   };
 
+  [[nodiscard]] const RecordingLimits& limits() const { return limits_; }
   Stored put(std::string_view bytes);
   /// Nothing where there is none of that id, or no longer.
   [[nodiscard]] std::shared_ptr<const MemoryFile> find(std::string_view id);

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <unordered_set>
 #include <utility>
+#include <vector>
 
 #include "results/json.hpp"
 #include "server/api/device_toml.hpp"
@@ -35,13 +37,42 @@ std::string shown(std::string text) {
   return text;
 }
 
-Json parsed(std::string_view document) {
-  const auto check_depth = [](int depth, Json::parse_event_t, Json&) {
+/// Watches a document while it is parsed: how deep it is, and that no object has a key twice.
+class Watch {
+ public:
+  bool operator()(int depth, Json::parse_event_t event, const Json& value) {
     if (depth > deepest) refuse("request", "is nested too deep", fmt::format("at most {} levels", deepest));
+    if (event == Json::parse_event_t::object_start) {
+      objects_.emplace_back();
+    } else if (event == Json::parse_event_t::object_end) {
+      objects_.pop_back();
+    } else if (event == Json::parse_event_t::key) {
+      auto& [keys, last] = objects_.back();
+      last = value.get_ref<const std::string&>();
+      if (!keys.insert(last).second) refuse(shown(place()), "is given twice", "each key once");
+    }
     return true;
+  }
+
+ private:
+  struct Object {
+    std::unordered_set<std::string> keys;
+    std::string last;
   };
+  /// "options.set"
+  [[nodiscard]] std::string place() const {
+    std::string place;
+    for (const Object& each : objects_) place += (place.empty() ? "" : ".") + each.last;
+    return place;
+  }
+  std::vector<Object> objects_;
+};
+
+Json parsed(std::string_view document) {
   try {
-    return Json::parse(document, check_depth);
+    return Json::parse(document, [watch = Watch()](int depth, Json::parse_event_t event, Json& value) mutable {
+      return watch(depth, event, value);
+    });
   } catch (const Json::exception& error) {
     const std::string_view message = error.what();  // "[json.exception.parse_error.101] parse error at line 1, ..."
     const std::size_t end = message.find("] ");

@@ -1,6 +1,9 @@
 #include "server/http/http_server.hpp"
 
 #include <fmt/format.h>
+#include <ifaddrs.h>
+#include <net/if.h>
+#include <netinet/in.h>
 #include <sys/socket.h>
 
 #include <algorithm>
@@ -8,6 +11,8 @@
 #include <boost/asio/signal_set.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <csignal>
+#include <cstdlib>
+#include <cstring>
 #include <memory>
 #include <system_error>
 #include <thread>
@@ -96,20 +101,26 @@ class Listener {
     if (shared_.connections.empty()) return;
     for (Connection* each : shared_.connections) each->stop();
     wait_for_signal();
-    grace_.expires_after(shared_.limits.last_time);
-    grace_.async_wait([this](beast::error_code error) {
-      if (error) return;
-      cancel();
-      grace_.expires_after(shared_.limits.last_answer);
-      grace_.async_wait([this](beast::error_code ended) {
-        if (ended) return;
-        for (Connection* each : shared_.connections) each->close();
-      });
+    after(shared_.limits.last_time, [this] { cancel(); });
+  }
+
+  /// What heeds it answers for a moment yet; then the sockets are closed, and what still runs ends with the process:
+  /// nothing of it lies on a disk.
+  void cancel() {
+    for (Connection* each : shared_.connections) each->cancel();
+    after(shared_.limits.last_answer, [this] {
+      for (Connection* each : shared_.connections) each->close();
+      after(shared_.limits.last_answer, [] { std::_Exit(0); });
     });
   }
 
-  void cancel() {
-    for (Connection* each : shared_.connections) each->cancel();
+  /// Takes the place of what was to come before.
+  template <typename Duration, typename Then>
+  void after(Duration time, Then then) {
+    grace_.expires_after(time);
+    grace_.async_wait([then](beast::error_code error) {
+      if (!error) then();
+    });
   }
 
   /// As long as any work runs.
@@ -134,6 +145,49 @@ class Listener {
   Shared& shared_;
 };
 
+/// The addresses of this machine that are up, those of loopback last.
+std::vector<net::ip::address> own_addresses(bool is_v6) {
+  std::vector<net::ip::address> others;
+  std::vector<net::ip::address> loopback;
+  ifaddrs* first = nullptr;
+  if (::getifaddrs(&first) != 0) return {};
+  for (const ifaddrs* each = first; each != nullptr; each = each->ifa_next) {
+    if (each->ifa_addr == nullptr || (each->ifa_flags & IFF_UP) == 0) continue;
+    net::ip::address address;
+    if (each->ifa_addr->sa_family == AF_INET) {
+      const auto* found = reinterpret_cast<const sockaddr_in*>(each->ifa_addr);
+      address = net::ip::address_v4(ntohl(found->sin_addr.s_addr));
+    } else if (is_v6 && each->ifa_addr->sa_family == AF_INET6) {
+      const auto* found = reinterpret_cast<const sockaddr_in6*>(each->ifa_addr);
+      net::ip::address_v6::bytes_type bytes;
+      std::memcpy(bytes.data(), &found->sin6_addr, bytes.size());
+      address = net::ip::address_v6(bytes);
+      if (address.to_v6().is_link_local()) continue;  // a browser cannot open it
+    } else {
+      continue;
+    }
+    (address.is_loopback() ? loopback : others).push_back(address);
+  }
+  ::freeifaddrs(first);
+  others.insert(others.end(), loopback.begin(), loopback.end());
+  return others;
+}
+
+/// Every address at once is none that a browser could open: then one of the machine's own is named.
+Started started_at(const tcp::endpoint& endpoint, const std::string& token) {
+  std::vector<net::ip::address> addresses{endpoint.address()};
+  Started started;
+  if (endpoint.address().is_unspecified()) {
+    addresses = own_addresses(endpoint.address().is_v6());
+    if (addresses.empty()) addresses = {net::ip::address_v4::loopback()};
+    for (const net::ip::address& each : addresses) started.hosts.push_back(host_and_port({each, endpoint.port()}));
+    started.hosts.push_back(fmt::format("localhost:{}", endpoint.port()));
+  }
+  started.address = fmt::format("http://{}/{}", host_and_port({addresses.front(), endpoint.port()}),
+                                token.empty() ? "" : "#token=" + token);
+  return started;
+}
+
 net::ip::address address_of(const std::string& host, beast::error_code& error) {
   return net::ip::make_address(host == "localhost" ? "127.0.0.1" : host, error);
 }
@@ -146,7 +200,7 @@ bool is_address(const std::string& host) {
   return !error;
 }
 
-void serve(Api& api, const HttpOptions& options, const std::function<void(const std::string& address)>& started) try {
+void serve(Api& api, const HttpOptions& options, const std::function<void(const Started&)>& started) try {
   beast::error_code error;
   const net::ip::address address = address_of(options.host, error);
   if (error) throw boost::system::system_error(error);
@@ -154,8 +208,7 @@ void serve(Api& api, const HttpOptions& options, const std::function<void(const 
   WorkQueue work(std::max(1U, std::thread::hardware_concurrency()), options.limits.waiting);
   Shared shared{api, options.limits, embedded_pages(), address.is_loopback() ? "" : random_token(), work};
   Listener listener(sockets, shared, {address, options.port});
-  started(fmt::format("http://{}/{}", host_and_port(listener.endpoint()),
-                      shared.token.empty() ? "" : "#token=" + shared.token));
+  started(started_at(listener.endpoint(), shared.token));
   sockets.run();
 } catch (const boost::system::system_error& error) {
   throw std::system_error(error.code().value(), std::system_category(), options.host);

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "server/api/api.hpp"
 
@@ -18,8 +19,8 @@ struct HttpLimits {
   std::chrono::seconds body_time{60};
   std::chrono::seconds write_time{60};
   std::chrono::seconds work_time{600};
-  std::chrono::milliseconds last_time{400};    ///< that work still has when the server is to end
-  std::chrono::milliseconds last_answer{400};  ///< and after it answers, before they are dropped
+  std::chrono::seconds last_time{10};          ///< that work still has when the server is to end
+  std::chrono::milliseconds last_answer{400};  ///< for answers after that, before they and all else are dropped
 };
 
 struct HttpOptions {
@@ -31,10 +32,17 @@ struct HttpOptions {
 /// Whether `host` is an IP address or localhost.
 [[nodiscard]] bool is_address(const std::string& host);
 
+/// How a server that was started is reached.
+struct Started {
+  std::string address;             ///< can be opened; the token is in its fragment where one is needed
+  std::vector<std::string> hosts;  ///< where it listens at every address of this machine: what Host may be
+};
+
 /// Serves the API and the embedded front end until SIGINT or SIGTERM, and then finishes what can be within last_time; the
-/// rest, and with a second signal all of it, is cancelled. `started` is called once with the address, which has the token in its fragment where one is needed.
+/// rest, and with a second signal all of it at once, is cancelled, and the process ended where work does not heed that.
+/// `started` is called once.
 ///
 /// Throws std::system_error where the address cannot be bound.
-void serve(Api& api, const HttpOptions& options, const std::function<void(const std::string& address)>& started);
+void serve(Api& api, const HttpOptions& options, const std::function<void(const Started&)>& started);
 
 }  // namespace zwidth::server

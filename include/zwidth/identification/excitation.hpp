@@ -22,13 +22,14 @@ struct ExcitationOptions {
   double lowest_hz = 10.0;     ///< lower end of the band; of a relay, how often per second it runs through both signs
   double highest_hz = 200.0;   ///< upper end of the band; a relay has none
   double duration = 20.0;      ///< s
-  std::optional<double> rate;  ///< Hz; absent: that of the device, 1000 Hz without one
+  std::optional<double> rate;  ///< Hz; absent: that of the device, default_excitation_rate without one
   double fade_in = 0.0;        ///< s, raised cosine at the start, and at the end too except for a multisine
   std::size_t periods = 10;    ///< multisine only: whole periods in the duration
   std::uint64_t seed = 1;      ///< noise only
   std::optional<double> stroke_limit = {};  ///< m or rad: how far the device may move from its start; absent: any way
 };
 
+inline constexpr double default_excitation_rate = 1000.0;  // Hz, without a device
 inline constexpr double max_excitation_samples = 1e8;
 /// Of noise, and of one period of a multisine: they are made by one transform.
 inline constexpr double max_transformed_samples = 1e7;

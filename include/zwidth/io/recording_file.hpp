@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 #include <tl/expected.hpp>
@@ -47,6 +49,9 @@ struct RecordingOptions {
   /// Whether the first line of a text names the columns.
   enum class Header { detect, present, absent } header = Header::detect;  ///< detect: by what stands in it
   std::string comment = "#%";  ///< lines that begin with one of these are skipped
+
+  /// Bytes that a MAT file's compressed variables may unpack to, all together; more is refused.
+  std::size_t most_unpacked = std::numeric_limits<std::size_t>::max();
 };
 
 /// Checks what the options say by themselves: rate and time_scale finite and above 0, scales ("columns.0.scale", ...)

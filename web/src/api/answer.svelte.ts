@@ -1,6 +1,7 @@
 // The documents that a panel shows: at most one request in flight, the newest wins, and what is late says so.
 
 import { deviceKey } from '../model/keys'
+import { stale } from '../model/words'
 import { post, Problem } from './client'
 
 export type Options = Record<string, unknown>
@@ -15,7 +16,7 @@ export interface Question {
 const textOf = ({ toml, options = {}, more = {} }: Question): string =>
   JSON.stringify({ ...(toml === undefined ? {} : { device_toml: toml }), ...more, options })
 
-// What takes long waits for its turn, so that the quick panels follow a drag: then one at a time, with pauses.
+// What takes long waits for its turn, so that the quick panels follow a drag: then one at a time, a twentieth of the time.
 const mostTurns = 2
 let turns = mostTurns
 let lastChange = 0
@@ -24,16 +25,27 @@ const untilRest = 300 // ms
 const noticed = 150 // ms
 const firstPause = 1000 // ms, before a server that does not answer is asked again; then each twice as long
 const longestPause = 30_000 // ms
+const patience = 1000 // ms that work on something no longer asked may still take
+const longWork = 500 // ms; whoever took longer is asked for its progress
 const waiting: (() => void)[] = []
+const isDrag = (): boolean => performance.now() - lastChange < dragPause
+/** Until nothing has been asked for a while, or for so long. */
+async function rest(longest: number): Promise<void> {
+  for (const end = performance.now() + longest; ; ) {
+    const left = Math.min(end, lastChange + dragPause) - performance.now()
+    if (left <= 0) return
+    await new Promise((resolve) => setTimeout(resolve, left))
+  }
+}
 async function turn(): Promise<void> {
-  const most = performance.now() - lastChange < dragPause ? 1 : mostTurns
+  const most = isDrag() ? 1 : mostTurns
   if (turns > mostTurns - most) --turns
   else await new Promise<void>((resolve) => waiting.push(resolve))
 }
 async function endTurn(took: number): Promise<void> {
-  if (performance.now() - lastChange < dragPause) await new Promise((resolve) => setTimeout(resolve, Math.min(1000, 3 * took)))
+  if (isDrag()) await rest(Math.min(3000, 20 * took))
   ++turns
-  const most = performance.now() - lastChange < dragPause ? 1 : mostTurns
+  const most = isDrag() ? 1 : mostTurns
   while (waiting.length > 0 && turns > mostTurns - most) {
     --turns
     waiting.shift()!()
@@ -61,6 +73,18 @@ export class Answer<T> {
 
   private isInView = true
   private timer: ReturnType<typeof setTimeout> | undefined
+
+  private progress = $state<number | null>(null)
+  private abort: AbortController | null = null // of the request under way
+  private begun = 0
+  private took = 0
+  private leaveTimer: ReturnType<typeof setTimeout> | undefined
+
+  /** What a panel says while what it shows is not what is asked. */
+  get waits(): string {
+    if (!this.lags) return ''
+    return (this.document ? stale : 'computing …') + (this.progress === null ? '' : ` ${Math.floor(100 * this.progress)} %`)
+  }
 
   constructor(private readonly isSlow = false) {}
 
@@ -97,8 +121,10 @@ export class Answer<T> {
     const text = question === null ? '' : question.path + textOf(question)
     if (text === this.wantedText) return
     const before = this.wantedText
+    const isOther = question === null || deviceKey(question.toml) !== deviceKey(this.wanted?.toml)
     this.wanted = question
     this.wantedText = text
+    this.leave(isOther ? 0 : patience)
     lastChange = performance.now()
     if (question === null) {
       this.document = null
@@ -119,6 +145,15 @@ export class Answer<T> {
       if (this.isInView) this.start()
       else this.startLater()
     }
+  }
+
+  /** Gives up what is under way, as it is no longer asked; it may be done within that time. */
+  private leave(within: number): void {
+    clearTimeout(this.leaveTimer)
+    if (this.askedText === this.wantedText) return
+    const left = this.begun + within - performance.now()
+    if (left <= 0) this.abort?.abort()
+    else this.leaveTimer = setTimeout(() => this.askedText !== this.wantedText && this.abort?.abort(), left)
   }
 
   private async run(): Promise<void> {
@@ -147,11 +182,21 @@ export class Answer<T> {
     let document: T | null = null
     let problem: Problem | null = null
     this.askedText = text
+    this.begun = performance.now()
+    const { signal } = (this.abort = new AbortController())
     try {
-      document = await post<T>(question.path, textOf(question))
+      document = await post<T>(question.path, textOf(question), {
+        signal,
+        told: this.isSlow || this.took > longWork ? (fraction) => (this.progress = fraction) : undefined,
+      })
     } catch (error) {
       problem = error instanceof Problem ? error : new Problem('', String(error), '', 0)
     }
+    this.abort = null
+    this.progress = null
+    this.took = performance.now() - this.begun
+    clearTimeout(this.leaveTimer)
+    if (signal.aborted) return
     if (this.wanted === null || deviceKey(question.toml) !== deviceKey(this.wanted.toml)) return
     if (problem?.isPassing) problem.again = Math.round(this.pause / 1000)
     else this.pause = firstPause

@@ -46,14 +46,22 @@ async function fetched(path: string, init: RequestInit): Promise<Response> {
   if (token) headers.set('Authorization', `Bearer ${token}`)
   let response: Response
   try {
-    response = await fetch(`/api/v1/${path}`, { ...init, headers })
-  } catch {
+    // Nothing of it is in a cache or a cookie: neither is looked for.
+    response = await fetch(`/api/v1/${path}`, { ...init, headers, cache: 'no-store', credentials: 'omit' })
+  } catch (error) {
+    if (init.signal?.aborted) throw error
     throw new Problem('', 'the program does not answer', 'start it again with zwidth serve', 0)
   }
   if (response.ok) return response
-  const body = (await response.json().catch(() => null)) as { error?: Partial<Problem & Place> } | null
+  throw problemOf((await response.json().catch(() => null)) as Refused | null, response.status)
+}
+
+interface Refused {
+  error?: Partial<Problem & Place>
+}
+const problemOf = (body: Refused | null, status: number): Problem => {
   const error = body?.error
-  throw new Problem(error?.where ?? '', error?.what ?? `the server says ${response.status}`, error?.allowed ?? '', response.status, { line: error?.line ?? undefined, column: error?.column })
+  return new Problem(error?.where ?? '', error?.what ?? `the server says ${status}`, error?.allowed ?? '', status, { line: error?.line ?? undefined, column: error?.column })
 }
 
 const wait = (ms: number): Promise<void> => new Promise((resolve) => setTimeout(resolve, ms))
@@ -70,10 +78,35 @@ async function patient(path: string, init: RequestInit): Promise<Response> {
   }
 }
 
+const lines = 'application/x-ndjson'
+interface Listening {
+  signal?: AbortSignal // the server ends the work of who leaves
+  told?: ((fraction: number) => void) | undefined // where it is given the server tells its progress
+}
+
 /** `body` is the JSON of a request, as text, so that who asks can compare it. */
-export async function post<T>(path: string, body: string): Promise<T> {
-  const response = await patient(path, { method: 'POST', body, headers: { 'Content-Type': 'application/json' } })
-  return (await response.json()) as T
+export async function post<T>(path: string, body: string, { signal, told }: Listening = {}): Promise<T> {
+  const headers = { 'Content-Type': 'application/json', ...(told ? { Accept: lines } : {}) }
+  const response = await patient(path, { method: 'POST', body, headers, ...(signal ? { signal } : {}) })
+  if (!told || !response.body || !response.headers.get('Content-Type')?.startsWith(lines)) return (await response.json()) as T
+  const document = (await lastLine(response.body, told)) as T & Refused
+  if (document.error) throw problemOf(document, 400)
+  return document
+}
+
+/** The lines before it tell how much is done. */
+async function lastLine(body: ReadableStream<Uint8Array>, told: (fraction: number) => void): Promise<unknown> {
+  const reader = body.getReader()
+  const decoder = new TextDecoder()
+  let text = ''
+  for (;;) {
+    const { done, value } = await reader.read()
+    text += decoder.decode(value, { stream: !done })
+    if (done) return JSON.parse(text)
+    for (let end; text.startsWith('{"progress":') && (end = text.indexOf('\n')) >= 0; text = text.slice(end + 1)) {
+      told((JSON.parse(text.slice(0, end)) as { progress: number }).progress)
+    }
+  }
 }
 
 export async function get<T>(path: string): Promise<T> {

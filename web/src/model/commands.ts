@@ -107,13 +107,12 @@ int main() {
 export function pythonCode(toml = workbench.toml): string {
   const escape = (quotes: string): string => quotes.replaceAll('"', '\\"')
   const text = toml.replaceAll('\\', '\\\\').replace(/"{3,}|"+$/g, escape).replace(/[\u0000\r]/g, (c) => (c === '\r' ? '\\r' : '\\x00'))
-  return `import json
-import subprocess
+  // One line alone would be the name of a file.
+  return `import zwidth
 
-device = """\\
-${text}"""
-answer = subprocess.run(["zwidth", "analyze", "-", "--json"], input=device, capture_output=True, text=True, check=True)
-analysis = json.loads(answer.stdout)
-print(analysis["critical_stiffness"], analysis["units"]["stiffness"], analysis["trust"])
+device = zwidth.Device.from_toml("""\\
+${text.includes('\n') ? text : `${text}\n`}""")
+analysis = zwidth.analyze(device)
+print(analysis.critical_stiffness, analysis.units.stiffness, analysis.trust.verdict)
 `
 }

@@ -1,0 +1,28 @@
+// What the page copies as Python, run: the numbers of the program.
+import { execFileSync } from 'node:child_process'
+import { existsSync } from 'node:fs'
+import { resolve } from 'node:path'
+import { expect, it } from 'vitest'
+import { documentOf, openBrowser, openPage, program, runPalette, serve, settled, type } from './program'
+
+const packages = resolve(program, '../../python') // of the same build
+const setup = { timeout: 60_000 }
+
+it.runIf(existsSync(`${packages}/zwidth`))('copies Python that imports zwidth and gives the same numbers', setup, async () => {
+  const served = await serve('devices/lhifam.toml')
+  const browser = await openBrowser()
+  const { page, complaints } = await openPage(browser, served, 1280)
+  await type(page, 'loop.delay', '0.3 ms')
+  await type(page, 'body.handle.damping', '4.2')
+  await settled(page)
+  await runPalette(page, 'copy as python')
+  const code = await page.evaluate(() => navigator.clipboard.readText())
+  const printed = execFileSync('/usr/bin/python3', ['-c', code], { encoding: 'utf8', env: { ...process.env, PYTHONPATH: packages } })
+  const answer = documentOf('analyze', 'devices/lhifam.toml', '--set', 'loop.delay=0.3 ms', '--set', 'body.handle.damping=4.2')
+  const [stiffness, unit, verdict] = printed.trim().split(' ')
+  expect(Number(stiffness)).toBe(answer.critical_stiffness)
+  expect([unit, verdict]).toEqual(['N/m', 'sound'])
+  expect(complaints).toEqual([])
+  await browser.close()
+  await served.stop()
+})
