@@ -10,6 +10,12 @@ export const roles: [Role, string][] = [
   ['held', 'The hand holds'],
 ]
 
+/** A motor that moves a handle or a wheel through a cable, belt or shaft, as a device to begin with. */
+export const newLinkedDevice = (motion: 'linear' | 'rotary'): string =>
+  motion === 'rotary'
+    ? addBody(newDevice(motion).replace('"body 1"', '"motor"').replace('inertia = 1e-4', 'inertia = 1e-5'), 'wheel', 'motor', 'held')
+    : addBody(newDevice(motion).replace('"body 1"', '"motor"'), 'handle', 'motor', 'held')
+
 /** One rigid body with a first mass, as a device to begin with. */
 export const newDevice = (motion: 'linear' | 'rotary'): string =>
   `name = "new device"\n${motion === 'rotary' ? 'motion = "rotary"\n' : ''}\n[[body]]\nname = "body 1"\n${motion === 'rotary' ? 'inertia = 1e-4\ndamping = 1e-4' : 'mass = 0.1\ndamping = 0.1'}\n\n[loop]\nsampling_period = 1e-3\n`
@@ -24,8 +30,8 @@ export function freeName(text: string): string {
 }
 
 /** A body of a first mass, linked to another, for one alone is no device. Who holds what stays. */
-export function addBody(text: string, name: string, to: string): string {
-  const { held } = shape(text)
+export function addBody(text: string, name: string, to: string, as: 'free' | 'held' = 'free'): string {
+  const held = as === 'held' ? name : shape(text).held
   const mass = isRotary(scan(text)) ? 'inertia = 1e-4' : 'mass = 0.1'
   const added = append(text, ['body'], `[[body]]\nname = ${JSON.stringify(name)}\n${mass}`)
   return addLink(held === undefined ? added : choose(added, 'held', held), to, name)
