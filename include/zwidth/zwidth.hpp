@@ -1,5 +1,7 @@
 #pragma once
 
+#include "zwidth/batch/batch_stiffness.hpp"
+#include "zwidth/batch/parameter_values.hpp"
 #include "zwidth/control/running_filter.hpp"
 #include "zwidth/control/sampled_controller.hpp"
 #include "zwidth/control/velocity_filter.hpp"

@@ -19,7 +19,8 @@ LIBRARY = {
     "io": ["model", "signal"],
     "simulation": ["model", "signal", "sampling", "control", "stability"],
     "identification": ["model", "signal", "sampling", "stability", "simulation"],
-    "design": ["model", "signal", "sampling", "stability"],
+    "batch": ["model", "sampling", "stability"],
+    "design": ["model", "signal", "sampling", "stability", "batch"],
 }
 APPS = {
     "results": [],

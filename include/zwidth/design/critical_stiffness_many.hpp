@@ -5,17 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "zwidth/batch/parameter_values.hpp"
 #include "zwidth/model/device.hpp"
 #include "zwidth/progress.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
 
 namespace zwidth {
-
-/// The values that one number takes, one for each of many devices.
-struct ParameterValues {
-  std::string key;             ///< as in model/parameter.hpp
-  std::vector<double> values;  ///< SI units
-};
 
 /// The critical stiffness of one of many devices, or why there is none.
 struct CriticalStiffnessOfOne {
@@ -26,9 +21,6 @@ struct CriticalStiffnessOfOne {
   Trust trust = {};                                   ///< of this device's answer
   std::string failure = {};  ///< the values make no device, or the computation failed; empty: neither
 };
-
-/// What is wrong with the keys: one that is no number of the device, one twice, different counts of values.
-[[nodiscard]] std::optional<DeviceProblem> find_problem(const Device& device, std::span<const ParameterValues> changes);
 
 /// critical_stiffness() of the device with the i-th value of every key set, for every i: each element is that of the
 /// function called for it alone, bit for bit.
