@@ -4,6 +4,7 @@ function(zwidth_unity target)
   # Long by themselves and with little in common: alone, they spread over the cores.
   set(alone plant_slopes identifiability pole_count_in_digits)
   list(APPEND alone wall_recommendation mat5_matrix)  # some names of theirs are others in wall_search, mat73_file
+  list(APPEND alone stiffness_kernel)  # includes itself, once per instruction set
   foreach(source IN LISTS ARGN)
     cmake_path(GET source STEM name)
     foreach(letters a-d e-l m-r s-z)

@@ -1,15 +1,17 @@
 #include "zwidth/batch/batch_stiffness.hpp"
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <iterator>
 #include <limits>
+#include <numeric>
 #include <utility>
 
+#include "batch/kernel_columns.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/device_trust.hpp"
@@ -20,7 +22,13 @@ namespace zwidth {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t block_size = 64;  // devices between two looks at the progress
+constexpr std::size_t block_size = 512;  // devices: enough of one delay for whole vectors, few enough for the cache
+
+/// Of one thread.
+struct Memory {
+  internal::KernelAnswers answers;
+  internal::BlockScratch scratch;
+};
 
 BatchStiffness columns_of(std::size_t count, bool any_user) {
   BatchStiffness columns;
@@ -36,35 +44,85 @@ BatchStiffness columns_of(std::size_t count, bool any_user) {
   return columns;
 }
 
-/// One device, asked as a user of the library would; what is to be said of it besides its numbers.
-BatchException answer_alone(DeviceParameters parameters, std::size_t i, const BatchOptions& options,
-                            BatchStiffness& columns) {
-  BatchException said{i, {}, {}};
-  if (const auto problem = find_problem(parameters)) {
-    said.failure = fmt::format("{} {}; {}", problem->key, problem->what, problem->allowed);
+/// The devices of one call.
+class Devices {
+ public:
+  Devices(const Device& device, std::span<const ParameterValues> changes, const BatchOptions& options)
+      : changes_(changes), options_(options), base_(device.parameters()), trust_(trust_of(device)) {
+    base_.uncertainty.reset();  // its trust is in the columns
+  }
+
+  [[nodiscard]] const DeviceParameters& base() const { return base_; }
+  [[nodiscard]] const Trust& trust() const { return trust_; }
+
+  [[nodiscard]] DeviceParameters at(std::size_t i) const {
+    DeviceParameters parameters = base_;
+    for (const ParameterValues& each : changes_) set_parameter(parameters, each.key, each.values[i]);
+    return parameters;
+  }
+
+  /// One device, asked as a user of the library would; what is to be said of it besides its numbers.
+  [[nodiscard]] BatchException ask(std::size_t i, BatchStiffness& columns) const {
+    BatchException said{i, {}, {}};
+    DeviceParameters parameters = at(i);
+    if (const auto problem = find_problem(parameters)) {
+      said.failure = fmt::format("{} {}; {}", problem->key, problem->what, problem->allowed);
+      return said;
+    }
+    if (trust_.refused()) return said;
+    try {
+      const Device device(std::move(parameters));
+      const CriticalStiffness critical = critical_stiffness(device);
+      said.trust = critical.trust;
+      if (options_.any_user && !said.trust.refused()) said.trust.inherit(ask_any_user(device, i, columns));
+      columns.status[i] = critical.status;
+      columns.stiffness[i] = critical.stiffness;
+      if (critical.limit) {
+        columns.frequency[i] = critical.limit->frequency;
+        columns.mode[i] = static_cast<std::int16_t>(critical.limit->limited_by.mode);
+      }
+    } catch (const Error& error) {
+      said.failure = error.what();
+    }
     return said;
   }
-  if (columns.trust.refused()) return said;
-  try {
-    const Device device(std::move(parameters));
-    const CriticalStiffness critical = critical_stiffness(device);
-    said.trust = critical.trust;
-    if (options.any_user && !said.trust.refused()) {
-      const AnyUserLimit limit = any_user_limit(device, virtual_damper(device));
-      said.trust.inherit(limit.trust);
-      columns.any_user[i] = limit.stiffness;
-      columns.any_user_frequency[i] = limit.frequency;
+
+  /// The any-user limit alone.
+  [[nodiscard]] BatchException ask_any_user(std::size_t i, BatchStiffness& columns) const {
+    BatchException said{i, {}, {}};
+    try {
+      said.trust = ask_any_user(Device(at(i)), i, columns);
+    } catch (const Error& error) {
+      said.failure = error.what();
     }
-    columns.status[i] = critical.status;
-    columns.stiffness[i] = critical.stiffness;
-    if (critical.limit) {
-      columns.frequency[i] = critical.limit->frequency;
-      columns.mode[i] = static_cast<std::int16_t>(critical.limit->limited_by.mode);
-    }
-  } catch (const Error& error) {
-    said.failure = error.what();
+    return said;
   }
-  return said;
+
+ private:
+  [[nodiscard]] static Trust ask_any_user(const Device& device, std::size_t i, BatchStiffness& columns) {
+    AnyUserLimit limit = any_user_limit(device, virtual_damper(device));
+    columns.any_user[i] = limit.stiffness;
+    columns.any_user_frequency[i] = limit.frequency;
+    return std::move(limit.trust);
+  }
+
+  std::span<const ParameterValues> changes_;
+  const BatchOptions& options_;
+  DeviceParameters base_;
+  Trust trust_;
+};
+
+void take_answer(const internal::KernelAnswers& answers, std::size_t at, std::size_t i, BatchStiffness& columns) {
+  columns.status[i] = StiffnessStatus::finite;
+  columns.stiffness[i] = answers.stiffness[at];
+  columns.frequency[i] = answers.frequency[at];
+  columns.mode[i] = answers.mode[at];
+}
+
+void withdraw(std::size_t i, BatchStiffness& columns) {
+  columns.status[i] = StiffnessStatus::refused;
+  columns.stiffness[i] = columns.frequency[i] = none;
+  columns.mode[i] = -1;
 }
 
 const BatchException* exception_of(const BatchStiffness& columns, std::size_t i) {
@@ -111,32 +169,46 @@ BatchStiffness batch_stiffness(const Device& device, std::span<const ParameterVa
                 fmt::format("{} {}; {}", problem->member, problem->what, problem->allowed));
   }
   const std::size_t count = changes.front().values.size();
+  const Devices devices(device, changes, options);
+  const internal::KernelColumns kernel(devices.base(), changes);
+  const bool by_kernel = options.vectorised && kernel.suits() && !devices.trust().refused();
   BatchStiffness columns = columns_of(count, options.any_user);
-  columns.trust = trust_of(device);
-  DeviceParameters base = device.parameters();
-  base.uncertainty.reset();  // its trust is in the columns
+  columns.trust = devices.trust();
   const std::size_t blocks = (count + block_size - 1) / block_size;
   std::vector<std::vector<BatchException>> said(blocks);
+  std::vector<std::size_t> alone(blocks);
+  tbb::enumerable_thread_specific<Memory> memories;
   internal::SharedProgress shared(progress, count);
   const auto compute = [&](std::size_t block) {
-    const std::size_t end = std::min(count, (block + 1) * block_size);
-    for (std::size_t i = block * block_size; i < end; ++i) {
-      DeviceParameters parameters = base;
-      for (const ParameterValues& each : changes) set_parameter(parameters, each.key, each.values[i]);
-      BatchException one = answer_alone(std::move(parameters), i, options, columns);
-      columns.verdict[i] = one.failure.empty() ? std::max(one.trust.verdict, columns.trust.verdict)
-                                               : Trust::Verdict::refused;
+    const std::size_t begin = block * block_size;
+    const std::size_t end = std::min(count, begin + block_size);
+    Memory& memory = memories.local();
+    if (by_kernel) kernel.solve(begin, end, memory.answers, memory.scratch);
+    std::size_t quick = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      const bool certain = by_kernel && memory.answers.certain[i - begin] != 0;
+      if (certain) take_answer(memory.answers, i - begin, i, columns);
+      if (certain && !options.any_user) {
+        columns.verdict[i] = columns.trust.verdict;
+        ++quick;
+        continue;
+      }
+      if (!certain) ++alone[block];
+      BatchException one = certain ? devices.ask_any_user(i, columns) : devices.ask(i, columns);
+      if (!one.failure.empty()) withdraw(i, columns);
+      columns.verdict[i] =
+          one.failure.empty() ? std::max(one.trust.verdict, columns.trust.verdict) : Trust::Verdict::refused;
       if (!one.trust.sound() || !one.failure.empty()) said[block].push_back(std::move(one));
-      if (options.any_user) shared.add();
+      shared.add();
     }
-    if (!options.any_user) shared.add(end - block * block_size);
+    shared.add(quick);
   };
   tbb::task_arena arena(options.threads == 0 ? tbb::task_arena::automatic : static_cast<int>(options.threads));
   arena.execute([&] { tbb::parallel_for(std::size_t{0}, blocks, compute); });
   for (std::vector<BatchException>& each : said) {
     std::ranges::move(each, std::back_inserter(columns.exceptions));
   }
-  columns.scalar_count = count;
+  columns.scalar_count = std::accumulate(alone.begin(), alone.end(), std::size_t{0});
   return columns;
 }
 

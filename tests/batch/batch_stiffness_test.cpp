@@ -39,7 +39,8 @@ TEST(BatchStiffness, HoldsTheAnyUserLimitWhereAsked) {
 }
 
 TEST(BatchStiffness, WhatMakesNoDeviceIsRefusedAndSaysWhy) {
-  const BatchStiffness columns = batch_stiffness(device, std::vector<ParameterValues>{{"loop.delay", {0.0, -1.0, 1e-3}}});
+  const BatchStiffness columns =
+      batch_stiffness(device, std::vector<ParameterValues>{{"loop.delay", {0.0, -1.0, 1e-3}}});
   ASSERT_EQ(columns.exceptions.size(), 1U);
   EXPECT_EQ(columns.exceptions[0].index, 1U);
   EXPECT_TRUE(columns.failure_of(1).starts_with("loop.delay")) << columns.failure_of(1);

@@ -36,16 +36,16 @@ struct BatchException {
 
 /// One element of every column for each device, in the order of the values.
 struct BatchStiffness {
-  std::vector<double> stiffness;         ///< K_CR; 0 when none_stable, infinity when unbounded, NaN when refused
-  std::vector<StiffnessStatus> status;   ///< refused too where the device failed
-  std::vector<double> frequency;         ///< rad/s, of the limiting crossover; NaN unless finite
-  std::vector<std::int16_t> mode;        ///< of the limiting mechanism: 0 the rigid body, 1.. the mode; -1 unless finite
-  std::vector<Trust::Verdict> verdict;   ///< of trust_of(i)
-  std::vector<double> any_user;          ///< AnyUserLimit::stiffness; NaN when refused; empty unless asked for
+  std::vector<double> stiffness;        ///< K_CR; 0 when none_stable, infinity when unbounded, NaN when refused
+  std::vector<StiffnessStatus> status;  ///< refused too where the device failed
+  std::vector<double> frequency;        ///< rad/s, of the limiting crossover; NaN unless finite
+  std::vector<std::int16_t> mode;       ///< of the limiting mechanism: 0 the rigid body, 1.. the mode; -1 unless finite
+  std::vector<Trust::Verdict> verdict;  ///< of trust_of(i)
+  std::vector<double> any_user;         ///< AnyUserLimit::stiffness; NaN when refused; empty unless asked for
   std::vector<double> any_user_frequency;  ///< rad/s, AnyUserLimit::frequency; as any_user
-  Trust trust;                           ///< of the base device: every element has it
+  Trust trust;                             ///< of the base device: every element has it
   std::vector<BatchException> exceptions;  ///< by rising index: every device with more to say than `trust`
-  std::size_t scalar_count = 0;          ///< devices that critical_stiffness(Device) answered, not the kernel
+  std::size_t scalar_count = 0;            ///< devices that critical_stiffness(Device) answered, not the kernel
 
   [[nodiscard]] std::size_t size() const { return stiffness.size(); }
   /// What limits the i-th device; nothing unless its status is finite.
