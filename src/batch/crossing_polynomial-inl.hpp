@@ -64,8 +64,8 @@ struct PowerOnCircle {
 HWY_INLINE PowerOnCircle times(const PowerOnCircle& p, double c0, double c1) {
   PowerOnCircle result;
   for (std::size_t i = 0; i < most_coefficients; ++i) {
-    result.even[i] = c0 * p.even[i] + (i > 0 ? c1 * p.even[i - 1] - p.odd[i - 1] : 0.0) +
-                     (i > 1 ? 0.25 * p.odd[i - 2] : 0.0);
+    result.even[i] =
+        c0 * p.even[i] + (i > 0 ? c1 * p.even[i - 1] - p.odd[i - 1] : 0.0) + (i > 1 ? 0.25 * p.odd[i - 2] : 0.0);
     result.odd[i] = p.even[i] + c0 * p.odd[i] + (i > 0 ? c1 * p.odd[i - 1] : 0.0);
   }
   return result;

@@ -139,8 +139,7 @@ void KernelColumns::solve(std::size_t begin, std::size_t end, KernelAnswers& ans
     const std::size_t samples = instants.whole_samples + (fractional ? 1 : 0);
     if (samples > most_kernel_delay) continue;
     const bool damped = values[damper] > 0.0;
-    scratch
-        .groups[GroupOf::id(fractional, values[lag] > 0.0, damped, damped && values[velocity_filter] > 0.0, samples)]
+    scratch.groups[GroupOf::id(fractional, values[lag] > 0.0, damped, damped && values[velocity_filter] > 0.0, samples)]
         .push_back(i);
   }
   for (std::size_t id = 0; id < GroupOf::count; ++id) {
@@ -149,18 +148,26 @@ void KernelColumns::solve(std::size_t begin, std::size_t end, KernelAnswers& ans
     for (std::size_t at = 0; at < members.size(); ++at) {
       (void)take(begin + members[at], values);
       const SamplingInstants instants = sampling_instants({values[period], values[delay]});
-      const std::array<double, kernel_inputs> row{
-          values[actuated_mass],  values[actuated_damping], values[actuated_stiffness], values[other_mass],
-          values[other_damping],  values[link_stiffness],   values[link_damping],       values[period],
-          instants.with_new,      instants.with_old,        values[lag],                values[damper],
-          values[velocity_filter]};
+      const std::array<double, kernel_inputs> row{values[actuated_mass],
+                                                  values[actuated_damping],
+                                                  values[actuated_stiffness],
+                                                  values[other_mass],
+                                                  values[other_damping],
+                                                  values[link_stiffness],
+                                                  values[link_damping],
+                                                  values[period],
+                                                  instants.with_new,
+                                                  instants.with_old,
+                                                  values[lag],
+                                                  values[damper],
+                                                  values[velocity_filter]};
       for (std::size_t k = 0; k < kernel_inputs; ++k) inputs[k][at] = row[k];
     }
     for (std::size_t at = members.size(); at < padded(members.size()); ++at) {  // idle lanes
       for (std::vector<double>& input : inputs) input[at] = input[0];
     }
     const GroupOf kind(id);
-    const KernelGroup group{two_bodies_, collocated_, kind.fractional, kind.lag,
+    const KernelGroup group{two_bodies_, collocated_, kind.fractional,   kind.lag,
                             kind.damper, kind.filter, kind.delay_samples};
     solve_group(group, scratch.devices, members.size(), scratch.answers, scratch.kernel);
     for (std::size_t at = 0; at < members.size(); ++at) {

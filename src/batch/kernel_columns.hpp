@@ -34,8 +34,23 @@ class KernelColumns {
 
  private:
   enum Number : std::size_t {
-    actuated_mass, other_mass, actuated_damping, other_damping, actuated_stiffness, other_stiffness, link_stiffness,
-    link_damping, period, delay, lag, damper, velocity_filter, user_mass, user_damping, user_stiffness, numbers
+    actuated_mass,
+    other_mass,
+    actuated_damping,
+    other_damping,
+    actuated_stiffness,
+    other_stiffness,
+    link_stiffness,
+    link_damping,
+    period,
+    delay,
+    lag,
+    damper,
+    velocity_filter,
+    user_mass,
+    user_damping,
+    user_stiffness,
+    numbers
   };
   using Numbers = std::array<double, numbers>;
 

@@ -25,12 +25,24 @@ HWY_INLINE V choose(M where, V yes, V no) { return hn::IfThenElse(where, yes, no
 
 // What the stages after this one read of a device, as rows of doubles.
 enum TermRow : std::size_t {
-  rigid_n0, rigid_n1, rigid_n2, rigid_d0, rigid_d1,
-  mode_n0, mode_n1, mode_n2, mode_d0, mode_d1,
-  lag_n0, lag_n1, lag_d0,        // of a residue of 1
-  rigid_residue, mode_residue,   // of the lag's term, from each mode
-  condition,                     // rounding of the terms' coefficients, in units of double
-  damper_rate, damper_c,         // B c / T and c = 1 - a
+  rigid_n0,
+  rigid_n1,
+  rigid_n2,
+  rigid_d0,
+  rigid_d1,
+  mode_n0,
+  mode_n1,
+  mode_n2,
+  mode_d0,
+  mode_d1,
+  lag_n0,
+  lag_n1,
+  lag_d0,  // of a residue of 1
+  rigid_residue,
+  mode_residue,  // of the lag's term, from each mode
+  condition,     // rounding of the terms' coefficients, in units of double
+  damper_rate,
+  damper_c,  // B c / T and c = 1 - a
   sample_period,
   term_rows
 };
@@ -59,8 +71,8 @@ HWY_INLINE Hold hold_of_pair(V c1, V c0, V w, V t) {
     const V a = c1 * t;
     const V b = c0 * t * t;
     for (int k = 1; k < terms; ++k) {
-      const V next = hn::Neg(hn::MulAdd(a * number(k + 1.0), current, b * previous)) *
-                     number(1.0 / ((k + 2.0) * (k + 1.0)));
+      const V next =
+          hn::Neg(hn::MulAdd(a * number(k + 1.0), current, b * previous)) * number(1.0 / ((k + 2.0) * (k + 1.0)));
       previous = current;
       current = next;
       g = g + current;
@@ -118,8 +130,8 @@ HWY_INLINE void sample_second(const KernelGroup& group, const Second& s, const H
   const V v2 = (one - s.c1 * recent.h - s.c0 * recent.g) * old.h - s.c0 * recent.h * old.g;
   const V slope1 = s.r0 * recent.g + s.r1 * recent.h;
   const V slope2 = s.r0 * p2 + s.r1 * v2;
-  const V constant1 = s.r0 * (whole.h * recent.h + q * recent.g) +
-                      s.r1 * s.c0 * (whole.g * recent.h - whole.h * recent.g);
+  const V constant1 =
+      s.r0 * (whole.h * recent.h + q * recent.g) + s.r1 * s.c0 * (whole.g * recent.h - whole.h * recent.g);
   rows[2] = slope1;
   rows[1] = slope1 + constant1 + slope2;
 }

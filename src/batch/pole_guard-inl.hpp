@@ -98,8 +98,8 @@ HWY_INLINE V norm_of(const Matrix& m) {
 }
 
 struct Exponential {
-  Matrix e;               // e^{A t} - I
-  V gamma[most_states];   // integral of e^{A s} B over 0..t
+  Matrix e;              // e^{A t} - I
+  V gamma[most_states];  // integral of e^{A s} B over 0..t
 };
 
 // By Taylor's series of A t / 2^s and E <- 2 E + E².
@@ -201,9 +201,9 @@ HWY_INLINE BoundedPolynomial mapped(const V* p, const V* size, std::size_t count
 
 // The closed loop's characteristic polynomial in w = (z - 1)/(z + 1): open + K stiffness.
 struct LoopPolynomial {
-  BoundedPolynomial open;       // the damper's part included
+  BoundedPolynomial open;  // the damper's part included
   BoundedPolynomial stiffness;
-  V unit;                       // rounding of both, relative to the sizes
+  V unit;  // rounding of both, relative to the sizes
 };
 
 template <std::size_t n>
@@ -312,15 +312,15 @@ HWY_INLINE RouthSigns routh_signs(const LoopPolynomial& loop, V stiffness) {
     }
   }
   M positive = upper[0] > upper_error[0];  // so far, all of the first column
-  M turned = hn::And(upper[0] < hn::Neg(upper_error[0]), lower[0] > lower_error[0]);
+  M turned = hn::And(upper[0]<hn::Neg(upper_error[0]), lower[0]> lower_error[0]);
   while (n_lower > 0) {
     turned = hn::Or(turned, hn::And(positive, lower[0] < hn::Neg(lower_error[0])));
     positive = hn::And(positive, lower[0] > lower_error[0]);
     const V inverse = number(1.0) / lower[0];
     const V ratio = upper[0] * inverse;
     const V ratio_size = hn::Abs(ratio);
-    const V ratio_error = (upper_error[0] + ratio_size * lower_error[0]) / (hn::Abs(lower[0]) - lower_error[0]) +
-                          rounding * ratio_size;
+    const V ratio_error =
+        (upper_error[0] + ratio_size * lower_error[0]) / (hn::Abs(lower[0]) - lower_error[0]) + rounding * ratio_size;
     for (std::size_t i = 1; i < n_upper; ++i) {
       V value = upper[i];
       V error = upper_error[i];

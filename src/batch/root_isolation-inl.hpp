@@ -19,6 +19,7 @@ using I = hn::Vec<Index>;
 // Of a coefficient, relative to its size: each is a sum of some dozens of products of terms known to a few units.
 inline constexpr double coefficient_rounding = 4e-14;
 inline constexpr int most_divisions = 40;
+inline constexpr std::uint16_t most_intervals = 300;  // of one device
 
 // Columns of `capacity` elements each.
 struct Polynomials {
@@ -94,13 +95,20 @@ HWY_INLINE V division_of(V begin, V end) {
   return choose(begin == number(0.0), end * number(1.0 / 32.0), by_ratio);
 }
 
-HWY_INLINE M have_other_signs(V a, V b) {
-  return hn::Xor(a < number(0.0), b < number(0.0));
+HWY_INLINE M have_other_signs(V a, V b) { return hn::Xor(a < number(0.0), b < number(0.0)); }
+
+// Lanes whose device is certain so far: nothing more is asked of others.
+HWY_INLINE M flags_of(const std::uint8_t* certain, const std::int64_t* device, std::size_t count) {
+  const Tag tag;
+  HWY_ALIGN double flags[8] = {};
+  for (std::size_t i = 0; i < count; ++i) flags[i] = certain[device[i]];
+  return hn::Load(tag, flags) > number(0.0);
 }
 
 // Divides until every interval holds one root or none. Where rounding or a double root forbids that, the device is not
 // certain.
-HWY_INLINE void isolate_roots(const Polynomials& p, Tasks& tasks, Roots& roots, std::uint8_t* certain) {
+HWY_INLINE void isolate_roots(const Polynomials& p, Tasks& tasks, Roots& roots, std::uint16_t* used,
+                              std::uint8_t* certain) {
   const Tag tag;
   const Index index_tag;
   const std::size_t lanes = hn::Lanes(tag);
@@ -110,13 +118,14 @@ HWY_INLINE void isolate_roots(const Polynomials& p, Tasks& tasks, Roots& roots, 
     const std::size_t taken = tasks.size < lanes ? tasks.size : lanes;
     const std::size_t first = tasks.size - taken;
     tasks.size = first;
-    const M active = hn::FirstN(tag, taken);
+    M active = hn::FirstN(tag, taken);
     V b[most_coefficients];
     for (std::size_t k = 0; k < count; ++k) b[k] = hn::LoadU(tag, tasks.columns + k * tasks.stride + first);
     const V begin = hn::LoadU(tag, tasks.columns + count * tasks.stride + first);
     const V end = hn::LoadU(tag, tasks.columns + (count + 1) * tasks.stride + first);
     const V divisions = hn::LoadU(tag, tasks.columns + (count + 2) * tasks.stride + first);
     const I device = hn::LoadU(index_tag, tasks.device + first);
+    active = hn::And(active, flags_of(certain, tasks.device + first, taken));
     // The sizes' polynomial bounds the rounding of all coefficients where it is largest, at the end.
     V error = number(0.0);
     for (std::size_t k = count; k-- > 0;) {
@@ -124,8 +133,10 @@ HWY_INLINE void isolate_roots(const Polynomials& p, Tasks& tasks, Roots& roots, 
     }
     error = error * number(coefficient_rounding);
     M unsure = hn::Abs(b[0]) <= error;
+    V largest = hn::Abs(b[0]);
     V changes = number(0.0);
     for (std::size_t k = 1; k < count; ++k) {
+      largest = hn::Max(largest, hn::Abs(b[k]));
       unsure = hn::Or(unsure, hn::Abs(b[k]) <= error);
       changes = changes + hn::IfThenElseZero(have_other_signs(b[k], b[k - 1]), number(1.0));
     }
@@ -138,16 +149,17 @@ HWY_INLINE void isolate_roots(const Polynomials& p, Tasks& tasks, Roots& roots, 
     roots.size += hn::CountTrue(tag, one_root);
 
     const M open = hn::And(active, hn::Or(unsure, changes > number(1.0)));
-    const M divide = hn::And(open, divisions < number(most_divisions));
+    // Where all is rounding on an interval no division will tell more.
+    const M hopeless = hn::And(largest <= error, end < number(1.5) * begin);
+    const M divide = hn::AndNot(hopeless, hn::And(open, divisions < number(most_divisions)));
     const M given_up = hn::AndNot(divide, open);
-    if (!hn::AllFalse(tag, given_up)) {
-      HWY_ALIGN std::int64_t devices[8];
-      HWY_ALIGN double flags[8];
-      hn::StoreU(device, index_tag, devices);
-      hn::StoreU(hn::IfThenElseZero(given_up, number(1.0)), tag, flags);
-      for (std::size_t i = 0; i < lanes; ++i) {
-        if (flags[i] != 0.0) certain[devices[i]] = 0;
-      }
+    HWY_ALIGN std::int64_t devices[8];
+    HWY_ALIGN double flags[8];
+    hn::Store(device, index_tag, devices);
+    hn::Store(hn::IfThenElseZero(given_up, number(1.0)), tag, flags);
+    for (std::size_t i = 0; i < taken; ++i) {
+      const auto at = static_cast<std::size_t>(devices[i]);
+      if (++used[at] > most_intervals || flags[i] != 0.0) certain[at] = 0;
     }
     if (hn::AllFalse(tag, divide)) continue;
     // de Casteljau: what is left in b is the right part

@@ -5,8 +5,7 @@
 
 // Every instruction set that a machine may have, from SSE4 to AVX-512; those of which vectors have no fixed length
 // cannot stand in arrays.
-#define HWY_DISABLED_TARGETS \
-  (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "batch/stiffness_kernel.cpp"
 #include <hwy/foreach_target.h>
@@ -31,7 +30,7 @@ constexpr double apart = 1e-5;
 // Of which of two mechanisms is the larger.
 constexpr double distinct = 1e-8;
 // Rounding of a stiffness, in units of double: what both routes may differ by stays below 1e-12.
-constexpr double most_noise = 400.0;
+constexpr double most_noise = 1e4;
 constexpr double last_step = 1e-9;
 constexpr double nearest_nyquist = 1e-3;  // of 4 - x
 constexpr int polishing_steps = 3;
@@ -89,7 +88,8 @@ HWY_NOINLINE void take_least(const KernelGroup& group, const Polynomials& p, con
     const std::size_t taken = std::min(hn::Lanes(tag), roots.size - first);
     for (std::size_t i = taken; i < hn::Lanes(tag); ++i) {  // idle lanes repeat the first
       roots.device[first + i] = roots.device[first];
-      for (std::size_t c = 0; c < 3; ++c) roots.columns[c * roots.stride + first + i] = roots.columns[c * roots.stride + first];
+      for (std::size_t c = 0; c < 3; ++c)
+        roots.columns[c * roots.stride + first + i] = roots.columns[c * roots.stride + first];
     }
     const I device = hn::LoadU(index_tag, roots.device + first);
     V coefficients[most_coefficients];
@@ -98,7 +98,8 @@ HWY_NOINLINE void take_least(const KernelGroup& group, const Polynomials& p, con
                             hn::LoadU(tag, roots.columns + roots.stride + first),
                             hn::LoadU(tag, roots.columns + 2 * roots.stride + first));
     V rows[term_rows];
-    for (std::size_t i = 0; i < term_rows; ++i) rows[i] = hn::GatherIndex(tag, scratch.terms.data() + i * length, device);
+    for (std::size_t i = 0; i < term_rows; ++i)
+      rows[i] = hn::GatherIndex(tag, scratch.terms.data() + i * length, device);
     const CrossoverAt at = crossover_at(group, rows, x);
     const V stiffness = at.stiffness.value;
     const M unsure = hn::Not(hn::Abs(stiffness) > number(unsure_sign) * (at.inverse + rows[damper_rate]));
@@ -175,7 +176,7 @@ HWY_NOINLINE void answer(const KernelGroup& group, const KernelDevices& devices,
     rigid = choose(by_nyquist, nyquist.rigid, rigid);
     mode = choose(by_nyquist, nyquist.mode, mode);
     angle = choose(by_nyquist, number(3.14159265358979323846), angle);
-    certain = hn::And(certain, hn::And(noise < number(most_noise), stiffness > number(0.0)));
+    certain = hn::And(certain, hn::And(noise<number(most_noise), stiffness> number(0.0)));
     certain = hn::And(certain, hn::Abs(rigid - mode) > number(distinct) * (rigid + mode));
     if (hn::AllFalse(tag, certain)) {
       for (std::size_t i = 0; i < hn::Lanes(tag); ++i) answers.certain[at + i] = 0;
@@ -215,7 +216,8 @@ void solve(const KernelGroup& group, const KernelDevices& devices, std::size_t c
   Tasks tasks{scratch.tasks.data(), scratch.task_device.data(), task_stride, 0};
   Roots roots{scratch.roots.data(), scratch.root_device.data(), root_stride, 0};
   begin_tasks(p, count, tasks);
-  isolate_roots(p, tasks, roots, answers.certain.data());
+  scratch.intervals.assign(length, 0);
+  isolate_roots(p, tasks, roots, scratch.intervals.data(), answers.certain.data());
   double* best = scratch.terms.data() + term_rows * length;
   take_least(group, p, roots, length, answers, scratch, best);
   answer(group, devices, count, length, best, answers, scratch);

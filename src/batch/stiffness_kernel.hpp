@@ -11,9 +11,9 @@ namespace zwidth::internal {
 
 // The numbers of a device that the kernel reads, one column each.
 enum class KernelInput : std::size_t {
-  actuated_mass,      // of the actuated body; the only one of a rigid device. A user who holds it is added
-  actuated_damping,   // to ground
-  actuated_stiffness, // to ground; of a rigid device alone
+  actuated_mass,       // of the actuated body; the only one of a rigid device. A user who holds it is added
+  actuated_damping,    // to ground
+  actuated_stiffness,  // to ground; of a rigid device alone
   other_mass,
   other_damping,
   link_stiffness,
@@ -33,7 +33,7 @@ inline constexpr std::size_t most_kernel_delay = 12;  // whole samples: beyond, 
 // What the devices of one call have in common.
 struct KernelGroup {
   bool two_bodies = false;
-  bool collocated = true;  // the sensed body is the actuated one
+  bool collocated = true;   // the sensed body is the actuated one
   bool fractional = false;  // with_old > 0
   bool lag = false;
   bool damper = false;
@@ -67,6 +67,7 @@ struct KernelScratch {
   std::vector<std::int64_t> task_device;
   std::vector<double> roots;
   std::vector<std::int64_t> root_device;
+  std::vector<std::uint16_t> intervals;  // looked at of each device
 };
 
 // The first `count` devices of the columns, which must be of length padded(count) at least; so must the answers be.
