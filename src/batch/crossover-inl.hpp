@@ -51,83 +51,128 @@ HWY_INLINE V magnitude(const OnCircleJet& a, V sine_squared) {
   return hn::Sqrt(hn::MulAdd(a.even.value, a.even.value, sine_squared * a.odd.value * a.odd.value));
 }
 
-// A term, what a rigid body or mode makes of it, and its size times the rounding that it carries.
-struct TermAt {
-  OnCircleJet value;
-  V noise;
+// Bounds of rounding in units of double: of the even part, and of the odd one.
+struct Noise {
+  V even, odd;
 };
 
+struct TermAt {
+  OnCircleJet value;
+  Noise noise;
+};
+
+// (n0 + n1 delta + n2 delta²)/(d0 + d1 delta + delta²), or over d0 + delta.
 HWY_INLINE TermAt term_at(const V* n, const V* d, bool second, V x, const Jet& sine_squared) {
   const V zero = number(0.0);
   const V one = number(1.0);
-  const V r = hn::Sqrt(x);
-  const OnCircleJet numerator = polynomial_at(n[0], n[1], second ? n[2] : zero, x);
-  const OnCircleJet denominator = polynomial_at(d[0], second ? d[1] : one, second ? one : zero, x);
-  TermAt term{quotient(numerator, denominator, sine_squared), zero};
-  const V size_d = hn::Abs(d[0]) + (second ? (hn::Abs(d[1]) + r) * r : r);
-  const V size_n = hn::Abs(n[0]) + r * (hn::Abs(n[1]) + (second ? r * hn::Abs(n[2]) : zero));
-  const V of_d = magnitude(denominator, sine_squared.value);
-  term.noise = (magnitude(term.value, sine_squared.value) * (of_d + size_d) + size_n) / of_d;
+  const V n2 = second ? n[2] : zero;
+  const V d1 = second ? d[1] : one;
+  const V d2 = second ? one : zero;
+  const OnCircleJet numerator = polynomial_at(n[0], n[1], n2, x);
+  const OnCircleJet denominator = polynomial_at(d[0], d1, d2, x);
+  TermAt term{quotient(numerator, denominator, sine_squared), {zero, zero}};
+  // What was added up in each part, without signs.
+  const auto size_of = [x](V c0, V c1, V c2) HWY_ATTR {
+    const V a1 = hn::Abs(c1);
+    const V a2 = hn::Abs(c2);
+    return Noise{hn::MulAdd(hn::MulAdd(number(0.5), a1 + a2 * x, a2), x, hn::Abs(c0)), hn::MulAdd(a2, x, a1)};
+  };
+  const Noise of_n = size_of(n[0], n[1], n2);
+  const Noise of_d = size_of(d[0], d1, d2);
+  const V ne = hn::Abs(numerator.even.value);
+  const V no = hn::Abs(numerator.odd.value);
+  const V de = hn::Abs(denominator.even.value);
+  const V dd = hn::Abs(denominator.odd.value);
+  const V s2 = sine_squared.value;
+  const V scale = one / hn::MulAdd(de, de, s2 * dd * dd);
+  const V of_scale = scale * number(2.0) * hn::MulAdd(de, of_d.even, s2 * dd * of_d.odd);
+  term.noise = {scale * (of_n.even * de + ne * of_d.even + s2 * (of_n.odd * dd + no * of_d.odd)) +
+                    of_scale * hn::Abs(term.value.even.value),
+                scale * (of_n.odd * de + no * of_d.even + of_n.even * dd + ne * of_d.odd) +
+                    of_scale * hn::Abs(term.value.odd.value)};
   return term;
 }
 
 struct CrossoverAt {
   Jet phase;      // zero at the crossover
   Jet stiffness;  // K there
-  V plant_noise;  // of P, relative, in rounding units
+  V noise;        // of K, relative, in rounding units
   V inverse;      // |W|
   V rigid, mode;  // magnitudes of the mechanisms
 };
+
+HWY_INLINE OnCircleJet plus(const OnCircleJet& a, const OnCircleJet& b) { return {a.even + b.even, a.odd + b.odd}; }
 
 HWY_INLINE CrossoverAt crossover_at(const KernelGroup& group, const V* row, V x) {
   const V one = number(1.0);
   const V half = number(0.5);
   const V quarter = number(0.25);
   const Jet sine_squared{hn::NegMulAdd(quarter * x, x, x), hn::NegMulAdd(half, x, one)};
+  const V s2 = sine_squared.value;
   const TermAt rigid = term_at(row + rigid_n0, row + rigid_d0, true, x, sine_squared);
   OnCircleJet sum = rigid.value;
-  V noise = rigid.noise;
+  Noise noise = rigid.noise;
+  const auto add_noise = [&noise](const Noise& more, V times) HWY_ATTR {
+    noise = {hn::MulAdd(times, more.even, noise.even), hn::MulAdd(times, more.odd, noise.odd)};
+  };
   CrossoverAt at{};
-  at.rigid = magnitude(rigid.value, sine_squared.value);
+  at.rigid = magnitude(rigid.value, s2);
   at.mode = number(0.0);
   TermAt mode{};
   if (group.two_bodies) {
     mode = term_at(row + mode_n0, row + mode_d0, true, x, sine_squared);
-    sum = {sum.even + mode.value.even, sum.odd + mode.value.odd};
-    noise = noise + mode.noise;
-    at.mode = magnitude(mode.value, sine_squared.value);
+    sum = plus(sum, mode.value);
+    add_noise(mode.noise, row[condition]);
+    at.mode = magnitude(mode.value, s2);
   }
   if (group.lag) {
     const TermAt lag = term_at(row + lag_n0, row + lag_d0, false, x, sine_squared);
     const V residues[] = {row[rigid_residue], row[mode_residue]};
     const OnCircleJet of_rigid{scaled(residues[0], lag.value.even), scaled(residues[0], lag.value.odd)};
     const OnCircleJet of_mode{scaled(residues[1], lag.value.even), scaled(residues[1], lag.value.odd)};
-    noise = noise + lag.noise * (hn::Abs(residues[0]) + hn::Abs(residues[1]));
-    at.rigid = magnitude({rigid.value.even + of_rigid.even, rigid.value.odd + of_rigid.odd}, sine_squared.value);
-    sum = {sum.even + of_rigid.even, sum.odd + of_rigid.odd};
+    add_noise(lag.noise, (hn::Abs(residues[0]) + hn::Abs(residues[1])) * row[condition]);
+    at.rigid = magnitude(plus(rigid.value, of_rigid), s2);
+    sum = plus(sum, of_rigid);
     if (group.two_bodies) {
-      at.mode = magnitude({mode.value.even + of_mode.even, mode.value.odd + of_mode.odd}, sine_squared.value);
-      sum = {sum.even + of_mode.even, sum.odd + of_mode.odd};
+      at.mode = magnitude(plus(mode.value, of_mode), s2);
+      sum = plus(sum, of_mode);
     }
   }
-  const Jet cosine{hn::NegMulAdd(half, x, one), hn::Neg(half)};
-  for (std::size_t i = 0; i < group.delay_samples; ++i) {  // times 1/z = cos - j sin
-    sum = {sum.even * cosine + sine_squared * sum.odd, sum.odd * cosine - sum.even};
+  if (group.delay_samples > 0) {
+    const Jet cosine{hn::NegMulAdd(half, x, one), hn::Neg(half)};
+    const V zero = number(0.0);
+    OnCircleJet turn{cosine, {hn::Neg(one), zero}};  // 1/z = cos - j sin
+    for (std::size_t i = 1; i < group.delay_samples; ++i) {
+      turn = {turn.even * cosine + sine_squared * turn.odd, turn.odd * cosine - turn.even};
+    }
+    const V c = hn::Abs(turn.even.value);
+    const V s = hn::Abs(turn.odd.value);
+    const V size = number(static_cast<double>(group.delay_samples)) * magnitude(sum, s2);
+    noise = {c * noise.even + s2 * s * noise.odd + size, c * noise.odd + s * noise.even + size * (c + s)};
+    sum = {sum.even * turn.even - sine_squared * (sum.odd * turn.odd), sum.even * turn.odd + sum.odd * turn.even};
   }
   const Jet size = sum.even * sum.even + sine_squared * (sum.odd * sum.odd);
-  const V size_of_plant = hn::Sqrt(size.value);
-  at.plant_noise = noise * row[condition] / size_of_plant + number(static_cast<double>(group.delay_samples));
-  at.inverse = one / size_of_plant;
+  const V scale = one / size.value;
+  at.inverse = hn::Sqrt(scale);
   at.phase = scaled(number(-1.0), over(sum.odd, size));
   at.stiffness = scaled(number(-1.0), over(sum.even, size));
+  const V of_size =
+      number(2.0) * scale * (hn::Abs(sum.even.value) * noise.even + s2 * hn::Abs(sum.odd.value) * noise.odd);
+  V of_phase = scale * noise.odd + of_size * hn::Abs(at.phase.value);
+  V of_stiffness = scale * noise.even + of_size * hn::Abs(at.stiffness.value);
   if (group.damper) {
     const V c = row[damper_c];
     const Jet filter{hn::MulAdd(one - c, x, c * c), one - c};
     const V rate = row[damper_rate];
     const V real = rate * (one - half * c);
-    at.stiffness = at.stiffness - over({real * x, real}, filter);
-    at.phase = at.phase + over({rate * c, number(0.0)}, filter);
+    const Jet along = over({real * x, real}, filter);
+    const Jet across = over({rate * c, number(0.0)}, filter);
+    at.stiffness = at.stiffness - along;
+    at.phase = at.phase + across;
+    of_stiffness = of_stiffness + number(4.0) * along.value;
+    of_phase = of_phase + number(4.0) * across.value;
   }
+  at.noise = (of_stiffness + of_phase * hn::Abs(at.stiffness.slope / at.phase.slope)) / hn::Abs(at.stiffness.value);
   return at;
 }
 

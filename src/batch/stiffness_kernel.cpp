@@ -30,7 +30,7 @@ constexpr double apart = 1e-5;
 // Of which of two mechanisms is the larger.
 constexpr double distinct = 1e-8;
 // Rounding of a stiffness, in units of double: what both routes may differ by stays below 1e-12.
-constexpr double most_noise = 1e4;
+constexpr double most_noise = 300.0;
 constexpr double last_step = 1e-9;
 constexpr double nearest_nyquist = 1e-3;  // of 4 - x
 constexpr int polishing_steps = 3;
@@ -138,7 +138,6 @@ HWY_NOINLINE void answer(const KernelGroup& group, const KernelDevices& devices,
                          const double* best, KernelAnswers& answers, const KernelScratch& scratch) {
   const Tag tag;
   const V one = number(1.0);
-  const V quarter = number(0.25);
   for (std::size_t at = 0; at < count; at += hn::Lanes(tag)) {
     M certain = mask_of(answers.certain.data() + at);
     if (hn::AllFalse(tag, certain)) continue;
@@ -158,9 +157,7 @@ HWY_NOINLINE void answer(const KernelGroup& group, const KernelDevices& devices,
     }
     V stiffness = crossover.stiffness.value - crossover.stiffness.slope * step;
     x = x - step;
-    const V sine = hn::Sqrt(x * hn::NegMulAdd(quarter, x, one));
-    V noise = crossover.plant_noise * (crossover.inverse / stiffness) *
-              (one + hn::Abs(crossover.stiffness.slope / (sine * crossover.phase.slope)));
+    V noise = crossover.noise;
     V angle = number(2.0) * hn::Atan(tag, hn::Sqrt(x / (number(4.0) - x)));
     V rigid = crossover.rigid;
     V mode = crossover.mode;
