@@ -1,0 +1,128 @@
+// What holds of the kernel whatever the machine: threads, neighbours and instruction sets.
+
+#include "batch/stiffness_kernel.hpp"
+
+#include <gtest/gtest.h>
+#include <hwy/targets.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <random>
+#include <vector>
+
+#include "lhifam.hpp"
+#include "zwidth/batch/batch_stiffness.hpp"
+
+namespace zwidth {
+namespace {
+
+constexpr unsigned seed = 7;
+const Device device{test::lhifam_parameters()};
+
+// Delays, dampers and lags of all kinds side by side: every group of the kernel.
+std::vector<ParameterValues> mixed(std::size_t count) {
+  std::mt19937_64 engine(seed);
+  std::uniform_real_distribution<double> share(0.3, 3.0);
+  std::uniform_int_distribution<int> kind(0, 3);
+  std::vector<ParameterValues> changes{{"link.stiffness", {}},         {"link.damping", {}},  {"loop.delay", {}},
+                                       {"actuator.time_constant", {}}, {"wall.damping", {}},
+                                       {"wall.velocity_filter_hz", {}}};
+  for (std::size_t i = 0; i < count; ++i) {
+    changes[0].values.push_back(79.5e3 * share(engine));
+    changes[1].values.push_back(15.0 * share(engine));
+    const int delay = kind(engine);
+    changes[2].values.push_back(delay == 0 ? 0.0 : delay == 1 ? 2e-3 : 3e-3 * share(engine));
+    changes[3].values.push_back(kind(engine) == 0 ? 3e-4 * share(engine) : 0.0);
+    changes[4].values.push_back(kind(engine) == 0 ? 3.0 * share(engine) : 0.0);
+    changes[5].values.push_back(kind(engine) == 0 ? 100.0 * share(engine) : 0.0);
+  }
+  return changes;
+}
+
+bool are_identical(const std::vector<double>& a, const std::vector<double>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+}
+
+TEST(StiffnessKernel, DoesNotDependOnThreads) {
+  const std::vector<ParameterValues> changes = mixed(3000);
+  BatchOptions options;
+  options.threads = 1;
+  const BatchStiffness one = batch_stiffness(device, changes, options);
+  EXPECT_LT(one.scalar_count, one.size() / 2);
+  for (const std::size_t threads : {2U, 7U}) {
+    options.threads = threads;
+    const BatchStiffness many = batch_stiffness(device, changes, options);
+    EXPECT_TRUE(are_identical(one.stiffness, many.stiffness)) << threads;
+    EXPECT_TRUE(are_identical(one.frequency, many.frequency)) << threads;
+    EXPECT_EQ(one.mode, many.mode);
+    EXPECT_EQ(one.status, many.status);
+    EXPECT_EQ(one.scalar_count, many.scalar_count);
+  }
+}
+
+TEST(StiffnessKernel, DoesNotDependOnNeighbours) {
+  const std::vector<ParameterValues> changes = mixed(1000);
+  const BatchStiffness all = batch_stiffness(device, changes);
+  std::vector<ParameterValues> part = changes;
+  for (const std::size_t begin : {1U, 3U, 500U, 993U}) {
+    for (std::size_t k = 0; k < changes.size(); ++k) {
+      part[k].values.assign(changes[k].values.begin() + static_cast<std::ptrdiff_t>(begin), changes[k].values.end());
+      std::reverse(part[k].values.begin(), part[k].values.end());
+    }
+    BatchStiffness some = batch_stiffness(device, part);
+    std::reverse(some.stiffness.begin(), some.stiffness.end());
+    EXPECT_TRUE(are_identical(
+        some.stiffness, {all.stiffness.begin() + static_cast<std::ptrdiff_t>(begin), all.stiffness.end()}))
+        << begin;
+  }
+}
+
+// Each instruction set of this machine by itself, SSE4 to AVX-512 (Highway's test targets).
+TEST(StiffnessKernel, InstructionSetsAgree) {
+  const std::vector<ParameterValues> changes = mixed(2000);
+  const BatchStiffness best = batch_stiffness(device, changes);
+  std::size_t sets = 0;
+  for (std::int64_t targets = hwy::SupportedTargets(), one = 0; targets != 0; targets -= one) {
+    one = targets & -targets;
+    hwy::SetSupportedTargetsForTest(one);
+    hwy::GetChosenTarget().Update(one);
+    const BatchStiffness other = batch_stiffness(device, changes);
+    ++sets;
+    EXPECT_LT(other.scalar_count, other.size() / 2) << hwy::TargetName(one);
+    for (std::size_t i = 0; i < best.size(); ++i) {
+      EXPECT_NEAR(other.stiffness[i] / best.stiffness[i], 1.0, 1e-12) << hwy::TargetName(one) << ", device " << i;
+      EXPECT_EQ(other.mode[i], best.mode[i]);
+      EXPECT_EQ(other.status[i], best.status[i]);
+    }
+  }
+  hwy::SetSupportedTargetsForTest(0);
+  hwy::GetChosenTarget().DeInit();
+  EXPECT_GE(sets, 1U);
+}
+
+// Values at every edge of what a device may be: none may crash, hang or pass for certain where the library refuses.
+TEST(StiffnessKernel, ExtremeValuesAreAnsweredAsAlone) {
+  const double extremes[] = {0.0, 1e-30, 1e-12, 1e-3, 1.0, 1e5, 1e12, 1e30, -1.0, std::nan(""), 1e300};
+  for (const char* key : {"body.motor.mass", "body.handle.damping", "link.stiffness", "link.damping", "loop.delay",
+                          "loop.sampling_period", "actuator.time_constant", "wall.damping",
+                          "wall.velocity_filter_hz", "operator.mass", "operator.stiffness"}) {
+    const std::vector<ParameterValues> changes{{key, {std::begin(extremes), std::end(extremes)}}};
+    BatchOptions alone;
+    alone.vectorised = false;
+    if (find_problem(device, changes)) continue;
+    const BatchStiffness expected = batch_stiffness(device, changes, alone);
+    const BatchStiffness found = batch_stiffness(device, changes);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      EXPECT_EQ(found.status[i], expected.status[i]) << key << " = " << extremes[i];
+      EXPECT_EQ(found.mode[i], expected.mode[i]) << key << " = " << extremes[i];
+      EXPECT_EQ(found.failure_of(i), expected.failure_of(i));
+      if (std::isfinite(expected.stiffness[i])) {
+        EXPECT_NEAR(found.stiffness[i], expected.stiffness[i], 1e-12 * expected.stiffness[i]) << key << extremes[i];
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace zwidth
