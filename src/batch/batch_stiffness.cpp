@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 #include <tbb/enumerable_thread_specific.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -9,6 +11,7 @@
 #include <iterator>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "batch/kernel_columns.hpp"
@@ -203,6 +206,10 @@ BatchStiffness batch_stiffness(const Device& device, std::span<const ParameterVa
     }
     shared.add(quick);
   };
+  std::optional<tbb::global_control> more;  // threads than cores
+  if (options.threads > static_cast<std::size_t>(tbb::info::default_concurrency())) {
+    more.emplace(tbb::global_control::max_allowed_parallelism, options.threads);
+  }
   tbb::task_arena arena(options.threads == 0 ? tbb::task_arena::automatic : static_cast<int>(options.threads));
   arena.execute([&] { tbb::parallel_for(std::size_t{0}, blocks, compute); });
   for (std::vector<BatchException>& each : said) {

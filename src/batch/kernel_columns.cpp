@@ -61,6 +61,7 @@ KernelColumns::KernelColumns(const DeviceParameters& base, std::span<const Param
   base_[lag] = base.actuator.time_constant;
   base_[damper] = base.wall.damping;
   base_[velocity_filter] = base.wall.velocity_filter_hz;
+  base_[force_limit] = base.actuator.force_limit.value_or(1.0);
   base_[user_mass] = base.user.mass;
   base_[user_damping] = base.user.damping;
   base_[user_stiffness] = base.user.stiffness;
@@ -77,6 +78,7 @@ std::size_t KernelColumns::number_of(const DeviceParameters& base, const std::st
                                                       {"actuator.time_constant", lag},
                                                       {"wall.damping", damper},
                                                       {"wall.velocity_filter_hz", velocity_filter},
+                                                      {"actuator.force_limit", force_limit},
                                                       {"operator.mass", user_mass},
                                                       {"operator.damping", user_damping},
                                                       {"operator.stiffness", user_stiffness}};
@@ -100,13 +102,11 @@ bool KernelColumns::take(std::size_t i, Numbers& values) const {
   for (const Column& column : columns_) {
     const double value = column.values[i];
     plain = plain && is_plain(value);
-    if (column.number < numbers) {
-      values[column.number] = value;
-    } else {
-      plain = plain && value > 0.0;
-    }
+    if (column.number < numbers) values[column.number] = value;
   }
-  if (!plain || !(values[actuated_mass] > 0.0) || !(values[period] > 0.0)) return false;
+  if (!plain || !(values[actuated_mass] > 0.0) || !(values[period] > 0.0) || !(values[force_limit] > 0.0)) {
+    return false;
+  }
   if (two_bodies_ && !(values[other_mass] > 0.0 && values[link_stiffness] > 0.0)) return false;
   values[holds_actuated_ ? actuated_mass : other_mass] += values[user_mass];
   values[holds_actuated_ ? actuated_damping : other_damping] += values[user_damping];

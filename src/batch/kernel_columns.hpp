@@ -50,6 +50,7 @@ class KernelColumns {
     user_mass,
     user_damping,
     user_stiffness,
+    force_limit,
     numbers
   };
   using Numbers = std::array<double, numbers>;

@@ -25,9 +25,9 @@ std::vector<ParameterValues> mixed(std::size_t count) {
   std::mt19937_64 engine(seed);
   std::uniform_real_distribution<double> share(0.3, 3.0);
   std::uniform_int_distribution<int> kind(0, 3);
-  std::vector<ParameterValues> changes{{"link.stiffness", {}},         {"link.damping", {}},  {"loop.delay", {}},
-                                       {"actuator.time_constant", {}}, {"wall.damping", {}},
-                                       {"wall.velocity_filter_hz", {}}};
+  std::vector<ParameterValues> changes{{"link.stiffness", {}}, {"link.damping", {}},
+                                       {"loop.delay", {}},     {"actuator.time_constant", {}},
+                                       {"wall.damping", {}},   {"wall.velocity_filter_hz", {}}};
   for (std::size_t i = 0; i < count; ++i) {
     changes[0].values.push_back(79.5e3 * share(engine));
     changes[1].values.push_back(15.0 * share(engine));
@@ -72,8 +72,8 @@ TEST(StiffnessKernel, DoesNotDependOnNeighbours) {
     }
     BatchStiffness some = batch_stiffness(device, part);
     std::reverse(some.stiffness.begin(), some.stiffness.end());
-    EXPECT_TRUE(are_identical(
-        some.stiffness, {all.stiffness.begin() + static_cast<std::ptrdiff_t>(begin), all.stiffness.end()}))
+    EXPECT_TRUE(are_identical(some.stiffness,
+                              {all.stiffness.begin() + static_cast<std::ptrdiff_t>(begin), all.stiffness.end()}))
         << begin;
   }
 }
@@ -91,7 +91,8 @@ TEST(StiffnessKernel, InstructionSetsAgree) {
     ++sets;
     EXPECT_LT(other.scalar_count, other.size() / 2) << hwy::TargetName(one);
     for (std::size_t i = 0; i < best.size(); ++i) {
-      EXPECT_NEAR(other.stiffness[i] / best.stiffness[i], 1.0, 1e-12) << hwy::TargetName(one) << ", device " << i;
+      EXPECT_LE(std::abs(other.stiffness[i] - best.stiffness[i]), 1e-12 * best.stiffness[i])
+          << hwy::TargetName(one) << ", device " << i;
       EXPECT_EQ(other.mode[i], best.mode[i]);
       EXPECT_EQ(other.status[i], best.status[i]);
     }
@@ -105,8 +106,8 @@ TEST(StiffnessKernel, InstructionSetsAgree) {
 TEST(StiffnessKernel, ExtremeValuesAreAnsweredAsAlone) {
   const double extremes[] = {0.0, 1e-30, 1e-12, 1e-3, 1.0, 1e5, 1e12, 1e30, -1.0, std::nan(""), 1e300};
   for (const char* key : {"body.motor.mass", "body.handle.damping", "link.stiffness", "link.damping", "loop.delay",
-                          "loop.sampling_period", "actuator.time_constant", "wall.damping",
-                          "wall.velocity_filter_hz", "operator.mass", "operator.stiffness"}) {
+                          "loop.sampling_period", "actuator.time_constant", "wall.damping", "wall.velocity_filter_hz",
+                          "operator.mass", "operator.stiffness"}) {
     const std::vector<ParameterValues> changes{{key, {std::begin(extremes), std::end(extremes)}}};
     BatchOptions alone;
     alone.vectorised = false;

@@ -30,7 +30,9 @@ TEST(CriticalStiffnessMany, EachIsTheOneOfThatDeviceAlone) {
     DeviceParameters parameters = device.parameters();
     for (const ParameterValues& each : changes) set_parameter(parameters, each.key, each.values[i]);
     const CriticalStiffness alone = critical_stiffness(Device(parameters));
-    EXPECT_EQ(many[i].stiffness, alone.stiffness);
+    EXPECT_NEAR(many[i].stiffness, alone.stiffness, 1e-12 * alone.stiffness);  // as batch_stiffness() promises
+    ASSERT_TRUE(many[i].limited_by);
+    EXPECT_EQ(many[i].limited_by->mode, alone.limit->limited_by.mode);
     EXPECT_EQ(many[i].status, alone.status);
     EXPECT_EQ(many[i].trust, alone.trust);
   }

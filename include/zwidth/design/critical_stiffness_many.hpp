@@ -22,8 +22,8 @@ struct CriticalStiffnessOfOne {
   std::string failure = {};  ///< the values make no device, or the computation failed; empty: neither
 };
 
-/// critical_stiffness() of the device with the i-th value of every key set, for every i: each element is that of the
-/// function called for it alone, bit for bit.
+/// batch_stiffness() as one element per device: critical_stiffness() of the device with the i-th value of every key
+/// set, for every i; values to 1e-12 relative, all else the same.
 ///
 /// On all cores, whatever their number with the same results; `progress` may be called from any thread, never from two
 /// at once. Values that make no device, and what does not converge, end nothing: that element is refused and says why.
