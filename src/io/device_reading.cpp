@@ -70,6 +70,17 @@ void TableReader::refuse_keys_not_of(DeviceTable kind) {
   }
 }
 
+void TableReader::refuse_keys_not_in(std::span<const std::string> keys) {
+  for (const auto& [name, node] : table_) {
+    if (std::ranges::find(keys, name.str()) != keys.end()) continue;
+    const std::string shown = shortened(name.str());
+    const std::string meant = nearest_word(name.str(), keys);
+    reading_.refuse(
+        name.source(), full_key(shown), fmt::format("unknown key \"{}\"", shown),
+        meant.empty() ? fmt::format("the keys are {}", listed(keys)) : fmt::format("did you mean \"{}\"?", meant));
+  }
+}
+
 void TableReader::rename(std::string key) {
   key_ = std::move(key);
   reading_.note_place(key_, table_.source());
@@ -172,27 +183,31 @@ std::vector<std::string> TableReader::required_texts(std::string_view key, std::
   return texts;
 }
 
-const toml::table* TableReader::table(DeviceTable kind) {
-  const toml::node* node = find(name_of(kind));
+const toml::table* TableReader::table(DeviceTable kind) { return table(name_of(kind), header_of(kind)); }
+
+const toml::table* TableReader::table(std::string_view name, std::string_view header) {
+  const toml::node* node = find(name);
   if (!node) return nullptr;
-  if (!node->is_table()) refuse_type(*node, name_of(kind), fmt::format("must be a table, {}", header_of(kind)));
+  if (!node->is_table()) refuse_type(*node, name, fmt::format("must be a table, {}", header));
   return node->as_table();
 }
 
-std::vector<const toml::table*> TableReader::tables(DeviceTable kind) {
+std::vector<const toml::table*> TableReader::tables(DeviceTable kind) { return tables(name_of(kind), header_of(kind)); }
+
+std::vector<const toml::table*> TableReader::tables(std::string_view name, std::string_view header) {
   std::vector<const toml::table*> result;
-  const toml::node* node = find(name_of(kind));
+  const toml::node* node = find(name);
   if (!node) return result;
-  const std::string allowed = fmt::format("must be tables, {}", header_of(kind));
+  const std::string allowed = fmt::format("must be tables, {}", header);
   if (!node->is_array()) {
-    refuse_type(*node, name_of(kind), allowed);
+    refuse_type(*node, name, allowed);
     return result;
   }
   for (const toml::node& element : *node->as_array()) {
     if (element.is_table()) {
       result.push_back(element.as_table());
     } else {
-      refuse_type(element, name_of(kind), allowed);
+      refuse_type(element, name, allowed);
     }
   }
   return result;

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -48,6 +49,8 @@ class TableReader {
 
   /// Refuses every key that does not belong in a table of this kind.
   void refuse_keys_not_of(DeviceTable kind);
+  /// The same of a table of another file.
+  void refuse_keys_not_in(std::span<const std::string> keys);
 
   /// From now on keys are reported below `key`.
   void rename(std::string key);
@@ -67,6 +70,9 @@ class TableReader {
   [[nodiscard]] const toml::table* table(DeviceTable kind);
   /// The [[tables]] of that kind below this one, in order.
   [[nodiscard]] std::vector<const toml::table*> tables(DeviceTable kind);
+  /// The same by name; `header` is how it is written: "[[parameter]]".
+  [[nodiscard]] const toml::table* table(std::string_view name, std::string_view header);
+  [[nodiscard]] std::vector<const toml::table*> tables(std::string_view name, std::string_view header);
 
   void refuse(std::string_view key, std::string what, std::string allowed);
 

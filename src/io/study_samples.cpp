@@ -1,0 +1,121 @@
+#include "io/study_samples.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "io/text_lines.hpp"
+#include "zwidth/io/device_file.hpp"
+#include "zwidth/io/message_words.hpp"
+#include "zwidth/io/study_file.hpp"
+
+namespace zwidth {
+using namespace internal;
+namespace {
+
+constexpr std::size_t most_samples = 10'000'000;
+constexpr std::string_view blanks = " \t\r,;";
+constexpr std::string_view unit_header = "# unit:";
+
+std::optional<double> number_of(std::string_view word) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error != std::errc{} || end != word.data() + word.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+std::vector<std::string_view> words_of(std::string_view line) {
+  std::vector<std::string_view> words;
+  for (std::size_t begin = line.find_first_not_of(blanks); begin != std::string_view::npos;) {
+    const std::size_t end = std::min(line.find_first_of(blanks, begin), line.size());
+    words.push_back(line.substr(begin, end - begin));
+    begin = line.find_first_not_of(blanks, end);
+  }
+  return words;
+}
+
+}  // namespace
+
+Distribution internal::discrete_of(const std::vector<double>& values, const std::vector<double>& weights) {
+  std::vector<std::pair<double, double>> pairs;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (weights[i] != 0.0) pairs.emplace_back(values[i], weights[i]);
+  }
+  std::ranges::sort(pairs);
+  Distribution result{.kind = Distribution::Kind::discrete};
+  for (const auto& [value, weight] : pairs) {
+    if (!result.values.empty() && result.values.back() == value) {
+      result.weights.back() += weight;
+    } else {
+      result.values.push_back(value);
+      result.weights.push_back(weight);
+    }
+  }
+  return result;
+}
+
+tl::expected<Distribution, InputError> internal::read_study_samples(const std::string& path, Measure measure,
+                                                                    Motion motion) {
+  auto file = InputFile::open(path, "file of samples");
+  if (!file) return tl::unexpected(std::move(file.error()));
+  auto lines = TextLines::start(*std::move(file));
+  if (!lines) return tl::unexpected(std::move(lines.error()));
+  std::vector<double> values;
+  std::vector<double> weights;
+  double scale = 1.0;
+  while (true) {
+    const auto line = lines->next({});
+    if (!line) return tl::unexpected(line.error());
+    if (!*line) break;
+    const std::string_view text = (*line)->text;
+    const auto refusal = [&](std::string what, std::string allowed) {
+      return tl::unexpected(InputError{path, (*line)->number, 1, "", std::move(what), std::move(allowed)});
+    };
+    if (text.starts_with(unit_header)) {
+      const auto unit = number_with_unit(fmt::format("1 {}", text.substr(unit_header.size())), measure, motion);
+      if (!unit) return refusal(unit.error().what, unit.error().allowed);
+      scale = *unit;
+    }
+    const auto words = words_of(text);
+    if (words.empty() || words.front().starts_with('#')) continue;
+    const auto value = number_of(words[0]);
+    const auto weight = words.size() > 1 ? number_of(words[1]) : 1.0;
+    if (!value || !weight || *weight < 0.0 || words.size() > 2) {
+      return refusal(fmt::format("{} is no sample", in_quotes(text)),
+                     "must be a number, or a number and how often it was seen");
+    }
+    if (values.size() == most_samples)
+      return refusal("has too many samples", fmt::format("must be at most {}", most_samples));
+    values.push_back(*value * scale);
+    weights.push_back(*weight);
+  }
+  Distribution result = discrete_of(values, weights);
+  if (result.values.empty()) {
+    return tl::unexpected(InputError{path, 0, 0, "", "has no samples", "must have a number per line"});
+  }
+  return result;
+}
+
+tl::expected<StudyFile, InputError> read_study_file(const std::string& path, const Device& device) {
+  auto file = InputFile::open(path, "study file");
+  if (!file) return tl::unexpected(std::move(file.error()));
+  std::string text(device_file_size_limit + 1, '\0');
+  const auto size = file->read(text);
+  if (!size) return tl::unexpected(size.error());
+  if (*size > device_file_size_limit) {
+    return tl::unexpected(InputError{file->source(), 0, 0, "",
+                                     fmt::format("is larger than {} MiB", device_file_size_limit >> 20),
+                                     "must be a study file, which takes a few hundred bytes"});
+  }
+  text.resize(*size);
+  const std::string folder = std::filesystem::path(path).parent_path().string();
+  return parse_study(text, file->source(), device, folder.empty() ? "." : folder);
+}
+
+}  // namespace zwidth
