@@ -16,11 +16,12 @@ LIBRARY = {
     "sampling": ["model"],
     "control": ["model", "sampling"],
     "stability": ["model", "sampling"],
-    "io": ["model", "signal"],
+    "io": ["model", "signal", "study"],
     "simulation": ["model", "signal", "sampling", "control", "stability"],
     "identification": ["model", "signal", "sampling", "stability", "simulation"],
     "batch": ["model", "sampling", "stability"],
     "design": ["model", "signal", "sampling", "stability", "batch"],
+    "study": ["model", "sampling", "stability", "batch", "design"],
 }
 APPS = {
     "results": [],
@@ -28,7 +29,8 @@ APPS = {
     "export": ["results", "report"],
     "reproduce": ["results", "report"],
     "server": ["results"],
-    "cli": ["results", "report", "export", "reproduce", "server"],
+    "study": ["results", "report"],
+    "cli": ["results", "report", "export", "reproduce", "server", "study"],
 }
 MOST_LINES = 400
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"')
@@ -131,7 +133,7 @@ def names(root):
 
 def disk(root):
     """Commands reach files where a request's commands are kept from them: one place to read, one to write."""
-    reads = re.compile(r"\b(read_device_file|read_recording|list_recording|read_response_table|fopen|ifstream)\b")
+    reads = re.compile(r"\b(read_device_file|read_study_file|read_recording|list_recording|read_response_table|fopen|ifstream)\b")
     writes = re.compile(r"\b(OutputFiles|write_whole|make_directory|ofstream)\b")
     for path in files(root, "apps/cli"):
         for number, line in lines(path):

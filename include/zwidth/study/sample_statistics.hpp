@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace zwidth {
+
+/// A share that was counted, with an interval that holds the true one.
+struct Proportion {
+  std::uint64_t count = 0;
+  std::uint64_t total = 0;
+  double value = 0.0;
+  double lower = 0.0;
+  double upper = 1.0;
+};
+
+/// The share with Clopper and Pearson's interval, which holds the true one at least as often as `confidence` says:
+///
+///     I_lower(k, n - k + 1) = (1 - confidence)/2 = 1 - I_upper(k + 1, n - k)
+///
+/// Requires count <= total, total > 0, 0 < confidence < 1; throws Error (invalid_argument).
+/// Source: C. J. Clopper, E. S. Pearson, Biometrika 26, 404 (1934).
+[[nodiscard]] Proportion proportion(std::uint64_t count, std::uint64_t total, double confidence = 0.95);
+
+/// Ranks, from 1, between which a quantile lies; absent where no sample is far enough out.
+struct QuantileRanks {
+  std::optional<std::uint64_t> lower;
+  std::optional<std::uint64_t> upper;
+};
+
+/// X_(lower) <= x_p <= X_(upper) with that confidence at least, half of the rest on each side, whatever the distribution:
+/// the number of samples up to x_p is binomial. Source: H. A. David, H. N. Nagaraja, Order Statistics, 2003, section 7.1.
+[[nodiscard]] QuantileRanks quantile_ranks(double p, std::uint64_t samples, double confidence = 0.95);
+
+/// The rank of the sample that a share `coverage` of all exceed, with `confidence`; absent where there are too few.
+/// Source: S. S. Wilks, Ann. Math. Stat. 12, 91 (1941).
+[[nodiscard]] std::optional<std::uint64_t> tolerance_rank(double coverage, double confidence, std::uint64_t samples);
+
+/// The least number of samples whose smallest is such a bound: 59 for 0.95, 0.95.
+[[nodiscard]] std::uint64_t wilks_samples(double coverage, double confidence);
+
+/// Calls its argument with every number of a column, always in the same order.
+using NumberPass = std::function<void(const std::function<void(double)>&)>;
+
+/// The numbers of these ranks (from 1) in rising order; NaN counts as the least. Four passes, in memory that does not
+/// depend on how many numbers there are. Requires that ranks are at most that many.
+[[nodiscard]] std::vector<double> order_statistics(const std::vector<std::uint64_t>& ranks, const NumberPass& pass);
+
+}  // namespace zwidth

@@ -1,0 +1,161 @@
+#include "zwidth/study/study.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "staged_progress.hpp"
+#include "study/study_parts.hpp"
+#include "zwidth/model/device_trust.hpp"
+#include "zwidth/model/parameter.hpp"
+
+namespace zwidth {
+using namespace internal;
+namespace {
+
+void judge(const StudyRun& run, Study& study) {
+  const auto warning = [&](std::string what, std::string consequence, std::string remedy) {
+    study.remarks.push_back({Remark::Severity::warning, std::move(what), std::move(consequence), std::move(remedy)});
+  };
+  if (study.failed_count > 0) {
+    study.trust.doubt(
+        fmt::format("{} of {} units have no answer ({}): they count as units that miss the specification; "
+                    "keep the distributions away from such devices",
+                    study.failed_count, study.samples, study.failed.front().reason));
+  }
+  if (study.doubtful > 0) {
+    study.trust.doubt(fmt::format("the limits of {} of {} units are doubtful; see analyze of the worst device",
+                                  study.doubtful, study.samples));
+  }
+  const auto& wanted = run.options().specification;
+  if (!wanted.critical_stiffness && !wanted.any_user) {
+    study.remarks.push_back({Remark::Severity::note, "nothing is specified", "there is no yield to state",
+                             "give [specification] critical_stiffness"});
+  }
+  if (run.options().sampling != SamplingScheme::random) {
+    study.remarks.push_back(
+        {Remark::Severity::note, "the samples are spread evenly, not drawn independently",
+         "the intervals of yield and quantiles hold for independent ones, and are wider than need be",
+         "sampling = \"random\" makes them exact"});
+  }
+  if (!study.reached_by_95_percent) {
+    warning(fmt::format("{} samples say little about the tails", study.samples),
+            "no bound of 95 % of the units can be stated with 95 % confidence",
+            fmt::format("take {} or more", wilks_samples(0.95, 0.95)));
+  }
+}
+
+}  // namespace
+
+void internal::add_indices(const StudyRun& run, Study& study) {
+  const StudyOptions& options = run.options();
+  if (options.index_samples == 0) return;
+  const std::size_t dimensions = run.inputs().size();
+  const auto leave_out = [&](std::string why, std::string remedy) {
+    study.remarks.push_back({Remark::Severity::note, "no Sobol indices: " + std::move(why), "", std::move(remedy)});
+  };
+  if (!run.distributions().correlation.empty()) {
+    return leave_out("the parameters are correlated, and the variance cannot be shared out among them",
+                     "leave [correlation] out to have them");
+  }
+  if (dimensions > most_index_dimensions) {
+    return leave_out(fmt::format("there are more than {} parameters", most_index_dimensions), "");
+  }
+  if (study.failed_count > 0 || study.unbounded > 0) {
+    return leave_out("some units have no finite limit", "");
+  }
+  bool is_finite = true;
+  const auto answers = [&](const std::vector<std::vector<double>>& uniforms) {
+    std::vector<ParameterValues> columns;
+    for (std::size_t j = 0; j < dimensions; ++j) {
+      columns.push_back({run.distributions().parameters[j].key, {}});
+      for (const double u : uniforms[j]) columns.back().values.push_back(run.inputs().quantile(j)(u));
+    }
+    std::vector<double> stiffness = run.answers(columns, false).stiffness;
+    for (double& value : stiffness) {
+      if (std::isfinite(value)) continue;
+      is_finite = false;
+      value = 0.0;
+    }
+    return stiffness;
+  };
+  auto indices = sobol_indices(dimensions, options.index_samples, options.seed, answers);
+  if (!is_finite) return leave_out("some units have no finite limit", "");
+  study.sobol_indices = std::move(indices);
+}
+
+void internal::add_tightening(const StudyRun& run, Study& study) {
+  const StudyOptions& options = run.options();
+  const auto& parameters = run.distributions().parameters;
+  const std::uint64_t count = std::min(options.samples, options.tightening_samples);
+  if (count == 0 || !study.yield) return;
+  std::vector<ParameterValues> columns;
+  for (const StudyParameter& each : parameters) columns.push_back({each.key, std::vector<double>(count)});
+  std::vector<double> row(parameters.size());
+  for (std::uint64_t i = 0; i < count; ++i) {
+    run.values(i, row);
+    for (std::size_t j = 0; j < row.size(); ++j) columns[j].values[i] = row[j];
+  }
+  const bool any_user = options.specification.any_user.has_value();
+  const BatchStiffness before = run.answers(columns, any_user);
+  study.tightening.emplace();
+  for (std::size_t j = 0; j < parameters.size(); ++j) {
+    const double centre =
+        parameter(run.device().parameters(), parameters[j].key).value_or(run.inputs().quantile(j)(0.5));
+    const std::vector<double> wide = columns[j].values;
+    for (double& value : columns[j].values) value = centre + 0.5 * (value - centre);
+    const BatchStiffness after = run.answers(columns, any_user);
+    columns[j].values = wide;
+    double sum = 0.0;
+    double square = 0.0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double gain = static_cast<double>(run.meets(after, i)) - static_cast<double>(run.meets(before, i));
+      sum += gain;
+      square += gain * gain;
+    }
+    const auto n = static_cast<double>(count);
+    const double mean = sum / n;
+    study.tightening->push_back({mean, std::sqrt(std::max(0.0, square / n - mean * mean) / n)});
+  }
+}
+
+Study summary(const StudyRun& run, const ChunkSource& chunks, const Progress& progress) {
+  StagedProgress stages(progress);
+  stages.next(0.5);
+  auto [study, lows] = count_chunks(run, chunks, stages.stage());
+  study.trust.inherit(trust_of(run.device()));
+  if (study.trust.refused()) return std::move(study);
+  stages.next(0.7);
+  add_indices(run, study);
+  stages.next(0.85);
+  add_tightening(run, study);
+  stages.next(1.0);
+  if (run.options().worst) study.worst = find_worst(run, lows);
+  judge(run, study);
+  stages.done();
+  return std::move(study);
+}
+
+Study study(const Device& device, const StudyDistributions& distributions, const StudyOptions& options,
+            const Progress& progress) {
+  const StudyRun run(device, distributions, options);
+  StagedProgress stages(progress);
+  stages.next(0.8);
+  std::vector<BatchStiffness> chunks;
+  std::uint64_t named = 0;
+  const auto count = static_cast<double>(run.chunk_count());
+  compute_chunks(
+      run, [&] { return named < run.chunk_count() ? std::optional(named++) : std::nullopt; },
+      [&](std::uint64_t, BatchStiffness answers) {
+        chunks.push_back(std::move(answers));
+        tell(stages.stage(), static_cast<double>(chunks.size()) / count);
+      });
+  stages.next(1.0);
+  return summary(
+      run, [&](std::uint64_t chunk) -> const BatchStiffness& { return chunks[static_cast<std::size_t>(chunk)]; },
+      stages.stage());
+}
+
+}  // namespace zwidth

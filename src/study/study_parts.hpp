@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "zwidth/progress.hpp"
+#include "zwidth/study/study_run.hpp"
+
+namespace zwidth::internal {
+
+/// A unit from which the search for the worst one starts.
+struct LowSample {
+  double stiffness = 0.0;
+  std::uint64_t sample = 0;
+};
+
+/// What one pass over all chunks, and three more, find.
+struct CountedChunks {
+  Study study;                  ///< yields, quantiles, histogram, clusters, failures, points
+  std::vector<LowSample> lows;  ///< the lowest K_CR, lowest first
+};
+[[nodiscard]] CountedChunks count_chunks(const StudyRun& run, const ChunkSource& chunks, const Progress& progress);
+
+/// Descends from the lowest samples, and from ends of the distributions, on exact sensitivities. Nothing where no unit
+/// has a limit.
+[[nodiscard]] std::optional<WorstDevice> find_worst(const StudyRun& run, const std::vector<LowSample>& lows);
+
+/// Sobol indices of K_CR; a remark instead where they do not exist.
+void add_indices(const StudyRun& run, Study& study);
+
+/// What half the spread of each parameter gains.
+void add_tightening(const StudyRun& run, Study& study);
+
+}  // namespace zwidth::internal

@@ -1,0 +1,162 @@
+#include "zwidth/study/study_run.hpp"
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "require_valid.hpp"
+#include "zwidth/error.hpp"
+
+namespace zwidth {
+using namespace internal;
+namespace {
+
+constexpr std::uint64_t most_side_samples = std::uint64_t{1} << 24U;
+
+int threads_of(std::size_t threads) {
+  return threads == 0 ? tbb::this_task_arena::max_concurrency() : static_cast<int>(threads);
+}
+
+/// More threads than cores too, where they are asked for.
+class AllowedThreads {
+  using Control = tbb::global_control;
+
+ public:
+  explicit AllowedThreads(int threads)
+      : control_(Control::max_allowed_parallelism,
+                 std::max(static_cast<std::size_t>(threads), Control::active_value(Control::max_allowed_parallelism))) {
+  }
+
+ private:
+  Control control_;
+};
+
+std::optional<OptionProblem> find_specification_problem(const char* member, std::optional<double> value) {
+  if (!value || (std::isfinite(*value) && *value > 0.0)) return std::nullopt;
+  return OptionProblem{fmt::format("specification.{}", member), fmt::format("is {}", *value), "must be finite and > 0"};
+}
+
+StudyOptions completed(StudyOptions options) {
+  options.any_user = options.any_user || options.specification.any_user.has_value();
+  return options;
+}
+
+const StudyDistributions& checked(const Device& device, const StudyDistributions& distributions,
+                                  const StudyOptions& options) {
+  if (const auto problem = find_problem(device, distributions)) {
+    throw Error(ErrorCode::invalid_argument, fmt::format("{}: {}; {}", problem->key, problem->what, problem->allowed));
+  }
+  require_valid(find_problem(options, device, distributions));
+  return distributions;
+}
+
+}  // namespace
+
+std::optional<OptionProblem> find_problem(const StudyOptions& options, const Device& device,
+                                          const StudyDistributions& distributions) {
+  if (auto problem = SamplingPlan::find_problem(options.sampling, options.samples, distributions.parameters.size())) {
+    return problem;
+  }
+  for (const auto& [member, value] : {std::pair{"index_samples", options.index_samples},
+                                      std::pair{"tightening_samples", options.tightening_samples}}) {
+    if (value > most_side_samples) {
+      return OptionProblem{member, fmt::format("is {}", value), fmt::format("must be at most {}", most_side_samples)};
+    }
+  }
+  const Specification& wanted = options.specification;
+  if (auto problem = find_specification_problem("critical_stiffness", wanted.critical_stiffness)) return problem;
+  if (auto problem = find_specification_problem("any_user", wanted.any_user)) return problem;
+  if ((options.any_user || wanted.any_user) && !device.has_bodies()) {
+    return OptionProblem{options.any_user ? "any_user" : "specification.any_user", "is asked of a transfer function",
+                         "it has no body for a user to hold"};
+  }
+  return find_problem(BatchOptions{.threads = options.threads}, device);
+}
+
+StudyRun::StudyRun(Device device, StudyDistributions distributions, StudyOptions options)
+    : device_(std::move(device)),
+      distributions_(checked(device_, distributions, options)),
+      options_(completed(options)),
+      inputs_(distributions_),
+      plan_(options.sampling, options.samples, distributions_.parameters.size(), options.seed) {}
+
+std::uint64_t StudyRun::chunk_count() const { return (options_.samples + study_chunk_size - 1) / study_chunk_size; }
+
+std::size_t StudyRun::size_of(std::uint64_t chunk) const {
+  return static_cast<std::size_t>(std::min(study_chunk_size, options_.samples - chunk * study_chunk_size));
+}
+
+void StudyRun::values(std::uint64_t sample, std::span<double> values) const {
+  for (std::size_t j = 0; j < values.size(); ++j) values[j] = plan_.uniform(sample, j);
+  inputs_.from_uniform(values);
+}
+
+std::vector<double> StudyRun::independent_scores(std::uint64_t sample) const {
+  std::vector<double> scores(inputs_.size());
+  for (std::size_t j = 0; j < scores.size(); ++j) scores[j] = standard_normal_score(plan_.uniform(sample, j));
+  return scores;
+}
+
+void StudyRun::scores(std::uint64_t sample, std::span<double> scores) const {
+  std::ranges::copy(independent_scores(sample), scores.begin());
+  inputs_.correlate(scores);
+}
+
+std::vector<ParameterValues> StudyRun::columns(std::uint64_t chunk) const {
+  const std::size_t size = size_of(chunk);
+  std::vector<ParameterValues> columns;
+  for (const StudyParameter& each : distributions_.parameters) columns.push_back({each.key, std::vector<double>(size)});
+  std::vector<double> row(columns.size());
+  for (std::size_t i = 0; i < size; ++i) {
+    values(chunk * study_chunk_size + i, row);
+    for (std::size_t j = 0; j < row.size(); ++j) columns[j].values[i] = row[j];
+  }
+  return columns;
+}
+
+BatchStiffness StudyRun::answers(std::uint64_t chunk) const {
+  return batch_stiffness(device_, columns(chunk), {.any_user = options_.any_user, .threads = 1});
+}
+
+BatchStiffness StudyRun::answers(const std::vector<ParameterValues>& columns, bool any_user) const {
+  const AllowedThreads allowed(threads_of(options_.threads));
+  return batch_stiffness(device_, columns, {.any_user = any_user, .threads = options_.threads});
+}
+
+bool StudyRun::meets(const BatchStiffness& answers, std::size_t i) const {
+  const Specification& wanted = options_.specification;
+  // NaN, of a unit without an answer, reaches nothing.
+  return (!wanted.critical_stiffness || answers.stiffness[i] >= *wanted.critical_stiffness) &&
+         (!wanted.any_user || answers.any_user[i] >= *wanted.any_user);
+}
+
+void compute_chunks(const StudyRun& run, const std::function<std::optional<std::uint64_t>()>& next,
+                    const std::function<void(std::uint64_t, BatchStiffness)>& consume) {
+  struct Computed {
+    std::uint64_t chunk = 0;
+    BatchStiffness answers;
+  };
+  const int threads = threads_of(run.options().threads);
+  const AllowedThreads allowed(threads);
+  const auto named = [&](tbb::flow_control& flow) -> std::uint64_t {
+    if (const auto chunk = next()) return *chunk;
+    flow.stop();
+    return 0;
+  };
+  const auto computed = [&](std::uint64_t chunk) { return Computed{chunk, run.answers(chunk)}; };
+  const auto consumed = [&](Computed one) { consume(one.chunk, std::move(one.answers)); };
+  tbb::task_arena arena(threads);
+  arena.execute([&] {
+    tbb::parallel_pipeline(static_cast<std::size_t>(2 * threads + 2),
+                           tbb::make_filter<void, std::uint64_t>(tbb::filter_mode::serial_in_order, named) &
+                               tbb::make_filter<std::uint64_t, Computed>(tbb::filter_mode::parallel, computed) &
+                               tbb::make_filter<Computed, void>(tbb::filter_mode::serial_in_order, consumed));
+  });
+}
+
+}  // namespace zwidth
