@@ -71,6 +71,7 @@ int run(int argument_count, char** arguments) {
   add_reproduce(app);
   add_serve(app);
   add_simulate(app);
+  add_study(app);
   for (CLI::App* command : app.get_subcommands({})) command->group("Commands");
   accept_units(app);
   add_generate(app);

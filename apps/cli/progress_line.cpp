@@ -44,7 +44,8 @@ void ProgressLine::show(double fraction) {
   if (now < next_) return;
   next_ = now + apart;
   shown_ = true;
-  write_standard_error(fmt::format("{}{}: {:3.0f} %", back_and_wipe, work_, 100.0 * fraction));
+  write_standard_error(
+      fmt::format("{}{}: {:3.0f} %{}{}", back_and_wipe, work_, 100.0 * fraction, note_.empty() ? "" : ", ", note_));
 }
 
 }  // namespace zwidth::cli

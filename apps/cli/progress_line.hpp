@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <string>
+#include <utility>
 
 #include "zwidth/progress.hpp"
 
@@ -16,6 +17,9 @@ class ProgressLine {
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
+  /// What follows the per cent: "12 000 units/s, 3 min left".
+  void note(std::string text) { note_ = std::move(text); }
+
   /// To hand to the library, for the part of the work from one fraction to another; must not outlive this.
   [[nodiscard]] Progress progress(double from = 0.0, double to = 1.0);
 
@@ -24,6 +28,7 @@ class ProgressLine {
   void wipe();
 
   std::string work_;
+  std::string note_;
   bool terminal_;
   bool shown_ = false;
   std::chrono::steady_clock::time_point next_;

@@ -46,5 +46,6 @@ void add_relay(CLI::App& app);
 void add_reproduce(CLI::App& app);
 void add_serve(CLI::App& app);
 void add_simulate(CLI::App& app);
+void add_study(CLI::App& app);
 
 }  // namespace zwidth::cli

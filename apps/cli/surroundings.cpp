@@ -77,6 +77,11 @@ tl::expected<Device, InputError> read_named_device(const std::string& name, std:
   return parse_device(found->second, name, overrides);
 }
 
+tl::expected<StudyFile, InputError> read_named_study(const std::string& name, const Device& device) {
+  if (of_this_thread != nullptr) return tl::unexpected(no_such_name(name, "studies run on the command line"));
+  return read_study_file(name, device);
+}
+
 tl::expected<Recording, InputError> read_named_recording(const std::string& name, const RecordingOptions& options,
                                                          const Progress& progress) {
   if (const RecordedColumns* columns = columns_in_memory(name)) return read_recording(*columns, options);

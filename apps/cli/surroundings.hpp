@@ -13,6 +13,7 @@
 #include "zwidth/io/device_file.hpp"
 #include "zwidth/io/recorded_columns.hpp"
 #include "zwidth/io/recording_file.hpp"
+#include "zwidth/io/study_file.hpp"
 #include "zwidth/progress.hpp"
 
 namespace zwidth::cli {
@@ -61,6 +62,8 @@ class InSurroundings {
 // nothing in another way.
 [[nodiscard]] tl::expected<Device, InputError> read_named_device(const std::string& name,
                                                                  std::span<const std::string> overrides);
+/// A study of the device. A request has none: it is refused there.
+[[nodiscard]] tl::expected<StudyFile, InputError> read_named_study(const std::string& name, const Device& device);
 [[nodiscard]] tl::expected<Recording, InputError> read_named_recording(const std::string& name,
                                                                        const RecordingOptions& options,
                                                                        const Progress& progress = {});

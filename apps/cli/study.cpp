@@ -1,0 +1,176 @@
+#include <fmt/format.h>
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "cli/device_arguments.hpp"
+#include "cli/input_problem.hpp"
+#include "cli/option_refusal.hpp"
+#include "cli/outputs.hpp"
+#include "cli/progress_line.hpp"
+#include "cli/standard_output.hpp"
+#include "cli/subcommand.hpp"
+#include "cli/surroundings.hpp"
+#include "report/page/study_page.hpp"
+#include "report/text/study_text.hpp"
+#include "report/text/text_medium.hpp"
+#include "report/text/trust_text.hpp"
+#include "results/study_json.hpp"
+#include "study/study_engine.hpp"
+#include "zwidth/error.hpp"
+#include "zwidth/io/study_file.hpp"
+#include "zwidth/quantity.hpp"
+
+namespace zwidth::cli {
+namespace {
+
+struct StudyArguments {
+  DeviceArguments devices;
+  std::string study;
+  std::optional<std::uint64_t> samples;
+  std::optional<std::uint64_t> seed;
+  std::optional<std::string> sampling;
+  std::size_t threads = 0;
+  std::optional<std::uint64_t> index_samples;
+  std::string result;
+  std::string report;
+  std::string worst;
+  bool resume = false;
+  OutputArguments output;
+};
+
+constexpr std::pair<std::string_view, std::string_view> options_of_study[] = {
+    {"samples", "--samples"},
+    {"threads", "--threads"},
+    {"index_samples", "--index-samples"},
+    {"specification.any_user", "--study"},
+    {"parameters", "--study"},
+    {"specification.critical_stiffness", "--study"}};
+
+StudyOptions options_of(const StudyArguments& arguments, const StudyFile& file) {
+  StudyOptions options;
+  options.samples = arguments.samples.value_or(file.samples.value_or(options.samples));
+  options.seed = arguments.seed.value_or(file.seed.value_or(options.seed));
+  options.sampling = file.sampling.value_or(options.sampling);
+  if (arguments.sampling) {
+    options.sampling = *arguments.sampling == "random"  ? SamplingScheme::random
+                       : *arguments.sampling == "sobol" ? SamplingScheme::sobol
+                                                        : SamplingScheme::latin_hypercube;
+  }
+  options.threads = arguments.threads;
+  options.index_samples = arguments.index_samples.value_or(options.index_samples);
+  options.specification = file.specification;
+  return options;
+}
+
+/// "12 k units/s, 3 min left"
+std::string rate_text(double done, double of, double seconds) {
+  const double rate = done / seconds;
+  const double left = (of - done) / rate;
+  const std::string time = left < 90.0     ? fmt::format("{:.0f} s", left)
+                           : left < 5400.0 ? fmt::format("{:.0f} min", left / 60.0)
+                                           : fmt::format("{:.1f} h", left / 3600.0);
+  return fmt::format("{}, {} left", quantity(rate, "units/s"), time);
+}
+
+std::optional<Study> studied(const StudyRun& run, const StudyArguments& arguments) {
+  if (arguments.result.empty()) {
+    ProgressLine line("studying " + arguments.devices.files.front());
+    return study(run.device(), run.distributions(), run.options(), line.progress());
+  }
+  using Clock = std::chrono::steady_clock;
+  const auto begun = Clock::now();
+  ProgressLine line("studying " + arguments.devices.files.front());
+  const Progress computing = line.progress(0.0, 0.9);
+  const auto of_ranks = static_cast<double>(study_engine::team().size());
+  const auto progress = [&](std::uint64_t done, std::uint64_t of) {
+    if (!computing) return;
+    const double units = static_cast<double>(done * study_chunk_size) * of_ranks;  // the others are as fast
+    const double all = static_cast<double>(of * study_chunk_size);
+    line.note(rate_text(std::min(units, all), all, std::chrono::duration<double>(Clock::now() - begun).count()));
+    computing(std::min(1.0, units / all));
+  };
+  const auto start =
+      arguments.resume ? study_engine::StudyCheckpoint::Start::resumed : study_engine::StudyCheckpoint::Start::fresh;
+  try {
+    return study_engine::run_study(run, arguments.result, start, progress, line.progress(0.9, 1.0));
+  } catch (const study_engine::CheckpointProblem& problem) {
+    throw BadInput(fmt::format("--output: {}", problem.what()));
+  }
+}
+
+void run_study(const StudyArguments& arguments) {
+  Outputs outputs;
+  outputs.add("--output", arguments.result);
+  outputs.add("--report", arguments.report);
+  outputs.add("--output-device", arguments.worst);
+  outputs.keep(arguments.devices.files, "device file");
+  outputs.keep(arguments.study, "study file");
+  if (arguments.resume && arguments.result.empty()) {
+    throw BadInput("--resume: goes on with a result that was begun; add --output FILE.h5");
+  }
+  if (study_engine::team().size() > 1 && arguments.result.empty()) {
+    throw BadInput("--output: several processes meet at a result on a disk that all see; add --output FILE.h5");
+  }
+  Device device = std::move(read_devices(arguments.devices).front());
+  auto file = read_named_study(arguments.study, device);
+  if (!file) throw BadInput(input_problem(file.error()));
+  const StudyOptions options = options_of(arguments, *file);
+  if (const auto problem = find_problem(options, device, file->distributions)) refuse(*problem, options_of_study);
+  const StudyRun run(std::move(device), std::move(file->distributions), options);
+  const std::optional<Study> study = studied(run, arguments);
+  if (!study) return;  // the first rank tells
+  if (study->trust.refused()) {
+    if (arguments.output.json) write_standard_output(results::line(results::study_json(run, *study)));
+    throw WorkFailed(arguments.devices.files.front() + ": " + report::verdict_text(study->trust));
+  }
+  if (!arguments.worst.empty() && !study->worst)
+    throw WorkFailed("--output-device: no unit has a limit: there is no worst one");
+  outputs.put("--report", [&] { return report::study_page(run, *study); });
+  outputs.put("--output-device", [&] { return report::worst_device_file(run, *study); });
+  outputs.commit();
+  write_standard_output(arguments.output.json ? results::line(results::study_json(run, *study))
+                                              : report::for_medium(report::study_text(run, *study)));
+}
+
+}  // namespace
+
+void add_study(CLI::App& app) {
+  auto arguments = std::make_shared<StudyArguments>();
+  CLI::App* command = app.add_subcommand(
+      "study", "How the limit varies over many units: yield, the worst unit, which tolerance to tighten");
+  add_device_arguments(*command, arguments->devices, FileCount::one);
+  command->add_option("--study", arguments->study, "What varies, and what every unit must reach (TOML)")
+      ->type_name("FILE")
+      ->required();
+  command->add_option("--samples", arguments->samples, "Units; instead of the study's own (default: 10 000)")
+      ->type_name("N");
+  command->add_option("--seed", arguments->seed, "Of the random numbers (default: 1)")->type_name("S");
+  command->add_option("--sampling", arguments->sampling, "random, latin-hypercube or sobol (default: random)")
+      ->type_name("HOW")
+      ->check(CLI::IsMember({"random", "latin-hypercube", "sobol"}));
+  command
+      ->add_option("--index-samples", arguments->index_samples,
+                   "Points of each set of Sobol indices; 0: none (default: 1024)")
+      ->type_name("N");
+  command->add_option("--threads", arguments->threads, "0: all cores; no result depends on it (default: 0)")
+      ->type_name("T");
+  command->add_option("-o,--output", arguments->result, "Also write every unit, as HDF5")->type_name("FILE");
+  command->add_flag("--resume", arguments->resume, "Go on with the --output of a run that was ended");
+  command->add_option("--report", arguments->report, "Also write a page with figures: .html")->type_name("FILE");
+  command->add_option("--output-device", arguments->worst, "Also write the worst unit as a device file")
+      ->type_name("FILE");
+  add_output_options(*command, arguments->output, {});
+  command->footer(
+      "Examples:\n"
+      "  zwidth study devices/lhifam.toml --study devices/studies/lhifam.toml\n"
+      "  zwidth study devices/lhifam.toml --study devices/studies/lhifam.toml --json --output-device worst.toml\n"
+      "  zwidth study devices/lhifam.toml --study devices/studies/lhifam.toml --samples 2000 --output units.h5\n"
+      "  zwidth study devices/lhifam.toml --study devices/studies/lhifam.toml --samples 1000 --report study.html");
+  command->callback([arguments] { run_study(*arguments); });
+}
+
+}  // namespace zwidth::cli

@@ -1,0 +1,171 @@
+#include "report/figure/study_figures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "report/figure/plot.hpp"
+#include "report/text/explanation.hpp"
+#include "report/text/quantity.hpp"
+#include "report/text/study_text.hpp"
+
+namespace zwidth::report {
+namespace {
+
+constexpr double study_panel_height = 300.0;
+constexpr std::string_view bar_colour = "#9db8dc";
+constexpr std::string_view colours[] = {blue, orange, green, purple, red, grey};
+
+std::string doubt(const Study& study) { return study.trust.sound() ? "" : " (DOUBTFUL)"; }
+
+/// The parameters by what they do to K_CR: by total index, or by how far off they are among the worst tenth.
+std::vector<std::size_t> by_weight(const Study& study) {
+  std::vector<double> weights(study.keys.size(), 0.0);
+  if (study.sobol_indices) {
+    for (std::size_t j = 0; j < weights.size(); ++j) weights[j] = (*study.sobol_indices)[j].total;
+  } else if (study.points.size() > 1) {  // squared correlation with the answer
+    for (std::size_t j = 0; j < weights.size(); ++j) {
+      double n = 0, x = 0, y = 0, xx = 0, yy = 0, xy = 0;
+      for (const StudyPoint& each : study.points) {
+        if (!std::isfinite(each.stiffness)) continue;
+        const double v = each.values[j], k = each.stiffness;
+        n += 1, x += v, y += k, xx += v * v, yy += k * k, xy += v * k;
+      }
+      const double spread = (n * xx - x * x) * (n * yy - y * y);
+      weights[j] = spread > 0.0 ? (n * xy - x * y) * (n * xy - x * y) / spread : 0.0;
+    }
+  }
+  std::vector<std::size_t> order(weights.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, std::ranges::greater{}, [&](std::size_t j) { return weights[j]; });
+  return order;
+}
+
+}  // namespace
+
+std::optional<std::string> draw_study_distribution(const StudyRun& run, const Study& study, FigureFormat format) {
+  const StiffnessHistogram& histogram = study.histogram;
+  if (histogram.counts.size() < 2) return std::nullopt;
+  const std::string_view unit = units_of(run.device().parameters().motion).stiffness;
+  const auto& wanted = run.options().specification.critical_stiffness;
+  const std::string title =
+      fmt::format("Critical stiffness of {} units of {}{}", study.samples, display_name(run.device()), doubt(study));
+  std::vector<LegendEntry> legend{{"units", {bar_colour, 8.0}, {}},
+                                  {"share of all units that reach K", {blue, 2.0}, {}}};
+  if (wanted) legend.push_back({fmt::format("specified: {}", quantity(*wanted, unit)), {red, 1.6, "(8,4)"}, {}});
+  const Heading heading(title, legend);
+  const Box frame{frame_left, frame_right - 50.0, heading.bottom() + 16.0,
+                  heading.bottom() + 16.0 + study_panel_height};
+  Canvas canvas(title, canvas_width, frame.bottom + 62.0);
+  heading.draw(canvas);
+  const double low = wanted ? std::min(histogram.edges.front(), 0.98 * *wanted) : histogram.edges.front();
+  const double high = wanted ? std::max(histogram.edges.back(), 1.02 * *wanted) : histogram.edges.back();
+  const AxisUnit axis = axis_unit(high);
+  std::string bars;
+  std::string curve;
+  for (std::size_t i = 0; i < histogram.counts.size(); ++i) {
+    bars += fmt::format("{:.9g} {}\n", 0.5 * (histogram.edges[i] + histogram.edges[i + 1]) / axis.size,
+                        histogram.counts[i]);
+  }
+  for (std::size_t i = 0; i < histogram.edges.size(); ++i) {
+    curve += fmt::format("{:.9g} {:.9g}\n", histogram.edges[i] / axis.size, 100.0 * histogram.yields[i]);
+  }
+  data_block(canvas, "bars", bars);
+  data_block(canvas, "curve", curve);
+  if (wanted) data_block(canvas, "wanted", fmt::format("{0:.9g} 0\n{0:.9g} 100\n", *wanted / axis.size));
+  canvas.commands(fmt::format(
+      "{}\nset xrange [{:.9g}:{:.9g}]\nset yrange [0:*]\nset y2range [0:100]\nset y2tics 25 format '%g %%'\nset "
+      "ytics nomirror\n{}\nset boxwidth {:.9g}\nset style fill solid noborder",
+      axes_look(), low / axis.size, high / axis.size, y_label("Units"),
+      (histogram.edges[1] - histogram.edges[0]) / axis.size));
+  x_label(canvas, frame, fmt::format("Critical stiffness ({}{})", axis.prefix, unit));
+  canvas.plot(frame,
+              fmt::format("$bars using 1:2 with boxes lc rgb '{}' notitle, $curve using 1:2 axes x1y2 with lines {} "
+                          "notitle{}",
+                          bar_colour, gnuplot_line({blue, 2.0}),
+                          wanted ? fmt::format(", $wanted using 1:2 axes x1y2 with lines {} notitle",
+                                               gnuplot_line({red, 1.6, "(8,4)"}))
+                                 : ""));
+  return canvas.draw(format);
+}
+
+std::optional<std::string> draw_study_scatter(const StudyRun& run, const Study& study, FigureFormat format) {
+  if (study.keys.size() < 2 || study.points.size() < 2) return std::nullopt;
+  const std::vector<std::size_t> order = by_weight(study);
+  const std::size_t x = order[0];
+  const std::size_t y = order[1];
+  const Motion motion = run.device().parameters().motion;
+  std::map<std::pair<int, int>, std::string> rows;  // by status and mode
+  for (const StudyPoint& each : study.points) {
+    rows[{static_cast<int>(each.status), each.mode}] += fmt::format("{:.9g} {:.9g}\n", each.values[x], each.values[y]);
+  }
+  std::vector<LegendEntry> legend;
+  std::string what;
+  std::size_t colour = 0;
+  for (const auto& [kind, points] : rows) {
+    const std::string_view ink_of = colours[std::min(colour++, std::size(colours) - 1)];
+    const std::string style = fmt::format("pt 7 ps 0.3 lc rgb '{}'", ink_of);
+    legend.push_back({mechanism_of(static_cast<StiffnessStatus>(kind.first), kind.second), {}, {}, style});
+    what += fmt::format("$group{} with points {} notitle, ", colour, style);
+  }
+  if (study.worst) {
+    const std::string ring = ring_marker(ink);
+    legend.push_back({"the worst unit", {}, {}, ring});
+    what += fmt::format("$worst with points {} notitle, ", ring);
+  }
+  const std::string title = fmt::format("What limits the units: {} of them{}", study.points.size(), doubt(study));
+  const Heading heading(title, legend);
+  const Box frame{frame_left + 20.0, frame_right, heading.bottom() + 16.0,
+                  heading.bottom() + 16.0 + study_panel_height};
+  Canvas canvas(title, canvas_width, frame.bottom + 62.0);
+  heading.draw(canvas);
+  std::size_t group = 0;
+  for (const auto& [kind, points] : rows) data_block(canvas, fmt::format("group{}", ++group), points);
+  if (study.worst) {
+    data_block(canvas, "worst", fmt::format("{:.9g} {:.9g}\n", study.worst->values[x], study.worst->values[y]));
+  }
+  const auto label = [&](std::size_t j) {
+    const std::string unit = results::parameter_unit(study.keys[j], motion);
+    return unit.empty() ? study.keys[j] : fmt::format("{} ({})", study.keys[j], unit);
+  };
+  canvas.commands(fmt::format("{}\nset offsets graph 0.03, graph 0.03, graph 0.03, graph 0.03\n{}", axes_look(),
+                              y_label(label(y))));
+  x_label(canvas, frame, label(x));
+  canvas.plot(frame, what + "NaN notitle");
+  return canvas.draw(format);
+}
+
+std::optional<std::string> draw_study_tornado(const Study& study, FigureFormat format) {
+  if (!study.sobol_indices) return std::nullopt;
+  constexpr std::size_t most_bars = 20;
+  constexpr double row = 30.0;
+  std::vector<std::size_t> order = by_weight(study);
+  order.resize(std::min(order.size(), most_bars));
+  const std::string title = fmt::format("What K_CR depends on: share of its variance{}", doubt(study));
+  const Heading heading(title,
+                        {{"a parameter alone", {blue, 8.0}, {}}, {"together with others", {bar_colour, 8.0}, {}}});
+  const double top = heading.bottom() + 16.0;
+  const Box frame{frame_left + 180.0, frame_right, top, top + row * static_cast<double>(order.size())};
+  Canvas canvas(title, canvas_width, frame.bottom + 62.0);
+  heading.draw(canvas);
+  const auto x = [&](double share) { return frame.left + std::clamp(share, 0.0, 1.0) * (frame.right - frame.left); };
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const SobolIndex& index = (*study.sobol_indices)[order[i]];
+    const double middle = frame.top + row * (static_cast<double>(i) + 0.5);
+    canvas.rectangle({frame.left, x(index.total), middle - 9.0, middle + 9.0}, bar_colour);
+    canvas.rectangle({frame.left, x(index.first), middle - 5.0, middle + 5.0}, blue);
+    canvas.text(frame.left - 8.0, middle, Canvas::fitted(study.keys[order[i]], text_size, frame.left - 16.0),
+                {Anchor::right, text_size});
+  }
+  x_label(canvas, frame, "Share of the variance (%)");
+  canvas.commands(fmt::format("{}\nset xrange [0:100]\nset yrange [0:1]\nunset ytics", axes_look()));
+  canvas.plot(frame, "NaN notitle");
+  return canvas.draw(format);
+}
+
+}  // namespace zwidth::report

@@ -1,0 +1,196 @@
+#include "report/text/study_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "report/text/explanation.hpp"
+#include "report/text/quantity.hpp"
+#include "report/text/remark_line.hpp"
+#include "report/text/trust_text.hpp"
+
+namespace zwidth::report {
+namespace {
+
+std::string stiffness_text(const StudyRun& run, double value) {
+  if (std::isnan(value)) return "none";
+  if (std::isinf(value)) return "unbounded";
+  return quantity(value, units_of(run.device().parameters().motion).stiffness);
+}
+
+/// With as many digits as tell it from 0 % and from 100 %.
+std::string percent(double share) {
+  const double rest = std::min(share, 1.0 - share);
+  const int digits = rest <= 0.0 ? 2 : std::clamp(static_cast<int>(std::ceil(1.0 - std::log10(rest * 100.0))), 2, 8);
+  return fmt::format("{:.{}f} %", 100.0 * share, digits);
+}
+
+std::string wanted_text(const StudyRun& run) {
+  const Specification& wanted = run.options().specification;
+  std::string text;
+  if (wanted.critical_stiffness) text = fmt::format("K_CR of {}", stiffness_text(run, *wanted.critical_stiffness));
+  if (wanted.any_user) {
+    text +=
+        fmt::format("{}{} with any passive user", text.empty() ? "" : " and ", stiffness_text(run, *wanted.any_user));
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string mechanism_of(StiffnessStatus status, int mode) {
+  switch (status) {
+    case StiffnessStatus::none_stable:
+      return "no wall is stable";
+    case StiffnessStatus::unbounded:
+      return "unbounded";
+    case StiffnessStatus::refused:
+      return "no answer";
+    case StiffnessStatus::finite:
+      break;
+  }
+  return mode == 0 ? "the rigid body" : fmt::format("vibration mode {}", mode);
+}
+
+std::string yield_sentence(const StudyRun& run, const Study& study) {
+  if (!study.yield) return "Nothing is specified: there is no yield to state.";
+  const Proportion& share = *study.yield;
+  return fmt::format("{} of the units reach a {} (95 % interval {} to {}; {} of {} miss it).", percent(share.value),
+                     wanted_text(run), percent(share.lower), percent(share.upper), share.total - share.count,
+                     share.total);
+}
+
+TextTable quantile_table(const StudyRun& run, const Study& study) {
+  TextTable table{{Align::right, Align::right, Align::left}, {{"of the units", "have less than", "95 % interval"}}};
+  if (run.options().any_user) {
+    table.alignment.push_back(Align::right);
+    table.rows[0].emplace_back("with any user");
+  }
+  const auto end = [&](const std::optional<double>& value) {
+    return value ? stiffness_text(run, *value) : std::string("?");
+  };
+  for (std::size_t i = 0; i < study.quantiles.size(); ++i) {
+    const QuantileEstimate& each = study.quantiles[i];
+    table.rows.push_back({fmt::format("{:g} %", 100.0 * each.probability), stiffness_text(run, each.value),
+                          each.lower || each.upper ? fmt::format("{} to {}", end(each.lower), end(each.upper))
+                                                   : std::string("too few units")});
+    if (run.options().any_user) table.rows.back().push_back(stiffness_text(run, study.any_user_quantiles[i].value));
+  }
+  return table;
+}
+
+TextTable parameter_table(const Study& study) {
+  TextTable table{{Align::left}, {{"parameter"}}};
+  if (study.sobol_indices) {
+    table.alignment.insert(table.alignment.end(), 2, Align::right);
+    table.rows[0].insert(table.rows[0].end(), {"share of variance alone", "with others"});
+  }
+  if (study.tightening) {
+    table.alignment.push_back(Align::right);
+    table.rows[0].emplace_back("yield gained by half the spread");
+  }
+  if (table.alignment.size() == 1) return table;
+  for (std::size_t j = 0; j < study.keys.size(); ++j) {
+    std::vector<std::string> row{study.keys[j]};
+    if (study.sobol_indices) {
+      const SobolIndex& index = (*study.sobol_indices)[j];
+      row.push_back(fmt::format("{:.3f} ± {:.3f}", index.first, index.first_error));
+      row.push_back(fmt::format("{:.3f} ± {:.3f}", index.total, index.total_error));
+    }
+    if (study.tightening) {
+      const TighteningGain& gain = (*study.tightening)[j];
+      row.push_back(fmt::format("{:+.2f} ± {:.2f} %", 100.0 * gain.yield_gain, 100.0 * gain.error));
+    }
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+TextTable cluster_table(const Study& study) {
+  TextTable table{{Align::left, Align::right, Align::right, Align::left, Align::left},
+                  {{"limited by", "units", "of failures", "at", "what they have in common"}}};
+  for (const FailureCluster& each : study.clusters) {
+    std::vector<std::pair<double, std::string>> marks;
+    for (std::size_t j = 0; j < study.keys.size(); ++j) {
+      const double score = each.mean_scores[j];
+      constexpr double telling = 0.3;  // standard deviations off the middle
+      if (std::abs(score) < telling) continue;
+      marks.emplace_back(-std::abs(score),
+                         fmt::format("{} {} ({:+.1f} s)", score > 0.0 ? "large" : "small", study.keys[j], score));
+    }
+    std::ranges::sort(marks);
+    std::string common;
+    for (std::size_t i = 0; i < std::min<std::size_t>(3, marks.size()); ++i) {
+      common += (i > 0 ? ", " : "") + marks[i].second;
+    }
+    const std::string at = each.lowest_frequency
+                               ? fmt::format("{} to {}", quantity(hertz(*each.lowest_frequency), "Hz"),
+                                             quantity(hertz(*each.highest_frequency), "Hz"))
+                               : std::string("-");
+    table.rows.push_back({mechanism_of(each.status, each.limited_by ? each.limited_by->mode : -1),
+                          std::to_string(each.count), percent(each.share), at, common.empty() ? "nothing" : common});
+  }
+  return table;
+}
+
+std::string worst_sentence(const StudyRun& run, const Study& study) {
+  if (!study.worst) return {};
+  const WorstDevice& worst = *study.worst;
+  std::string numbers;
+  for (std::size_t j = 0; j < study.keys.size(); ++j) {
+    numbers += fmt::format("{}{} {}", j > 0 ? ", " : "", study.keys[j],
+                           parameter_text(study.keys[j], worst.values[j], run.device().parameters().motion));
+  }
+  const int mode = worst.critical.limit ? worst.critical.limit->limited_by.mode : -1;
+  return fmt::format(
+      "Worst unit: K_CR {}{}, limited by {}, where {}. The worst of the samples has {}; the search looked "
+      "at the ends of the distributions, or at all but one unit in {:.0f}.",
+      stiffness_text(run, worst.critical.stiffness),
+      worst.any_user ? fmt::format(" ({} with any user)", stiffness_text(run, *worst.any_user)) : std::string(),
+      mechanism_of(worst.critical.status, mode), numbers, stiffness_text(run, worst.sampled), 1.0 / worst.outside);
+}
+
+std::string tightening_sentence(const Study& study) {
+  if (!study.tightening) return {};
+  const auto& gains = *study.tightening;
+  const auto best = std::ranges::max_element(gains, {}, &TighteningGain::yield_gain);
+  constexpr double sure = 2.0;  // standard errors
+  if (best == gains.end() || !(best->yield_gain > sure * best->error)) {
+    return "Half the spread of no single parameter raises the yield by more than chance.";
+  }
+  return fmt::format("Tighten {} first: half its spread raises the yield by {:.2f} %.",
+                     study.keys[static_cast<std::size_t>(best - gains.begin())], 100.0 * best->yield_gain);
+}
+
+std::string study_text(const StudyRun& run, const Study& study) {
+  std::string text = shortened(display_name(run.device()), line_width) + "\n";
+  if (const auto note = trust_note(study.trust)) text += wrap(*note, line_width, 0);
+  if (study.trust.refused()) return text;
+  const auto paragraph = [&](const std::string& sentence) {
+    if (!sentence.empty()) text += wrap(sentence, line_width, 0);
+  };
+  const auto table = [&](const std::string& heading, const TextTable& rows) {
+    if (rows.rows.size() > 1) text += "\n" + heading + "\n" + layout(rows);
+  };
+  paragraph(yield_sentence(run, study));
+  if (study.reached_by_95_percent) {
+    paragraph(fmt::format("95 % of all units reach {}, with 95 % confidence.",
+                          stiffness_text(run, *study.reached_by_95_percent)));
+  }
+  if (study.none_stable + study.unbounded + study.failed_count > 0) {
+    paragraph(fmt::format("Units without any stable wall: {}; unbounded: {}; without an answer: {}.", study.none_stable,
+                          study.unbounded, study.failed_count));
+  }
+  paragraph(worst_sentence(run, study));
+  paragraph(tightening_sentence(study));
+  table("Critical stiffness K_CR", quantile_table(run, study));
+  table("What it depends on", parameter_table(study));
+  table("Units that miss the specification (s: standard deviations from the middle)", cluster_table(study));
+  if (!study.remarks.empty()) text += "\n";
+  for (const Remark& remark : study.remarks) paragraph(remark_line(remark));
+  return text;
+}
+
+}  // namespace zwidth::report

@@ -1,0 +1,123 @@
+#include "results/study_json.hpp"
+
+#include "results/units.hpp"
+
+namespace zwidth::results {
+namespace {
+
+Json interval_json(const std::optional<double>& lower, const std::optional<double>& upper) {
+  return Json::array({Json(lower), Json(upper)});
+}
+
+Json yield_json(const std::optional<Proportion>& share) {
+  if (!share) return nullptr;
+  return {{"value", share->value}, {"interval", {share->lower, share->upper}}, {"count", share->count}};
+}
+
+Json quantiles_json(const std::vector<QuantileEstimate>& quantiles) {
+  Json list = Json::array();
+  for (const QuantileEstimate& each : quantiles) {
+    list.push_back({{"probability", each.probability},
+                    {"stiffness", each.value},
+                    {"interval", interval_json(each.lower, each.upper)}});
+  }
+  return list;
+}
+
+Json values_json(const Study& study, const std::vector<double>& values) {
+  Json json = Json::object();
+  for (std::size_t j = 0; j < study.keys.size(); ++j) json[study.keys[j]] = values[j];
+  return json;
+}
+
+Json worst_json(const Study& study) {
+  if (!study.worst) return nullptr;
+  const WorstDevice& worst = *study.worst;
+  Json json = {{"parameters", values_json(study, worst.values)}};
+  add_critical(json, worst.critical);
+  json["any_user"] = worst.any_user;
+  json["worst_sampled"] = worst.sampled;
+  json["share_outside"] = worst.outside;
+  json["evaluations"] = worst.evaluations;
+  json["trust"] = worst.critical.trust;
+  return json;
+}
+
+Json clusters_json(const Study& study) {
+  Json list = Json::array();
+  for (const FailureCluster& each : study.clusters) {
+    list.push_back({{"status", each.status},
+                    {"limited_by", each.limited_by},
+                    {"count", each.count},
+                    {"share", each.share},
+                    {"lowest_frequency_rad_s", each.lowest_frequency},
+                    {"highest_frequency_rad_s", each.highest_frequency},
+                    {"mean_scores", values_json(study, each.mean_scores)}});
+  }
+  return list;
+}
+
+Json indices_json(const Study& study) {
+  if (!study.sobol_indices) return nullptr;
+  Json list = Json::array();
+  for (std::size_t j = 0; j < study.keys.size(); ++j) {
+    const SobolIndex& index = (*study.sobol_indices)[j];
+    list.push_back({{"parameter", study.keys[j]},
+                    {"first", index.first},
+                    {"first_error", index.first_error},
+                    {"total", index.total},
+                    {"total_error", index.total_error}});
+  }
+  return list;
+}
+
+Json tightening_json(const Study& study) {
+  if (!study.tightening) return nullptr;
+  Json list = Json::array();
+  for (std::size_t j = 0; j < study.keys.size(); ++j) {
+    const TighteningGain& gain = (*study.tightening)[j];
+    list.push_back({{"parameter", study.keys[j]}, {"yield_gain", gain.yield_gain}, {"error", gain.error}});
+  }
+  return list;
+}
+
+}  // namespace
+
+Json study_json(const StudyRun& run, const Study& study) {
+  const StudyOptions& options = run.options();
+  Json json = document("zwidth.study/1");
+  json["device"] = run.device().name();
+  json["units"] = wall_units(run.device().parameters().motion);
+  json["samples"] = study.samples;
+  json["seed"] = options.seed;
+  json["sampling"] = options.sampling;
+  json["parameters"] = study.keys;
+  json["specification"] = {{"critical_stiffness", options.specification.critical_stiffness},
+                           {"any_user", options.specification.any_user}};
+  json["yield"] = study.yield ? std::optional(study.yield->value) : std::nullopt;
+  json["yield_interval"] = study.yield ? Json{study.yield->lower, study.yield->upper} : Json(nullptr);
+  json["yields"] = {{"critical_stiffness", yield_json(study.critical_stiffness_yield)},
+                    {"any_user", yield_json(study.any_user_yield)}};
+  json["quantiles"] = quantiles_json(study.quantiles);
+  json["any_user_quantiles"] = options.any_user ? quantiles_json(study.any_user_quantiles) : Json(nullptr);
+  json["reached_by_95_percent"] = study.reached_by_95_percent;
+  json["histogram"] = {
+      {"edges", study.histogram.edges}, {"counts", study.histogram.counts}, {"yields", study.histogram.yields}};
+  json["none_stable"] = study.none_stable;
+  json["unbounded"] = study.unbounded;
+  json["doubtful"] = study.doubtful;
+  json["failed_count"] = study.failed_count;
+  json["failed"] = Json::array();
+  for (const FailedSample& each : study.failed) {
+    json["failed"].push_back({{"sample", each.sample}, {"reason", each.reason}});
+  }
+  json["clusters"] = clusters_json(study);
+  json["sobol_indices"] = indices_json(study);
+  json["tightening"] = tightening_json(study);
+  json["worst"] = worst_json(study);
+  json["trust"] = study.trust;
+  json["remarks"] = study.remarks;
+  return json;
+}
+
+}  // namespace zwidth::results

@@ -1,0 +1,213 @@
+#include "study/study_result_file.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <hdf5.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <utility>
+
+#include "report/output_file.hpp"
+#include "results/study_json.hpp"
+#include "study/study_checkpoint.hpp"
+#include "zwidth/io/device_file.hpp"
+
+namespace zwidth::study_engine {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr unsigned deflate_level = 1;  // numbers of random devices hardly compress; the first level takes what there is
+
+struct Hdf5Failed {};
+
+hid_t checked(hid_t id) {
+  if (id < 0) throw Hdf5Failed{};
+  return id;
+}
+
+/// An object of HDF5, closed on every way out.
+class Handle {
+ public:
+  Handle(hid_t id, herr_t (*closing)(hid_t)) : id_(checked(id)), close_(closing) {}
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+  ~Handle() {
+    if (id_ >= 0) close_(id_);
+  }
+  [[nodiscard]] hid_t get() const { return id_; }
+  /// A full disk may show here only.
+  void close() {
+    if (close_(std::exchange(id_, -1)) < 0) throw Hdf5Failed{};
+  }
+
+ private:
+  hid_t id_;
+  herr_t (*close_)(hid_t);
+};
+
+/// A column of the study, written chunk by chunk.
+class Column {
+ public:
+  Column(hid_t folder, const std::string& name, hid_t type, std::uint64_t samples)
+      : type_(type), data_(create(folder, name, type, samples), H5Dclose) {}
+
+  void write(std::uint64_t chunk, const void* values, std::size_t size) {
+    const hsize_t start = chunk * study_chunk_size;
+    const hsize_t count = size;
+    const Handle memory(H5Screate_simple(1, &count, nullptr), H5Sclose);
+    const Handle file(H5Dget_space(data_.get()), H5Sclose);
+    if (H5Sselect_hyperslab(file.get(), H5S_SELECT_SET, &start, nullptr, &count, nullptr) < 0 ||
+        H5Dwrite(data_.get(), type_, memory.get(), file.get(), H5P_DEFAULT, values) < 0) {
+      throw Hdf5Failed{};
+    }
+  }
+
+ private:
+  static hid_t create(hid_t folder, const std::string& name, hid_t type, hsize_t samples) {
+    const Handle space(H5Screate_simple(1, &samples, nullptr), H5Sclose);
+    const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    const hsize_t chunk = std::min<hsize_t>(study_chunk_size, samples);
+    H5Pset_chunk(properties.get(), 1, &chunk);
+    H5Pset_shuffle(properties.get());
+    H5Pset_deflate(properties.get(), deflate_level);
+    H5Pset_fletcher32(properties.get());
+    H5Pset_obj_track_times(properties.get(), false);  // the same bytes whenever it is written
+    return H5Dcreate2(folder, name.c_str(), type, space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT);
+  }
+
+  hid_t type_;
+  Handle data_;
+};
+
+/// A text as a dataset of bytes: attributes hold 64 KiB at most.
+void put_text(hid_t folder, const std::string& name, const std::string& text) {
+  const Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+  H5Tset_size(type.get(), std::max<std::size_t>(1, text.size()));
+  H5Tset_cset(type.get(), H5T_CSET_UTF8);
+  const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+  const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  H5Pset_obj_track_times(properties.get(), false);
+  const Handle data(
+      H5Dcreate2(folder, name.c_str(), type.get(), space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT), H5Dclose);
+  if (H5Dwrite(data.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.empty() ? "" : text.data()) < 0) {
+    throw Hdf5Failed{};
+  }
+}
+
+void put_attribute(hid_t folder, const char* name, const std::string& text) {
+  const Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+  H5Tset_size(type.get(), std::max<std::size_t>(1, text.size()));
+  H5Tset_cset(type.get(), H5T_CSET_UTF8);
+  const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+  const Handle attribute(H5Acreate2(folder, name, type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  if (H5Awrite(attribute.get(), type.get(), text.c_str()) < 0) throw Hdf5Failed{};
+}
+
+void put_attribute(hid_t folder, const char* name, std::uint64_t value) {
+  const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+  const Handle attribute(H5Acreate2(folder, name, H5T_STD_U64LE, space.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  if (H5Awrite(attribute.get(), H5T_NATIVE_UINT64, &value) < 0) throw Hdf5Failed{};
+}
+
+void write_columns(hid_t file, const StudyRun& run, const ChunkSource& chunks) {
+  const std::uint64_t samples = run.options().samples;
+  const Handle folder_properties(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
+  H5Pset_obj_track_times(folder_properties.get(), false);
+  const Handle folder(H5Gcreate2(file, "parameters", H5P_DEFAULT, folder_properties.get(), H5P_DEFAULT), H5Gclose);
+  std::vector<std::unique_ptr<Column>> parameters;
+  for (const StudyParameter& each : run.distributions().parameters) {
+    parameters.push_back(std::make_unique<Column>(folder.get(), each.key, H5T_NATIVE_DOUBLE, samples));
+  }
+  Column stiffness(file, "critical_stiffness", H5T_NATIVE_DOUBLE, samples);
+  Column frequency(file, "frequency_rad_s", H5T_NATIVE_DOUBLE, samples);
+  Column mode(file, "mode", H5T_NATIVE_INT16, samples);
+  Column status(file, "status", H5T_NATIVE_UINT8, samples);
+  Column verdict(file, "verdict", H5T_NATIVE_UINT8, samples);
+  std::unique_ptr<Column> any_user;
+  if (run.options().any_user) any_user = std::make_unique<Column>(file, "any_user", H5T_NATIVE_DOUBLE, samples);
+  std::string exceptions;
+  std::vector<std::uint8_t> small;
+  const auto bytes = [&](const auto& values) {
+    small.clear();
+    for (const auto value : values) small.push_back(static_cast<std::uint8_t>(value));
+    return small.data();
+  };
+  for (std::uint64_t chunk = 0; chunk < run.chunk_count(); ++chunk) {
+    const BatchStiffness& answers = chunks(chunk);
+    const std::size_t size = answers.size();
+    const std::vector<ParameterValues> columns = run.columns(chunk);
+    for (std::size_t j = 0; j < columns.size(); ++j) parameters[j]->write(chunk, columns[j].values.data(), size);
+    stiffness.write(chunk, answers.stiffness.data(), size);
+    frequency.write(chunk, answers.frequency.data(), size);
+    mode.write(chunk, answers.mode.data(), size);
+    status.write(chunk, bytes(answers.status), size);
+    verdict.write(chunk, bytes(answers.verdict), size);
+    if (any_user) any_user->write(chunk, answers.any_user.data(), size);
+    for (const BatchException& each : answers.exceptions) {
+      const std::string why =
+          each.failure.empty() ? fmt::format("{}", fmt::join(each.trust.reasons, "; ")) : each.failure;
+      exceptions += fmt::format("{}\t{}\n", chunk * study_chunk_size + each.index, why);
+    }
+  }
+  put_text(file, "exceptions", exceptions);
+}
+
+void write_all(const std::string& path, const StudyRun& run, const ChunkSource& chunks, const Study& study) {
+  const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+  Handle file(H5Fcreate(path.c_str(), H5F_ACC_EXCL, creation.get(), H5P_DEFAULT), H5Fclose);
+  put_attribute(file.get(), "schema", "zwidth.study_file/1");
+  put_attribute(file.get(), "version", ZWIDTH_VERSION);
+  put_attribute(file.get(), "samples", run.options().samples);
+  put_attribute(file.get(), "seed", run.options().seed);
+  put_attribute(file.get(), "sampling", results::name_of(run.options().sampling));
+  put_attribute(file.get(), "status_values", "0 finite, 1 none_stable, 2 unbounded, 3 refused");
+  put_attribute(file.get(), "verdict_values", "0 sound, 1 doubtful, 2 refused");
+  put_text(file.get(), "device", write_device(run.device().parameters()));
+  put_text(file.get(), "study", description(run));
+  write_columns(file.get(), run, chunks);
+  put_text(file.get(), "summary", results::line(results::study_json(run, study)));
+  file.close();
+}
+
+[[noreturn]] void fail(const std::string& path, const std::string& why, std::string_view remedy) {
+  throw report::OutputFailed(fmt::format("{}: cannot write: {}{}", path, why, remedy));
+}
+
+}  // namespace
+
+void write_result(const std::string& path, const StudyRun& run, const ChunkSource& chunks, const Study& study) {
+  const fs::path temporary = fs::path(path).parent_path() / fmt::format(".zwidth-{}.h5.part", ::getpid());
+  ::unlink(temporary.c_str());
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  try {
+    write_all(temporary.string(), run, chunks, study);
+  } catch (const Hdf5Failed&) {
+    std::error_code error;
+    const auto room = fs::space(temporary.parent_path().empty() ? "." : temporary.parent_path(), error);
+    ::unlink(temporary.c_str());
+    const bool is_full = !error && room.available < (std::uintmax_t{1} << 20U);
+    fail(path, is_full ? "No space left on device" : "HDF5 failed",
+         "; make room, or name a file where there is, and add --resume: what was computed is kept");
+  } catch (...) {
+    ::unlink(temporary.c_str());
+    throw;
+  }
+  const int written = ::open(temporary.c_str(), O_RDONLY | O_CLOEXEC);
+  const bool is_safe = written >= 0 && ::fsync(written) == 0;
+  const int error = errno;
+  if (written >= 0) ::close(written);
+  if (!is_safe || ::rename(temporary.c_str(), path.c_str()) != 0) {
+    const int why = is_safe ? errno : error;
+    ::unlink(temporary.c_str());
+    fail(path, std::strerror(why), "; add --resume: what was computed is kept");
+  }
+}
+
+}  // namespace zwidth::study_engine

@@ -1,0 +1,205 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <string>
+
+#include "cli/workspace.hpp"
+
+namespace zwidth::cli {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::StartsWith;
+
+const std::string lhifam = "zwidth study devices/lhifam.toml --study devices/studies/lhifam.toml";
+
+class Study : public Workspace {
+ protected:
+  [[nodiscard]] nlohmann::json document(const std::string& command) const {
+    const Outcome outcome = run(command + " --json");
+    EXPECT_EQ(outcome.status, 0) << outcome.errors;
+    EXPECT_THAT(outcome.errors, IsEmpty());
+    return nlohmann::json::parse(outcome.output, nullptr, false);
+  }
+  /// Names of the files beside the result that a study leaves behind.
+  [[nodiscard]] int partial_files() const {
+    int count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(directory())) {
+      const std::string name = entry.path().filename().string();
+      count += name.find(".part") != std::string::npos ? 1 : 0;
+    }
+    return count;
+  }
+};
+
+TEST_F(Study, SaysWhatShareOfTheUnitsIsGoodEnough) {
+  const auto answer = document(lhifam + " --samples 500 --index-samples 64 --output-device worst.toml");
+  EXPECT_EQ(answer["schema"], "zwidth.study/1");
+  EXPECT_EQ(answer["samples"], 500);
+  EXPECT_EQ(answer["trust"]["verdict"], "sound");
+  EXPECT_LE(answer["yield_interval"][0], answer["yield"]);
+  EXPECT_GE(answer["yield_interval"][1], answer["yield"]);
+  EXPECT_EQ(answer["failed_count"], 0);
+  EXPECT_TRUE(answer["sobol_indices"].is_null());  // the parameters are correlated
+  double before = 0.0;
+  for (const auto& quantile : answer["quantiles"]) {
+    EXPECT_GE(quantile["stiffness"], before);
+    before = quantile["stiffness"];
+  }
+  // The worst unit is a device of its own, with that limit.
+  EXPECT_LE(answer["worst"]["critical_stiffness"], answer["worst"]["worst_sampled"]);
+  const auto worst = document("zwidth analyze worst.toml");
+  EXPECT_NEAR(worst["critical_stiffness"].get<double>() / answer["worst"]["critical_stiffness"].get<double>(), 1.0,
+              1e-12);
+  const Outcome text = run(lhifam + " --samples 500 --index-samples 64");
+  EXPECT_THAT(text.output, HasSubstr("of the units reach a K_CR of 6 kN/m (95 % interval "));
+  EXPECT_THAT(text.output, HasSubstr("Worst unit: K_CR "));
+}
+
+TEST_F(Study, ResultFileIsTheSameForAnyThreadsAndInMemory) {
+  const std::string many = lhifam + " --samples 10000 --index-samples 0 --json";
+  const Outcome one = run(many + " --threads 1 --output one.h5");
+  ASSERT_EQ(one.status, 0) << one.errors;
+  const Outcome three = run(many + " --threads 3 --output three.h5");
+  EXPECT_EQ(one.output, three.output);
+  EXPECT_EQ(contents("one.h5"), contents("three.h5"));
+  EXPECT_FALSE(contents("one.h5").empty());
+  EXPECT_EQ(run(many).output, one.output);
+  EXPECT_EQ(partial_files(), 0);
+}
+
+// Killed again and again at random instants, it loses no more than what was being computed, and ends the same.
+TEST_F(Study, GoesOnAfterAnyKill) {
+  const std::string many = lhifam + " --samples 60000 --index-samples 0 --json --threads 2";
+  const Outcome whole = run(many + " --output whole.h5");
+  ASSERT_EQ(whole.status, 0) << whole.errors;
+  constexpr unsigned seed = 20261123;
+  SCOPED_TRACE(seed);
+  std::mt19937 random(seed);
+  int killed = 0;
+  Outcome outcome;
+  for (int attempt = 0; attempt < 12; ++attempt) {
+    const double seconds = 0.02 + 0.0005 * static_cast<double>(random() % 1000);
+    outcome = run("timeout -s KILL " + std::to_string(seconds) + " " + many + " --output killed.h5" +
+                  (attempt > 0 ? " --resume" : ""));
+    if (outcome.status == 0) break;
+    ++killed;
+  }
+  EXPECT_GT(killed, 0);
+  // What was being written when it was killed may be half there: damage the end too.
+  if (outcome.status != 0) {
+    (void)run("[ ! -s killed.h5.partial.0 ] || truncate -s -5 killed.h5.partial.0");
+    outcome = run(many + " --output killed.h5 --resume");
+  }
+  ASSERT_EQ(outcome.status, 0) << outcome.errors;
+  EXPECT_EQ(outcome.output, whole.output);
+  EXPECT_EQ(contents("killed.h5"), contents("whole.h5"));
+  EXPECT_EQ(partial_files(), 0);
+}
+
+TEST_F(Study, KeepsACheckpointOfAnotherStudy) {
+  const std::string short_one = lhifam + " --samples 9000 --index-samples 0 --output units.h5";
+  (void)run("timeout -s KILL 0.6 " + lhifam + " --samples 2000000 --output units.h5");
+  ASSERT_TRUE(std::filesystem::exists(directory() / "units.h5.partial.0"));
+  const std::string before = contents("units.h5.partial.0");
+  expect_refusal(short_one, "--output: units.h5.partial.0: a study was ended before it was done; add --resume");
+  expect_refusal(short_one + " --resume",
+                 "units.h5.partial.0: is of another study: it has \"samples: 2000000\", this one \"samples: 9000\"");
+  expect_refusal(lhifam + " --samples 2000000 --seed 2 --output units.h5 --resume",
+                 "it has \"seed: 1\", this one \"seed: 2\"");
+  EXPECT_EQ(contents("units.h5.partial.0"), before);
+  std::string other = before;
+  other.replace(other.find("version: ") + 9, 1, "9");
+  write("units.h5.partial.0", other);
+  expect_refusal(lhifam + " --samples 2000000 --output units.h5 --resume", "it has \"version: 9");
+  write("units.h5.partial.0", "something else entirely, of nobody's");
+  expect_refusal(lhifam + " --samples 2000000 --output units.h5 --resume", "is no checkpoint of this program");
+}
+
+TEST_F(Study, RefusesBadInputWithItsPlace) {
+  write("wrong.toml", "[[parameter]]\nkey = \"link.stifness\"\n");
+  expect_refusal("zwidth study devices/lhifam.toml --study wrong.toml",
+                 "wrong.toml:2:7: parameter.0.key: \"link.stifness\" is no number of the device");
+  expect_refusal("zwidth study devices/lhifam.toml --study none.toml", "none.toml: ");
+  expect_refusal(lhifam + " --samples 0", "--samples: is 0; must be 1 to ");
+  expect_refusal(lhifam + " --resume", "--resume: goes on with a result that was begun; add --output FILE.h5");
+  expect_refusal(lhifam + " --output devices/studies/lhifam.toml", "would overwrite the study file");
+  expect_refusal(lhifam + " --output devices/lhifam.toml", "would overwrite the device file");
+}
+
+TEST_F(Study, ADiskThatFailsKeepsWhatThereIs) {
+  const Outcome missing = run(lhifam + " --samples 100 --output nowhere/units.h5");
+  EXPECT_EQ(missing.status, 1);
+  EXPECT_THAT(missing.errors, HasSubstr("cannot write: No such file or directory; make the folder first"));
+  // A disk of 200 kB: the checkpoint does not fit, what does is kept, and the study goes on elsewhere.
+  const Outcome mounted =
+      run("mkdir small && unshare -m bash -c 'mount -t tmpfs -o size=200k none small && " + lhifam +
+          " --samples 60000 --index-samples 0 --output small/units.h5; echo $? > status; cp small/* .'");
+  if (contents("status").empty()) GTEST_SKIP() << "no right to mount a small disk";
+  EXPECT_EQ(contents("status"), "1\n");
+  EXPECT_THAT(mounted.errors,
+              HasSubstr("No space left on device; make room and add --resume: what was computed is kept"));
+  EXPECT_THAT(mounted.errors, StartsWith("zwidth: "));
+  ASSERT_TRUE(std::filesystem::exists(directory() / "units.h5.partial.0"));
+  const Outcome resumed = run(lhifam + " --samples 60000 --index-samples 0 --output units.h5 --resume");
+  EXPECT_EQ(resumed.status, 0) << resumed.errors;
+}
+
+TEST_F(Study, WritesAPageWithFigures) {
+  write(
+      "free.toml",
+      "[specification]\ncritical_stiffness = 7000\n[[parameter]]\nkey = \"link.stiffness\"\ndistribution = \"normal\"\n"
+      "relative_deviation = 0.1\n[[parameter]]\nkey = \"body.handle.damping\"\ndistribution = \"uniform\"\nlower = "
+      "2\nupper = 4\n");
+  const Outcome outcome =
+      run("zwidth study devices/lhifam.toml --study free.toml --samples 300 --index-samples 32 --report page.html");
+  ASSERT_EQ(outcome.status, 0) << outcome.errors;
+  const std::string page = contents("page.html");
+  for (const char* part : {"Bars: units by their critical stiffness", "Sobol indices", "coloured by what limits it",
+                           "The worst unit", "</html>"}) {
+    EXPECT_THAT(page, HasSubstr(part));
+  }
+}
+
+// Real processes, as many as asked for, meet at one result.
+TEST_F(Study, IsTheSameForAnyNumberOfRanks) {
+  if (run("command -v zwidth-study mpirun").status != 0) GTEST_SKIP() << "built without MPI";
+  const std::string arguments =
+      " devices/lhifam.toml --study devices/studies/lhifam.toml --samples 30000 --index-samples 0 --threads 1 --json";
+  const Outcome alone = run("zwidth study" + arguments + " --output alone.h5");
+  ASSERT_EQ(alone.status, 0) << alone.errors;
+  for (const std::string ranks : {"1", "2", "3"}) {
+    const Outcome together = run("mpirun --allow-run-as-root --oversubscribe -n " + ranks + " zwidth-study" +
+                                 arguments + " --output ranks.h5");
+    ASSERT_EQ(together.status, 0) << together.errors;
+    EXPECT_EQ(together.output, alone.output) << ranks;
+    EXPECT_EQ(contents("ranks.h5"), contents("alone.h5")) << ranks;
+  }
+  EXPECT_EQ(partial_files(), 0);
+}
+
+// A rank that is killed ends the run; what all of them had done is there for the next one, of any number of ranks.
+TEST_F(Study, GoesOnAfterALostRank) {
+  if (run("command -v zwidth-study mpirun").status != 0) GTEST_SKIP() << "built without MPI";
+  const std::string arguments =
+      " devices/lhifam.toml --study devices/studies/lhifam.toml --samples 60000 --index-samples 0 --threads 1 --json";
+  const Outcome alone = run("zwidth study" + arguments + " --output alone.h5");
+  const Outcome lost = run(
+      "mpirun --allow-run-as-root --oversubscribe -n 2 bash -c 'if [ $OMPI_COMM_WORLD_RANK = 1 ]; then timeout -s KILL "
+      "1.5 zwidth-study" +
+      arguments + " --output lost.h5; kill -9 $$; else zwidth-study" + arguments + " --output lost.h5; fi'");
+  ASSERT_NE(lost.status, 0);
+  ASSERT_GT(partial_files(), 0);
+  const Outcome resumed = run("zwidth study" + arguments + " --output lost.h5 --resume");
+  EXPECT_EQ(resumed.status, 0) << resumed.errors;
+  EXPECT_EQ(resumed.output, alone.output);
+  EXPECT_EQ(contents("lost.h5"), contents("alone.h5"));
+  EXPECT_EQ(partial_files(), 0);
+}
+
+}  // namespace
+}  // namespace zwidth::cli
