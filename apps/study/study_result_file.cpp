@@ -183,8 +183,8 @@ void write_all(const std::string& path, const StudyRun& run, const ChunkSource& 
 }  // namespace
 
 void write_result(const std::string& path, const StudyRun& run, const ChunkSource& chunks, const Study& study) {
-  const fs::path temporary = fs::path(path).parent_path() / fmt::format(".zwidth-{}.h5.part", ::getpid());
-  ::unlink(temporary.c_str());
+  const fs::path temporary = path + ".part";  // nobody else writes it: the checkpoint is locked
+  ::unlink(temporary.c_str());                // left by a process that was killed
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   try {
     write_all(temporary.string(), run, chunks, study);
