@@ -69,6 +69,7 @@ int run(int argument_count, char** arguments) {
   add_region(app);
   add_relay(app);
   add_reproduce(app);
+  add_rig(app);
   add_serve(app);
   add_simulate(app);
   add_study(app);

@@ -44,6 +44,7 @@ void add_identify(CLI::App& app);
 void add_region(CLI::App& app);
 void add_relay(CLI::App& app);
 void add_reproduce(CLI::App& app);
+void add_rig(CLI::App& app);
 void add_serve(CLI::App& app);
 void add_simulate(CLI::App& app);
 void add_study(CLI::App& app);

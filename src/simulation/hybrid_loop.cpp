@@ -215,8 +215,13 @@ struct HybridLoop::State {
   }
 
   void step() noexcept {
-    within = 0.0;
     measure_and_update();
+    move_commanded();
+  }
+
+  /// With the command of this sample.
+  void move_commanded() noexcept {
+    within = 0.0;
     delay_line[oldest] = command;  // l samples behind the next one to leave
     oldest = oldest + 1 == delay_line.size() ? 0 : oldest + 1;
     const double arriving = delay_line[oldest];
@@ -301,6 +306,13 @@ void HybridLoop::step() noexcept {
   } else {
     state_->step();
   }
+}
+
+double HybridLoop::measure() noexcept { return state_->measured = state_->quantised(state_->motion.sensed()); }
+
+void HybridLoop::move(double force) noexcept {
+  state_->command = std::clamp(force, -state_->limit, state_->limit);
+  state_->move_commanded();
 }
 
 void HybridLoop::reset() noexcept { state_->reset(); }

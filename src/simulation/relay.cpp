@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <tuple>
 #include <utility>
 
@@ -73,6 +74,31 @@ void conclude(RelayResult& result, const Progress& progress) {
     result.remarks.push_back(
         {Remark::Severity::note, "the wall's damper and filters are left out: a relay has no wall",
          "all numbers are of the device without them, not those of an analysis, which closes them"});
+  }
+}
+
+void add_recorded_trial(RelayResult& result, Recording recording, const RelayAnalysisOptions& analysis) {
+  if (recording.channels.size() != 2) {
+    throw Error(
+        ErrorCode::invalid_argument,
+        fmt::format("the recording has {} channels; must be two: force and position", recording.channels.size()));
+  }
+  RelayTrial trial;
+  trial.force = std::move(recording.channels[0].samples);
+  trial.position = std::move(recording.channels[1].samples);
+  trial.result = analyse_relay_record(trial.force, trial.position, result.sampling_period, analysis);
+  if (!trial.force.empty()) {
+    const auto [lowest, highest] = std::minmax_element(trial.force.begin(), trial.force.end());
+    result.relay.amplitude = std::max(result.relay.amplitude, 0.5 * (*highest - *lowest));
+  }
+  result.trials.push_back(std::move(trial));
+  std::ranges::move(recording.remarks, std::back_inserter(result.remarks));
+  const RelayTrial& recorded = result.trials.back();
+  for (const auto& [name, samples, role] : {std::tuple("force", &recorded.force, SignalRole::force),
+                                            std::tuple("position", &recorded.position, SignalRole::position)}) {
+    for (Remark& remark : check_signal({name, *samples}, result.sampling_period, role)) {
+      result.remarks.push_back(std::move(remark));
+    }
   }
 }
 
@@ -146,34 +172,25 @@ RelayResult relay(const Device& device, const RelayOptions& options, const Progr
 }
 
 RelayResult relay(Recording recording, const RelayRecordOptions& options, const Progress& progress) {
-  require_valid(find_problem(options, recording.sampling_period));
-  if (recording.channels.size() != 2) {
-    throw Error(
-        ErrorCode::invalid_argument,
-        fmt::format("the recording has {} channels; must be two: force and position", recording.channels.size()));
-  }
+  std::vector<Recording> recordings;
+  recordings.push_back(std::move(recording));
+  return relay(std::move(recordings), options, progress);
+}
+
+RelayResult relay(std::vector<Recording> recordings, const RelayRecordOptions& options, const Progress& progress) {
+  if (recordings.empty()) throw Error(ErrorCode::invalid_argument, "there is no recording; must be one or more");
+  require_valid(find_problem(options, recordings.front().sampling_period));
   RelayResult result;
   result.source = RelayResult::Source::recording;
-  result.recording = std::move(recording.source);
+  result.recording = recordings.front().source;
   result.motion = options.device ? options.device->parameters().motion : options.motion;
-  result.sampling_period = recording.sampling_period;
-  RelayTrial trial;
-  trial.force = std::move(recording.channels[0].samples);
-  trial.position = std::move(recording.channels[1].samples);
-  trial.result = analyse_relay_record(trial.force, trial.position, result.sampling_period, options.analysis);
-  if (!trial.force.empty()) {
-    const auto [lowest, highest] = std::minmax_element(trial.force.begin(), trial.force.end());
-    result.relay.amplitude = 0.5 * (*highest - *lowest);
-  }
+  result.sampling_period = recordings.front().sampling_period;
   result.relay.hysteresis = options.hysteresis;
-  result.trials.push_back(std::move(trial));
-  result.remarks = std::move(recording.remarks);
-  const RelayTrial& recorded = result.trials.front();
-  for (const auto& [name, samples, role] : {std::tuple("force", &recorded.force, SignalRole::force),
-                                            std::tuple("position", &recorded.position, SignalRole::position)}) {
-    for (Remark& remark : check_signal({name, *samples}, result.sampling_period, role)) {
-      result.remarks.push_back(std::move(remark));
+  for (Recording& recording : recordings) {
+    if (recording.sampling_period != result.sampling_period) {
+      throw Error(ErrorCode::invalid_argument, "the recordings differ in their sampling period; must be one");
     }
+    add_recorded_trial(result, std::move(recording), options.analysis);
   }
   result.device = options.device;
   conclude(result, progress);

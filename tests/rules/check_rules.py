@@ -22,6 +22,7 @@ LIBRARY = {
     "batch": ["model", "sampling", "stability"],
     "design": ["model", "signal", "sampling", "stability", "batch"],
     "study": ["model", "sampling", "stability", "batch", "design"],
+    "rig": ["model", "signal", "sampling", "control", "stability", "simulation", "identification"],
 }
 APPS = {
     "results": [],
@@ -30,7 +31,8 @@ APPS = {
     "reproduce": ["results", "report"],
     "server": ["results"],
     "study": ["results", "report"],
-    "cli": ["results", "report", "export", "reproduce", "server", "study"],
+    "rig": ["results"],
+    "cli": ["results", "report", "export", "reproduce", "server", "study", "rig"],
 }
 MOST_LINES = 400
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"')

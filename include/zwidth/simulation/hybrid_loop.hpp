@@ -76,6 +76,13 @@ class HybridLoop {
   /// Measures at t = k T, updates the controller, and moves the device to (k + 1) T.
   void step() noexcept;
 
+  // The device alone, for a controller that runs elsewhere; options.controller and options.faults then do not act.
+  /// What the encoder gives now, at k T.
+  [[nodiscard]] double measure() noexcept;
+  /// Moves the device to (k + 1) T with this force commanded at k T, N or N m: limited, and underway for the delay, as
+  /// in step().
+  void move(double force) noexcept;
+
   /// As constructed.
   void reset() noexcept;
 

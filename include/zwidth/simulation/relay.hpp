@@ -91,4 +91,8 @@ struct RelayResult {
 [[nodiscard]] RelayResult relay(Recording recording, const RelayRecordOptions& options = {},
                                 const Progress& progress = {});
 
+/// The same from several trials of one experiment, each a recording: of one sampling period.
+[[nodiscard]] RelayResult relay(std::vector<Recording> recordings, const RelayRecordOptions& options = {},
+                                const Progress& progress = {});
+
 }  // namespace zwidth

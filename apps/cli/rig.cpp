@@ -1,0 +1,295 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "cli/option_refusal.hpp"
+#include "cli/progress_line.hpp"
+#include "cli/remark_lines.hpp"
+#include "cli/rig_arguments.hpp"
+#include "cli/standard_output.hpp"
+#include "cli/subcommand.hpp"
+#include "report/page/html_page.hpp"
+#include "report/text/rig_text.hpp"
+#include "report/text/text_medium.hpp"
+#include "report/text/trust_text.hpp"
+#include "results/csv.hpp"
+#include "results/rig_json.hpp"
+#include "rig/open_driver.hpp"
+#include "rig/rig_actions.hpp"
+#include "rig/rig_run.hpp"
+#include "zwidth/error.hpp"
+#include "zwidth/io/device_file.hpp"
+#include "zwidth/simulation/simulate.hpp"
+#include "zwidth/stability/analysis.hpp"
+
+namespace zwidth::cli {
+namespace {
+
+constexpr double checked_duration = 2.0;  // s
+
+/// Options by the member that they set.
+constexpr std::pair<std::string_view, std::string_view> options_of_rig[] = {{"force", "--force-limit"},
+                                                                            {"position", "--position-limit"},
+                                                                            {"velocity", "--velocity-limit"},
+                                                                            {"saturation_duration", "--saturation"},
+                                                                            {"ramp", "--ramp"},
+                                                                            {"amplitude", "--amplitude"},
+                                                                            {"relay.amplitude", "--amplitude"},
+                                                                            {"relay.hysteresis", "--hysteresis"},
+                                                                            {"hysteresis", "--hysteresis"},
+                                                                            {"lowest_hz", "--lowest-hz"},
+                                                                            {"highest_hz", "--highest-hz"},
+                                                                            {"duration", "--duration"},
+                                                                            {"start", "--from"},
+                                                                            {"ceiling", "--ceiling"},
+                                                                            {"stiffness", "--stiffness"},
+                                                                            {"trials", "--trials"}};
+
+/// What all actions work with.
+struct Rig {
+  const RigArguments& arguments;
+  Device device;
+  Trust trust;  ///< of the device's analysis
+  Outputs& outputs;
+  rig::RigOptions options;
+  std::unique_ptr<rig::Driver> driver;
+};
+
+void check_duration(const std::optional<double>& duration, const Device& device) {
+  if (!duration) return;
+  const double cycles = *duration / device.loop().sampling_period;
+  if (!(cycles >= 1.0 && cycles <= max_simulated_samples)) {
+    throw BadInput(fmt::format("--duration: is {} s; 1 to {:.0e} sampling periods", *duration, max_simulated_samples));
+  }
+}
+
+/// A refused device never runs, a doubtful one if that is accepted, an unstable wall if that is.
+void check_permission(const RigArguments& arguments, const Trust& trust) {
+  const std::string& file = arguments.devices.files.front();
+  if (trust.sound() || (!trust.refused() && arguments.accept_doubt)) return;
+  throw WorkFailed(file + ": " + report::verdict_text(trust) +
+                   (trust.refused() ? "" : "; --accept-doubt acts on it all the same"));
+}
+
+rig::RigOptions rig_options(const RigArguments& arguments, const Device& device) {
+  rig::RigOptions options;
+  options.limits = arguments.limits;
+  const auto declared = device.parameters().actuator.force_limit;
+  if (!options.limits.force) options.limits.force = declared;
+  if (declared && options.limits.force && *options.limits.force > *declared) {
+    throw BadInput(
+        fmt::format("--force-limit: is {}; at most actuator.force_limit, {}", *options.limits.force, *declared));
+  }
+  if (const auto problem = find_problem(options.limits)) refuse(*problem, options_of_rig);
+  if (arguments.driver == "simulated") return options;
+  if (!options.limits.force)
+    throw BadInput("--force-limit: missing; a device on a bench needs one, or actuator.force_limit");
+  if (!options.limits.position) throw BadInput("--position-limit: missing; a device on a bench needs one");
+  return options;
+}
+
+double amplitude_of(const Rig& rig) {
+  const double amplitude = rig.arguments.amplitude.value_or(rig::default_force(rig.device));
+  if (!(std::isfinite(amplitude) && amplitude > 0.0)) {
+    throw BadInput(fmt::format("--amplitude: is {}; a force in N or N m above 0", amplitude));
+  }
+  if (rig.options.limits.force && amplitude > *rig.options.limits.force) {
+    throw BadInput(
+        fmt::format("--amplitude: is {}; at most the force limit, {}", amplitude, *rig.options.limits.force));
+  }
+  return amplitude;
+}
+
+/// Writes what was asked for, and prints the answer; a rig that stopped has failed.
+template <typename Result>
+void answer(const Rig& rig, const Result& result, const RigSession& session) {
+  const auto text = [&] { return report::rig_text(rig.device, result); };
+  rig.outputs.put("--report", [&] {
+    const std::string title = fmt::format("Rig {}: {}", rig.arguments.action, rig.device.name());
+    return report::html_page(title, report::element("h1", title) + report::element("pre", text()));
+  });
+  rig.outputs.commit();
+  if (rig.arguments.output.json) {
+    write_warnings(session.remarks);
+    write_standard_output(results::line(results::rig_json(rig.device, result)));
+  } else {
+    write_text(text());
+  }
+  if (session.stop != StopReason::none) throw WorkFailed("the rig stopped: " + explanation(session.stop));
+}
+
+rig::MeasureOptions measure_options(const Rig& rig) {
+  rig::MeasureOptions options = rig::default_measurement(rig.device);
+  ExcitationOptions& excitation = options.excitation;
+  excitation.amplitude = amplitude_of(rig);
+  if (rig.arguments.lowest_hz) excitation.lowest_hz = *rig.arguments.lowest_hz;
+  if (rig.arguments.highest_hz) excitation.highest_hz = *rig.arguments.highest_hz;
+  if (rig.arguments.duration) excitation.duration = *rig.arguments.duration;
+  if (const auto problem = find_problem(excitation, rig.device)) refuse(*problem, options_of_rig);
+  return options;
+}
+
+std::string recording_csv(const Recording& recording) {
+  results::Csv csv({"time_s", "force", "position"});
+  if (recording.channels.size() != 2) return csv.text();
+  for (std::size_t k = 0; k < recording.channels[0].samples.size(); ++k) {
+    csv.row(results::Rounded{static_cast<double>(k) * recording.sampling_period, 12}, recording.channels[0].samples[k],
+            recording.channels[1].samples[k]);
+  }
+  return csv.text();
+}
+
+void run_check(const Rig& rig) {
+  RigCheck result = rig::check(rig.device, *rig.driver, rig.options, rig.arguments.duration.value_or(checked_duration));
+  answer(rig, result, result.session);
+  if (result.watchdog_proved == false)
+    throw WorkFailed("the drive's watchdog is not proved: it held on through silence");
+}
+
+void run_measure(const Rig& rig) {
+  const rig::MeasureOptions options = measure_options(rig);
+  ProgressLine line("measuring");
+  const RigMeasurement result = rig::measure(rig.device, *rig.driver, rig.options, options, line.progress());
+  if (result.response) rig.outputs.put("--recording", [&] { return recording_csv(result.recording); });
+  answer(rig, result, result.session);
+}
+
+void run_identify(const Rig& rig) {
+  const rig::MeasureOptions options = measure_options(rig);
+  ProgressLine line("identifying");
+  const RigIdentification result = rig::identify_on_rig(rig.device, *rig.driver, rig.options, options, line.progress());
+  if (result.identification) {
+    rig.outputs.put("--recording", [&] { return recording_csv(result.measurement.recording); });
+    rig.outputs.put("--output-device", [&] { return write_device(result.identification->fit.device.parameters()); });
+  }
+  answer(rig, result, result.measurement.session);
+}
+
+void run_relay_on_rig(const Rig& rig) {
+  rig::RelayTrialsOptions options;
+  options.relay = {amplitude_of(rig), rig.arguments.hysteresis};
+  options.trials = rig.arguments.trials;
+  if (rig.arguments.duration) options.duration = *rig.arguments.duration;
+  RelayOptions simulated;
+  simulated.relay = options.relay;
+  simulated.duration = options.duration;
+  simulated.trials = options.trials;
+  if (const auto problem = find_problem(simulated, rig.device)) refuse(*problem, options_of_rig);
+  ProgressLine line("relay");
+  const RigRelay result = rig::relay_on_rig(rig.device, *rig.driver, rig.options, options, line.progress());
+  answer(rig, result, result.session);
+}
+
+void run_wall(const Rig& rig) {
+  const RigArguments& arguments = rig.arguments;
+  rig::WallOptions options;
+  options.controller = wall_controller(rig.device.parameters().wall);
+  if (arguments.contact == "unilateral") options.controller.contact = ControllerOptions::Contact::unilateral;
+  if (arguments.duration) options.duration = *arguments.duration;
+  if (arguments.amplitude || arguments.driver == "simulated") options.knock = amplitude_of(rig);
+  const RigWall result = rig::render_wall(rig.device, *rig.driver, rig.options, options);
+  answer(rig, result, result.session);
+  if (result.oscillates) throw WorkFailed("an oscillation grew: the wall was taken away");
+}
+
+void run_limit(const Rig& rig) {
+  const RigArguments& arguments = rig.arguments;
+  rig::LimitOptions options = rig::default_limit(rig.device);
+  if (arguments.from) options.search.start = *arguments.from;
+  if (arguments.ceiling) options.search.ceiling = *arguments.ceiling;
+  if (arguments.duration) options.dwell = *arguments.duration;
+  options.knock = amplitude_of(rig);
+  if (options.search.start == 0.0 || options.search.ceiling == 0.0) {
+    throw BadInput("--from, --ceiling: missing; no finite limit is predicted to search around");
+  }
+  if (const auto problem = find_problem(options.search)) refuse(*problem, options_of_rig);
+  ProgressLine line("raising the stiffness");
+  const RigLimit result = rig::measure_limit(rig.device, *rig.driver, rig.options, options, line.progress());
+  answer(rig, result, result.session);
+}
+
+/// With the stiffness that is to run, where the command line gives one.
+Device rig_device(const RigArguments& arguments) {
+  Device device = std::move(read_devices(arguments.devices).front());
+  if (!arguments.stiffness) return device;
+  DeviceParameters parameters = device.parameters();
+  parameters.wall.stiffness = arguments.stiffness;
+  if (const auto problem = find_problem(parameters)) {
+    throw BadInput(fmt::format("--stiffness: {}; {}", problem->what, problem->allowed));
+  }
+  return Device(parameters);
+}
+
+void check_wall(const RigArguments& arguments, const Device& device, const Analysis& analysis) {
+  const std::string& file = arguments.devices.files.front();
+  if (!device.parameters().wall.stiffness) {
+    throw BadInput(file + ": wall.stiffness: is missing: there is no wall to render; set it, or give --stiffness");
+  }
+  if (analysis.wall && !analysis.wall->stable && !arguments.accept_unstable) {
+    throw WorkFailed(file + ": the wall is UNSTABLE by linear analysis; --accept-unstable renders it all the same");
+  }
+}
+
+void run_rig(const RigArguments& arguments) {
+  Outputs outputs(arguments.output);
+  outputs.add("--flight-record", arguments.flight_record);
+  outputs.add("--recording", arguments.recording);
+  outputs.add("--output-device", arguments.output_device);
+  outputs.add("--report", arguments.report);
+  outputs.keep(arguments.devices.files, "device file");
+  const Device device = rig_device(arguments);
+  check_duration(arguments.duration, device);
+  rig::RigOptions options = rig_options(arguments, device);
+  const Analysis analysis = analyze(device, limit_and_wall_only());
+  check_permission(arguments, analysis.trust);
+  if (arguments.action == "wall") check_wall(arguments, device, analysis);
+  options.record = [&](const rig::FlightRecorder& recorder) {
+    outputs.put("--flight-record", [&](const report::Sink& sink) { recorder.write(sink); });
+  };
+  const rig::InterruptsStopRigs interrupts;
+  Rig rig{arguments,          device,
+          analysis.trust,     outputs,
+          std::move(options), rig::open_driver(arguments.driver, device, {arguments.start, arguments.real_time})};
+  if (arguments.action == "check") return run_check(rig);
+  if (arguments.action == "measure") return run_measure(rig);
+  if (arguments.action == "identify") return run_identify(rig);
+  if (arguments.action == "relay") return run_relay_on_rig(rig);
+  if (arguments.action == "wall") return run_wall(rig);
+  run_limit(rig);
+}
+
+}  // namespace
+
+void add_rig(CLI::App& app) {
+  auto arguments = std::make_shared<RigArguments>();
+  CLI::App* command = app.add_subcommand("rig", "The loop on a device, a simulated one unless a driver is named");
+  add_rig_arguments(*command, *arguments);
+  command->footer(
+      "Whatever goes wrong, the force goes to zero and the exit status is 1.\n"
+      "\n"
+      "Examples:\n"
+      "  zwidth rig check devices/lhifam.toml\n"
+      "  zwidth rig limit devices/lhifam.toml --flight-record flight.csv\n"
+      "  zwidth rig wall devices/lhifam.toml --stiffness 4000 --json\n"
+      "  zwidth rig identify devices/lhifam.toml --recording run.csv --output-device found.toml\n"
+      "  zwidth rig relay devices/lhifam.toml --amplitude 5 --report relay.html");
+  command->callback([arguments, command] {
+    check_rig_arguments(*command, *arguments);
+    try {
+      run_rig(*arguments);
+    } catch (const rig::DriverFailed& problem) {
+      throw WorkFailed(arguments->driver + ": " + problem.what());
+    } catch (const Error& error) {
+      if (error.code() == ErrorCode::did_not_converge) throw WorkFailed(error.what());
+      throw BadInput(arguments->devices.files.front() + ": " + error.what());
+    }
+  });
+}
+
+}  // namespace zwidth::cli

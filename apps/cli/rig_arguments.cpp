@@ -1,0 +1,119 @@
+#include "cli/rig_arguments.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <string_view>
+
+#include "cli/subcommand.hpp"
+
+namespace zwidth::cli {
+namespace {
+
+constexpr const char* safety_group = "Safety";
+
+/// An option, and the actions that have it: "measure identify ".
+struct OptionOfActions {
+  std::string_view option;
+  std::string_view actions;
+};
+
+constexpr std::array<OptionOfActions, 13> options_of_actions{
+    {{"--amplitude", "measure identify relay wall limit "},
+     {"--duration", "check measure identify relay wall limit "},
+     {"--lowest-hz", "measure identify "},
+     {"--highest-hz", "measure identify "},
+     {"--stiffness", "wall "},
+     {"--accept-unstable", "wall "},
+     {"--contact", "wall "},
+     {"--from", "limit "},
+     {"--ceiling", "limit "},
+     {"--trials", "relay "},
+     {"--hysteresis", "relay "},
+     {"--recording", "measure identify "},
+     {"--output-device", "identify "}}};
+
+void add_work_options(CLI::App& command, RigArguments& arguments) {
+  const auto add = [&](const char* name, auto& value, const char* what, const char* type) {
+    return command.add_option(name, value, what)->type_name(type);
+  };
+  add("--amplitude", arguments.amplitude,
+      "Force of excitation, relay or knock; else what moves the\ndevice by 1 mm (1 mrad), at most a third of its limit",
+      "F");
+  add("--duration", arguments.duration,
+      "Of check, wall or excitation, of a trial of relay or limit;\nelse by the device", "S");
+  add("--lowest-hz", arguments.lowest_hz, "measure, identify: lower end of the band", "HZ");
+  add("--highest-hz", arguments.highest_hz, "measure, identify: upper end of the band", "HZ");
+  add("--stiffness", arguments.stiffness, "wall: K, instead of wall.stiffness", "K");
+  add("--contact", arguments.contact, "wall: bilateral, a spring on both sides; unilateral: it only pushes", "KIND")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"bilateral", "unilateral"}));
+  add("--from", arguments.from, "limit: first stiffness; else half of what is predicted", "K");
+  add("--ceiling", arguments.ceiling, "limit: the most that is tried; else half above what is predicted", "K");
+  add("--trials", arguments.trials, "relay: number of trials", "N")->capture_default_str()->check(CLI::Range(1, 1000));
+  add("--hysteresis", arguments.hysteresis, "relay: m or rad", "M")->capture_default_str();
+  add("--start", arguments.start, "Where all bodies of a simulated device start, at rest, m or rad", "M")
+      ->capture_default_str();
+}
+
+void add_safety_options(CLI::App& command, RigArguments& arguments) {
+  const auto add = [&](const char* name, auto& value, const char* what, const char* type) {
+    return command.add_option(name, value, what)->type_name(type)->group(safety_group);
+  };
+  add("--force-limit", arguments.limits.force, "Force beyond is cut off; else actuator.force_limit", "F");
+  add("--position-limit", arguments.limits.position, "Distance from the start at which the force goes to zero", "M");
+  add("--velocity-limit", arguments.limits.velocity, "m/s or rad/s, at which the force goes to zero", "V");
+  add("--saturation", arguments.limits.saturation_duration, "How long the force may be cut off", "S")
+      ->capture_default_str();
+  add("--ramp", arguments.limits.ramp, "Over which the force grows at the start", "S")->capture_default_str();
+  const auto flag = [&](const char* name, bool& value, const char* what) {
+    command.add_flag(name, value, what)->group(safety_group);
+  };
+  flag("--accept-doubt", arguments.accept_doubt, "Act on a device that is doubtful (its file says why)");
+  flag("--accept-unstable", arguments.accept_unstable, "wall: render one that is unstable by linear analysis");
+  flag("--no-watchdog", arguments.no_watchdog, "Act on a drive whose firmware has no watchdog, or none proved");
+}
+
+}  // namespace
+
+void add_rig_arguments(CLI::App& command, RigArguments& arguments) {
+  command
+      .add_option("ACTION", arguments.action,
+                  "check: link, rate, latency, watchdog; measure: excite and\n"
+                  "record; identify: the device from that; relay: the relay\n"
+                  "experiment; wall: render the wall; limit: raise the\n"
+                  "stiffness until an oscillation grows")
+      ->type_name("")
+      ->required()
+      ->check(CLI::IsMember({"check", "measure", "identify", "relay", "wall", "limit"}));
+  add_device_arguments(command, arguments.devices, FileCount::one);
+  command.add_option("--driver", arguments.driver, "simulated; udp:HOST:PORT")
+      ->type_name("DRIVER")
+      ->capture_default_str();
+  command.add_flag("--real-time", arguments.real_time, "Keep the clock with a simulated device too");
+  add_work_options(command, arguments);
+  add_safety_options(command, arguments);
+  add_output_options(command, arguments.output, {});
+  const auto file = [&](const char* name, std::string& value, const char* what) {
+    command.add_option(name, value, what)->type_name("FILE");
+  };
+  file("--flight-record", arguments.flight_record, "Write the last 60 s of every signal as CSV, however it ended");
+  file("--recording", arguments.recording, "measure, identify: write force and position as CSV");
+  file("--output-device", arguments.output_device, "identify: write the device file");
+  file("--report", arguments.report, "Write all of it as one HTML page");
+}
+
+void check_rig_arguments(const CLI::App& command, const RigArguments& arguments) {
+  for (const auto& [option, actions] : options_of_actions) {
+    if (command.count(std::string(option)) == 0) continue;
+    if (actions.find(arguments.action + " ") == std::string_view::npos) {
+      throw BadInput(fmt::format("{}: is not for rig {}", option, arguments.action));
+    }
+  }
+  if (arguments.driver == "simulated") return;
+  for (const char* option : {"--real-time", "--start"}) {
+    if (command.count(option) > 0) throw BadInput(fmt::format("{}: is for a simulated device", option));
+  }
+}
+
+}  // namespace zwidth::cli

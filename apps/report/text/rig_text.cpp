@@ -1,0 +1,164 @@
+#include "report/text/rig_text.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string>
+#include <string_view>
+
+#include "report/text/frf_text.hpp"
+#include "report/text/identification_text.hpp"
+#include "report/text/quantity.hpp"
+#include "report/text/relay_text.hpp"
+#include "report/text/text_table.hpp"
+#include "report/text/trust_text.hpp"
+
+namespace zwidth::report {
+namespace {
+
+std::string rig_heading(const Device& device, std::string_view what, const RigSession& session) {
+  const std::string stopped = session.stop == StopReason::none
+                                  ? ""
+                                  : labelled("  STOPPED", fmt::format("after {}: {}", quantity(session.stopped_at, "s"),
+                                                                      explanation(session.stop)));
+  return shortened(fmt::format("{}: {}", what, device.name()), line_width) + "\n" + stopped;
+}
+
+void add_latency(TextTable& table, const std::string& name, const LatencySummary& summary) {
+  if (summary.count == 0) return;
+  const auto text = [](double value) { return quantity(value, "s"); };
+  table.rows.push_back(
+      {name, text(summary.p50), text(summary.p99), text(summary.p999), text(summary.p9999), text(summary.max)});
+}
+
+std::string session_text(const RigSession& session) {
+  const LoopTiming& timing = session.timing;
+  std::string text = "\nSession\n";
+  text += labelled("  driver",
+                   session.driver + (session.lock_step ? ", in lock step: its time moves with the cycles" : ""));
+  text += labelled("  cycles", fmt::format("{} of {}, {} missed, {} without a position", timing.cycles,
+                                           quantity(session.sampling_period, "s"), timing.missed, timing.unanswered));
+  TextTable table{{Align::left, Align::right, Align::right, Align::right, Align::right, Align::right},
+                  {{"", "p50", "p99", "p99.9", "p99.99", "largest"}}};
+  add_latency(table, "latency", timing.latency);
+  add_latency(table, "period", timing.period);
+  add_latency(table, "cycle", timing.body);
+  text += layout(table);
+  if (!session.remarks.empty()) text += remarks_text(session.remarks);
+  return text;
+}
+
+std::string limit_of(const CriticalStiffness& predicted, const Units& units) {
+  switch (predicted.status) {
+    case StiffnessStatus::finite:
+      return fmt::format("{} at {}", quantity(predicted.stiffness, units.stiffness),
+                         crossover_frequency_text(predicted.limit->frequency));
+    case StiffnessStatus::none_stable:
+      return "no wall is stable";
+    case StiffnessStatus::unbounded:
+      return "every wall is stable";
+    case StiffnessStatus::refused:
+      break;
+  }
+  return "refused";
+}
+
+results::FrfUnits units_of_response(const Device& device) {
+  const Units units = units_of(device.parameters().motion);
+  return {std::string(units.force), std::string(units.length)};
+}
+
+std::string trial_rows(const LimitMeasurement& measured, const Units& units) {
+  TextTable table{{Align::right, Align::right, Align::right, Align::left},
+                  {{fmt::format("K ({})", units.stiffness), "Hz", "grows by (1/s)", ""}}};
+  for (const LimitTrial& trial : measured.trials) {
+    table.rows.push_back({number(trial.stiffness), trial.ring ? number(hertz(trial.ring->frequency)) : "-",
+                          trial.ring ? number(trial.ring->growth_rate) : "-",
+                          trial.stopped   ? "grew: taken away at once"
+                          : trial.grows() ? "grew"
+                                          : ""});
+  }
+  return layout(table);
+}
+
+}  // namespace
+
+std::string rig_text(const Device& device, const RigCheck& check) {
+  const RigSession& session = check.session;
+  std::string text = rig_heading(device, "Rig check", session);
+  if (session.stop == StopReason::none) text += labelled("  link", "answers every cycle, with zero force");
+  if (check.watchdog_proved) {
+    text += labelled("  watchdog", *check.watchdog_proved ? "proved: after silence the drive had let go"
+                                                          : "NOT PROVED: after silence the drive still held its force");
+  } else {
+    text += labelled("  watchdog", "none to prove: there is no firmware that has one");
+  }
+  if (session.timing.delay.count > 0) {
+    text += labelled("  delay", fmt::format("{}; for analyze: --set loop.delay={:.3g}",
+                                            quantity(session.timing.delay.p50, "s"), session.timing.delay.p50));
+    text += labelled("  jitter", fmt::format("{}; for simulate: --jitter {:.3g}",
+                                             quantity(session.timing.latency.p99, "s"), session.timing.latency.p99));
+  }
+  return text + session_text(session);
+}
+
+std::string rig_text(const Device& device, const RigMeasurement& measurement) {
+  std::string text = rig_heading(device, "Rig measurement", measurement.session);
+  if (measurement.response) text += frf_text(*measurement.response, units_of_response(device));
+  return text + session_text(measurement.session);
+}
+
+std::string rig_text(const Device& device, const RigIdentification& identification) {
+  std::string text = rig_heading(device, "Identified on the rig", identification.measurement.session);
+  if (identification.identification) text += identification_text(*identification.identification);
+  return text + session_text(identification.measurement.session);
+}
+
+std::string rig_text(const Device& device, const RigRelay& relay) {
+  std::string text = rig_heading(device, "Relay experiment on the rig", relay.session);
+  if (relay.relay) text += relay_text(*relay.relay);
+  return text + session_text(relay.session);
+}
+
+std::string rig_text(const Device& device, const RigWall& wall) {
+  const Units units = units_of(device.parameters().motion);
+  std::string text = rig_heading(device, "Wall on the rig", wall.session);
+  text += labelled("  wall", fmt::format("K = {}, B = {}", quantity(wall.controller.stiffness, units.stiffness),
+                                         quantity(wall.controller.damping, units.damping)));
+  text += labelled("  predicted limit", limit_of(wall.predicted, units));
+  text += trust_lines(wall.trust);
+  if (wall.oscillates) {
+    text += labelled("  OSCILLATES", "it grew, and the wall was taken away at once");
+  }
+  if (wall.ring) {
+    text += labelled("  oscillation", fmt::format("{}, {} {} 1/s", crossover_frequency_text(wall.ring->frequency),
+                                                  wall.ring->growth_rate > 0.0 ? "grows by" : "decays by",
+                                                  number(std::abs(wall.ring->growth_rate))));
+  }
+  text += labelled("  peaks", fmt::format("{}, {} from the start", quantity(wall.peak_force, units.force),
+                                          quantity(wall.peak_position, units.length)));
+  return text + session_text(wall.session);
+}
+
+std::string rig_text(const Device& device, const RigLimit& limit) {
+  const Units units = units_of(device.parameters().motion);
+  const LimitMeasurement& measured = limit.measured;
+  std::string text = rig_heading(device, "Limit on the rig", limit.session);
+  if (measured.stiffness) {
+    text += labelled("  K_CR measured", fmt::format("{} at {}", quantity(*measured.stiffness, units.stiffness),
+                                                    crossover_frequency_text(measured.frequency)));
+  } else {
+    text += labelled("  K_CR measured", "none");
+  }
+  text += labelled("  K_CR predicted", limit_of(limit.predicted, units));
+  if (measured.stiffness && limit.predicted.status == StiffnessStatus::finite) {
+    text += labelled("  difference",
+                     fmt::format("{:+.2f} %", 100.0 * (*measured.stiffness / limit.predicted.stiffness - 1.0)));
+  }
+  if (limit.any_user) text += labelled("  with any user", quantity(limit.any_user->stiffness, units.stiffness));
+  text += trust_lines(measured.trust);
+  return text + "\nTrials, each after a knock of " + quantity(limit.knock, units.force) + "\n" +
+         trial_rows(measured, units) + session_text(limit.session);
+}
+
+}  // namespace zwidth::report

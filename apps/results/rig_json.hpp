@@ -1,0 +1,27 @@
+#pragma once
+
+#include "results/json.hpp"
+#include "zwidth/rig/results.hpp"
+
+namespace zwidth::results {
+
+NLOHMANN_JSON_SERIALIZE_ENUM(StopReason, {{StopReason::none, nullptr},
+                                          {StopReason::interrupted, "interrupted"},
+                                          {StopReason::not_a_number, "not_a_number"},
+                                          {StopReason::position_limit, "position_limit"},
+                                          {StopReason::velocity_limit, "velocity_limit"},
+                                          {StopReason::saturation, "saturation"},
+                                          {StopReason::missed_cycles, "missed_cycles"},
+                                          {StopReason::lost_link, "lost_link"},
+                                          {StopReason::watchdog, "watchdog"},
+                                          {StopReason::oscillation, "oscillation"}})
+
+// The documents of `rig ACTION --json`, schema "zwidth.rig_ACTION/1": see docs/rig.md.
+[[nodiscard]] Json rig_json(const Device& device, const RigCheck& check);
+[[nodiscard]] Json rig_json(const Device& device, const RigMeasurement& measurement);
+[[nodiscard]] Json rig_json(const Device& device, const RigIdentification& identification);
+[[nodiscard]] Json rig_json(const Device& device, const RigRelay& relay);
+[[nodiscard]] Json rig_json(const Device& device, const RigWall& wall);
+[[nodiscard]] Json rig_json(const Device& device, const RigLimit& limit);
+
+}  // namespace zwidth::results

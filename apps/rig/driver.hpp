@@ -1,0 +1,59 @@
+#pragma once
+
+#include <atomic>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+namespace zwidth::rig {
+
+/// A drive that cannot be reached, or that may not be used as it is: one line, with the remedy.
+struct DriverFailed : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+struct DriverFacts {
+  std::string name;
+  bool lock_step = false;                ///< its time moves one period with each command: there is no clock to keep
+  bool is_zeroed = false;                ///< its positions count from where the wall begins; else from the first one
+  std::optional<double> watchdog = {};   ///< s, of the firmware; absent: it has none
+  double bytes_per_cycle = 0.0;          ///< on the busier direction of a serial line
+  std::optional<double> byte_rate = {};  ///< bytes/s that the line carries; absent: no serial line
+};
+
+/// A device with its drive, in SI units: where the real-time loop ends. A cycle is measure(), then command().
+///
+/// These two allocate, lock, log and throw nothing, and take no longer than a period. disarm() may be called by another
+/// thread than theirs, at any instant; no force goes out after it.
+class Driver {
+ public:
+  Driver() = default;
+  Driver(const Driver&) = delete;
+  Driver& operator=(const Driver&) = delete;
+  virtual ~Driver() = default;
+
+  [[nodiscard]] virtual const DriverFacts& facts() const noexcept = 0;
+  /// Makes the drive take forces; it starts with none. Throws DriverFailed.
+  virtual void arm() = 0;
+  /// The position now, m or rad; nothing where none came in time.
+  [[nodiscard]] virtual std::optional<double> measure() noexcept = 0;
+  /// Force from now on, N or N m; 0 after disarm().
+  void command(double force) noexcept { send(is_disarmed_.load(std::memory_order_acquire) ? 0.0 : force); }
+  /// Zero force, for good, and the drive idle.
+  void disarm() noexcept {
+    is_disarmed_.store(true, std::memory_order_release);
+    send_idle();
+  }
+  /// Falls silent for longer than the firmware's watchdog, and asks whether it has let go. Called while armed, before the
+  /// loop runs; leaves the drive armed. Absent: there is no firmware. Throws DriverFailed where the link breaks.
+  [[nodiscard]] virtual std::optional<bool> proves_watchdog() = 0;
+
+ protected:
+  virtual void send(double force) noexcept = 0;
+  virtual void send_idle() noexcept = 0;
+
+ private:
+  std::atomic<bool> is_disarmed_ = false;
+};
+
+}  // namespace zwidth::rig

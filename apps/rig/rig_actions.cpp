@@ -1,0 +1,301 @@
+#include "rig/rig_actions.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "rig/rig_run.hpp"
+#include "zwidth/error.hpp"
+#include "zwidth/quantity.hpp"
+#include "zwidth/stability/any_user.hpp"
+
+namespace zwidth::rig {
+namespace {
+
+constexpr double swing = 1e-3;  // m or rad, of a knock or a relay at the predicted limit
+constexpr double share_of_force = 1.0 / 3.0;
+constexpr int most_holds = 20;            // between trials of a relay
+constexpr double at_rest = 0.01;          // of the swing
+constexpr double settling_cycles = 20.0;  // of the predicted oscillation, between trials
+constexpr double dwell_cycles = 40.0;     // of it, after each knock
+constexpr double fallback_hz = 10.0;      // where theory has no frequency
+constexpr double band_below = 5.0;        // of the limiting crossover
+constexpr double band_above = 8.0;
+constexpr double highest_of_nyquist = 0.8;
+constexpr double cycles_of_lowest = 8.0;  // in each period of the multisine
+constexpr std::size_t measured_periods = 8;
+constexpr std::size_t skipped_periods = 2;
+constexpr double shortest_dwell = 0.5;  // s
+
+std::size_t cycles_of(double duration, const Device& device) {
+  return static_cast<std::size_t>(std::max(1.0, std::round(duration / device.loop().sampling_period)));
+}
+
+/// Half a period of a sine at the frequency of the limit.
+std::vector<double> knock_at(double frequency, double force, double period) {
+  const auto length = static_cast<std::size_t>(std::max(1.0, std::round(std::numbers::pi / (frequency * period))));
+  std::vector<double> samples(length);
+  for (std::size_t k = 0; k < length; ++k) {
+    samples[k] = force * std::sin(std::numbers::pi * (static_cast<double>(k) + 0.5) / static_cast<double>(length));
+  }
+  return samples;
+}
+
+double frequency_of(const CriticalStiffness& predicted) {
+  return predicted.limit && predicted.limit->frequency > 0.0 ? predicted.limit->frequency
+                                                             : radians_per_second(fallback_hz);
+}
+
+ControllerOptions wall_of(const Device& device, double stiffness) {
+  ControllerOptions controller = wall_controller(device.parameters().wall);
+  controller.stiffness = stiffness;
+  return controller;
+}
+
+/// The wall without damper and filters that a device comes back to its start with, where theory has one.
+Segment centring(const Device& device, double stiffness, double duration) {
+  Segment segment;
+  segment.controller.kind = ControllerOptions::Kind::wall;
+  segment.controller.stiffness = stiffness;
+  segment.cycles = cycles_of(duration, device);
+  return segment;
+}
+
+Recording recording_of(Played played, const Device& device, const std::string& name) {
+  Recording recording;
+  recording.source = name;
+  recording.sampling_period = device.loop().sampling_period;
+  recording.channels.push_back({"force", std::move(played.force)});
+  recording.channels.push_back({"position", std::move(played.position)});
+  return recording;
+}
+
+/// Ends the session, and hands its record over.
+RigSession ended(RigRun& run, const RigOptions& options) {
+  RigSession session = run.end();
+  if (options.record) options.record(run.recorder());
+  return session;
+}
+
+double part(std::size_t done, std::size_t all) { return static_cast<double>(done) / static_cast<double>(all); }
+
+void report(const Progress& progress, double done) {
+  if (progress) progress(done);
+}
+
+double largest(const std::vector<double>& values) {
+  double most = 0.0;
+  for (const double value : values) most = std::max(most, std::abs(value));
+  return most;
+}
+
+/// Holds the device until it swings a hundredth of what it did, or has been held long enough.
+void bring_to_rest(RigRun& run, const Segment& holding, double swung) {
+  for (int i = 0; i < most_holds && !run.is_stopped(); ++i) {
+    const std::vector<double> position = run.play(holding).position;
+    if (largest({position.begin() + static_cast<std::ptrdiff_t>(position.size() / 2), position.end()}) <
+        at_rest * swung) {
+      return;
+    }
+  }
+}
+
+}  // namespace
+
+double default_force(const Device& device) {
+  const CriticalStiffness predicted = critical_stiffness(device);
+  const auto limit = device.parameters().actuator.force_limit;
+  double force = limit ? share_of_force * *limit : 1.0;
+  if (predicted.status == StiffnessStatus::finite) {
+    const double moved = swing * predicted.stiffness;
+    force = limit ? std::min(force, moved) : moved;
+  }
+  return force;
+}
+
+MeasureOptions default_measurement(const Device& device) {
+  const double rate = 1.0 / device.loop().sampling_period;
+  const double centre = hertz(frequency_of(critical_stiffness(device)));
+  MeasureOptions options;
+  ExcitationOptions& excitation = options.excitation;
+  excitation.kind = ExcitationKind::multisine;
+  excitation.highest_hz = std::min(band_above * centre, highest_of_nyquist * 0.5 * rate);
+  excitation.lowest_hz = std::min(centre / band_below, 0.5 * excitation.highest_hz);
+  excitation.periods = measured_periods + skipped_periods;
+  const double samples = std::ceil(cycles_of_lowest / excitation.lowest_hz * rate);  // of a period, whole
+  excitation.duration = static_cast<double>(excitation.periods) * samples / rate;
+  excitation.amplitude = default_force(device);
+  return options;
+}
+
+LimitOptions default_limit(const Device& device) {
+  const CriticalStiffness predicted = critical_stiffness(device);
+  std::optional<double> any_user;
+  if (device.has_bodies() && device.bodies().size() <= most_bodies_for_any_user) {
+    any_user = any_user_limit(device, virtual_damper(device)).stiffness;
+  }
+  LimitOptions options;
+  if (auto search = limit_search_options(device, predicted, any_user)) options.search = *std::move(search);
+  options.dwell = std::max(shortest_dwell, dwell_cycles * 2.0 * std::numbers::pi / frequency_of(predicted));
+  options.knock = default_force(device);
+  return options;
+}
+
+RigCheck check(const Device& device, Driver& driver, const RigOptions& options, double duration) {
+  RigCheck result;
+  {
+    RigRun run(driver, options.limits, device.loop().sampling_period);
+    Segment segment;
+    segment.cycles = cycles_of(duration, device);
+    (void)run.play(segment);
+    result.session = ended(run, options);
+  }
+  return result;
+}
+
+RigMeasurement measure(const Device& device, Driver& driver, const RigOptions& options,
+                       const MeasureOptions& measurement, const Progress& progress) {
+  RigMeasurement result;
+  result.excitation = excite(measurement.excitation, device);
+  RigRun run(driver, options.limits, device.loop().sampling_period);
+  Segment segment;
+  segment.force = result.excitation.samples;
+  segment.cycles = segment.force.size();
+  segment.ramps = true;
+  report(progress, 0.0);
+  Played played = run.play(segment);
+  result.session = ended(run, options);
+  report(progress, 0.5);
+  if (result.session.stop != StopReason::none) return result;
+  result.recording = recording_of(std::move(played), device, driver.facts().name);
+  FrequencyResponseOptions response;
+  response.excitation = FrequencyResponseOptions::Excitation::periodic;
+  response.period = result.excitation.period;
+  response.skip_periods = skipped_periods;
+  result.response = frequency_response(result.recording, response);
+  report(progress, 1.0);
+  return result;
+}
+
+RigIdentification identify_on_rig(const Device& device, Driver& driver, const RigOptions& options,
+                                  const MeasureOptions& measurement, const Progress& progress) {
+  RigIdentification result{measure(device, driver, options, measurement, {}), {}};
+  if (!result.measurement.response) return result;
+  IdentifyOptions identification;
+  identification.response.excitation = FrequencyResponseOptions::Excitation::periodic;
+  identification.response.period = result.measurement.excitation.period;
+  identification.response.skip_periods = skipped_periods;
+  result.identification = identify(result.measurement.recording, device, identification, progress);
+  return result;
+}
+
+RigRelay relay_on_rig(const Device& device, Driver& driver, const RigOptions& options, const RelayTrialsOptions& trials,
+                      const Progress& progress) {
+  const CriticalStiffness predicted = critical_stiffness(device);
+  const double pause = settling_cycles * 2.0 * std::numbers::pi / frequency_of(predicted);
+  RigRelay result;
+  RigRun run(driver, options.limits, device.loop().sampling_period);
+  Segment segment;
+  segment.controller.kind = ControllerOptions::Kind::relay;
+  segment.controller.amplitude = trials.relay.amplitude;
+  segment.controller.hysteresis = trials.relay.hysteresis;
+  segment.cycles = cycles_of(trials.duration, device);
+  std::vector<Recording> recordings;
+  for (std::size_t i = 0; i < trials.trials && !run.is_stopped(); ++i) {
+    Played played = run.play(segment);
+    if (run.is_stopped()) break;
+    recordings.push_back(recording_of(std::move(played), device, driver.facts().name));
+    if (predicted.status == StiffnessStatus::finite && i + 1 < trials.trials) {
+      bring_to_rest(run, centring(device, 0.5 * predicted.stiffness, pause),
+                    largest(recordings.back().channels[1].samples));
+    }
+    report(progress, part(i + 1, trials.trials));
+  }
+  result.session = ended(run, options);
+  if (recordings.empty()) return result;
+  RelayRecordOptions record;
+  record.device = device;
+  record.hysteresis = trials.relay.hysteresis;
+  record.analysis = trials.analysis;
+  result.relay = relay(std::move(recordings), record);
+  return result;
+}
+
+RigWall render_wall(const Device& device, Driver& driver, const RigOptions& options, const WallOptions& wall) {
+  RigWall result;
+  result.controller = wall.controller;
+  result.predicted = critical_stiffness(device);
+  result.trust = result.predicted.trust;
+  const double period = device.loop().sampling_period;
+  const double frequency = frequency_of(result.predicted);
+  Segment segment;
+  segment.controller = wall.controller;
+  segment.cycles = cycles_of(wall.duration, device);
+  segment.ramps = true;
+  segment.watched.push_back(frequency);
+  for (const Crossover& each : result.predicted.crossovers) segment.watched.push_back(each.frequency);
+  segment.watch_floor = 2.0 * device.parameters().sensor.resolution;
+  std::size_t after = 0;
+  if (wall.knock != 0.0) {
+    const std::size_t ramped = cycles_of(options.limits.ramp, device);
+    segment.force.assign(ramped, 0.0);
+    const std::vector<double> knock = knock_at(frequency, wall.knock, period);
+    segment.force.insert(segment.force.end(), knock.begin(), knock.end());
+    after = segment.watch_from = std::min(segment.cycles, segment.force.size());
+  }
+  RigRun run(driver, options.limits, period);
+  const Played played = run.play(segment);
+  result.session = ended(run, options);
+  result.oscillates = played.stop == StopReason::oscillation;
+  result.peak_force = largest(played.force);
+  result.peak_position = largest(played.position);
+  if (played.position.size() > after) {
+    const std::span<const double> rest = std::span(played.position).subspan(after);
+    result.ring = ring_down(rest, period, frequency, device.parameters().sensor.resolution);
+  }
+  return result;
+}
+
+RigLimit measure_limit(const Device& device, Driver& driver, const RigOptions& options, const LimitOptions& limit,
+                       const Progress& progress) {
+  RigLimit result;
+  result.predicted = critical_stiffness(device);
+  if (device.has_bodies() && device.bodies().size() <= most_bodies_for_any_user) {
+    result.any_user = any_user_limit(device, virtual_damper(device));
+  }
+  result.knock = limit.knock;
+  const double period = device.loop().sampling_period;
+  LimitSearch search(limit.search);
+  const std::vector<double> knock = knock_at(frequency_of(result.predicted), limit.knock, period);
+  RigRun run(driver, options.limits, period);
+  Segment holding;
+  holding.controller = wall_of(device, limit.search.start);
+  holding.cycles = cycles_of(0.5 * limit.dwell, device);
+  holding.ramps = true;
+  std::size_t trials = 0;
+  while (const auto stiffness = search.next()) {
+    (void)run.play(holding);
+    holding.ramps = false;
+    Segment segment;
+    segment.controller = wall_of(device, *stiffness);
+    segment.force = knock;
+    segment.cycles = knock.size() + cycles_of(limit.dwell, device);
+    segment.watched = limit.search.frequencies;
+    segment.watch_floor = 2.0 * limit.search.floor;
+    segment.watch_from = knock.size();
+    const Played played = run.play(segment);
+    if (run.is_stopped()) break;
+    search.add(*stiffness, std::span(played.position).subspan(std::min(knock.size(), played.position.size())), period,
+               played.stop == StopReason::oscillation);
+    report(progress, part(++trials, LimitSearch::most_trials));
+  }
+  result.session = ended(run, options);
+  result.measured = search.measurement(device);
+  if (result.session.stop != StopReason::none && !result.measured.stiffness) {
+    result.measured.trust.refuse("the rig stopped before an oscillation grew: " + explanation(result.session.stop));
+  }
+  return result;
+}
+
+}  // namespace zwidth::rig

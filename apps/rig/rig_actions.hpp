@@ -1,0 +1,70 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "rig/driver.hpp"
+#include "rig/flight_recorder.hpp"
+#include "zwidth/model/device.hpp"
+#include "zwidth/option_problem.hpp"
+#include "zwidth/progress.hpp"
+#include "zwidth/rig/results.hpp"
+
+namespace zwidth::rig {
+
+/// What the actions share. Each ends with zero force, whatever happens, and then hands over what the recorder holds.
+struct RigOptions {
+  SafetyLimits limits;
+  std::function<void(const FlightRecorder&)> record = {};
+};
+
+struct MeasureOptions {
+  ExcitationOptions excitation;  ///< a multisine
+};
+
+struct RelayTrialsOptions {
+  Relay relay;
+  std::size_t trials = 4;
+  double duration = 20.0;  ///< s, of each
+  RelayAnalysisOptions analysis;
+};
+
+struct WallOptions {
+  ControllerOptions controller;
+  double duration = 10.0;  ///< s
+  double knock = 0.0;      ///< N or N m; 0: none
+};
+
+struct LimitOptions {
+  LimitSearchOptions search;
+  double dwell = 0.0;  ///< s, of each trial
+  double knock = 0.0;  ///< N or N m
+};
+
+/// Zero force for a while: link, rate, latency; before that, the firmware's watchdog by silence.
+[[nodiscard]] RigCheck check(const Device& device, Driver& driver, const RigOptions& options, double duration);
+/// Excites, records, and estimates the response.
+[[nodiscard]] RigMeasurement measure(const Device& device, Driver& driver, const RigOptions& options,
+                                     const MeasureOptions& measurement, const Progress& progress);
+/// The same, and fits the device's structure to it.
+[[nodiscard]] RigIdentification identify_on_rig(const Device& device, Driver& driver, const RigOptions& options,
+                                                const MeasureOptions& measurement, const Progress& progress);
+/// The relay experiment. Between trials a soft wall brings the device back.
+[[nodiscard]] RigRelay relay_on_rig(const Device& device, Driver& driver, const RigOptions& options,
+                                    const RelayTrialsOptions& trials, const Progress& progress);
+/// Renders a wall, until its end or until an oscillation grows.
+[[nodiscard]] RigWall render_wall(const Device& device, Driver& driver, const RigOptions& options,
+                                  const WallOptions& wall);
+/// Raises the stiffness, knock by knock, until an oscillation grows. Between trials the softest wall of the search holds
+/// the device.
+[[nodiscard]] RigLimit measure_limit(const Device& device, Driver& driver, const RigOptions& options,
+                                     const LimitOptions& limit, const Progress& progress);
+
+/// Defaults from what theory predicts of the device: the band about its limiting crossover, a force that moves it by about
+/// a millimetre (milliradian), at most a third of its force limit. Throw Error where the critical stiffness is refused,
+/// or not finite and not given.
+[[nodiscard]] MeasureOptions default_measurement(const Device& device);
+[[nodiscard]] double default_force(const Device& device);
+[[nodiscard]] LimitOptions default_limit(const Device& device);
+
+}  // namespace zwidth::rig

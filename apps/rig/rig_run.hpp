@@ -1,0 +1,61 @@
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <thread>
+#include <vector>
+
+#include "rig/driver.hpp"
+#include "rig/rig_loop.hpp"
+#include "zwidth/rig/session.hpp"
+
+namespace zwidth::rig {
+
+/// A session on a drive: arms it, runs the loop, and whatever happens leaves it with zero force.
+///
+/// In lock step cycles run in play(); else in a thread of their own on the clock, with a watchdog beside it: one that
+/// stands still for longer than the cycles that may be missed has its drive disarmed by the watchdog.
+class RigRun {
+ public:
+  /// Throws DriverFailed, and Error where find_problem(limits) finds one.
+  RigRun(Driver& driver, const SafetyLimits& limits, double sampling_period);
+  RigRun(const RigRun&) = delete;
+  RigRun& operator=(const RigRun&) = delete;
+  ~RigRun();
+
+  /// Runs a segment to its end, or until the rig stops.
+  [[nodiscard]] Played play(const Segment& segment);
+  [[nodiscard]] bool is_stopped() const noexcept { return loop_.stopped() != StopReason::none; }
+  /// Ends the session: zero force. What it was, then.
+  [[nodiscard]] RigSession end();
+  /// After end().
+  [[nodiscard]] const FlightRecorder& recorder() const noexcept { return loop_.recorder(); }
+
+ private:
+  void run_on_clock() noexcept;
+  void watch() noexcept;
+  void halt() noexcept;
+
+  Driver& driver_;
+  SafetyLimits limits_;
+  double period_;
+  RigLoop loop_;
+  std::vector<Remark> remarks_;
+  std::vector<Remark> thread_remarks_;
+  std::atomic<bool> is_ending_ = false;
+  std::atomic<bool> has_prepared_ = false;
+  std::atomic<bool> has_barked_ = false;
+  std::thread clock_;
+  std::thread watchdog_;
+};
+
+/// While it lives, SIGINT and SIGTERM stop the rig instead of the program.
+class InterruptsStopRigs {
+ public:
+  InterruptsStopRigs();
+  ~InterruptsStopRigs();
+  InterruptsStopRigs(const InterruptsStopRigs&) = delete;
+  InterruptsStopRigs& operator=(const InterruptsStopRigs&) = delete;
+};
+
+}  // namespace zwidth::rig

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "zwidth/model/device.hpp"
+#include "zwidth/option_problem.hpp"
+#include "zwidth/signal/ring_down.hpp"
+#include "zwidth/stability/critical_stiffness.hpp"
+#include "zwidth/trust.hpp"
+
+namespace zwidth {
+
+struct LimitSearchOptions {
+  double start = 0.0;     ///< first stiffness, N/m or N m/rad; > 0
+  double ceiling = 0.0;   ///< the most that may be tried; >= start
+  double step = 1.15;     ///< from one stiffness to the next, at most; in (1, 2]
+  double bracket = 0.01;  ///< relative distance of the last stable and the first unstable one; in (0, 0.5]
+  std::vector<double> frequencies = {};  ///< rad/s, where oscillations are predicted
+  double floor = 0.0;                    ///< m or rad: swings below are none (an encoder's step); >= 0
+};
+
+/// The first member outside its domain.
+[[nodiscard]] std::optional<OptionProblem> find_problem(const LimitSearchOptions& options);
+
+/// The wall was rendered with this stiffness, knocked, and its ringing read.
+struct LimitTrial {
+  double stiffness = 0.0;
+  std::optional<RingDown> ring;  ///< the oscillation that decays least; absent where none was read
+  bool stopped = false;          ///< it grew so much that the run was ended early
+  [[nodiscard]] bool grows() const { return stopped || (ring && ring->growth_rate > 0.0); }
+};
+
+/// The limit of stable walls as measured on a rig.
+struct LimitMeasurement {
+  std::optional<double> stiffness;  ///< K_CR where the growth rate passes through zero; absent unless trust allows one
+  double frequency = 0.0;           ///< rad/s, of the oscillation there; 0 where it was not read
+  double lower = 0.0;               ///< stiffest wall that rang down; 0: none did
+  double upper = 0.0;               ///< softest wall whose oscillation grew; 0: none did
+  std::vector<LimitTrial> trials;   ///< in their order
+  Trust trust;
+};
+
+/// Raises the stiffness of a wall, trial by trial, until an oscillation grows; then closes in on where it begins to.
+///
+/// From `start` by `step`, but no further than a hundredth beyond where the last two growth rates extrapolate to zero; after the first
+/// that grows, inside the bracket, by the line through the growth rates at its ends. K_CR is where that line passes
+/// zero. Ends with the bracket, at the ceiling, and after 60 trials.
+/// The one that decays least counts, of the oscillations near the predicted frequencies and of the strongest one.
+class LimitSearch {
+ public:
+  static constexpr std::size_t most_trials = 60;
+
+  /// Throws Error (invalid_argument) where find_problem() finds one.
+  explicit LimitSearch(LimitSearchOptions options);
+
+  /// The stiffness to try next; absent: done.
+  [[nodiscard]] std::optional<double> next() const;
+  /// The positions after the knock, at this stiffness. `stopped`: the run was ended because an oscillation grew.
+  /// Throws Error (invalid_argument) for a period that is not > 0 and positions that are not finite.
+  void add(double stiffness, std::span<const double> position, double sampling_period, bool stopped);
+
+  /// What has been found so far on this device.
+  [[nodiscard]] LimitMeasurement measurement(const Device& device) const;
+
+ private:
+  [[nodiscard]] const LimitTrial* stable() const;    // the stiffest below
+  [[nodiscard]] const LimitTrial* unstable() const;  // the softest
+
+  LimitSearchOptions options_;
+  std::vector<LimitTrial> trials_;
+};
+
+/// Where to begin and end, and what to watch, from what theory predicts: from half of the lower of the two limits, up to
+/// half above the critical one. Absent where theory gives no finite limit.
+[[nodiscard]] std::optional<LimitSearchOptions> limit_search_options(const Device& device,
+                                                                     const CriticalStiffness& predicted,
+                                                                     std::optional<double> any_user);
+
+}  // namespace zwidth

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "zwidth/remark.hpp"
+#include "zwidth/rig/force_guard.hpp"
+
+namespace zwidth {
+
+/// What a rig's clock did, s; percentiles within 0.2 %.
+struct LatencySummary {
+  std::uint64_t count = 0;
+  double p50 = 0.0;
+  double p99 = 0.0;
+  double p999 = 0.0;   ///< 99.9 %
+  double p9999 = 0.0;  ///< 99.99 %
+  double max = 0.0;
+};
+
+/// How the cycles of a rig ran.
+struct LoopTiming {
+  std::uint64_t cycles = 0;
+  std::uint64_t missed = 0;      ///< late by a period or more
+  std::uint64_t unanswered = 0;  ///< without a position
+  LatencySummary latency;        ///< from the instant of the clock to the cycle's begin; none in lock step
+  LatencySummary period;         ///< from one begin to the next; none in lock step
+  LatencySummary body;           ///< from a cycle's begin to its end
+  LatencySummary delay;          ///< from asking for the position to having sent the force; none in lock step
+};
+
+/// One session on a rig: what it ran on, how, and how it ended.
+struct RigSession {
+  std::string driver;            ///< "simulated", "udp:127.0.0.1:7000", ...
+  bool lock_step = false;        ///< the device's time moves with the cycles: as fast as they run
+  double sampling_period = 0.0;  ///< s
+  SafetyLimits limits;
+  std::optional<double> firmware_watchdog;  ///< s; absent: the firmware has none, or there is no firmware
+  StopReason stop = StopReason::none;       ///< none: the work came to its end
+  double stopped_at = 0.0;                  ///< s from the start
+  LoopTiming timing;
+  std::vector<Remark> remarks;
+};
+
+/// A sentence or two on why the force went to zero, and what to do; empty for none.
+[[nodiscard]] std::string explanation(StopReason reason);
+
+}  // namespace zwidth

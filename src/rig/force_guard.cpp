@@ -1,0 +1,87 @@
+#include "zwidth/rig/force_guard.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "require_valid.hpp"
+#include "zwidth/error.hpp"
+
+namespace zwidth {
+namespace {
+
+constexpr double velocity_bandwidth = 0.05;  // of the sampling rate
+
+const SafetyLimits& checked(const SafetyLimits& limits) {
+  internal::require_valid(find_problem(limits));
+  return limits;
+}
+
+}  // namespace
+
+std::optional<OptionProblem> find_problem(const SafetyLimits& limits) {
+  const auto bad = [](const std::optional<double>& value) { return value && !(std::isfinite(*value) && *value > 0.0); };
+  const auto problem = [](const char* member, double value, const char* allowed) {
+    return OptionProblem{member, fmt::format("is {}", value), allowed};
+  };
+  if (bad(limits.force)) return problem("force", *limits.force, "a force in N or N m above 0");
+  if (bad(limits.position)) return problem("position", *limits.position, "a distance in m or rad above 0");
+  if (bad(limits.velocity)) return problem("velocity", *limits.velocity, "a speed in m/s or rad/s above 0");
+  if (bad(limits.saturation_duration)) {
+    return problem("saturation_duration", limits.saturation_duration, "a time in s above 0");
+  }
+  if (limits.missed_cycles == 0 || limits.missed_cycles > 1000) {
+    return problem("missed_cycles", limits.missed_cycles, "a whole number from 1 to 1000");
+  }
+  if (!(std::isfinite(limits.ramp) && limits.ramp >= 0.0))
+    return problem("ramp", limits.ramp, "a time in s, 0 or more");
+  return std::nullopt;
+}
+
+ForceGuard::ForceGuard(const SafetyLimits& limits, double sampling_period)
+    : limits_(checked(limits)),
+      filter_(velocity_bandwidth / sampling_period, sampling_period),
+      ramp_step_(limits.ramp > 0.0 ? std::min(1.0, sampling_period / limits.ramp) : 1.0),
+      saturated_most_(limits.saturation_duration / sampling_period) {}
+
+void ForceGuard::restart() noexcept { share_ = last_ = saturated_ = 0.0; }
+
+void ForceGuard::stop(StopReason reason) noexcept {
+  if (reason_ == StopReason::none) reason_ = reason;
+  last_ = 0.0;
+}
+
+void ForceGuard::missed(unsigned cycles) noexcept {
+  late_ = cycles == 0 ? 0 : late_ + cycles;
+  if (late_ >= limits_.missed_cycles) stop(StopReason::missed_cycles);
+}
+
+double ForceGuard::no_position() noexcept {
+  if (++without_position_ >= limits_.missed_cycles) stop(StopReason::lost_link);
+  return reason_ == StopReason::none ? last_ : 0.0;
+}
+
+double ForceGuard::update(double position, double wanted) noexcept {
+  without_position_ = 0;
+  if (!std::isfinite(position) || !std::isfinite(wanted)) stop(StopReason::not_a_number);
+  if (reason_ != StopReason::none) return 0.0;
+  if (!started_) {
+    started_ = true;
+    origin_ = position;
+  }
+  velocity_ = filter_.update(position);
+  if (limits_.position && std::abs(position - origin_) > *limits_.position) stop(StopReason::position_limit);
+  if (limits_.velocity && std::abs(velocity_) > *limits_.velocity) stop(StopReason::velocity_limit);
+  share_ = std::min(1.0, share_ + ramp_step_);
+  double force = share_ * wanted;
+  if (limits_.force && std::abs(force) > *limits_.force) {
+    force = std::copysign(*limits_.force, force);
+    if (++saturated_ > saturated_most_) stop(StopReason::saturation);
+  } else {
+    saturated_ = 0.0;
+  }
+  return last_ = reason_ == StopReason::none ? force : 0.0;
+}
+
+}  // namespace zwidth

@@ -1,0 +1,194 @@
+#include "zwidth/rig/limit_search.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "require_valid.hpp"
+#include "zwidth/error.hpp"
+#include "zwidth/model/device_trust.hpp"
+#include "zwidth/quantity.hpp"
+#include "zwidth/signal/dominant_oscillation.hpp"
+
+namespace zwidth {
+namespace {
+
+constexpr double beyond_extrapolation = 1.01;
+constexpr double least_step = 1.002;
+constexpr double share_of_bracket = 0.4;    // by which a trial lies to one side of where zero is expected
+constexpr double softest_share = 1e-3;      // of the start: nothing below is tried
+constexpr double highest_share = 0.98;      // of Nyquist's frequency
+constexpr double start_share = 0.5;         // of the predicted limit
+constexpr double ceiling_share = 1.5;       // of the predicted limit
+constexpr double least_swing_share = 0.01;  // of the swing at the end: what is smaller leaks from another oscillation
+constexpr double same_frequency = 0.2;      // relative: growth rates of one oscillation
+
+/// Where the line through two growth rates passes zero; absent where they are not of one oscillation that grows with K.
+std::optional<double> zero_of_growth(const LimitTrial& low, const LimitTrial& high) {
+  if (!low.ring || !high.ring) return std::nullopt;
+  const double rise = high.ring->growth_rate - low.ring->growth_rate;
+  if (!(rise > 0.0) || std::abs(high.ring->frequency / low.ring->frequency - 1.0) > same_frequency) return std::nullopt;
+  return low.stiffness - low.ring->growth_rate * (high.stiffness - low.stiffness) / rise;
+}
+
+/// The oscillation that decays least: near the predicted frequencies, and the strongest.
+std::optional<RingDown> least_decaying(std::span<const double> position, double period,
+                                       const std::vector<double>& frequencies, double floor) {
+  std::vector<double> candidates = frequencies;
+  if (const auto strongest = dominant_oscillation(position, period)) candidates.push_back(strongest->frequency);
+  double mean = 0.0;
+  double squares = 0.0;
+  const auto end = position.last(position.size() / 4);
+  for (const double x : end) mean += x / static_cast<double>(end.size());
+  for (const double x : end) squares += (x - mean) * (x - mean) / static_cast<double>(end.size());
+  std::optional<RingDown> least;
+  for (const double frequency : candidates) {
+    if (!(frequency > 0.0 && frequency * period < highest_share * std::numbers::pi)) continue;
+    const auto ring = ring_down(position, period, frequency, floor);
+    if (!ring || ring->amplitude < least_swing_share * std::sqrt(squares)) continue;
+    if (!least || ring->growth_rate > least->growth_rate) least = ring;
+  }
+  return least;
+}
+
+}  // namespace
+
+std::optional<OptionProblem> find_problem(const LimitSearchOptions& options) {
+  const auto problem = [](const char* member, double value, const char* allowed) {
+    return OptionProblem{member, fmt::format("is {}", value), allowed};
+  };
+  if (!(std::isfinite(options.start) && options.start > 0.0)) {
+    return problem("start", options.start, "a stiffness in N/m or N m/rad above 0");
+  }
+  if (!(std::isfinite(options.ceiling) && options.ceiling >= options.start)) {
+    return problem("ceiling", options.ceiling, "a stiffness in N/m or N m/rad, at least that of the start");
+  }
+  if (!(options.step > 1.0 && options.step <= 2.0)) return problem("step", options.step, "a factor above 1, up to 2");
+  if (!(options.bracket > 0.0 && options.bracket <= 0.5)) {
+    return problem("bracket", options.bracket, "a share above 0, up to 0.5");
+  }
+  if (!(std::isfinite(options.floor) && options.floor >= 0.0)) {
+    return problem("floor", options.floor, "a distance in m or rad, 0 or more");
+  }
+  return std::nullopt;
+}
+
+std::optional<LimitSearchOptions> limit_search_options(const Device& device, const CriticalStiffness& predicted,
+                                                       std::optional<double> any_user) {
+  if (predicted.status != StiffnessStatus::finite) return std::nullopt;
+  LimitSearchOptions options;
+  const double least = any_user && *any_user > 0.0 ? std::min(*any_user, predicted.stiffness) : predicted.stiffness;
+  options.start = start_share * least;
+  options.ceiling = ceiling_share * predicted.stiffness;
+  options.frequencies.push_back(predicted.limit->frequency);
+  for (const Crossover& each : predicted.crossovers) options.frequencies.push_back(each.frequency);
+  options.floor = device.parameters().sensor.resolution;
+  return options;
+}
+
+LimitSearch::LimitSearch(LimitSearchOptions options) : options_(std::move(options)) {
+  internal::require_valid(find_problem(options_));
+}
+
+const LimitTrial* LimitSearch::unstable() const {
+  const LimitTrial* softest = nullptr;
+  for (const LimitTrial& trial : trials_) {
+    if (trial.grows() && (softest == nullptr || trial.stiffness < softest->stiffness)) softest = &trial;
+  }
+  return softest;
+}
+
+const LimitTrial* LimitSearch::stable() const {
+  const LimitTrial* above = unstable();
+  const LimitTrial* stiffest = nullptr;
+  for (const LimitTrial& trial : trials_) {
+    if (trial.grows() || (above != nullptr && trial.stiffness > above->stiffness)) continue;
+    if (stiffest == nullptr || trial.stiffness > stiffest->stiffness) stiffest = &trial;
+  }
+  return stiffest;
+}
+
+std::optional<double> LimitSearch::next() const {
+  if (trials_.empty()) return options_.start;
+  if (trials_.size() >= most_trials) return std::nullopt;
+  const LimitTrial* low = stable();
+  const LimitTrial* high = unstable();
+  if (high == nullptr) {
+    if (low->stiffness >= options_.ceiling) return std::nullopt;
+    double stiffness = options_.step * low->stiffness;
+    if (trials_.size() >= 2) {
+      const auto zero = zero_of_growth(trials_[trials_.size() - 2], trials_.back());
+      if (zero) {
+        stiffness = std::min(stiffness, std::max(beyond_extrapolation * *zero, least_step * low->stiffness));
+      }
+    }
+    return std::min(stiffness, options_.ceiling);
+  }
+  if (low == nullptr) {
+    const double softer = 0.5 * high->stiffness;
+    return softer < softest_share * options_.start ? std::nullopt : std::optional(softer);
+  }
+  const double width = high->stiffness - low->stiffness;
+  const double wanted = options_.bracket * high->stiffness;
+  if (width <= wanted) return std::nullopt;
+  const double middle = 0.5 * (low->stiffness + high->stiffness);
+  const auto zero = zero_of_growth(*low, *high);
+  if (!zero) return middle;
+  const bool is_far_above = high->stiffness - *zero > *zero - low->stiffness;
+  const double next = *zero + (is_far_above ? 1.0 : -1.0) * share_of_bracket * wanted;
+  return next > low->stiffness && next < high->stiffness ? next : middle;
+}
+
+void LimitSearch::add(double stiffness, std::span<const double> position, double sampling_period, bool stopped) {
+  trials_.push_back(
+      {stiffness, least_decaying(position, sampling_period, options_.frequencies, options_.floor), stopped});
+}
+
+LimitMeasurement LimitSearch::measurement(const Device& device) const {
+  LimitMeasurement result;
+  result.trials = trials_;
+  const Units units = units_of(device.parameters().motion);
+  // What was measured stands whatever the file's numbers are; that they are doubtful is said beside it.
+  for (const std::string& reason : trust_of(device).reasons) result.trust.doubt(reason);
+  const LimitTrial* low = stable();
+  const LimitTrial* high = unstable();
+  if (low != nullptr) result.lower = low->stiffness;
+  if (high != nullptr) result.upper = high->stiffness;
+  if (high == nullptr) {
+    result.trust.refuse(fmt::format("no oscillation grew up to {}: raise the ceiling, or knock harder",
+                                    quantity(result.lower, units.stiffness)));
+    return result;
+  }
+  if (low == nullptr) {
+    result.trust.refuse(
+        fmt::format("an oscillation grew with every wall, down to {}: check sign and units of the drive",
+                    quantity(result.upper, units.stiffness)));
+    return result;
+  }
+  const auto zero = zero_of_growth(*low, *high);
+  result.stiffness = zero.value_or(0.5 * (low->stiffness + high->stiffness));
+  if (zero) {
+    const double share = (*zero - low->stiffness) / (high->stiffness - low->stiffness);
+    result.frequency = low->ring->frequency + share * (high->ring->frequency - low->ring->frequency);
+  } else if (high->ring) {
+    result.frequency = high->ring->frequency;
+  }
+  const double width = (high->stiffness - low->stiffness) / high->stiffness;
+  if (width > options_.bracket) {
+    result.trust.doubt(fmt::format("the limit lies between {} and {}: the search ended before it was closer",
+                                   quantity(low->stiffness, units.stiffness),
+                                   quantity(high->stiffness, units.stiffness)));
+  }
+  const auto has_friction = [](const Body& body) { return body.coulomb > 0.0; };
+  if (std::ranges::any_of(device.bodies(), has_friction)) {
+    result.trust.doubt(
+        "dry friction holds small swings down: the limit is that of the swing after the knock; knock harder for the "
+        "limit of large motion");
+  }
+  return result;
+}
+
+}  // namespace zwidth

@@ -1,0 +1,60 @@
+#include "zwidth/rig/oscillation_watch.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace zwidth {
+namespace {
+
+constexpr double period = 1e-3;
+const std::vector<double> watched{40.0, 300.0};
+
+template <typename Motion>
+int cycles_until_detected(OscillationWatch& watch, int cycles, const Motion& motion) {
+  for (int k = 0; k < cycles; ++k) {
+    if (watch.update(motion(period * k))) return k;
+  }
+  return -1;
+}
+
+TEST(OscillationWatch, SeesOneGrow) {
+  for (const double frequency : {40.0, 44.0, 300.0, 280.0}) {
+    OscillationWatch watch(watched, period, 1e-5);
+    const auto grows = [&](double t) { return 1e-3 * std::exp(0.02 * frequency * t) * std::sin(frequency * t); };
+    const int at = cycles_until_detected(watch, 20000, grows);
+    ASSERT_GE(at, 0) << frequency;
+    EXPECT_LT(at * period * frequency / 6.2832, 45.0) << "cycles of " << frequency << " rad/s";
+    EXPECT_NEAR(watch.frequency(), frequency, 0.2 * frequency);
+  }
+}
+
+TEST(OscillationWatch, SeesOneGrowWhereNoneIsPredicted) {
+  for (const double frequency : {80.0, 120.0, 700.0}) {
+    OscillationWatch watch(watched, period, 1e-5);
+    const auto grows = [&](double t) { return 1e-3 * std::exp(0.02 * frequency * t) * std::sin(frequency * t); };
+    EXPECT_GE(cycles_until_detected(watch, 20000, grows), 0) << frequency;
+    EXPECT_NEAR(watch.frequency(), frequency, 0.1 * frequency);
+  }
+}
+
+TEST(OscillationWatch, SeesNoneThatStaysOrDecays) {
+  for (const double rate : {0.0, -0.001, -0.05}) {
+    OscillationWatch watch(watched, period, 1e-5);
+    const auto rings = [&](double t) { return 1e-3 * std::exp(rate * 40.0 * t) * std::sin(40.0 * t) + 5e-3; };
+    EXPECT_EQ(cycles_until_detected(watch, 20000, rings), -1) << rate;
+  }
+}
+
+TEST(OscillationWatch, SeesNoneInWhatAUserDoes) {
+  OscillationWatch pushed(watched, period, 1e-5);
+  EXPECT_EQ(cycles_until_detected(pushed, 20000, [](double t) { return 1e-2 * t; }), -1);
+  OscillationWatch moved(watched, period, 1e-5);
+  EXPECT_EQ(cycles_until_detected(moved, 20000, [](double t) { return 1e-2 * t * std::sin(4.0 * t); }), -1);
+  OscillationWatch below(watched, period, 1e-2);
+  EXPECT_EQ(cycles_until_detected(below, 4000, [](double t) { return 1e-6 * std::exp(t) * std::sin(40.0 * t); }), -1);
+}
+
+}  // namespace
+}  // namespace zwidth

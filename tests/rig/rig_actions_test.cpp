@@ -1,0 +1,67 @@
+#include "rig/rig_actions.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "rig/rig_devices.hpp"
+#include "rig/simulated_driver.hpp"
+
+namespace zwidth::rig {
+namespace {
+
+constexpr std::uint64_t devices = 20;
+
+class OnDevice : public testing::TestWithParam<std::uint64_t> {
+ protected:
+  Device device = test::bench_device(GetParam());
+  SimulatedDriver driver{device, 0.0, false};
+};
+
+TEST_P(OnDevice, TheLimitIsMeasuredWhereItIsPredicted) {
+  const RigLimit limit = measure_limit(device, driver, {}, default_limit(device), {});
+  ASSERT_EQ(limit.predicted.status, StiffnessStatus::finite);
+  ASSERT_TRUE(limit.measured.stiffness) << limit.measured.trust.reasons.front();
+  EXPECT_NEAR(*limit.measured.stiffness / limit.predicted.stiffness, 1.0, 0.02);
+  EXPECT_NEAR(limit.measured.frequency / limit.predicted.limit->frequency, 1.0, 0.02);
+  EXPECT_LE(limit.measured.lower, *limit.measured.stiffness);
+  EXPECT_GE(limit.measured.upper, *limit.measured.stiffness);
+  EXPECT_EQ(limit.session.stop, StopReason::none);
+}
+
+TEST_P(OnDevice, IdentifyingItClosesTheCircle) {
+  const RigIdentification found = identify_on_rig(device, driver, {}, default_measurement(device), {});
+  ASSERT_TRUE(found.identification);
+  const double expected = critical_stiffness(device).stiffness;
+  EXPECT_NEAR(found.identification->analysis.critical.stiffness / expected, 1.0, 0.03);
+}
+
+TEST_P(OnDevice, TheRelayReadsWhatItReadsInSimulation) {
+  RelayTrialsOptions trials;
+  trials.relay.amplitude = default_force(device);
+  RigOptions at_once;
+  at_once.limits.ramp = 0.0;
+  const RigRelay measured = relay_on_rig(device, driver, at_once, trials, {});
+  RelayOptions options;
+  options.relay = trials.relay;
+  options.trials = 1;
+  options.variation = 0.0;
+  const RelayResult simulated = relay(device, options);
+  ASSERT_TRUE(measured.relay);
+  ASSERT_EQ(measured.relay->trials.size(), 4U);
+  ASSERT_TRUE(simulated.mean && measured.relay->mean);
+  const RelayReading& first = *measured.relay->trials.front().result;
+  EXPECT_NEAR(first.frequency / simulated.mean->frequency, 1.0, 1e-9);
+  EXPECT_NEAR(first.stiffness / simulated.mean->stiffness, 1.0, 1e-9);
+  // The later trials begin from what is left of the ones before. A relay has several oscillations: where all trials
+  // settle at one, it is that of the simulation.
+  const RelayMean& mean = *measured.relay->mean;
+  if (mean.highest_frequency > 1.05 * mean.lowest_frequency) return;
+  EXPECT_NEAR(mean.frequency / simulated.mean->frequency, 1.0, 0.05);
+  EXPECT_NEAR(mean.stiffness / simulated.mean->stiffness, 1.0, 0.05);
+}
+
+INSTANTIATE_TEST_SUITE_P(Bench, OnDevice, testing::Range(std::uint64_t{1}, devices + 1));
+
+}  // namespace
+}  // namespace zwidth::rig
