@@ -22,7 +22,6 @@
 #include "results/rig_json.hpp"
 #include "rig/open_driver.hpp"
 #include "rig/rig_actions.hpp"
-#include "rig/rig_run.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/io/device_file.hpp"
 #include "zwidth/simulation/simulate.hpp"
@@ -59,6 +58,7 @@ struct Rig {
   Outputs& outputs;
   rig::RigOptions options;
   std::unique_ptr<rig::Driver> driver;
+  std::optional<bool> watchdog_proved = {};
 };
 
 void check_duration(const std::optional<double>& duration, const Device& device) {
@@ -146,10 +146,10 @@ std::string recording_csv(const Recording& recording) {
 }
 
 void run_check(const Rig& rig) {
-  RigCheck result = rig::check(rig.device, *rig.driver, rig.options, rig.arguments.duration.value_or(checked_duration));
+  const double duration = rig.arguments.duration.value_or(checked_duration);
+  RigCheck result = rig::check(rig.device, *rig.driver, rig.options, duration);
+  result.watchdog_proved = rig.watchdog_proved;
   answer(rig, result, result.session);
-  if (result.watchdog_proved == false)
-    throw WorkFailed("the drive's watchdog is not proved: it held on through silence");
 }
 
 void run_measure(const Rig& rig) {
@@ -236,13 +236,34 @@ void check_wall(const RigArguments& arguments, const Device& device, const Analy
   }
 }
 
-void run_rig(const RigArguments& arguments) {
-  Outputs outputs(arguments.output);
-  outputs.add("--flight-record", arguments.flight_record);
+/// Falls silent before any force goes out: whoever dies later must not leave one behind.
+std::optional<bool> proved_watchdog(const RigArguments& arguments, rig::Driver& driver) {
+  if (arguments.driver == "simulated") return std::nullopt;
+  const std::optional<bool> proved = driver.proves_watchdog();
+  if (!proved.value_or(false) && !arguments.no_watchdog) {
+    throw WorkFailed(arguments.driver +
+                     ": the drive did not let go after silence: if this program died, its force would stay; give its "
+                     "firmware a watchdog; --no-watchdog acts on it all the same");
+  }
+  return proved;
+}
+
+void add_outputs(const RigArguments& arguments, Outputs& outputs) {
+  outputs.add(arguments.output);
   outputs.add("--recording", arguments.recording);
   outputs.add("--output-device", arguments.output_device);
   outputs.add("--report", arguments.report);
-  outputs.keep(arguments.devices.files, "device file");
+}
+
+void run_rig(const RigArguments& arguments) {
+  Outputs outputs;
+  Outputs flight;  // by itself: what goes wrong with the rest must not lose it
+  flight.add("--flight-record", arguments.flight_record);
+  add_outputs(arguments, outputs);
+  Outputs all;  // each is a file of its own
+  add_outputs(arguments, all);
+  all.add("--flight-record", arguments.flight_record);
+  all.keep(arguments.devices.files, "device file");
   const Device device = rig_device(arguments);
   check_duration(arguments.duration, device);
   rig::RigOptions options = rig_options(arguments, device);
@@ -250,12 +271,13 @@ void run_rig(const RigArguments& arguments) {
   check_permission(arguments, analysis.trust);
   if (arguments.action == "wall") check_wall(arguments, device, analysis);
   options.record = [&](const rig::FlightRecorder& recorder) {
-    outputs.put("--flight-record", [&](const report::Sink& sink) { recorder.write(sink); });
+    flight.put("--flight-record", [&](const report::Sink& sink) { recorder.write(sink); });
+    flight.commit();
   };
-  const rig::InterruptsStopRigs interrupts;
   Rig rig{arguments,          device,
           analysis.trust,     outputs,
           std::move(options), rig::open_driver(arguments.driver, device, {arguments.start, arguments.real_time})};
+  rig.watchdog_proved = proved_watchdog(arguments, *rig.driver);
   if (arguments.action == "check") return run_check(rig);
   if (arguments.action == "measure") return run_measure(rig);
   if (arguments.action == "identify") return run_identify(rig);

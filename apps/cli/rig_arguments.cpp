@@ -111,6 +111,9 @@ void check_rig_arguments(const CLI::App& command, const RigArguments& arguments)
     }
   }
   if (arguments.driver == "simulated") return;
+  if (!arguments.driver.starts_with("udp:")) {
+    throw BadInput(fmt::format("--driver: {} is none; simulated, or udp:HOST:PORT", arguments.driver));
+  }
   for (const char* option : {"--real-time", "--start"}) {
     if (command.count(option) > 0) throw BadInput(fmt::format("{}: is for a simulated device", option));
   }

@@ -14,7 +14,7 @@ struct SimulatedDriverOptions {
   bool real_time = false;  ///< it keeps the clock
 };
 
-/// The driver of that name: "simulated". Throws DriverFailed for another.
+/// The driver of that name: "simulated", "udp:HOST:PORT". Throws DriverFailed for another, and where it is not reached.
 [[nodiscard]] std::unique_ptr<Driver> open_driver(const std::string& name, const Device& device,
                                                   const SimulatedDriverOptions& simulated);
 

@@ -84,6 +84,12 @@ void report(const Progress& progress, double done) {
   if (progress) progress(done);
 }
 
+bool is_stable(const CriticalStiffness& predicted, double stiffness) {
+  return std::ranges::any_of(predicted.stable_intervals, [&](const StableInterval& interval) {
+    return stiffness > interval.lower && (!interval.upper || stiffness < *interval.upper);
+  });
+}
+
 double largest(const std::vector<double>& values) {
   double most = 0.0;
   for (const double value : values) most = std::max(most, std::abs(value));
@@ -227,6 +233,9 @@ RigWall render_wall(const Device& device, Driver& driver, const RigOptions& opti
   result.controller = wall.controller;
   result.predicted = critical_stiffness(device);
   result.trust = result.predicted.trust;
+  if (result.predicted.status != StiffnessStatus::refused && wall.controller.stiffness > 0.0) {
+    result.predicted_stable = is_stable(result.predicted, wall.controller.stiffness);
+  }
   const double period = device.loop().sampling_period;
   const double frequency = frequency_of(result.predicted);
   Segment segment;
@@ -252,7 +261,7 @@ RigWall render_wall(const Device& device, Driver& driver, const RigOptions& opti
   result.peak_position = largest(played.position);
   if (played.position.size() > after) {
     const std::span<const double> rest = std::span(played.position).subspan(after);
-    result.ring = ring_down(rest, period, frequency, device.parameters().sensor.resolution);
+    result.ring = least_damped_oscillation(rest, period, segment.watched, device.parameters().sensor.resolution);
   }
   return result;
 }

@@ -11,7 +11,6 @@ namespace zwidth::rig {
 namespace {
 
 constexpr double not_there = std::numeric_limits<double>::quiet_NaN();
-constexpr std::uint64_t cycles_before_clock_counts = 10;  // the first ones bring pages and caches in
 
 }  // namespace
 
@@ -29,7 +28,7 @@ RunningSegment::RunningSegment(const Segment& segment, double sampling_period)
 double RunningSegment::update(double position) noexcept { return controller_.update(position) + added_[cycle_]; }
 
 bool RunningSegment::sent(double force, std::optional<double> position) noexcept {
-  last_position_ = position.value_or(last_position_);
+  if (position && std::isfinite(*position)) last_position_ = *position;
   force_[cycle_] = force;
   position_[cycle_] = last_position_;
   if (cycle_ >= watch_from_ && watch_.update(last_position_)) stop_ = StopReason::oscillation;
@@ -66,9 +65,9 @@ void RigLoop::cycle(std::int64_t now, std::int64_t due) noexcept {
   const std::int64_t late = now - due;
   const std::int64_t begin = has_clock_ ? now : clock_now();
   if (count == 0) first_ = due;
-  if (has_clock_ && count >= cycles_before_clock_counts) {
+  if (has_clock_) {
     latency_.add(late);
-    between_.add(now - previous_);
+    if (count > 0) between_.add(now - previous_);
     const auto missed = static_cast<unsigned>(late / period_ns_);
     missed_ += missed;
     guard_.missed(missed);

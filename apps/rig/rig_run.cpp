@@ -54,6 +54,7 @@ void RigRun::halt() noexcept {
   driver_.disarm();
   if (clock_.joinable()) clock_.join();
   if (watchdog_.joinable()) watchdog_.join();
+  interrupts_.reset();
 }
 
 void RigRun::run_on_clock() noexcept {

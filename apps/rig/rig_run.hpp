@@ -1,8 +1,9 @@
 #pragma once
 
 #include <atomic>
-#include <memory>
+#include <optional>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "rig/driver.hpp"
@@ -10,6 +11,15 @@
 #include "zwidth/rig/session.hpp"
 
 namespace zwidth::rig {
+
+/// While it lives, SIGINT and SIGTERM stop the rig instead of the program.
+class InterruptsStopRigs {
+ public:
+  InterruptsStopRigs();
+  ~InterruptsStopRigs();
+  InterruptsStopRigs(const InterruptsStopRigs&) = delete;
+  InterruptsStopRigs& operator=(const InterruptsStopRigs&) = delete;
+};
 
 /// A session on a drive: arms it, runs the loop, and whatever happens leaves it with zero force.
 ///
@@ -40,6 +50,7 @@ class RigRun {
   SafetyLimits limits_;
   double period_;
   RigLoop loop_;
+  std::optional<InterruptsStopRigs> interrupts_{std::in_place};  // until the force is zero
   std::vector<Remark> remarks_;
   std::vector<Remark> thread_remarks_;
   std::atomic<bool> is_ending_ = false;
@@ -47,15 +58,6 @@ class RigRun {
   std::atomic<bool> has_barked_ = false;
   std::thread clock_;
   std::thread watchdog_;
-};
-
-/// While it lives, SIGINT and SIGTERM stop the rig instead of the program.
-class InterruptsStopRigs {
- public:
-  InterruptsStopRigs();
-  ~InterruptsStopRigs();
-  InterruptsStopRigs(const InterruptsStopRigs&) = delete;
-  InterruptsStopRigs& operator=(const InterruptsStopRigs&) = delete;
 };
 
 }  // namespace zwidth::rig

@@ -34,10 +34,11 @@ std::optional<double> zero_of_growth(const LimitTrial& low, const LimitTrial& hi
   return low.stiffness - low.ring->growth_rate * (high.stiffness - low.stiffness) / rise;
 }
 
-/// The oscillation that decays least: near the predicted frequencies, and the strongest.
-std::optional<RingDown> least_decaying(std::span<const double> position, double period,
-                                       const std::vector<double>& frequencies, double floor) {
-  std::vector<double> candidates = frequencies;
+}  // namespace
+
+std::optional<RingDown> least_damped_oscillation(std::span<const double> position, double period,
+                                                 std::span<const double> frequencies, double floor) {
+  std::vector<double> candidates(frequencies.begin(), frequencies.end());
   if (const auto strongest = dominant_oscillation(position, period)) candidates.push_back(strongest->frequency);
   double mean = 0.0;
   double squares = 0.0;
@@ -53,8 +54,6 @@ std::optional<RingDown> least_decaying(std::span<const double> position, double 
   }
   return least;
 }
-
-}  // namespace
 
 std::optional<OptionProblem> find_problem(const LimitSearchOptions& options) {
   const auto problem = [](const char* member, double value, const char* allowed) {
@@ -144,7 +143,7 @@ std::optional<double> LimitSearch::next() const {
 
 void LimitSearch::add(double stiffness, std::span<const double> position, double sampling_period, bool stopped) {
   trials_.push_back(
-      {stiffness, least_decaying(position, sampling_period, options_.frequencies, options_.floor), stopped});
+      {stiffness, least_damped_oscillation(position, sampling_period, options_.frequencies, options_.floor), stopped});
 }
 
 LimitMeasurement LimitSearch::measurement(const Device& device) const {

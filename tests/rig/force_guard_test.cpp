@@ -75,31 +75,34 @@ TEST_P(EachFault, IsZeroForceInTimeAndForGood) {
 
 INSTANTIATE_TEST_SUITE_P(
     Guard, EachFault,
-    testing::Values(
-        Fault{"position is no number", StopReason::not_a_number, 1, [](ForceGuard& g, int) { return g.update(nan, 3.0); }},
-        Fault{"force is no number", StopReason::not_a_number, 1, [](ForceGuard& g, int) { return g.update(0.01, nan); }},
-        Fault{"infinite force", StopReason::not_a_number, 1,
-              [](ForceGuard& g, int) { return g.update(0.01, std::numeric_limits<double>::infinity()); }},
-        Fault{"too far", StopReason::position_limit, 200,
-              [](ForceGuard& g, int k) { return g.update(0.01 + 1e-3 * k, 3.0); }},
-        Fault{"too fast", StopReason::velocity_limit, 3, [](ForceGuard& g, int k) { return g.update(0.01 + 0.02 * k, 3.0); }},
-        Fault{"saturated", StopReason::saturation, 11, [](ForceGuard& g, int) { return g.update(0.01, -50.0); }},
-        Fault{"no position", StopReason::lost_link, 3, [](ForceGuard& g, int) { return g.no_position(); }},
-        Fault{"late", StopReason::missed_cycles, 3,
-              [](ForceGuard& g, int) {
-                g.missed(1);
-                return g.update(0.01, 3.0);
-              }},
-        Fault{"late at once", StopReason::missed_cycles, 1,
-              [](ForceGuard& g, int) {
-                g.missed(3);
-                return g.update(0.01, 3.0);
-              }},
-        Fault{"interrupted", StopReason::interrupted, 1,
-              [](ForceGuard& g, int) {
-                g.stop(StopReason::interrupted);
-                return g.update(0.01, 3.0);
-              }}),
+    testing::Values(Fault{"position is no number", StopReason::not_a_number, 1,
+                          [](ForceGuard& g, int) { return g.update(nan, 3.0); }},
+                    Fault{"force is no number", StopReason::not_a_number, 1,
+                          [](ForceGuard& g, int) { return g.update(0.01, nan); }},
+                    Fault{"infinite force", StopReason::not_a_number, 1,
+                          [](ForceGuard& g, int) { return g.update(0.01, std::numeric_limits<double>::infinity()); }},
+                    Fault{"too far", StopReason::position_limit, 200,
+                          [](ForceGuard& g, int k) { return g.update(0.01 + 1e-3 * k, 3.0); }},
+                    Fault{"too fast", StopReason::velocity_limit, 3,
+                          [](ForceGuard& g, int k) { return g.update(0.01 + 0.02 * k, 3.0); }},
+                    Fault{"saturated", StopReason::saturation, 11,
+                          [](ForceGuard& g, int) { return g.update(0.01, -50.0); }},
+                    Fault{"no position", StopReason::lost_link, 3, [](ForceGuard& g, int) { return g.no_position(); }},
+                    Fault{"late", StopReason::missed_cycles, 3,
+                          [](ForceGuard& g, int) {
+                            g.missed(1);
+                            return g.update(0.01, 3.0);
+                          }},
+                    Fault{"late at once", StopReason::missed_cycles, 1,
+                          [](ForceGuard& g, int) {
+                            g.missed(3);
+                            return g.update(0.01, 3.0);
+                          }},
+                    Fault{"interrupted", StopReason::interrupted, 1,
+                          [](ForceGuard& g, int) {
+                            g.stop(StopReason::interrupted);
+                            return g.update(0.01, 3.0);
+                          }}),
     [](const auto& fault) {
       std::string name = fault.param.name;
       std::erase(name, ' ');

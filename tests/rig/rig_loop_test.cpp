@@ -10,9 +10,9 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
 #include <limits>
 #include <new>
-#include <functional>
 #include <string>
 #include <thread>
 

@@ -58,7 +58,8 @@ TEST(RingDown, NoneInNoiseInRestAndInAShortRecord) {
 }
 
 TEST(RingDown, RefusesWhatIsNoSignal) {
-  EXPECT_THROW((void)ring_down(std::vector<double>(100, std::numeric_limits<double>::quiet_NaN()), period, 10.0), Error);
+  EXPECT_THROW((void)ring_down(std::vector<double>(100, std::numeric_limits<double>::quiet_NaN()), period, 10.0),
+               Error);
   EXPECT_THROW((void)ring_down(std::vector<double>(100), period, 4000.0), Error) << "above Nyquist's frequency";
   EXPECT_THROW((void)ring_down(std::vector<double>(100), 0.0, 10.0), Error);
 }

@@ -13,6 +13,13 @@
 
 namespace zwidth {
 
+/// The oscillation that decays least, or grows most: of those near the given frequencies, rad/s, and of the strongest one.
+///
+/// What swings by less than a hundredth of all that moves at the end is left out: it may be the others' leakage.
+/// `floor` as in ring_down(), which throws for a period that is not > 0 and for positions that are not finite.
+[[nodiscard]] std::optional<RingDown> least_damped_oscillation(std::span<const double> position, double period,
+                                                               std::span<const double> frequencies, double floor);
+
 struct LimitSearchOptions {
   double start = 0.0;     ///< first stiffness, N/m or N m/rad; > 0
   double ceiling = 0.0;   ///< the most that may be tried; >= start

@@ -1,0 +1,160 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+
+#include "cli/workspace.hpp"
+
+namespace zwidth::cli {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+class Rig : public Workspace {
+ protected:
+  nlohmann::json json(const std::string& arguments) const {
+    const Outcome outcome = run("zwidth rig --json " + arguments);
+    EXPECT_EQ(outcome.status, 0) << outcome.errors;
+    return nlohmann::json::parse(outcome.output, nullptr, false);
+  }
+  void expect_refused(const std::string& arguments, int status, const std::string& message) const {
+    const Outcome outcome = run("zwidth rig " + arguments);
+    EXPECT_EQ(outcome.status, status) << arguments;
+    EXPECT_THAT(outcome.output, IsEmpty()) << arguments;
+    EXPECT_THAT(outcome.errors, HasSubstr(message)) << arguments;
+  }
+};
+
+const std::string lhifam = "devices/lhifam.toml ";
+const std::string doubtful = "--set uncertainty.warning=\"'fitted to half a record'\" ";
+
+TEST_F(Rig, LimitStandsBesideThePrediction) {
+  const auto limit = json("limit " + lhifam + "--set sensor.resolution=0");
+  EXPECT_EQ(limit["schema"], "zwidth.rig_limit/1");
+  const double measured = limit["measured"]["critical_stiffness"];
+  EXPECT_NEAR(measured / 8848.70869499712, 1.0, 1e-3);
+  EXPECT_NEAR(limit["measured"]["frequency_rad_s"].get<double>() / 38.5965268731856, 1.0, 1e-3);
+  EXPECT_DOUBLE_EQ(limit["predicted"]["critical_stiffness"], 8848.70869499712);
+  EXPECT_NEAR(limit["any_user"]["critical_stiffness"], 5776.09, 0.1);
+  EXPECT_LT(limit["measured"]["stiffest_stable"].get<double>(), limit["measured"]["softest_unstable"].get<double>());
+  EXPECT_TRUE(limit["trials"].back()["grows"].is_boolean());
+  EXPECT_EQ(limit["trust"]["verdict"], "sound");
+  EXPECT_TRUE(limit["session"]["stop"].is_null());
+  EXPECT_EQ(limit["session"]["driver"], "simulated");
+}
+
+TEST_F(Rig, FrictionMakesTheMeasuredLimitDoubtful) {
+  EXPECT_EQ(json("limit " + lhifam + "--set body.motor.coulomb=0.01")["trust"]["verdict"], "doubtful");
+}
+
+TEST_F(Rig, ADoubtfulDeviceOnlyWhereThatIsAccepted) {
+  for (const std::string action : {"check", "measure", "identify", "relay", "wall", "limit"}) {
+    const std::string wall = action == "wall" ? "--stiffness 3000 " : "";
+    expect_refused(action + " " + lhifam + doubtful + wall, 1, "--accept-doubt");
+  }
+  EXPECT_EQ(json("limit " + lhifam + doubtful + "--accept-doubt")["trust"]["verdict"], "doubtful");
+}
+
+TEST_F(Rig, ARefusedDeviceNever) {
+  const std::string refused = "--set uncertainty.verdict=refused --set uncertainty.warning=none ";
+  for (const std::string accept : {"", "--accept-doubt"}) {
+    const Outcome outcome = run("zwidth rig wall " + lhifam + refused + "--stiffness 3000 " + accept);
+    EXPECT_EQ(outcome.status, 1) << outcome.errors;
+    EXPECT_THAT(outcome.output, IsEmpty());
+  }
+}
+
+TEST_F(Rig, AnUnstableWallIsRefusedAndIfAcceptedTakenAwayAtOnce) {
+  expect_refused("wall " + lhifam + "--stiffness 20000", 1, "UNSTABLE");
+  const Outcome outcome =
+      run("zwidth rig wall --json " + lhifam + "--stiffness 20000 --accept-unstable --duration 60 --flight-record f.csv");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.errors, HasSubstr("an oscillation grew"));
+  const auto wall = nlohmann::json::parse(outcome.output, nullptr, false);
+  EXPECT_EQ(wall["oscillates"], true);
+  EXPECT_EQ(wall["predicted_stable"], false);
+  EXPECT_GT(wall["oscillation"]["growth_rate_per_s"], 0.0);
+  const auto stable = json("wall " + lhifam + "--stiffness 4000");
+  EXPECT_EQ(stable["oscillates"], false);
+  EXPECT_EQ(stable["predicted_stable"], true);
+  EXPECT_LT(stable["oscillation"]["growth_rate_per_s"], 0.0);
+}
+
+TEST_F(Rig, LimitsEndTheSessionAndTheRecordIsThere) {
+  const Outcome outcome = run("zwidth rig wall " + lhifam +
+                              "--stiffness 4000 --amplitude 50 --position-limit 1e-3 --flight-record f.csv --json");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.errors, HasSubstr("the position went beyond its limit"));
+  const auto document = nlohmann::json::parse(outcome.output, nullptr, false);
+  EXPECT_EQ(document["session"]["stop"], "position_limit");
+  std::istringstream file(contents("f.csv"));
+  std::string line;
+  std::string last;
+  std::size_t rows = 0;
+  while (std::getline(file, line)) last = line, ++rows;
+  EXPECT_EQ(rows, 1 + document["session"]["timing"]["cycles"].get<std::size_t>());
+  EXPECT_THAT(last, ::testing::EndsWith(",3")) << "position_limit";
+}
+
+TEST_F(Rig, TheFlightRecordIsReadByTheOtherCommands) {
+  ASSERT_EQ(run("zwidth rig measure " + lhifam + "--flight-record f.csv --recording r.csv").status, 0);
+  const Outcome frf = run("zwidth frf f.csv --force force --position position --json");
+  EXPECT_EQ(frf.status, 0) << frf.errors;
+  const Outcome identified =
+      run("zwidth identify r.csv --force force --position position --structure " + lhifam + "--json");
+  EXPECT_EQ(identified.status, 0) << identified.errors;
+  const auto document = nlohmann::json::parse(identified.output, nullptr, false);
+  EXPECT_EQ(document["schema"], "zwidth.identification/1");
+  EXPECT_EQ(run("zwidth diagnose " + lhifam + "--recording f.csv --position position").status, 0);
+}
+
+TEST_F(Rig, IdentifyWritesTheDevice) {
+  ASSERT_EQ(run("zwidth rig identify " + lhifam + "--set sensor.resolution=0 --output-device found.toml").status, 0);
+  const Outcome outcome = run("zwidth analyze found.toml --json");
+  EXPECT_EQ(outcome.status, 0) << outcome.errors;
+  EXPECT_NEAR(nlohmann::json::parse(outcome.output)["critical_stiffness"].get<double>() / 8848.7, 1.0, 0.03);
+}
+
+TEST_F(Rig, RelayGivesARowOfTable2) {
+  const auto relay = json("relay " + lhifam + "--amplitude 5 --trials 1 --report relay.html");
+  EXPECT_EQ(relay["relay"]["trials"].size(), 1U);
+  EXPECT_EQ(relay["table_2_row"]["trials"], 1);
+  EXPECT_GT(relay["table_2_row"]["frequency_hz"], 0.0);
+  EXPECT_THAT(contents("relay.html"), HasSubstr("Relay experiment on the rig"));
+}
+
+TEST_F(Rig, TellsWhatItCannotDo) {
+  expect_refused("wall " + lhifam, 2, "wall.stiffness: is missing");
+  expect_refused("limit " + lhifam + "--stiffness 3", 2, "--stiffness: is not for rig limit");
+  expect_refused("check " + lhifam + "--amplitude 3", 2, "--amplitude: is not for rig check");
+  expect_refused("check " + lhifam + "--duration 1e9", 2, "--duration: is 1000000000 s");
+  expect_refused("check " + lhifam + "--duration nan", 2, "--duration");
+  expect_refused("limit " + lhifam + "--amplitude 0", 2, "--amplitude: is 0");
+  expect_refused("limit " + lhifam + "--from 3 --ceiling 2", 2, "--ceiling: is 2");
+  expect_refused("limit " + lhifam + "--force-limit -1", 2, "--force-limit: is -1");
+  expect_refused("limit " + lhifam + "--ramp -1", 2, "--ramp: is -1");
+  expect_refused("limit " + lhifam + "--set actuator.force_limit=5 --force-limit 6", 2, "at most actuator.force_limit");
+  expect_refused("limit " + lhifam + "--set actuator.force_limit=5 --amplitude 6", 2, "at most the force limit");
+  expect_refused("limit " + lhifam + "--flight-record a.csv --report a.csv", 2, "is the same file");
+  expect_refused("limit " + lhifam + "--flight-record devices/lhifam.toml", 2, "would overwrite the device file");
+  expect_refused("check " + lhifam + "--driver serial", 2, "--driver: serial is none; simulated, or udp:HOST:PORT");
+  expect_refused("check " + lhifam + "--driver udp:127.0.0.1:9", 2, "--force-limit: missing");
+  expect_refused("check " + lhifam + "--driver udp:127.0.0.1:9 --force-limit 1", 2, "--position-limit: missing");
+  expect_refused("check " + lhifam + "--driver udp:127.0.0.1:9 --force-limit 1 --position-limit 1", 1, "does not answer");
+  expect_refused("check " + lhifam + "--driver udp:9 --start 1", 2, "--start: is for a simulated device");
+}
+
+TEST_F(Rig, KeepsTheClockWhereAsked) {
+  const Outcome outcome = run("zwidth rig check " + lhifam + "--set loop.sampling_period=0.02 --real-time --duration 1 --json");
+  const auto document = nlohmann::json::parse(outcome.output, nullptr, false);
+  EXPECT_EQ(document["session"]["lock_step"], false);
+  EXPECT_GT(document["session"]["timing"]["latency_s"]["count"], 3);
+  EXPECT_NEAR(document["session"]["timing"]["period_s"]["p50"], 0.02, 0.01);
+}
+
+}  // namespace
+}  // namespace zwidth::cli

@@ -1,0 +1,253 @@
+// The program as a real process against a drive on a real socket, and what goes wrong between them.
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "rig/rig_devices.hpp"
+#include "rig/udp_emulator.hpp"
+#include "zwidth/io/device_file.hpp"
+
+namespace zwidth::rig {
+namespace {
+
+using namespace std::chrono_literals;
+using test::UdpEmulator;
+using Fault = UdpEmulator::Fault;
+using testing::AnyOf;
+using testing::HasSubstr;
+
+constexpr double period = 0.05;  // s: machines that tests run on pause for many milliseconds
+
+constexpr int most_cycles_after = 4;  // with a force: three, and one that was under way
+
+int times() {
+  const char* given = std::getenv("ZWIDTH_RIG_FAULTS");
+  return given != nullptr ? std::max(1, std::atoi(given)) : 20;
+}
+
+bool within(std::chrono::milliseconds patience, const std::function<bool()>& happens) {
+  const auto until = std::chrono::steady_clock::now() + patience;
+  while (!happens()) {
+    if (std::chrono::steady_clock::now() > until) return false;
+    std::this_thread::sleep_for(1ms);
+  }
+  return true;
+}
+
+Device slow_device() {
+  DeviceParameters parameters;
+  parameters.name = "slow device";
+  parameters.bodies.push_back({"body", 2.0, 8.0, 0.0, 0.0});
+  parameters.loop.sampling_period = period;
+  parameters.wall.stiffness = 20.0;
+  parameters.actuator.force_limit = 20.0;
+  return Device(parameters);
+}
+
+/// `zwidth rig wall` on a drive, for ever.
+class Host {
+ public:
+  Host(const std::filesystem::path& folder, const std::string& address, const std::string& name,
+       const std::string& record) {
+    errors_ = folder / (name + ".errors");
+    const std::vector<std::string> words{ZWIDTH_PROGRAM, "rig", "wall", folder / "device.toml", "--driver", "udp:" + address,
+                                         "--position-limit", "1", "--duration", "100", "--amplitude", "1", "--ramp", "0",
+                                         "--flight-record", record};
+    std::vector<char*> arguments;
+    for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+    arguments.push_back(nullptr);
+    process_ = fork();
+    if (process_ != 0) return;
+    const int output = open(errors_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    dup2(output, 1);
+    dup2(output, 2);
+    execv(ZWIDTH_PROGRAM, arguments.data());
+    _exit(127);
+  }
+  ~Host() {
+    if (process_ > 0) kill(process_, SIGKILL), waitpid(process_, nullptr, 0);
+  }
+  Host(const Host&) = delete;
+  Host& operator=(const Host&) = delete;
+
+  void send(int signal) const { kill(process_, signal); }
+  /// Its exit status; -1 where it does not end in time, or by a signal.
+  int status() {
+    int status = 0;
+    if (!within(20s, [&] { return waitpid(process_, &status, WNOHANG) == process_; })) return -1;
+    process_ = -1;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  [[nodiscard]] std::string errors() const {
+    std::stringstream text;
+    text << std::ifstream(errors_).rdbuf();
+    return text.str();
+  }
+
+ private:
+  std::filesystem::path errors_;
+  pid_t process_ = -1;
+};
+
+class RigFault : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (std::filesystem::temp_directory_path() / "zwidth_rig_XXXXXX").string();
+    ASSERT_NE(mkdtemp(name.data()), nullptr);
+    folder = name;
+    std::ofstream(folder / "device.toml") << write_device(slow_device().parameters());
+  }
+  void TearDown() override { std::filesystem::remove_all(folder); }
+
+  /// The record is there as a whole: a header, rows of seven numbers, the last of them without a force.
+  void expect_whole_record() const {
+    std::ifstream file(folder / "record.csv");
+    std::string line;
+    ASSERT_TRUE(std::getline(file, line));
+    EXPECT_EQ(line, "time_s,force,position,velocity,wanted_force,latency_s,stop");
+    std::string last;
+    int rows = 0;
+    while (std::getline(file, line)) {
+      EXPECT_EQ(std::count(line.begin(), line.end(), ','), 6) << line;
+      last = line;
+      ++rows;
+    }
+    EXPECT_GT(rows, 3);
+    std::stringstream cells(last);
+    std::string time;
+    std::string force;
+    std::getline(std::getline(cells, time, ','), force, ',');
+    EXPECT_EQ(std::stod(force), 0.0) << last;
+  }
+  void expect_no_crumbs() const {
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+      EXPECT_THAT(entry.path().filename().string(), AnyOf("device.toml", "record.csv", "host.errors", "other.errors"));
+    }
+  }
+
+  /// The rig runs, with a force; then comes `fault`, and the rig stops by itself.
+  void expect_stop(const std::function<void(UdpEmulator&, Host&)>& fault, const testing::Matcher<std::string>& reason) {
+    for (int i = 0; i < times(); ++i) {
+      UdpEmulator emulator(slow_device());
+      Host host(folder, emulator.address(), "host", folder / "record.csv");
+      ASSERT_TRUE(within(20s, [&] { return emulator.nonzero_forces() > 5; })) << host.errors();
+      const int forces_before = emulator.nonzero_forces();
+      fault(emulator, host);
+      EXPECT_EQ(host.status(), 1) << host.errors();
+      EXPECT_LE(emulator.nonzero_forces() - forces_before, most_cycles_after) << "run " << i;
+      EXPECT_THAT(host.errors(), reason);
+      emulator.set_fault(Fault::none);
+      EXPECT_TRUE(within(5s, [&] { return emulator.force() == 0.0; })) << "run " << i;
+      expect_whole_record();
+      expect_no_crumbs();
+      if (HasFailure()) return;
+    }
+  }
+
+  /// A machine that pauses for three periods stops the rig too, and earlier.
+  static testing::Matcher<std::string> stopped_by(const std::string& reason) {
+    return AnyOf(HasSubstr(reason), HasSubstr("came late"), HasSubstr("stood still"));
+  }
+
+  std::filesystem::path folder;
+};
+
+TEST_F(RigFault, AKilledHostLeavesTheDriveToItsWatchdog) {
+  for (int i = 0; i < times(); ++i) {
+    UdpEmulator emulator(slow_device());
+    Host host(folder, emulator.address(), "host", folder / "record.csv");
+    ASSERT_TRUE(within(20s, [&] { return emulator.nonzero_forces() > 5; })) << host.errors();
+    const int let_go_before = emulator.times_let_go();
+    host.send(SIGKILL);
+    EXPECT_EQ(host.status(), -1);
+    EXPECT_TRUE(within(5s, [&] { return emulator.times_let_go() > let_go_before; }));
+    EXPECT_EQ(emulator.force(), 0.0);
+    EXPECT_FALSE(std::filesystem::exists(folder / "record.csv")) << "whole or not at all";
+    expect_no_crumbs();
+  }
+}
+
+TEST_F(RigFault, UnpluggedLink) {
+  expect_stop([](UdpEmulator& drive, Host&) { drive.set_fault(Fault::silent); }, stopped_by("brought no position"));
+}
+TEST_F(RigFault, HalfFrames) {
+  expect_stop([](UdpEmulator& drive, Host&) { drive.set_fault(Fault::half_frames); }, stopped_by("brought no position"));
+}
+TEST_F(RigFault, WrongChecksums) {
+  expect_stop([](UdpEmulator& drive, Host&) { drive.set_fault(Fault::wrong_checksum); }, stopped_by("brought no position"));
+}
+TEST_F(RigFault, AStalledReader) {
+  expect_stop([](UdpEmulator& drive, Host&) { drive.set_fault(Fault::stalled); }, stopped_by("brought no position"));
+}
+TEST_F(RigFault, LateAnswers) {
+  expect_stop([](UdpEmulator& drive, Host&) { drive.set_fault(Fault::late); }, stopped_by("brought no position"));
+}
+TEST_F(RigFault, APositionThatIsNoNumber) {
+  expect_stop([](UdpEmulator& drive, Host&) { drive.set_fault(Fault::not_a_number); }, stopped_by("not a number"));
+}
+TEST_F(RigFault, AnInterrupt) {
+  expect_stop([](UdpEmulator&, Host& host) { host.send(SIGINT); }, stopped_by("interrupted"));
+}
+TEST_F(RigFault, AHostThatIsHeldUpBeyondThreeCycles) {
+  expect_stop(
+      [](UdpEmulator&, Host& host) {
+        host.send(SIGSTOP);
+        std::this_thread::sleep_for(400ms);
+        host.send(SIGCONT);
+      },
+      AnyOf(HasSubstr("came late"), HasSubstr("stood still")));
+}
+
+TEST_F(RigFault, AFullDiskForTheRecord) {
+  for (int i = 0; i < times(); ++i) {
+    UdpEmulator emulator(slow_device());
+    Host host(folder, emulator.address(), "host", "/dev/full");
+    ASSERT_TRUE(within(20s, [&] { return emulator.nonzero_forces() > 5; })) << host.errors();
+    host.send(SIGINT);
+    EXPECT_EQ(host.status(), 1);
+    EXPECT_THAT(host.errors(), HasSubstr("/dev/full"));
+    EXPECT_TRUE(within(5s, [&] { return emulator.force() == 0.0; }));
+  }
+}
+
+TEST_F(RigFault, ASecondRigOnTheSameDrive) {
+  for (int i = 0; i < times(); ++i) {
+    UdpEmulator emulator(slow_device());
+    Host host(folder, emulator.address(), "host", folder / "record.csv");
+    ASSERT_TRUE(within(20s, [&] { return emulator.nonzero_forces() > 5; })) << host.errors();
+    Host other(folder, emulator.address(), "other", folder / "other.csv");
+    EXPECT_EQ(other.status(), 1);
+    EXPECT_THAT(other.errors(), HasSubstr("no other rig holds it"));
+    host.send(SIGINT);
+    EXPECT_EQ(host.status(), 1);
+    EXPECT_TRUE(within(5s, [&] { return emulator.force() == 0.0; }));
+    expect_whole_record();
+    expect_no_crumbs();
+  }
+}
+
+TEST_F(RigFault, FirmwareWithoutAWatchdogIsRefused) {
+  UdpEmulator emulator(slow_device());
+  emulator.set_fault(Fault::no_watchdog);
+  Host host(folder, emulator.address(), "host", folder / "record.csv");
+  EXPECT_EQ(host.status(), 1);
+  EXPECT_THAT(host.errors(), HasSubstr("--no-watchdog"));
+  EXPECT_EQ(emulator.nonzero_forces(), 0);
+}
+
+}  // namespace
+}  // namespace zwidth::rig

@@ -1,0 +1,134 @@
+#include "rig/udp_driver.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "rig/rig_actions.hpp"
+#include "rig/rig_devices.hpp"
+#include "rig/udp_emulator.hpp"
+#include "rig/udp_frame.hpp"
+
+namespace zwidth::rig {
+namespace {
+
+using test::UdpEmulator;
+
+std::string hexadecimal(std::span<const std::byte> bytes) {
+  std::string text;
+  for (const std::byte byte : bytes) {
+    text += "0123456789abcdef"[std::to_integer<unsigned>(byte >> 4U)];
+    text += "0123456789abcdef"[std::to_integer<unsigned>(byte & std::byte{15})];
+  }
+  return text;
+}
+
+// Written by hand from the table in docs/rig.md: 7, 1.5 s, -0.25 m, 2 m/s, 0.5 N, and zlib.crc32 of that.
+TEST(UdpFrame, IsTheDocumentedOne) {
+  const auto bytes = encoded({7, 1.5, -0.25, 2.0, 0.5});
+  EXPECT_EQ(hexadecimal(bytes),
+            "07000000"
+            "000000000000f83f"
+            "000000000000d0bf"
+            "0000000000000040"
+            "000000000000e03f"
+            "d5bae693");
+  const auto frame = decoded_udp_frame(bytes);
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->sequence, 7U);
+  EXPECT_EQ(frame->position, -0.25);
+  EXPECT_EQ(frame->force, 0.5);
+}
+
+TEST(UdpFrame, RefusesEveryFlippedBitAndEveryOtherLength) {
+  const auto bytes = encoded({123456, 1.0, 2.0, 3.0, 4.0});
+  for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
+    auto flipped = bytes;
+    flipped.at(bit / 8) ^= std::byte{1} << (bit % 8);
+    EXPECT_FALSE(decoded_udp_frame(flipped)) << "bit " << bit;
+  }
+  std::vector<std::byte> longer(bytes.begin(), bytes.end());
+  longer.push_back(std::byte{0});
+  EXPECT_FALSE(decoded_udp_frame(longer));
+  for (std::size_t size = 0; size < bytes.size(); ++size) {
+    EXPECT_FALSE(decoded_udp_frame(std::span(bytes).first(size)));
+  }
+}
+
+TEST(UdpDriver, ProvesTheWatchdogBySilence) {
+  const Device device = test::bench_device(1);
+  UdpEmulator emulator(device);
+  UdpDriver driver(emulator.address(), 0.02);
+  EXPECT_EQ(driver.proves_watchdog(), true);
+  EXPECT_EQ(emulator.times_let_go(), 1);
+  EXPECT_EQ(emulator.nonzero_forces(), 0) << "with no force at all";
+  emulator.set_fault(UdpEmulator::Fault::no_watchdog);
+  EXPECT_EQ(driver.proves_watchdog(), false);
+  EXPECT_FALSE(driver.facts().watchdog);
+}
+
+TEST(UdpDriver, TellsWhatCannotBeReached) {
+  const auto message = [](const std::string& address) -> std::string {
+    try {
+      UdpDriver driver(address, 1e-3);
+      return "";
+    } catch (const DriverFailed& problem) {
+      return problem.what();
+    }
+  };
+  EXPECT_NE(message("localhost").find("udp:HOST:PORT"), std::string::npos);
+  EXPECT_NE(message("127.0.0.1:").find("udp:HOST:PORT"), std::string::npos);
+  EXPECT_NE(message("127.0.0.1:http").find("no such address"), std::string::npos);
+  EXPECT_NE(message("127.0.0.1:1").find("does not answer"), std::string::npos);
+}
+
+// Over the link the same numbers as without it: the drive moves one period with each force.
+TEST(UdpDriver, TheLimitOverTheLink) {
+  const Device device = test::bench_device(2);
+  const double expected = critical_stiffness(device).stiffness;
+  UdpEmulator emulator(device);
+  UdpDriver driver(emulator.address(), device.loop().sampling_period, true);
+  const RigLimit limit = measure_limit(device, driver, {}, default_limit(device), {});
+  ASSERT_TRUE(limit.measured.stiffness);
+  EXPECT_NEAR(*limit.measured.stiffness / expected, 1.0, 0.02);
+  EXPECT_NEAR(limit.measured.frequency / limit.predicted.limit->frequency, 1.0, 0.02);
+  EXPECT_EQ(limit.session.stop, StopReason::none);
+  EXPECT_EQ(emulator.force(), 0.0);
+}
+
+TEST(UdpDriver, IdentificationOverTheLink) {
+  const Device device = test::bench_device(1);
+  UdpEmulator emulator(device);
+  UdpDriver driver(emulator.address(), device.loop().sampling_period, true);
+  const RigIdentification found = identify_on_rig(device, driver, {}, default_measurement(device), {});
+  ASSERT_TRUE(found.identification);
+  EXPECT_NEAR(found.identification->analysis.critical.stiffness / critical_stiffness(device).stiffness, 1.0, 0.03);
+}
+
+TEST(UdpDriver, TheRelayOverTheLink) {
+  const Device device = test::bench_device(1);
+  UdpEmulator emulator(device);
+  UdpDriver driver(emulator.address(), device.loop().sampling_period, true);
+  RigOptions at_once;
+  at_once.limits.ramp = 0.0;
+  RelayTrialsOptions trials;
+  trials.relay.amplitude = default_force(device);
+  trials.trials = 1;
+  trials.duration = 10.0;
+  const RigRelay measured = relay_on_rig(device, driver, at_once, trials, {});
+  RelayOptions options;
+  options.relay = trials.relay;
+  options.trials = 1;
+  options.duration = 10.0;
+  options.variation = 0.0;
+  const RelayResult simulated = relay(device, options);
+  ASSERT_TRUE(measured.relay && measured.relay->mean && simulated.mean);
+  EXPECT_NEAR(measured.relay->mean->frequency / simulated.mean->frequency, 1.0, 0.05);
+  EXPECT_NEAR(measured.relay->mean->stiffness / simulated.mean->stiffness, 1.0, 0.05);
+}
+
+}  // namespace
+}  // namespace zwidth::rig
