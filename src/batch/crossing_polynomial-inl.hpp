@@ -16,8 +16,7 @@
 #include "batch/kernel_terms-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace zwidth::internal {
-namespace HWY_NAMESPACE {
+namespace zwidth::internal::HWY_NAMESPACE {
 
 // Most coefficients: of delta^5 with its power of z, twelve samples of delay, and the damper.
 inline constexpr std::size_t most_coefficients = 20;
@@ -158,7 +157,6 @@ HWY_INLINE SizedPolynomial crossing_polynomial(const KernelGroup& group, const T
   return f;
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace zwidth::internal
+}  // namespace zwidth::internal::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

@@ -12,8 +12,7 @@
 #include "batch/kernel_terms-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace zwidth::internal {
-namespace HWY_NAMESPACE {
+namespace zwidth::internal::HWY_NAMESPACE {
 
 // A value and its derivative by x.
 struct Jet {
@@ -224,7 +223,6 @@ HWY_INLINE AtNyquist at_nyquist(const KernelGroup& group, const V* row) {
   return at;
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace zwidth::internal
+}  // namespace zwidth::internal::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

@@ -12,8 +12,7 @@
 #include "batch/stiffness_kernel.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace zwidth::internal {
-namespace HWY_NAMESPACE {
+namespace zwidth::internal::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 using Tag = hn::CappedTag<double, 8>;
@@ -260,7 +259,6 @@ HWY_INLINE M terms_of(const KernelGroup& group, const V* in, Terms& out) {
   return hn::And(fits, turning < number(most_turning));
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace zwidth::internal
+}  // namespace zwidth::internal::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

@@ -10,8 +10,7 @@
 #include "batch/kernel_terms-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace zwidth::internal {
-namespace HWY_NAMESPACE {
+namespace zwidth::internal::HWY_NAMESPACE {
 
 inline constexpr std::size_t most_states = 5;
 inline constexpr std::size_t most_degree = 22;  // of the closed loop
@@ -357,7 +356,6 @@ HWY_INLINE M poles_confirm(const KernelGroup& group, const V* in, V stiffness) {
   return hn::And(half, hn::And(below, above));
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace zwidth::internal
+}  // namespace zwidth::internal::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

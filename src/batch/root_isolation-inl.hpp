@@ -10,8 +10,7 @@
 #include "batch/crossing_polynomial-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace zwidth::internal {
-namespace HWY_NAMESPACE {
+namespace zwidth::internal::HWY_NAMESPACE {
 
 using Index = hn::RebindToSigned<Tag>;
 using I = hn::Vec<Index>;
@@ -205,7 +204,6 @@ HWY_INLINE V refine_root(const V* c, std::size_t count, V begin, V end, V at_beg
   return x;
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace zwidth::internal
+}  // namespace zwidth::internal::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

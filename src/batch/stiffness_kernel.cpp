@@ -18,8 +18,7 @@
 #include "batch/root_isolation-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace zwidth::internal {
-namespace HWY_NAMESPACE {
+namespace zwidth::internal::HWY_NAMESPACE {
 
 // A device's crossover of least stiffness, and what else is close to it.
 enum BestRow : std::size_t { best_stiffness, best_x, next_stiffness, best_rows };
@@ -220,8 +219,7 @@ void solve(const KernelGroup& group, const KernelDevices& devices, std::size_t c
   answer(group, devices, count, length, best, answers, scratch);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace zwidth::internal
+}  // namespace zwidth::internal::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
