@@ -176,10 +176,11 @@ HWY_INLINE void isolate_roots(const Polynomials& p, Tasks& tasks, Roots& roots, 
   }
 }
 
-// Newton's steps, kept within the bracket: x of each root, to the rounding of the coefficients.
+// Newton's steps, kept within the bracket: x of each root. After a step that small the next, squared, is rounding.
 HWY_INLINE V refine_root(const V* c, std::size_t count, V begin, V end, V at_begin) {
   const Tag tag;
   constexpr int most_steps = 80;
+  constexpr double last_refinement = 1e-6;
   const V zero = hn::Zero(tag);
   V x = division_of(begin, end);
   M done = hn::FirstN(tag, 0);
@@ -196,7 +197,7 @@ HWY_INLINE V refine_root(const V* c, std::size_t count, V begin, V end, V at_beg
     const V newton = x - value / slope;
     const M inside = hn::And(newton > begin, newton < end);
     const V next = choose(inside, newton, division_of(begin, end));
-    const M arrived = hn::Or(hn::Abs(next - x) <= number(1e-13) * x, value == zero);
+    const M arrived = hn::Or(hn::Abs(next - x) <= number(last_refinement) * x, value == zero);
     x = choose(done, x, choose(value == zero, x, next));
     done = hn::Or(done, arrived);
     if (hn::AllTrue(tag, done)) break;
