@@ -131,6 +131,10 @@ Study summary(const StudyRun& run, const ChunkSource& chunks, const Progress& pr
   add_indices(run, study);
   stages.next(0.85);
   add_tightening(run, study);
+  stages.next(0.95);
+  if (run.options().rare_samples > 0) {
+    study.rare_failures = rare_failures(run, {.samples = run.options().rare_samples});
+  }
   stages.next(1.0);
   if (run.options().worst) study.worst = find_worst(run, lows);
   judge(run, study);

@@ -69,6 +69,15 @@ std::optional<OptionProblem> find_problem(const StudyOptions& options, const Dev
     }
   }
   const Specification& wanted = options.specification;
+  if (options.rare_samples != 0) {
+    if (options.rare_samples < 100 || options.rare_samples > most_side_samples) {
+      return OptionProblem{"rare_samples", fmt::format("is {}", options.rare_samples),
+                           fmt::format("must be 0, or 100 to {}", most_side_samples)};
+    }
+    if (!wanted.critical_stiffness && !wanted.any_user) {
+      return OptionProblem{"rare_samples", "is given without a specification", "failures need [specification]"};
+    }
+  }
   if (auto problem = find_specification_problem("critical_stiffness", wanted.critical_stiffness)) return problem;
   if (auto problem = find_specification_problem("any_user", wanted.any_user)) return problem;
   if ((options.any_user || wanted.any_user) && !device.has_bodies()) {

@@ -10,6 +10,7 @@
 #include "zwidth/progress.hpp"
 #include "zwidth/remark.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
+#include "zwidth/study/rare_failures.hpp"
 #include "zwidth/study/sample_statistics.hpp"
 #include "zwidth/study/sobol_indices.hpp"
 #include "zwidth/study/study_distributions.hpp"
@@ -26,11 +27,13 @@ struct StudyOptions {
   bool any_user = false;  ///< the limit over all passive users too, much slower; so it is where a specification has it
   std::uint64_t index_samples = 1024;         ///< of each set of Sobol indices; 0: none
   std::uint64_t tightening_samples = 10'000;  ///< on which a tighter tolerance is tried, `samples` at most; 0: none
+  std::uint64_t rare_samples = 0;             ///< importance sampling of failures with so many units; 0: none
   bool worst = true;                          ///< search for the worst device
   std::size_t threads = 0;                    ///< 0: all cores. No result depends on it
 };
 
-/// Checks: samples and parameters as SamplingPlan; index_samples and tightening_samples at most 2^24; a specification
+/// Checks: samples and parameters as SamplingPlan; index_samples and tightening_samples at most 2^24; rare_samples 0 or 100 to
+/// 2^24, with a specification; a specification
 /// finite and > 0, of any user for bodies alone; threads.
 [[nodiscard]] std::optional<OptionProblem> find_problem(const StudyOptions& options, const Device& device,
                                                         const StudyDistributions& distributions);
@@ -117,6 +120,7 @@ struct Study {
   std::vector<FailureCluster> clusters;                   ///< largest first; empty without a specification
   std::optional<std::vector<SobolIndex>> sobol_indices;   ///< by parameter; absent where a remark says why
   std::optional<std::vector<TighteningGain>> tightening;  ///< by parameter; absent without a specification
+  std::optional<RareFailures> rare_failures;              ///< absent unless asked for
   std::optional<WorstDevice> worst;
   std::vector<StudyPoint> points;  ///< of at most 2000 samples, evenly apart
   std::uint64_t scalar_count = 0;  ///< samples that critical_stiffness(Device) answered, not the batch kernel
