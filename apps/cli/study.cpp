@@ -35,6 +35,7 @@ struct StudyArguments {
   std::optional<std::string> sampling;
   std::size_t threads = 0;
   std::optional<std::uint64_t> index_samples;
+  std::uint64_t rare_samples = 0;
   std::string result;
   std::string report;
   std::string worst;
@@ -46,6 +47,7 @@ constexpr std::pair<std::string_view, std::string_view> options_of_study[] = {
     {"samples", "--samples"},
     {"threads", "--threads"},
     {"index_samples", "--index-samples"},
+    {"rare_samples", "--rare-samples"},
     {"specification.any_user", "--study"},
     {"parameters", "--study"},
     {"specification.critical_stiffness", "--study"}};
@@ -62,6 +64,7 @@ StudyOptions options_of(const StudyArguments& arguments, const StudyFile& file) 
   }
   options.threads = arguments.threads;
   options.index_samples = arguments.index_samples.value_or(options.index_samples);
+  options.rare_samples = arguments.rare_samples;
   options.specification = file.specification;
   return options;
 }
@@ -155,6 +158,10 @@ void add_study(CLI::App& app) {
   command
       ->add_option("--index-samples", arguments->index_samples,
                    "Points of each set of Sobol indices; 0: none (default: 1024)")
+      ->type_name("N");
+  command
+      ->add_option("--rare-samples", arguments->rare_samples,
+                   "Share of failures by importance sampling with N units; for one in a thousand or less")
       ->type_name("N");
   command->add_option("--threads", arguments->threads, "0: all cores; no result depends on it (default: 0)")
       ->type_name("T");

@@ -81,6 +81,19 @@ Json tightening_json(const Study& study) {
   return list;
 }
 
+Json rare_json(const Study& study) {
+  if (!study.rare_failures) return nullptr;
+  const RareFailures& rare = *study.rare_failures;
+  Json points = Json::array();
+  for (const DesignPoint& each : rare.points) points.push_back({{"distance", each.distance}, {"scores", each.scores}});
+  return {{"share", rare.share},
+          {"error", rare.error},
+          {"interval", {rare.lower, rare.upper}},
+          {"evaluations", rare.evaluations},
+          {"design_points", points},
+          {"trust", rare.trust}};
+}
+
 }  // namespace
 
 Json study_json(const StudyRun& run, const Study& study) {
@@ -114,6 +127,7 @@ Json study_json(const StudyRun& run, const Study& study) {
   json["clusters"] = clusters_json(study);
   json["sobol_indices"] = indices_json(study);
   json["tightening"] = tightening_json(study);
+  json["rare_failures"] = rare_json(study);
   json["worst"] = worst_json(study);
   json["trust"] = study.trust;
   json["remarks"] = study.remarks;

@@ -31,6 +31,8 @@ std::string study_page(const StudyRun& run, const Study& study) {
   std::string body = element("h1", title) + "<div class=\"answer\">\n";
   if (const auto note = trust_note(study.trust)) body += element("p", *note);
   body += element("p", yield_sentence(run, study));
+  const std::string rare = rare_sentence(study);
+  if (!rare.empty()) body += element("p", rare);
   const std::string tightening = tightening_sentence(study);
   if (!tightening.empty()) body += element("p", tightening);
   body += "</div>\n";

@@ -164,6 +164,14 @@ std::string tightening_sentence(const Study& study) {
                      study.keys[static_cast<std::size_t>(best - gains.begin())], 100.0 * best->yield_gain);
 }
 
+std::string rare_sentence(const Study& study) {
+  if (!study.rare_failures) return {};
+  const RareFailures& rare = *study.rare_failures;
+  const auto note = trust_note(rare.trust);
+  return fmt::format("By importance sampling a share of {:.3g} misses it (95 % interval {:.3g} to {:.3g}).{}",
+                     rare.share, rare.lower, rare.upper, note ? " " + *note : std::string());
+}
+
 std::string study_text(const StudyRun& run, const Study& study) {
   std::string text = shortened(display_name(run.device()), line_width) + "\n";
   if (const auto note = trust_note(study.trust)) text += wrap(*note, line_width, 0);
@@ -183,6 +191,7 @@ std::string study_text(const StudyRun& run, const Study& study) {
     paragraph(fmt::format("Units without any stable wall: {}; unbounded: {}; without an answer: {}.", study.none_stable,
                           study.unbounded, study.failed_count));
   }
+  paragraph(rare_sentence(study));
   paragraph(worst_sentence(run, study));
   paragraph(tightening_sentence(study));
   table("Critical stiffness K_CR", quantile_table(run, study));

@@ -24,6 +24,9 @@ namespace zwidth::report {
 /// Which tolerance to tighten first. Empty where none gains.
 [[nodiscard]] std::string tightening_sentence(const Study& study);
 
+/// The share of failures by importance sampling. Empty unless asked for.
+[[nodiscard]] std::string rare_sentence(const Study& study);
+
 /// "vibration mode 1", "no wall is stable", ...
 [[nodiscard]] std::string mechanism_of(StiffnessStatus status, int mode);
 
