@@ -23,7 +23,7 @@ constexpr double watchdog = 0.1;                        // s, of the protocol
 constexpr std::int64_t silence = 250'000'000;           // ns, after which it must have let go
 constexpr double share_of_period = 0.5;                 // for a position
 constexpr std::int64_t lock_step_patience = 500'000'000;
-constexpr int idle_frames = 3;                          // one may be lost
+constexpr int idle_frames = 3;  // one may be lost
 constexpr double question = std::numeric_limits<double>::quiet_NaN();
 
 int connected_socket(const std::string& address) {
@@ -123,7 +123,8 @@ std::optional<bool> UdpDriver::proves_watchdog() {
     return *frame;
   };
   (void)ask(0.0);
-  if (std::isnan(ask(question).force)) throw DriverFailed("the drive does not take a force: it says that it has let go");
+  if (std::isnan(ask(question).force))
+    throw DriverFailed("the drive does not take a force: it says that it has let go");
   sleep_until(clock_now() + silence);
   const bool has_let_go = std::isnan(ask(question).force);
   if (!has_let_go) facts_.watchdog.reset();

@@ -70,8 +70,8 @@ TEST_F(Rig, ARefusedDeviceNever) {
 
 TEST_F(Rig, AnUnstableWallIsRefusedAndIfAcceptedTakenAwayAtOnce) {
   expect_refused("wall " + lhifam + "--stiffness 20000", 1, "UNSTABLE");
-  const Outcome outcome =
-      run("zwidth rig wall --json " + lhifam + "--stiffness 20000 --accept-unstable --duration 60 --flight-record f.csv");
+  const Outcome outcome = run("zwidth rig wall --json " + lhifam +
+                              "--stiffness 20000 --accept-unstable --duration 60 --flight-record f.csv");
   EXPECT_EQ(outcome.status, 1);
   EXPECT_THAT(outcome.errors, HasSubstr("an oscillation grew"));
   const auto wall = nlohmann::json::parse(outcome.output, nullptr, false);
@@ -144,12 +144,14 @@ TEST_F(Rig, TellsWhatItCannotDo) {
   expect_refused("check " + lhifam + "--driver serial", 2, "--driver: serial is none; simulated, or udp:HOST:PORT");
   expect_refused("check " + lhifam + "--driver udp:127.0.0.1:9", 2, "--force-limit: missing");
   expect_refused("check " + lhifam + "--driver udp:127.0.0.1:9 --force-limit 1", 2, "--position-limit: missing");
-  expect_refused("check " + lhifam + "--driver udp:127.0.0.1:9 --force-limit 1 --position-limit 1", 1, "does not answer");
+  expect_refused("check " + lhifam + "--driver udp:127.0.0.1:9 --force-limit 1 --position-limit 1", 1,
+                 "does not answer");
   expect_refused("check " + lhifam + "--driver udp:9 --start 1", 2, "--start: is for a simulated device");
 }
 
 TEST_F(Rig, KeepsTheClockWhereAsked) {
-  const Outcome outcome = run("zwidth rig check " + lhifam + "--set loop.sampling_period=0.02 --real-time --duration 1 --json");
+  const Outcome outcome =
+      run("zwidth rig check " + lhifam + "--set loop.sampling_period=0.02 --real-time --duration 1 --json");
   const auto document = nlohmann::json::parse(outcome.output, nullptr, false);
   EXPECT_EQ(document["session"]["lock_step"], false);
   EXPECT_GT(document["session"]["timing"]["latency_s"]["count"], 3);

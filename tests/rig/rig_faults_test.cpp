@@ -6,13 +6,16 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <functional>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -64,9 +67,22 @@ class Host {
   Host(const std::filesystem::path& folder, const std::string& address, const std::string& name,
        const std::string& record) {
     errors_ = folder / (name + ".errors");
-    const std::vector<std::string> words{ZWIDTH_PROGRAM, "rig", "wall", folder / "device.toml", "--driver", "udp:" + address,
-                                         "--position-limit", "1", "--duration", "100", "--amplitude", "1", "--ramp", "0",
-                                         "--flight-record", record};
+    const std::vector<std::string> words{ZWIDTH_PROGRAM,
+                                         "rig",
+                                         "wall",
+                                         folder / "device.toml",
+                                         "--driver",
+                                         "udp:" + address,
+                                         "--position-limit",
+                                         "1",
+                                         "--duration",
+                                         "100",
+                                         "--amplitude",
+                                         "1",
+                                         "--ramp",
+                                         "0",
+                                         "--flight-record",
+                                         record};
     std::vector<char*> arguments;
     for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
     arguments.push_back(nullptr);
@@ -103,6 +119,41 @@ class Host {
   pid_t process_ = -1;
 };
 
+/// The drive of examples/, and what it prints.
+class ExampleDrive {
+ public:
+  explicit ExampleDrive(const std::string& program) {
+    std::array<int, 2> ends{};
+    if (pipe(ends.data()) != 0) throw std::runtime_error("no pipe");
+    process_ = fork();
+    if (process_ == 0) {
+      dup2(ends[1], 1);
+      close(ends[0]);
+      close(ends[1]);
+      execl(program.c_str(), program.c_str(), "0", nullptr);
+      _exit(127);
+    }
+    close(ends[1]);
+    output_ = fdopen(ends[0], "r");
+  }
+  ~ExampleDrive() {
+    kill(process_, SIGKILL);
+    waitpid(process_, nullptr, 0);
+    std::fclose(output_);
+  }
+  ExampleDrive(const ExampleDrive&) = delete;
+  ExampleDrive& operator=(const ExampleDrive&) = delete;
+
+  [[nodiscard]] std::string line() const {
+    std::array<char, 64> text{};
+    return std::fgets(text.data(), text.size(), output_) != nullptr ? text.data() : "";
+  }
+
+ private:
+  pid_t process_ = -1;
+  FILE* output_ = nullptr;
+};
+
 class RigFault : public testing::Test {
  protected:
   void SetUp() override {
@@ -135,7 +186,8 @@ class RigFault : public testing::Test {
   }
   void expect_no_crumbs() const {
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-      EXPECT_THAT(entry.path().filename().string(), AnyOf("device.toml", "record.csv", "host.errors", "other.errors"));
+      EXPECT_THAT(entry.path().filename().string(),
+                  AnyOf("device.toml", "record.csv", "host.errors", "other.errors", "udp_drive"));
     }
   }
 
@@ -185,10 +237,12 @@ TEST_F(RigFault, UnpluggedLink) {
   expect_stop([](UdpEmulator& drive, Host&) { drive.set_fault(Fault::silent); }, stopped_by("brought no position"));
 }
 TEST_F(RigFault, HalfFrames) {
-  expect_stop([](UdpEmulator& drive, Host&) { drive.set_fault(Fault::half_frames); }, stopped_by("brought no position"));
+  expect_stop([](UdpEmulator& drive, Host&) { drive.set_fault(Fault::half_frames); },
+              stopped_by("brought no position"));
 }
 TEST_F(RigFault, WrongChecksums) {
-  expect_stop([](UdpEmulator& drive, Host&) { drive.set_fault(Fault::wrong_checksum); }, stopped_by("brought no position"));
+  expect_stop([](UdpEmulator& drive, Host&) { drive.set_fault(Fault::wrong_checksum); },
+              stopped_by("brought no position"));
 }
 TEST_F(RigFault, AStalledReader) {
   expect_stop([](UdpEmulator& drive, Host&) { drive.set_fault(Fault::stalled); }, stopped_by("brought no position"));
@@ -238,6 +292,23 @@ TEST_F(RigFault, ASecondRigOnTheSameDrive) {
     expect_whole_record();
     expect_no_crumbs();
   }
+}
+
+TEST_F(RigFault, TheExampleInCIsSuchADrive) {
+  const std::string drive = folder / "udp_drive";
+  ASSERT_EQ(std::system(("cc -std=c99 -O1 -Wall -Wextra -Werror -o " + drive +
+                         " " ZWIDTH_SOURCE_DIR "/examples/udp_drive/udp_drive.c -lm")
+                            .c_str()),
+            0);
+  ExampleDrive example(drive);
+  int port = 0;
+  ASSERT_EQ(std::sscanf(example.line().c_str(), "port %d", &port), 1);
+  Host host(folder, "127.0.0.1:" + std::to_string(port), "host", folder / "record.csv");
+  EXPECT_EQ(example.line(), "takes hold\n") << "to prove the watchdog";
+  EXPECT_EQ(example.line(), "let go\n");
+  EXPECT_EQ(example.line(), "takes hold\n");
+  host.send(SIGKILL);
+  EXPECT_EQ(example.line(), "let go\n");
 }
 
 TEST_F(RigFault, FirmwareWithoutAWatchdogIsRefused) {
