@@ -54,7 +54,7 @@ bool OscillationWatch::Rise::update(double amplitude) noexcept {
   return windows >= rises_of_growth && amplitude > growth * lowest;
 }
 
-bool OscillationWatch::advance(Band& band, double position) noexcept {
+bool OscillationWatch::advance(Band& band, double position) const noexcept {
   const double weight = 0.5 - 0.5 * band.hann.real();
   band.sum += weight * position * band.carrier;
   band.position_sum += position;

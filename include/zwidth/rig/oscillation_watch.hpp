@@ -67,7 +67,7 @@ class OscillationWatch {
     double square_sum = 0.0;
   };
 
-  bool advance(Band& band, double position) noexcept;
+  bool advance(Band& band, double position) const noexcept;
   bool sweep(double position) noexcept;
 
   std::array<Band, most_frequencies> bands_{};
