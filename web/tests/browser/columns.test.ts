@@ -1,0 +1,91 @@
+// Recordings whose columns are not in SI units, and what must not break over lines or leave gaps.
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs'
+import { tmpdir } from 'node:os'
+import type { Browser } from 'playwright-core'
+import { afterAll, beforeAll, expect, it } from 'vitest'
+import { say } from '../../src/model/decimal'
+import { documentOf, openBrowser, openPage, project, row, runPalette, type Served, serve, settled, type } from './program'
+
+let served: Served
+let browser: Browser
+const folder = mkdtempSync(`${tmpdir()}/zwidth-`)
+beforeAll(async () => {
+  served = await serve()
+  browser = await openBrowser()
+})
+afterAll(async () => {
+  await browser?.close()
+  await served?.stop()
+  rmSync(folder, { recursive: true })
+})
+
+it('takes the unit of a column, to which the remark on counts leads', async () => {
+  const file = `${folder}/counts.csv`
+  // The position of the recording in whole steps of 2 um.
+  const [head, ...lines] = readFileSync(`${project}/recordings/locked_chirp.csv`, 'utf8').trim().split('\n')
+  const at = head!.split(',').indexOf('position')
+  writeFileSync(file, [head, ...lines.map((line) => line.split(',').map((cell, i) => (i === at ? String(Math.round(Number(cell) / 2e-6)) : cell)).join(','))].join('\n'))
+  const { page, complaints } = await openPage(browser, served, 1280)
+  await runPalette(page, 'show: from a recording')
+  await page.getByLabel(/choose it/).setInputFiles(file)
+  await page.getByRole('button', { name: 'Fit', exact: true }).click()
+  await page.getByRole('button', { name: 'say what one of them is' }).click()
+  await page.waitForFunction(() => document.activeElement?.id === 'scale-position')
+  await page.keyboard.type('2 kg')
+  await page.keyboard.press('Tab')
+  await page.locator('#scale-position-problem', { hasText: 'kg' }).waitFor()
+  await page.getByLabel('One unit of the position is').fill('2 um')
+  await page.keyboard.press('Tab')
+  await page.getByRole('button', { name: 'Use this device' }).waitFor()
+  await settled(page)
+  const fitted = documentOf('identify', file, '--force', 'force', '--position', 'position', '--position-scale', '2e-6', '--structure', 'two-body', '--motion', 'linear')
+  expect(await page.locator('#body-recording').innerText()).toContain(`The device fitted: critical stiffness ${say(Number(fitted.critical_stiffness), 'N/m')}`)
+  expect(complaints).toEqual([])
+  await page.context().close()
+})
+
+it.each([1280, 390])('breaks no number of a wall over lines, %i pixels wide', async (width) => {
+  const { page, complaints } = await openPage(browser, served, width)
+  await runPalette(page, 'new motor and wheel, rotary')
+  await runPalette(page, 'show: which wall')
+  await page.getByRole('button', { name: 'Use this wall: recommended' }).waitFor()
+  await settled(page)
+  const broken = await page.locator('#body-recommend td:not(.words)').evaluateAll((cells) => 
+    cells.filter((cell) => {
+      const text = document.createRange()
+      text.selectNodeContents(cell)
+      return new Set([...text.getClientRects()].map((each) => Math.round(each.top))).size > 1
+    }).map((cell) => cell.textContent))
+  expect(broken).toEqual([])
+  expect(await page.locator('#body-recommend .scroll-x').evaluate((each) => each.scrollWidth - each.clientWidth)).toBeLessThanOrEqual(0)
+  expect(complaints).toEqual([])
+  await page.context().close()
+})
+
+it('leaves no empty space at an unstable wall, and lets nothing jump while it is dragged', async () => {
+  const { page, complaints } = await openPage(browser, served, 390)
+  await type(page, 'wall.stiffness', '3 kN/m')
+  await settled(page)
+  const word = page.locator('[data-answer="wall"]')
+  const height = (): Promise<number> => word.evaluate((each) => each.getBoundingClientRect().height)
+  const stable = await height()
+  const slider = row(page, 'wall.stiffness').locator('input[type="range"]')
+  await slider.scrollIntoViewIfNeeded()
+  const box = (await slider.boundingBox())!
+  const y = box.y + box.height / 2
+  await page.mouse.move(box.x + box.width / 2, y)
+  await page.mouse.down()
+  let least = Infinity
+  for (let share = 0.5; share < 0.95; share += 0.05) {
+    await page.mouse.move(box.x + share * box.width, y)
+    await page.waitForTimeout(60)
+    least = Math.min(least, await height())
+  }
+  await settled(page)
+  expect(await word.innerText()).toContain('UNSTABLE')
+  expect(Math.min(least, await height())).toBeGreaterThanOrEqual(stable - 1)
+  await page.mouse.up()
+  await expect.poll(height).toBeLessThan(stable - 20)
+  expect(complaints).toEqual([])
+  await page.context().close()
+})
