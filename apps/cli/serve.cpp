@@ -100,8 +100,8 @@ void add_serve(CLI::App& app) {
       ->capture_default_str();
   command->add_flag("--open", arguments->opens, "Open the page in the browser");
   command->footer(
-      "Prints the address, and runs until interrupted; what runs then is finished within 10 s, a second interrupt\n"
-      "ends it at once.\n"
+      "Prints the address, and runs until interrupted; what runs then is finished within\n"
+      "10 s, a second interrupt ends it at once.\n"
       "\n"
       "Examples:\n"
       "  zwidth serve\n"
