@@ -34,6 +34,30 @@ if(NOT result EQUAL 0 OR NOT output MATCHES "8848\\.7")
   message(FATAL_ERROR "README's example answered (${result}):\n${output}${error}")
 endif()
 
+# The C++ examples, as a project of their own.
+run(${CMAKE_COMMAND} -S ${source_dir}/examples/cmake -B ${work_dir}/examples -G ${generator}
+  -D CMAKE_PREFIX_PATH=${work_dir}/prefix -D CMAKE_CXX_COMPILER=${compiler} -D CMAKE_CXX_FLAGS=${flags}
+  -D CMAKE_BUILD_TYPE=${type})
+run(${CMAKE_COMMAND} --build ${work_dir}/examples)
+function(run_example expected)
+  execute_process(COMMAND ${ARGN} WORKING_DIRECTORY ${source_dir} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE error)
+  if(NOT result EQUAL 0 OR NOT output MATCHES "${expected}")
+    message(FATAL_ERROR "${ARGN} answered (${result}):\n${output}${error}")
+  endif()
+endfunction()
+run_example("5776\\.09" ${work_dir}/examples/analyse devices/lhifam.toml)
+run_example("after 2 s" ${work_dir}/examples/control_loop)
+run_example("least limit of 1000 cables" ${work_dir}/examples/many_devices devices/lhifam.toml)
+
+# The C++ snippet of docs/examples.md.
+file(READ ${source_dir}/docs/examples.md page)
+if(NOT page MATCHES "\n```cpp\n([^`]*)\n```")
+  message(FATAL_ERROR "docs/examples.md has no C++ example")
+endif()
+file(WRITE ${work_dir}/consumer/main.cpp "${CMAKE_MATCH_1}\n")
+run(${CMAKE_COMMAND} --build ${work_dir}/consumer/build)
+run_example("N/m" ${work_dir}/consumer/build/wall)
+
 # Beside the program: its manual pages and completions.
 foreach(file man/man1/zwidth.1 man/man1/zwidth-analyze.1 bash-completion/completions/zwidth zsh/site-functions/_zwidth
     fish/vendor_completions.d/zwidth.fish)

@@ -1,4 +1,4 @@
-"""The examples run, and are typed; every snippet of docs/python.md runs; figures are drawn."""
+"""The examples run, and are typed; every Python snippet of the documents runs, and both notebooks; figures are drawn."""
 
 import os
 import re
@@ -45,21 +45,61 @@ def test_the_stub_names_what_the_module_has():
                 assert f"def {name}(" in body, f"{kind.__name__}.{name}"
 
 
-def test_every_snippet_of_the_documents(tmp_path, monkeypatch):
+def snippets(path, language):
+    return re.findall(rf"^```{language}\n(.*?)^```$", path.read_text(), re.M | re.S)
+
+
+DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
+
+
+@pytest.mark.parametrize("path", [p for p in DOCUMENTS if snippets(p, "python")], ids=lambda path: path.stem)
+def test_every_snippet_of_the_documents(path, tmp_path, monkeypatch):
+    """Those of one document run one after the other: what one names the next may use."""
     for name in ("devices", "recordings"):
         (tmp_path / name).symlink_to(ROOT / name)
-    text = (ROOT / "docs" / "python.md").read_text()
-    snippets = re.findall(r"^```python\n(.*?)^```$", text, re.M | re.S)
-    assert len(snippets) > 5
     monkeypatch.chdir(tmp_path)
     names = {}
-    for snippet in snippets:
-        exec(compile(snippet, "docs/python.md", "exec"), names)
+    for snippet in snippets(path, "python"):
+        exec(compile(snippet, str(path), "exec"), names)
     plt.close("all")
-    readme = re.findall(r"^```python\n(.*?)^```$", (ROOT / "README.md").read_text(), re.M | re.S)
-    assert readme
-    for snippet in readme:
-        exec(compile(snippet, "README.md", "exec"), {})
+
+
+def test_octave_of_the_comparison():
+    """docs/comparison.md says what Octave answers, and that it is 3.8 times too high."""
+    (code,) = snippets(ROOT / "docs" / "comparison.md", "octave")
+    done = subprocess.run(["octave", "--quiet", "--eval", code], capture_output=True, text=True)
+    assert done.stdout.strip() == "33895.5", done.stdout + done.stderr
+
+
+@pytest.mark.parametrize("path", sorted((ROOT / "examples/notebooks").glob("*.ipynb")), ids=lambda path: path.stem)
+@pytest.mark.filterwarnings("ignore::DeprecationWarning")
+def test_notebooks_run_and_are_without_output(path):
+    nbformat, nbclient = pytest.importorskip("nbformat"), pytest.importorskip("nbclient")
+    notebook = nbformat.read(path, as_version=4)
+    code = [cell for cell in notebook.cells if cell.cell_type == "code"]
+    assert len(code) > 2
+    assert all(cell.execution_count is None and not cell.outputs for cell in code), "has output"
+    nbclient.NotebookClient(notebook, timeout=300, resources={"metadata": {"path": str(ROOT)}}).execute()
+    assert any(cell.outputs for cell in code)
+
+
+def test_firmware(tmp_path):
+    """The file of `export --format c` in the loop of examples/firmware."""
+    exported = subprocess.run(
+        [os.environ["ZWIDTH_PROGRAM"], "export", "devices/lhifam.toml", "--format", "c", "--safety-factor", "0.5",
+         "--output", str(tmp_path / "wall.c")], capture_output=True, text=True,
+    )  # fmt: skip
+    assert exported.returncode == 0, exported.stderr
+    program = tmp_path / "firmware"
+    built = subprocess.run(
+        ["cc", "-std=c99", "-Wall", "-Wextra", "-Werror", "-I", str(tmp_path), "examples/firmware/main.c", "-o", str(program), "-lm"],
+        capture_output=True, text=True,
+    )  # fmt: skip
+    assert built.returncode == 0, built.stderr
+    done = subprocess.run([str(program)], capture_output=True, text=True, check=True)
+    limit = zwidth.any_user_limit(zwidth.Device.from_toml("devices/lhifam.toml")).critical_stiffness
+    force = float(re.search(r"inside: (\S+) N", done.stdout)[1])
+    assert force == pytest.approx(-0.5e-3 * limit, abs=1e-6)
 
 
 @pytest.mark.filterwarnings("ignore::zwidth.ResultWarning")

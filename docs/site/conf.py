@@ -1,0 +1,26 @@
+"""Sphinx on the tree that site.py lays out: the project's documents where they stand, beside what is generated."""
+
+import os
+
+project = "zwidth"
+author = "the zwidth authors"
+project_copyright = author
+release = version = os.environ["ZWIDTH_VERSION"]
+root_doc = "docs/index"
+extensions = ["myst_parser", "breathe", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
+source_suffix = {".md": "markdown", ".rst": "restructuredtext"}
+myst_heading_anchors = 4
+myst_enable_extensions = ["dollarmath", "attrs_inline"]
+mathjax_path = ""  # nothing is loaded from elsewhere: equations stand as text
+breathe_projects = {"zwidth": os.environ["ZWIDTH_DOXYGEN_XML"]}
+breathe_default_project = "zwidth"
+autodoc_member_order = "groupwise"
+autodoc_typehints = "description"
+html_theme = "furo"
+html_title = f"zwidth {release}"
+html_copy_source = False
+html_show_sourcelink = False
+html_show_sphinx = False
+html_static_path = ["static"]
+html_css_files = ["site.css"]
+pygments_style = "bw"
