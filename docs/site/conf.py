@@ -24,3 +24,12 @@ html_show_sphinx = False
 html_static_path = ["static"]
 html_css_files = ["site.css"]
 pygments_style = "bw"
+
+
+def escape_signatures(app, what, name, obj, options, lines):
+    """pybind11 writes the signatures of overloads into docstrings, as plain text: (*args, **kwargs)."""
+    lines[:] = [line.replace("**", r"\*\*").replace("*args", r"\*args") for line in lines]
+
+
+def setup(app):
+    app.connect("autodoc-process-docstring", escape_signatures)
