@@ -28,7 +28,7 @@ pygments_style = "bw"
 
 def escape_signatures(app, what, name, obj, options, lines):
     """pybind11 writes the signatures of overloads into docstrings, as plain text: (*args, **kwargs)."""
-    lines[:] = [line.replace("**", r"\*\*").replace("*args", r"\*args") for line in lines]
+    lines[:] = [line.replace("**", r"\*\*").replace("*args", r"\*args").replace("|", r"\|") for line in lines]
 
 
 def setup(app):
