@@ -6,7 +6,6 @@ Links between documents hold as they stand: the tree has the shape of the projec
 the commands that docs/gallery.md shows above them.
 """
 
-import json
 import os
 import re
 import shlex
@@ -55,26 +54,13 @@ def room_pages(root, tree):
         lines = [title, "=" * len(title), ""]
         for header in sorted((root / "include/zwidth" / room).glob("*.hpp")):
             lines += [header.name, "-" * len(header.name), "", f".. doxygenfile:: zwidth/{room}/{header.name}",
-                      "   :sections: briefdescription detaileddescription innerclass innernamespace public-type "
+                      "   :sections: briefdescription detaileddescription innerclass public-type "
                       "public-func public-attrib public-static-func public-static-attrib enum func var typedef", ""]  # fmt: skip
         (folder / f"{room}.rst").write_text("\n".join(lines))
     listed = "\n".join(ROOMS)
     (folder / "index.md").write_text(
         "# C++\n\n`#include <zwidth/zwidth.hpp>`, one folder of headers per room ([architecture](../../architecture.md)). "
         f"SI units and radians.\n\n```{{toctree}}\n{listed}\n```\n"
-    )
-
-
-def schema_page(root, tree):
-    rows = []
-    for path in sorted((root / "docs/schema").glob("*.json")):
-        document = json.loads(path.read_text())
-        rows.append(f"| `zwidth.{path.stem}/1` | {document['description']} | [{path.name}](../schema/{path.name}) |")
-    page = tree / "docs/reference/schemas.md"
-    page.parent.mkdir(parents=True, exist_ok=True)
-    page.write_text(
-        "# JSON schemas\n\nOne JSON Schema (draft 7) for each document of `--json`; the tests hold what the program prints to them.\n\n"
-        "| document | is | schema |\n|---|---|---|\n" + "\n".join(rows) + "\n"
     )
 
 
@@ -106,7 +92,6 @@ def main():
     link_documents(root, tree)
     command_pages(tree, program)
     room_pages(root, tree)
-    schema_page(root, tree)
     figures(root, tree, program)
 
 
