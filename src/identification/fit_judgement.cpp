@@ -9,10 +9,14 @@
 #include <utility>
 
 #include "identification/friction_test.hpp"
+#include "identification/nonlinearity_test.hpp"
 #include "identification/percent.hpp"
 #include "identification/plausibility.hpp"
 #include "zwidth/model/parameter.hpp"
+#include "zwidth/model/state_space.hpp"
 #include "zwidth/quantity.hpp"
+#include "zwidth/sampling/discrete_state_space.hpp"
+#include "zwidth/sampling/forced_response.hpp"
 #include "zwidth/sampling/sampled_plant.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
 
@@ -255,6 +259,37 @@ bool is_drowned(const FrequencyResponse& response, std::size_t numbers) {
     return std::norm(point.value) > clear * clear * point.variance;
   });
   return 2 * static_cast<std::size_t>(standing_out) < numbers;  // each is two numbers
+}
+
+void judge_nonlinearity(Identification& result, std::span<const Recording> recordings, const IdentifyOptions& options,
+                        Trust device_trust) {
+  for (const Recording& each : recordings) {
+    if (auto doubt = doubt_of_counts(each)) result.trust.doubt(*std::move(doubt));
+  }
+  if (!result.trust.sound()) {
+    result.analysis.trust.inherit(result.trust);
+    device_trust.inherit(result.trust);
+    result.fit.device = with_trust(result.fit.device, device_trust);
+  }
+  if (!result.trust.sound() || options.response.output != OutputQuantity::position) return;
+  for (const Recording& each : recordings) {
+    const Device device = device_in_experiment(result.fit.device, options.fit.locked, each.sampling_period);
+    const DiscreteStateSpace system = sample(state_space(device), {each.sampling_period, device.loop().delay});
+    std::vector<double> residuals = each.channels[1].samples;
+    const std::vector<double> fitted = forced_response(system, each.channels[0].samples);
+    for (std::size_t k = 0; k < residuals.size(); ++k) residuals[k] -= fitted[k];
+    const auto found = find_nonlinearity({device, each.channels[0].samples, each.channels[1].samples, residuals});
+    if (!found) continue;
+    const std::string what = fmt::format("the record shows {}", found->what);
+    result.trust.doubt(fmt::format("{}; {}", what, found->remedy));
+    result.remarks.push_back(
+        {Remark::Severity::warning, what, "the fit takes it for mass, damping and springs", found->remedy});
+    break;
+  }
+  if (result.trust.sound()) return;
+  result.analysis.trust.inherit(result.trust);
+  device_trust.inherit(result.trust);
+  result.fit.device = with_trust(result.fit.device, device_trust);
 }
 
 CriticalStiffness limit_of(const Device& device) { return critical_stiffness(device); }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,10 @@ struct Judgement {
 
 /// How far the fitted device may be relied on; see identify().
 [[nodiscard]] Judgement judge(const JudgedFit& judged);
+
+/// A sound answer whose recordings show a force that is not linear (find_nonlinearity()) becomes doubtful.
+void judge_nonlinearity(Identification& result, std::span<const Recording> recordings, const IdentifyOptions& options,
+                        Trust device_trust);
 
 /// K_CR with the wall's damper and filters, as analyze() gives it.
 [[nodiscard]] CriticalStiffness limit_of(const Device& device);

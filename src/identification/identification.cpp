@@ -340,6 +340,7 @@ Identification identified(const MeasuredResponse& measured, std::span<const Reco
   if (judgement.is_measured) narrow_interval(result);
   judge_interval(result, judgement.device_trust);
   judge_friction_in_time(result, recordings, options, judgement.device_trust);
+  judge_nonlinearity(result, recordings, options, judgement.device_trust);
   return result;
 }
 

@@ -73,6 +73,14 @@ std::vector<Remark> implausible_recording(const Recording& recording) {
   return remarks;
 }
 
+std::optional<std::string> doubt_of_counts(const Recording& recording) {
+  if (recording.channels.size() < 2 || !is_in_counts(recording.channels[1].samples)) return std::nullopt;
+  return fmt::format(
+      "{} holds whole numbers only, as an encoder counts: every number is then per count; give the "
+      "metres or radians per count",
+      recording.channels[1].name);
+}
+
 std::vector<Remark> implausible_device(const Device& fitted, const Device* known,
                                        std::optional<double> recorded_period) {
   std::vector<Remark> remarks;

@@ -13,6 +13,9 @@ namespace zwidth::internal {
 /// Units that are probably not SI: whole numbers in a channel, a sampling period of seconds.
 [[nodiscard]] std::vector<Remark> implausible_recording(const Recording& recording);
 
+/// Why no answer of this recording is one in SI units: the position is whole numbers, as an encoder counts.
+[[nodiscard]] std::optional<std::string> doubt_of_counts(const Recording& recording);
+
 /// Numbers of the fitted device that are powers of ten from those of the structure (where its values are known) or from
 /// what the record allows.
 [[nodiscard]] std::vector<Remark> implausible_device(const Device& fitted, const Device* known,

@@ -281,7 +281,7 @@ TimeDomainIdentification identify_in_time(std::span<const Recording> recordings,
   result.remarks = start.remarks;
   describe_parameters(result, model, fitted->fit, *known);
   describe_motions(result, recordings, model, shots, *fitted, known->covariance);
-  judge_in_time(result, {recordings, structure, options, start.is_turned});
+  judge_in_time(result, {recordings, structure, options, shots, start.is_turned});
   done(1.0);
   return result;
 }

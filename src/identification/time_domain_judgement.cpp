@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <string>
 #include <vector>
@@ -12,7 +13,9 @@
 #include "identification/fit_judgement.hpp"
 #include "identification/fit_weights.hpp"
 #include "identification/friction_test.hpp"
+#include "identification/nonlinearity_test.hpp"
 #include "identification/percent.hpp"
+#include "identification/plausibility.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/identification/frequency_response.hpp"
 #include "zwidth/model/parameter.hpp"
@@ -131,7 +134,20 @@ class Judge {
                         "the friction is not Coulomb's, or there is backlash",
                         motion.source, std::sqrt(ratio)));
       }
+      judge_nonlinearity(r);
     }
+  }
+
+  void judge_nonlinearity(std::size_t r) {
+    const Recording& recording = judged_.recordings[r];
+    const FittedMotion& motion = fit_.motions[r];
+    if (auto doubt = doubt_of_counts(recording)) trust_.doubt(*std::move(doubt));
+    std::vector<Shot> shots;
+    std::ranges::copy_if(judged_.shots, std::back_inserter(shots), [r](const Shot& shot) { return shot.record == r; });
+    const Device device = device_in_experiment(fit_.device, judged_.options.locked, recording.sampling_period);
+    const auto found = find_nonlinearity(
+        {device, recording.channels[0].samples, recording.channels[1].samples, motion.residuals, shots});
+    if (found) trust_.doubt(fmt::format("{} shows {}; {}", motion.source, found->what, found->remedy));
   }
 
   void judge_feedback() {

@@ -2,6 +2,7 @@
 
 #include <span>
 
+#include "identification/shot_model.hpp"
 #include "zwidth/identification/time_domain.hpp"
 
 namespace zwidth::internal {
@@ -10,6 +11,7 @@ struct JudgedTimeFit {
   std::span<const Recording> recordings;
   const Device& structure;
   const TimeDomainOptions& options;
+  std::span<const Shot> shots;
   bool is_turned = false;  ///< the position falls as the force rises
 };
 
