@@ -15,7 +15,7 @@ struct Units {
   std::string_view force;      ///< "N" or "N m"
   std::string_view length;     ///< "m" or "rad"
 };
-[[nodiscard]] Units units_of(Motion motion);
+[[nodiscard]] Units units_of(Motion motion);  ///< SI
 
 /// Four significant digits without trailing zeros: "38.6", "31416", "1.2e-07".
 [[nodiscard]] std::string number(double value);
@@ -31,10 +31,10 @@ struct Units {
 
 /// w / (2 pi): rad/s to Hz, and back.
 [[nodiscard]] double hertz(double frequency);
-[[nodiscard]] double radians_per_second(double cycles);
+[[nodiscard]] double radians_per_second(double cycles);  ///< of Hz
 
 /// 180 w / pi: rad to degrees, and back.
 [[nodiscard]] double degrees(double angle);
-[[nodiscard]] double radians(double angle);
+[[nodiscard]] double radians(double angle);  ///< of degrees
 
 }  // namespace zwidth

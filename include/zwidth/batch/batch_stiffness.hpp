@@ -16,8 +16,9 @@
 
 namespace zwidth {
 
-inline constexpr std::size_t most_batch_threads = 1024;
+inline constexpr std::size_t most_batch_threads = 1024;  ///< as one call may use
 
+/// What is computed of each device, and by how many threads.
 struct BatchOptions {
   bool any_user = false;    ///< the limit over all passive users too: much slower; a device of bodies only
   std::size_t threads = 0;  ///< 0: all cores. No result depends on it
@@ -29,7 +30,7 @@ struct BatchOptions {
 
 /// What is to be said of one device that has no sound answer of its own.
 struct BatchException {
-  std::size_t index = 0;
+  std::size_t index = 0;     ///< of the device, in the order of the values
   Trust trust = {};          ///< of the computation, the base device's apart
   std::string failure = {};  ///< the values make no device, or the computation failed; empty: neither
 };
@@ -47,7 +48,7 @@ struct BatchStiffness {
   std::vector<BatchException> exceptions;  ///< by rising index: every device with more to say than `trust`
   std::size_t scalar_count = 0;            ///< devices that critical_stiffness(Device) answered, not the kernel
 
-  [[nodiscard]] std::size_t size() const { return stiffness.size(); }
+  [[nodiscard]] std::size_t size() const { return stiffness.size(); }  ///< how many devices
   /// What limits the i-th device; nothing unless its status is finite.
   [[nodiscard]] std::optional<Mechanism> limited_by(std::size_t i) const;
   /// Of the i-th device: the base device's, its computation's, and the any-user limit's.

@@ -41,6 +41,7 @@ struct FormulaFacts {
   std::string_view equation;   ///< "b > K T/2 + B (1 - a)/(1 + a)"
   std::string_view valid_for;  ///< what it is made for
 };
+/// What it says and where it holds, for people.
 [[nodiscard]] FormulaFacts facts_of(RegionApproximation::Formula formula);
 
 /// Those formulas for the device; none for a transfer function.
@@ -59,7 +60,7 @@ struct ApproximationError {
   std::optional<double> unsafe_share;  ///< of the walls that the formula allows, those outside the exact region
   std::optional<double> missed_share;  ///< of the exact region, the walls that the formula does not allow
 };
-inline constexpr int comparison_rows = 400;
+inline constexpr int comparison_rows = 400;  ///< stiffnesses at which formula and region are compared
 
 /// Against the stable walls of the device as it is. A formula for B = 0 alone is compared there alone.
 [[nodiscard]] ApproximationError approximation_error(const RegionApproximation& approximation, const StableWalls& walls,

@@ -56,7 +56,7 @@ struct StableRegion {
   double vertex_error = 0.0;
 };
 
-inline constexpr double usual_vertex_error = 1e-4;
+inline constexpr double usual_vertex_error = 1e-4;  ///< relative to the extent of the outline
 
 /// How finely an outline is drawn; its corners are exact whatever is asked.
 struct OutlineOptions {

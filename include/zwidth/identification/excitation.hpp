@@ -13,6 +13,7 @@
 
 namespace zwidth {
 
+/// The signals that can be made.
 enum class ExcitationKind { linear_chirp, logarithmic_chirp, multisine, noise, relay };
 
 /// Which signal, how long, how strong.
@@ -29,13 +30,14 @@ struct ExcitationOptions {
   std::optional<double> stroke_limit = {};  ///< m or rad: how far the device may move from its start; absent: any way
 };
 
-inline constexpr double default_excitation_rate = 1000.0;  // Hz, without a device
-inline constexpr double max_excitation_samples = 1e8;
+inline constexpr double default_excitation_rate = 1000.0;  ///< Hz, without a device
+inline constexpr double max_excitation_samples = 1e8;      ///< of one signal
 /// Of noise, and of one period of a multisine: they are made by one transform.
 inline constexpr double max_transformed_samples = 1e7;
 
 /// Checks all that excite() requires; with a device, at its rate where the options have none.
 [[nodiscard]] std::optional<OptionProblem> find_problem(const ExcitationOptions& options);
+/// The first member outside its domain, of the device too.
 [[nodiscard]] std::optional<OptionProblem> find_problem(const ExcitationOptions& options, const Device& device);
 
 /// Largest sample, root mean square, and their quotient.
@@ -44,6 +46,7 @@ struct CrestFactor {
   double rms = 0.0;     ///< N or N m
   double factor = 0.0;  ///< peak / rms; 0 for no signal
 };
+/// Largest magnitude over the root mean square.
 [[nodiscard]] CrestFactor crest_factor(std::span<const double> signal);
 
 /// What the excitation does to a device without feedback.

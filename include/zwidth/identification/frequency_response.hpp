@@ -11,10 +11,12 @@
 
 namespace zwidth {
 
+/// Which noise an estimate tolerates.
 enum class ResponseEstimator {
   h1,  ///< S_fx / S_ff: noise on the position only; biased low by noise on the force
   h2,  ///< S_xx / S_xf: noise on the force only
 };
+/// What a sensor senses.
 enum class OutputQuantity { position, velocity, acceleration };
 
 /// How a frequency response is estimated from a recording.

@@ -74,6 +74,7 @@ struct ResponseLine {
   double coherence = 0.0;                 ///< 0 to 1
 };
 
+/// The response with its 95 % intervals, line by line.
 [[nodiscard]] std::vector<ResponseLine> response_lines(const FrequencyResponse& response);
 
 }  // namespace zwidth

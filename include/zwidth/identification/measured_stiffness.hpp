@@ -23,6 +23,7 @@ struct MeasuredCrossover {
   int poles_leaving = 0;
 };
 
+/// Whether a response shows a limit.
 enum class MeasuredStiffnessStatus {
   found,         ///< the least crossover, with its interval
   not_in_band,   ///< the crossover that limits does not lie between the lowest and the highest measured frequency

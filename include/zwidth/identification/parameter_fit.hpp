@@ -35,7 +35,7 @@ struct ParameterFitOptions {
   bool search_widely = true;
 };
 
-inline constexpr std::size_t max_free_parameters = 40;
+inline constexpr std::size_t max_free_parameters = 40;  ///< of one fit
 
 /// One fitted parameter.
 struct ParameterEstimate {

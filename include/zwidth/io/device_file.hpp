@@ -34,6 +34,6 @@ namespace zwidth {
 /// one.
 [[nodiscard]] std::string write_device(const DeviceParameters& parameters);
 
-inline constexpr std::size_t device_file_size_limit = std::size_t{1} << 20;
+inline constexpr std::size_t device_file_size_limit = std::size_t{1} << 20;  ///< bytes; larger ones are refused
 
 }  // namespace zwidth

@@ -85,6 +85,7 @@ struct RecordingContents {
   std::vector<Remark> remarks;                     ///< what was skipped and why
 };
 
+/// The columns of a file, before any is chosen.
 [[nodiscard]] tl::expected<RecordingContents, InputError> list_recording(const std::string& path,
                                                                          const RecordingOptions& options = {},
                                                                          const Progress& progress = {});

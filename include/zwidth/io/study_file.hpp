@@ -14,11 +14,11 @@ namespace zwidth {
 
 /// What a study file says. What it leaves out is absent.
 struct StudyFile {
-  StudyDistributions distributions;
-  std::optional<SamplingScheme> sampling;
-  std::optional<std::uint64_t> samples;
-  std::optional<std::uint64_t> seed;
-  Specification specification;
+  StudyDistributions distributions;        ///< what varies, and together with what
+  std::optional<SamplingScheme> sampling;  ///< absent: not said
+  std::optional<std::uint64_t> samples;    ///< absent: not said
+  std::optional<std::uint64_t> seed;       ///< absent: not said
+  Specification specification;             ///< what a unit must reach
 };
 
 /// Reads a study of the device from TOML text.

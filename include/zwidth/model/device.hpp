@@ -97,12 +97,12 @@ struct DeviceProblem {
   std::string allowed;  ///< "must be a number > 0"
 };
 
-inline constexpr std::size_t max_bodies = 100;
-inline constexpr std::size_t max_links = 1000;
-inline constexpr std::size_t max_degree = 100;     ///< of a transfer function
-inline constexpr std::size_t max_name_size = 200;  ///< bytes
-inline constexpr std::size_t max_uncertain_parameters = 100;
-inline constexpr double max_delay_samples = 10000;  ///< whole device: delay / sampling_period
+inline constexpr std::size_t max_bodies = 100;                ///< of a device
+inline constexpr std::size_t max_links = 1000;                ///< of a device
+inline constexpr std::size_t max_degree = 100;                ///< of a transfer function
+inline constexpr std::size_t max_name_size = 200;             ///< bytes
+inline constexpr std::size_t max_uncertain_parameters = 100;  ///< of a device
+inline constexpr double max_delay_samples = 10000;            ///< whole device: delay / sampling_period
 
 /// Finds the first impossible value, or nothing when the parameters make a device.
 ///

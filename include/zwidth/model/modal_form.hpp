@@ -60,6 +60,7 @@ struct Path {
   std::size_t position_of = 0;  ///< the body that is seen
 };
 
+/// Whether the actuator's lag is part of a model.
 enum class ActuatorLag { included, left_out };
 
 /// Modal form of the device from actuated to sensed body (operator and actuator lag included).

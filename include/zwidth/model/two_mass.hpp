@@ -27,7 +27,7 @@ struct TwoMassFactors {
   /// Error of the denominator's s² coefficient relative to the exact one (theory, section 3.4).
   double relative_error;
 };
-[[nodiscard]] TwoMassFactors two_mass_factors(const TwoMass& device);
+[[nodiscard]] TwoMassFactors two_mass_factors(const TwoMass& device);  ///< eqs. 11-16
 
 /// The two-mass view of a device: two bodies, one link, no ground springs (the operator's mass and damping are
 /// added to the held body). Nothing where the device is of another shape.

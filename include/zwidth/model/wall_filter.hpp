@@ -41,7 +41,7 @@ struct WallFilter {
   bool operator==(const WallFilter&) const = default;
 };
 
-inline constexpr std::size_t max_wall_filters = 20;
+inline constexpr std::size_t max_wall_filters = 20;  ///< of a wall
 
 /// What makes a filter impossible at that sampling period.
 struct WallFilterProblem {

@@ -55,8 +55,9 @@ class ForceGuard {
   /// The force grows from zero again. Positions still count from the first one.
   void restart() noexcept;
 
+  /// Why the force is zero; none while it is not.
   [[nodiscard]] StopReason stopped() const noexcept { return reason_; }
-  [[nodiscard]] double velocity() const noexcept { return velocity_; }
+  [[nodiscard]] double velocity() const noexcept { return velocity_; }  ///< m/s or rad/s, as the guard sees it
   /// The first position.
   [[nodiscard]] double origin() const noexcept { return origin_; }
 

@@ -20,6 +20,7 @@ namespace zwidth {
 [[nodiscard]] std::optional<RingDown> least_damped_oscillation(std::span<const double> position, double period,
                                                                std::span<const double> frequencies, double floor);
 
+/// Which stiffnesses a rig tries.
 struct LimitSearchOptions {
   double start = 0.0;     ///< first stiffness, N/m or N m/rad; > 0
   double ceiling = 0.0;   ///< the most that may be tried; >= start
@@ -34,10 +35,10 @@ struct LimitSearchOptions {
 
 /// The wall was rendered with this stiffness, knocked, and its ringing read.
 struct LimitTrial {
-  double stiffness = 0.0;
+  double stiffness = 0.0;        ///< N/m or N m/rad
   std::optional<RingDown> ring;  ///< the oscillation that decays least; absent where none was read
   bool stopped = false;          ///< it grew so much that the run was ended early
-  [[nodiscard]] bool grows() const { return stopped || (ring && ring->growth_rate > 0.0); }
+  [[nodiscard]] bool grows() const { return stopped || (ring && ring->growth_rate > 0.0); }  ///< the wall is unstable
 };
 
 /// The limit of stable walls as measured on a rig.
@@ -47,7 +48,7 @@ struct LimitMeasurement {
   double lower = 0.0;               ///< stiffest wall that rang down; 0: none did
   double upper = 0.0;               ///< softest wall whose oscillation grew; 0: none did
   std::vector<LimitTrial> trials;   ///< in their order
-  Trust trust;
+  Trust trust;                      ///< of the stiffness
 };
 
 /// Raises the stiffness of a wall, trial by trial, until an oscillation grows; then closes in on where it begins to.
@@ -58,7 +59,7 @@ struct LimitMeasurement {
 /// The one that decays least counts, of the oscillations near the predicted frequencies and of the strongest one.
 class LimitSearch {
  public:
-  static constexpr std::size_t most_trials = 60;
+  static constexpr std::size_t most_trials = 60;  ///< after which the search ends
 
   /// Throws Error (invalid_argument) where find_problem() finds one.
   explicit LimitSearch(LimitSearchOptions options);

@@ -19,7 +19,7 @@ namespace zwidth {
 /// After construction nothing allocates, locks, logs or throws.
 class OscillationWatch {
  public:
-  static constexpr std::size_t most_frequencies = 8;
+  static constexpr std::size_t most_frequencies = 8;  ///< that are watched
 
   /// Frequencies in rad/s, those in (0, 0.98 pi/T) and at most the first eight of them; `floor` in m or rad, >= 0.
   /// Throws Error (invalid_argument) for a period that is not > 0 and a floor that is not a number >= 0.
@@ -27,7 +27,7 @@ class OscillationWatch {
 
   /// Whether an oscillation has been seen to grow, this sample included.
   bool update(double position) noexcept;
-  [[nodiscard]] bool detected() const noexcept { return detected_; }
+  [[nodiscard]] bool detected() const noexcept { return detected_; }  ///< an oscillation grew, now or before
   /// rad/s, of the band that grew; 0: none did.
   [[nodiscard]] double frequency() const noexcept { return frequency_; }
 

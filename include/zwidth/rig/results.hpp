@@ -17,47 +17,53 @@
 
 namespace zwidth {
 
+/// The loop at rest: link, rate, watchdog, latency.
 struct RigCheck {
-  RigSession session;
+  RigSession session;  ///< what ran
   /// Silence made the firmware let go. Absent: there is no firmware, or none that watches.
   std::optional<bool> watchdog_proved;
 };
 
+/// A record of the device under excitation.
 struct RigMeasurement {
-  RigSession session;
-  Excitation excitation;
+  RigSession session;                        ///< what ran
+  Excitation excitation;                     ///< what was commanded
   Recording recording;                       ///< force and position; empty where the rig stopped
   std::optional<MeasuredResponse> response;  ///< absent where the rig stopped
 };
 
+/// The device as fitted to a record of its own.
 struct RigIdentification {
-  RigMeasurement measurement;
+  RigMeasurement measurement;                    ///< what was fitted
   std::optional<Identification> identification;  ///< absent where the rig stopped
 };
 
+/// The relay experiment on the device.
 struct RigRelay {
-  RigSession session;
+  RigSession session;                ///< what ran
   std::optional<RelayResult> relay;  ///< absent where the rig stopped in the first trial
 };
 
+/// A wall that was rendered.
 struct RigWall {
-  RigSession session;
-  ControllerOptions controller;
-  CriticalStiffness predicted;  ///< with the wall's damper and filters
-  Trust trust;                  ///< of the prediction
-  std::optional<bool> predicted_stable;
-  bool oscillates = false;       ///< it grew, and the wall was taken away
-  std::optional<RingDown> ring;  ///< the oscillation at the end, where one is left
-  double peak_force = 0.0;       ///< N or N m
-  double peak_position = 0.0;    ///< m or rad, from the start
+  RigSession session;                    ///< what ran
+  ControllerOptions controller;          ///< the wall as it ran
+  CriticalStiffness predicted;           ///< with the wall's damper and filters
+  Trust trust;                           ///< of the prediction
+  std::optional<bool> predicted_stable;  ///< absent where theory has no sure answer
+  bool oscillates = false;               ///< it grew, and the wall was taken away
+  std::optional<RingDown> ring;          ///< the oscillation at the end, where one is left
+  double peak_force = 0.0;               ///< N or N m
+  double peak_position = 0.0;            ///< m or rad, from the start
 };
 
+/// Where walls become unstable: measured, and predicted.
 struct RigLimit {
-  RigSession session;
-  LimitMeasurement measured;
-  CriticalStiffness predicted;
-  std::optional<AnyUserLimit> any_user;
-  double knock = 0.0;  ///< N or N m
+  RigSession session;                    ///< what ran
+  LimitMeasurement measured;             ///< on the device
+  CriticalStiffness predicted;           ///< from the device's file
+  std::optional<AnyUserLimit> any_user;  ///< absent where nobody can hold the device
+  double knock = 0.0;                    ///< N or N m
 };
 
 }  // namespace zwidth

@@ -12,17 +12,17 @@ namespace zwidth {
 
 /// What a rig's clock did, s; percentiles within 0.2 %.
 struct LatencySummary {
-  std::uint64_t count = 0;
-  double p50 = 0.0;
-  double p99 = 0.0;
-  double p999 = 0.0;   ///< 99.9 %
-  double p9999 = 0.0;  ///< 99.99 %
-  double max = 0.0;
+  std::uint64_t count = 0;  ///< how many were measured
+  double p50 = 0.0;         ///< s
+  double p99 = 0.0;         ///< s
+  double p999 = 0.0;        ///< 99.9 %
+  double p9999 = 0.0;       ///< 99.99 %
+  double max = 0.0;         ///< s
 };
 
 /// How the cycles of a rig ran.
 struct LoopTiming {
-  std::uint64_t cycles = 0;
+  std::uint64_t cycles = 0;      ///< of the loop
   std::uint64_t missed = 0;      ///< late by a period or more
   std::uint64_t unanswered = 0;  ///< without a position
   LatencySummary latency;        ///< from the instant of the clock to the cycle's begin; none in lock step
@@ -33,15 +33,15 @@ struct LoopTiming {
 
 /// One session on a rig: what it ran on, how, and how it ended.
 struct RigSession {
-  std::string driver;            ///< "simulated", "udp:127.0.0.1:7000", ...
-  bool lock_step = false;        ///< the device's time moves with the cycles: as fast as they run
-  double sampling_period = 0.0;  ///< s
-  SafetyLimits limits;
+  std::string driver;                       ///< "simulated", "udp:127.0.0.1:7000", ...
+  bool lock_step = false;                   ///< the device's time moves with the cycles: as fast as they run
+  double sampling_period = 0.0;             ///< s
+  SafetyLimits limits;                      ///< beyond which the force went to zero
   std::optional<double> firmware_watchdog;  ///< s; absent: the firmware has none, or there is no firmware
   StopReason stop = StopReason::none;       ///< none: the work came to its end
   double stopped_at = 0.0;                  ///< s from the start
-  LoopTiming timing;
-  std::vector<Remark> remarks;
+  LoopTiming timing;                        ///< of clock and drive
+  std::vector<Remark> remarks;              ///< what is worth knowing beside it
 };
 
 /// A sentence or two on why the force went to zero, and what to do; empty for none.

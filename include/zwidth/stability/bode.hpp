@@ -49,6 +49,7 @@ struct Bode {
 /// with any options) it is taken; else the critical stiffness, the modes and the wall's margins are computed.
 /// Throws Error (invalid_argument) where find_problem(options, device) finds one, (did_not_converge) as analyze() does.
 [[nodiscard]] Bode bode(const Device& device, const BodeOptions& options = {});
+/// The same, of an analysis that is at hand.
 [[nodiscard]] Bode bode(const Device& device, Analysis analysis, const BodeOptions& options = {});
 
 }  // namespace zwidth

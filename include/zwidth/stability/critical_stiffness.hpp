@@ -33,6 +33,7 @@ struct StableInterval {
   std::optional<double> upper;  ///< absent: unbounded
 };
 
+/// Whether there is a limit.
 enum class StiffnessStatus {
   finite,       ///< stable for 0 < K < stiffness
   none_stable,  ///< unstable for arbitrarily small K > 0; stable intervals may exist further up

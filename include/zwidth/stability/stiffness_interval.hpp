@@ -9,7 +9,7 @@
 
 namespace zwidth {
 
-inline constexpr std::uint64_t usual_draws_seed = 1;
+inline constexpr std::uint64_t usual_draws_seed = 1;  ///< so that an answer is the same each time
 
 /// What a device's uncertainty makes of its critical stiffness.
 struct StiffnessInterval {

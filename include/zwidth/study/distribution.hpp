@@ -10,6 +10,7 @@ namespace zwidth {
 
 /// How one number of a device varies from one unit to the next. SI units.
 struct Distribution {
+  /// Which law.
   enum class Kind {
     normal,      ///< `centre` the mean, `deviation` the standard deviation
     lognormal,   ///< `centre` the median, `deviation` that of the natural logarithm
@@ -17,14 +18,14 @@ struct Distribution {
     triangular,  ///< from `lower` to `upper`, likeliest at `centre`
     discrete,    ///< `values`, each as likely as its weight says; so are measured samples
   };
-  Kind kind = Kind::normal;
-  double centre = 0.0;
-  double deviation = 0.0;
+  Kind kind = Kind::normal;  ///< of this one
+  double centre = 0.0;       ///< mean, median or mode, as its kind has it
+  double deviation = 0.0;    ///< standard deviation, or its logarithm's
   /// A normal or lognormal one is cut off here, what remains scaled to 1.
   double lower = -std::numeric_limits<double>::infinity();
-  double upper = std::numeric_limits<double>::infinity();
-  std::vector<double> values = {};   ///< rising, each once
-  std::vector<double> weights = {};  ///< one per value, > 0; their sum is finite
+  double upper = std::numeric_limits<double>::infinity();  ///< no value is above
+  std::vector<double> values = {};                         ///< rising, each once
+  std::vector<double> weights = {};                        ///< one per value, > 0; their sum is finite
 };
 
 /// The first member that makes no distribution: deviation > 0, lower < upper, values rising, ...
@@ -45,11 +46,11 @@ class QuantileFunction {
   [[nodiscard]] double at_score(double z) const;
   /// The least and the largest value that a study can draw.
   [[nodiscard]] double least() const { return (*this)(0.0); }
-  [[nodiscard]] double largest() const { return (*this)(1.0); }
+  [[nodiscard]] double largest() const { return (*this)(1.0); }  ///< the largest value; infinity where there is none
   /// Whether its ends are its own, not those of the numbers that are drawn.
   [[nodiscard]] bool bounded() const;
 
-  [[nodiscard]] const Distribution& distribution() const { return distribution_; }
+  [[nodiscard]] const Distribution& distribution() const { return distribution_; }  ///< that it is of
 
  private:
   [[nodiscard]] double cut(double score) const;
@@ -62,6 +63,6 @@ class QuantileFunction {
 
 /// Phi(z) and its inverse, for 0 < u < 1.
 [[nodiscard]] double standard_normal_probability(double z);
-[[nodiscard]] double standard_normal_score(double u);
+[[nodiscard]] double standard_normal_score(double u);  ///< z with P(Z < z) = u
 
 }  // namespace zwidth

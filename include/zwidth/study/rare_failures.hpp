@@ -9,25 +9,26 @@ namespace zwidth {
 
 class StudyRun;
 
+/// How a small share is estimated.
 struct RareFailureOptions {
   std::uint64_t samples = 20'000;  ///< units drawn around the likeliest failures; 100 to 2^24
 };
 
 /// A unit on the border of failure that is likelier than its neighbours, as independent standard normal numbers.
 struct DesignPoint {
-  std::vector<double> scores;
+  std::vector<double> scores;  ///< standard normal ones of the point, one per parameter
   double distance = 0.0;  ///< from the middle, in standard deviations: the failures beyond have about Phi(-distance)
 };
 
 /// The share of units that miss the specification, where sampling as it is would see none.
 struct RareFailures {
-  double share = 0.0;  ///< 0 where no failure was found: trust is doubtful then
-  double error = 0.0;  ///< its standard error
-  double lower = 0.0;  ///< 95 % interval, of the normal approximation
-  double upper = 0.0;
-  std::uint64_t evaluations = 0;
+  double share = 0.0;               ///< 0 where no failure was found: trust is doubtful then
+  double error = 0.0;               ///< its standard error
+  double lower = 0.0;               ///< 95 % interval, of the normal approximation
+  double upper = 0.0;               ///< of its 95 % interval
+  std::uint64_t evaluations = 0;    ///< devices computed
   std::vector<DesignPoint> points;  ///< nearest first
-  Trust trust;
+  Trust trust;                      ///< of the share
 };
 
 /// Importance sampling around the likeliest failures.

@@ -9,11 +9,11 @@ namespace zwidth {
 
 /// A share that was counted, with an interval that holds the true one.
 struct Proportion {
-  std::uint64_t count = 0;
-  std::uint64_t total = 0;
-  double value = 0.0;
-  double lower = 0.0;
-  double upper = 1.0;
+  std::uint64_t count = 0;  ///< of those that have it
+  std::uint64_t total = 0;  ///< of all
+  double value = 0.0;       ///< count / total
+  double lower = 0.0;       ///< of its 95 % interval
+  double upper = 1.0;       ///< of its 95 % interval
 };
 
 /// The share with Clopper and Pearson's interval, which holds the true one at least as often as `confidence` says:
@@ -26,8 +26,8 @@ struct Proportion {
 
 /// Ranks, from 1, between which a quantile lies; absent where no sample is far enough out.
 struct QuantileRanks {
-  std::optional<std::uint64_t> lower;
-  std::optional<std::uint64_t> upper;
+  std::optional<std::uint64_t> lower;  ///< rank from 0; absent where the sample is too small for one
+  std::optional<std::uint64_t> upper;  ///< rank from 0; absent where the sample is too small for one
 };
 
 /// X_(lower) <= x_p <= X_(upper) with that confidence at least, half of the rest on each side, whatever the distribution:

@@ -11,15 +11,16 @@
 
 namespace zwidth {
 
+/// How the units are spread over what may vary.
 enum class SamplingScheme {
   random,           ///< independent: intervals of yield and quantiles hold exactly
   latin_hypercube,  ///< every parameter falls once into each of N equal shares
   sobol,            ///< Sobol's points, scrambled
 };
 
-inline constexpr std::size_t most_study_parameters = 200;
-inline constexpr std::uint64_t most_study_samples = 1'000'000'000'000;
-inline constexpr std::uint64_t most_sobol_samples = std::uint64_t{1} << 32U;
+inline constexpr std::size_t most_study_parameters = 200;                     ///< that vary together
+inline constexpr std::uint64_t most_study_samples = 1'000'000'000'000;        ///< of one study
+inline constexpr std::uint64_t most_sobol_samples = std::uint64_t{1} << 32U;  ///< of the sequence's 32 bits
 
 /// Uniform numbers of `samples` samples in `dimensions`: the i-th depends on the plan and i alone, whoever computes it.
 ///
@@ -36,6 +37,7 @@ class SamplingPlan {
   /// In least_uniform..1 - least_uniform, for i < samples, dimension < dimensions.
   [[nodiscard]] double uniform(std::uint64_t i, std::size_t dimension) const;
 
+  /// The first argument outside its domain.
   [[nodiscard]] static std::optional<OptionProblem> find_problem(SamplingScheme sampling, std::uint64_t samples,
                                                                  std::size_t dimensions);
 

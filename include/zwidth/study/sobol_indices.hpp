@@ -11,13 +11,13 @@ struct SobolIndex {
   double first = 0.0;        ///< from it alone
   double first_error = 0.0;  ///< standard error, as if the points were random: Sobol's are better
   double total = 0.0;        ///< from it and from what it does together with others
-  double total_error = 0.0;
+  double total_error = 0.0;  ///< standard error
 };
 
 /// Answers of many points: columns of uniform numbers in, one per parameter, all of one size.
 using ManyAnswers = std::function<std::vector<double>(const std::vector<std::vector<double>>& uniforms)>;
 
-inline constexpr std::size_t most_index_dimensions = 100;
+inline constexpr std::size_t most_index_dimensions = 100;  ///< of one call
 
 /// First-order and total indices of Sobol, from two sets A and B of scrambled Sobol points, and for every parameter the
 /// set A with its column of B; (dimensions + 2) `samples` answers in all:

@@ -18,12 +18,13 @@
 
 namespace zwidth {
 
+/// How many units, drawn how, and what they must reach.
 struct StudyOptions {
-  std::uint64_t samples = 10'000;
-  std::uint64_t seed = 1;
+  std::uint64_t samples = 10'000;  ///< how many units are drawn
+  std::uint64_t seed = 1;          ///< of all that is drawn
   /// Random samples alone make the intervals hold as they say; the others make the same numbers vary less.
   SamplingScheme sampling = SamplingScheme::random;
-  Specification specification = {};
+  Specification specification = {};  ///< what a unit must reach
   bool any_user = false;  ///< the limit over all passive users too, much slower; so it is where a specification has it
   std::uint64_t index_samples = 1024;         ///< of each set of Sobol indices; 0: none
   std::uint64_t tightening_samples = 10'000;  ///< on which a tighter tolerance is tried, `samples` at most; 0: none
@@ -40,27 +41,27 @@ struct StudyOptions {
 
 /// A quantile of K_CR over the units: X_(ceil(N p)), and the samples between which the true one lies (95 %).
 struct QuantileEstimate {
-  double probability = 0.0;
+  double probability = 0.0;     ///< share of units below
   double value = 0.0;           ///< infinity: unbounded there; NaN: a unit without an answer
   std::optional<double> lower;  ///< absent: too few samples to say
-  std::optional<double> upper;
+  std::optional<double> upper;  ///< of its 95 % interval; absent where the sample is too small
 };
 
 /// Counts of finite K_CR between edges, evenly apart.
 struct StiffnessHistogram {
-  std::vector<double> edges;  ///< one more than counts; empty where no unit has a finite K_CR
-  std::vector<std::uint64_t> counts;
-  std::vector<double> yields;  ///< at every edge: the share of all units that reach it
+  std::vector<double> edges;          ///< one more than counts; empty where no unit has a finite K_CR
+  std::vector<std::uint64_t> counts;  ///< of units, bin by bin
+  std::vector<double> yields;         ///< at every edge: the share of all units that reach it
 };
 
 /// Units that miss the specification in one way.
 struct FailureCluster {
-  StiffnessStatus status = StiffnessStatus::finite;
-  std::optional<Mechanism> limited_by;  ///< what limits K_CR; nothing unless finite
-  std::uint64_t count = 0;
-  double share = 0.0;                      ///< of all failures
-  std::optional<double> lowest_frequency;  ///< rad/s, of their oscillation
-  std::optional<double> highest_frequency;
+  StiffnessStatus status = StiffnessStatus::finite;  ///< that they have in common
+  std::optional<Mechanism> limited_by;               ///< what limits K_CR; nothing unless finite
+  std::uint64_t count = 0;                           ///< how many
+  double share = 0.0;                                ///< of all failures
+  std::optional<double> lowest_frequency;            ///< rad/s, of their oscillation
+  std::optional<double> highest_frequency;           ///< rad/s, of their limits
   /// By parameter: the mean of its normal score there; 0 among all units. What these units have in common.
   std::vector<double> mean_scores;
 };
@@ -76,56 +77,57 @@ struct TighteningGain {
 /// Searched where they do: a parameter with ends and without correlation goes to its ends; the others together stay
 /// within the ball of normal scores outside of which one unit in `outside` lies.
 struct WorstDevice {
-  DeviceParameters device;
-  std::vector<double> values;  ///< by parameter
-  CriticalStiffness critical;
+  DeviceParameters device;         ///< as a file has it
+  std::vector<double> values;      ///< by parameter
+  CriticalStiffness critical;      ///< of that device
   std::optional<double> any_user;  ///< its limit over all passive users, where the study asks for it
   double sampled = 0.0;            ///< the least K_CR among the samples
-  double outside = 1e-6;
-  std::uint64_t evaluations = 0;  ///< devices that the search solved
+  double outside = 1e-6;           ///< share of units that are farther out
+  std::uint64_t evaluations = 0;   ///< devices that the search solved
 };
 
 /// A unit that has no answer, and why. It counts as one that misses the specification.
 struct FailedSample {
-  std::uint64_t sample = 0;
-  std::string reason;
+  std::uint64_t sample = 0;  ///< its number
+  std::string reason;        ///< in words
 };
 
 /// One unit of the scatter: what it is and what it can.
 struct StudyPoint {
-  std::uint64_t sample = 0;
-  std::vector<double> values;
-  double stiffness = 0.0;  ///< NaN where failed, infinity where unbounded
-  int mode = -1;           ///< as BatchStiffness
-  StiffnessStatus status = StiffnessStatus::refused;
+  std::uint64_t sample = 0;                           ///< its number
+  std::vector<double> values;                         ///< of the parameters, in their order
+  double stiffness = 0.0;                             ///< NaN where failed, infinity where unbounded
+  int mode = -1;                                      ///< as BatchStiffness
+  StiffnessStatus status = StiffnessStatus::refused;  ///< of its limit
 };
 
+/// How the limit varies over the units of one design.
 struct Study {
   std::vector<std::string> keys;  ///< of the parameters
-  std::uint64_t samples = 0;
+  std::uint64_t samples = 0;      ///< units drawn
   /// Units that meet the whole specification, and each half; absent where nothing is specified.
   std::optional<Proportion> yield;
-  std::optional<Proportion> critical_stiffness_yield;
-  std::optional<Proportion> any_user_yield;
-  std::vector<QuantileEstimate> quantiles;
-  std::vector<QuantileEstimate> any_user_quantiles;  ///< empty unless asked for
+  std::optional<Proportion> critical_stiffness_yield;  ///< absent unless specified
+  std::optional<Proportion> any_user_yield;            ///< absent unless specified
+  std::vector<QuantileEstimate> quantiles;             ///< of the critical stiffness
+  std::vector<QuantileEstimate> any_user_quantiles;    ///< empty unless asked for
   /// 95 % of all units reach it, with 95 % confidence (Wilks); absent with less than 59 samples.
   std::optional<double> reached_by_95_percent;
-  StiffnessHistogram histogram;
-  std::uint64_t none_stable = 0;
-  std::uint64_t unbounded = 0;
-  std::uint64_t doubtful = 0;
-  std::uint64_t failed_count = 0;
+  StiffnessHistogram histogram;                           ///< of the finite limits
+  std::uint64_t none_stable = 0;                          ///< units that no wall suits
+  std::uint64_t unbounded = 0;                            ///< units that every wall suits
+  std::uint64_t doubtful = 0;                             ///< units whose own answer is doubtful
+  std::uint64_t failed_count = 0;                         ///< units without an answer
   std::vector<FailedSample> failed;                       ///< the first 1000
   std::vector<FailureCluster> clusters;                   ///< largest first; empty without a specification
   std::optional<std::vector<SobolIndex>> sobol_indices;   ///< by parameter; absent where a remark says why
   std::optional<std::vector<TighteningGain>> tightening;  ///< by parameter; absent without a specification
   std::optional<RareFailures> rare_failures;              ///< absent unless asked for
-  std::optional<WorstDevice> worst;
-  std::vector<StudyPoint> points;  ///< of at most 2000 samples, evenly apart
+  std::optional<WorstDevice> worst;                       ///< absent where no unit has a limit
+  std::vector<StudyPoint> points;                         ///< of at most 2000 samples, evenly apart
   std::uint64_t scalar_count = 0;  ///< samples that critical_stiffness(Device) answered, not the batch kernel
-  Trust trust;
-  std::vector<Remark> remarks;
+  Trust trust;                     ///< of the whole answer
+  std::vector<Remark> remarks;     ///< what is worth knowing beside it
 };
 
 /// How K_CR varies over the units of one design.

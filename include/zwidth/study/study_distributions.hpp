@@ -12,14 +12,15 @@
 
 namespace zwidth {
 
+/// One number that varies.
 struct StudyParameter {
-  std::string key;  ///< as in model/parameter.hpp
-  Distribution distribution;
+  std::string key;            ///< as in model/parameter.hpp
+  Distribution distribution;  ///< that it follows
 };
 
 /// How the units of one design vary: the distribution of each number, and how they go together (a Gaussian copula).
 struct StudyDistributions {
-  std::vector<StudyParameter> parameters;
+  std::vector<StudyParameter> parameters;  ///< in the order of the file
   /// Correlations of the normal scores, one row per parameter: symmetric, positive definite, ones on the diagonal.
   /// Empty: independent.
   std::vector<std::vector<double>> correlation = {};
@@ -27,8 +28,8 @@ struct StudyDistributions {
 
 /// What every unit must reach; N/m or N m/rad.
 struct Specification {
-  std::optional<double> critical_stiffness;
-  std::optional<double> any_user;
+  std::optional<double> critical_stiffness;  ///< N/m or N m/rad; absent: not asked
+  std::optional<double> any_user;            ///< N/m or N m/rad; absent: not asked
 };
 
 /// The first thing that makes no study of the device: a key that is no number of it, or that it does not have a value
@@ -50,7 +51,8 @@ class StudyInputs {
   /// Throws Error (invalid_argument) where the distributions or the correlation have a problem of their own.
   explicit StudyInputs(const StudyDistributions& distributions);
 
-  [[nodiscard]] std::size_t size() const { return quantiles_.size(); }
+  [[nodiscard]] std::size_t size() const { return quantiles_.size(); }  ///< how many parameters
+  /// Of the j-th parameter.
   [[nodiscard]] const QuantileFunction& quantile(std::size_t j) const { return quantiles_[j]; }
   /// Whether the parameter is correlated with another.
   [[nodiscard]] bool is_correlated(std::size_t j) const { return correlated_[j]; }

@@ -20,12 +20,12 @@ class StudyRun {
   /// Throws Error (invalid_argument) as study() does.
   StudyRun(Device device, StudyDistributions distributions, StudyOptions options);
 
-  [[nodiscard]] const Device& device() const { return device_; }
-  [[nodiscard]] const StudyDistributions& distributions() const { return distributions_; }
-  [[nodiscard]] const StudyInputs& inputs() const { return inputs_; }
-  [[nodiscard]] const StudyOptions& options() const { return options_; }
+  [[nodiscard]] const Device& device() const { return device_; }                            ///< as it is on paper
+  [[nodiscard]] const StudyDistributions& distributions() const { return distributions_; }  ///< what varies
+  [[nodiscard]] const StudyInputs& inputs() const { return inputs_; }     ///< where the units' numbers come from
+  [[nodiscard]] const StudyOptions& options() const { return options_; }  ///< as asked
 
-  [[nodiscard]] std::uint64_t chunk_count() const;
+  [[nodiscard]] std::uint64_t chunk_count() const;  ///< that the units are computed in
   /// Samples of the chunk: study_chunk_size, less in the last one.
   [[nodiscard]] std::size_t size_of(std::uint64_t chunk) const;
 
