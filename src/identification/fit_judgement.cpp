@@ -107,6 +107,10 @@ class Judge {
   }
 
   void judge_misfit() {
+    if (auto doubt = doubt_of_lag(fit_.estimates,
+                                  judged_.fit.response.sampling_period.value_or(fit_.device.loop().sampling_period))) {
+      result_.trust.doubt(*std::move(doubt));
+    }
     if (fit_.missing_mode) {
       result_.trust.doubt(fmt::format("a mode near {:.4g} Hz is missing from the structure; add a body and a link",
                                       hertz(*fit_.missing_mode)));

@@ -12,6 +12,8 @@
 namespace zwidth::internal {
 namespace {
 
+constexpr double many_periods = 20.0;  // of delay or lag: few drives are as slow
+
 /// Many different whole numbers, as counters and converters give them.
 bool is_in_counts(const std::vector<double>& samples) {
   constexpr double least_range = 100.0;
@@ -81,6 +83,15 @@ std::optional<std::string> doubt_of_counts(const Recording& recording) {
       recording.channels[1].name);
 }
 
+std::optional<std::string> doubt_of_lag(const std::vector<ParameterEstimate>& estimates, double recorded_period) {
+  const auto lag = std::ranges::find(estimates, "actuator.time_constant", &ParameterEstimate::key);
+  if (lag == estimates.end() || lag->value <= many_periods * recorded_period) return std::nullopt;
+  return fmt::format(
+      "the actuator's lag comes out as {:.4g} s, {:.3g} sampling periods: it was probably exchanged with the time that "
+      "a body's mass takes on its damping, or friction or a spring hides it; name what is free without the lag",
+      lag->value, lag->value / recorded_period);
+}
+
 std::vector<Remark> implausible_device(const Device& fitted, const Device* known,
                                        std::optional<double> recorded_period) {
   std::vector<Remark> remarks;
@@ -99,7 +110,6 @@ std::vector<Remark> implausible_device(const Device& fitted, const Device* known
                           : fmt::format("is one of them in {}seconds?", prefix)});
     }
   }
-  constexpr double many_periods = 20.0;
   const double record = recorded_period.value_or(period);
   const double late = fitted.loop().delay + fitted.parameters().actuator.time_constant;
   if (late > many_periods * record) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "zwidth/identification/parameter_fit.hpp"
 #include "zwidth/model/device.hpp"
 #include "zwidth/remark.hpp"
 #include "zwidth/signal/recording.hpp"
@@ -15,6 +16,11 @@ namespace zwidth::internal {
 
 /// Why no answer of this recording is one in SI units: the position is whole numbers, as an encoder counts.
 [[nodiscard]] std::optional<std::string> doubt_of_counts(const Recording& recording);
+
+/// Why a fitted lag of the actuator cannot be believed: longer than any drive's, beside the record's period. A body's own
+/// m/b and such a lag can be exchanged in its response.
+[[nodiscard]] std::optional<std::string> doubt_of_lag(const std::vector<ParameterEstimate>& estimates,
+                                                      double recorded_period);
 
 /// Numbers of the fitted device that are powers of ten from those of the structure (where its values are known) or from
 /// what the record allows.

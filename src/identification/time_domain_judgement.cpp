@@ -142,6 +142,7 @@ class Judge {
     const Recording& recording = judged_.recordings[r];
     const FittedMotion& motion = fit_.motions[r];
     if (auto doubt = doubt_of_counts(recording)) trust_.doubt(*std::move(doubt));
+    if (auto doubt = doubt_of_lag(fit_.estimates, recording.sampling_period)) trust_.doubt(*std::move(doubt));
     std::vector<Shot> shots;
     std::ranges::copy_if(judged_.shots, std::back_inserter(shots), [r](const Shot& shot) { return shot.record == r; });
     const Device device = device_in_experiment(fit_.device, judged_.options.locked, recording.sampling_period);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "identification/plausibility.hpp"
 #include "zwidth/identification/excitation.hpp"
 #include "zwidth/identification/identification.hpp"
 #include "zwidth/identification/time_domain.hpp"
@@ -96,6 +97,21 @@ TEST(Nonlinearity, PositionsInCountsAreDoubtful) {
   std::string all;
   for (const std::string& each : found.trust.reasons) all += each;
   EXPECT_NE(all.find("metres or radians per count"), std::string::npos) << all;
+}
+
+// A fit in time of a body on a cubic spring took the body's inertia for a lag of 0.48 s, and called 20 kN/m sound where 7
+// is true.
+TEST(Plausibility, ALagOfManySamplesIsDoubtful) {
+  const auto doubt_of = [](double lag) {
+    std::vector<ParameterEstimate> estimates(2);
+    estimates[0].key = "body.motor.mass";
+    estimates[1].key = "actuator.time_constant";
+    estimates[1].value = lag;
+    return internal::doubt_of_lag(estimates, period);
+  };
+  EXPECT_TRUE(doubt_of(0.48));
+  EXPECT_FALSE(doubt_of(0.005));
+  EXPECT_FALSE(internal::doubt_of_lag({}, period));
 }
 
 }  // namespace

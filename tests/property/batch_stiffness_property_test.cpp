@@ -98,7 +98,7 @@ TEST_P(BatchStiffnessProperty, IsThatOfEveryDeviceAlone) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, BatchStiffnessProperty, testing::ValuesIn(kinds),
-                         [](const auto& info) { return std::string(info.param); });
+                         [](const auto& kind) { return std::string(kind.param); });
 
 }  // namespace
 }  // namespace zwidth
