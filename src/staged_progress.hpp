@@ -16,7 +16,7 @@ inline void tell(const Progress& progress, double fraction) {
 }
 
 /// The progress of work in stages, each of which tells its own from 0 to 1. Never falls, whatever a stage tells.
-class StagedProgress {
+class StagedProgress {  // NOLINT(cppcoreguidelines-special-member-functions): nothing to destroy
  public:
   /// `whole` must outlive this.
   explicit StagedProgress(const Progress& whole) : whole_(whole) {

@@ -161,7 +161,7 @@ void add_study(CLI::App& app) {
       ->type_name("N");
   command
       ->add_option("--rare-samples", arguments->rare_samples,
-                   "Share of failures by importance sampling with N units; for one in a thousand or less")
+                   "Rare failures by importance sampling with N units: one in a thousand")
       ->type_name("N");
   command->add_option("--threads", arguments->threads, "0: all cores; no result depends on it (default: 0)")
       ->type_name("T");
@@ -174,9 +174,9 @@ void add_study(CLI::App& app) {
   command->footer(
       "Examples:\n"
       "  zwidth study devices/lhifam.toml --study devices/studies/lhifam.toml\n"
-      "  zwidth study devices/lhifam.toml --study devices/studies/lhifam.toml --json --output-device worst.toml\n"
-      "  zwidth study devices/lhifam.toml --study devices/studies/lhifam.toml --samples 2000 --output units.h5\n"
-      "  zwidth study devices/lhifam.toml --study devices/studies/lhifam.toml --samples 1000 --report study.html");
+      "  zwidth study devices/lhifam.toml --study devices/studies/lhifam.toml --output-device worst.toml\n"
+      "  zwidth study devices/lhifam.toml --study devices/studies/lhifam.toml --output units.h5\n"
+      "  zwidth study devices/lhifam.toml --study devices/studies/lhifam.toml --report study.html");
   command->callback([arguments] { run_study(*arguments); });
 }
 

@@ -80,7 +80,7 @@ class InterruptibleProgress {
       next_ = now + std::chrono::milliseconds(100);
     }
     const InterpreterEnd::Teller teller;
-    if (!InterpreterEnd::Teller::may_tell()) throw Interrupted();
+    while (!InterpreterEnd::Teller::may_tell()) std::this_thread::sleep_for(std::chrono::hours(1));  // the process ends
     const pybind11::gil_scoped_acquire acquired;
     try {
       if (PyErr_CheckSignals() != 0) throw pybind11::error_already_set();

@@ -26,6 +26,7 @@ namespace zwidth::internal {
 namespace {
 
 constexpr double refused_share = 0.5;
+constexpr double clear_feedback = 5.0;
 // Of the response: what moves a critical stiffness by about as much.
 constexpr double doubtful_share = 0.05;
 
@@ -145,6 +146,7 @@ class Judge {
     if (auto doubt = doubt_of_lag(fit_.estimates, recording.sampling_period)) trust_.doubt(*std::move(doubt));
     std::vector<Shot> shots;
     std::ranges::copy_if(judged_.shots, std::back_inserter(shots), [r](const Shot& shot) { return shot.record == r; });
+    if (motion.feedback > clear_feedback) return;  // the force answers to the errors: doubtful for that
     const Device device = device_in_experiment(fit_.device, judged_.options.locked, recording.sampling_period);
     const auto found = find_nonlinearity(
         {device, recording.channels[0].samples, recording.channels[1].samples, motion.residuals, shots});
@@ -152,9 +154,8 @@ class Judge {
   }
 
   void judge_feedback() {
-    constexpr double clear = 5.0;
     for (const FittedMotion& each : fit_.motions) {
-      if (each.feedback <= clear) continue;
+      if (each.feedback <= clear_feedback) continue;
       trust_.doubt(
           fmt::format("the force of {} answers to the noise of its position: recorded in feedback, where disturbances "
                       "bias a fit by as much as they are of the force; record with a force made beforehand",

@@ -186,7 +186,7 @@ TEST_F(Study, IsTheSameForAnyNumberOfRanks) {
 TEST_F(Study, GoesOnAfterALostRank) {
   if (run("command -v zwidth-study mpirun").status != 0) GTEST_SKIP() << "built without MPI";
   const std::string arguments =
-      " devices/lhifam.toml --study devices/studies/lhifam.toml --samples 60000 --index-samples 0 --threads 1 --json";
+      " devices/lhifam.toml --study devices/studies/lhifam.toml --samples 1000000 --index-samples 0 --threads 1 --json";
   const Outcome alone = run("zwidth study" + arguments + " --output alone.h5");
   const Outcome lost = run(
       "mpirun --allow-run-as-root --oversubscribe -n 2 bash -c 'if [ $OMPI_COMM_WORLD_RANK = 1 ]; then timeout -s KILL "

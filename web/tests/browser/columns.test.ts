@@ -1,23 +1,13 @@
 // Recordings whose columns are not in SI units, and what must not break over lines or leave gaps.
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs'
 import { tmpdir } from 'node:os'
-import type { Browser } from 'playwright-core'
-import { afterAll, beforeAll, expect, it } from 'vitest'
+import { afterAll, expect, it } from 'vitest'
 import { say } from '../../src/model/decimal'
-import { documentOf, openBrowser, openPage, project, row, runPalette, type Served, serve, settled, type } from './program'
+import { documentOf, openPage, place, project, row, runPalette, settled, type } from './program'
 
-let served: Served
-let browser: Browser
 const folder = mkdtempSync(`${tmpdir()}/zwidth-`)
-beforeAll(async () => {
-  served = await serve()
-  browser = await openBrowser()
-})
-afterAll(async () => {
-  await browser?.close()
-  await served?.stop()
-  rmSync(folder, { recursive: true })
-})
+const here = place()
+afterAll(() => rmSync(folder, { recursive: true }))
 
 it('takes the unit of a column, to which the remark on counts leads', async () => {
   const file = `${folder}/counts.csv`
@@ -25,7 +15,7 @@ it('takes the unit of a column, to which the remark on counts leads', async () =
   const [head, ...lines] = readFileSync(`${project}/recordings/locked_chirp.csv`, 'utf8').trim().split('\n')
   const at = head!.split(',').indexOf('position')
   writeFileSync(file, [head, ...lines.map((line) => line.split(',').map((cell, i) => (i === at ? String(Math.round(Number(cell) / 2e-6)) : cell)).join(','))].join('\n'))
-  const { page, complaints } = await openPage(browser, served, 1280)
+  const { page, complaints } = await openPage(here, 1280)
   await runPalette(page, 'show: from a recording')
   await page.getByLabel(/choose it/).setInputFiles(file)
   await page.getByRole('button', { name: 'Fit', exact: true }).click()
@@ -45,7 +35,7 @@ it('takes the unit of a column, to which the remark on counts leads', async () =
 })
 
 it.each([1280, 390])('breaks no number of a wall over lines, %i pixels wide', async (width) => {
-  const { page, complaints } = await openPage(browser, served, width)
+  const { page, complaints } = await openPage(here, width)
   await runPalette(page, 'new motor and wheel, rotary')
   await runPalette(page, 'show: which wall')
   await page.getByRole('button', { name: 'Use this wall: recommended' }).waitFor()
@@ -63,7 +53,7 @@ it.each([1280, 390])('breaks no number of a wall over lines, %i pixels wide', as
 })
 
 it('leaves no empty space at an unstable wall, and lets nothing jump while it is dragged', async () => {
-  const { page, complaints } = await openPage(browser, served, 390)
+  const { page, complaints } = await openPage(here, 390)
   await type(page, 'wall.stiffness', '3 kN/m')
   await settled(page)
   const word = page.locator('[data-answer="wall"]')

@@ -3,15 +3,14 @@ import { execFileSync } from 'node:child_process'
 import { existsSync } from 'node:fs'
 import { resolve } from 'node:path'
 import { expect, it } from 'vitest'
-import { documentOf, openBrowser, openPage, program, runPalette, serve, settled, type } from './program'
+import { documentOf, openPage, place, program, runPalette, settled, type } from './program'
 
 const packages = resolve(program, '../../python') // of the same build
+const here = place('devices/lhifam.toml')
 const setup = { timeout: 60_000 }
 
 it.runIf(existsSync(`${packages}/zwidth`))('copies Python that imports zwidth and gives the same numbers', setup, async () => {
-  const served = await serve('devices/lhifam.toml')
-  const browser = await openBrowser()
-  const { page, complaints } = await openPage(browser, served, 1280)
+  const { page, complaints } = await openPage(here, 1280)
   await type(page, 'loop.delay', '0.3 ms')
   await type(page, 'body.handle.damping', '4.2')
   await settled(page)
@@ -23,6 +22,4 @@ it.runIf(existsSync(`${packages}/zwidth`))('copies Python that imports zwidth an
   expect(Number(stiffness)).toBe(answer.critical_stiffness)
   expect([unit, verdict]).toEqual(['N/m', 'sound'])
   expect(complaints).toEqual([])
-  await browser.close()
-  await served.stop()
 })
