@@ -79,8 +79,18 @@ class InterruptibleProgress {
       if (now < next_ && !raised_) return;
       next_ = now + std::chrono::milliseconds(100);
     }
+    if (!told(fraction)) {
+      for (;;) std::this_thread::sleep_for(std::chrono::hours(1));  // the process ends
+    }
+  }
+
+  [[nodiscard]] const std::optional<pybind11::error_already_set>& raised() const { return raised_; }
+
+ private:
+  /// Whether there still is an interpreter to tell.
+  [[nodiscard]] bool told(double fraction) {
     const InterpreterEnd::Teller teller;
-    while (!InterpreterEnd::Teller::may_tell()) std::this_thread::sleep_for(std::chrono::hours(1));  // the process ends
+    if (!InterpreterEnd::Teller::may_tell()) return false;
     const pybind11::gil_scoped_acquire acquired;
     try {
       if (PyErr_CheckSignals() != 0) throw pybind11::error_already_set();
@@ -89,11 +99,9 @@ class InterruptibleProgress {
       if (!raised_) raised_.emplace(std::move(error));
       throw Interrupted();
     }
+    return true;
   }
 
-  [[nodiscard]] const std::optional<pybind11::error_already_set>& raised() const { return raised_; }
-
- private:
   const pybind11::object& told_;
   std::mutex mutex_;
   std::chrono::steady_clock::time_point next_{};
