@@ -160,7 +160,9 @@ Eigen::MatrixXd side_by_side(const Eigen::VectorXd (&columns)[count]) {
 
 std::optional<Nonlinearity> find_nonlinearity(const NonlinearityQuestion& question) {
   if (question.residuals.size() < least_examined) return std::nullopt;
-  const auto [least, most] = std::ranges::minmax(question.position);
+  const auto extremes = std::ranges::minmax(question.position);
+  const double least = extremes.min;  // no structured binding: the closures below capture it
+  const double most = extremes.max;
   const double range = most - least;
   const double middle = 0.5 * (most + least);
   const double largest = std::ranges::max(question.force, {}, [](double each) { return std::abs(each); });

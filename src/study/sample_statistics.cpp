@@ -108,9 +108,11 @@ std::vector<double> order_statistics(const std::vector<std::uint64_t>& ranks, co
     std::uint64_t rest = 0;  // of the rank, from 0, among the numbers with this prefix
   };
   std::vector<Search> searches;
+  searches.reserve(ranks.size());
   for (const std::uint64_t rank : ranks) searches.push_back({0, rank - 1});
   for (unsigned shift = 64 - digit_bits;; shift -= digit_bits) {
     std::vector<std::uint64_t> prefixes;
+    prefixes.reserve(searches.size());
     for (const Search& each : searches) prefixes.push_back(each.prefix);
     std::ranges::sort(prefixes);
     prefixes.erase(std::unique(prefixes.begin(), prefixes.end()), prefixes.end());
@@ -133,6 +135,7 @@ std::vector<double> order_statistics(const std::vector<std::uint64_t>& ranks, co
     if (shift == 0) break;
   }
   std::vector<double> values;
+  values.reserve(searches.size());
   for (const Search& each : searches) values.push_back(value_of(each.prefix));
   return values;
 }

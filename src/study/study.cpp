@@ -92,6 +92,7 @@ void internal::add_tightening(const StudyRun& run, Study& study) {
   const std::uint64_t count = std::min(options.samples, options.tightening_samples);
   if (count == 0 || !study.yield) return;
   std::vector<ParameterValues> columns;
+  columns.reserve(parameters.size());
   for (const StudyParameter& each : parameters) columns.push_back({each.key, std::vector<double>(count)});
   std::vector<double> row(parameters.size());
   for (std::uint64_t i = 0; i < count; ++i) {

@@ -122,7 +122,7 @@ std::optional<DeviceProblem> find_problem(const Device& device, const StudyDistr
     if (const auto problem = find_problem(parameters[i].distribution)) {
       return DeviceProblem{fmt::format("{}.{}", place, problem->member), problem->what, problem->allowed};
     }
-    if (const auto problem = find_reach_problem(device, parameters[i], place)) return problem;
+    if (auto problem = find_reach_problem(device, parameters[i], place)) return problem;
   }
   return find_correlation_problem(distributions.correlation, parameters.size());
 }

@@ -87,7 +87,7 @@ std::optional<OptionProblem> find_problem(const StudyOptions& options, const Dev
   return find_problem(BatchOptions{.threads = options.threads}, device);
 }
 
-StudyRun::StudyRun(Device device, StudyDistributions distributions, StudyOptions options)
+StudyRun::StudyRun(Device device, const StudyDistributions& distributions, StudyOptions options)
     : device_(std::move(device)),
       distributions_(checked(device_, distributions, options)),
       options_(completed(options)),
@@ -161,7 +161,7 @@ void compute_chunks(const StudyRun& run, const std::function<std::optional<std::
   const auto consumed = [&](Computed one) { consume(one.chunk, std::move(one.answers)); };
   tbb::task_arena arena(threads);
   arena.execute([&] {
-    tbb::parallel_pipeline(static_cast<std::size_t>(2 * threads + 2),
+    tbb::parallel_pipeline(2 * static_cast<std::size_t>(threads) + 2,
                            tbb::make_filter<void, std::uint64_t>(tbb::filter_mode::serial_in_order, named) &
                                tbb::make_filter<std::uint64_t, Computed>(tbb::filter_mode::parallel, computed) &
                                tbb::make_filter<Computed, void>(tbb::filter_mode::serial_in_order, consumed));

@@ -222,8 +222,8 @@ class Search {
     const Eigen::MatrixXd of_values = domain_.slopes(from.at);
     std::vector<Crossover> crossovers = from.critical.crossovers;
     std::ranges::sort(crossovers, {}, &Crossover::stiffness);
-    std::ranges::stable_partition(
-        crossovers, [&](const Crossover& each) { return each.frequency == from.critical.limit->frequency; });
+    std::stable_partition(crossovers.begin(), crossovers.end(),
+                          [&](const Crossover& each) { return each.frequency == from.critical.limit->frequency; });
     for (const Crossover& crossover : crossovers) {
       if (crossover.stiffness > near_limit * from.critical.stiffness) continue;
       CriticalStiffness other = from.critical;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "zwidth/error.hpp"
@@ -74,7 +75,8 @@ TEST(Distribution, ImpossibleOnesAreNamed) {
     return problem ? problem->member : "";
   };
   EXPECT_EQ(member({.kind = Kind::normal, .centre = 1.0, .deviation = 0.0}), "deviation");
-  EXPECT_EQ(member({.kind = Kind::normal, .centre = NAN, .deviation = 1.0}), "centre");
+  EXPECT_EQ(member({.kind = Kind::normal, .centre = std::numeric_limits<double>::quiet_NaN(), .deviation = 1.0}),
+            "centre");
   EXPECT_EQ(member({.kind = Kind::lognormal, .centre = -1.0, .deviation = 1.0}), "centre");
   EXPECT_EQ(member({.kind = Kind::uniform, .lower = 1.0, .upper = 1.0}), "upper");
   EXPECT_EQ(member({.kind = Kind::uniform, .lower = 1.0}), "upper");

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "zwidth/error.hpp"
@@ -55,7 +56,7 @@ TEST(SobolIndices, OfASumAreItsShares) {
 
 TEST(SobolIndices, RefuseWhatHasNoVariance) {
   const auto infinite = [](const std::vector<std::vector<double>>& uniforms) {
-    return std::vector<double>(uniforms[0].size(), INFINITY);
+    return std::vector<double>(uniforms[0].size(), std::numeric_limits<double>::infinity());
   };
   EXPECT_THROW((void)sobol_indices(2, 16, 1, infinite), Error);
   EXPECT_THROW((void)sobol_indices(0, 16, 1, infinite), Error);

@@ -18,7 +18,7 @@ inline constexpr std::uint64_t study_chunk_size = 4096;
 class StudyRun {
  public:
   /// Throws Error (invalid_argument) as study() does.
-  StudyRun(Device device, StudyDistributions distributions, StudyOptions options);
+  StudyRun(Device device, const StudyDistributions& distributions, StudyOptions options);
 
   [[nodiscard]] const Device& device() const { return device_; }                            ///< as it is on paper
   [[nodiscard]] const StudyDistributions& distributions() const { return distributions_; }  ///< what varies
