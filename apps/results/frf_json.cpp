@@ -9,7 +9,7 @@
 
 namespace zwidth::results {
 
-static void to_json(Json& json, const Interval& interval) { json = Json::array({interval.lower, interval.upper}); }
+void to_json(Json& json, const Interval& interval) { json = Json::array({interval.lower, interval.upper}); }
 
 namespace {
 

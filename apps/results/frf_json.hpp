@@ -7,6 +7,9 @@
 
 namespace zwidth::results {
 
+/// [lower, upper]
+void to_json(Json& json, const Interval& interval);
+
 NLOHMANN_JSON_SERIALIZE_ENUM(MeasuredStiffnessStatus, {{MeasuredStiffnessStatus::found, "found"},
                                                        {MeasuredStiffnessStatus::not_in_band, "not_in_band"},
                                                        {MeasuredStiffnessStatus::undetermined, "undetermined"}})

@@ -155,6 +155,7 @@ Json rig_json(const Device& device, const RigLimit& limit) {
   const LimitMeasurement& measured = limit.measured;
   json["measured"] = {{"critical_stiffness", measured.stiffness},
                       {"critical_stiffness_db", decibels(measured.stiffness)},
+                      {"critical_stiffness_interval", measured.interval},
                       {"frequency_rad_s", measured.stiffness ? Json(measured.frequency) : Json(nullptr)},
                       {"frequency_hz", measured.stiffness ? Json(hertz(measured.frequency)) : Json(nullptr)},
                       {"stiffest_stable", measured.lower > 0.0 ? Json(measured.lower) : Json(nullptr)},

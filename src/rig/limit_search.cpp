@@ -25,6 +25,8 @@ constexpr double start_share = 0.5;         // of the predicted limit
 constexpr double ceiling_share = 1.5;       // of the predicted limit
 constexpr double least_swing_share = 0.01;  // of the swing at the end: what is smaller leaks from another oscillation
 constexpr double same_frequency = 0.2;      // relative: growth rates of one oscillation
+constexpr double sure_deviations = 3.0;     // of a growth rate; its windows overlap
+constexpr double most_error = 0.02;         // relative: what a measured limit may be off by
 
 /// Where the line through two growth rates passes zero; absent where they are not of one oscillation that grows with K.
 std::optional<double> zero_of_growth(const LimitTrial& low, const LimitTrial& high) {
@@ -33,6 +35,14 @@ std::optional<double> zero_of_growth(const LimitTrial& low, const LimitTrial& hi
   if (!(rise > 0.0) || std::abs(high.ring->frequency / low.ring->frequency - 1.0) > same_frequency) return std::nullopt;
   return low.stiffness - low.ring->growth_rate * (high.stiffness - low.stiffness) / rise;
 }
+
+/// Relative error of a stiffness that an encoder of this step makes at this swing.
+///
+/// To a swing A the encoder is a gain N(A): its describing function, for rounding to steps q, is about 1 -+ 0.5 (q/A)^1.5 at
+/// the worst, and more where the middle of the swing is not that of a step (Gelb & Vander Velde, "Multiple-Input
+/// Describing Functions and Nonlinear System Design", 1968, appendix B). Three times that is allowed for; the wall that
+/// is felt is N K.
+double encoder_error(double step, double swing) { return 1.5 * std::pow(step / swing, 1.5); }
 
 }  // namespace
 
@@ -174,6 +184,24 @@ LimitMeasurement LimitSearch::measurement(const Device& device) const {
     result.frequency = low->ring->frequency + share * (high->ring->frequency - low->ring->frequency);
   } else if (high->ring) {
     result.frequency = high->ring->frequency;
+  }
+  const double swing = low->ring && high->ring ? std::min(low->ring->amplitude, high->ring->amplitude) : 0.0;
+  const double of_encoder = options_.floor > 0.0 ? std::min(encoder_error(options_.floor, swing), 1.0) : 0.0;
+  double of_growth = 0.0;  // N/m or N m/rad
+  if (zero) {
+    const double rise = (high->ring->growth_rate - low->ring->growth_rate) / (high->stiffness - low->stiffness);
+    of_growth = sure_deviations * std::max(low->ring->growth_deviation, high->ring->growth_deviation) / rise;
+  }
+  result.interval = Interval{.lower = std::min(low->stiffness, *result.stiffness - of_growth) * (1.0 - of_encoder),
+                             .upper = std::max(high->stiffness, *result.stiffness + of_growth) * (1.0 + of_encoder)};
+  if (of_encoder > most_error) {
+    result.trust.doubt(fmt::format(
+        "the encoder's step of {} is coarse for a swing of {}: the limit may be off by {:.0f} %; knock harder",
+        quantity(options_.floor, units.length), quantity(swing, units.length), 100.0 * of_encoder));
+  } else if (of_growth > most_error * *result.stiffness) {
+    result.trust.doubt(
+        fmt::format("the oscillation's growth is not known well enough: the limit may be off by {:.0f} %; knock harder",
+                    100.0 * of_growth / *result.stiffness));
   }
   const double width = (high->stiffness - low->stiffness) / high->stiffness;
   if (width > options_.bracket) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "rig/rig_devices.hpp"
 #include "rig/simulated_driver.hpp"
@@ -27,6 +28,29 @@ TEST_P(OnDevice, TheLimitIsMeasuredWhereItIsPredicted) {
   EXPECT_LE(limit.measured.lower, *limit.measured.stiffness);
   EXPECT_GE(limit.measured.upper, *limit.measured.stiffness);
   EXPECT_EQ(limit.session.stop, StopReason::none);
+}
+
+// A step of 0.001 to 0.3 of the swing that the force makes: the coarsest hide a growth that is not there or is.
+TEST(OnDeviceWithAnEncoder, TheLimitLiesWithinItsInterval) {
+  int sound = 0;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    SCOPED_TRACE(seed);
+    DeviceParameters parameters = test::bench_device(seed).parameters();
+    const double truth = critical_stiffness(Device(parameters)).stiffness;
+    std::mt19937_64 engine(seed);
+    const double share = std::exp(std::uniform_real_distribution(std::log(1e-3), std::log(0.3))(engine));
+    parameters.sensor.resolution = share * default_force(Device(parameters)) / truth;
+    const Device device(parameters);
+    SimulatedDriver driver{device, 0.0, false};
+    const LimitMeasurement measured = measure_limit(device, driver, {}, default_limit(device), {}).measured;
+    ASSERT_TRUE(measured.stiffness && measured.interval);
+    EXPECT_LE(measured.interval->lower, truth);
+    EXPECT_GE(measured.interval->upper, truth);
+    if (!measured.trust.sound()) continue;
+    ++sound;
+    EXPECT_NEAR(*measured.stiffness / truth, 1.0, 0.02);
+  }
+  EXPECT_GT(sound, 30);
 }
 
 TEST_P(OnDevice, IdentifyingItClosesTheCircle) {

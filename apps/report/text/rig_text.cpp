@@ -147,6 +147,8 @@ std::string rig_text(const Device& device, const RigLimit& limit) {
   if (measured.stiffness) {
     text += labelled("  K_CR measured", fmt::format("{} at {}", quantity(*measured.stiffness, units.stiffness),
                                                     crossover_frequency_text(measured.frequency)));
+    text += labelled("  between", fmt::format("{} and {}", quantity(measured.interval->lower, units.stiffness),
+                                              quantity(measured.interval->upper, units.stiffness)));
   } else {
     text += labelled("  K_CR measured", "none");
   }

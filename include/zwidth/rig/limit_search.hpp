@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "zwidth/identification/measured_stiffness.hpp"
 #include "zwidth/model/device.hpp"
 #include "zwidth/option_problem.hpp"
 #include "zwidth/signal/ring_down.hpp"
@@ -44,11 +45,14 @@ struct LimitTrial {
 /// The limit of stable walls as measured on a rig.
 struct LimitMeasurement {
   std::optional<double> stiffness;  ///< K_CR where the growth rate passes through zero; absent unless trust allows one
-  double frequency = 0.0;           ///< rad/s, of the oscillation there; 0 where it was not read
-  double lower = 0.0;               ///< stiffest wall that rang down; 0: none did
-  double upper = 0.0;               ///< softest wall whose oscillation grew; 0: none did
-  std::vector<LimitTrial> trials;   ///< in their order
-  Trust trust;                      ///< of the stiffness
+  /// Holds the limit of large motion, N/m or N m/rad: from the last that rang down to the first that grew, widened by
+  /// three deviations of the growth rates and by what the encoder's step makes of the swing. Beside the stiffness, always.
+  std::optional<Interval> interval;
+  double frequency = 0.0;          ///< rad/s, of the oscillation there; 0 where it was not read
+  double lower = 0.0;              ///< stiffest wall that rang down; 0: none did
+  double upper = 0.0;              ///< softest wall whose oscillation grew; 0: none did
+  std::vector<LimitTrial> trials;  ///< in their order
+  Trust trust;                     ///< of the stiffness
 };
 
 /// Raises the stiffness of a wall, trial by trial, until an oscillation grows; then closes in on where it begins to.
