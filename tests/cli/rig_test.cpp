@@ -141,7 +141,7 @@ TEST_F(Rig, TellsWhatItCannotDo) {
   expect_refused("limit " + lhifam + "--set actuator.force_limit=5 --amplitude 6", 2, "at most the force limit");
   expect_refused("limit " + lhifam + "--flight-record a.csv --report a.csv", 2, "is the same file");
   expect_refused("limit " + lhifam + "--flight-record devices/lhifam.toml", 2, "would overwrite the device file");
-  expect_refused("check " + lhifam + "--driver serial", 2, "--driver: serial is none; simulated, or udp:HOST:PORT");
+  expect_refused("check " + lhifam + "--driver serial", 2, "--driver: serial is none; simulated, odrive:PORT");
   expect_refused("check " + lhifam + "--driver udp:127.0.0.1:9", 2, "--force-limit: missing");
   expect_refused("check " + lhifam + "--driver udp:127.0.0.1:9 --force-limit 1", 2, "--position-limit: missing");
   expect_refused("check " + lhifam + "--driver udp:127.0.0.1:9 --force-limit 1 --position-limit 1", 1,

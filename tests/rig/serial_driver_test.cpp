@@ -1,0 +1,121 @@
+// Each driver of a serial line against its drive's emulated firmware on a pseudo-terminal.
+#include "rig/serial_driver.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+
+#include "rig/drive_kinds.hpp"
+#include "rig/open_driver.hpp"
+#include "rig/pty_emulator.hpp"
+#include "rig/rig_actions.hpp"
+#include "rig/serial_device.hpp"
+#include "zwidth/error.hpp"
+#include "zwidth/rig/serial_rate.hpp"
+
+namespace zwidth::rig {
+namespace {
+
+using test::belt_device;
+using test::DriveKind;
+using test::PtyEmulator;
+using testing::HasSubstr;
+using Fault = PtyEmulator::Fault;
+
+class OnDrive : public testing::TestWithParam<DriveKind> {
+ protected:
+  [[nodiscard]] static SerialLink link(const PtyEmulator& emulator, const Device& device, bool lock_step) {
+    return {emulator.path(), *device.parameters().driver, device.loop().sampling_period, lock_step};
+  }
+  [[nodiscard]] static std::string failure(const std::string& name, const Device& device) {
+    try {
+      (void)open_driver(name, device, {});
+      return "";
+    } catch (const DriverFailed& problem) {
+      return problem.what();
+    } catch (const Error& problem) {
+      return problem.what();
+    }
+  }
+  const Device device = belt_device();
+};
+
+// Over the line the same numbers as without it: the drive moves one period with each force, at a rate that its line
+// carries at the speed that it has by default.
+TEST_P(OnDrive, TheLimitOverTheLine) {
+  const double expected = critical_stiffness(device).stiffness;
+  PtyEmulator emulator(GetParam().firmware(), device);
+  const auto driver = GetParam().driver(link(emulator, device, true));
+  const DriverFacts& facts = driver->facts();
+  ASSERT_FALSE(find_problem(SerialLoad{facts.bytes_per_cycle, 10.0 * *facts.byte_rate, device.loop().sampling_period}));
+  const RigLimit limit = measure_limit(device, *driver, {}, default_limit(device), {});
+  ASSERT_TRUE(limit.measured.stiffness) << explanation(limit.session.stop);
+  EXPECT_NEAR(*limit.measured.stiffness / expected, 1.0, 0.02);
+  EXPECT_NEAR(limit.measured.frequency / limit.predicted.limit->frequency, 1.0, 0.02);
+  EXPECT_EQ(limit.session.stop, StopReason::none);
+  EXPECT_EQ(emulator.motor().force(), 0.0);
+}
+
+TEST_P(OnDrive, TheWatchdogIsProvedBySilence) {
+  PtyEmulator emulator(GetParam().firmware(), device);
+  const auto driver = GetParam().driver(link(emulator, device, false));
+  EXPECT_EQ(driver->proves_watchdog(), GetParam().has_watchdog);
+  EXPECT_EQ(emulator.motor().times_let_go(), GetParam().has_watchdog ? 1 : 0);
+  EXPECT_EQ(emulator.motor().nonzero_forces(), 0) << "with no force at all";
+  driver->arm();
+  driver->command(3.0);
+  ASSERT_TRUE(driver->measure());
+  EXPECT_NEAR(emulator.motor().force(), 3.0, 0.001 * 3.0) << "units, gear and sign";
+  driver->disarm();
+  driver->command(3.0);
+  (void)driver->measure();
+  EXPECT_EQ(emulator.motor().force(), 0.0);
+}
+
+TEST_P(OnDrive, AWatchdogThatDoesNotBiteIsNone) {
+  PtyEmulator emulator(GetParam().firmware(), device);
+  emulator.set_fault(Fault::no_watchdog);
+  const auto driver = GetParam().driver(link(emulator, device, false));
+  EXPECT_EQ(driver->proves_watchdog(), false);
+  EXPECT_FALSE(driver->facts().watchdog);
+}
+
+TEST_P(OnDrive, APositionIsNeverAPeriodOld) {
+  const Device slow = belt_device(0.04);
+  PtyEmulator emulator(GetParam().firmware(), slow);
+  const auto driver = GetParam().driver(link(emulator, slow, false));
+  driver->arm();
+  ASSERT_TRUE(driver->measure());
+  emulator.set_fault(Fault::late);  // each answer by 60 ms: into the cycle after the next
+  for (int k = 0; k < 6; ++k) EXPECT_FALSE(driver->measure()) << k;
+}
+
+TEST_P(OnDrive, TellsWhatIsInTheWay) {
+  const std::string name(GetParam().name);
+  PtyEmulator emulator(GetParam().firmware(), device);
+  EXPECT_THAT(failure(name + ":/dev/null", device), HasSubstr("is no serial port"));
+  EXPECT_THAT(failure(name + ":/no/such/port", device), HasSubstr("No such file"));
+  EXPECT_THAT(failure(name + ":", device), HasSubstr("names no port"));
+  const std::string fast = failure(name + ":" + emulator.path(), belt_device(1e-3));
+  EXPECT_THAT(fast, HasSubstr("the line is too slow"));
+  EXPECT_THAT(fast, HasSubstr("set the drive and driver.baud to"));
+  EXPECT_THAT(failure(name + ":" + emulator.path(), belt_device(0.5)), HasSubstr(GetParam().has_watchdog ? "lets go" : ""));
+  DeviceParameters other_speed = device.parameters();
+  other_speed.driver->baud = 460800;
+  EXPECT_THAT(failure(name + ":" + emulator.path(), Device(other_speed)), HasSubstr("driver.baud is the drive's"));
+  other_speed.driver->baud = 123456;
+  EXPECT_THAT(failure(name + ":" + emulator.path(), Device(other_speed)), HasSubstr("one of 1200, 2400"));
+  DeviceParameters bare = device.parameters();
+  bare.driver.reset();
+  EXPECT_THAT(failure(name + ":" + emulator.path(), Device(bare)), HasSubstr("driver: is missing"));
+  const auto driver = GetParam().driver(link(emulator, device, false));
+  EXPECT_THAT(failure(name + ":" + emulator.path(), device), HasSubstr("another rig"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Drive, OnDrive, testing::ValuesIn(test::drive_kinds),
+                         [](const auto& kind) { return std::string(kind.param.name); });
+
+}  // namespace
+}  // namespace zwidth::rig
