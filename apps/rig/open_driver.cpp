@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <array>
 
+#include "rig/moteus_driver.hpp"
 #include "rig/odrive_driver.hpp"
+#include "rig/simplefoc_driver.hpp"
 #include "rig/simulated_driver.hpp"
 #include "rig/udp_driver.hpp"
+#include "rig/vesc_driver.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth::rig {
@@ -34,7 +37,9 @@ struct Kind {
   std::unique_ptr<Driver> (*open)(const std::string& where, const Device& device);
 };
 
-constexpr std::array kinds{Kind{"odrive:", open_serial<OdriveDriver>}, Kind{"udp:", open_udp}};
+constexpr std::array kinds{Kind{"odrive:", open_serial<OdriveDriver>}, Kind{"simplefoc:", open_serial<SimplefocDriver>},
+                           Kind{"moteus:", open_serial<MoteusDriver>}, Kind{"vesc:", open_serial<VescDriver>},
+                           Kind{"udp:", open_udp}};
 
 const Kind* kind_of(std::string_view name) {
   const auto* const found =

@@ -16,7 +16,8 @@ struct SimulatedDriverOptions {
 };
 
 /// What may stand for a driver.
-inline constexpr std::string_view driver_names = "simulated, odrive:PORT, udp:HOST:PORT";
+inline constexpr std::string_view driver_names =
+    "simulated, odrive:PORT, simplefoc:PORT, moteus:PORT, vesc:PORT, udp:HOST:PORT";
 
 /// Whether it is one of them.
 [[nodiscard]] bool is_driver_name(std::string_view name);

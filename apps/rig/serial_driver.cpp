@@ -14,7 +14,6 @@ namespace {
 
 constexpr std::int64_t lock_step_patience = 500'000'000;
 constexpr std::int64_t setup_patience = 100'000'000;  // ns, for an answer while nothing runs
-constexpr int setup_tries = 10;
 constexpr double cycles_within_watchdog = 2.0;
 
 int baud_of(const SerialLink& link, int otherwise) { return link.drive.baud.value_or(otherwise); }
@@ -24,13 +23,15 @@ DriverFacts checked(DriverFacts facts, const SerialLink& link, int baud) {
   facts.lock_step = link.lock_step;
   facts.byte_rate = serial_rate(1.0, baud);
   if (link.lock_step) return facts;
-  if (const auto problem = find_problem(SerialLoad{facts.bytes_per_cycle, static_cast<double>(baud), link.sampling_period})) {
+  if (const auto problem =
+          find_problem(SerialLoad{facts.bytes_per_cycle, static_cast<double>(baud), link.sampling_period})) {
     throw DriverFailed(fmt::format("the line is too slow: {}; {}", problem->what, problem->allowed));
   }
   if (facts.watchdog && *facts.watchdog < cycles_within_watchdog * link.sampling_period) {
-    throw DriverFailed(fmt::format("the firmware lets go after {} s without a force, the loop sends one every {} s; "
-                                   "set loop.sampling_period to {} s or less",
-                                   *facts.watchdog, link.sampling_period, *facts.watchdog / cycles_within_watchdog));
+    throw DriverFailed(
+        fmt::format("the firmware lets go after {} s without a force, the loop sends one every {} s; "
+                    "set loop.sampling_period to {} s or less",
+                    *facts.watchdog, link.sampling_period, *facts.watchdog / cycles_within_watchdog));
   }
   return facts;
 }
@@ -112,8 +113,8 @@ std::optional<std::string> SerialDriver::ask(std::string_view frame, const Under
   return std::nullopt;
 }
 
-std::string SerialDriver::ask_until_answered(std::string_view frame, const Understood& understood) {
-  for (int i = 0; i < setup_tries; ++i) {
+std::string SerialDriver::ask_until_answered(std::string_view frame, const Understood& understood, int tries) {
+  for (int i = 0; i < tries; ++i) {
     const std::int64_t begin = clock_now();
     if (auto text = ask(frame, understood)) return *std::move(text);
     sleep_until(begin + setup_patience);  // a port that is gone answers at once

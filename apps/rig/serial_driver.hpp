@@ -47,7 +47,7 @@ class SerialDriver : public Driver {
   /// How many bytes the first frame has, its end included; 0: it is not whole yet. A line unless overridden.
   [[nodiscard]] virtual std::size_t frame_size(std::string_view bytes) const noexcept;
   [[nodiscard]] virtual Heard hear(std::string_view frame) noexcept = 0;
-  [[nodiscard]] virtual SerialFrame question() const noexcept = 0;
+  [[nodiscard]] virtual SerialFrame question() noexcept = 0;
   [[nodiscard]] virtual SerialFrame torque_frame(double torque) const noexcept = 0;
 
   void send(double force) noexcept override { port_.write(torque_frame(force * drive_.torque_per_force()).view()); }
@@ -57,7 +57,7 @@ class SerialDriver : public Driver {
   /// Writes the frame, and waits for what is understood of those that come; nothing where none is.
   [[nodiscard]] std::optional<std::string> ask(std::string_view frame, const Understood& understood);
   /// The same, several times if need be; throws DriverFailed where the drive never answers.
-  [[nodiscard]] std::string ask_until_answered(std::string_view frame, const Understood& understood);
+  [[nodiscard]] std::string ask_until_answered(std::string_view frame, const Understood& understood, int tries = 10);
   /// Throws DriverFailed where the port is full.
   void tell(std::string_view frame);
   void forget_input() noexcept;

@@ -53,8 +53,8 @@ void configure(int file, speed_t speed) {
   termios got{};
   if (cfsetspeed(&settings, speed) != 0 || tcsetattr(file, TCSANOW, &settings) != 0 || tcgetattr(file, &got) != 0 ||
       cfgetospeed(&got) != speed) {
-    throw DriverFailed(fmt::format("does not take its speed: {}; set driver.baud to one that the port has",
-                                   std::strerror(errno)));
+    throw DriverFailed(
+        fmt::format("does not take its speed: {}; set driver.baud to one that the port has", std::strerror(errno)));
   }
   tcflush(file, TCIOFLUSH);
   serial_struct line{};  // an adapter that gathers bytes for 16 ms is asked not to, where its driver can be
@@ -116,7 +116,8 @@ std::ptrdiff_t SerialPort::read(std::span<char> bytes, std::int64_t until) noexc
     pollfd waiting{file_, POLLIN, 0};
     const timespec longest{left / 1'000'000'000, left % 1'000'000'000};
     const int ready = ppoll(&waiting, 1, &longest, nullptr);
-    if (ready > 0 && (waiting.revents & (POLLHUP | POLLERR | POLLNVAL)) != 0) return -1;  // readable for ever, of nothing
+    if (ready > 0 && (waiting.revents & (POLLHUP | POLLERR | POLLNVAL)) != 0)
+      return -1;  // readable for ever, of nothing
     if (left == 0 && ready <= 0) return 0;
   }
 }

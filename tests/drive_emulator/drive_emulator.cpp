@@ -17,7 +17,8 @@
 int main(int count, char** arguments) {
   using namespace zwidth;
   std::string names;
-  for (const test::DriveKind& kind : test::drive_kinds) names += fmt::format("{}{}", names.empty() ? "" : "|", kind.name);
+  for (const test::DriveKind& kind : test::drive_kinds)
+    names += fmt::format("{}{}", names.empty() ? "" : "|", kind.name);
   const auto* const kind = std::ranges::find(test::drive_kinds, count > 1 ? arguments[1] : "", &test::DriveKind::name);
   if (count != 3 || kind == test::drive_kinds.end()) {
     fmt::print(stderr, "usage: drive_emulator {} DEVICE.toml\n", names);

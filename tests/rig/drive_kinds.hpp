@@ -4,8 +4,14 @@
 #include <memory>
 #include <string_view>
 
+#include "rig/moteus_driver.hpp"
+#include "rig/moteus_firmware.hpp"
 #include "rig/odrive_driver.hpp"
 #include "rig/odrive_firmware.hpp"
+#include "rig/simplefoc_driver.hpp"
+#include "rig/simplefoc_firmware.hpp"
+#include "rig/vesc_driver.hpp"
+#include "rig/vesc_firmware.hpp"
 
 namespace zwidth::test {
 
@@ -29,6 +35,9 @@ std::unique_ptr<rig::Driver> new_driver(const rig::SerialLink& link) {
 }
 
 inline constexpr std::array drive_kinds{
-    DriveKind{"odrive", new_firmware<OdriveFirmware>, new_driver<rig::OdriveDriver>, true, true, true}};
+    DriveKind{"odrive", new_firmware<OdriveFirmware>, new_driver<rig::OdriveDriver>, true, true, true},
+    DriveKind{"moteus", new_firmware<MoteusFirmware>, new_driver<rig::MoteusDriver>, true, true, true},
+    DriveKind{"vesc", new_firmware<VescFirmware>, new_driver<rig::VescDriver>, true, true, false},
+    DriveKind{"simplefoc", new_firmware<SimplefocFirmware>, new_driver<rig::SimplefocDriver>, false, false, true}};
 
 }  // namespace zwidth::test

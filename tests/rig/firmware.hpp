@@ -20,8 +20,10 @@ class Firmware {
   [[nodiscard]] virtual int baud() const = 0;
   /// Bytes that have come; each frame that it answers.
   [[nodiscard]] virtual std::vector<std::string> receive(std::string_view bytes, EmulatedMotor& motor) = 0;
-  /// Its watchdog looks.
-  virtual void tick(Clock::time_point now, EmulatedMotor& motor) = 0;
+  /// Its watchdog looks; or would, if it were enabled.
+  virtual void tick(Clock::time_point now, bool is_enabled, EmulatedMotor& motor) = 0;
+  /// Something is wrong with the motor: it lets go, and says so where it says anything.
+  virtual void fail(EmulatedMotor& motor) = 0;
 };
 
 }  // namespace zwidth::test

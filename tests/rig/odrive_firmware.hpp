@@ -35,14 +35,21 @@ class OdriveFirmware : public Firmware {
     return answers;
   }
 
-  void tick(Clock::time_point now, EmulatedMotor& motor) override {
-    if (!watchdog_is_enabled_ || state_ != closed_loop || now - fed_ <= timeout_) return;
+  void tick(Clock::time_point now, bool is_enabled, EmulatedMotor& motor) override {
+    if (!is_enabled || !watchdog_is_enabled_ || state_ != closed_loop || now - fed_ <= timeout_) return;
     error_ |= watchdog_expired;
     state_ = idle;
     motor.let_go();
   }
 
+  void fail(EmulatedMotor& motor) override {
+    error_ |= motor_failed;
+    state_ = idle;
+    motor.let_go();
+  }
+
  private:
+  static constexpr long motor_failed = 0x40;
   static constexpr std::size_t longest_line = 256;
   static constexpr int idle = 1;
   static constexpr int closed_loop = 8;

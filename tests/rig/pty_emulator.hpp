@@ -44,11 +44,15 @@ class PtyEmulator {
     lost_answers,  // every third
     stalled,
     no_watchdog,
+    failed_drive,
     unplugged
   };
 
   PtyEmulator(std::unique_ptr<Firmware> firmware, const Device& device, LineOptions line = {})
-      : firmware_(std::move(firmware)), motor_(device), line_(line), master_(posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC)) {
+      : firmware_(std::move(firmware)),
+        motor_(device),
+        line_(line),
+        master_(posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC)) {
     std::array<char, 128> name{};
     if (master_ < 0 || grantpt(master_) != 0 || unlockpt(master_) != 0 ||
         ptsname_r(master_, name.data(), name.size()) != 0) {
@@ -89,7 +93,7 @@ class PtyEmulator {
       pollfd waiting{master_, POLLIN, 0};
       const timespec longest{0, 2'000'000};  // the watchdog looks although nothing comes
       const bool has_input = master_ >= 0 && ppoll(&waiting, 1, &longest, nullptr) > 0;
-      if (fault_ != Fault::no_watchdog) firmware_->tick(Clock::now(), motor_);
+      firmware_->tick(Clock::now(), fault_ != Fault::no_watchdog, motor_);
       if (fault_ == Fault::unplugged) {
         if (master_ >= 0) close(std::exchange(master_, -1));
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
@@ -98,9 +102,10 @@ class PtyEmulator {
       if (fault_ == Fault::stalled) {  // bytes wait in the line
         for (int i = 0; i < 150 && !is_ending_; ++i) {
           std::this_thread::sleep_for(std::chrono::milliseconds(2));
-          firmware_->tick(Clock::now(), motor_);
+          firmware_->tick(Clock::now(), true, motor_);
         }
       }
+      if (fault_ == Fault::failed_drive && !std::exchange(has_failed_, true)) firmware_->fail(motor_);
       if (!has_input) continue;
       const ssize_t count = read(master_, bytes.data(), bytes.size());
       if (count <= 0 || !has_same_speed()) continue;
@@ -139,7 +144,8 @@ class PtyEmulator {
         {{115200, B115200}, {921600, B921600}, {1000000, B1000000}, {4000000, B4000000}}};
     termios settings{};
     if (tcgetattr(slave_, &settings) != 0) return false;
-    const auto* const own = std::find_if(speeds.begin(), speeds.end(), [&](auto each) { return each.first == line_.baud; });
+    const auto* const own =
+        std::find_if(speeds.begin(), speeds.end(), [&](auto each) { return each.first == line_.baud; });
     return own != speeds.end() && cfgetospeed(&settings) == own->second;
   }
 
@@ -151,6 +157,7 @@ class PtyEmulator {
   std::string path_;
   Clock::time_point free_at_;
   int answers_ = 0;
+  bool has_failed_ = false;
   std::atomic<bool> is_ending_ = false;
   std::atomic<Fault> fault_ = Fault::none;
   std::thread thread_;

@@ -40,21 +40,21 @@ class Host {
        const std::string& record, const std::vector<std::string>& more = {}) {
     errors_ = folder / (name + ".errors");
     std::vector<std::string> words{ZWIDTH_PROGRAM,
-                                         "rig",
-                                         "wall",
-                                         folder / "device.toml",
-                                         "--driver",
-                                         driver,
-                                         "--position-limit",
-                                         "1",
-                                         "--duration",
-                                         "100",
-                                         "--amplitude",
-                                         "1",
-                                         "--ramp",
-                                         "0",
-                                         "--flight-record",
-                                         record};
+                                   "rig",
+                                   "wall",
+                                   folder / "device.toml",
+                                   "--driver",
+                                   driver,
+                                   "--position-limit",
+                                   "1",
+                                   "--duration",
+                                   "100",
+                                   "--amplitude",
+                                   "1",
+                                   "--ramp",
+                                   "0",
+                                   "--flight-record",
+                                   record};
     words.insert(words.end(), more.begin(), more.end());
     std::vector<char*> arguments;
     for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));

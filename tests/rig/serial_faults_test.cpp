@@ -29,7 +29,7 @@ using testing::AnyOf;
 using testing::HasSubstr;
 using Fault = PtyEmulator::Fault;
 
-constexpr double period = 0.04;  // s: machines that tests run on pause for many milliseconds
+constexpr double period = 0.04;       // s: machines that tests run on pause for many milliseconds
 constexpr int most_cycles_after = 4;  // with a force: three, and one that was under way
 
 class DriveFault : public testing::TestWithParam<DriveKind> {
@@ -130,6 +130,10 @@ TEST_P(DriveFault, LateAnswers) {
 TEST_P(DriveFault, APositionThatIsNoNumber) {
   if (!GetParam().has_nan) return;  // its positions are whole numbers
   expect_stop([](PtyEmulator& drive, Host&) { drive.set_fault(Fault::not_a_number); }, "not a number");
+}
+TEST_P(DriveFault, ADriveThatFails) {
+  if (!GetParam().has_watchdog) return;  // nor does it tell of faults
+  expect_stop([](PtyEmulator& drive, Host&) { drive.set_fault(Fault::failed_drive); }, "brought no position");
 }
 TEST_P(DriveFault, AnInterrupt) {
   expect_stop([](PtyEmulator&, Host& rig) { rig.send(SIGINT); }, "interrupted");
