@@ -33,7 +33,8 @@ void check_moteus(std::string_view bytes) {
   (void)moteus_reply(bytes, 1);
   std::string reply = "rcv 100 ";
   for (const char c : bytes.substr(0, 40)) reply += fmt::format("{:02x}", static_cast<unsigned char>(c));
-  const auto answer = moteus_answer(moteus_line(reply, true).view(), true);
+  const std::string line(moteus_line(reply, true).view());
+  const auto answer = moteus_answer(line, true);
   if (!answer || answer->size() > reply.size()) std::abort();
   (void)moteus_reply(*answer, 1);
 }

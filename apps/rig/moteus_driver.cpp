@@ -34,7 +34,8 @@ MoteusDriver::MoteusDriver(const SerialLink& link)
   });
   if (refused) has_checksums_ = moteus_answer(*refused, true).has_value();
   if (mode() == fault_mode) {
-    throw DriverFailed(fmt::format("moteus {} stands on a fault; find its cause with tview, then stop it (d stop)", id_));
+    throw DriverFailed(
+        fmt::format("moteus {} stands on a fault; find its cause with tview, then stop it (d stop)", id_));
   }
 }
 
@@ -59,8 +60,8 @@ void MoteusDriver::arm() {
     }
     sleep_until(clock_now() + between_looks);
   } while (clock_now() < until);
-  throw DriverFailed(fmt::format("moteus {} does not go into its position mode but stays in mode {}; calibrate it first",
-                                 id_, mode()));
+  throw DriverFailed(fmt::format(
+      "moteus {} does not go into its position mode but stays in mode {}; calibrate it first", id_, mode()));
 }
 
 std::optional<bool> MoteusDriver::proves_watchdog() {

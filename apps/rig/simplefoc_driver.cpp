@@ -37,10 +37,13 @@ std::string SimplefocDriver::setting(std::string_view command, std::string_view 
   std::string lines{machine_readable};
   lines += six_decimals;
   lines += simplefoc_line(motor_, command).view();
-  return ask_until_answered(lines, [&](std::string_view frame) -> std::optional<std::string> {
-    const auto answer = simplefoc_answer(frame, motor_, echo);
-    return answer ? std::optional<std::string>(*answer) : std::nullopt;
-  }, tries_while_booting);
+  return ask_until_answered(
+      lines,
+      [&](std::string_view frame) -> std::optional<std::string> {
+        const auto answer = simplefoc_answer(frame, motor_, echo);
+        return answer ? std::optional<std::string>(*answer) : std::nullopt;
+      },
+      tries_while_booting);
 }
 
 double SimplefocDriver::torque_per_target() {
@@ -48,19 +51,21 @@ double SimplefocDriver::torque_per_target() {
   if (kind == "volt") {
     const auto resistance = as_number(setting("R", "R"));
     if (!resistance || *resistance > 0.0) {
-      throw DriverFailed(fmt::format("motor {} controls torque by volts and has a phase resistance: SimpleFOC 2.3 then "
-                                     "takes amperes for a target, 2.4 volts; make the motor without a resistance, or "
-                                     "control a current (motor.torque_controller)",
-                                     motor_));
+      throw DriverFailed(
+          fmt::format("motor {} controls torque by volts and has a phase resistance: SimpleFOC 2.3 then "
+                      "takes amperes for a target, 2.4 volts; make the motor without a resistance, or "
+                      "control a current (motor.torque_controller)",
+                      motor_));
     }
     return constant(drive().torque_per_volt, "torque_per_volt", "volts");
   }
   if (kind == "dc curr" || kind == "foc curr" || kind == "est. curr") {
     return constant(drive().torque_constant, "torque_constant", "amperes");
   }
-  throw DriverFailed(fmt::format("motor {} controls torque by \"{}\", which is not known; volt, dc curr or foc curr "
-                                 "(motor.torque_controller)",
-                                 motor_, kind));
+  throw DriverFailed(
+      fmt::format("motor {} controls torque by \"{}\", which is not known; volt, dc curr or foc curr "
+                  "(motor.torque_controller)",
+                  motor_, kind));
 }
 
 void SimplefocDriver::arm() {

@@ -10,9 +10,9 @@ namespace zwidth::rig {
 namespace {
 
 constexpr int default_baud = 115200;
-constexpr double default_watchdog = 1.0;                // s, APPCONF_TIMEOUT_MSEC
-constexpr double silence = 1.2;                         // s, after which it must have let go
-constexpr std::int64_t arming_patience = 500'000'000;   // ns
+constexpr double default_watchdog = 1.0;               // s, APPCONF_TIMEOUT_MSEC
+constexpr double silence = 1.2;                        // s, after which it must have let go
+constexpr std::int64_t arming_patience = 500'000'000;  // ns
 constexpr std::int64_t between_looks = 10'000'000;
 constexpr int idle_frames = 3;
 constexpr double most_turns_per_cycle = 0.25;
@@ -31,8 +31,8 @@ double torque_constant_of(const SerialLink& link) {
 }  // namespace
 
 VescDriver::VescDriver(const SerialLink& link)
-    : SerialDriver({.name = "vesc:" + link.port, .watchdog = default_watchdog, .bytes_per_cycle = bytes_per_cycle}, link,
-                   default_baud),
+    : SerialDriver({.name = "vesc:" + link.port, .watchdog = default_watchdog, .bytes_per_cycle = bytes_per_cycle},
+                   link, default_baud),
       torque_constant_(torque_constant_of(link)) {
   if (const int fault = values().fault; fault != 0) {
     throw DriverFailed(fmt::format("the drive stands on fault {}; VESC Tool tells its cause", fault));

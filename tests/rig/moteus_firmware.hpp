@@ -100,7 +100,8 @@ class MoteusFirmware : public Firmware {
     say("OK", answers);
     if ((id & 0x7fU) != 1) return;
     const std::string reply = run(bytes, motor);
-    if ((id & 0x8000U) != 0) say(is_adapter_ ? "rcv 0100 " + reply + "5050 E B F t1234 f0" : "rcv 00000100 " + reply, answers);
+    if ((id & 0x8000U) != 0)
+      say(is_adapter_ ? "rcv 0100 " + reply + "5050 E B F t1234 f0" : "rcv 00000100 " + reply, answers);
   }
 
   /// The subframes of a CAN frame; what they ask for, as hexadecimal digits.
@@ -137,7 +138,8 @@ class MoteusFirmware : public Firmware {
       mode_ = stopped;
       motor.idle();
     } else if (written[0] == position && (mode_ == stopped || mode_ == position)) {
-      const bool has_gains = !written.contains(0x23) || !written.contains(0x24) || written[0x23] != 0 || written[0x24] != 0;
+      const bool has_gains =
+          !written.contains(0x23) || !written.contains(0x24) || written[0x23] != 0 || written[0x24] != 0;
       if (has_gains) return fail(motor);  // the position of a rig's torque must not pull
       mode_ = position;
       fed_ = Clock::now();
@@ -151,7 +153,8 @@ class MoteusFirmware : public Firmware {
     const double number = which == 0 ? mode_ : which == 1 ? motor.turns() : 0.0;
     if (type == 0) return fmt::format("{:02x}", static_cast<unsigned>(static_cast<int>(number)) & 0xffU);
     const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(number));
-    return fmt::format("{:02x}{:02x}{:02x}{:02x}", bits & 0xffU, (bits >> 8U) & 0xffU, (bits >> 16U) & 0xffU, bits >> 24U);
+    return fmt::format("{:02x}{:02x}{:02x}{:02x}", bits & 0xffU, (bits >> 8U) & 0xffU, (bits >> 16U) & 0xffU,
+                       bits >> 24U);
   }
 
   bool is_adapter_;

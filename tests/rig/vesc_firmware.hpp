@@ -57,7 +57,9 @@ class VescFirmware : public Firmware {
     }
     return crc;
   }
-  [[nodiscard]] std::uint32_t big_endian(std::size_t at, std::size_t size) const { return big_endian(buffer_, at, size); }
+  [[nodiscard]] std::uint32_t big_endian(std::size_t at, std::size_t size) const {
+    return big_endian(buffer_, at, size);
+  }
   static std::uint32_t big_endian(std::string_view bytes, std::size_t at, std::size_t size) {
     std::uint32_t value = 0;
     for (std::size_t i = 0; i < size; ++i) value = value << 8U | static_cast<unsigned char>(bytes[at + i]);
