@@ -38,7 +38,7 @@ class Driver {
   /// The position now, m or rad; nothing where none came in time.
   [[nodiscard]] virtual std::optional<double> measure() noexcept = 0;
   /// Force from now on, N or N m; 0 after disarm().
-  void command(double force) noexcept { send(is_disarmed_.load(std::memory_order_acquire) ? 0.0 : force); }
+  void command(double force) noexcept { send(is_disarmed() ? 0.0 : force); }
   /// Zero force, for good, and the drive idle.
   void disarm() noexcept {
     is_disarmed_.store(true, std::memory_order_release);
@@ -51,6 +51,7 @@ class Driver {
  protected:
   virtual void send(double force) noexcept = 0;
   virtual void send_idle() noexcept = 0;
+  [[nodiscard]] bool is_disarmed() const noexcept { return is_disarmed_.load(std::memory_order_acquire); }
 
  private:
   std::atomic<bool> is_disarmed_ = false;

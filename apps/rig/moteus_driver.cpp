@@ -78,7 +78,8 @@ SerialDriver::Heard MoteusDriver::hear(std::string_view frame) noexcept {
   if (!answer) return {Meaning::broken};
   if (*answer == "OK" || answer->empty()) return {Meaning::other};
   const auto reply = moteus_reply(*answer, id_);
-  if (!reply || !reply->position || reply->mode != position_mode) return {Meaning::broken};
+  if (!reply || !reply->position) return {Meaning::broken};
+  if (reply->mode != position_mode && !is_disarmed()) return {Meaning::broken};  // it has let go
   return {Meaning::position, *reply->position};
 }
 

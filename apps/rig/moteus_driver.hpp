@@ -9,7 +9,7 @@ namespace zwidth::rig {
 /// of its own (USB and CAN-FD do).
 ///
 /// Torque in position mode without gains. The watchdog of each command, 100 ms, ends in a mode of which only a stop leads
-/// out: mode and position are read together, and a position in any other mode than that of torque is none.
+/// out: mode and position are read together, and a position in any other mode than that of torque is none, until it is disarmed.
 class MoteusDriver : public SerialDriver {
  public:
   /// Throws DriverFailed where the drive does not answer, or stands on a fault.

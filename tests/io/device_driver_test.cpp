@@ -11,7 +11,8 @@ namespace zwidth {
 namespace {
 
 const std::string linear = "[[body]]\nname = \"a\"\nmass = 1\n[loop]\nsampling_period = 0.01\n[driver]\n";
-const std::string rotary = "motion = \"rotary\"\n[[body]]\nname = \"a\"\ninertia = 1\n[loop]\nsampling_period = 0.01\n[driver]\n";
+const std::string rotary =
+    "motion = \"rotary\"\n[[body]]\nname = \"a\"\ninertia = 1\n[loop]\nsampling_period = 0.01\n[driver]\n";
 
 std::string refusal(const std::string& text, const std::vector<std::string>& overrides = {}) {
   const auto device = parse_device(text, "f.toml", overrides);
@@ -45,7 +46,8 @@ TEST(DeviceDriver, EmptyTurnsWithTheDevice) {
 }
 
 TEST(DeviceDriver, IsWrittenAsItWasRead) {
-  for (const std::string text : {"travel = 0.025\nsign = -1\nbaud = 115200\n", "travel = 1\nid = 7\ncommand = \"z\"\n"}) {
+  for (const std::string text :
+       {"travel = 0.025\nsign = -1\nbaud = 115200\n", "travel = 1\nid = 7\ncommand = \"z\"\n"}) {
     const auto device = parse_device(linear + text, "f.toml");
     ASSERT_TRUE(device) << device.error().str();
     const std::string written = write_device(device->parameters());
@@ -60,9 +62,11 @@ TEST(DeviceDriver, IsWrittenAsItWasRead) {
 }
 
 TEST(DeviceDriver, IsRefusedWithItsPlace) {
-  EXPECT_EQ(refusal(linear),
-            "f.toml:6:1: driver.travel: is missing; must be given: how far the device moves in a turn, such as \"25 mm\"");
-  EXPECT_EQ(refusal(linear + "travel = 1\ngears = 2\n"), "f.toml:8:1: driver.gears: unknown key \"gears\"; did you mean \"gear\"?");
+  EXPECT_EQ(
+      refusal(linear),
+      "f.toml:6:1: driver.travel: is missing; must be given: how far the device moves in a turn, such as \"25 mm\"");
+  EXPECT_EQ(refusal(linear + "travel = 1\ngears = 2\n"),
+            "f.toml:8:1: driver.gears: unknown key \"gears\"; did you mean \"gear\"?");
   EXPECT_NE(refusal(linear + "travel = \"1 turn\"\n").find("\"turn\" is no unit of a length"), std::string::npos);
   EXPECT_NE(refusal(rotary + "torque_constant = \"5 A\"\n").find("is no unit of a torque constant"), std::string::npos);
   EXPECT_EQ(refusal(rotary + "sign = 2\n"), "f.toml:8:8: driver.sign: is 2; must be 1 or -1");
@@ -71,7 +75,8 @@ TEST(DeviceDriver, IsRefusedWithItsPlace) {
   EXPECT_EQ(refusal(rotary + "id = 128\n"), "f.toml:8:6: driver.id: is 128; must be a whole number from 0 to 127");
   EXPECT_EQ(refusal(rotary + "baud = 1e30\n"), "f.toml:8:8: driver.baud: is 1e+30; must be a whole number");
   EXPECT_EQ(refusal(rotary + "baud = nan\n"), "f.toml:8:8: driver.baud: is nan; must be a whole number");
-  EXPECT_EQ(refusal(rotary + "command = \"MM\"\n"), "f.toml:8:11: driver.command: is no letter; must be one letter, such as \"M\"");
+  EXPECT_EQ(refusal(rotary + "command = \"MM\"\n"),
+            "f.toml:8:11: driver.command: is no letter; must be one letter, such as \"M\"");
 }
 
 }  // namespace

@@ -147,6 +147,19 @@ TEST(VescDriver, CountsTurns) {
   EXPECT_FALSE(driver.measure()) << "for good";
 }
 
+TEST(VescDriver, NeedsATorqueConstant) {
+  DeviceParameters parameters = belt_device().parameters();
+  parameters.driver->torque_constant.reset();
+  const Device device(parameters);
+  PtyEmulator emulator(std::make_unique<test::VescFirmware>(), belt_device());
+  try {
+    (void)open_driver("vesc:" + emulator.path(), device, {});
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("driver.torque_constant: is missing"));
+  }
+}
+
 // The unit of a target is the sketch's.
 TEST(SimplefocDriver, TakesTheUnitOfTheSketch) {
   const Device device = belt_device();
