@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "cli/subcommand.hpp"
+#include "rig/open_driver.hpp"
 
 namespace zwidth::cli {
 namespace {
@@ -87,7 +88,7 @@ void add_rig_arguments(CLI::App& command, RigArguments& arguments) {
       ->required()
       ->check(CLI::IsMember({"check", "measure", "identify", "relay", "wall", "limit"}));
   add_device_arguments(command, arguments.devices, FileCount::one);
-  command.add_option("--driver", arguments.driver, "simulated; udp:HOST:PORT")
+  command.add_option("--driver", arguments.driver, std::string(rig::driver_names))
       ->type_name("DRIVER")
       ->capture_default_str();
   command.add_flag("--real-time", arguments.real_time, "Keep the clock with a simulated device too");
@@ -111,8 +112,8 @@ void check_rig_arguments(const CLI::App& command, const RigArguments& arguments)
     }
   }
   if (arguments.driver == "simulated") return;
-  if (!arguments.driver.starts_with("udp:")) {
-    throw BadInput(fmt::format("--driver: {} is none; simulated, or udp:HOST:PORT", arguments.driver));
+  if (!rig::is_driver_name(arguments.driver)) {
+    throw BadInput(fmt::format("--driver: {} is none; {}", arguments.driver, rig::driver_names));
   }
   for (const char* option : {"--real-time", "--start"}) {
     if (command.count(option) > 0) throw BadInput(fmt::format("{}: is for a simulated device", option));

@@ -17,7 +17,7 @@ struct DriverFacts {
   bool lock_step = false;                ///< its time moves one period with each command: there is no clock to keep
   bool is_zeroed = false;                ///< its positions count from where the wall begins; else from the first one
   std::optional<double> watchdog = {};   ///< s, of the firmware; absent: it has none
-  double bytes_per_cycle = 0.0;          ///< on the busier direction of a serial line
+  double bytes_per_cycle = 0.0;          ///< on a serial line: question, answer and force
   std::optional<double> byte_rate = {};  ///< bytes/s that the line carries; absent: no serial line
 };
 
@@ -38,19 +38,20 @@ class Driver {
   /// The position now, m or rad; nothing where none came in time.
   [[nodiscard]] virtual std::optional<double> measure() noexcept = 0;
   /// Force from now on, N or N m; 0 after disarm().
-  void command(double force) noexcept { send(is_disarmed_.load(std::memory_order_acquire) ? 0.0 : force); }
+  void command(double force) noexcept { send(is_disarmed() ? 0.0 : force); }
   /// Zero force, for good, and the drive idle.
   void disarm() noexcept {
     is_disarmed_.store(true, std::memory_order_release);
     send_idle();
   }
-  /// Falls silent for longer than the firmware's watchdog, and asks whether it has let go. Called while armed, before the
-  /// loop runs; leaves the drive armed. Absent: there is no firmware. Throws DriverFailed where the link breaks.
+  /// At zero force falls silent for longer than the firmware's watchdog, and asks whether it has let go. Called before
+  /// arm(). Absent: there is no firmware. Throws DriverFailed where the link breaks.
   [[nodiscard]] virtual std::optional<bool> proves_watchdog() = 0;
 
  protected:
   virtual void send(double force) noexcept = 0;
   virtual void send_idle() noexcept = 0;
+  [[nodiscard]] bool is_disarmed() const noexcept { return is_disarmed_.load(std::memory_order_acquire); }
 
  private:
   std::atomic<bool> is_disarmed_ = false;

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "rig/driver.hpp"
 #include "zwidth/model/device.hpp"
@@ -14,7 +15,15 @@ struct SimulatedDriverOptions {
   bool real_time = false;  ///< it keeps the clock
 };
 
-/// The driver of that name: "simulated", "udp:HOST:PORT". Throws DriverFailed for another, and where it is not reached.
+/// What may stand for a driver.
+inline constexpr std::string_view driver_names =
+    "simulated, odrive:PORT, simplefoc:PORT, moteus:PORT, vesc:PORT, udp:HOST:PORT";
+
+/// Whether it is one of them.
+[[nodiscard]] bool is_driver_name(std::string_view name);
+
+/// The driver of that name. Throws DriverFailed for another, and where it is not reached; Error (invalid_argument) where
+/// the device does not tell what its drive needs to be told.
 [[nodiscard]] std::unique_ptr<Driver> open_driver(const std::string& name, const Device& device,
                                                   const SimulatedDriverOptions& simulated);
 

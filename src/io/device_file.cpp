@@ -52,6 +52,7 @@ class DeviceReader {
     read_transfer_function();
     read_loop();
     read_surroundings();
+    read_driver();
     read_uncertainty();
     return std::move(device_);
   }
@@ -185,6 +186,31 @@ class DeviceReader {
                          fmt::format("{}.{}", path_of(DeviceTable::filter), device_.wall.filters.size()));
       device_.wall.filters.push_back(read_wall_filter(reader));
     }
+  }
+
+  void read_driver() {
+    const toml::table* table = root_.table(DeviceTable::driver);
+    if (!table) return;
+    TableReader reader = table_reader(DeviceTable::driver, *table);
+    MotorDrive& drive = device_.driver.emplace();
+    drive.travel = reader.number("travel", Measure::position);
+    drive.gear = reader.number("gear", Measure::ratio).value_or(1.0);
+    drive.sign = reader.number("sign").value_or(1.0);
+    drive.torque_constant = reader.number("torque_constant", Measure::torque_per_current);
+    drive.torque_per_volt = reader.number("torque_per_volt", Measure::torque_per_voltage);
+    drive.id = whole_number(reader, "id");
+    drive.command = reader.text("command").value_or("M");
+    drive.baud = whole_number(reader, "baud");
+  }
+
+  static std::optional<int> whole_number(TableReader& reader, std::string_view key) {
+    const std::optional<double> number = reader.number(key);
+    constexpr double largest = 1e9;
+    if (!number || (std::abs(*number) <= largest && std::trunc(*number) == *number)) {
+      return number ? std::optional(static_cast<int>(*number)) : std::nullopt;
+    }
+    reader.refuse(key, fmt::format("is {}", *number), "must be a whole number");
+    return std::nullopt;
   }
 
   void read_uncertainty() {

@@ -19,11 +19,11 @@ struct TableKeys {
 };
 
 /// In the order of DeviceTable.
-const std::array<TableKeys, 11>& all_tables() {
-  static const std::array<TableKeys, 11> tables{{
+const std::array<TableKeys, 12>& all_tables() {
+  static const std::array<TableKeys, 12> tables{{
       {"",
        {"name", "motion", "body", "link", "loop", "actuator", "sensor", "wall", "operator", "transfer_function",
-        "uncertainty"}},
+        "uncertainty", "driver"}},
       {"body", {"name", "mass", "inertia", "damping", "stiffness", "coulomb"}},
       {"link", {"between", "stiffness", "damping"}},
       {"loop", {"actuated", "sensed", "held", "sampling_period", "delay"}},
@@ -34,6 +34,7 @@ const std::array<TableKeys, 11>& all_tables() {
       {"operator", {"mass", "inertia", "damping", "stiffness"}},
       {"transfer_function", {"numerator", "denominator"}},
       {"uncertainty", {"parameters", "covariance", "verdict", "warning", "reasons"}},
+      {"driver", {"travel", "gear", "sign", "torque_constant", "torque_per_volt", "id", "command", "baud"}},
   }};
   return tables;
 }

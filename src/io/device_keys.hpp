@@ -7,7 +7,20 @@
 namespace zwidth::internal {
 
 /// The tables of a device file.
-enum class DeviceTable { root, body, link, loop, actuator, sensor, wall, filter, user, transfer_function, uncertainty };
+enum class DeviceTable {
+  root,
+  body,
+  link,
+  loop,
+  actuator,
+  sensor,
+  wall,
+  filter,
+  user,
+  transfer_function,
+  uncertainty,
+  driver
+};
 
 /// Every key that may stand in the table.
 [[nodiscard]] std::span<const std::string> keys_of(DeviceTable table);

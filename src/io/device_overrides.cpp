@@ -145,8 +145,9 @@ tl::expected<Target, InputError> find_target(toml::table& document, std::string_
   if (whole_key.starts_with(filters)) {
     return target_in_tables(document, DeviceTable::filter, whole_key.substr(filters.size()), whole_key);
   }
-  for (const DeviceTable kind : {DeviceTable::loop, DeviceTable::actuator, DeviceTable::sensor, DeviceTable::wall,
-                                 DeviceTable::user, DeviceTable::transfer_function, DeviceTable::uncertainty}) {
+  for (const DeviceTable kind :
+       {DeviceTable::loop, DeviceTable::actuator, DeviceTable::sensor, DeviceTable::wall, DeviceTable::user,
+        DeviceTable::transfer_function, DeviceTable::uncertainty, DeviceTable::driver}) {
     if (first == name_of(kind)) return target_in_table(document, kind, rest, whole_key);
   }
   return tl::unexpected(refusal(whole_key, fmt::format("{} is one value, not a table", in_quotes(first)),

@@ -98,6 +98,18 @@ void write_filters(const DeviceParameters& device, Writer& out) {
   }
 }
 
+void write_driver(const MotorDrive& drive, Writer& out) {
+  out.header("[driver]");
+  if (drive.travel) out.number("travel", *drive.travel);
+  out.number("gear", drive.gear);
+  out.number("sign", drive.sign);
+  if (drive.torque_constant) out.number("torque_constant", *drive.torque_constant);
+  if (drive.torque_per_volt) out.number("torque_per_volt", *drive.torque_per_volt);
+  if (drive.id) out.value("id", fmt::format("{}", *drive.id));
+  out.value("command", text_value(drive.command));
+  if (drive.baud) out.value("baud", fmt::format("{}", *drive.baud));
+}
+
 }  // namespace
 
 std::string write_device(const DeviceParameters& parameters) {
@@ -137,6 +149,7 @@ std::string write_device(const DeviceParameters& parameters) {
     out.number("damping", device.user.damping);
     out.number("stiffness", device.user.stiffness);
   }
+  if (device.driver) write_driver(*device.driver, out);
   if (device.uncertainty) {
     out.header("[uncertainty]");
     const Uncertainty& uncertainty = *device.uncertainty;

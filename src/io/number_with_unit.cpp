@@ -26,7 +26,7 @@ struct MeasuredUnit {
 
 const MeasuredUnit& unit_of(Measure measure, Motion motion) {
   // In the order of Measure.
-  static constexpr std::array<MeasuredUnit, 10> linear{{{"a ratio", "", "", "20 %"},
+  static constexpr std::array<MeasuredUnit, 12> linear{{{"a ratio", "", "", "20 %"},
                                                         {"a time", "s", "", "1.5 ms"},
                                                         {"a frequency", "Hz", "", "0.2 kHz"},
                                                         {"an angular frequency", "rad/s", "", "40 Hz"},
@@ -35,8 +35,10 @@ const MeasuredUnit& unit_of(Measure measure, Motion motion) {
                                                         {"a mass", "kg", "", "220 g"},
                                                         {"a damping", "N s/m", "", "5 N s/m"},
                                                         {"a stiffness", "N/m", "", "5 N/mm"},
-                                                        {"a velocity", "m/s", "", "50 mm/s"}}};
-  static constexpr std::array<MeasuredUnit, 10> rotary{{linear[0],
+                                                        {"a velocity", "m/s", "", "50 mm/s"},
+                                                        {"a torque constant", "N m/A", "", "50 mN m/A"},
+                                                        {"a torque per voltage", "N m/V", "", "20 mN m/V"}}};
+  static constexpr std::array<MeasuredUnit, 12> rotary{{linear[0],
                                                         linear[1],
                                                         linear[2],
                                                         linear[3],
@@ -45,7 +47,9 @@ const MeasuredUnit& unit_of(Measure measure, Motion motion) {
                                                         {"an inertia", "kg m^2", "kg m^2/rad", "22 kg cm^2"},
                                                         {"a damping", "N m s/rad", "N m s", "0.1 N m s/rad"},
                                                         {"a stiffness", "N m/rad", "N m", "0.4 N m/deg"},
-                                                        {"an angular velocity", "rad/s", "", "90 deg/s"}}};
+                                                        {"an angular velocity", "rad/s", "", "90 deg/s"},
+                                                        linear[10],
+                                                        linear[11]}};
   return (motion == Motion::rotary ? rotary : linear)[static_cast<std::size_t>(measure)];
 }
 
@@ -126,6 +130,9 @@ std::optional<Measure> measure_of(std::string_view key) {
                                                            {"sampling_period", Measure::time},
                                                            {"delay", Measure::time},
                                                            {"time_constant", Measure::time},
+                                                           {"travel", Measure::position},
+                                                           {"torque_constant", Measure::torque_per_current},
+                                                           {"torque_per_volt", Measure::torque_per_voltage},
                                                            {"velocity_filter_hz", Measure::frequency_hz},
                                                            {"velocity_filter_tau", Measure::time},
                                                            {"frequency_hz", Measure::frequency_hz},

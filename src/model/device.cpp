@@ -226,6 +226,30 @@ void check_filters(const DeviceParameters& parameters, Checks& checks) {
   }
 }
 
+void check_driver(const DeviceParameters& parameters, Checks& checks) {
+  if (!parameters.driver) return;
+  const MotorDrive& drive = *parameters.driver;
+  if (parameters.motion == Motion::linear && !drive.travel) {
+    checks.refuse("driver.travel", "is missing",
+                  "must be given: how far the device moves in a turn, such as \"25 mm\"");
+  }
+  if (drive.travel) checks.positive("driver", "travel", *drive.travel);
+  checks.positive("driver", "gear", drive.gear);
+  if (std::abs(drive.sign) != 1.0) checks.refuse("driver.sign", fmt::format("is {}", drive.sign), "must be 1 or -1");
+  if (drive.torque_constant) checks.positive("driver", "torque_constant", *drive.torque_constant);
+  if (drive.torque_per_volt) checks.positive("driver", "torque_per_volt", *drive.torque_per_volt);
+  const auto whole = [&](std::string_view member, const std::optional<int>& value, int least, int most) {
+    if (!value || (*value >= least && *value <= most)) return;
+    checks.refuse(fmt::format("driver.{}", member), fmt::format("is {}", *value),
+                  fmt::format("must be a whole number from {} to {}", least, most));
+  };
+  whole("id", drive.id, 0, 127);
+  whole("baud", drive.baud, 1200, 4'000'000);
+  const bool is_letter = drive.command.size() == 1 && ((drive.command[0] >= 'A' && drive.command[0] <= 'Z') ||
+                                                       (drive.command[0] >= 'a' && drive.command[0] <= 'z'));
+  if (!is_letter) checks.refuse("driver.command", "is no letter", "must be one letter, such as \"M\"");
+}
+
 void check_surroundings(const DeviceParameters& parameters, Checks& checks) {
   checks.not_negative("actuator", "time_constant", parameters.actuator.time_constant);
   if (parameters.actuator.force_limit) checks.positive("actuator", "force_limit", *parameters.actuator.force_limit);
@@ -234,6 +258,7 @@ void check_surroundings(const DeviceParameters& parameters, Checks& checks) {
   checks.not_negative("wall", "damping", parameters.wall.damping);
   checks.not_negative("wall", "velocity_filter_hz", parameters.wall.velocity_filter_hz);
   check_filters(parameters, checks);
+  check_driver(parameters, checks);
   checks.not_negative("operator", "mass", parameters.user.mass);
   checks.not_negative("operator", "damping", parameters.user.damping);
   checks.not_negative("operator", "stiffness", parameters.user.stiffness);

@@ -141,11 +141,19 @@ TEST_F(Rig, TellsWhatItCannotDo) {
   expect_refused("limit " + lhifam + "--set actuator.force_limit=5 --amplitude 6", 2, "at most the force limit");
   expect_refused("limit " + lhifam + "--flight-record a.csv --report a.csv", 2, "is the same file");
   expect_refused("limit " + lhifam + "--flight-record devices/lhifam.toml", 2, "would overwrite the device file");
-  expect_refused("check " + lhifam + "--driver serial", 2, "--driver: serial is none; simulated, or udp:HOST:PORT");
+  expect_refused("check " + lhifam + "--driver serial", 2, "--driver: serial is none; simulated, odrive:PORT");
   expect_refused("check " + lhifam + "--driver udp:127.0.0.1:9", 2, "--force-limit: missing");
   expect_refused("check " + lhifam + "--driver udp:127.0.0.1:9 --force-limit 1", 2, "--position-limit: missing");
   expect_refused("check " + lhifam + "--driver udp:127.0.0.1:9 --force-limit 1 --position-limit 1", 1,
                  "does not answer");
+  const std::string limits = "--force-limit 1 --position-limit 1 ";
+  expect_refused("check " + lhifam + "--driver odrive:/dev/null " + limits, 2, "driver: is missing");
+  expect_refused("check " + lhifam + "--driver odrive:/dev/null --set driver.gear=2 " + limits, 2,
+                 "driver.travel: is missing");
+  const std::string belt = "--set driver.travel='25 mm' --set loop.sampling_period=0.02 ";
+  expect_refused("check " + lhifam + "--driver odrive:/dev/null " + belt + limits, 1, "is no serial port");
+  expect_refused("check " + lhifam + "--driver odrive:/dev/null " + belt + "--set loop.sampling_period=0.001 " + limits,
+                 1, "the line is too slow");
   expect_refused("check " + lhifam + "--driver udp:9 --start 1", 2, "--start: is for a simulated device");
 }
 

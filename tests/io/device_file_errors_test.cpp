@@ -86,10 +86,10 @@ const BadText texts[] = {
      "velocity_filter_tau, filter"},
     {"key_with_newline", "\"a\\nb\" = 1\n",
      "1:1: a\\x0Ab: unknown key \"a\\x0Ab\"; the keys of the top level are name, motion, body, link, loop, actuator, "
-     "sensor, wall, operator, transfer_function, uncertainty"},
+     "sensor, wall, operator, transfer_function, uncertainty, driver"},
     {"long_key", std::string(70, 'k') + " = 1\n",
      fmt::format("1:1: {0}...: unknown key \"{0}...\"; the keys of the top level are name, motion, body, link, loop, "
-                 "actuator, sensor, wall, operator, transfer_function, uncertainty",
+                 "actuator, sensor, wall, operator, transfer_function, uncertainty, driver",
                  std::string(60, 'k'))},
     {"text_for_number", body("damping = \"x\""), "4:11: body.a.damping: is the text \"x\"; " + a_damping},
     {"date_for_number", body("damping = 1979-05-27"), "4:11: body.a.damping: is a date or time; " + a_damping},

@@ -1,5 +1,4 @@
 // The program as a real process against a drive on a real socket, and what goes wrong between them.
-#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -20,7 +19,7 @@
 #include <thread>
 #include <vector>
 
-#include "rig/rig_devices.hpp"
+#include "rig/rig_host.hpp"
 #include "rig/udp_emulator.hpp"
 #include "zwidth/io/device_file.hpp"
 
@@ -28,7 +27,10 @@ namespace zwidth::rig {
 namespace {
 
 using namespace std::chrono_literals;
+using test::Host;
+using test::times;
 using test::UdpEmulator;
+using test::within;
 using Fault = UdpEmulator::Fault;
 using testing::AnyOf;
 using testing::HasSubstr;
@@ -36,20 +38,6 @@ using testing::HasSubstr;
 constexpr double period = 0.05;  // s: machines that tests run on pause for many milliseconds
 
 constexpr int most_cycles_after = 4;  // with a force: three, and one that was under way
-
-int times() {
-  const char* given = std::getenv("ZWIDTH_RIG_FAULTS");
-  return given != nullptr ? std::max(1, std::atoi(given)) : 20;
-}
-
-bool within(std::chrono::milliseconds patience, const std::function<bool()>& happens) {
-  const auto until = std::chrono::steady_clock::now() + patience;
-  while (!happens()) {
-    if (std::chrono::steady_clock::now() > until) return false;
-    std::this_thread::sleep_for(1ms);
-  }
-  return true;
-}
 
 Device slow_device() {
   DeviceParameters parameters;
@@ -60,64 +48,6 @@ Device slow_device() {
   parameters.actuator.force_limit = 20.0;
   return Device(parameters);
 }
-
-/// `zwidth rig wall` on a drive, for ever.
-class Host {
- public:
-  Host(const std::filesystem::path& folder, const std::string& address, const std::string& name,
-       const std::string& record) {
-    errors_ = folder / (name + ".errors");
-    const std::vector<std::string> words{ZWIDTH_PROGRAM,
-                                         "rig",
-                                         "wall",
-                                         folder / "device.toml",
-                                         "--driver",
-                                         "udp:" + address,
-                                         "--position-limit",
-                                         "1",
-                                         "--duration",
-                                         "100",
-                                         "--amplitude",
-                                         "1",
-                                         "--ramp",
-                                         "0",
-                                         "--flight-record",
-                                         record};
-    std::vector<char*> arguments;
-    for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
-    arguments.push_back(nullptr);
-    process_ = fork();
-    if (process_ != 0) return;
-    const int output = open(errors_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-    dup2(output, 1);
-    dup2(output, 2);
-    execv(ZWIDTH_PROGRAM, arguments.data());
-    _exit(127);
-  }
-  ~Host() {
-    if (process_ > 0) kill(process_, SIGKILL), waitpid(process_, nullptr, 0);
-  }
-  Host(const Host&) = delete;
-  Host& operator=(const Host&) = delete;
-
-  void send(int signal) const { kill(process_, signal); }
-  /// Its exit status; -1 where it does not end in time, or by a signal.
-  int status() {
-    int status = 0;
-    if (!within(20s, [&] { return waitpid(process_, &status, WNOHANG) == process_; })) return -1;
-    process_ = -1;
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  }
-  [[nodiscard]] std::string errors() const {
-    std::stringstream text;
-    text << std::ifstream(errors_).rdbuf();
-    return text.str();
-  }
-
- private:
-  std::filesystem::path errors_;
-  pid_t process_ = -1;
-};
 
 /// The drive of examples/, and what it prints.
 class ExampleDrive {
@@ -193,9 +123,9 @@ class RigFault : public testing::Test {
 
   /// The rig runs, with a force; then comes `fault`, and the rig stops by itself.
   void expect_stop(const std::function<void(UdpEmulator&, Host&)>& fault, const testing::Matcher<std::string>& reason) {
-    for (int i = 0; i < times(); ++i) {
+    for (int i = 0; i < times(20); ++i) {
       UdpEmulator emulator(slow_device());
-      Host host(folder, emulator.address(), "host", folder / "record.csv");
+      Host host(folder, "udp:" + emulator.address(), "host", folder / "record.csv");
       ASSERT_TRUE(within(20s, [&] { return emulator.nonzero_forces() > 5; })) << host.errors();
       const int forces_before = emulator.nonzero_forces();
       fault(emulator, host);
@@ -219,9 +149,9 @@ class RigFault : public testing::Test {
 };
 
 TEST_F(RigFault, AKilledHostLeavesTheDriveToItsWatchdog) {
-  for (int i = 0; i < times(); ++i) {
+  for (int i = 0; i < times(20); ++i) {
     UdpEmulator emulator(slow_device());
-    Host host(folder, emulator.address(), "host", folder / "record.csv");
+    Host host(folder, "udp:" + emulator.address(), "host", folder / "record.csv");
     ASSERT_TRUE(within(20s, [&] { return emulator.nonzero_forces() > 5; })) << host.errors();
     const int let_go_before = emulator.times_let_go();
     host.send(SIGKILL);
@@ -267,9 +197,9 @@ TEST_F(RigFault, AHostThatIsHeldUpBeyondThreeCycles) {
 }
 
 TEST_F(RigFault, AFullDiskForTheRecord) {
-  for (int i = 0; i < times(); ++i) {
+  for (int i = 0; i < times(20); ++i) {
     UdpEmulator emulator(slow_device());
-    Host host(folder, emulator.address(), "host", "/dev/full");
+    Host host(folder, "udp:" + emulator.address(), "host", "/dev/full");
     ASSERT_TRUE(within(20s, [&] { return emulator.nonzero_forces() > 5; })) << host.errors();
     host.send(SIGINT);
     EXPECT_EQ(host.status(), 1);
@@ -279,11 +209,11 @@ TEST_F(RigFault, AFullDiskForTheRecord) {
 }
 
 TEST_F(RigFault, ASecondRigOnTheSameDrive) {
-  for (int i = 0; i < times(); ++i) {
+  for (int i = 0; i < times(20); ++i) {
     UdpEmulator emulator(slow_device());
-    Host host(folder, emulator.address(), "host", folder / "record.csv");
+    Host host(folder, "udp:" + emulator.address(), "host", folder / "record.csv");
     ASSERT_TRUE(within(20s, [&] { return emulator.nonzero_forces() > 5; })) << host.errors();
-    Host other(folder, emulator.address(), "other", folder / "other.csv");
+    Host other(folder, "udp:" + emulator.address(), "other", folder / "other.csv");
     EXPECT_EQ(other.status(), 1);
     EXPECT_THAT(other.errors(), HasSubstr("no other rig holds it"));
     host.send(SIGINT);
@@ -303,7 +233,7 @@ TEST_F(RigFault, TheExampleInCIsSuchADrive) {
   ExampleDrive example(drive);
   int port = 0;
   ASSERT_EQ(std::sscanf(example.line().c_str(), "port %d", &port), 1);
-  Host host(folder, "127.0.0.1:" + std::to_string(port), "host", folder / "record.csv");
+  Host host(folder, "udp:127.0.0.1:" + std::to_string(port), "host", folder / "record.csv");
   EXPECT_EQ(example.line(), "takes hold\n") << "to prove the watchdog";
   EXPECT_EQ(example.line(), "let go\n");
   EXPECT_EQ(example.line(), "takes hold\n");
@@ -314,7 +244,7 @@ TEST_F(RigFault, TheExampleInCIsSuchADrive) {
 TEST_F(RigFault, FirmwareWithoutAWatchdogIsRefused) {
   UdpEmulator emulator(slow_device());
   emulator.set_fault(Fault::no_watchdog);
-  Host host(folder, emulator.address(), "host", folder / "record.csv");
+  Host host(folder, "udp:" + emulator.address(), "host", folder / "record.csv");
   EXPECT_EQ(host.status(), 1);
   EXPECT_THAT(host.errors(), HasSubstr("--no-watchdog"));
   EXPECT_EQ(emulator.nonzero_forces(), 0);

@@ -20,7 +20,9 @@ enum class Measure {
   mass,
   damping,
   stiffness,
-  velocity
+  velocity,
+  torque_per_current,
+  torque_per_voltage
 };
 
 /// Why a text is not a number with a unit of what is measured.

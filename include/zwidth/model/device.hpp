@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "zwidth/model/motor_drive.hpp"
 #include "zwidth/model/uncertainty.hpp"
 #include "zwidth/model/wall_filter.hpp"
 
@@ -88,6 +89,7 @@ struct DeviceParameters {
   Wall wall;                                          ///< to judge
   Operator user;                                      ///< at the held body
   std::optional<Uncertainty> uncertainty;             ///< of some of the numbers above
+  std::optional<MotorDrive> driver = {};              ///< what a rig reaches the motor through
 };
 
 /// The first thing that makes DeviceParameters impossible.

@@ -1,0 +1,97 @@
+#include "rig/moteus_driver.hpp"
+
+#include <string>
+
+#include "rig/real_time.hpp"
+
+namespace zwidth::rig {
+namespace {
+
+constexpr int default_baud = 921600;
+constexpr double watchdog = 0.1;               // s
+constexpr std::int64_t silence = 250'000'000;  // ns, after which it must have let go
+constexpr std::int64_t arming_patience = 500'000'000;
+constexpr std::int64_t between_looks = 10'000'000;
+constexpr int idle_frames = 2;
+
+// "can send 8001 11001d01 *XX", "OK *XX", "rcv 00000100 21000a2d01xxxxxxxx *XX", a torque and its "OK *XX", with ends.
+constexpr double bytes_per_cycle = 27 + 8 + 37 + 57 + 8;
+
+constexpr int fault_mode = 1;
+constexpr int position_mode = 10;
+constexpr int timeout_mode = 11;
+
+}  // namespace
+
+MoteusDriver::MoteusDriver(const SerialLink& link)
+    : SerialDriver({.name = "moteus:" + link.port, .watchdog = watchdog, .bytes_per_cycle = bytes_per_cycle}, link,
+                   default_baud),
+      id_(link.drive.id.value_or(1)) {
+  if (id_ < 1) throw DriverFailed("driver.id is 0; a moteus has 1 to 127");
+  // An fdcanusb takes the checksum for a flag that it does not know, and says so.
+  const auto refused = ask(line(moteus_question(id_)).view(), [](std::string_view frame) -> std::optional<std::string> {
+    return frame.starts_with("ERR") ? std::optional<std::string>(frame) : std::nullopt;
+  });
+  if (refused) has_checksums_ = moteus_answer(*refused, true).has_value();
+  if (mode() == fault_mode) {
+    throw DriverFailed(
+        fmt::format("moteus {} stands on a fault; find its cause with tview, then stop it (d stop)", id_));
+  }
+}
+
+int MoteusDriver::mode() {
+  const std::string text =
+      ask_until_answered(question().view(), [&](std::string_view frame) -> std::optional<std::string> {
+        const auto answer = moteus_answer(frame, has_checksums_);
+        const auto reply = answer ? moteus_reply(*answer, id_) : std::nullopt;
+        return reply && reply->mode ? std::optional(fmt::format("{}", *reply->mode)) : std::nullopt;
+      });
+  return std::stoi(text);
+}
+
+void MoteusDriver::arm() {
+  tell(line(moteus_stop(id_)).view());
+  const std::int64_t until = clock_now() + arming_patience;
+  do {
+    tell(torque_frame(0.0).view());
+    if (mode() == position_mode) {
+      tell(torque_frame(0.0).view());
+      return forget_input();
+    }
+    sleep_until(clock_now() + between_looks);
+  } while (clock_now() < until);
+  throw DriverFailed(fmt::format(
+      "moteus {} does not go into its position mode but stays in mode {}; calibrate it first", id_, mode()));
+}
+
+std::optional<bool> MoteusDriver::proves_watchdog() {
+  arm();
+  sleep_until(clock_now() + silence);
+  const bool has_let_go = mode() == timeout_mode;
+  if (!has_let_go) set_watchdog(std::nullopt);
+  send_idle();
+  return has_let_go;
+}
+
+SerialDriver::Heard MoteusDriver::hear(std::string_view frame) noexcept {
+  const auto answer = moteus_answer(frame, has_checksums_);
+  if (!answer) return {Meaning::broken};
+  if (*answer == "OK" || answer->empty()) return {Meaning::other};
+  const auto reply = moteus_reply(*answer, id_);
+  if (!reply || !reply->position) return {Meaning::broken};
+  if (reply->mode != position_mode && !is_disarmed()) return {Meaning::broken};  // it has let go
+  return {Meaning::position, *reply->position};
+}
+
+SerialFrame MoteusDriver::question() noexcept { return line(moteus_question(id_)); }
+
+SerialFrame MoteusDriver::torque_frame(double torque) const noexcept {
+  return line(moteus_torque(id_, torque, watchdog));
+}
+
+void MoteusDriver::send_idle() noexcept {
+  port().drop_unsent();
+  for (int i = 0; i < idle_frames; ++i) port().write(line(moteus_stop(id_)).view());
+}
+
+}  // namespace zwidth::rig

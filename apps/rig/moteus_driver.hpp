@@ -1,0 +1,37 @@
+#pragma once
+
+#include "rig/moteus_protocol.hpp"
+#include "rig/serial_driver.hpp"
+
+namespace zwidth::rig {
+
+/// A moteus controller over the lines of fdcanusb: on its own UART, with checksums, or behind an fdcanusb, which has none
+/// of its own (USB and CAN-FD do).
+///
+/// Torque in position mode without gains. The watchdog of each command, 100 ms, ends in a mode of which only a stop leads
+/// out: mode and position are read together, and a position in any other mode than that of torque is none, until it is disarmed.
+class MoteusDriver : public SerialDriver {
+ public:
+  /// Throws DriverFailed where the drive does not answer, or stands on a fault.
+  explicit MoteusDriver(const SerialLink& link);
+
+  void arm() override;
+  [[nodiscard]] std::optional<bool> proves_watchdog() override;
+
+ protected:
+  [[nodiscard]] Heard hear(std::string_view frame) noexcept override;
+  [[nodiscard]] SerialFrame question() noexcept override;
+  [[nodiscard]] SerialFrame torque_frame(double torque) const noexcept override;
+  void send_idle() noexcept override;
+
+ private:
+  [[nodiscard]] SerialFrame line(const SerialFrame& text) const noexcept {
+    return moteus_line(text.view(), has_checksums_);
+  }
+  [[nodiscard]] int mode();
+
+  int id_;
+  bool has_checksums_ = true;
+};
+
+}  // namespace zwidth::rig

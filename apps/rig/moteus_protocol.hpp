@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "rig/serial_frame.hpp"
+
+namespace zwidth::rig {
+
+/// Registers that a reply of moteus held; the rest are skipped.
+struct MoteusReply {
+  std::optional<int> mode;         ///< 10: position, 11: its watchdog has let go, 1: fault
+  std::optional<double> position;  ///< turns of the output
+  std::optional<int> fault;
+};
+
+/// A line with its end; with a checksum " *XX", the CRC-8 (polynomial 0x97, start 0) of all that stands before the star.
+[[nodiscard]] SerialFrame moteus_line(std::string_view text, bool has_checksum) noexcept;
+/// What stands in a line before its checksum; nothing where that is wrong, or is missing though it is required.
+[[nodiscard]] std::optional<std::string_view> moteus_answer(std::string_view line, bool needs_checksum) noexcept;
+
+/// `can send` of a question for mode and position, as int8 and float.
+[[nodiscard]] SerialFrame moteus_question(int id) noexcept;
+/// The same of position mode without gains: the torque alone, N m at the output, for as long as the watchdog, s.
+[[nodiscard]] SerialFrame moteus_torque(int id, double torque, double watchdog) noexcept;
+/// The same of the stopped mode, which clears faults and the watchdog's mode too.
+[[nodiscard]] SerialFrame moteus_stop(int id) noexcept;
+
+/// `rcv`: what the drive of that id replies; nothing for any other text, a reply of another drive, or a frame that is not
+/// whole. Flags after the data, as of fdcanusb, are passed over.
+[[nodiscard]] std::optional<MoteusReply> moteus_reply(std::string_view answer, int id) noexcept;
+
+}  // namespace zwidth::rig

@@ -1,0 +1,143 @@
+#include "rig/odrive_driver.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "rig/odrive_protocol.hpp"
+#include "rig/real_time.hpp"
+
+namespace zwidth::rig {
+namespace {
+
+constexpr int default_baud = 115200;
+constexpr double shortest_watchdog = 0.1;  // s
+constexpr double longest_watchdog = 0.5;
+constexpr double watchdog_cycles = 4.0;      // more than the loop may miss: it stops before the drive does
+constexpr std::int64_t grace = 150'000'000;  // ns, after which it must have let go
+constexpr unsigned cycles_between_errors = 8;
+constexpr std::int64_t arming_patience = 500'000'000;
+constexpr std::int64_t between_looks = 10'000'000;
+constexpr int idle_frames = 2;
+
+// Lines with their ends: "f 0*118", "-12.345678 -12.345678*123", "c 0 -1.23456e-05*123", "r axis0.error*96", "0*48".
+constexpr double bytes_per_cycle = 8 + 27 + 21 + 17 + 6;
+
+// Of odrive-interface.yaml:
+constexpr std::string_view idle = "1";
+constexpr std::string_view closed_loop = "8";
+constexpr std::string_view torque_control = "1";
+constexpr std::string_view passthrough = "1";
+constexpr long watchdog_expired = 1L << 11;
+
+double watchdog_of(const SerialLink& link) {
+  return std::clamp(watchdog_cycles * link.sampling_period, shortest_watchdog, longest_watchdog);
+}
+
+}  // namespace
+
+OdriveDriver::OdriveDriver(const SerialLink& link)
+    : SerialDriver({.name = "odrive:" + link.port, .watchdog = watchdog_of(link), .bytes_per_cycle = bytes_per_cycle},
+                   link, default_baud),
+      axis_(link.drive.id.value_or(0)),
+      watchdog_(watchdog_of(link)) {
+  if (axis_ > 1) throw DriverFailed(fmt::format("driver.id is {}; an ODrive has the axes 0 and 1", axis_));
+  if (const long found = error(); (found & ~watchdog_expired) != 0) {
+    throw DriverFailed(
+        fmt::format("axis {} stands on error {:#x}; find its cause with odrivetool (dump_errors), then "
+                    "clear it",
+                    axis_, found));
+  }
+}
+
+std::string OdriveDriver::property(std::string_view name) {
+  const SerialFrame line = odrive_line(fmt::format("r axis{}.{}", axis_, name));
+  const std::string text = ask_until_answered(line.view(), [](std::string_view frame) -> std::optional<std::string> {
+    const auto answer = odrive_answer(frame);
+    if (!answer || odrive_feedback(*answer)) return std::nullopt;
+    return std::string(*answer);
+  });
+  if (!as_number(text)) {
+    throw DriverFailed(fmt::format("the drive answers \"{}\" to axis{}.{}; is its firmware 0.5?", text, axis_, name));
+  }
+  return text;
+}
+
+void OdriveDriver::set_property(std::string_view name, std::string_view value) {
+  tell(odrive_line(fmt::format("w axis{}.{} {}", axis_, name, value)).view());
+}
+
+long OdriveDriver::error() { return std::strtol(property("error").c_str(), nullptr, 10); }
+
+void OdriveDriver::arm() {
+  tell(odrive_line("sc").view());  // the watchdog's own error, from the silence before
+  set_property("controller.config.control_mode", torque_control);
+  set_property("controller.config.input_mode", passthrough);
+  set_property("config.watchdog_timeout", fmt::format("{}", watchdog_));
+  tell(torque_frame(0.0).view());
+  set_property("config.enable_watchdog", "1");
+  set_property("requested_state", closed_loop);
+  const std::int64_t until = clock_now() + arming_patience;
+  while (property("current_state") != closed_loop) {
+    if (clock_now() > until) {
+      throw DriverFailed(
+          fmt::format("axis {} does not go into closed-loop control, error {:#x}; calibrate motor and "
+                      "encoder first (odrivetool, dump_errors)",
+                      axis_, error()));
+    }
+    tell(torque_frame(0.0).view());
+    sleep_until(clock_now() + between_looks);
+  }
+  tell(torque_frame(0.0).view());
+  has_failed_ = false;
+  forget_input();
+}
+
+std::optional<bool> OdriveDriver::proves_watchdog() {
+  arm();
+  sleep_until(clock_now() + std::llround(1e9 * watchdog_) + grace);
+  const bool has_let_go = property("current_state") == idle && (error() & watchdog_expired) != 0;
+  if (!has_let_go) set_watchdog(std::nullopt);
+  send_idle();
+  return has_let_go;
+}
+
+SerialDriver::Heard OdriveDriver::hear(std::string_view frame) noexcept {
+  const auto answer = odrive_answer(frame);
+  if (!answer) return {Meaning::broken};
+  if (const auto feedback = odrive_feedback(*answer)) {
+    return {has_failed_ ? Meaning::broken : Meaning::position, feedback->position};
+  }
+  const auto error = as_number(*answer);
+  if (!error) return {Meaning::broken};  // "invalid motor", "unknown command"
+  if (*error != 0.0) has_failed_ = true;
+  return {Meaning::other};
+}
+
+SerialFrame OdriveDriver::question() noexcept {
+  SerialFrame feedback;
+  feedback.print("f {}", axis_);
+  SerialFrame lines = odrive_line(feedback.view());
+  if (++asked_ % cycles_between_errors == 0) {
+    SerialFrame error;
+    error.print("r axis{}.error", axis_);
+    lines.add(odrive_line(error.view()).view());
+  }
+  return lines;
+}
+
+SerialFrame OdriveDriver::torque_frame(double torque) const noexcept {
+  return odrive_line(odrive_torque(axis_, torque).view());
+}
+
+void OdriveDriver::send_idle() noexcept {
+  port().drop_unsent();
+  SerialFrame state;
+  state.print("w axis{}.requested_state {}", axis_, idle);
+  for (int i = 0; i < idle_frames; ++i) {
+    port().write(torque_frame(0.0).view());
+    port().write(odrive_line(state.view()).view());
+  }
+}
+
+}  // namespace zwidth::rig

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "rig/serial_driver.hpp"
+
+namespace zwidth::rig {
+
+/// An ODrive of firmware 0.5 over its ASCII protocol, with checksums: `f` for the position, `c` for the torque.
+///
+/// Its watchdog, which `c` feeds and `f` does not, is set to 100 ms, or four periods, and enabled by arm(). That the axis
+/// has failed and applies no torque `f` does not tell either: every eighth cycle its error is asked for too.
+class OdriveDriver : public SerialDriver {
+ public:
+  /// Throws DriverFailed where the drive does not answer, or stands on an error.
+  explicit OdriveDriver(const SerialLink& link);
+
+  void arm() override;
+  [[nodiscard]] std::optional<bool> proves_watchdog() override;
+
+ protected:
+  [[nodiscard]] Heard hear(std::string_view frame) noexcept override;
+  [[nodiscard]] SerialFrame question() noexcept override;
+  [[nodiscard]] SerialFrame torque_frame(double torque) const noexcept override;
+  void send_idle() noexcept override;
+
+ private:
+  [[nodiscard]] std::string property(std::string_view name);
+  void set_property(std::string_view name, std::string_view value);
+  [[nodiscard]] long error();
+
+  int axis_;
+  double watchdog_;  // s
+  unsigned asked_ = 0;
+  bool has_failed_ = false;
+};
+
+}  // namespace zwidth::rig

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "rig/serial_frame.hpp"
+
+namespace zwidth::rig {
+
+/// What ODrive's `f` answers.
+struct OdriveFeedback {
+  double position = 0.0;  ///< turns
+  double velocity = 0.0;  ///< turns/s
+};
+
+/// A line to the drive: the command, "*" and the XOR of its bytes, which makes the drive check it and answer with one.
+[[nodiscard]] SerialFrame odrive_line(std::string_view command) noexcept;
+/// `c AXIS TORQUE` in N m, without a checksum: "c 0 0.1".
+[[nodiscard]] SerialFrame odrive_torque(int axis, double torque) noexcept;
+/// What stands in an answer's line before its checksum; nothing where that is wrong or missing.
+[[nodiscard]] std::optional<std::string_view> odrive_answer(std::string_view line) noexcept;
+/// "POSITION VELOCITY"; nothing for any other text.
+[[nodiscard]] std::optional<OdriveFeedback> odrive_feedback(std::string_view answer) noexcept;
+
+}  // namespace zwidth::rig

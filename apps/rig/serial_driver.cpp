@@ -1,0 +1,129 @@
+#include "rig/serial_driver.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "rig/real_time.hpp"
+#include "zwidth/rig/serial_rate.hpp"
+
+namespace zwidth::rig {
+namespace {
+
+constexpr std::int64_t lock_step_patience = 500'000'000;
+constexpr std::int64_t setup_patience = 100'000'000;  // ns, for an answer while nothing runs
+constexpr double cycles_within_watchdog = 2.0;
+
+int baud_of(const SerialLink& link, int otherwise) { return link.drive.baud.value_or(otherwise); }
+
+/// Refuses what cannot work before a single byte goes out.
+DriverFacts checked(DriverFacts facts, const SerialLink& link, int baud) {
+  facts.lock_step = link.lock_step;
+  facts.byte_rate = serial_rate(1.0, baud);
+  if (link.lock_step) return facts;
+  if (const auto problem =
+          find_problem(SerialLoad{facts.bytes_per_cycle, static_cast<double>(baud), link.sampling_period})) {
+    throw DriverFailed(fmt::format("the line is too slow: {}; {}", problem->what, problem->allowed));
+  }
+  if (facts.watchdog && *facts.watchdog < cycles_within_watchdog * link.sampling_period) {
+    throw DriverFailed(
+        fmt::format("the firmware lets go after {} s without a force, the loop sends one every {} s; "
+                    "set loop.sampling_period to {} s or less",
+                    *facts.watchdog, link.sampling_period, *facts.watchdog / cycles_within_watchdog));
+  }
+  return facts;
+}
+
+}  // namespace
+
+SerialDriver::SerialDriver(DriverFacts facts, const SerialLink& link, int default_baud)
+    : facts_(checked(std::move(facts), link, baud_of(link, default_baud))),
+      drive_(link.drive),
+      port_(link.port, baud_of(link, default_baud)),
+      patience_(link.lock_step ? lock_step_patience
+                               : std::llround(1e9 * serial_share_of_cycle * link.sampling_period)) {}
+
+std::size_t SerialDriver::frame_size(std::string_view bytes) const noexcept {
+  const std::size_t end = bytes.find('\n');
+  return end == std::string_view::npos ? 0 : end + 1;
+}
+
+bool SerialDriver::fill(std::int64_t until) noexcept {
+  if (begin_ > 0) {
+    std::copy(bytes_.begin() + static_cast<std::ptrdiff_t>(begin_), bytes_.begin() + static_cast<std::ptrdiff_t>(end_),
+              bytes_.begin());
+    end_ -= std::exchange(begin_, 0);
+  }
+  if (end_ == bytes_.size()) end_ = 0;  // no frame is that long
+  const std::ptrdiff_t count = port_.read(std::span(bytes_).subspan(end_), until);
+  if (count > 0) end_ += static_cast<std::size_t>(count);
+  return count > 0;
+}
+
+std::string_view SerialDriver::next_frame() noexcept {
+  const std::string_view all(bytes_.data() + begin_, end_ - begin_);
+  const std::size_t size = frame_size(all);
+  begin_ += size;
+  return all.substr(0, size);
+}
+
+void SerialDriver::forget_input() noexcept {
+  begin_ = end_ = 0;
+  owed_ = 0;
+  while (fill(0)) begin_ = end_ = 0;
+}
+
+std::optional<double> SerialDriver::measure() noexcept {
+  const auto is_answer = [](const Heard& heard) { return heard.meaning != Meaning::other; };
+  do {  // what came since the last cycle: echoes, and what was owed
+    for (std::string_view frame = next_frame(); !frame.empty(); frame = next_frame()) {
+      if (is_answer(hear(frame)) && owed_ > 0) --owed_;
+    }
+  } while (fill(0));
+  const std::int64_t until = clock_now() + patience_;
+  port_.write(question().view());
+  do {
+    for (std::string_view frame = next_frame(); !frame.empty(); frame = next_frame()) {
+      const Heard heard = hear(frame);
+      if (!is_answer(heard)) continue;
+      if (owed_ > 0) {
+        --owed_;
+      } else if (heard.meaning == Meaning::position) {
+        return heard.turns * drive_.position_per_turn();
+      } else {
+        return std::nullopt;
+      }
+    }
+  } while (fill(until));
+  ++owed_;
+  return std::nullopt;
+}
+
+std::optional<std::string> SerialDriver::ask(std::string_view frame, const Understood& understood) {
+  forget_input();
+  tell(frame);
+  const std::int64_t until = clock_now() + setup_patience;
+  while (fill(until)) {
+    for (std::string_view answer = next_frame(); !answer.empty(); answer = next_frame()) {
+      if (auto text = understood(answer)) return text;
+    }
+  }
+  return std::nullopt;
+}
+
+std::string SerialDriver::ask_until_answered(std::string_view frame, const Understood& understood, int tries) {
+  for (int i = 0; i < tries; ++i) {
+    const std::int64_t begin = clock_now();
+    if (auto text = ask(frame, understood)) return *std::move(text);
+    sleep_until(begin + setup_patience);  // a port that is gone answers at once
+  }
+  throw DriverFailed("the drive does not answer; check port, power, wiring, and that driver.baud is the drive's");
+}
+
+void SerialDriver::tell(std::string_view frame) {
+  if (!port_.write(frame)) throw DriverFailed("the port takes no more bytes: the drive does not read, or is unplugged");
+}
+
+}  // namespace zwidth::rig

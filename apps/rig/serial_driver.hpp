@@ -1,0 +1,84 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "rig/driver.hpp"
+#include "rig/serial_frame.hpp"
+#include "rig/serial_port.hpp"
+#include "zwidth/model/motor_drive.hpp"
+
+namespace zwidth::rig {
+
+/// Where a drive hangs, and how the loop asks it.
+struct SerialLink {
+  std::string port;              ///< "/dev/ttyUSB0"
+  MotorDrive drive;              ///< of the device file
+  double sampling_period = 0.0;  ///< s
+  bool lock_step = false;        ///< the drive is a simulation whose time moves with the forces it gets
+};
+
+/// What the drives on serial lines share: a question and its answer, then a force; units; what came too late.
+///
+/// Answers carry no number of their question. One that did not come in time is still owed: the next that comes is taken
+/// for it and dropped, so that no position is ever a period older than it seems. Where it never comes, three cycles
+/// without a position stop the rig.
+class SerialDriver : public Driver {
+ public:
+  [[nodiscard]] const DriverFacts& facts() const noexcept override { return facts_; }
+  [[nodiscard]] std::optional<double> measure() noexcept override;
+
+ protected:
+  /// What a frame from the drive says.
+  enum class Meaning { position, broken, other };  // broken: an answer that cannot be used
+  struct Heard {
+    Meaning meaning = Meaning::other;
+    double turns = 0.0;  ///< of the motor
+  };
+
+  /// Throws DriverFailed where the port is not to be had, or its line or the firmware's watchdog does not carry the loop.
+  SerialDriver(DriverFacts facts, const SerialLink& link, int default_baud);
+
+  /// How many bytes the first frame has, its end included; 0: it is not whole yet. A line unless overridden.
+  [[nodiscard]] virtual std::size_t frame_size(std::string_view bytes) const noexcept;
+  [[nodiscard]] virtual Heard hear(std::string_view frame) noexcept = 0;
+  [[nodiscard]] virtual SerialFrame question() noexcept = 0;
+  [[nodiscard]] virtual SerialFrame torque_frame(double torque) const noexcept = 0;
+
+  void send(double force) noexcept override { port_.write(torque_frame(force * drive_.torque_per_force()).view()); }
+
+  // While nothing runs on the clock:
+  using Understood = std::function<std::optional<std::string>(std::string_view frame)>;
+  /// Writes the frame, and waits for what is understood of those that come; nothing where none is.
+  [[nodiscard]] std::optional<std::string> ask(std::string_view frame, const Understood& understood);
+  /// The same, several times if need be; throws DriverFailed where the drive never answers.
+  [[nodiscard]] std::string ask_until_answered(std::string_view frame, const Understood& understood, int tries = 10);
+  /// Throws DriverFailed where the port is full.
+  void tell(std::string_view frame);
+  void forget_input() noexcept;
+
+  [[nodiscard]] SerialPort& port() noexcept { return port_; }
+  [[nodiscard]] const MotorDrive& drive() const noexcept { return drive_; }
+  void set_watchdog(std::optional<double> watchdog) noexcept { facts_.watchdog = watchdog; }
+
+ private:
+  /// The first whole frame of what has come; empty: there is none. Valid until the next call.
+  [[nodiscard]] std::string_view next_frame() noexcept;
+  [[nodiscard]] bool fill(std::int64_t until) noexcept;
+
+  DriverFacts facts_;
+  MotorDrive drive_;
+  SerialPort port_;
+  std::int64_t patience_;  // ns, for an answer
+  std::array<char, 1024> bytes_{};
+  std::size_t begin_ = 0;
+  std::size_t end_ = 0;
+  unsigned owed_ = 0;
+};
+
+}  // namespace zwidth::rig

@@ -1,0 +1,105 @@
+#include "rig/simplefoc_driver.hpp"
+
+#include <numbers>
+
+#include "rig/simplefoc_protocol.hpp"
+#include "zwidth/error.hpp"
+
+namespace zwidth::rig {
+namespace {
+
+constexpr int default_baud = 115200;
+constexpr int idle_frames = 2;
+constexpr int tries_while_booting = 30;  // many boards start anew when their port is opened: 2 s
+constexpr std::string_view machine_readable = "@3\n";
+constexpr std::string_view six_decimals = "#6\n";
+constexpr std::string_view get_angle = "MG6";
+constexpr std::string_view angle_echo = "MG";
+
+// "MMG6", "MMG-12.345678", "M-1.23457e-05" and its echo "M-0.000012", with their ends.
+constexpr double bytes_per_cycle = 5 + 15 + 14 + 12;
+
+double constant(const std::optional<double>& given, std::string_view key, std::string_view unit) {
+  if (given) return *given;
+  throw Error(ErrorCode::invalid_argument,
+              fmt::format("driver.{}: is missing: the sketch controls torque in {}; must be given", key, unit));
+}
+
+}  // namespace
+
+SimplefocDriver::SimplefocDriver(const SerialLink& link)
+    : SerialDriver({.name = "simplefoc:" + link.port, .bytes_per_cycle = bytes_per_cycle}, link, default_baud),
+      motor_(link.drive.command),
+      torque_per_target_(torque_per_target()) {}
+
+std::string SimplefocDriver::setting(std::string_view command, std::string_view echo) {
+  // Each time: the drive may have been reset in between, by opening its port.
+  std::string lines{machine_readable};
+  lines += six_decimals;
+  lines += simplefoc_line(motor_, command).view();
+  return ask_until_answered(
+      lines,
+      [&](std::string_view frame) -> std::optional<std::string> {
+        const auto answer = simplefoc_answer(frame, motor_, echo);
+        return answer ? std::optional<std::string>(*answer) : std::nullopt;
+      },
+      tries_while_booting);
+}
+
+double SimplefocDriver::torque_per_target() {
+  const std::string kind = setting("T", "T");
+  if (kind == "volt") {
+    const auto resistance = as_number(setting("R", "R"));
+    if (!resistance || *resistance > 0.0) {
+      throw DriverFailed(
+          fmt::format("motor {} controls torque by volts and has a phase resistance: SimpleFOC 2.3 then "
+                      "takes amperes for a target, 2.4 volts; make the motor without a resistance, or "
+                      "control a current (motor.torque_controller)",
+                      motor_));
+    }
+    return constant(drive().torque_per_volt, "torque_per_volt", "volts");
+  }
+  if (kind == "dc curr" || kind == "foc curr" || kind == "est. curr") {
+    return constant(drive().torque_constant, "torque_constant", "amperes");
+  }
+  throw DriverFailed(
+      fmt::format("motor {} controls torque by \"{}\", which is not known; volt, dc curr or foc curr "
+                  "(motor.torque_controller)",
+                  motor_, kind));
+}
+
+void SimplefocDriver::arm() {
+  tell(torque_frame(0.0).view());
+  if (const std::string kind = setting("C0", "C"); kind != "torque") {
+    throw DriverFailed(fmt::format("motor {} stays in motion control \"{}\" instead of torque", motor_, kind));
+  }
+  tell(torque_frame(0.0).view());
+  if (const std::string is_enabled = setting("E1", "E"); is_enabled != "1") {
+    throw DriverFailed(fmt::format("motor {} does not enable; does initFOC() of the sketch succeed?", motor_));
+  }
+  forget_input();
+}
+
+SerialDriver::Heard SimplefocDriver::hear(std::string_view frame) noexcept {
+  const auto angle = simplefoc_answer(frame, motor_, angle_echo);
+  if (!angle) return {Meaning::other};  // the echo of a target
+  const auto radians = as_number(*angle);
+  if (!radians) return {Meaning::broken};  // "err"
+  return {Meaning::position, *radians / (2.0 * std::numbers::pi)};
+}
+
+SerialFrame SimplefocDriver::question() noexcept { return simplefoc_line(motor_, get_angle); }
+
+SerialFrame SimplefocDriver::torque_frame(double torque) const noexcept {
+  return simplefoc_target(motor_, torque / torque_per_target_);
+}
+
+void SimplefocDriver::send_idle() noexcept {
+  port().drop_unsent();
+  for (int i = 0; i < idle_frames; ++i) {
+    port().write(torque_frame(0.0).view());
+    port().write(simplefoc_line(motor_, "E0").view());
+  }
+}
+
+}  // namespace zwidth::rig

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "rig/serial_driver.hpp"
+
+namespace zwidth::rig {
+
+/// A motor of SimpleFOC (2.3 and 2.4) behind its Commander: `MMG6` for the angle, `M` for a target of torque.
+///
+/// The unit of a target is the sketch's: amperes, or volts of the motor. There is no watchdog, and no checksum: if this
+/// program dies, the torque stays.
+class SimplefocDriver : public SerialDriver {
+ public:
+  /// Throws DriverFailed where the drive does not answer, or controls its torque in a way that is not known; Error
+  /// (invalid_argument) without the constant for its unit.
+  explicit SimplefocDriver(const SerialLink& link);
+
+  void arm() override;
+  [[nodiscard]] std::optional<bool> proves_watchdog() override { return false; }
+
+ protected:
+  [[nodiscard]] Heard hear(std::string_view frame) noexcept override;
+  [[nodiscard]] SerialFrame question() noexcept override;
+  [[nodiscard]] SerialFrame torque_frame(double torque) const noexcept override;
+  void send_idle() noexcept override;
+
+ private:
+  /// What the motor answers to that command: "volt" to "T".
+  [[nodiscard]] std::string setting(std::string_view command, std::string_view echo);
+  [[nodiscard]] double torque_per_target();
+
+  std::string motor_;
+  double torque_per_target_;  // N m/A or N m/V
+};
+
+}  // namespace zwidth::rig

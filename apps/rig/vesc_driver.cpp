@@ -1,0 +1,102 @@
+#include "rig/vesc_driver.hpp"
+
+#include <cmath>
+#include <string>
+
+#include "rig/real_time.hpp"
+#include "zwidth/error.hpp"
+
+namespace zwidth::rig {
+namespace {
+
+constexpr int default_baud = 115200;
+constexpr double default_watchdog = 1.0;               // s, APPCONF_TIMEOUT_MSEC
+constexpr double silence = 1.2;                        // s, after which it must have let go
+constexpr std::int64_t arming_patience = 500'000'000;  // ns
+constexpr std::int64_t between_looks = 10'000'000;
+constexpr int idle_frames = 3;
+constexpr double most_turns_per_cycle = 0.25;
+
+// Question, answer, current.
+constexpr double bytes_per_cycle = 10 + 16 + 10;
+
+double torque_constant_of(const SerialLink& link) {
+  if (!link.drive.torque_constant) {
+    throw Error(ErrorCode::invalid_argument,
+                "driver.torque_constant: is missing: a VESC takes a current; must be given, such as \"50 mN m/A\"");
+  }
+  return *link.drive.torque_constant;
+}
+
+}  // namespace
+
+VescDriver::VescDriver(const SerialLink& link)
+    : SerialDriver({.name = "vesc:" + link.port, .watchdog = default_watchdog, .bytes_per_cycle = bytes_per_cycle},
+                   link, default_baud),
+      torque_constant_(torque_constant_of(link)) {
+  if (const int fault = values().fault; fault != 0) {
+    throw DriverFailed(fmt::format("the drive stands on fault {}; VESC Tool tells its cause", fault));
+  }
+}
+
+VescValues VescDriver::values() {
+  const std::string payload =
+      ask_until_answered(question().view(), [](std::string_view frame) -> std::optional<std::string> {
+        const auto found = vesc_payload(frame);
+        return found && vesc_values(*found) ? std::optional<std::string>(*found) : std::nullopt;
+      });
+  return vesc_values(payload).value_or(VescValues{});
+}
+
+void VescDriver::arm() {
+  const std::int64_t until = clock_now() + arming_patience;
+  do {
+    tell(torque_frame(0.0).view());
+    sleep_until(clock_now() + between_looks);  // its watchdog looks every 10 ms
+    const VescValues found = values();
+    if (found.fault == 0 && !found.has_let_go) {
+      tell(torque_frame(0.0).view());
+      last_turns_.reset();
+      has_lost_count_ = false;
+      return forget_input();
+    }
+  } while (clock_now() < until);
+  throw DriverFailed("the drive does not take a current: a fault, its kill switch, or another app holds the motor");
+}
+
+std::optional<bool> VescDriver::proves_watchdog() {
+  arm();
+  const std::int64_t begin = clock_now();
+  bool has_let_go = false;
+  while (!has_let_go && clock_now() < begin + std::llround(1e9 * silence)) {
+    sleep_until(clock_now() + between_looks);
+    has_let_go = values().has_let_go;  // a question does not feed it
+  }
+  set_watchdog(has_let_go ? std::optional(1e-9 * static_cast<double>(clock_now() - begin)) : std::nullopt);
+  send_idle();
+  return has_let_go;
+}
+
+SerialDriver::Heard VescDriver::hear(std::string_view frame) noexcept {
+  if (frame.size() == 1) return {Meaning::other};  // noise between packets
+  const auto payload = vesc_payload(frame);
+  if (!payload) return {Meaning::broken};
+  const auto found = vesc_values(*payload);
+  if (!found) return {Meaning::other};
+  if (found->fault != 0 || found->has_let_go) return {Meaning::broken};
+  const double turns = last_turns_ ? found->position + std::round(*last_turns_ - found->position) : found->position;
+  // Half a turn forwards looks like half a turn backwards: it stops well before, and for good.
+  if (last_turns_ && std::abs(turns - *last_turns_) > most_turns_per_cycle) has_lost_count_ = true;
+  if (has_lost_count_) return {Meaning::broken};
+  last_turns_ = turns;
+  return {Meaning::position, turns};
+}
+
+SerialFrame VescDriver::torque_frame(double torque) const noexcept { return vesc_current(torque / torque_constant_); }
+
+void VescDriver::send_idle() noexcept {
+  port().drop_unsent();
+  for (int i = 0; i < idle_frames; ++i) port().write(torque_frame(0.0).view());
+}
+
+}  // namespace zwidth::rig

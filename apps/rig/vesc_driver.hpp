@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+
+#include "rig/serial_driver.hpp"
+#include "rig/vesc_protocol.hpp"
+
+namespace zwidth::rig {
+
+/// A VESC of firmware 6.00 or newer on its UART: a motor current for the torque, the position modulo a turn, which is
+/// unwrapped here: where the motor turns by more than a quarter from one cycle to the next, it has no position any more.
+///
+/// Its watchdog is that of its app settings (timeout); what it takes is found out by proves_watchdog().
+class VescDriver : public SerialDriver {
+ public:
+  /// Throws DriverFailed where the drive does not answer, or stands on a fault; Error (invalid_argument) without a torque
+  /// constant.
+  explicit VescDriver(const SerialLink& link);
+
+  void arm() override;
+  [[nodiscard]] std::optional<bool> proves_watchdog() override;
+
+ protected:
+  [[nodiscard]] std::size_t frame_size(std::string_view bytes) const noexcept override {
+    return vesc_packet_size(bytes);
+  }
+  [[nodiscard]] Heard hear(std::string_view frame) noexcept override;
+  [[nodiscard]] SerialFrame question() noexcept override { return vesc_question(); }
+  [[nodiscard]] SerialFrame torque_frame(double torque) const noexcept override;
+  void send_idle() noexcept override;
+
+ private:
+  [[nodiscard]] VescValues values();
+
+  double torque_constant_;
+  std::optional<double> last_turns_;
+  bool has_lost_count_ = false;
+};
+
+}  // namespace zwidth::rig

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <numbers>
+#include <optional>
+#include <string>
+
+namespace zwidth {
+
+/// The motor drive that stands between the device and a program: what its turns, currents and volts are of the device.
+struct MotorDrive {
+  std::optional<double> travel;           ///< of the device per turn behind the gear, m or rad; > 0; absent: 2 pi rad
+  double gear = 1.0;                      ///< turns of the motor per turn behind the gear; > 0
+  double sign = 1.0;                      ///< 1; -1 where the drive counts against the device
+  std::optional<double> torque_constant;  ///< of the motor, N m/A; > 0
+  std::optional<double> torque_per_volt;  ///< of the motor at rest, N m/V; > 0
+  std::optional<int> id;                  ///< ODrive: axis, 0 or 1; moteus: 1 to 127; absent: the firmware's default
+  std::string command = "M";              ///< SimpleFOC: the letter that the sketch gave the motor
+  std::optional<int> baud;                ///< of the serial line, 1200 to 4000000; absent: the firmware's default
+
+  /// m or rad of the device per turn of the motor: sign travel/gear.
+  [[nodiscard]] double position_per_turn() const { return sign * travel.value_or(2.0 * std::numbers::pi) / gear; }
+  /// Torque of the motor, N m, that pushes the device with a unit of force: of an ideal gear, position_per_turn()/(2 pi).
+  [[nodiscard]] double torque_per_force() const { return position_per_turn() / (2.0 * std::numbers::pi); }
+};
+
+}  // namespace zwidth

@@ -1,0 +1,83 @@
+// The [driver] table of a device file: read, written, refused with its place.
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "zwidth/io/device_file.hpp"
+
+namespace zwidth {
+namespace {
+
+const std::string linear = "[[body]]\nname = \"a\"\nmass = 1\n[loop]\nsampling_period = 0.01\n[driver]\n";
+const std::string rotary =
+    "motion = \"rotary\"\n[[body]]\nname = \"a\"\ninertia = 1\n[loop]\nsampling_period = 0.01\n[driver]\n";
+
+std::string refusal(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  const auto device = parse_device(text, "f.toml", overrides);
+  return device ? "" : device.error().str();
+}
+
+TEST(DeviceDriver, IsReadInUnits) {
+  const auto device = parse_device(linear +
+                                       "travel = \"25 mm\"\ngear = 2\nsign = -1\ntorque_constant = \"50 mN m/A\"\n"
+                                       "torque_per_volt = \"0.02 N m/V\"\nid = 1\ncommand = \"A\"\nbaud = 921600\n",
+                                   "f.toml");
+  ASSERT_TRUE(device) << device.error().str();
+  const MotorDrive& drive = device->parameters().driver.value();
+  EXPECT_DOUBLE_EQ(drive.position_per_turn(), -0.0125);
+  EXPECT_DOUBLE_EQ(drive.torque_constant.value(), 0.05);
+  EXPECT_DOUBLE_EQ(drive.torque_per_volt.value(), 0.02);
+  EXPECT_EQ(drive.id, 1);
+  EXPECT_EQ(drive.command, "A");
+  EXPECT_EQ(drive.baud, 921600);
+}
+
+TEST(DeviceDriver, EmptyTurnsWithTheDevice) {
+  const auto device = parse_device(rotary, "f.toml");
+  ASSERT_TRUE(device) << device.error().str();
+  const MotorDrive& drive = device->parameters().driver.value();
+  EXPECT_DOUBLE_EQ(drive.position_per_turn(), 2.0 * std::numbers::pi);
+  EXPECT_DOUBLE_EQ(drive.torque_per_force(), 1.0);
+  const std::vector<std::string> overrides{"driver.travel=1 turn", "driver.gear=3"};
+  EXPECT_DOUBLE_EQ(parse_device(rotary, "f.toml", overrides)->parameters().driver->position_per_turn(),
+                   2.0 * std::numbers::pi / 3.0);
+}
+
+TEST(DeviceDriver, IsWrittenAsItWasRead) {
+  for (const std::string text :
+       {"travel = 0.025\nsign = -1\nbaud = 115200\n", "travel = 1\nid = 7\ncommand = \"z\"\n"}) {
+    const auto device = parse_device(linear + text, "f.toml");
+    ASSERT_TRUE(device) << device.error().str();
+    const std::string written = write_device(device->parameters());
+    const auto again = parse_device(written, "g.toml");
+    ASSERT_TRUE(again) << again.error().str();
+    EXPECT_EQ(write_device(again->parameters()), written);
+    EXPECT_EQ(again->parameters().driver->sign, device->parameters().driver->sign);
+    EXPECT_EQ(again->parameters().driver->baud, device->parameters().driver->baud);
+    EXPECT_EQ(again->parameters().driver->id, device->parameters().driver->id);
+    EXPECT_EQ(again->parameters().driver->command, device->parameters().driver->command);
+  }
+}
+
+TEST(DeviceDriver, IsRefusedWithItsPlace) {
+  EXPECT_EQ(
+      refusal(linear),
+      "f.toml:6:1: driver.travel: is missing; must be given: how far the device moves in a turn, such as \"25 mm\"");
+  EXPECT_EQ(refusal(linear + "travel = 1\ngears = 2\n"),
+            "f.toml:8:1: driver.gears: unknown key \"gears\"; did you mean \"gear\"?");
+  EXPECT_NE(refusal(linear + "travel = \"1 turn\"\n").find("\"turn\" is no unit of a length"), std::string::npos);
+  EXPECT_NE(refusal(rotary + "torque_constant = \"5 A\"\n").find("is no unit of a torque constant"), std::string::npos);
+  EXPECT_EQ(refusal(rotary + "sign = 2\n"), "f.toml:8:8: driver.sign: is 2; must be 1 or -1");
+  EXPECT_EQ(refusal(rotary + "gear = 0\n"), "f.toml:8:8: driver.gear: is 0; must be a finite number > 0");
+  EXPECT_EQ(refusal(rotary + "id = 1.5\n"), "f.toml:8:6: driver.id: is 1.5; must be a whole number");
+  EXPECT_EQ(refusal(rotary + "id = 128\n"), "f.toml:8:6: driver.id: is 128; must be a whole number from 0 to 127");
+  EXPECT_EQ(refusal(rotary + "baud = 1e30\n"), "f.toml:8:8: driver.baud: is 1e+30; must be a whole number");
+  EXPECT_EQ(refusal(rotary + "baud = nan\n"), "f.toml:8:8: driver.baud: is nan; must be a whole number");
+  EXPECT_EQ(refusal(rotary + "command = \"MM\"\n"),
+            "f.toml:8:11: driver.command: is no letter; must be one letter, such as \"M\"");
+}
+
+}  // namespace
+}  // namespace zwidth

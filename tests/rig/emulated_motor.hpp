@@ -1,0 +1,59 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "zwidth/error.hpp"
+#include "zwidth/model/device.hpp"
+#include "zwidth/simulation/hybrid_loop.hpp"
+
+namespace zwidth::test {
+
+/// The motor behind an emulated drive: a simulated device whose time moves one sampling period with each torque.
+class EmulatedMotor {
+ public:
+  explicit EmulatedMotor(const Device& device) : loop_(device, {}), drive_(device.parameters().driver.value()) {}
+
+  /// Turns of its shaft.
+  [[nodiscard]] double turns() {
+    if (is_not_a_number) return std::numeric_limits<double>::quiet_NaN();
+    return loop_.measure() / drive_.position_per_turn();
+  }
+  /// N m at its shaft, from now on.
+  void set_torque(double torque) {
+    const double force = torque / drive_.torque_per_force();
+    force_ = force;
+    loop_.move(force);
+    ++forces_;
+    if (force != 0.0) ++nonzero_forces_;
+  }
+  void let_go() {
+    force_ = 0.0;
+    ++times_let_go_;
+  }
+  /// Without counting as a force of the host's.
+  void idle() { force_ = 0.0; }
+  [[nodiscard]] const MotorDrive& drive() const { return drive_; }
+
+  [[nodiscard]] double force() const { return force_; }
+  [[nodiscard]] int forces() const { return forces_; }
+  [[nodiscard]] int nonzero_forces() const { return nonzero_forces_; }
+  [[nodiscard]] int times_let_go() const { return times_let_go_; }
+
+  std::atomic<bool> is_not_a_number = false;
+
+ private:
+  HybridLoop loop_;
+  MotorDrive drive_;
+  std::atomic<double> force_ = 0.0;
+  std::atomic<int> forces_ = 0;
+  std::atomic<int> nonzero_forces_ = 0;
+  std::atomic<int> times_let_go_ = 0;
+};
+
+using Clock = std::chrono::steady_clock;
+
+}  // namespace zwidth::test

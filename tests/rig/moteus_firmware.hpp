@@ -1,0 +1,168 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rig/firmware.hpp"
+
+namespace zwidth::test {
+
+/// A moteus of id 1 on its UART, as fw/uart_fdcanusb_micro_server.h of db1a7623 has it: 256 bytes for a line; once a line
+/// had a right checksum all need one. Its registers as docs/protocol has them: only a stop leads out of the mode that the
+/// watchdog ends in.
+class MoteusFirmware : public Firmware {
+ public:
+  /// `is_adapter`: an fdcanusb stands between (fw/can_manager.cc of f18c1d6): no checksums, flags behind what it receives.
+  explicit MoteusFirmware(bool is_adapter = false) : is_adapter_(is_adapter) {}
+
+  [[nodiscard]] int baud() const override { return 921600; }
+
+  [[nodiscard]] std::vector<std::string> receive(std::string_view bytes, EmulatedMotor& motor) override {
+    std::vector<std::string> answers;
+    for (const char c : bytes) {
+      if (c != '\n' && c != '\r') {
+        line_ += c;
+        if (line_.size() >= longest_line) line_.clear();
+        continue;
+      }
+      if (!line_.empty()) process(line_, motor, answers);
+      line_.clear();
+    }
+    return answers;
+  }
+
+  void tick(Clock::time_point now, bool is_enabled, EmulatedMotor& motor) override {
+    if (!is_enabled || mode_ != position || now - fed_ <= timeout_) return;
+    mode_ = timed_out;
+    motor.let_go();
+  }
+
+  void fail(EmulatedMotor& motor) override {
+    mode_ = fault;
+    motor.let_go();
+  }
+
+ private:
+  static constexpr std::size_t longest_line = 254;
+  static constexpr int stopped = 0;
+  static constexpr int fault = 1;
+  static constexpr int position = 10;
+  static constexpr int timed_out = 11;
+
+  static unsigned crc_of(std::string_view text) {  // as the document's table-driven one
+    constexpr unsigned char table[16] = {0x00, 0x97, 0xb9, 0x2e, 0xe5, 0x72, 0x5c, 0xcb,
+                                         0x5d, 0xca, 0xe4, 0x73, 0xb8, 0x2f, 0x01, 0x96};
+    unsigned crc = 0;
+    for (const char c : text) {
+      const auto byte = static_cast<unsigned char>(c);
+      crc = table[((crc >> 4U) ^ (byte >> 4U)) & 15U] ^ ((crc << 4U) & 0xffU);
+      crc = table[((crc >> 4U) ^ (byte & 15U)) & 15U] ^ ((crc << 4U) & 0xffU);
+    }
+    return crc;
+  }
+
+  void say(std::string text, std::vector<std::string>& answers) const {
+    if (has_checksums_) {
+      text += ' ';
+      text += fmt::format("*{:02X}", crc_of(text));
+    }
+    answers.push_back(text + "\r\n");
+  }
+
+  void process(std::string line, EmulatedMotor& motor, std::vector<std::string>& answers) {
+    const auto star = line.rfind('*');
+    if (is_adapter_ && star != std::string::npos) return say("ERR unknown flag", answers);
+    if (star != std::string::npos && star + 3 == line.size()) {
+      const auto stated = static_cast<unsigned>(std::strtoul(line.c_str() + star + 1, nullptr, 16));
+      if (stated != crc_of(std::string_view(line).substr(0, star))) return say("ERR checksum", answers);
+      has_checksums_ = true;
+      line.resize(star);
+      while (!line.empty() && line.back() == ' ') line.pop_back();
+    } else if (has_checksums_) {
+      return say("ERR checksum", answers);
+    }
+    if (!line.starts_with("can send ")) return say("ERR unknown command", answers);
+    const auto space = line.find(' ', 9);
+    if (space == std::string::npos) return say("ERR missing data", answers);
+    const auto id = static_cast<unsigned>(std::strtoul(line.c_str() + 9, nullptr, 16));
+    std::vector<unsigned> bytes;
+    for (std::size_t i = space + 1; i + 1 < line.size(); i += 2) {
+      bytes.push_back(static_cast<unsigned>(std::strtoul(line.substr(i, 2).c_str(), nullptr, 16)));
+    }
+    say("OK", answers);
+    if ((id & 0x7fU) != 1) return;
+    const std::string reply = run(bytes, motor);
+    if ((id & 0x8000U) != 0)
+      say(is_adapter_ ? "rcv 0100 " + reply + "5050 E B F t1234 f0" : "rcv 00000100 " + reply, answers);
+  }
+
+  /// The subframes of a CAN frame; what they ask for, as hexadecimal digits.
+  std::string run(const std::vector<unsigned>& bytes, EmulatedMotor& motor) {
+    std::map<unsigned, double> written;
+    std::string reply;
+    for (std::size_t at = 0; at < bytes.size();) {
+      const unsigned kind = bytes[at++];
+      if (kind == 0x50) continue;
+      const unsigned type = (kind >> 2U) & 3U;
+      unsigned count = kind & 3U;
+      if (count == 0) count = at < bytes.size() ? bytes[at++] : 0;
+      const unsigned first = at < bytes.size() ? bytes[at++] : 0;
+      if ((kind & 0xf0U) == 0x10) {
+        reply += fmt::format("{:02x}{:02x}", 0x20U | (kind & 0x0fU), first);
+        for (unsigned i = 0; i < count; ++i) reply += value(first + i, type, motor);
+        continue;
+      }
+      const unsigned size = type == 0 ? 1 : type == 1 ? 2 : 4;
+      for (unsigned i = 0; i < count && at + size <= bytes.size(); ++i, at += size) {
+        std::uint32_t bits = 0;
+        for (unsigned k = 0; k < size; ++k) bits |= bytes[at + k] << (8 * k);
+        written[first + i] = type == 3   ? static_cast<double>(std::bit_cast<float>(bits))
+                             : type == 0 ? static_cast<std::int8_t>(bits)
+                                         : static_cast<std::int16_t>(bits);
+      }
+    }
+    if (written.contains(0)) command(written, motor);
+    return reply;
+  }
+
+  void command(std::map<unsigned, double>& written, EmulatedMotor& motor) {
+    if (written[0] == stopped) {
+      mode_ = stopped;
+      motor.idle();
+    } else if (written[0] == position && (mode_ == stopped || mode_ == position)) {
+      const bool has_gains =
+          !written.contains(0x23) || !written.contains(0x24) || written[0x23] != 0 || written[0x24] != 0;
+      if (has_gains) return fail(motor);  // the position of a rig's torque must not pull
+      mode_ = position;
+      fed_ = Clock::now();
+      const double timeout = written.contains(0x27) ? written[0x27] : 0.1;
+      timeout_ = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(timeout));
+      motor.set_torque(written[0x22]);
+    }
+  }
+
+  [[nodiscard]] std::string value(unsigned which, unsigned type, EmulatedMotor& motor) const {
+    const double number = which == 0 ? mode_ : which == 1 ? motor.turns() : 0.0;
+    if (type == 0) return fmt::format("{:02x}", static_cast<unsigned>(static_cast<int>(number)) & 0xffU);
+    const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(number));
+    return fmt::format("{:02x}{:02x}{:02x}{:02x}", bits & 0xffU, (bits >> 8U) & 0xffU, (bits >> 16U) & 0xffU,
+                       bits >> 24U);
+  }
+
+  bool is_adapter_;
+  std::string line_;
+  bool has_checksums_ = false;
+  int mode_ = stopped;
+  Clock::duration timeout_{};
+  Clock::time_point fed_;
+};
+
+}  // namespace zwidth::test

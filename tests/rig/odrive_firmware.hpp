@@ -1,0 +1,137 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rig/firmware.hpp"
+
+namespace zwidth::test {
+
+/// ODrive 0.5's ASCII protocol on axis 0, as Firmware/communication/ascii_protocol.cpp of fw-v0.5.6 has it: lines end with
+/// \r, \n or !; a wrong checksum makes a line be ignored, a right one asks for one; `c` feeds the watchdog, `f` does not.
+class OdriveFirmware : public Firmware {
+ public:
+  [[nodiscard]] int baud() const override { return 115200; }
+
+  [[nodiscard]] std::vector<std::string> receive(std::string_view bytes, EmulatedMotor& motor) override {
+    std::vector<std::string> answers;
+    for (const char c : bytes) {
+      if (c == '\r' || c == '\n' || c == '!') {
+        if (is_whole_) process(line_, motor, answers);
+        line_.clear();
+        is_whole_ = true;
+      } else if (line_.size() < longest_line) {
+        line_ += c;
+      } else {
+        line_.clear();
+        is_whole_ = false;  // until the next end of a line
+      }
+    }
+    return answers;
+  }
+
+  void tick(Clock::time_point now, bool is_enabled, EmulatedMotor& motor) override {
+    if (!is_enabled || !watchdog_is_enabled_ || state_ != closed_loop || now - fed_ <= timeout_) return;
+    error_ |= watchdog_expired;
+    state_ = idle;
+    motor.let_go();
+  }
+
+  void fail(EmulatedMotor& motor) override {
+    error_ |= motor_failed;
+    state_ = idle;
+    motor.let_go();
+  }
+
+ private:
+  static constexpr long motor_failed = 0x40;
+  static constexpr std::size_t longest_line = 256;
+  static constexpr int idle = 1;
+  static constexpr int closed_loop = 8;
+  static constexpr long watchdog_expired = 0x800;
+
+  void process(std::string line, EmulatedMotor& motor, std::vector<std::string>& answers) {
+    if (const auto comment = line.find(';'); comment != std::string::npos) line.resize(comment);
+    bool has_checksum = false;
+    if (const auto star = line.find('*'); star != std::string::npos) {
+      unsigned sum = 0;
+      for (const char c : line.substr(0, star)) sum ^= static_cast<unsigned char>(c);
+      unsigned received = 0;
+      if (std::sscanf(line.c_str() + star + 1, "%u", &received) < 1 || received != sum) return;
+      has_checksum = true;
+      line.resize(star);
+    }
+    std::string text = answer(line, motor);
+    if (text.empty()) return;
+    if (has_checksum) {
+      unsigned sum = 0;
+      for (const char c : text) sum ^= static_cast<unsigned char>(c);
+      text += fmt::format("*{}", sum);
+    }
+    answers.push_back(text + "\r\n");
+  }
+
+  std::string answer(const std::string& line, EmulatedMotor& motor) {
+    unsigned axis = 0;
+    float value = 0.0F;
+    switch (line.empty() ? '\0' : line[0]) {
+      case 'c':
+        if (std::sscanf(line.c_str(), "c %u %f", &axis, &value) < 2) return "invalid command format";
+        if (axis > 1) return fmt::format("invalid motor {}", axis);
+        fed_ = Clock::now();
+        if (state_ == closed_loop) {
+          motor.set_torque(static_cast<double>(value));
+        }
+        return "";
+      case 'f':
+        if (std::sscanf(line.c_str(), "f %u", &axis) < 1) return "invalid command format";
+        if (axis > 1) return fmt::format("invalid motor {}", axis);
+        return fmt::format("{:.6f} {:.6f}", static_cast<float>(motor.turns()), 0.0F);
+      case 'r': {
+        if (line == "r axis0.error") return fmt::format("{}", error_);
+        if (line == "r axis0.current_state") return fmt::format("{}", state_);
+        return "invalid property";
+      }
+      case 'w':
+        return write(line, motor);
+      case 's':
+        if (line == "sc") error_ = 0;
+        return "";
+      default:
+        return "unknown command";
+    }
+  }
+
+  std::string write(const std::string& line, EmulatedMotor& motor) {
+    const auto space = line.rfind(' ');
+    const std::string name = line.substr(0, space);
+    const double value = std::atof(line.c_str() + space + 1);
+    if (name == "w axis0.config.watchdog_timeout") {
+      timeout_ = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(value));
+    } else if (name == "w axis0.config.enable_watchdog") {
+      watchdog_is_enabled_ = value != 0.0;
+    } else if (name == "w axis0.requested_state") {
+      state_ = error_ == 0 && static_cast<int>(value) == closed_loop ? closed_loop : idle;
+      fed_ = Clock::now();
+      if (state_ == idle) motor.idle();
+    } else if (name != "w axis0.controller.config.control_mode" && name != "w axis0.controller.config.input_mode") {
+      return "invalid property";
+    }
+    return "";
+  }
+
+  std::string line_;
+  bool is_whole_ = true;
+  long error_ = 0;
+  int state_ = idle;
+  bool watchdog_is_enabled_ = false;
+  Clock::duration timeout_{};
+  Clock::time_point fed_;
+};
+
+}  // namespace zwidth::test

@@ -1,0 +1,197 @@
+// Each driver of a serial line against its drive's emulated firmware on a pseudo-terminal.
+#include "rig/serial_driver.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <string>
+
+#include "rig/drive_kinds.hpp"
+#include "rig/open_driver.hpp"
+#include "rig/pty_emulator.hpp"
+#include "rig/rig_actions.hpp"
+#include "rig/rig_host.hpp"
+#include "rig/serial_device.hpp"
+#include "zwidth/error.hpp"
+#include "zwidth/rig/serial_rate.hpp"
+
+namespace zwidth::rig {
+namespace {
+
+using test::belt_device;
+using test::DriveKind;
+using test::PtyEmulator;
+using testing::HasSubstr;
+using Fault = PtyEmulator::Fault;
+
+class OnDrive : public testing::TestWithParam<DriveKind> {
+ protected:
+  [[nodiscard]] static SerialLink link(const PtyEmulator& emulator, const Device& device, bool lock_step) {
+    return {emulator.path(), *device.parameters().driver, device.loop().sampling_period, lock_step};
+  }
+  [[nodiscard]] static std::string failure(const std::string& name, const Device& device) {
+    try {
+      (void)open_driver(name, device, {});
+      return "";
+    } catch (const DriverFailed& problem) {
+      return problem.what();
+    } catch (const Error& problem) {
+      return problem.what();
+    }
+  }
+  const Device device = belt_device();
+};
+
+// Over the line the same numbers as without it: the drive moves one period with each force, at a rate that its line
+// carries at the speed that it has by default.
+TEST_P(OnDrive, TheLimitOverTheLine) {
+  const double expected = critical_stiffness(device).stiffness;
+  PtyEmulator emulator(GetParam().firmware(), device);
+  emulator.set_fault(Fault::no_watchdog);  // a machine that pauses would make it bite
+  const auto driver = GetParam().driver(link(emulator, device, true));
+  const DriverFacts& facts = driver->facts();
+  ASSERT_FALSE(find_problem(SerialLoad{facts.bytes_per_cycle, 10.0 * *facts.byte_rate, device.loop().sampling_period}));
+  const RigLimit limit = measure_limit(device, *driver, {}, default_limit(device), {});
+  ASSERT_TRUE(limit.measured.stiffness) << explanation(limit.session.stop);
+  EXPECT_NEAR(*limit.measured.stiffness / expected, 1.0, 0.02);
+  EXPECT_NEAR(limit.measured.frequency / limit.predicted.limit->frequency, 1.0, 0.02);
+  EXPECT_EQ(limit.session.stop, StopReason::none);
+  EXPECT_TRUE(test::within(std::chrono::seconds(5), [&] { return emulator.motor().force() == 0.0; }));
+}
+
+TEST_P(OnDrive, TheWatchdogIsProvedBySilence) {
+  PtyEmulator emulator(GetParam().firmware(), device);
+  const auto driver = GetParam().driver(link(emulator, device, true));
+  EXPECT_EQ(driver->proves_watchdog(), GetParam().has_watchdog);
+  EXPECT_EQ(emulator.motor().times_let_go(), GetParam().has_watchdog ? 1 : 0);
+  EXPECT_EQ(emulator.motor().nonzero_forces(), 0) << "with no force at all";
+  driver->arm();
+  const MotorDrive& drive = *device.parameters().driver;
+  const double force = -0.12 * *drive.torque_constant / drive.torque_per_force();  // whole milliamperes
+  driver->command(force);
+  ASSERT_TRUE(driver->measure());
+  EXPECT_NEAR(emulator.motor().force(), force, 1e-5 * force) << "units, gear and sign";
+  driver->disarm();
+  driver->command(force);
+  EXPECT_TRUE(test::within(std::chrono::seconds(5), [&] { return emulator.motor().force() == 0.0; }));
+}
+
+TEST_P(OnDrive, AWatchdogThatDoesNotBiteIsNone) {
+  PtyEmulator emulator(GetParam().firmware(), device);
+  emulator.set_fault(Fault::no_watchdog);
+  const auto driver = GetParam().driver(link(emulator, device, false));
+  EXPECT_EQ(driver->proves_watchdog(), false);
+  EXPECT_FALSE(driver->facts().watchdog);
+}
+
+TEST_P(OnDrive, APositionIsNeverAPeriodOld) {
+  const Device slow = belt_device(0.04);
+  PtyEmulator emulator(GetParam().firmware(), slow);
+  const auto driver = GetParam().driver(link(emulator, slow, false));
+  driver->arm();
+  ASSERT_TRUE(driver->measure());
+  emulator.set_fault(Fault::late);  // each answer by 60 ms: into the cycle after the next
+  for (int k = 0; k < 6; ++k) EXPECT_FALSE(driver->measure()) << k;
+}
+
+TEST_P(OnDrive, TellsWhatIsInTheWay) {
+  const std::string name(GetParam().name);
+  PtyEmulator emulator(GetParam().firmware(), device);
+  EXPECT_THAT(failure(name + ":/dev/null", device), HasSubstr("is no serial port"));
+  EXPECT_THAT(failure(name + ":/no/such/port", device), HasSubstr("No such file"));
+  EXPECT_THAT(failure(name + ":", device), HasSubstr("names no port"));
+  const std::string fast = failure(name + ":" + emulator.path(), belt_device(1e-3));
+  EXPECT_THAT(fast, HasSubstr("the line is too slow"));
+  EXPECT_THAT(fast, HasSubstr("set the drive and driver.baud to"));
+  EXPECT_THAT(failure(name + ":" + emulator.path(), belt_device(0.6)),
+              HasSubstr(GetParam().has_watchdog ? "lets go" : ""));
+  DeviceParameters other_speed = device.parameters();
+  other_speed.driver->baud = 460800;
+  EXPECT_THAT(failure(name + ":" + emulator.path(), Device(other_speed)), HasSubstr("driver.baud is the drive's"));
+  other_speed.driver->baud = 1234567;
+  EXPECT_THAT(failure(name + ":" + emulator.path(), Device(other_speed)), HasSubstr("one of 1200, 2400"));
+  DeviceParameters bare = device.parameters();
+  bare.driver.reset();
+  EXPECT_THAT(failure(name + ":" + emulator.path(), Device(bare)), HasSubstr("driver: is missing"));
+  const auto driver = GetParam().driver(link(emulator, device, false));
+  EXPECT_THAT(failure(name + ":" + emulator.path(), device), HasSubstr("another rig"));
+}
+
+// What it says is modulo a turn.
+TEST(VescDriver, CountsTurns) {
+  const Device device = belt_device();
+  PtyEmulator emulator(std::make_unique<test::VescFirmware>(), device);
+  emulator.set_fault(Fault::no_watchdog);
+  VescDriver driver({emulator.path(), *device.parameters().driver, device.loop().sampling_period, true});
+  HybridLoop expected(device, {});
+  const MotorDrive& drive = *device.parameters().driver;
+  driver.arm();
+  ASSERT_TRUE(driver.measure());
+  for (int k = 0; k < 200; ++k) {
+    const double force = 0.08 * *drive.torque_constant / drive.torque_per_force();
+    driver.command(force);
+    expected.move(force);
+    const auto position = driver.measure();
+    ASSERT_TRUE(position) << k;
+    ASSERT_NEAR(*position, expected.measure(), 1e-9) << k;
+  }
+  EXPECT_GT(std::abs(expected.measure()), 10 * 0.0125) << "many turns";
+  int answered = 0;
+  for (int k = 0; k < 200 && driver.measure(); ++k, ++answered) {
+    driver.command(-12.0);
+    expected.move(-12.0);
+  }
+  EXPECT_LT(answered, 200) << "faster than can be told from slower, it has no position";
+  EXPECT_FALSE(driver.measure()) << "for good";
+}
+
+TEST(VescDriver, NeedsATorqueConstant) {
+  DeviceParameters parameters = belt_device().parameters();
+  parameters.driver->torque_constant.reset();
+  const Device device(parameters);
+  PtyEmulator emulator(std::make_unique<test::VescFirmware>(), belt_device());
+  try {
+    (void)open_driver("vesc:" + emulator.path(), device, {});
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("driver.torque_constant: is missing"));
+  }
+}
+
+// The unit of a target is the sketch's.
+TEST(SimplefocDriver, TakesTheUnitOfTheSketch) {
+  const Device device = belt_device();
+  const auto force_for_3 = [&](const std::string& torque, double resistance) {
+    PtyEmulator emulator(std::make_unique<test::SimplefocFirmware>(torque, resistance), device);
+    SimplefocDriver driver({emulator.path(), *device.parameters().driver, device.loop().sampling_period, true});
+    driver.arm();
+    driver.command(3.0);
+    EXPECT_TRUE(driver.measure());
+    return emulator.motor().force();
+  };
+  EXPECT_NEAR(force_for_3("volt", 0.0), 3.0, 3e-5);
+  EXPECT_NEAR(force_for_3("dc curr", 2.0), 3.0, 3e-5);
+  EXPECT_THROW(force_for_3("volt", 2.0), DriverFailed) << "its unit depends on the version";
+  EXPECT_THROW(force_for_3("thought", 0.0), DriverFailed);
+}
+
+// It takes a checksum for a flag that it does not know, and adds flags of its own.
+TEST(MoteusDriver, BehindAnAdapterThatKnowsNoChecksums) {
+  const Device device = belt_device();
+  PtyEmulator emulator(std::make_unique<test::MoteusFirmware>(true), device);
+  MoteusDriver driver({emulator.path(), *device.parameters().driver, device.loop().sampling_period, true});
+  EXPECT_EQ(driver.proves_watchdog(), true);
+  driver.arm();
+  driver.command(-2.0);
+  EXPECT_TRUE(driver.measure());
+  EXPECT_NEAR(emulator.motor().force(), -2.0, 0.002);
+}
+
+INSTANTIATE_TEST_SUITE_P(Drive, OnDrive, testing::ValuesIn(test::drive_kinds),
+                         [](const auto& kind) { return std::string(kind.param.name); });
+
+}  // namespace
+}  // namespace zwidth::rig

@@ -1,0 +1,117 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cstdlib>
+#include <numbers>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rig/firmware.hpp"
+
+namespace zwidth::test {
+
+/// A sketch with motor "M" in SimpleFOC's Commander, as src/communication/Commander.cpp of v2.3.4 has it: a buffer of 20
+/// characters, which starts afresh where a line is longer; what it answers by its verbosity and decimals. No watchdog.
+class SimplefocFirmware : public Firmware {
+ public:
+  explicit SimplefocFirmware(std::string torque = "foc curr", double phase_resistance = 0.0)
+      : torque_(std::move(torque)), phase_resistance_(phase_resistance) {}
+
+  [[nodiscard]] int baud() const override { return 115200; }
+
+  [[nodiscard]] std::vector<std::string> receive(std::string_view bytes, EmulatedMotor& motor) override {
+    std::vector<std::string> answers;
+    for (const char c : bytes) {
+      received_.at(count_++) = c;
+      if (c == '\n' || c == '\r') {
+        if (std::string text = run(received_.data(), motor); !text.empty()) answers.push_back(std::move(text));
+        received_[0] = '\0';
+        count_ = 0;
+      }
+      if (count_ >= received_.size()) {
+        received_[0] = '\0';
+        count_ = 0;
+      }
+    }
+    return answers;
+  }
+
+  void tick(Clock::time_point /*now*/, bool /*is_enabled*/, EmulatedMotor& /*motor*/) override {}
+  void fail(EmulatedMotor& motor) override {
+    is_enabled_ = false;
+    motor.let_go();
+  }
+
+ private:
+  static bool is_sentinel(char c) { return c == '\n' || c == '\r'; }
+  [[nodiscard]] std::string echo(std::string_view text) const { return is_for_machines_ ? std::string(text) : ""; }
+  [[nodiscard]] std::string number(double value) const {
+    return fmt::format("{:.{}f}\r\n", static_cast<float>(value), decimals_);
+  }
+
+  std::string run(const char* input, EmulatedMotor& motor) {
+    switch (input[0]) {
+      case '@':
+        if (!is_sentinel(input[1])) is_for_machines_ = std::atoi(input + 1) == 3;
+        return echo("@") + "machine\r\n";
+      case '#':
+        if (!is_sentinel(input[1])) decimals_ = std::atoi(input + 1);
+        return echo("#") + fmt::format("{}\r\n", decimals_);
+      case 'M':
+        return echo("M") + command(input + 1, motor);
+      default:
+        return "";
+    }
+  }
+
+  std::string command(const char* input, EmulatedMotor& motor) {
+    const char c = input[0];
+    if ((c >= '0' && c <= '9') || c == '-' || c == '+') {
+      target_ = std::strtof(input, nullptr);
+      apply(motor);
+      return number(target_);
+    }
+    switch (c) {
+      case 'M':
+        if (input[1] == 'G' && input[2] == '6') {
+          return echo("MG") + number(2.0 * std::numbers::pi * motor.turns());
+        }
+        return echo("M") + "err\r\n";
+      case 'T':
+        return echo("T") + torque_ + "\r\n";
+      case 'R':
+        return echo("R") + number(phase_resistance_);
+      case 'C':
+        if (!is_sentinel(input[1])) is_torque_ = std::atoi(input + 1) == 0;
+        return echo("C") + (is_torque_ ? "torque\r\n" : "angle\r\n");
+      case 'E':
+        if (!is_sentinel(input[1])) is_enabled_ = std::atoi(input + 1) != 0;
+        if (!is_enabled_) motor.idle();
+        return echo("E") + (is_enabled_ ? "1\r\n" : "0\r\n");
+      default:
+        return echo(std::string_view(&c, 1)) + "err\r\n";
+    }
+  }
+
+  void apply(EmulatedMotor& motor) const {
+    if (!is_enabled_ || !is_torque_) return;
+    const MotorDrive& drive = motor.drive();
+    motor.set_torque(static_cast<double>(target_) *
+                     (torque_ == "volt" ? drive.torque_per_volt.value() : drive.torque_constant.value()));
+  }
+
+  std::string torque_;
+  double phase_resistance_;
+  std::array<char, 20> received_{};
+  std::size_t count_ = 0;
+  bool is_for_machines_ = false;
+  int decimals_ = 3;
+  bool is_torque_ = false;
+  bool is_enabled_ = true;
+  float target_ = 0.0F;
+};
+
+}  // namespace zwidth::test
