@@ -13,9 +13,6 @@ import subprocess
 import sys
 from pathlib import Path
 
-COMMANDS = "analyze bode design diagnose excite export frf identify region relay reproduce serve simulate".split()
-ROOMS = "model sampling stability design control simulation signal identification io".split()
-
 
 def link_documents(root, tree):
     """Pages as links to themselves; the rest of the project, which pages refer to, as files to download."""
@@ -36,10 +33,11 @@ def link(source, target):
 def command_pages(tree, program):
     folder = tree / "docs/reference/commands"
     folder.mkdir(parents=True)
-    for command in COMMANDS:
+    commands = re.findall(r"^  ([a-z]+) +[A-Z]", run([program, "--help"]).split("\nCommands:\n")[1], re.M)
+    for command in commands:
         text = run([program, command, "--help"])
         (folder / f"{command}.md").write_text(f"# zwidth {command}\n\nWhat `zwidth {command} --help` prints.\n\n```text\n{text.rstrip()}\n```\n")
-    listed = "\n".join(COMMANDS)
+    listed = "\n".join(commands)
     (folder / "index.md").write_text(
         "# Commands\n\nGenerated from the options themselves. Exit status: 0 done; 1 the work failed; 2 wrong usage or bad input.\n\n"
         f"```{{toctree}}\n{listed}\n```\n"
@@ -49,15 +47,19 @@ def command_pages(tree, program):
 def room_pages(root, tree):
     folder = tree / "docs/reference/cpp"
     folder.mkdir(parents=True)
-    for room in ROOMS:
-        title = f"zwidth/{room}"
+    include = root / "include"
+    rooms = [include / "zwidth", *sorted(path for path in (include / "zwidth").iterdir() if path.is_dir())]
+    for room in rooms:
+        title = str(room.relative_to(include))
         lines = [title, "=" * len(title), ""]
-        for header in sorted((root / "include/zwidth" / room).glob("*.hpp")):
-            lines += [header.name, "-" * len(header.name), "", f".. doxygenfile:: zwidth/{room}/{header.name}",
+        for header in sorted(room.glob("*.hpp")):
+            if header.name == "zwidth.hpp":
+                continue  # includes all others
+            lines += [header.name, "-" * len(header.name), "", f".. doxygenfile:: {title}/{header.name}",
                       "   :sections: briefdescription detaileddescription innerclass public-type "
                       "public-func public-attrib public-static-func public-static-attrib enum func var typedef", ""]  # fmt: skip
-        (folder / f"{room}.rst").write_text("\n".join(lines))
-    listed = "\n".join(ROOMS)
+        (folder / f"{room.name}.rst").write_text("\n".join(lines))
+    listed = "\n".join(room.name for room in rooms)
     (folder / "index.md").write_text(
         "# C++\n\n`#include <zwidth/zwidth.hpp>`, one folder of headers per room ([architecture](../../architecture.md)). "
         f"SI units and radians.\n\n```{{toctree}}\n{listed}\n```\n"
