@@ -13,6 +13,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import cpp_pages
+
 
 def link_documents(root, tree):
     """Pages as links to themselves; the rest of the project, which pages refer to, as files to download."""
@@ -44,28 +46,6 @@ def command_pages(tree, program):
     )
 
 
-def room_pages(root, tree):
-    folder = tree / "docs/reference/cpp"
-    folder.mkdir(parents=True)
-    include = root / "include"
-    rooms = [include / "zwidth", *sorted(path for path in (include / "zwidth").iterdir() if path.is_dir())]
-    for room in rooms:
-        title = str(room.relative_to(include))
-        lines = [title, "=" * len(title), ""]
-        for header in sorted(room.glob("*.hpp")):
-            if header.name == "zwidth.hpp":
-                continue  # includes all others
-            lines += [header.name, "-" * len(header.name), "", f".. doxygenfile:: {title}/{header.name}",
-                      "   :sections: briefdescription detaileddescription innerclass public-type "
-                      "public-func public-attrib public-static-func public-static-attrib enum func var typedef", ""]  # fmt: skip
-        (folder / f"{room.name}.rst").write_text("\n".join(lines))
-    listed = "\n".join(room.name for room in rooms)
-    (folder / "index.md").write_text(
-        "# C++\n\n`#include <zwidth/zwidth.hpp>`, one folder of headers per room ([architecture](../../architecture.md)). "
-        f"SI units and radians.\n\n```{{toctree}}\n{listed}\n```\n"
-    )
-
-
 def figures(root, tree, program):
     """Runs the commands of docs/gallery.md, which write the figures that it shows."""
     text = (root / "docs/gallery.md").read_text()
@@ -93,7 +73,7 @@ def main():
     tree.mkdir(parents=True)
     link_documents(root, tree)
     command_pages(tree, program)
-    room_pages(root, tree)
+    cpp_pages.write(root, tree)
     figures(root, tree, program)
 
 
