@@ -1,13 +1,20 @@
 """Sphinx on the tree that site.py lays out: the project's documents where they stand, beside what is generated."""
 
 import os
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parent))
 
 project = "zwidth"
 author = "the zwidth authors"
 project_copyright = author
 release = version = os.environ["ZWIDTH_VERSION"]
 root_doc = "docs/index"
-extensions = ["myst_parser", "breathe", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
+extensions = ["myst_parser", "breathe", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "equations"]
+html_math_renderer = "katex"
+myst_enable_extensions = ["dollarmath"]
+myst_dmath_allow_labels = False
 source_suffix = {".md": "markdown", ".rst": "restructuredtext"}
 myst_heading_anchors = 4
 breathe_projects = {"zwidth": os.environ["ZWIDTH_DOXYGEN_XML"]}

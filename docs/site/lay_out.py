@@ -13,8 +13,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-COMMANDS = "analyze bode design diagnose excite export frf identify region relay reproduce serve simulate".split()
-ROOMS = "model sampling stability design control simulation signal identification io".split()
+import cpp_pages
 
 
 def link_documents(root, tree):
@@ -36,31 +35,14 @@ def link(source, target):
 def command_pages(tree, program):
     folder = tree / "docs/reference/commands"
     folder.mkdir(parents=True)
-    for command in COMMANDS:
+    commands = re.findall(r"^  ([a-z]+) +[A-Z]", run([program, "--help"]).split("\nCommands:\n")[1], re.M)
+    for command in commands:
         text = run([program, command, "--help"])
         (folder / f"{command}.md").write_text(f"# zwidth {command}\n\nWhat `zwidth {command} --help` prints.\n\n```text\n{text.rstrip()}\n```\n")
-    listed = "\n".join(COMMANDS)
+    listed = "\n".join(commands)
     (folder / "index.md").write_text(
         "# Commands\n\nGenerated from the options themselves. Exit status: 0 done; 1 the work failed; 2 wrong usage or bad input.\n\n"
         f"```{{toctree}}\n{listed}\n```\n"
-    )
-
-
-def room_pages(root, tree):
-    folder = tree / "docs/reference/cpp"
-    folder.mkdir(parents=True)
-    for room in ROOMS:
-        title = f"zwidth/{room}"
-        lines = [title, "=" * len(title), ""]
-        for header in sorted((root / "include/zwidth" / room).glob("*.hpp")):
-            lines += [header.name, "-" * len(header.name), "", f".. doxygenfile:: zwidth/{room}/{header.name}",
-                      "   :sections: briefdescription detaileddescription innerclass public-type "
-                      "public-func public-attrib public-static-func public-static-attrib enum func var typedef", ""]  # fmt: skip
-        (folder / f"{room}.rst").write_text("\n".join(lines))
-    listed = "\n".join(ROOMS)
-    (folder / "index.md").write_text(
-        "# C++\n\n`#include <zwidth/zwidth.hpp>`, one folder of headers per room ([architecture](../../architecture.md)). "
-        f"SI units and radians.\n\n```{{toctree}}\n{listed}\n```\n"
     )
 
 
@@ -91,7 +73,7 @@ def main():
     tree.mkdir(parents=True)
     link_documents(root, tree)
     command_pages(tree, program)
-    room_pages(root, tree)
+    cpp_pages.write(root, tree)
     figures(root, tree, program)
 
 

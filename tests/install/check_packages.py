@@ -19,8 +19,8 @@ def installed(prefix, soname):
     """The files as the packages' build installs them: shared, below usr, in the architecture's folder."""
     for path in sorted(path for path in prefix.rglob("*") if path.is_file() or path.is_symlink()):
         name = str(path.relative_to(prefix))
-        if name in ("share/doc/zwidth/LICENSE", "bin/zwidth-study"):
-            continue  # removed, not built in rules
+        if name == "share/doc/zwidth/LICENSE":
+            continue  # removed in rules
         if name.startswith("lib/") and not name.startswith("lib/python3/"):
             name = f"lib/ARCHITECTURE/{name.removeprefix('lib/')}"
         if name.endswith("/libzwidth.a"):
