@@ -33,6 +33,7 @@ struct OfferedCommand {
   void (*add)(CLI::App&);
   std::string_view device;
   std::string_view recording;
+  std::string_view study = {};
 };
 
 constexpr std::array offered_commands{OfferedCommand{"analyze", add_analyze, positional, ""},
@@ -45,7 +46,8 @@ constexpr std::array offered_commands{OfferedCommand{"analyze", add_analyze, pos
                                       OfferedCommand{"identify", add_identify, "--structure", positional},
                                       OfferedCommand{"region", add_region, positional, ""},
                                       OfferedCommand{"relay", add_relay, positional, "--recording"},
-                                      OfferedCommand{"simulate", add_simulate, positional, "--user-force"}};
+                                      OfferedCommand{"simulate", add_simulate, positional, "--user-force"},
+                                      OfferedCommand{"study", add_study, positional, "", "--study"}};
 
 struct Refused {
   Problem problem;
@@ -82,6 +84,11 @@ void put_inputs(const CommandRequest& request, const OfferedCommand& command, Su
     if (command.device.empty()) throw Refused{{"device", fmt::format("{} takes none", command.name), "a recording"}};
     own.devices.emplace(device_name, *request.device);
     put_named(arguments, command.device, device_name);
+  }
+  if (request.study) {
+    if (command.study.empty()) throw Refused{{"study", fmt::format("{} takes none", command.name), "a device"}};
+    own.study = request.study;
+    put_named(arguments, command.study, study_name);
   }
   if (request.recordings.empty()) return;
   if (command.recording.empty()) throw Refused{{"recording", fmt::format("{} takes none", command.name), "a device"}};
@@ -141,7 +148,12 @@ RequestAnswer answered(const CommandRequest& request, const OfferedCommand& offe
   const CLI::App& command = *app.get_subcommand(std::string(offered.name));
   accept_units(app);
   std::vector<std::string> arguments;
-  for (const CommandRequest::Option& option : request.options) put_option(command, option, arguments);
+  for (const CommandRequest::Option& option : request.options) {
+    if (!offered.study.empty() && "--" + option.name == offered.study) {
+      throw Refused{{"options." + option.name, "names a file", "study or study_toml beside the options"}};
+    }
+    put_option(command, option, arguments);
+  }
   const auto asks_for = [&](const char* option) {
     return std::ranges::count(request.options, option, &CommandRequest::Option::name) > 0;
   };

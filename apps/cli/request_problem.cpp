@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <charconv>
+#include <filesystem>
 #include <string_view>
+#include <variant>
 
 #include "zwidth/io/input_error.hpp"
 
@@ -70,7 +72,19 @@ server::Problem problem_in(std::string message, const server::CommandRequest& re
       where = request.device_is_text ? device : device_name;  // with line and column
     }
   }
+  std::string study;
+  if (request.study && where.empty()) {
+    const auto* path = std::get_if<std::filesystem::path>(&*request.study);
+    const std::string name = path != nullptr ? path->string() : study_name;
+    study = take_place(message, [&](std::string_view text) { return names(text, name); });
+    if (!study.empty()) {
+      study.erase(0, name.size());
+      const std::string key = take_place(message, is_key);
+      where = study_name + (key.empty() ? study : "." + key);
+    }
+  }
   server::Problem problem = split(where, message);
+  put_place(study, problem);
   if (request.device_is_text) put_place(device, problem);
   return problem;
 }
@@ -84,6 +98,8 @@ server::Problem problem_of_option(const std::string& message, std::string_view f
   if (begin == std::string::npos) return {"options", message, ""};
   const std::size_t end = std::min(message.find_first_of(" :,", begin), message.size());
   const std::string where = "options." + message.substr(begin + 2, end - begin - 2);
+  if (where == "options.study" && message.ends_with(required))
+    return {study_name, "is missing", "study_toml, or study"};
   if (message.ends_with(required)) return {where, "is missing", "a value: the command needs it"};
   if (message.starts_with(no_number)) {
     const std::size_t value = message.find(" = ");

@@ -9,6 +9,7 @@ namespace zwidth::cli {
 
 /// What the device of a request is called in the command's messages; the library names a nameless one so.
 inline constexpr const char* device_name = "device";
+inline constexpr const char* study_name = "study";
 
 /// A command's message "PLACE: ...: what is wrong; what is allowed" as the request's problem: its places are options,
 /// the device and its keys, and recordings.

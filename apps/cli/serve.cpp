@@ -3,6 +3,7 @@
 #include <spawn.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <memory>
@@ -66,7 +67,10 @@ void run_serve(const ServeArguments& arguments) {
         fmt::format("--host: {}: is no address; an IP address of this machine, or localhost", arguments.http.host));
   }
   const server::RecordingLimits recordings;
-  const RequestCommands commands({.samples = 2e6, .answer = std::size_t{64} << 20, .unpacked = recordings.unpacked});
+  const RequestCommands commands({.samples = 2e6,
+                                  .threads = std::max(1U, std::thread::hardware_concurrency()),
+                                  .answer = std::size_t{64} << 20,
+                                  .unpacked = recordings.unpacked});
   server::Api api(commands, offered_devices(arguments.devices), recordings);
   const auto started = [&](const server::Started& at) {
     write_standard_output(at.address + "\n");

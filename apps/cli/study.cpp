@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <optional>
@@ -69,6 +70,14 @@ StudyOptions options_of(const StudyArguments& arguments, const StudyFile& file) 
   return options;
 }
 
+/// That are computed in all, the worst one apart.
+double units_of(const StudyOptions& options, std::size_t parameters) {
+  const auto count = static_cast<double>(parameters);
+  return static_cast<double>(options.samples) + static_cast<double>(options.rare_samples) +
+         (count + 2.0) * static_cast<double>(options.index_samples) +
+         (count + 1.0) * static_cast<double>(std::min(options.samples, options.tightening_samples));
+}
+
 /// "12 k units/s, 3 min left"
 std::string rate_text(double done, double of, double seconds) {
   const double rate = done / seconds;
@@ -123,6 +132,12 @@ void run_study(const StudyArguments& arguments) {
   if (!file) throw BadInput(input_problem(file.error()));
   const StudyOptions options = options_of(arguments, *file);
   if (const auto problem = find_problem(options, device, file->distributions)) refuse(*problem, options_of_study);
+  if (arguments.result.empty() && options.samples > most_samples_in_memory) {
+    throw BadInput(fmt::format("--samples: is {}; at most {} without --output, which keeps them on the disk",
+                               options.samples, most_samples_in_memory));
+  }
+  check_threads("--threads", options.threads);
+  check_samples("--samples", units_of(options, file->distributions.parameters.size()));
   const StudyRun run(std::move(device), std::move(file->distributions), options);
   const std::optional<Study> study = studied(run, arguments);
   if (!study) return;  // the first rank tells
@@ -134,6 +149,7 @@ void run_study(const StudyArguments& arguments) {
     throw WorkFailed("--output-device: no unit has a limit: there is no worst one");
   outputs.put("--report", [&] { return report::study_page(run, *study); });
   outputs.put("--output-device", [&] { return report::worst_device_file(run, *study); });
+  if (study->worst) hand_over_device(report::worst_device_file(run, *study));
   outputs.commit();
   write_standard_output(arguments.output.json ? results::line(results::study_json(run, *study))
                                               : report::for_medium(report::study_text(run, *study)));

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "cli/request_problem.hpp"
 #include "cli/subcommand.hpp"
 
 namespace zwidth::cli {
@@ -57,6 +58,12 @@ void check_samples(const char* option, double samples) {
                              option, samples, of_this_thread->bounds.samples));
 }
 
+void check_threads(const char* option, std::size_t threads) {
+  if (of_this_thread == nullptr || threads <= of_this_thread->bounds.threads) return;
+  throw BadInput(
+      fmt::format("{}: is {}; a request may have at most {}", option, threads, of_this_thread->bounds.threads));
+}
+
 void hand_over_device(const std::string& text) {
   if (of_this_thread != nullptr) of_this_thread->device = text;
 }
@@ -78,8 +85,14 @@ tl::expected<Device, InputError> read_named_device(const std::string& name, std:
 }
 
 tl::expected<StudyFile, InputError> read_named_study(const std::string& name, const Device& device) {
-  if (of_this_thread != nullptr) return tl::unexpected(no_such_name(name, "studies run on the command line"));
-  return read_study_file(name, device);
+  const Surroundings* own = of_this_thread;
+  if (own == nullptr) return read_study_file(name, device);
+  if (name != study_name || !own->study) {
+    return tl::unexpected(no_such_name(name, "must be the study given with it"));
+  }
+  if (const auto* path = std::get_if<std::filesystem::path>(&*own->study))
+    return read_study_file(path->string(), device);
+  return parse_study(std::get<std::string>(*own->study), name, device, std::nullopt);
 }
 
 tl::expected<Recording, InputError> read_named_recording(const std::string& name, const RecordingOptions& options,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <limits>
 #include <map>
 #include <memory>
@@ -8,6 +9,7 @@
 #include <span>
 #include <string>
 #include <tl/expected.hpp>
+#include <variant>
 #include <vector>
 
 #include "zwidth/io/device_file.hpp"
@@ -21,6 +23,7 @@ namespace zwidth::cli {
 /// What one request may make. On the command line and in Python there are no such bounds.
 struct RequestBounds {
   double samples = std::numeric_limits<double>::infinity();
+  std::size_t threads = std::numeric_limits<std::size_t>::max();
   std::size_t answer = std::numeric_limits<std::size_t>::max();    ///< bytes
   std::size_t unpacked = std::numeric_limits<std::size_t>::max();  ///< bytes of a recording that came compressed
 };
@@ -31,6 +34,8 @@ struct Surroundings {
   std::map<std::string, std::string> devices;     ///< TOML text by name
   std::map<std::string, std::string> recordings;  ///< by name, where the system has the bytes open: /proc/self/fd/7
   std::map<std::string, std::shared_ptr<const RecordedColumns>> columns;  ///< recordings that are in no file, by name
+  /// What varies, of a study: TOML text, or the path of a file.
+  std::optional<std::variant<std::string, std::filesystem::path>> study;
   RequestBounds bounds;
   Progress progress;   ///< of long work; throwing from it ends the work
   std::string output;  ///< what the command wrote to standard output
@@ -44,6 +49,9 @@ struct Surroundings {
 
 /// Throws BadInput, naming the option, where a request asks for more samples than it may.
 void check_samples(const char* option, double samples);
+
+/// The same of threads.
+void check_threads(const char* option, std::size_t threads);
 
 /// Keeps what a document does not hold; nothing is done on the command line.
 void hand_over_device(const std::string& text);
@@ -62,7 +70,7 @@ class InSurroundings {
 // nothing in another way.
 [[nodiscard]] tl::expected<Device, InputError> read_named_device(const std::string& name,
                                                                  std::span<const std::string> overrides);
-/// A study of the device. A request has none: it is refused there.
+/// A study of the device.
 [[nodiscard]] tl::expected<StudyFile, InputError> read_named_study(const std::string& name, const Device& device);
 [[nodiscard]] tl::expected<Recording, InputError> read_named_recording(const std::string& name,
                                                                        const RecordingOptions& options,

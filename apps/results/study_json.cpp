@@ -1,5 +1,7 @@
 #include "results/study_json.hpp"
 
+#include <cmath>
+
 #include "results/units.hpp"
 
 namespace zwidth::results {
@@ -17,7 +19,12 @@ Json yield_json(const std::optional<Proportion>& share) {
 Json quantiles_json(const std::vector<QuantileEstimate>& quantiles) {
   Json list = Json::array();
   for (const QuantileEstimate& each : quantiles) {
+    const char* status = !each.value               ? "too_few_samples"
+                         : std::isnan(*each.value) ? "refused"
+                         : std::isinf(*each.value) ? "unbounded"
+                                                   : "finite";
     list.push_back({{"probability", each.probability},
+                    {"status", status},
                     {"stiffness", each.value},
                     {"interval", interval_json(each.lower, each.upper)}});
   }
@@ -30,16 +37,18 @@ Json values_json(const Study& study, const std::vector<double>& values) {
   return json;
 }
 
-Json worst_json(const Study& study) {
-  if (!study.worst) return nullptr;
-  const WorstDevice& worst = *study.worst;
+Json worst_json(const Study& study, const std::optional<WorstDevice>& found) {
+  if (!found) return nullptr;
+  const WorstDevice& worst = *found;
   Json json = {{"parameters", values_json(study, worst.values)}};
   add_critical(json, worst.critical);
   json["any_user"] = worst.any_user;
   json["worst_sampled"] = worst.sampled;
   json["share_outside"] = worst.outside;
   json["evaluations"] = worst.evaluations;
-  json["trust"] = worst.critical.trust;
+  json["descents"] = worst.descents;
+  json["agreeing"] = worst.agreeing;
+  json["trust"] = worst.trust;
   return json;
 }
 
@@ -128,7 +137,8 @@ Json study_json(const StudyRun& run, const Study& study) {
   json["sobol_indices"] = indices_json(study);
   json["tightening"] = tightening_json(study);
   json["rare_failures"] = rare_json(study);
-  json["worst"] = worst_json(study);
+  json["worst"] = worst_json(study, study.worst);
+  json["worst_any_user"] = worst_json(study, study.worst_any_user);
   json["trust"] = study.trust;
   json["remarks"] = study.remarks;
   return json;

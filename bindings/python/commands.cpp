@@ -15,6 +15,7 @@
 #include "interruptible.hpp"
 #include "parts.hpp"
 #include "python_error.hpp"
+#include "server/api/device_toml.hpp"
 #include "zwidth/io/device_file.hpp"
 
 namespace zwidth::python {
@@ -24,14 +25,17 @@ namespace {
 using server::CommandRequest;
 using Options = std::vector<std::pair<std::string, std::vector<std::string>>>;
 using Held = std::variant<std::filesystem::path, std::shared_ptr<RecordedColumns>>;
+using StudyHeld = std::optional<std::variant<std::string, std::filesystem::path>>;
 
 /// Runs a command of the program: the same declarations parse and check its options, the same answer comes back.
 Answer run(const std::string& command, const Options& options, const Device* device,
-           const std::vector<std::pair<std::string, Held>>& recordings, const py::object& progress) {
+           const std::vector<std::pair<std::string, Held>>& recordings, const py::object& progress,
+           const StudyHeld& study) {
   CommandRequest request;
   request.command = command;
   for (const auto& [name, values] : options) request.options.push_back({name, values});
   if (device != nullptr) request.device = write_device(device->parameters());
+  request.study = study;
   for (const auto& [name, held] : recordings) {
     CommandRequest::Recorded recorded{name, {}};
     if (const auto* path = std::get_if<std::filesystem::path>(&held)) {
@@ -47,6 +51,12 @@ Answer run(const std::string& command, const Options& options, const Device* dev
   const server::Problem& problem = answer.error();
   if (problem.where.empty()) raise_work_failed(problem.what + (problem.allowed.empty() ? "" : "; ") + problem.allowed);
   raise_input_error(problem.where, problem.what, problem.allowed);
+}
+
+std::string study_toml(const std::string& json) {
+  auto toml = server::device_toml(results::Json::parse(json), "study");
+  if (!toml) raise_input_error(toml.error().where, toml.error().what, toml.error().allowed);
+  return *std::move(toml);
 }
 
 std::shared_ptr<RecordedColumns> recorded(const std::string& source,
@@ -69,6 +79,7 @@ void bind_commands(py::module_& module) {
       .def("array", &Answer::array);
   py::class_<RecordedColumns, std::shared_ptr<RecordedColumns>>(module, "RecordedColumns").def(py::init(&recorded));
   module.def("run", &run);
+  module.def("study_toml", &study_toml);
   module.def("commands", [] { return cli::RequestCommands().names(); });
   module.def("options", [](const std::string& command) {
     std::vector<std::tuple<std::string, std::string, std::string>> all;

@@ -38,7 +38,8 @@ const std::map<std::string, std::vector<std::string>> distribution_keys = {
 
 class StudyReader {
  public:
-  StudyReader(DeviceReading& reading, const toml::table& document, const Device& device, const std::string& folder)
+  StudyReader(DeviceReading& reading, const toml::table& document, const Device& device,
+              const std::optional<std::string>& folder)
       : reading_(reading), root_(reading, document, ""), device_(device), folder_(folder) {}
 
   [[nodiscard]] StudyFile read() && {
@@ -199,8 +200,13 @@ class StudyReader {
       reader.refuse("file", "is missing", "must be the name of a file of numbers, one per line, a weight beside it");
       return empty;
     }
+    if (!folder_) {
+      reader.refuse("file", "names a file, and there is none beside this study",
+                    "must be \"discrete\" with the values and weights themselves");
+      return empty;
+    }
     auto samples =
-        read_study_samples((std::filesystem::path(folder_) / name).string(), measure, device_.parameters().motion);
+        read_study_samples((std::filesystem::path(*folder_) / name).string(), measure, device_.parameters().motion);
     if (samples) return *std::move(samples);
     const InputError& error = samples.error();
     reader.refuse(
@@ -256,7 +262,7 @@ class StudyReader {
   DeviceReading& reading_;
   TableReader root_;
   const Device& device_;
-  const std::string& folder_;
+  const std::optional<std::string>& folder_;
   StudyFile study_;
   std::map<std::string, bool> is_of_device_;  // by full key: the distribution is that of [uncertainty]
 };
@@ -264,7 +270,7 @@ class StudyReader {
 }  // namespace
 
 tl::expected<StudyFile, InputError> parse_study(std::string_view text, std::string_view source, const Device& device,
-                                                const std::string& folder) {
+                                                const std::optional<std::string>& folder) {
   auto document = parse_toml(text, source);
   if (!document) return tl::unexpected(std::move(document.error()));
   DeviceReading reading(source);

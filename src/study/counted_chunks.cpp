@@ -54,6 +54,7 @@ class Counter {
   }
 
   [[nodiscard]] std::vector<LowSample> lows() const { return lows_; }
+  [[nodiscard]] std::vector<LowSample> any_user_lows() const { return any_user_lows_; }
   [[nodiscard]] double least() const { return least_; }
   [[nodiscard]] double largest() const { return largest_; }
 
@@ -70,7 +71,8 @@ class Counter {
       least_ = std::min(least_, stiffness);
       largest_ = std::max(largest_, stiffness);
     }
-    if (!std::isnan(stiffness)) keep_if_low(sample, stiffness);
+    keep_if_low(sample, stiffness, lows_);
+    if (run_.options().any_user) keep_if_low(sample, answers.any_user[i], any_user_lows_);
     if (sample % stride_ == 0) {
       run_.values(sample, row_);
       study_.points.push_back({sample, row_, stiffness, answers.mode[i], status});
@@ -93,11 +95,11 @@ class Counter {
     study_.failed.push_back({sample, std::move(reason)});
   }
 
-  void keep_if_low(std::uint64_t sample, double stiffness) {
-    if (lows_.size() == most_lows && !(stiffness < lows_.back().stiffness)) return;
-    const auto place = std::ranges::upper_bound(lows_, stiffness, {}, &LowSample::stiffness);
-    lows_.insert(place, {stiffness, sample});
-    if (lows_.size() > most_lows) lows_.pop_back();
+  static void keep_if_low(std::uint64_t sample, double limit, std::vector<LowSample>& lows) {
+    if (std::isnan(limit) || (lows.size() == most_lows && !(limit < lows.back().limit))) return;
+    const auto place = std::ranges::upper_bound(lows, limit, {}, &LowSample::limit);
+    lows.insert(place, {limit, sample});
+    if (lows.size() > most_lows) lows.pop_back();
   }
 
   void miss(std::uint64_t sample, const BatchStiffness& answers, std::size_t i) {
@@ -127,6 +129,7 @@ class Counter {
   std::uint64_t any_user_stiff_ = 0;
   std::map<std::pair<int, int>, FailureCluster> clusters_;
   std::vector<LowSample> lows_;
+  std::vector<LowSample> any_user_lows_;
   double least_ = infinity;
   double largest_ = -infinity;
 };
@@ -171,7 +174,7 @@ Quantiles quantiles_of(const StudyRun& run, const ChunkSource& chunks, Column co
   for (std::size_t i = 0; i < places.size(); ++i) {
     QuantileEstimate& estimate = quantiles.estimates.emplace_back();
     estimate.probability = probabilities[i];
-    estimate.value = values[places[i].value];
+    if (places[i].lower && places[i].upper) estimate.value = values[places[i].value];
     if (places[i].lower) estimate.lower = values[*places[i].lower];
     if (places[i].upper) estimate.upper = values[*places[i].upper];
   }
@@ -219,9 +222,10 @@ CountedChunks count_chunks(const StudyRun& run, const ChunkSource& chunks, const
     tell(progress, 0.3 * static_cast<double>(chunk + 1) / static_cast<double>(count));
   }
   const std::vector<LowSample> lows = counter.lows();
+  const std::vector<LowSample> any_user_lows = counter.any_user_lows();
   const double least = counter.least();
   const double largest = counter.largest();
-  CountedChunks counted{std::move(counter).study(), lows};
+  CountedChunks counted{std::move(counter).study(), lows, any_user_lows};
   Study& study = counted.study;
   if (study.trust.refused()) {
     study.failed.clear();

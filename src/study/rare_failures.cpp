@@ -11,6 +11,7 @@
 #include "study/philox.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/device_trust.hpp"
+#include "zwidth/study/sample_statistics.hpp"
 #include "zwidth/study/study_run.hpp"
 
 namespace zwidth {
@@ -37,12 +38,19 @@ constexpr double normal_95 = 1.959963984540054;
 
 using Points = std::vector<Eigen::VectorXd>;
 
+/// Of many points.
+struct Margins {
+  std::vector<double> above;       ///< how far the answers are above what is specified, relative; below 0 a failure
+  std::size_t without_answer = 0;  ///< of those that fail
+  std::size_t doubtful = 0;        ///< with an answer that is
+};
+
 class RareSearch {
  public:
-  explicit RareSearch(const StudyRun& run) : run_(run), size_(static_cast<Eigen::Index>(run.inputs().size())) {}
+  RareSearch(const StudyRun& run, const Progress& progress)
+      : run_(run), progress_(progress), size_(static_cast<Eigen::Index>(run.inputs().size())) {}
 
-  /// Of each point: how far the answers are above what is specified, relative; below 0 a failure.
-  [[nodiscard]] std::vector<double> margins(const Points& points) {
+  [[nodiscard]] Margins margins(const Points& points) {
     std::vector<ParameterValues> columns;
     for (const StudyParameter& each : run_.distributions().parameters) columns.push_back({each.key, {}});
     std::vector<double> row(columns.size());
@@ -52,14 +60,18 @@ class RareSearch {
       for (std::size_t j = 0; j < row.size(); ++j) columns[j].values.push_back(row[j]);
     }
     const Specification& wanted = run_.options().specification;
-    const BatchStiffness answers = run_.answers(columns, wanted.any_user.has_value());
+    const BatchStiffness answers = run_.answers(columns, wanted.any_user.has_value(), progress_);
     evaluations_ += points.size();
-    std::vector<double> margins(points.size());
-    for (std::size_t i = 0; i < margins.size(); ++i) {
+    Margins margins{std::vector<double>(points.size())};
+    for (std::size_t i = 0; i < points.size(); ++i) {
       double margin = std::numeric_limits<double>::max();
       if (wanted.critical_stiffness) margin = std::min(margin, answers.stiffness[i] / *wanted.critical_stiffness - 1.0);
       if (wanted.any_user) margin = std::min(margin, answers.any_user[i] / *wanted.any_user - 1.0);
-      margins[i] = run_.meets(answers, i) ? margin : std::isnan(margin) ? -1.0 : std::min(margin, -1e-15);
+      const bool has_answer =
+          !std::isnan(answers.stiffness[i]) && (!wanted.any_user || !std::isnan(answers.any_user[i]));
+      margins.above[i] = run_.meets(answers, i) ? margin : has_answer ? std::min(margin, -1e-15) : -1.0;
+      margins.without_answer += has_answer ? 0U : 1U;
+      margins.doubtful += has_answer && answers.verdict[i] != answers.trust.verdict ? 1U : 0U;
     }
     return margins;
   }
@@ -79,7 +91,9 @@ class RareSearch {
     for (const double spread : spreads) {
       for (std::size_t i = 0; i < explored; ++i) places.push_back(spread * drawn(explore_stream, places.size()));
     }
-    const std::vector<double> above = margins(places);
+    const std::vector<double> above = margins(places).above;
+    failing_ = static_cast<std::uint64_t>(
+        std::count_if(above.begin(), above.begin() + explored, [](double margin) { return margin < 0.0; }));
     std::vector<std::size_t> order(places.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
     std::ranges::stable_sort(order, {}, [&](std::size_t i) {
@@ -105,7 +119,7 @@ class RareSearch {
           around.back()(j) += side;
         }
       }
-      const std::vector<double> above = margins(around);
+      const std::vector<double> above = margins(around).above;
       Eigen::VectorXd slope(size_);
       for (Eigen::Index j = 0; j < size_; ++j) {
         const auto low = static_cast<std::size_t>(1 + 2 * j);
@@ -123,10 +137,14 @@ class RareSearch {
   }
 
   [[nodiscard]] std::uint64_t evaluations() const { return evaluations_; }
+  /// Share of the units as they are that fail, as far as the first look tells.
+  [[nodiscard]] Proportion first_share() const { return proportion(failing_, explored); }
 
  private:
   const StudyRun& run_;
+  const Progress& progress_;
   Eigen::Index size_;
+  std::uint64_t failing_ = 0;
   std::uint64_t evaluations_ = 0;
 };
 
@@ -134,7 +152,7 @@ class RareSearch {
 Points design_points(RareSearch& search) {
   Points found;
   const Points places = search.first_places();
-  const std::vector<double> above = search.margins(places);
+  const std::vector<double> above = search.margins(places).above;
   for (std::size_t i = 0; i < places.size(); ++i) {
     auto border = search.border_from(places[i]);
     if (!border && above[i] < 0.0) border = places[i];
@@ -164,17 +182,20 @@ void require(const StudyRun& run, const RareFailureOptions& options) {
 
 }  // namespace
 
-RareFailures rare_failures(const StudyRun& run, const RareFailureOptions& options) {
+RareFailures rare_failures(const StudyRun& run, const RareFailureOptions& options, const Progress& progress) {
   require(run, options);
   RareFailures result;
   result.trust = trust_of(run.device());
   if (result.trust.refused()) return result;
-  RareSearch search(run);
+  RareSearch search(run, progress);
   const Points points = design_points(search);
   if (points.empty()) {
     result.evaluations = search.evaluations();
     result.trust.doubt(fmt::format(
-        "no failing unit was found within {:g} standard deviations: 0 is what is known, no bound", farthest));
+        "no failure to sample around was found within {:g} standard deviations: only the interval is known", farthest));
+    const Proportion known = search.first_share();
+    result.share = known.value, result.lower = known.lower, result.upper = known.upper;
+    result.error = std::sqrt(known.value * (1.0 - known.value) / explored);
     return result;
   }
   std::vector<double> weights;  // of the points: half by what lies beyond them, half the same for each
@@ -203,7 +224,8 @@ RareFailures rare_failures(const StudyRun& run, const RareFailureOptions& option
     units.push_back(std::move(unit));
     ratios.push_back(1.0 / density);
   }
-  const std::vector<double> above = search.margins(units);
+  const Margins margins = search.margins(units);
+  const std::vector<double>& above = margins.above;
   double mean = 0.0;
   double square = 0.0;
   double largest = 0.0;
@@ -228,6 +250,16 @@ RareFailures rare_failures(const StudyRun& run, const RareFailureOptions& option
         fmt::format("the share of failures rests on {:.0f} effective units, of which one weighs {:.0f} %: "
                     "failures elsewhere may have been missed; take more samples",
                     effective, 100.0 * heaviest));
+  }
+  if (margins.without_answer > 0) {
+    result.trust.doubt(
+        fmt::format("{} of the {} units drawn have no answer and count as failures; "
+                    "keep the distributions away from such devices",
+                    margins.without_answer, units.size()));
+  }
+  if (margins.doubtful > 0) {
+    result.trust.doubt(
+        fmt::format("the limits of {} of the {} units drawn are doubtful", margins.doubtful, units.size()));
   }
   return result;
 }

@@ -11,6 +11,8 @@
 namespace zwidth {
 namespace {
 
+constexpr double rounding = 1e-11;  // of an answer: less is no variance
+
 struct MeanAndError {
   double mean = 0.0;
   double error = 0.0;
@@ -23,7 +25,8 @@ MeanAndError mean_of(std::size_t count, const Term& term) {
   const double mean = sum / static_cast<double>(count);
   double square = 0.0;
   for (std::size_t i = 0; i < count; ++i) square += (term(i) - mean) * (term(i) - mean);
-  return {mean, std::sqrt(square) / static_cast<double>(count)};
+  const auto n = static_cast<double>(count);
+  return {mean, std::sqrt(square / (n * (n - 1.0)))};
 }
 
 std::vector<double> checked(std::vector<double> values, std::size_t count) {
@@ -38,8 +41,8 @@ std::vector<double> checked(std::vector<double> values, std::size_t count) {
 
 std::vector<SobolIndex> sobol_indices(std::size_t dimensions, std::uint64_t samples, std::uint64_t seed,
                                       const ManyAnswers& answers) {
-  if (dimensions < 1 || dimensions > most_index_dimensions || samples < 1) {
-    throw Error(ErrorCode::invalid_argument, fmt::format("{} dimensions and {} samples; must be 1 to {}, and 1 or more",
+  if (dimensions < 1 || dimensions > most_index_dimensions || samples < 2) {
+    throw Error(ErrorCode::invalid_argument, fmt::format("{} dimensions and {} samples; must be 1 to {}, and 2 or more",
                                                          dimensions, samples, most_index_dimensions));
   }
   const SamplingPlan plan(SamplingScheme::sobol, samples, 2 * dimensions, seed);
@@ -60,7 +63,7 @@ std::vector<SobolIndex> sobol_indices(std::size_t dimensions, std::uint64_t samp
   for (double& value : b) value -= mean;
   const double variance = mean_of(count, [&](std::size_t i) { return 0.5 * (a[i] * a[i] + b[i] * b[i]); }).mean;
   std::vector<SobolIndex> indices(dimensions);
-  if (!(variance > 0.0)) return indices;
+  if (!(variance > rounding * rounding * mean * mean)) return indices;
   for (std::size_t j = 0; j < dimensions; ++j) {
     std::swap(of_a[j], of_b[j]);
     std::vector<double> mixed = checked(answers(of_a), count);

@@ -17,6 +17,7 @@ using namespace internal;
 namespace {
 
 constexpr std::uint64_t most_side_samples = std::uint64_t{1} << 24U;
+constexpr std::uint64_t least_index_samples = 16;  // fewer tell no error of an index
 
 int threads_of(std::size_t threads) {
   return threads == 0 ? tbb::this_task_arena::max_concurrency() : static_cast<int>(threads);
@@ -67,6 +68,10 @@ std::optional<OptionProblem> find_problem(const StudyOptions& options, const Dev
     if (value > most_side_samples) {
       return OptionProblem{member, fmt::format("is {}", value), fmt::format("must be at most {}", most_side_samples)};
     }
+  }
+  if (options.index_samples != 0 && options.index_samples < least_index_samples) {
+    return OptionProblem{"index_samples", fmt::format("is {}", options.index_samples),
+                         fmt::format("must be 0, or {} to {}", least_index_samples, most_side_samples)};
   }
   const Specification& wanted = options.specification;
   if (options.rare_samples != 0) {
@@ -128,13 +133,14 @@ std::vector<ParameterValues> StudyRun::columns(std::uint64_t chunk) const {
   return columns;
 }
 
-BatchStiffness StudyRun::answers(std::uint64_t chunk) const {
-  return batch_stiffness(device_, columns(chunk), {.any_user = options_.any_user, .threads = 1});
+BatchStiffness StudyRun::answers(std::uint64_t chunk, const Progress& progress) const {
+  return batch_stiffness(device_, columns(chunk), {.any_user = options_.any_user, .threads = 1}, progress);
 }
 
-BatchStiffness StudyRun::answers(const std::vector<ParameterValues>& columns, bool any_user) const {
+BatchStiffness StudyRun::answers(const std::vector<ParameterValues>& columns, bool any_user,
+                                 const Progress& progress) const {
   const AllowedThreads allowed(threads_of(options_.threads));
-  return batch_stiffness(device_, columns, {.any_user = any_user, .threads = options_.threads});
+  return batch_stiffness(device_, columns, {.any_user = any_user, .threads = options_.threads}, progress);
 }
 
 bool StudyRun::meets(const BatchStiffness& answers, std::size_t i) const {
@@ -145,7 +151,7 @@ bool StudyRun::meets(const BatchStiffness& answers, std::size_t i) const {
 }
 
 void compute_chunks(const StudyRun& run, const std::function<std::optional<std::uint64_t>()>& next,
-                    const std::function<void(std::uint64_t, BatchStiffness)>& consume) {
+                    const std::function<void(std::uint64_t, BatchStiffness)>& consume, const Progress& within) {
   struct Computed {
     std::uint64_t chunk = 0;
     BatchStiffness answers;
@@ -157,7 +163,7 @@ void compute_chunks(const StudyRun& run, const std::function<std::optional<std::
     flow.stop();
     return 0;
   };
-  const auto computed = [&](std::uint64_t chunk) { return Computed{chunk, run.answers(chunk)}; };
+  const auto computed = [&](std::uint64_t chunk) { return Computed{chunk, run.answers(chunk, within)}; };
   const auto consumed = [&](Computed one) { consume(one.chunk, std::move(one.answers)); };
   tbb::task_arena arena(threads);
   arena.execute([&] {

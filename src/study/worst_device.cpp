@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <Eigen/Core>
 #include <algorithm>
 #include <boost/math/special_functions/gamma.hpp>
@@ -6,25 +8,30 @@
 #include <span>
 #include <utility>
 
+#include "staged_progress.hpp"
 #include "study/philox.hpp"
 #include "study/study_parts.hpp"
 #include "zwidth/design/sensitivity.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/model/device_trust.hpp"
 #include "zwidth/model/parameter.hpp"
 #include "zwidth/stability/any_user.hpp"
 
 namespace zwidth::internal {
 namespace {
 
-constexpr double outside = 1e-6;        // share of units beyond the ball
-constexpr std::size_t extremes = 1024;  // units at the ends of everything, tried beside the lowest samples
+constexpr double outside = 1e-6;  // share of units beyond the ball
 constexpr std::size_t most_starts = 16;
 constexpr int most_steps = 60;       // of one descent
 constexpr int most_halvings = 14;    // of one step
 constexpr double near_limit = 3.0;   // crossovers up to so many times the limit may take over
 constexpr double least_gain = 1e-9;  // relative, of a step worth taking
+constexpr double same_limit = 1e-4;  // relative, of two descents that ended alike
 constexpr std::uint32_t extremes_stream = 0x30000;
 constexpr double difference = 1e-5;  // of a normal score, for the slope of a quantile function
+
+/// Units at the ends of everything, tried beside the lowest samples.
+constexpr std::size_t extremes_of(SearchedLimit searched) { return searched == SearchedLimit::any_user ? 128 : 1024; }
 
 /// Where units may be: by parameter a coordinate in its own ends, or an independent normal number; these together within
 /// a ball. Coordinates with ends run over 0..1.
@@ -161,15 +168,15 @@ class Domain {
 
 struct Place {
   Eigen::VectorXd at;
-  CriticalStiffness critical;  // refused where there is no device
-  [[nodiscard]] bool has_limit() const {
-    return critical.status != StiffnessStatus::refused && !std::isnan(critical.stiffness);
-  }
+  double limit = std::numeric_limits<double>::quiet_NaN();  // that is searched; where there is no device it stays so
+  CriticalStiffness critical = {};                          // where its stiffness is the limit
+  AnyUserLimit any_user = {};                               // where it is that
 };
 
 class Search {
  public:
-  explicit Search(const StudyRun& run) : run_(run), domain_(run) {}
+  Search(const StudyRun& run, SearchedLimit searched, const Progress& progress)
+      : run_(run), searched_(searched), progress_(progress), domain_(run) {}
 
   [[nodiscard]] DeviceParameters device_at(const Eigen::VectorXd& at) const {
     DeviceParameters parameters = run_.device().parameters();
@@ -182,14 +189,20 @@ class Search {
   }
 
   [[nodiscard]] Place solved(Eigen::VectorXd at) {
+    tell(progress_, 0.0);
     ++evaluations_;
-    Place place{std::move(at), {}};
-    place.critical.status = StiffnessStatus::refused;
-    place.critical.stiffness = std::numeric_limits<double>::quiet_NaN();
+    Place place{std::move(at)};
     DeviceParameters parameters = device_at(place.at);
     if (find_problem(parameters)) return place;
     try {
-      place.critical = critical_stiffness(Device(std::move(parameters)));
+      const Device device(std::move(parameters));
+      if (searched_ == SearchedLimit::any_user) {
+        place.any_user = any_user_limit(device, virtual_damper(device), progress_);
+        place.limit = place.any_user.stiffness;
+      } else {
+        place.critical = critical_stiffness(device);
+        if (place.critical.status != StiffnessStatus::refused) place.limit = place.critical.stiffness;
+      }
     } catch (const Error&) {  // no answer there: not a place to go
     }
     return place;
@@ -197,7 +210,7 @@ class Search {
 
   /// From place to place as long as one is lower: along the slope of the limit, and of each crossover that may take over.
   [[nodiscard]] Place descend(Place from) {
-    for (int step = 0; step < most_steps && from.critical.stiffness > 0.0; ++step) {
+    for (int step = 0; step < most_steps && from.limit > 0.0; ++step) {
       std::optional<Place> lower;
       for (const Eigen::VectorXd& slope : slopes(from)) {
         lower = step_along(from, slope);
@@ -217,9 +230,24 @@ class Search {
   /// By coordinate: of the limiting crossover first, then of the others by rising stiffness.
   [[nodiscard]] std::vector<Eigen::VectorXd> slopes(const Place& from) {
     std::vector<Eigen::VectorXd> slopes;
-    if (from.critical.status != StiffnessStatus::finite) return slopes;
+    if (!std::isfinite(from.limit) || !(from.limit > 0.0)) return slopes;
     const Device device(device_at(from.at));
     const Eigen::MatrixXd of_values = domain_.slopes(from.at);
+    const auto add = [&](const std::vector<Sensitivity>& sensitivities) {
+      Eigen::VectorXd slope = Eigen::VectorXd::Zero(from.at.size());
+      for (const Sensitivity& each : sensitivities) {
+        const std::size_t j = index_of(each.key);
+        if (j < domain_.size()) slope += each.slope * of_values.row(static_cast<Eigen::Index>(j)).transpose();
+      }
+      if (slope.allFinite() && slope.squaredNorm() > 0.0) slopes.push_back(std::move(slope));
+    };
+    if (searched_ == SearchedLimit::any_user) {
+      try {
+        add(any_user_sensitivities(device, from.any_user));
+      } catch (const Error&) {  // steps beside it remain
+      }
+      return slopes;
+    }
     std::vector<Crossover> crossovers = from.critical.crossovers;
     std::ranges::sort(crossovers, {}, &Crossover::stiffness);
     std::stable_partition(crossovers.begin(), crossovers.end(),
@@ -229,16 +257,11 @@ class Search {
       CriticalStiffness other = from.critical;
       other.limit = crossover;
       other.stiffness = crossover.stiffness;
-      Eigen::VectorXd slope = Eigen::VectorXd::Zero(from.at.size());
       try {
-        for (const Sensitivity& each : stiffness_sensitivities(device, other)) {
-          const std::size_t j = index_of(each.key);
-          if (j < domain_.size()) slope += each.slope * of_values.row(static_cast<Eigen::Index>(j)).transpose();
-        }
+        add(stiffness_sensitivities(device, other));
       } catch (const Error&) {
         continue;
       }
-      if (slope.allFinite() && slope.squaredNorm() > 0.0) slopes.push_back(std::move(slope));
     }
     return slopes;
   }
@@ -276,31 +299,34 @@ class Search {
     return std::nullopt;
   }
 
-  static bool is_lower(const Place& place, const Place& than) {
-    return place.has_limit() && place.critical.stiffness < than.critical.stiffness * (1.0 - least_gain);
-  }
+  static bool is_lower(const Place& place, const Place& than) { return place.limit < than.limit * (1.0 - least_gain); }
 
   const StudyRun& run_;
+  SearchedLimit searched_;
+  const Progress& progress_;
   Domain domain_;
   std::uint64_t evaluations_ = 0;
 };
 
 /// The lowest of the units at the ends of everything.
-std::vector<Eigen::VectorXd> low_extremes(const StudyRun& run, const Domain& domain) {
+std::vector<Eigen::VectorXd> low_extremes(const StudyRun& run, const Domain& domain, SearchedLimit searched,
+                                          const Progress& progress) {
+  const bool any_user = searched == SearchedLimit::any_user;
   std::vector<Eigen::VectorXd> places;
   std::vector<ParameterValues> columns;
   for (const StudyParameter& each : run.distributions().parameters) columns.push_back({each.key, {}});
-  for (std::uint64_t k = 0; k < extremes; ++k) {
+  for (std::uint64_t k = 0; k < extremes_of(searched); ++k) {
     places.push_back(domain.extreme(run.options().seed, k));
     const std::vector<double> values = domain.values(places.back());
     for (std::size_t j = 0; j < values.size(); ++j) columns[j].values.push_back(values[j]);
   }
-  const BatchStiffness answers = run.answers(columns, false);
+  const BatchStiffness answers = run.answers(columns, any_user, progress);
+  const std::vector<double>& limits = any_user ? answers.any_user : answers.stiffness;
   std::vector<std::size_t> order;
-  for (std::size_t k = 0; k < answers.size(); ++k) {
-    if (!std::isnan(answers.stiffness[k])) order.push_back(k);
+  for (std::size_t k = 0; k < limits.size(); ++k) {
+    if (!std::isnan(limits[k])) order.push_back(k);
   }
-  std::ranges::stable_sort(order, {}, [&](std::size_t k) { return answers.stiffness[k]; });
+  std::ranges::stable_sort(order, {}, [&](std::size_t k) { return limits[k]; });
   std::vector<Eigen::VectorXd> lowest;
   for (std::size_t i = 0; i < std::min(order.size(), most_starts / 4); ++i) lowest.push_back(places[order[i]]);
   return lowest;
@@ -308,39 +334,52 @@ std::vector<Eigen::VectorXd> low_extremes(const StudyRun& run, const Domain& dom
 
 }  // namespace
 
-std::optional<WorstDevice> find_worst(const StudyRun& run, const std::vector<LowSample>& lows) {
+std::optional<WorstDevice> find_worst(const StudyRun& run, const std::vector<LowSample>& lows, SearchedLimit searched,
+                                      const Progress& progress) {
   if (lows.empty()) return std::nullopt;
-  Search search(run);
-  std::vector<Eigen::VectorXd> starts = low_extremes(run, search.domain());
+  Search search(run, searched, progress);
+  std::vector<Eigen::VectorXd> starts = low_extremes(run, search.domain(), searched, progress);
   for (const LowSample& low : lows) starts.push_back(search.domain().place_of(low.sample));
   std::optional<Place> worst;
+  std::vector<double> ends;
   for (Eigen::VectorXd& start : starts) {
     Place place = search.solved(std::move(start));
-    if (!place.has_limit()) continue;
+    if (std::isnan(place.limit)) continue;
     place = search.descend(std::move(place));
-    if (!worst || place.critical.stiffness < worst->critical.stiffness) worst = std::move(place);
-    if (worst->critical.stiffness == 0.0) break;
+    ends.push_back(place.limit);
+    if (!worst || place.limit < worst->limit) worst = std::move(place);
+    if (worst->limit == 0.0) break;
   }
   if (!worst) return std::nullopt;
   WorstDevice found;
   found.values = search.domain().values(worst->at);
   found.device = search.device_at(worst->at);
-  found.critical = std::move(worst->critical);
+  found.descents = ends.size();
+  found.agreeing = static_cast<std::size_t>(
+      std::ranges::count_if(ends, [&](double end) { return end <= worst->limit * (1.0 + same_limit); }));
   // A sample beyond the ball may be lower still: then it is the worst that is known.
-  if (lows.front().stiffness < found.critical.stiffness) {
+  if (lows.front().limit < worst->limit) {
     run.values(lows.front().sample, found.values);
     for (std::size_t j = 0; j < found.values.size(); ++j) {
       set_parameter(found.device, run.distributions().parameters[j].key, found.values[j]);
     }
-    found.critical = critical_stiffness(Device(found.device));
   }
+  found.trust = trust_of(run.device());
+  if (found.agreeing < 2 && worst->limit > 0.0) {
+    found.trust.doubt(fmt::format(
+        "one of {} descents alone ended at this unit: there may be a lower one; take more samples", found.descents));
+  }
+  const Device device(found.device);
+  found.critical = critical_stiffness(device);
+  found.trust.inherit(found.critical.trust);
   if (run.options().any_user) {
-    const Device device(found.device);
-    found.any_user = any_user_limit(device, virtual_damper(device)).stiffness;
+    const AnyUserLimit limit = any_user_limit(device, virtual_damper(device), progress);
+    found.any_user = limit.stiffness;
+    found.trust.inherit(limit.trust);
   }
-  found.sampled = lows.front().stiffness;
+  found.sampled = lows.front().limit;
   found.outside = outside;
-  found.evaluations = search.evaluations() + extremes;
+  found.evaluations = search.evaluations() + extremes_of(searched);
   return found;
 }
 

@@ -48,7 +48,6 @@ TEST_F(SameAnswerEverywhere, EveryCommandThatTakesADeviceOrARecording) {
   for (const std::string& command : all) {
     if (command == "reproduce") continue;  // writes the paper again; takes neither
     if (command == "serve") continue;      // its documents are compared in serve_documents_test.cpp
-    if (command == "study") continue;      // study_test.cpp holds it to itself on threads and ranks
     if (command == "rig") continue;        // acts on a device: no request does
     EXPECT_THAT(compared_, Contains(StartsWith(command + " ")));
   }

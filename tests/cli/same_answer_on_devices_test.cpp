@@ -28,8 +28,11 @@
 #include "results/region_json.hpp"
 #include "results/relay_json.hpp"
 #include "results/simulation_json.hpp"
+#include "results/study_json.hpp"
 #include "results/wall_recommendation_json.hpp"
 #include "zwidth/io/device_file.hpp"
+#include "zwidth/io/study_file.hpp"
+#include "zwidth/study/study_run.hpp"
 
 namespace zwidth::cli {
 namespace {
@@ -45,6 +48,8 @@ constexpr std::array<std::string_view, 8> quick_body_kinds = {"two_mass", "rigid
 /// Whose limit cycles of a relay take little time.
 constexpr std::array<std::string_view, 4> two_body_kinds = {"two_mass", "light_damping", "operator", "grounded"};
 constexpr std::array<std::string_view, 1> two_mass_kind = {"two_mass"};
+/// Of which a thousand take little time.
+constexpr std::array<std::string_view, 2> kernel_kinds = {"two_mass", "rigid"};
 
 /// A command with its options, and the library's answer; either may depend on the device. What it writes to FILE.csv
 /// is compared too.
@@ -163,6 +168,19 @@ Answer notched(const Device& device) {
   return json_line(results::notch_json(device, options, design_notch(device, options)));
 }
 
+/// Every kind of device has a sampling period.
+constexpr const char* study_text =
+    "samples = 50\nspecification.critical_stiffness = 300\n[[parameter]]\nkey = \"loop.sampling_period\"\n"
+    "distribution = \"uniform\"\nrelative_tolerance = 0.2\n";
+
+Answer studied(const Device& device) {
+  auto file = parse_study(study_text, "study.toml", device);
+  const StudyRun run(device, file->distributions,
+                     {.samples = *file->samples, .specification = file->specification, .index_samples = 16});
+  const Study answer = study(run.device(), run.distributions(), run.options());
+  return {results::line(results::study_json(run, answer)), answer.trust.refused() ? 1 : 0};
+}
+
 const std::array commands = {
     Command{"Analyze", [](const Device&) -> std::string { return "analyze FILE --json"; },
             [](const Device& device) { return json_line(results::analysis_json(device, analyze(device))); }},
@@ -217,6 +235,9 @@ const std::array commands = {
               return json_line(results::relay_json(answer), results::relay_csv(answer));
             },
             two_body_kinds},
+    Command{"Study",
+            [](const Device&) -> std::string { return "study FILE --study study.toml --index-samples 16 --json"; },
+            studied, kernel_kinds},
     Command{"ExportJson", [](const Device&) -> std::string { return "export FILE --format json"; },
             [](const Device& device) { return json_line(results::export_json(device_model(device))); }},
     Command{"ExportOctave", [](const Device&) -> std::string { return "export FILE --format octave"; },
@@ -253,6 +274,8 @@ DeviceParameters random_device(test::RandomDevices& random, std::string_view kin
 
 class SameAnswerOn : public SameAnswer, public ::testing::WithParamInterface<Command> {
  protected:
+  SameAnswerOn() { write("study.toml", study_text); }
+
   [[nodiscard]] Question question(const std::string& file) const {
     const Device device = *read_device_file((directory() / file).string(), {});
     std::string command = GetParam().options(device);

@@ -56,6 +56,31 @@ TEST_F(ServedErrors, AnErrorNamesTheFieldThatCausedIt) {
                "body = [{name = \"a b\", mass = -1}]\nloop.sampling_period = 1e-3");
 }
 
+TEST_F(ServedErrors, AStudyIsBoundedAndNamesNoFile) {
+  const auto expect_place = [&](const json& options, const json& study, const std::string& where) {
+    json request{{"device_toml", contents("devices/lhifam.toml")}, {"options", options}};
+    if (study.is_string()) request["study_toml"] = study;
+    if (study.is_object()) request["study"] = study;
+    const HttpAnswer answer = post("study", request.dump());
+    ASSERT_EQ(answer.status, 400) << request;
+    EXPECT_EQ(json::parse(answer.body).at("error").at("where"), where) << answer.body;
+  };
+  const std::string good = contents("devices/studies/lhifam.toml");
+  expect_place(json::object(), nullptr, "study");
+  expect_place(json::object(), "samples =", "study:1:10");
+  expect_place(json::object(), json{{"samples", -1}}, "study.samples");
+  expect_place({{"study", "devices/studies/lhifam.toml"}}, nullptr, "options.study");
+  expect_place({{"samples", 1000000000}}, good, "options.samples");
+  expect_place({{"rare-samples", 10000000}}, good, "options.samples");
+  expect_place({{"threads", 1000}}, good, "options.threads");
+  expect_place({{"output", "units.h5"}}, good, "options.output");
+  expect_place({{"resume", true}}, good, "options.resume");
+  expect_place(json::object(), "[[parameter]]\nkey = \"loop.delay\"\ndistribution = \"file\"\nfile = \"/etc/passwd\"\n",
+               "study.parameter.0.file");
+  json request{{"device_toml", contents("devices/lhifam.toml")}, {"study_toml", good}};
+  EXPECT_EQ(json::parse(post("analyze", request.dump()).body).at("error").at("where"), "study");
+}
+
 TEST_F(ServedErrors, AnErrorSaysWhatWasGivenAndWhatIsAllowed) {
   const std::string device = contents("devices/lhifam.toml");
   const auto error_of = [&](const std::string& command, const json& options, const std::string& text) {

@@ -48,9 +48,14 @@ TEST_F(Study, SaysWhatShareOfTheUnitsIsGoodEnough) {
   EXPECT_TRUE(answer["sobol_indices"].is_null());  // the parameters are correlated
   double before = 0.0;
   for (const auto& quantile : answer["quantiles"]) {
+    const bool is_known = !quantile["interval"][0].is_null() && !quantile["interval"][1].is_null();
+    EXPECT_EQ(quantile["status"], is_known ? "finite" : "too_few_samples") << quantile;
+    EXPECT_EQ(quantile["stiffness"].is_number(), is_known) << quantile;
+    if (!is_known) continue;
     EXPECT_GE(quantile["stiffness"], before);
     before = quantile["stiffness"];
   }
+  EXPECT_GT(before, 0.0);
   // The worst unit is a device of its own, with that limit.
   EXPECT_LE(answer["worst"]["critical_stiffness"], answer["worst"]["worst_sampled"]);
   const auto worst = document("zwidth analyze worst.toml");

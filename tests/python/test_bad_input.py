@@ -201,3 +201,39 @@ def test_a_forked_child_works(lhifam):
     if child == 0:
         os._exit(0 if zwidth.analyze(lhifam).critical_stiffness else 1)
     assert os.waitpid(child, 0)[1] == 0
+
+
+@pytest.mark.parametrize(
+    "study, where",
+    [
+        (None, "study"),
+        ("", "study"),
+        ("-", "study"),
+        ("none.toml", "study"),
+        ({}, "study.parameter"),
+        ({"samples": float("nan")}, "study.samples"),
+        ({"parameter": [{"key": "link.stifness"}]}, "study.parameter.0.key"),
+        ({"parameter": [{"key": "loop.delay", "distribution": "file", "file": "/etc/passwd"}]}, "study.parameter.0.file"),
+        ("a =\nb = 1\n", "study:1:4"),
+    ],
+)
+def test_studies_that_are_none(lhifam, study, where):
+    with pytest.raises(zwidth.InputError) as raised:
+        zwidth.study(lhifam, study)
+    assert str(raised.value).startswith(where + ": ")
+
+
+def test_a_study_ends_where_its_progress_raises(lhifam):
+    class Enough(Exception):
+        pass
+
+    def stop(fraction):
+        raise Enough
+
+    study = {
+        "samples": 10**6,
+        "specification": {"any_user": 1000},
+        "parameter": [{"key": "link.stiffness", "distribution": "normal", "relative_deviation": 0.08}],
+    }
+    with pytest.raises(Enough):
+        zwidth.study(lhifam, study, progress=stop)

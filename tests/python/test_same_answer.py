@@ -118,6 +118,49 @@ def test_random_devices(call, random_devices, tmp_path):
     assert same > asked / 3
 
 
+STUDY = {
+    "samples": 60,
+    "sampling": "latin-hypercube",
+    "specification": {"critical_stiffness": 300},
+    "parameter": [{"key": "loop.sampling_period", "distribution": "uniform", "relative_tolerance": 0.2}],
+}
+STUDY_TEXT = """samples = 60
+sampling = "latin-hypercube"
+specification.critical_stiffness = 300
+[[parameter]]
+key = "loop.sampling_period"
+distribution = "uniform"
+relative_tolerance = 0.2
+"""
+
+
+def test_studies(device_files, random_devices, tmp_path):
+    """A study as a path, as a text and as a dict."""
+    path = tmp_path / "study.toml"
+    path.write_text(STUDY_TEXT)
+    files = [*device_files, *random_devices[:12]]
+    words = [["study", file, "--study", path, "--index-samples", "16", "--seed", "3", "--json"] for file in files]
+    same = 0
+    for file, (text, status) in zip(files, answers(words, tmp_path)):
+        device = zwidth.Device.from_toml(file)
+        for study in (path, STUDY_TEXT, STUDY):
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                try:
+                    result = zwidth.study(device, study, index_samples=16, seed=3)
+                except zwidth.Error:
+                    assert text == "", f"{file}: exit status {status}"
+                    continue
+            assert result.to_json() == text, f"{file}: exit status {status}"
+            same += 1
+        if text and json.loads(text)["worst"]:
+            found = zwidth.critical_stiffness(result.worst_device())
+            if found.status == "finite":
+                assert found.stiffness == pytest.approx(result.worst.critical_stiffness, rel=1e-12)
+    print(f"{3 * len(files)} studies, {same} with an answer, all the same")
+    assert same > len(files)
+
+
 def test_recordings(tmp_path):
     """The commands about recordings, by the same paths; words without blanks, as answers() takes them."""
     chirp, motion, lhifam = "recordings/locked_chirp.csv", "recordings/free_motion.csv", "devices/lhifam.toml"

@@ -8,6 +8,7 @@
 #include "lhifam.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/parameter.hpp"
+#include "zwidth/stability/any_user.hpp"
 #include "zwidth/study/study_run.hpp"
 
 namespace zwidth {
@@ -29,7 +30,7 @@ std::vector<double> numbers_of(const Study& study) {
   std::vector<double> numbers;
   if (study.yield) numbers = {study.yield->value, study.yield->lower, study.yield->upper};
   for (const QuantileEstimate& each : study.quantiles) {
-    numbers.insert(numbers.end(), {each.value, each.lower.value_or(-1.0), each.upper.value_or(-1.0)});
+    numbers.insert(numbers.end(), {each.value.value_or(-1.0), each.lower.value_or(-1.0), each.upper.value_or(-1.0)});
   }
   for (const std::uint64_t count : study.histogram.counts) numbers.push_back(static_cast<double>(count));
   for (const FailureCluster& each : study.clusters) {
@@ -91,7 +92,7 @@ TEST(Study, YieldOfARigidDeviceIsInClosedForm) {
     for (const QuantileEstimate& each : result.quantiles) {
       const double truth = limit(2.0 + 2.0 * each.probability);
       if (each.probability == 0.5) {
-        EXPECT_NEAR(each.value, truth, 200.0) << seed;
+        EXPECT_NEAR(*each.value, truth, 200.0) << seed;
       }
     }
     if (seed > 1) continue;
@@ -164,6 +165,7 @@ TEST(Study, IsTrustedNoMoreThanItsDevice) {
   const Study doubtful = study(Device(parameters), tolerances(), options);
   EXPECT_EQ(doubtful.trust.verdict, Trust::Verdict::doubtful);
   EXPECT_EQ(doubtful.doubtful, 0U);
+  EXPECT_EQ(doubtful.worst->trust.verdict, Trust::Verdict::doubtful);
   parameters.uncertainty->verdict = Trust::Verdict::refused;
   options.specification.critical_stiffness = 1.0;
   const Study refused = study(Device(parameters), tolerances(), options);
@@ -171,6 +173,70 @@ TEST(Study, IsTrustedNoMoreThanItsDevice) {
   EXPECT_FALSE(refused.yield);
   EXPECT_TRUE(refused.quantiles.empty());
   EXPECT_FALSE(refused.worst);
+}
+
+// What few samples cannot carry is not stated, and no error is 0 because nothing was seen.
+TEST(Study, StatesNoNumberThatTheSamplesDoNotCarry) {
+  for (const std::uint64_t samples : {1U, 10U, 100U, 3000U}) {
+    StudyOptions options;
+    options.samples = samples;
+    options.specification.critical_stiffness = 1.0;
+    options.index_samples = 16;
+    const Study result = study(two_masses(), tolerances(), options);
+    for (const QuantileEstimate& each : result.quantiles) {
+      // X_(1) is above x_p with probability (1-p)^n, X_(n) below it with p^n.
+      const auto n = static_cast<double>(samples);
+      const bool carried = std::pow(1.0 - each.probability, n) <= 0.025 && std::pow(each.probability, n) <= 0.025;
+      EXPECT_EQ(each.value.has_value(), carried) << samples << " " << each.probability;
+      if (!each.value) continue;
+      EXPECT_LE(*each.lower, *each.value);
+      EXPECT_LE(*each.value, *each.upper);
+    }
+    EXPECT_EQ(result.reached_by_95_percent.has_value(), samples >= 59);
+    EXPECT_EQ(result.yield->value, 1.0);
+    for (const TighteningGain& each : *result.tightening) {
+      EXPECT_EQ(each.yield_gain, 0.0);
+      EXPECT_GT(each.error, 0.0);
+    }
+    ASSERT_TRUE(result.worst);
+    EXPECT_GE(result.worst->agreeing, 1U);
+    EXPECT_LE(result.worst->agreeing, result.worst->descents);
+    EXPECT_EQ(result.worst->trust.sound(), result.worst->agreeing > 1) << samples;
+  }
+}
+
+// A number that the limit does not depend on has no share of its variance, and rounding is no variance.
+TEST(Study, RoundingIsNoVariance) {
+  const StudyDistributions distributions{
+      {{"actuator.force_limit", {.kind = Kind::uniform, .lower = 1.0, .upper = 5.0}},
+       {"sensor.resolution", {.kind = Kind::uniform, .lower = 1e-6, .upper = 1e-5}}}};
+  StudyOptions options;
+  options.samples = 100;
+  options.index_samples = 64;
+  const Study result = study(two_masses(), distributions, options);
+  ASSERT_TRUE(result.sobol_indices);
+  for (const SobolIndex& each : *result.sobol_indices) {
+    EXPECT_EQ(each.first, 0.0);
+    EXPECT_EQ(each.total, 0.0);
+  }
+}
+
+// The unit that is worst for any user is no better than any sample, and than the one that is worst alone.
+TEST(Study, FindsTheWorstUnitForAnyUser) {
+  const StudyDistributions distributions{
+      {{"link.stiffness", {.kind = Kind::normal, .centre = 79.5e3, .deviation = 6e3}},
+       {"body.handle.damping", {.kind = Kind::uniform, .lower = 1.0, .upper = 5.0}}}};
+  StudyOptions options;
+  options.samples = 200;
+  options.specification.any_user = 3000.0;
+  options.index_samples = options.tightening_samples = 0;
+  const Study result = study(two_masses(), distributions, options);
+  ASSERT_TRUE(result.worst);
+  ASSERT_TRUE(result.worst_any_user);
+  EXPECT_LE(*result.worst_any_user->any_user, result.worst_any_user->sampled);
+  EXPECT_LE(*result.worst_any_user->any_user, *result.worst->any_user * (1.0 + 1e-9));
+  const Device device(result.worst_any_user->device);
+  EXPECT_EQ(any_user_limit(device, virtual_damper(device)).stiffness, *result.worst_any_user->any_user);
 }
 
 TEST(Study, RefusesOptionsByName) {
@@ -193,6 +259,13 @@ TEST(Study, RefusesOptionsByName) {
   options = {};
   options.threads = 100'000;
   EXPECT_EQ(member(options, two_masses()), "threads");
+  options = {};
+  options.index_samples = 15;
+  EXPECT_EQ(member(options, two_masses()), "index_samples");
+  options = {};
+  options.samples = most_samples_in_memory + 1;
+  EXPECT_EQ(member(options, two_masses()), "");  // a StudyRun may have more
+  EXPECT_THROW((void)study(two_masses(), tolerances(), options), Error);
 }
 
 }  // namespace

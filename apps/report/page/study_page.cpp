@@ -57,9 +57,8 @@ std::string study_page(const StudyRun& run, const Study& study) {
 std::string worst_device_file(const StudyRun& run, const Study& study) {
   DeviceParameters device = study.worst->device;
   device.name = fmt::format("{}, worst unit of a study", display_name(run.device())).substr(0, max_name_size);
-  const Trust& trust = study.worst->critical.trust;
   Trust whole = study.trust;
-  whole.inherit(trust);
+  whole.inherit(study.worst->critical.trust);
   if (!whole.sound()) {
     Uncertainty& uncertainty = device.uncertainty.emplace();
     uncertainty.verdict = whole.verdict;

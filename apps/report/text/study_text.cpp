@@ -73,10 +73,12 @@ TextTable quantile_table(const StudyRun& run, const Study& study) {
   };
   for (std::size_t i = 0; i < study.quantiles.size(); ++i) {
     const QuantileEstimate& each = study.quantiles[i];
-    table.rows.push_back({fmt::format("{:g} %", 100.0 * each.probability), stiffness_text(run, each.value),
-                          each.lower || each.upper ? fmt::format("{} to {}", end(each.lower), end(each.upper))
-                                                   : std::string("too few units")});
-    if (run.options().any_user) table.rows.back().push_back(stiffness_text(run, study.any_user_quantiles[i].value));
+    table.rows.push_back({fmt::format("{:g} %", 100.0 * each.probability), end(each.value),
+                          each.value ? fmt::format("{} to {}", end(each.lower), end(each.upper))
+                          : each.lower || each.upper
+                              ? fmt::format("too few units: {} to {}", end(each.lower), end(each.upper))
+                              : std::string("too few units")});
+    if (run.options().any_user) table.rows.back().push_back(end(study.any_user_quantiles[i].value));
   }
   return table;
 }
@@ -136,20 +138,32 @@ TextTable cluster_table(const Study& study) {
 }
 
 std::string worst_sentence(const StudyRun& run, const Study& study) {
-  if (!study.worst) return {};
-  const WorstDevice& worst = *study.worst;
-  std::string numbers;
-  for (std::size_t j = 0; j < study.keys.size(); ++j) {
-    numbers += fmt::format("{}{} {}", j > 0 ? ", " : "", study.keys[j],
-                           parameter_text(study.keys[j], worst.values[j], run.device().parameters().motion));
+  std::string text;
+  for (const std::optional<WorstDevice>* found : {&study.worst, &study.worst_any_user}) {
+    if (!*found) continue;
+    const bool any_user = found == &study.worst_any_user;
+    const WorstDevice& worst = **found;
+    std::string numbers;
+    for (std::size_t j = 0; j < study.keys.size(); ++j) {
+      numbers += fmt::format("{}{} {}", j > 0 ? ", " : "", study.keys[j],
+                             parameter_text(study.keys[j], worst.values[j], run.device().parameters().motion));
+    }
+    const int mode = worst.critical.limit ? worst.critical.limit->limited_by.mode : -1;
+    const std::string critical = fmt::format("K_CR {}, limited by {}", stiffness_text(run, worst.critical.stiffness),
+                                             mechanism_of(worst.critical.status, mode));
+    const std::string limits =
+        any_user         ? fmt::format("{} ({})", stiffness_text(run, *worst.any_user), critical)
+        : worst.any_user ? fmt::format("{} ({} with any user)", critical, stiffness_text(run, *worst.any_user))
+                         : critical;
+    const auto note = trust_note(worst.trust);
+    text += fmt::format(
+        "{}Worst unit{}: {}, where {}. The worst of the samples has {}; the search looked at the ends of the "
+        "distributions, "
+        "or at all but one unit in {:.0f}, and {} of its {} descents ended here.{}",
+        text.empty() ? "" : " ", any_user ? " with any user" : "", limits, numbers, stiffness_text(run, worst.sampled),
+        1.0 / worst.outside, worst.agreeing, worst.descents, note ? " " + *note : std::string());
   }
-  const int mode = worst.critical.limit ? worst.critical.limit->limited_by.mode : -1;
-  return fmt::format(
-      "Worst unit: K_CR {}{}, limited by {}, where {}. The worst of the samples has {}; the search looked "
-      "at the ends of the distributions, or at all but one unit in {:.0f}.",
-      stiffness_text(run, worst.critical.stiffness),
-      worst.any_user ? fmt::format(" ({} with any user)", stiffness_text(run, *worst.any_user)) : std::string(),
-      mechanism_of(worst.critical.status, mode), numbers, stiffness_text(run, worst.sampled), 1.0 / worst.outside);
+  return text;
 }
 
 std::string tightening_sentence(const Study& study) {

@@ -42,6 +42,8 @@ struct CommandRequest {
   std::optional<std::string> device;  ///< TOML text
   bool device_is_text = false;        ///< it came as that: places in it mean something to who sent it
   std::vector<Recorded> recordings;
+  /// What varies, of a study: TOML text, or the path of a file, beside which its files of samples lie.
+  std::optional<std::variant<std::string, std::filesystem::path>> study;
 };
 
 /// The client has left, or the work has taken too long: thrown by the Progress that work is given.

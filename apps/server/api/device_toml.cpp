@@ -7,7 +7,7 @@ namespace {
 
 using results::Json;
 
-/// A value of the device file as TOML: JSON's texts and numbers are TOML's, an object is an inline table.
+/// A value as TOML: JSON's texts and numbers are TOML's, an object is an inline table.
 void put_toml(std::string& toml, const std::string& where, const Json& value) {
   const auto put_list = [&](char open, char close, const auto& put_item) {
     toml += open;
@@ -25,7 +25,7 @@ void put_toml(std::string& toml, const std::string& where, const Json& value) {
   } else if (value.is_array()) {
     put_list('[', ']', [&](const auto& item) { put_toml(toml, where, *item); });
   } else if (value.is_null()) {
-    throw Problem{where, "is null", "a value; leave out what the device has not"};
+    throw Problem{where, "is null", "a value; leave out what is not there"};
   } else {
     toml += value.dump();
   }
@@ -33,12 +33,12 @@ void put_toml(std::string& toml, const std::string& where, const Json& value) {
 
 }  // namespace
 
-tl::expected<std::string, Problem> device_toml(const Json& device) try {
-  if (!device.is_object()) throw Problem{"device", "is no object", "the keys of a device file"};
+tl::expected<std::string, Problem> device_toml(const Json& device, const std::string& name) try {
+  if (!device.is_object()) throw Problem{name, "is no object", "the keys of a " + name + " file"};
   std::string toml;
   for (const auto& [key, value] : device.items()) {
     toml += Json(key).dump() + " = ";
-    put_toml(toml, "device." + key, value);
+    put_toml(toml, name + "." + key, value);
     toml += '\n';
   }
   return toml;

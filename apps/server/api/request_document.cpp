@@ -21,7 +21,8 @@ using results::Json;
 
 constexpr int deepest = 32;  // a device file needs four levels
 constexpr std::size_t longest_name = 200;
-constexpr std::array<std::string_view, 5> request_keys{"device", "device_toml", "recording", "recordings", "options"};
+constexpr std::array<std::string_view, 7> request_keys{"device", "device_toml", "recording", "recordings",
+                                                       "study",  "study_toml",  "options"};
 
 struct Refused {
   Problem problem;
@@ -161,6 +162,16 @@ CommandRequest request_of(std::string_view command, const Json& document, Record
   if (document.contains("recordings")) {
     if (!document["recordings"].is_array()) refuse("recordings", "is no array", "ids of recordings");
     for (const Json& each : document["recordings"]) request.recordings.push_back(recorded(each, recordings));
+  }
+  if (document.contains("study")) {
+    auto toml = device_toml(document["study"], "study");
+    if (!toml) throw Refused{toml.error()};
+    request.study = *std::move(toml);
+  }
+  if (document.contains("study_toml")) {
+    if (request.study) refuse("study_toml", "is given beside study", "one of them");
+    if (!document["study_toml"].is_string()) refuse("study_toml", "is no text", "a study file's text");
+    request.study = document["study_toml"].get<std::string>();
   }
   if (document.contains("options")) {
     if (!document["options"].is_object()) refuse("options", "is no object", "options of the command, by their names");

@@ -9,7 +9,7 @@
 namespace zwidth::server {
 
 /// The request that a document makes: {"device": {...} | "device_toml": "...", "recording": ID | {"id", "name"},
-/// "recordings": [...], "options": {...}}, every key optional. `recordings` finds the ids.
+/// "recordings": [...], "study": {...} | "study_toml": "...", "options": {...}}, every key optional. `recordings` finds the ids.
 [[nodiscard]] tl::expected<CommandRequest, Problem> read_request(std::string_view command, std::string_view document,
                                                                  RecordingStore& recordings);
 

@@ -37,6 +37,7 @@ from ._commands import (
     region,
     relay,
     simulate,
+    study,
     sweep,
 )
 from ._core import AnyUserLimit, CriticalStiffness, Device, __version__, any_user_limit, critical_stiffness
@@ -51,6 +52,7 @@ from ._device_results import (
     Diagnosis,
     Notch,
     Region,
+    Study,
     Sweep,
     WallRecommendation,
 )
@@ -107,6 +109,7 @@ __all__ = [
     "ResultWarning",
     "RigidBodyIdentification",
     "Simulation",
+    "Study",
     "Sweep",
     "Trust",
     "WallMargins",
@@ -133,5 +136,6 @@ __all__ = [
     "region",
     "relay",
     "simulate",
+    "study",
     "sweep",
 ]

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import os
+from pathlib import Path
 from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
 
-from . import _core, _device_results, _measured_results, _results
+from . import _core, _device, _device_results, _measured_results, _results
 from ._core import Device
 from ._errors import InputError, warn_of_document
 
@@ -63,8 +64,6 @@ def _held(recorded: Recorded, number: int) -> Tuple[str, Any]:
             raise InputError("recording", "is a path of bytes", "a path of text")
         if path == "-":
             raise InputError("recording", "is standard input", "a file, or columns")
-        from pathlib import Path
-
         return path if not path.startswith("-") else f"./{path}", Path(path)
     if hasattr(recorded, "keys"):
         made = Recording(recorded, name="recording" if number == 0 else f"recording {number + 1}")
@@ -112,11 +111,12 @@ def _run(
     recordings: Sequence[Recorded],
     progress: Progress,
     options: Mapping[str, Any],
+    study: Union[str, Path, None] = None,
 ) -> _core.Answer:
     if device is not None and not isinstance(device, Device):
         raise InputError("device", f"is of type {type(device).__name__}", "a zwidth.Device")
     held = [_held(each, number) for number, each in enumerate(recordings)]
-    return _core.run(command, _options(options), device, held, progress)
+    return _core.run(command, _options(options), device, held, progress, study)
 
 
 def _result(
@@ -125,8 +125,9 @@ def _result(
     recordings: Sequence[Recorded],
     progress: Progress,
     options: Mapping[str, Any],
+    study: Union[str, Path, None] = None,
 ) -> Any:
-    answer = _run(command, device, recordings, progress, options)
+    answer = _run(command, device, recordings, progress, options, study)
     result = _results.result_of(answer)
     warn_of_document(result._values)
     return result
@@ -255,6 +256,34 @@ def excite(device: Optional[Device] = None, *, progress: Progress = None, **opti
     return result
 
 
+def study(
+    device: Device,
+    study: Union[str, "os.PathLike[str]", Mapping[str, Any]],
+    *,
+    progress: Progress = None,
+    **options: Option,
+) -> _device_results.Study:
+    """How the limit varies over many units: yield, quantiles, the worst unit, which tolerance to tighten.
+
+    `study`: a study file's path, its text (more than one line), or its keys as a dict (docs/study.md).
+    """
+    held: Union[str, Path]
+    if isinstance(study, Mapping):
+        held = _core.study_toml(_device.json_of(study, "study"))
+    elif isinstance(study, str) and "\n" in study:
+        held = study
+    elif isinstance(study, (str, os.PathLike)) and isinstance(os.fspath(study), str):
+        if not os.fspath(study) or "\0" in os.fspath(study):
+            raise InputError("study", "is empty or has a character of code 0", "a path")
+        if os.fspath(study) == "-":
+            raise InputError("study", "is standard input", "a file, a text, or a dict")
+        held = Path(os.fspath(study))
+    else:
+        raise InputError("study", f"is of type {type(study).__name__}", "a path, a text, or a dict")
+    result: _device_results.Study = _result("study", device, (), progress, options, held)
+    return result
+
+
 def model(device: Device) -> _results.Model:
     """The continuous and the exact discrete model of a device, and its wall: `export --format json`."""
     result: _results.Model = _result("export", device, (), None, {"format": "json"})
@@ -318,6 +347,7 @@ def critical_stiffness_many(
 _COMMANDS = {
     "analyze": analyze, "bode": bode, "region": region, "design": design, "diagnose": diagnose, "simulate": simulate,
     "relay": relay, "frf": frequency_response, "identify": identify, "excite": excite, "export": export,
+    "study": study,
 }  # fmt: skip
 
 

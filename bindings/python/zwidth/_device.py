@@ -30,9 +30,9 @@ def _plain(where: str, value: Any) -> Any:
     raise InputError(where, f"is of type {type(value).__name__}", "a number, text, list or dict")
 
 
-def json_of(keys: Mapping[str, Any]) -> str:
-    """The keys of a device file as JSON."""
-    return json.dumps(_plain("device", keys))
+def json_of(keys: Mapping[str, Any], name: str = "device") -> str:
+    """The keys of a device file, or of a study file, as JSON."""
+    return json.dumps(_plain(name, keys))
 
 
 def overrides(changes: Mapping[str, Any], keywords: Mapping[str, Any]) -> List[str]:

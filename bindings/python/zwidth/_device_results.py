@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
-from ._parts import Trust, Mechanism, Mode, Crossover, WallMargins, AnyUser, _Limited
-from ._record import (Record, Result, array, interval, intervals, many, maybe, maybe_one, maybe_text, number, one, text)
+from . import _core
+from ._errors import Error
+from ._parts import Trust, Mechanism, Mode, Crossover, Remark, WallMargins, AnyUser, _Limited
+from ._record import (
+    Record, Result, array, count, interval, intervals, many, maybe, maybe_one, maybe_text, number, one, text, texts,
+)  # fmt: skip
 
 
 class Analysis(_Limited):
@@ -188,3 +192,51 @@ class Diagnosis(_Limited):
     cause = maybe_text("None: none fits.")
     candidates = many(Record, "The likeliest first.")
     changes = many(Record, "Each alone and recomputed.")
+
+
+class Quantile(Record):
+    """A quantile of the limit over the units."""
+
+    probability = number("Share of the units with less.")
+    status = text('"finite", "unbounded", "refused" (a unit without an answer) or "too_few_samples".')
+    stiffness = maybe("N/m or N m/rad; None unless finite.")
+    interval = interval("95 % interval, whatever the distribution; an end is None where it is unbounded or unknown.")
+
+
+class Study(Result):
+    """How the limit varies over many units of one design: docs/study.md."""
+
+    device = text("The device's name.")
+    units = one(Record, "Names of the units.")
+    samples = count("Units drawn.")
+    seed = count("Of the random numbers.")
+    sampling = text('"random", "latin-hypercube" or "sobol".')
+    parameters = texts("Keys of what varies.")
+    specification = one(Record, "What every unit must reach.")
+    yield_ = maybe("Share of the units that meet the specification; None without one.")
+    yield_interval = interval("95 % interval of it (Clopper and Pearson).")
+    yields = one(Record, "Of each specification by itself.")
+    quantiles = many(Quantile, "Of the critical stiffness.")
+    any_user_quantiles = maybe_one(Quantile, "Of the any-user limit, where it is asked for.")
+    reached_by_95_percent = maybe("95 % of all units reach it, with 95 % confidence.")
+    histogram = one(Record, "Of the finite limits: edges, counts, yields.")
+    none_stable = count("Units that no wall suits.")
+    unbounded = count("Units that every wall suits.")
+    doubtful = count("Units whose own answer is doubtful.")
+    failed_count = count("Units without an answer.")
+    failed = many(Record, "The first 1000 of them: sample, reason.")
+    clusters = many(Record, "Units that miss the specification, by what limits them.")
+    sobol_indices = maybe_one(Record, "By parameter; None where a remark says why.")
+    tightening = maybe_one(Record, "By parameter: yield gained by half the spread; None without a specification.")
+    rare_failures = maybe_one(Record, "With rare_samples=...: the share of failures by importance sampling.")
+    worst = maybe_one(Record, "The worst unit found.")
+    worst_any_user = maybe_one(Record, "The one with the lowest any-user limit, where it is asked for.")
+    trust = one(Trust, "How far the numbers may be relied on.")
+    remarks = many(Remark, "What was left out or noticed.")
+
+    def worst_device(self) -> _core.Device:
+        """The worst unit as a device, as study --output-device writes it."""
+        found = self._answer.device
+        if found is None:
+            raise Error("no unit has a limit: there is no worst one")
+        return _core.Device.from_toml(found)

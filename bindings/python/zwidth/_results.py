@@ -14,6 +14,7 @@ from ._device_results import (
     Diagnosis,
     Notch,
     Region,
+    Study,
     Sweep,
     WallRecommendation,
 )
@@ -44,6 +45,7 @@ CLASSES: Dict[str, Type[Result]] = {
     "zwidth.design_target/1": DesignTargets,
     "zwidth.wall_recommendation/1": WallRecommendation,
     "zwidth.diagnosis/1": Diagnosis,
+    "zwidth.study/1": Study,
     "zwidth.identification/1": Identification,
     "zwidth.inverse_dynamics/1": RigidBodyIdentification,
     "zwidth.frf/1": FrequencyResponse,

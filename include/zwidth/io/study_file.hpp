@@ -23,10 +23,11 @@ struct StudyFile {
 
 /// Reads a study of the device from TOML text.
 ///
-/// `folder` is where the files of distribution = "file" are looked for. Values not given are the device's own (a mean, a
+/// `folder` is where the files of distribution = "file" are looked for; without one, that is refused. Values not given are the device's own (a mean, a
 /// median, a mode). Every refusal has its place. Never throws on any bytes. `source` names the text in errors.
 [[nodiscard]] tl::expected<StudyFile, InputError> parse_study(std::string_view text, std::string_view source,
-                                                              const Device& device, const std::string& folder = ".");
+                                                              const Device& device,
+                                                              const std::optional<std::string>& folder = ".");
 
 /// Reads a study file; files that it names are looked for beside it.
 [[nodiscard]] tl::expected<StudyFile, InputError> read_study_file(const std::string& path, const Device& device);

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "zwidth/progress.hpp"
 #include "zwidth/trust.hpp"
 
 namespace zwidth {
@@ -22,10 +23,11 @@ struct DesignPoint {
 
 /// The share of units that miss the specification, where sampling as it is would see none.
 struct RareFailures {
-  double share = 0.0;               ///< 0 where no failure was found: trust is doubtful then
-  double error = 0.0;               ///< its standard error
-  double lower = 0.0;               ///< 95 % interval, of the normal approximation
-  double upper = 0.0;               ///< of its 95 % interval
+  double share = 0.0;  ///< 0 where no failure was found: trust is doubtful then
+  double error = 0.0;  ///< its standard error
+  double lower = 0.0;  ///< 95 % interval, of the normal approximation
+  /// Of that interval; where no failure was found, what 2048 units as they are leave possible.
+  double upper = 0.0;
   std::uint64_t evaluations = 0;    ///< devices computed
   std::vector<DesignPoint> points;  ///< nearest first
   Trust trust;                      ///< of the share
@@ -39,11 +41,13 @@ struct RareFailures {
 ///     y <- (g' y - g) g / |g|²,    g = grad K_CR
 ///
 /// Then y is drawn from q = 0.1 N(0, 1) + 0.9 sum w_k N(y_k, 1), and the share is the mean of 1{fails} phi(y)/q(y).
-/// Doubtful where failures that were not found could matter: few effective samples, or one that weighs much.
+/// Doubtful where failures that were not found could matter: few effective samples, or one that weighs much; and where
+/// units have no answer or a doubtful one.
 /// Every unit without an answer fails. The same for any number of threads.
 /// Throws Error (invalid_argument) for a study without a specification and for samples out of range.
 /// Sources: R. Rackwitz, B. Fiessler, Comput. Struct. 9, 489 (1978); O. Ditlevsen, H. O. Madsen, Structural Reliability
 /// Methods, 1996, chapters 5 and 9.
-[[nodiscard]] RareFailures rare_failures(const StudyRun& run, const RareFailureOptions& options = {});
+[[nodiscard]] RareFailures rare_failures(const StudyRun& run, const RareFailureOptions& options = {},
+                                         const Progress& progress = {});
 
 }  // namespace zwidth

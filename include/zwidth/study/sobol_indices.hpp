@@ -24,8 +24,8 @@ inline constexpr std::size_t most_index_dimensions = 100;  ///< of one call
 ///
 ///     S_i = mean(f(B) (f(AB_i) - f(A))) / V,    T_i = mean((f(A) - f(AB_i))²) / (2 V),    V the variance of f(A), f(B)
 ///
-/// Zero where the answer does not vary. Throws Error (invalid_argument) for dimensions or samples of 0, more than
-/// most_index_dimensions, and answers that are not finite.
+/// Zero where the answer varies by no more than rounding. Throws Error (invalid_argument) for no dimension, more than
+/// most_index_dimensions, less than 2 samples, and answers that are not finite.
 /// Sources: A. Saltelli et al., Comput. Phys. Commun. 181, 259 (2010), table 2; M. J. W. Jansen, ibid. 117, 35 (1999).
 [[nodiscard]] std::vector<SobolIndex> sobol_indices(std::size_t dimensions, std::uint64_t samples, std::uint64_t seed,
                                                     const ManyAnswers& answers);

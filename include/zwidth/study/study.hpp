@@ -18,6 +18,9 @@
 
 namespace zwidth {
 
+/// As study() keeps in memory, 2 to 3 GB of them; with StudyRun they are kept elsewhere.
+inline constexpr std::uint64_t most_samples_in_memory = 50'000'000;
+
 /// How many units, drawn how, and what they must reach.
 struct StudyOptions {
   std::uint64_t samples = 10'000;  ///< how many units are drawn
@@ -33,18 +36,19 @@ struct StudyOptions {
   std::size_t threads = 0;                    ///< 0: all cores. No result depends on it
 };
 
-/// Checks: samples and parameters as SamplingPlan; index_samples and tightening_samples at most 2^24; rare_samples 0 or 100 to
-/// 2^24, with a specification; a specification
-/// finite and > 0, of any user for bodies alone; threads.
+/// Checks: samples and parameters as SamplingPlan; index_samples 0 or 16 to 2^24; tightening_samples at most 2^24;
+/// rare_samples 0 or 100 to 2^24, with a specification; a specification finite and > 0, of any user for bodies alone;
+/// threads.
 [[nodiscard]] std::optional<OptionProblem> find_problem(const StudyOptions& options, const Device& device,
                                                         const StudyDistributions& distributions);
 
 /// A quantile of K_CR over the units: X_(ceil(N p)), and the samples between which the true one lies (95 %).
 struct QuantileEstimate {
-  double probability = 0.0;     ///< share of units below
-  double value = 0.0;           ///< infinity: unbounded there; NaN: a unit without an answer
-  std::optional<double> lower;  ///< absent: too few samples to say
-  std::optional<double> upper;  ///< of its 95 % interval; absent where the sample is too small
+  double probability = 0.0;  ///< share of units below
+  /// Infinity: unbounded there; NaN: a unit without an answer; absent where an end of the interval is.
+  std::optional<double> value;
+  std::optional<double> lower;  ///< of its 95 % interval; absent: too few samples to say
+  std::optional<double> upper;  ///< of its 95 % interval; absent: too few samples to say
 };
 
 /// Counts of finite K_CR between edges, evenly apart.
@@ -69,21 +73,25 @@ struct FailureCluster {
 /// What halving the spread of one parameter about the device's own value would gain.
 struct TighteningGain {
   double yield_gain = 0.0;  ///< of the share that meets the specification
-  double error = 0.0;       ///< its standard error
+  double error = 0.0;       ///< its standard error, as if one unit more had changed sides: never 0
 };
 
 /// The least stable unit that the distributions hold.
 ///
 /// Searched where they do: a parameter with ends and without correlation goes to its ends; the others together stay
-/// within the ball of normal scores outside of which one unit in `outside` lies.
+/// within the ball of normal scores outside of which one unit in `outside` lies. Descents from many places each end in a
+/// local minimum; doubtful where only one of them came to this one.
 struct WorstDevice {
   DeviceParameters device;         ///< as a file has it
   std::vector<double> values;      ///< by parameter
   CriticalStiffness critical;      ///< of that device
   std::optional<double> any_user;  ///< its limit over all passive users, where the study asks for it
-  double sampled = 0.0;            ///< the least K_CR among the samples
+  double sampled = 0.0;            ///< the least limit among the samples
   double outside = 1e-6;           ///< share of units that are farther out
   std::uint64_t evaluations = 0;   ///< devices that the search solved
+  std::size_t descents = 0;        ///< from how many places it went down
+  std::size_t agreeing = 0;        ///< how many of them ended at this limit
+  Trust trust;                     ///< that it is the worst: of the device, its limit and the search
 };
 
 /// A unit that has no answer, and why. It counts as one that misses the specification.
@@ -124,6 +132,7 @@ struct Study {
   std::optional<std::vector<TighteningGain>> tightening;  ///< by parameter; absent without a specification
   std::optional<RareFailures> rare_failures;              ///< absent unless asked for
   std::optional<WorstDevice> worst;                       ///< absent where no unit has a limit
+  std::optional<WorstDevice> worst_any_user;              ///< by the limit of any user; absent unless asked for
   std::vector<StudyPoint> points;                         ///< of at most 2000 samples, evenly apart
   std::uint64_t scalar_count = 0;  ///< samples that critical_stiffness(Device) answered, not the batch kernel
   Trust trust;                     ///< of the whole answer
@@ -134,7 +143,8 @@ struct Study {
 ///
 /// The i-th unit depends on device, distributions, sampling, seed and i alone; every result is the same, bit for bit, for
 /// any number of threads. A unit that cannot be computed is counted as one that misses the specification, and listed.
-/// Throws Error (invalid_argument) where find_problem() of the distributions or of the options finds one.
+/// Throws Error (invalid_argument) where find_problem() of the distributions or of the options finds one, and for more than
+/// most_samples_in_memory.
 [[nodiscard]] Study study(const Device& device, const StudyDistributions& distributions, const StudyOptions& options,
                           const Progress& progress = {});
 

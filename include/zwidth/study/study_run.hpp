@@ -39,9 +39,10 @@ class StudyRun {
   [[nodiscard]] std::vector<ParameterValues> columns(std::uint64_t chunk) const;
 
   /// The answers of a chunk, on one thread.
-  [[nodiscard]] BatchStiffness answers(std::uint64_t chunk) const;
-  /// Of any values of the parameters, on the study's threads.
-  [[nodiscard]] BatchStiffness answers(const std::vector<ParameterValues>& columns, bool any_user) const;
+  [[nodiscard]] BatchStiffness answers(std::uint64_t chunk, const Progress& progress = {}) const;
+  /// Of any values of the parameters, on the study's threads; `progress` from any of them, never from two at once.
+  [[nodiscard]] BatchStiffness answers(const std::vector<ParameterValues>& columns, bool any_user,
+                                       const Progress& progress = {}) const;
 
   /// Whether a unit with these answers meets the specification; without an answer it does not.
   [[nodiscard]] bool meets(const BatchStiffness& answers, std::size_t i) const;
@@ -59,9 +60,11 @@ using ChunkSource = std::function<const BatchStiffness&(std::uint64_t chunk)>;
 
 /// Computes chunks on the study's threads, and consumes them one after the other in the order in which `next` named them;
 /// it names none when there are no more. Neither is called from two threads at once. A few chunks at a time are in
-/// memory. What either throws ends the work and passes through.
+/// memory. `within` is told of the work inside of a chunk, from several threads at once. What they throw ends the work
+/// and passes through.
 void compute_chunks(const StudyRun& run, const std::function<std::optional<std::uint64_t>()>& next,
-                    const std::function<void(std::uint64_t chunk, BatchStiffness answers)>& consume);
+                    const std::function<void(std::uint64_t chunk, BatchStiffness answers)>& consume,
+                    const Progress& within = {});
 
 /// The study from the answers of all its chunks, asked for several times in rising order.
 [[nodiscard]] Study summary(const StudyRun& run, const ChunkSource& chunks, const Progress& progress = {});
