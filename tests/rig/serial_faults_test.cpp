@@ -47,7 +47,7 @@ class DriveFault : public testing::TestWithParam<DriveKind> {
                 GetParam().has_watchdog ? std::vector<std::string>{} : std::vector<std::string>{"--no-watchdog"});
   }
   [[nodiscard]] static bool runs(const PtyEmulator& emulator) {
-    return within(20s, [&] { return emulator.motor().nonzero_forces() > 5; });
+    return within(8s, [&] { return emulator.motor().nonzero_forces() > 5; });
   }
 
   /// The record is there as a whole: rows of seven numbers, the last of them without a force.
@@ -70,7 +70,11 @@ class DriveFault : public testing::TestWithParam<DriveKind> {
     for (int i = 0; i < times(1); ++i) {
       PtyEmulator emulator(GetParam().firmware(), device, {.is_paced = true});
       Host rig = host(emulator);
-      ASSERT_TRUE(runs(emulator)) << rig.errors();
+      if (!runs(emulator)) {
+        ASSERT_LT(++pauses, 4) << rig.errors();
+        --i;
+        continue;
+      }
       const int forces_before = emulator.motor().nonzero_forces();
       fault(emulator, rig);
       EXPECT_EQ(rig.status(), 1) << rig.errors();
@@ -87,13 +91,18 @@ class DriveFault : public testing::TestWithParam<DriveKind> {
 
   const Device device = test::belt_device(period);
   std::filesystem::path folder;
+  int pauses = 0;  // of the machine, which stopped a rig before its fault: it is tried again
 };
 
 TEST_P(DriveFault, AKilledHostLeavesTheDriveToItsWatchdog) {
   for (int i = 0; i < times(1); ++i) {
     PtyEmulator emulator(GetParam().firmware(), device, {.is_paced = true});
     Host rig = host(emulator);
-    ASSERT_TRUE(runs(emulator)) << rig.errors();
+    if (!runs(emulator)) {
+      ASSERT_LT(++pauses, 4) << rig.errors();
+      --i;
+      continue;
+    }
     const int let_go_before = emulator.motor().times_let_go();
     rig.send(SIGKILL);
     EXPECT_EQ(rig.status(), -1);
@@ -143,7 +152,11 @@ TEST_P(DriveFault, ASecondRigOnThePort) {
   for (int i = 0; i < times(1); ++i) {
     PtyEmulator emulator(GetParam().firmware(), device, {.is_paced = true});
     Host rig = host(emulator);
-    ASSERT_TRUE(runs(emulator)) << rig.errors();
+    if (!runs(emulator)) {
+      ASSERT_LT(++pauses, 4) << rig.errors();
+      --i;
+      continue;
+    }
     Host other = host(emulator, "other");
     EXPECT_EQ(other.status(), 1);
     EXPECT_THAT(other.errors(), HasSubstr("another rig"));

@@ -72,7 +72,7 @@ class SimplefocFirmware : public Firmware {
     if ((c >= '0' && c <= '9') || c == '-' || c == '+') {
       target_ = std::strtof(input, nullptr);
       apply(motor);
-      return number(target_);
+      return number(static_cast<double>(target_));
     }
     switch (c) {
       case 'M':
