@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,6 +17,7 @@
 #include "cli/subcommand.hpp"
 #include "export/export_c.hpp"
 #include "export/export_chai3d.hpp"
+#include "export/export_drive.hpp"
 #include "report/text/trust_text.hpp"
 #include "results/export_json.hpp"
 #include "results/json.hpp"
@@ -27,6 +29,7 @@ namespace {
 struct ExportArguments {
   DeviceArguments devices;
   std::string format;
+  std::optional<DriveFirmware> units;
   std::string output;
   std::string contact = "bilateral";
   std::optional<double> stiffness;
@@ -42,7 +45,12 @@ void check(const ExportArguments& arguments, const CLI::App& command) {
     }
     throw BadInput(fmt::format("{}: is for --format {}", option, fmt::join(formats, " and ")));
   };
+  if (arguments.format.empty() != arguments.units.has_value()) {
+    throw BadInput(arguments.units ? "--units: is given beside --format; give one of them"
+                                   : "--format: is missing; give it, or --units");
+  }
   only_for("--contact", {"c"});
+  if (arguments.units) return;
   only_for("--stiffness", {"c"});
   only_for("--safety-factor", {"c", "chai3d"});
   only_for("--accept-doubt", {"c"});
@@ -59,7 +67,7 @@ void check_share(const ExportArguments& arguments, const SafeWall& wall) {
   if (wall.status == SafeWall::Status::refused) throw WorkFailed(file + ": " + report::verdict_text(wall.trust));
   const std::string why = fmt::format("{} wall is stable, there is no limit to take a share of",
                                       wall.status == SafeWall::Status::unbounded ? "every" : "no");
-  if (arguments.format != "c") throw WorkFailed(file + ": there is no ceiling to declare: " + why);
+  if (arguments.format == "chai3d") throw WorkFailed(file + ": there is no ceiling to declare: " + why);
   throw BadInput(file + ": --safety-factor: " + why + "; give --stiffness");
 }
 
@@ -71,7 +79,7 @@ std::string source_of(const ExportArguments& arguments, const WallToRun& wall) {
                      wall.share->uncertainty_share == 1.0 ? "" : " at the lower end of its 95 % interval");
 }
 
-report::CodedWall coded_wall(const ExportArguments& arguments) {
+WallToRun released_wall(const ExportArguments& arguments) {
   const std::string& file = arguments.devices.files.front();
   const Device device = std::move(read_devices(arguments.devices).front());
   const WallToRunOptions options{arguments.stiffness, arguments.safety_factor, arguments.accept_doubt};
@@ -87,6 +95,11 @@ report::CodedWall coded_wall(const ExportArguments& arguments) {
     throw WorkFailed(file + ": " + report::verdict_text(trust) +
                      (trust.refused() ? "" : "; --accept-doubt writes the wall all the same"));
   }
+  return wall;
+}
+
+report::CodedWall coded_wall(const ExportArguments& arguments) {
+  WallToRun wall = released_wall(arguments);
   const bool unilateral = arguments.contact == "unilateral";
   std::string source = source_of(arguments, wall);
   return {std::move(wall), unilateral ? ControllerOptions::Contact::unilateral : ControllerOptions::Contact::bilateral,
@@ -102,6 +115,21 @@ std::string exported_c(const ExportArguments& arguments) {
   return report::export_c(wall);
 }
 
+std::string exported_for_drive(const ExportArguments& arguments) {
+  const std::string& file = arguments.devices.files.front();
+  const WallToRun wall = released_wall(arguments);
+  if (const auto problem = find_problem(*arguments.units, wall.device)) {
+    throw BadInput(fmt::format("{}: {}: {}; {}", file, problem->member, problem->what, problem->allowed));
+  }
+  const DriveGains gains = worked(file, [&] { return drive_gains(wall.device, *arguments.units); });
+  const Trust& trust = gains.on_drive.trust;
+  if (trust.refused()) throw WorkFailed(fmt::format("{}: closed on the drive: {}", file, report::verdict_text(trust)));
+  if (!gains.on_drive.wall->stable) {
+    write_standard_error("zwidth: " + file + ": closed on the drive, the wall is UNSTABLE by linear analysis\n");
+  }
+  return report::export_drive(wall.device, gains, source_of(arguments, wall));
+}
+
 std::string exported_chai3d(const ExportArguments& arguments) {
   const Device device = std::move(read_devices(arguments.devices).front());
   SafeWallOptions options{.damping = SafeWallOptions::Damping::ceiling};
@@ -113,6 +141,7 @@ std::string exported_chai3d(const ExportArguments& arguments) {
 }
 
 std::string exported(const ExportArguments& arguments) {
+  if (arguments.units) return exported_for_drive(arguments);
   if (arguments.format == "c") return exported_c(arguments);
   if (arguments.format == "chai3d") return exported_chai3d(arguments);
   const DeviceModel model = device_model(read_devices(arguments.devices).front());
@@ -145,8 +174,19 @@ void add_export(CLI::App& app) {
                    "and the wall; c: the wall as one C99 file; chai3d: the ceilings\n"
                    "of a device's specification")
       ->type_name("FORMAT")
-      ->required()
       ->check(CLI::IsMember({"octave", "python", "json", "c", "chai3d"}));
+  command
+      ->add_option("--units", arguments->units,
+                   "odrive, moteus, simplefoc, openffboard, vesc: the wall in the\n"
+                   "numbers that the drive's firmware takes, and what becomes of it\n"
+                   "where the loop closes on the drive; [driver] says what it turns")
+      ->type_name("FIRMWARE")
+      ->transform(
+          CLI::CheckedTransformer(std::map<std::string, DriveFirmware>{{"odrive", DriveFirmware::odrive},
+                                                                       {"moteus", DriveFirmware::moteus},
+                                                                       {"simplefoc", DriveFirmware::simplefoc},
+                                                                       {"openffboard", DriveFirmware::openffboard},
+                                                                       {"vesc", DriveFirmware::vesc}}));
   command->add_option("-o,--output", arguments->output, "File to write; standard output unless given")
       ->type_name("FILE");
   command
@@ -154,16 +194,16 @@ void add_export(CLI::App& app) {
       ->type_name("KIND")
       ->capture_default_str()
       ->check(CLI::IsMember({"bilateral", "unilateral"}));
-  command->add_option("--stiffness", arguments->stiffness, "c: K, instead of wall.stiffness")->type_name("K");
+  command->add_option("--stiffness", arguments->stiffness, "c, --units: K, instead of wall.stiffness")->type_name("K");
   command
       ->add_option("--safety-factor", arguments->safety_factor,
-                   "c: K is this share of the limit for any passive user, or of the\n"
+                   "c, --units: K is this share of the limit for any passive user, or of the\n"
                    "critical stiffness where there is no such limit; of the lower end\n"
                    "of the 95 % interval where the device has one;\n"
                    "chai3d: of both ceilings (default 0.5)")
       ->type_name("FACTOR");
   command->add_flag("--accept-doubt", arguments->accept_doubt,
-                    "c: write the wall of a device that is doubtful (its file says why)");
+                    "c, --units: write the wall of a device that is doubtful (its file says why)");
   command->footer(
       "Examples:\n"
       "  zwidth export devices/lhifam.toml --format octave --output lhifam.m\n"
@@ -171,7 +211,8 @@ void add_export(CLI::App& app) {
       "  zwidth export devices/lhifam.toml --format json --set loop.delay=0.25e-3\n"
       "  zwidth export devices/lhifam.toml --format c --stiffness 3000 --contact unilateral -o wall.c\n"
       "  zwidth export devices/lhifam.toml --format c --safety-factor 0.5 --output wall.c\n"
-      "  zwidth export devices/lhifam.toml --format chai3d --safety-factor 0.5");
+      "  zwidth export devices/lhifam.toml --format chai3d --safety-factor 0.5\n"
+      "  zwidth export devices/lhifam.toml --units moteus --safety-factor 0.5 --set driver.travel=6.28");
   command->callback([arguments, command] {
     check(*arguments, *command);
     run_export(*arguments);

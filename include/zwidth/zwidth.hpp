@@ -16,6 +16,7 @@
 #include "zwidth/design/parameter_sweep.hpp"
 #include "zwidth/design/region.hpp"
 #include "zwidth/design/region_approximation.hpp"
+#include "zwidth/design/drive_gains.hpp"
 #include "zwidth/design/safe_wall.hpp"
 #include "zwidth/design/sensitivity.hpp"
 #include "zwidth/design/stable_region.hpp"

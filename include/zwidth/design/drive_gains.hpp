@@ -1,0 +1,69 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "zwidth/model/device.hpp"
+#include "zwidth/option_problem.hpp"
+#include "zwidth/remark.hpp"
+#include "zwidth/stability/analysis.hpp"
+
+namespace zwidth {
+
+/// Firmware of a motor drive that closes a loop on the position by itself.
+enum class DriveFirmware {
+  odrive,       ///< ODrive 0.5: a velocity loop within a position loop
+  moteus,       ///< position mode: kp and kd
+  simplefoc,    ///< MotionControlType::angle: a velocity loop within a position loop
+  openffboard,  ///< the end stop of an axis: a spring alone
+  vesc,         ///< the position controller: share of the largest current
+};
+
+/// A number as the firmware takes it.
+struct DriveNumber {
+  std::string name;    ///< of the setting: "servo.pid_position.kp"
+  double value = 0.0;  ///< in `unit`
+  std::string unit;    ///< "N m/turn"; empty: a bare number
+};
+
+/// A wall in the numbers of a motor drive.
+struct DriveGains {
+  std::vector<DriveNumber> numbers;  ///< to be set; integral gains among them, as 0
+  double stiffness = 0.0;            ///< K that these numbers make: less than asked for where the firmware rounds
+  /// The device with this wall closed on the drive: its own sampling period, a delay of one of them, no velocity filter but
+  /// one that the firmware has. Its `trust` holds for this loop.
+  Analysis on_drive;
+  double sampling_period = 0.0;  ///< s, of that loop
+  std::vector<Remark> remarks;   ///< what was taken for granted
+};
+
+/// Why the firmware cannot make this device's wall: `member` is a key of the device file.
+///
+/// Checks: a wall with a stiffness > 0; no filters on its force, no velocity filter but for simplefoc; travel per turn of a
+/// linear device; wall.damping > 0 for odrive and simplefoc (their stiffness is a gain of the damping's), 0 for
+/// openffboard; a torque per volt or per ampere for simplefoc; actuator.force_limit for vesc and openffboard, which count
+/// in shares of it.
+[[nodiscard]] std::optional<OptionProblem> find_problem(DriveFirmware firmware, const Device& device);
+
+/// The device's wall as the numbers that a drive's firmware takes.
+///
+/// With p the device's travel per turn of the motor (MotorDrive::position_per_turn()) the wall is, at the motor,
+///
+///     K_m = K (p/2 pi)^2 N m/rad,   B_m = B (p/2 pi)^2 N m s/rad
+///
+///     odrive       pos_gain = K/B,  vel_gain = 2 pi B_m
+///     moteus       kp = 2 pi K_m N m/turn,  kd = 2 pi B_m
+///     simplefoc    P_angle.P = K/B,  PID_velocity.P = B_m/(torque per volt, or torque constant)
+///     openffboard  esgain = K_m (pi/180) 32767/(25 tau), a whole number of 0 to 255, rounded down
+///     vesc         p_pid_kp = K_m (pi/180)/tau per degree,  p_pid_kd_proc = B_m (pi/180)/tau
+///
+/// tau: the torque of the motor that makes actuator.force_limit; for vesc at the largest current, for openffboard at full
+/// power. The loop closes on the drive then, at its rate, not at the device's: odrive 8 kHz, moteus 30 kHz, openffboard and
+/// vesc 1 kHz, each the default; simplefoc at the rate of the sketch, taken as the device's.
+/// Throws Error (invalid_argument) where find_problem() finds one, and as analyze() does.
+/// Sources: controller.cpp (ODrive 0.5.6), docs of moteus 0.3 (servo.pid_position), FOCMotor and BLDCMotor (SimpleFOC 2.3),
+/// Axis.cpp (OpenFFBoard 1.16), foc_math.c (VESC 6).
+[[nodiscard]] DriveGains drive_gains(const Device& device, DriveFirmware firmware);
+
+}  // namespace zwidth

@@ -1,0 +1,120 @@
+#include "zwidth/design/drive_gains.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "zwidth/error.hpp"
+#include "zwidth/stability/critical_stiffness.hpp"
+
+namespace zwidth {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+DeviceParameters knob() {
+  DeviceParameters parameters;
+  parameters.name = "knob";
+  parameters.motion = Motion::rotary;
+  parameters.bodies.push_back({"knob", 1e-4, 1e-4, 0.0, 0.0});
+  parameters.loop.sampling_period = 1e-3;
+  parameters.wall.stiffness = 0.5;
+  parameters.wall.damping = 0.01;
+  return parameters;
+}
+
+double number(const DriveGains& gains, const std::string& name) {
+  for (const DriveNumber& each : gains.numbers) {
+    if (each.name == name) return each.value;
+  }
+  ADD_FAILURE() << name;
+  return 0.0;
+}
+
+std::string problem(DriveFirmware firmware, const DeviceParameters& parameters) {
+  const auto found = find_problem(firmware, Device(parameters));
+  return found ? found->member : "";
+}
+
+TEST(DriveGains, OfMoteusCountInTurns) {
+  const DriveGains gains = drive_gains(Device(knob()), DriveFirmware::moteus);
+  EXPECT_DOUBLE_EQ(number(gains, "servo.pid_position.kp"), 2.0 * pi * 0.5);
+  EXPECT_DOUBLE_EQ(number(gains, "servo.pid_position.kd"), 2.0 * pi * 0.01);
+  EXPECT_EQ(number(gains, "servo.pid_position.ki"), 0.0);
+}
+
+// A controller as the firmware computes it makes the wall's force, whatever the gear, the sign and the travel.
+TEST(DriveGains, MakeTheWallThroughAnyGear) {
+  DeviceParameters parameters = knob();
+  parameters.motion = Motion::linear;
+  parameters.actuator.force_limit = 8.0;
+  for (const double sign : {1.0, -1.0}) {
+    parameters.driver = MotorDrive{.travel = 0.04, .gear = 3.0, .sign = sign, .torque_constant = 0.05};
+    const Device device(parameters);
+    const MotorDrive& drive = *parameters.driver;
+    const double x = 0.002;  // m into the wall
+    const double v = 0.03;   // m/s
+    const double turns = x / drive.position_per_turn();
+    const double turns_per_s = v / drive.position_per_turn();
+    const double expected = (0.5 * x + 0.01 * v) * drive.torque_per_force();  // N m of the motor
+
+    const DriveGains moteus = drive_gains(device, DriveFirmware::moteus);
+    EXPECT_NEAR(number(moteus, "servo.pid_position.kp") * turns + number(moteus, "servo.pid_position.kd") * turns_per_s,
+                expected, 1e-12);
+    const DriveGains odrive = drive_gains(device, DriveFirmware::odrive);
+    EXPECT_NEAR(number(odrive, "axis0.controller.config.vel_gain") *
+                    (number(odrive, "axis0.controller.config.pos_gain") * turns + turns_per_s),
+                expected, 1e-12);
+    const DriveGains simplefoc = drive_gains(device, DriveFirmware::simplefoc);
+    EXPECT_NEAR(drive.torque_constant.value() * number(simplefoc, "PID_velocity.P") *
+                    (number(simplefoc, "P_angle.P") * 2.0 * pi * turns + 2.0 * pi * turns_per_s),
+                expected, 1e-12);
+    const double full = 8.0 * std::abs(drive.torque_per_force());
+    const DriveGains vesc = drive_gains(device, DriveFirmware::vesc);
+    EXPECT_NEAR(full * (number(vesc, "p_pid_kp") * 360.0 * turns + number(vesc, "p_pid_kd_proc") * 360.0 * turns_per_s),
+                expected, 1e-12);
+  }
+}
+
+TEST(DriveGains, AnEndStopIsAWholeNumberRoundedDown) {
+  DeviceParameters parameters = knob();
+  parameters.wall.damping = 0.0;
+  parameters.actuator.force_limit = 2.0;
+  const DriveGains gains = drive_gains(Device(parameters), DriveFirmware::openffboard);
+  EXPECT_EQ(number(gains, "axis.0.esgain"), 5.0);  // 5.72
+  EXPECT_NEAR(gains.stiffness, 5.0 * 25.0 / 32767.0 * 2.0 * 180.0 / pi, 1e-12);
+  parameters.wall.stiffness = 0.01;
+  EXPECT_EQ(problem(DriveFirmware::openffboard, parameters), "wall.stiffness");
+}
+
+TEST(DriveGains, TheLimitIsThatOfTheLoopOnTheDrive) {
+  DeviceParameters parameters = knob();
+  const DriveGains gains = drive_gains(Device(parameters), DriveFirmware::odrive);
+  parameters.loop.sampling_period = parameters.loop.delay = 1.0 / 8000.0;
+  EXPECT_EQ(gains.on_drive.critical.stiffness, critical_stiffness(Device(parameters)).stiffness);
+  EXPECT_GT(gains.on_drive.critical.stiffness, critical_stiffness(Device(knob())).stiffness);
+  EXPECT_EQ(gains.sampling_period, 1.0 / 8000.0);
+}
+
+TEST(DriveGains, WhatIsMissingIsNamed) {
+  DeviceParameters parameters = knob();
+  EXPECT_EQ(problem(DriveFirmware::simplefoc, parameters), "driver.torque_per_volt");
+  EXPECT_EQ(problem(DriveFirmware::vesc, parameters), "actuator.force_limit");
+  EXPECT_EQ(problem(DriveFirmware::openffboard, parameters), "actuator.force_limit");
+  parameters.wall.velocity_filter_hz = 50.0;
+  EXPECT_EQ(problem(DriveFirmware::moteus, parameters), "wall.velocity_filter_hz");
+  parameters.wall.velocity_filter_hz = 0.0;
+  parameters.wall.damping = 0.0;
+  EXPECT_EQ(problem(DriveFirmware::odrive, parameters), "wall.damping");
+  EXPECT_EQ(problem(DriveFirmware::moteus, parameters), "");
+  parameters.motion = Motion::linear;
+  EXPECT_EQ(problem(DriveFirmware::moteus, parameters), "driver.travel");
+  parameters.wall.stiffness.reset();
+  EXPECT_EQ(problem(DriveFirmware::moteus, parameters), "wall.stiffness");
+  EXPECT_THROW((void)drive_gains(Device(parameters), DriveFirmware::moteus), Error);
+}
+
+}  // namespace
+}  // namespace zwidth
