@@ -29,7 +29,7 @@ def _plain(where: str, value: Any) -> Any:
     if isinstance(value, Mapping):
         return {text_of(where, str(key)): _plain(f"{where}.{key}", each) for key, each in value.items()}
     if isinstance(value, numbers.Integral):
-        if abs(value) > sys.float_info.max:
+        if abs(int(value)) > sys.float_info.max:
             raise InputError(where, "is an integer beyond every double", "a finite number")
         return int(value)
     if isinstance(value, numbers.Real):
