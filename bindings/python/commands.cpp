@@ -70,14 +70,17 @@ std::shared_ptr<RecordedColumns> recorded(const std::string& source,
 }  // namespace
 
 void bind_commands(py::module_& module) {
-  py::class_<Answer>(module, "Answer")
-      .def_property_readonly("printed", &Answer::printed)
+  py::class_<Answer> answer(module, "Answer");
+  refuse_pickling(answer);
+  answer.def_property_readonly("printed", &Answer::printed)
       .def_property_readonly("is_document", &Answer::is_document)
       .def_property_readonly("device", &Answer::device)
       .def("series", &Answer::series)
       .def("value", &Answer::value)
       .def("array", &Answer::array);
-  py::class_<RecordedColumns, std::shared_ptr<RecordedColumns>>(module, "RecordedColumns").def(py::init(&recorded));
+  py::class_<RecordedColumns, std::shared_ptr<RecordedColumns>> columns(module, "RecordedColumns");
+  refuse_pickling(columns);
+  columns.def(py::init(&recorded));
   module.def("run", &run);
   module.def("study_toml", &study_toml);
   module.def("commands", [] { return cli::RequestCommands().names(); });

@@ -41,7 +41,7 @@ Device changed(const Device& device, const Overrides& overrides) {
 /// A file's path, or a text: that has more than one line, which no path has.
 Device from_toml(const py::object& source, const Overrides& overrides) {
   if (py::isinstance<py::str>(source)) {
-    const auto text = source.cast<std::string>();
+    const auto text = py::module_::import("zwidth._device").attr("text_of")("device", source).cast<std::string>();
     if (text.find('\n') != std::string::npos) return device_of(parse_device(text, "device", overrides));
   }
   const auto path = py::module_::import("os").attr("fsencode")(source).cast<std::string>();
@@ -73,7 +73,9 @@ py::dict numbers_of(const Device& device) {
 }  // namespace
 
 void bind_device(py::module_& module) {
-  py::class_<Device, std::shared_ptr<Device>>(module, "Device", "A haptic device and its sampled loop; never changes.")
+  py::class_<Device, std::shared_ptr<Device>> bound(module, "Device",
+                                                    "A haptic device and its sampled loop; never changes.");
+  bound
       .def(py::init(&from_keys),
            "The device of these keys of a device file, tables as dicts: Device(body=[{\"name\": ...}], loop={...}). "
            "Numbers "
@@ -116,10 +118,9 @@ void bind_device(py::module_& module) {
            [](const Device& device) {
              return "<zwidth.Device " + py::repr(py::str(device.name())).cast<std::string>() + ">";
            })
-      .def(py::pickle([](const Device& device) { return py::str(toml_of(device)); },
-                      [](const py::str& text) {
-                        return std::make_shared<Device>(device_of(parse_device(text.cast<std::string>(), "device")));
-                      }));
+      .def("__reduce__", [](const Device& device) {
+        return py::make_tuple(py::module_::import("zwidth._device").attr("restored"), py::make_tuple(toml_of(device)));
+      });
 }
 
 }  // namespace zwidth::python

@@ -84,6 +84,7 @@ void add_properties(py::class_<Result>& bound, const std::pair<const char*, cons
     bound.def_property_readonly(
         each.first, [key](const Result& result) { return to_python(json_of(result)[key]); }, each.second);
   };
+  refuse_pickling(bound);
   add(first);
   (add(others), ...);
   bound.def(

@@ -2,6 +2,8 @@
 
 #include <pybind11/pybind11.h>
 
+#include "constructed.hpp"
+
 namespace zwidth::python {
 
 /// Device, critical_stiffness, any_user_limit, critical_stiffness_many.

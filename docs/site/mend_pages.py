@@ -12,6 +12,7 @@ from pathlib import Path
 MENDED = (
     (r'<p class="caption" role="heading">', '<p class="caption" role="heading" aria-level="2">'),
     (r'<label class="overlay ', '<label aria-hidden="true" class="overlay '),
+    (r'<label class="toc-overlay-icon toc-content-icon', '<label aria-hidden="true" class="toc-overlay-icon toc-content-icon'),
     (r'<aside class="sidebar-drawer">', '<aside class="sidebar-drawer" aria-label="Pages">'),
     (r'<aside class="toc-drawer', '<aside aria-label="On this page" class="toc-drawer'),
     (r"<pre>", '<pre tabindex="0">'),

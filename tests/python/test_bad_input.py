@@ -2,6 +2,7 @@
 
 import io
 import os
+import pickle
 import signal
 import subprocess
 import sys
@@ -65,6 +66,12 @@ def test_many_refuses(lhifam, changes):
         lambda device: zwidth.Device.from_toml("\n\0\xff"),
         lambda device: zwidth.Device.from_toml(b"\xff\xfe"),
         lambda device: zwidth.Device.from_toml(7),
+        lambda device: zwidth.Device.from_toml("\ud800\n"),
+        lambda device: zwidth.Device(wall={"stiffness": 10**400}),
+        lambda device: zwidth.Device(name="\ud800"),
+        lambda device: device.with_({"name": "\ud800"}),
+        lambda device: device.with_({"\ud800": 1}),
+        lambda device: device.with_({"link.stiffness": -(10**400)}),
         lambda device: zwidth.Device.from_toml(None),
         lambda device: zwidth.Device.from_toml(os.devnull),
         lambda device: zwidth.Device.from_toml(io.StringIO("x")),
@@ -117,6 +124,47 @@ def test_raises(lhifam, call, tmp_path, monkeypatch):
     with pytest.raises((zwidth.Error, TypeError, ValueError)):
         call(lhifam)
     assert set(os.listdir(".")) == before
+
+
+@pytest.mark.parametrize("kind", ["Device", "CriticalStiffness", "AnyUserLimit", "Answer", "RecordedColumns"])
+def test_what_was_never_constructed_is_refused(kind):
+    """Each in a process of its own, which it must not end."""
+    program = (
+        "import zwidth\n"
+        f"kind = zwidth._core.{kind}\n"
+        "raw = kind.__new__(kind)\n"
+        "names = [each for each in dir(kind) if each not in object.__dict__] + ['__repr__', '__hash__']\n"
+        "for name in names:\n"
+        "    try:\n"
+        "        value = getattr(raw, name)\n"
+        "        value() if callable(value) else None\n"
+        "    except Exception:\n"
+        "        pass\n"
+        "for call in (zwidth.critical_stiffness, zwidth.any_user_limit, zwidth.analyze, zwidth.frequency_response):\n"
+        "    try:\n"
+        "        call(raw)\n"
+        "        raise SystemExit('took it')\n"
+        "    except (zwidth.Error, TypeError, RuntimeError):\n"
+        "        pass\n"
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60)
+    assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.parametrize("protocol", range(pickle.HIGHEST_PROTOCOL + 1))
+def test_pickling_by_every_protocol(protocol):
+    program = (
+        "import pickle, zwidth\n"
+        "device = zwidth.Device.from_toml('devices/lhifam.toml')\n"
+        f"assert pickle.loads(pickle.dumps(device, {protocol})) == device\n"
+        "try:\n"
+        f"    pickle.dumps(zwidth.critical_stiffness(device), {protocol})\n"
+        "    raise SystemExit('pickled')\n"
+        "except TypeError:\n"
+        "    pass\n"
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60)
+    assert done.returncode == 0, done.stderr
 
 
 def test_a_closed_file_raises(tmp_path, lhifam):

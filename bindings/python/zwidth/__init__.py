@@ -1,4 +1,4 @@
-"""The stiffest virtual wall that a haptic device renders stably.
+"""The stiffest virtual wall that a haptic device renders stably::
 
     import zwidth
     device = zwidth.Device.from_toml("devices/lhifam.toml")

@@ -5,18 +5,32 @@ from __future__ import annotations
 import json
 import math
 import numbers
+import sys
 from typing import Any, Dict, List, Mapping
 
 from ._errors import InputError
 
 
+def text_of(where: str, text: str) -> str:
+    """The text, which has a UTF-8 form."""
+    try:
+        text.encode()
+    except UnicodeEncodeError:
+        raise InputError(where, "has half of a character (a lone surrogate)", "a text that UTF-8 can hold") from None
+    return text
+
+
 def _plain(where: str, value: Any) -> Any:
     """A value with NumPy's numbers and arrays as Python's."""
-    if isinstance(value, (str, bool)) or value is None:
+    if isinstance(value, str):
+        return text_of(where, value)
+    if isinstance(value, bool) or value is None:
         return value
     if isinstance(value, Mapping):
-        return {str(key): _plain(f"{where}.{key}", each) for key, each in value.items()}
+        return {text_of(where, str(key)): _plain(f"{where}.{key}", each) for key, each in value.items()}
     if isinstance(value, numbers.Integral):
+        if abs(int(value)) > sys.float_info.max:
+            raise InputError(where, "is an integer beyond every double", "a finite number")
         return int(value)
     if isinstance(value, numbers.Real):
         number = float(value)
@@ -47,6 +61,14 @@ def overrides(changes: Mapping[str, Any], keywords: Mapping[str, Any]) -> List[s
     for key, value in merged.items():
         if not isinstance(key, str) or not key or "=" in key:
             raise InputError("device", f"{key!r} is no key", 'a key such as "link.stiffness"')
+        text_of("device", key)
         plain = _plain(f"device.{key}", value)
         texts.append(f"{key}={plain if isinstance(plain, str) else json.dumps(plain)}")
     return texts
+
+
+def restored(toml: str) -> Any:
+    """The device of a pickle."""
+    from ._core import Device
+
+    return Device.from_toml(toml)
