@@ -1,0 +1,117 @@
+// How often a study is right, on random two-mass devices of which five numbers vary.
+//
+//   study_campaign [worst|rare [FIRST_SEED [COUNT [UNITS]]]]
+//
+// worst: the worst unit found from 10 000 samples, beside the worst of UNITS others.
+// rare:  one device and one specification, of which about one unit in 10 000 fails among UNITS; COUNT seeds of importance
+//        sampling with 5000 units each: how many intervals hold that share.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "study/random_studies.hpp"
+#include "zwidth/study/rare_failures.hpp"
+
+namespace {
+
+using namespace zwidth;
+
+constexpr std::uint64_t others = 1'000'000;  // seed of the units that are counted
+
+StudyRun counted_run(std::uint64_t seed, std::uint64_t units) {
+  StudyOptions options;
+  options.samples = units;
+  options.seed = others + seed;
+  return test::random_study(seed, options);
+}
+
+/// K_CR of all units of a run, in no order; what has none is left out.
+template <typename Take>
+void for_each_limit(const StudyRun& run, const Take& take) {
+  std::uint64_t next = 0;
+  compute_chunks(
+      run, [&] { return next < run.chunk_count() ? std::optional(next++) : std::nullopt; },
+      [&](std::uint64_t, const BatchStiffness& answers) {
+        for (const double stiffness : answers.stiffness) {
+          if (!std::isnan(stiffness)) take(stiffness);
+        }
+      });
+}
+
+void worst_units(std::uint64_t first, std::uint64_t count, std::uint64_t units) {
+  std::uint64_t beaten = 0;
+  std::uint64_t sound = 0;
+  std::uint64_t sound_wrong = 0;
+  for (std::uint64_t seed = first; seed < first + count; ++seed) {
+    StudyOptions options;
+    options.seed = seed;
+    options.index_samples = options.tightening_samples = 0;
+    const StudyRun run = test::random_study(seed, options);
+    const Study found = study(run.device(), run.distributions(), run.options());
+    double least = std::numeric_limits<double>::infinity();
+    for_each_limit(counted_run(seed, units), [&](double stiffness) { least = std::min(least, stiffness); });
+    const WorstDevice& worst = *found.worst;
+    const bool is_lower = worst.critical.stiffness <= least;
+    beaten += is_lower ? 1U : 0U;
+    sound += worst.trust.sound() ? 1U : 0U;
+    sound_wrong += worst.trust.sound() && !is_lower ? 1U : 0U;
+    if (!is_lower) {
+      std::printf("seed %llu: found %.9g (%zu of %zu descents), counted %.9g\n", static_cast<unsigned long long>(seed),
+                  worst.critical.stiffness, worst.agreeing, worst.descents, least);
+    }
+  }
+  std::printf(
+      "the worst unit found is no better than the worst of %llu others in %llu of %llu cases; %llu sound, of these "
+      "%llu beaten\n",
+      static_cast<unsigned long long>(units), static_cast<unsigned long long>(beaten),
+      static_cast<unsigned long long>(count), static_cast<unsigned long long>(sound),
+      static_cast<unsigned long long>(sound_wrong));
+}
+
+void rare_shares(std::uint64_t device, std::uint64_t count, std::uint64_t units) {
+  std::vector<double> limits;
+  for_each_limit(counted_run(device, 200'000), [&](double stiffness) { limits.push_back(stiffness); });
+  std::ranges::nth_element(limits, limits.begin() + 20);
+  const double specified = limits[20];
+  std::uint64_t failing = 0;
+  const StudyRun many = counted_run(device + 1'000'000, units);
+  for_each_limit(StudyRun(counted_run(device, 1).device(), counted_run(device, 1).distributions(), many.options()),
+                 [&](double stiffness) { failing += stiffness < specified ? 1U : 0U; });
+  const Proportion truth = proportion(failing, units);
+  std::uint64_t held = 0;
+  std::uint64_t sound = 0;
+  for (std::uint64_t seed = 1; seed <= count; ++seed) {
+    StudyOptions options;
+    options.seed = seed;
+    options.specification.critical_stiffness = specified;
+    const RareFailures rare = rare_failures(test::random_study(device, options), {.samples = 5000});
+    held += rare.lower <= truth.value && truth.value <= rare.upper ? 1U : 0U;
+    sound += rare.trust.sound() ? 1U : 0U;
+  }
+  std::printf("device %llu: %.4g fail among %llu (%.4g to %.4g); %llu of %llu seeds hold it, %llu sound\n",
+              static_cast<unsigned long long>(device), truth.value, static_cast<unsigned long long>(units), truth.lower,
+              truth.upper, static_cast<unsigned long long>(held), static_cast<unsigned long long>(count),
+              static_cast<unsigned long long>(sound));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const auto number = [&](int i, std::uint64_t otherwise) {
+    return argc > i ? static_cast<std::uint64_t>(std::atoll(argv[i])) : otherwise;
+  };
+  const std::string what = argc > 1 ? argv[1] : "worst";
+  if (what == "rare") {
+    rare_shares(number(2, 1), number(3, 100), number(4, 10'000'000));
+  } else if (what == "worst") {
+    worst_units(number(2, 1), number(3, 100), number(4, 1'000'000));
+  } else {
+    std::fputs("usage: study_campaign [worst|rare [FIRST_SEED [COUNT [UNITS]]]]\n", stderr);
+    return 2;
+  }
+  return 0;
+}

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+
+#include "property/random_devices.hpp"
+#include "zwidth/model/parameter.hpp"
+#include "zwidth/study/study_run.hpp"
+
+namespace zwidth::test {
+
+/// A random two-mass device of which four numbers vary, each in its own way, by 1 to 15 %, delay included.
+inline StudyRun random_study(std::uint64_t seed, StudyOptions options) {
+  RandomDevices random(seed);
+  const Device device(random.device("two_mass"));
+  StudyDistributions distributions;
+  for (const char* key : {"body.motor.mass", "body.handle.damping", "link.0.stiffness", "link.0.damping"}) {
+    const double own = parameter(device.parameters(), key).value_or(1.0);
+    const double spread = own * random.log_uniform(0.01, 0.15);
+    Distribution one{.kind = Distribution::Kind::normal, .centre = own, .deviation = spread};
+    if (random.chance(0.5)) {
+      one = {.kind = Distribution::Kind::uniform, .lower = own - 2.0 * spread, .upper = own + 2.0 * spread};
+    } else {
+      one.lower = own - 5.0 * spread, one.upper = own + 5.0 * spread;
+    }
+    distributions.parameters.push_back({key, one});
+  }
+  const double period = device.loop().sampling_period;
+  distributions.parameters.push_back(
+      {"loop.delay", {.kind = Distribution::Kind::uniform, .lower = 0.0, .upper = random.uniform(0.1, 1.5) * period}});
+  return {device, distributions, options};
+}
+
+}  // namespace zwidth::test
