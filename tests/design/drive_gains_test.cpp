@@ -51,9 +51,13 @@ TEST(DriveGains, MakeTheWallThroughAnyGear) {
   parameters.motion = Motion::linear;
   parameters.actuator.force_limit = 8.0;
   for (const double sign : {1.0, -1.0}) {
-    parameters.driver = MotorDrive{.travel = 0.04, .gear = 3.0, .sign = sign, .torque_constant = 0.05};
+    MotorDrive drive;
+    drive.travel = 0.04;
+    drive.gear = 3.0;
+    drive.sign = sign;
+    drive.torque_constant = 0.05;
+    parameters.driver = drive;
     const Device device(parameters);
-    const MotorDrive& drive = *parameters.driver;
     const double x = 0.002;  // m into the wall
     const double v = 0.03;   // m/s
     const double turns = x / drive.position_per_turn();
