@@ -47,10 +47,14 @@ void check(const ExportArguments& arguments, const CLI::App& command) {
   };
   if (arguments.format.empty() != arguments.units.has_value()) {
     throw BadInput(arguments.units ? "--units: is given beside --format; give one of them"
-                                   : "--format: is missing; give it, or --units");
+                                   : "--format: is missing; must be a value, or give --units");
   }
   only_for("--contact", {"c"});
-  if (arguments.units) return;
+  if (arguments.units) {
+    if (command.count("--safety-factor") == 0) return;
+    throw BadInput(
+        "--safety-factor: the limit on the drive is not known well enough to take a share of; give --stiffness");
+  }
   only_for("--stiffness", {"c"});
   only_for("--safety-factor", {"c", "chai3d"});
   only_for("--accept-doubt", {"c"});
@@ -197,13 +201,13 @@ void add_export(CLI::App& app) {
   command->add_option("--stiffness", arguments->stiffness, "c, --units: K, instead of wall.stiffness")->type_name("K");
   command
       ->add_option("--safety-factor", arguments->safety_factor,
-                   "c, --units: K is this share of the limit for any passive user, or of the\n"
+                   "c: K is this share of the limit for any passive user, or of the\n"
                    "critical stiffness where there is no such limit; of the lower end\n"
                    "of the 95 % interval where the device has one;\n"
                    "chai3d: of both ceilings (default 0.5)")
       ->type_name("FACTOR");
   command->add_flag("--accept-doubt", arguments->accept_doubt,
-                    "c, --units: write the wall of a device that is doubtful (its file says why)");
+                    "c, --units: write the wall of a doubtful device (its file says why)");
   command->footer(
       "Examples:\n"
       "  zwidth export devices/lhifam.toml --format octave --output lhifam.m\n"
@@ -212,7 +216,7 @@ void add_export(CLI::App& app) {
       "  zwidth export devices/lhifam.toml --format c --stiffness 3000 --contact unilateral -o wall.c\n"
       "  zwidth export devices/lhifam.toml --format c --safety-factor 0.5 --output wall.c\n"
       "  zwidth export devices/lhifam.toml --format chai3d --safety-factor 0.5\n"
-      "  zwidth export devices/lhifam.toml --units moteus --safety-factor 0.5 --set driver.travel=6.28");
+      "  zwidth export devices/lhifam.toml --units moteus --stiffness 3000 --set driver.travel=0.06");
   command->callback([arguments, command] {
     check(*arguments, *command);
     run_export(*arguments);

@@ -38,10 +38,10 @@ std::string export_drive(const Device& device, const DriveGains& gains, const st
   std::string text = comment(fmt::format("{}: by zwidth {}", display_name(device), ZWIDTH_VERSION));
   text += comment(fmt::format("Wall: K {} ({}), B {}", quantity(gains.stiffness, units.stiffness), source,
                               quantity(device.parameters().wall.damping, units.damping)));
-  text += comment(fmt::format("Closed on the drive at {}: {}{}; this wall is {}",
+  text += comment(fmt::format("Closed on the drive at {}, at the most: {}{}; this wall is {}",
                               quantity(1.0 / gains.sampling_period, "Hz"), limit_text(gains.on_drive.critical, units),
                               any_user_text(gains.on_drive.any_user, units),
-                              gains.on_drive.wall->stable ? "stable" : "UNSTABLE"));
+                              gains.on_drive.wall->stable ? "below that" : "UNSTABLE"));
   for (const Remark& each : gains.remarks) text += comment(each.what);
   if (const auto note = trust_note(gains.on_drive.trust)) text += comment(*note);
   for (const DriveNumber& each : gains.numbers) {

@@ -26,11 +26,13 @@ InterruptsStopRigs::InterruptsStopRigs() {
   is_interrupted = false;
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);
+  std::signal(SIGHUP, on_interrupt);  // the terminal is gone, the device is not
 }
 
 InterruptsStopRigs::~InterruptsStopRigs() {
   std::signal(SIGINT, SIG_DFL);
   std::signal(SIGTERM, SIG_DFL);
+  std::signal(SIGHUP, SIG_DFL);
 }
 
 RigRun::RigRun(Driver& driver, const SafetyLimits& limits, double sampling_period)

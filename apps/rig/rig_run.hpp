@@ -12,7 +12,7 @@
 
 namespace zwidth::rig {
 
-/// While it lives, SIGINT and SIGTERM stop the rig instead of the program.
+/// While it lives, SIGINT, SIGTERM and SIGHUP stop the rig instead of the program.
 class InterruptsStopRigs {
  public:
   InterruptsStopRigs();

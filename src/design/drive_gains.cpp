@@ -71,6 +71,7 @@ std::vector<DriveNumber> numbers_of(DriveFirmware firmware, const Device& device
               {"PID_velocity.P", wall.damping / per_unit, by_volts ? "V/(rad/s)" : "A/(rad/s)"},
               {"PID_velocity.I", 0.0, ""},
               {"PID_velocity.D", 0.0, ""},
+              {"PID_velocity.output_ramp", 0.0, ""},
               {"LPF_velocity.Tf", filter_hz > 0.0 ? 1.0 / (turn * filter_hz) : 0.0, "s"}};
     }
     case DriveFirmware::openffboard:
@@ -98,8 +99,10 @@ std::vector<Remark> remarks_of(DriveFirmware firmware, double period) {
         note(fmt::format("the loop closes on the drive: {:g} Hz, its default, and a delay of one period are taken",
                          std::round(1.0 / period))));
   }
-  remarks.push_back(
-      note("the drive's current loop and its estimate of the velocity are not in the numbers: begin with less"));
+  if (firmware == DriveFirmware::odrive || firmware == DriveFirmware::simplefoc) {
+    remarks.push_back(
+        note("the velocity limit of the drive bounds the spring: raise it above the first gain times the depth"));
+  }
   return remarks;
 }
 
@@ -160,6 +163,10 @@ DriveGains drive_gains(const Device& device, DriveFirmware firmware) {
   parameters.loop.sampling_period = gains.sampling_period;
   parameters.loop.delay = gains.sampling_period;
   gains.on_drive = analyze(Device(std::move(parameters)));
+  gains.on_drive.trust.doubt(
+      "the drive's current loop and its estimate of position and velocity are not modelled: the limit on the drive may "
+      "be "
+      "several times lower; begin with a tenth of it, and raise K by half until it vibrates");
   gains.remarks = remarks_of(firmware, gains.sampling_period);
   return gains;
 }

@@ -24,7 +24,7 @@ constexpr std::size_t most_examined = std::size_t{1} << 16U;
 constexpr std::size_t error_terms = 24;
 // Of chi-squared, and of the squares that are left.
 constexpr double clear_evidence = 40.0;
-constexpr double notable_share = 0.005;
+constexpr double notable_share = 0.01;
 
 using Signal = std::vector<double>;
 
@@ -108,20 +108,24 @@ class PredictionErrors {
 
   void take_out_linear_terms() {
     std::vector<Eigen::VectorXd> terms;
-    for (const int late : {-1, 0, 1, 2}) {
+    constexpr int latest = 32;
+    for (const int late : {-1, 0, 1, 2, 4, 8, 16, latest}) {
       Signal shifted(size_, 0.0);
-      for (std::size_t k = 2; k + 1 < size_; ++k)
+      for (std::size_t k = latest; k + 1 < size_; ++k)
         shifted[k] = force_[static_cast<std::size_t>(static_cast<int>(k) - late)];
       terms.push_back(of_command(shifted));
     }
     constexpr std::size_t span = 4;  // samples, over which a velocity is taken
     Signal velocity(size_, 0.0);
+    Signal acceleration(size_, 0.0);
     Signal direction(size_, 0.0);
     for (std::size_t k = span; k < size_; ++k) {
       velocity[k] = position_[k] - position_[k - span];
+      acceleration[k] = velocity[k] - velocity[k - span];
       direction[k] = velocity[k] > 0.0 ? 1.0 : velocity[k] < 0.0 ? -1.0 : 0.0;
     }
-    for (const Signal& each : {position_, velocity, direction, Signal(size_, 1.0)}) terms.push_back(of_push(each));
+    for (const Signal& each : {position_, velocity, acceleration, direction, Signal(size_, 1.0)})
+      terms.push_back(of_push(each));
     Eigen::MatrixXd columns(left_.size(), static_cast<Eigen::Index>(terms.size()));
     for (std::size_t j = 0; j < terms.size(); ++j) {
       columns.col(static_cast<Eigen::Index>(j)) = terms[j] / std::max(terms[j].norm(), 1e-300);

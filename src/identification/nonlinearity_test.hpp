@@ -32,11 +32,12 @@ struct Nonlinearity {
 ///     (each n by itself); x^2, x^3; the part of the force beyond 1/4, 1/2 and 3/4 of its largest
 ///
 /// y_M: the fitted motion; A: the autoregression that makes its residuals white; G: the fitted device, x: the recorded
-/// position. The linear terms (force at four samples, position, velocity, its sign, a constant force) are taken out of
-/// either side. A g_j of the past only meets white errors, so that sums of their products have the variance of white
-/// noise. Said where chi-squared and the share explained are both beyond what records of linear devices show. Nothing
-/// where the record is too short, or nothing is left. Source: Lagrange multiplier tests of a linear model against
-/// additive nonlinear terms (Tsay 1986; Luukkonen, Saikkonen & Terasvirta 1988).
+/// position. The linear terms (force at eight samples, position, velocity, its sign,
+/// acceleration, a constant force) are taken out of either side. A g_j of the past only meets white errors, so that sums
+/// of their products have the variance of white noise. Said where chi-squared and the share explained are both beyond
+/// what records of linear devices show. Nothing where the record is too short, or nothing is left. Source: Lagrange
+/// multiplier tests of a linear model against additive nonlinear terms (Tsay 1986; Luukkonen, Saikkonen & Terasvirta
+/// 1988).
 [[nodiscard]] std::optional<Nonlinearity> find_nonlinearity(const NonlinearityQuestion& question);
 
 }  // namespace zwidth::internal

@@ -100,6 +100,7 @@ TEST(DriveGains, TheLimitIsThatOfTheLoopOnTheDrive) {
   EXPECT_EQ(gains.on_drive.critical.stiffness, critical_stiffness(Device(parameters)).stiffness);
   EXPECT_GT(gains.on_drive.critical.stiffness, critical_stiffness(Device(knob())).stiffness);
   EXPECT_EQ(gains.sampling_period, 1.0 / 8000.0);
+  EXPECT_FALSE(gains.on_drive.trust.sound());  // an ODrive's estimator of 1000 rad/s takes it to 14 N m/rad
 }
 
 TEST(DriveGains, WhatIsMissingIsNamed) {

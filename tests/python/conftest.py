@@ -23,9 +23,10 @@ def device_files():
     return sorted((ROOT / "devices").glob("*.toml"))
 
 
-@pytest.fixture(autouse=True)
-def in_root(monkeypatch):
-    monkeypatch.chdir(ROOT)
+@pytest.fixture(scope="session", autouse=True)
+def in_root():
+    """Fixtures of a module or a session read files of the root too."""
+    os.chdir(ROOT)
 
 
 @pytest.fixture

@@ -1,6 +1,7 @@
 """Results: every key is declared, arrays are NumPy's over their own memory, recordings come from files and arrays."""
 
 import json
+import keyword
 import math
 import pickle
 import warnings
@@ -27,6 +28,7 @@ def some_results(device):
     yield zwidth.diagnose(device, oscillates_hz=6.3, stiffness=9500)
     yield zwidth.simulate(device, points=True, duration=0.5, set="wall.stiffness=5000")
     yield zwidth.relay(device, amplitude=5, trials=1, duration=2)
+    yield zwidth.study(device, "devices/studies/lhifam.toml", samples=300, index_samples=0)
     yield zwidth.excite(amplitude=1, lowest_hz=1, highest_hz=100, rate=1000, duration=5)
     yield zwidth.frequency_response(files, points=True, **columns)
     yield zwidth.identify(
@@ -44,7 +46,7 @@ def test_every_key_is_a_documented_attribute(lhifam):
         seen.add(document["schema"])
         assert type(result) is CLASSES[document["schema"]]
         for key in document:
-            name = "with_" if key == "with" else key
+            name = f"{key}_" if keyword.iskeyword(key) else key
             declared = getattr(type(result), name, None)
             assert declared is not None and declared.__doc__, f"{type(result).__name__}.{key} is not declared"
             getattr(result, name)

@@ -123,7 +123,7 @@ class RigFault : public testing::Test {
 
   /// The rig runs, with a force; then comes `fault`, and the rig stops by itself.
   void expect_stop(const std::function<void(UdpEmulator&, Host&)>& fault, const testing::Matcher<std::string>& reason) {
-    for (int i = 0; i < times(20); ++i) {
+    for (int i = 0; i < times(5); ++i) {
       UdpEmulator emulator(slow_device());
       Host host(folder, "udp:" + emulator.address(), "host", folder / "record.csv");
       ASSERT_TRUE(within(20s, [&] { return emulator.nonzero_forces() > 5; })) << host.errors();
@@ -149,7 +149,7 @@ class RigFault : public testing::Test {
 };
 
 TEST_F(RigFault, AKilledHostLeavesTheDriveToItsWatchdog) {
-  for (int i = 0; i < times(20); ++i) {
+  for (int i = 0; i < times(5); ++i) {
     UdpEmulator emulator(slow_device());
     Host host(folder, "udp:" + emulator.address(), "host", folder / "record.csv");
     ASSERT_TRUE(within(20s, [&] { return emulator.nonzero_forces() > 5; })) << host.errors();
@@ -186,6 +186,9 @@ TEST_F(RigFault, APositionThatIsNoNumber) {
 TEST_F(RigFault, AnInterrupt) {
   expect_stop([](UdpEmulator&, Host& host) { host.send(SIGINT); }, stopped_by("interrupted"));
 }
+TEST_F(RigFault, ATerminalThatCloses) {
+  expect_stop([](UdpEmulator&, Host& host) { host.send(SIGHUP); }, stopped_by("interrupted"));
+}
 TEST_F(RigFault, AHostThatIsHeldUpBeyondThreeCycles) {
   expect_stop(
       [](UdpEmulator&, Host& host) {
@@ -197,7 +200,7 @@ TEST_F(RigFault, AHostThatIsHeldUpBeyondThreeCycles) {
 }
 
 TEST_F(RigFault, AFullDiskForTheRecord) {
-  for (int i = 0; i < times(20); ++i) {
+  for (int i = 0; i < times(5); ++i) {
     UdpEmulator emulator(slow_device());
     Host host(folder, "udp:" + emulator.address(), "host", "/dev/full");
     ASSERT_TRUE(within(20s, [&] { return emulator.nonzero_forces() > 5; })) << host.errors();
@@ -209,7 +212,7 @@ TEST_F(RigFault, AFullDiskForTheRecord) {
 }
 
 TEST_F(RigFault, ASecondRigOnTheSameDrive) {
-  for (int i = 0; i < times(20); ++i) {
+  for (int i = 0; i < times(5); ++i) {
     UdpEmulator emulator(slow_device());
     Host host(folder, "udp:" + emulator.address(), "host", folder / "record.csv");
     ASSERT_TRUE(within(20s, [&] { return emulator.nonzero_forces() > 5; })) << host.errors();

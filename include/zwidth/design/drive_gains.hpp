@@ -32,7 +32,8 @@ struct DriveGains {
   std::vector<DriveNumber> numbers;  ///< to be set; integral gains among them, as 0
   double stiffness = 0.0;            ///< K that these numbers make: less than asked for where the firmware rounds
   /// The device with this wall closed on the drive: its own sampling period, a delay of one of them, no velocity filter but
-  /// one that the firmware has. Its `trust` holds for this loop.
+  /// one that the firmware has. Doubtful, always: the drive's current loop and its estimate of position and velocity are
+  /// not in it, so that its limits bound those of the drive from above (ODrive's estimator alone: a quarter in one case).
   Analysis on_drive;
   double sampling_period = 0.0;  ///< s, of that loop
   std::vector<Remark> remarks;   ///< what was taken for granted
