@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "study/random_studies.hpp"
 
@@ -24,7 +25,7 @@ TEST(WorstDevice, IsNoBetterThanTheWorstOfManyOthers) {
     options.seed = 1'000'000 + seed;
     options.samples = 8 * study_chunk_size;
     const StudyRun others = test::random_study(seed, options);
-    double least = INFINITY;
+    double least = std::numeric_limits<double>::infinity();
     for (std::uint64_t chunk = 0; chunk < others.chunk_count(); ++chunk) {
       for (const double stiffness : others.answers(chunk).stiffness) least = std::fmin(least, stiffness);
     }
