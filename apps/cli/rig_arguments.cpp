@@ -88,7 +88,9 @@ void add_rig_arguments(CLI::App& command, RigArguments& arguments) {
       ->required()
       ->check(CLI::IsMember({"check", "measure", "identify", "relay", "wall", "limit"}));
   add_device_arguments(command, arguments.devices, FileCount::one);
-  command.add_option("--driver", arguments.driver, "simulated, udp:HOST:PORT, or a serial line: odrive:PORT,\nsimplefoc:PORT, moteus:PORT, vesc:PORT")
+  command
+      .add_option("--driver", arguments.driver,
+                  "simulated, udp:HOST:PORT, or a serial line: odrive:PORT,\nsimplefoc:PORT, moteus:PORT, vesc:PORT")
       ->type_name("DRIVER")
       ->capture_default_str();
   command.add_flag("--real-time", arguments.real_time, "Keep the clock with a simulated device too");
