@@ -19,7 +19,12 @@ namespace zwidth {
 using namespace internal;
 namespace {
 
-constexpr double shares[] = {0.99, 0.5, 0.01};
+/// Of a contour: the share of the units that reach it, and that of those that may not.
+struct Share {
+  double reaching;
+  double below;
+};
+constexpr Share shares[] = {{0.99, 0.01}, {0.5, 0.5}, {0.01, 0.99}};
 constexpr std::size_t steps = region_grid_points - 1;
 constexpr double widening = 1.25;        // of the search for the grid's end
 constexpr int most_widenings = 40;       // a factor of 7500 to either side
@@ -58,9 +63,10 @@ class Units {
                       without_, asked_, first_reason_));
     }
     if (doubtful_ > 0) {
-      trust.doubt(fmt::format("the limits of {} of {} units and dampings are doubtful; see analyze of the device with "
-                              "such a wall.damping",
-                              doubtful_, asked_));
+      trust.doubt(
+          fmt::format("the limits of {} of {} units and dampings are doubtful; see analyze of the device with "
+                      "such a wall.damping",
+                      doubtful_, asked_));
     }
   }
 
@@ -75,9 +81,8 @@ class Units {
 };
 
 /// From 1: the unit that a share of all reach or exceed.
-std::uint64_t rank_of(double share, std::uint64_t units) {
-  const auto rank = static_cast<std::uint64_t>(std::ceil((1.0 - share) * static_cast<double>(units)));
-  return std::clamp<std::uint64_t>(rank, 1, units);
+std::uint64_t rank_of(const Share& share, std::uint64_t units) {
+  return static_cast<std::uint64_t>(std::ceil(share.below * static_cast<double>(units)));
 }
 
 /// The least of B0 1.25^k at which the last contour has ended.
@@ -101,11 +106,11 @@ double end_of(Units& units, std::uint64_t rank, double start, const Progress& pr
   return end;
 }
 
-void add_point(const std::vector<double>& limits, RegionContour& contour) {
+void add_point(const std::vector<double>& limits, const Share& share, RegionContour& contour) {
   const auto units = static_cast<std::uint64_t>(limits.size());
   const auto at = [&](std::uint64_t rank) { return limits[static_cast<std::size_t>(rank - 1)]; };
-  const QuantileRanks between = quantile_ranks(1.0 - contour.share, units);  // both, from least_region_units on
-  contour.stiffness.push_back(at(rank_of(contour.share, units)));
+  const QuantileRanks between = quantile_ranks(share.below, units);  // both, from least_region_units on
+  contour.stiffness.push_back(at(rank_of(share, units)));
   contour.lower.push_back(at(between.lower.value_or(1)));
   contour.upper.push_back(at(between.upper.value_or(units)));
 }
@@ -138,23 +143,25 @@ RegionContours region_contours(const StudyRun& run, std::uint64_t units, const P
   if (paper.status != WallRegion::Status::bounded || !(paper.region.most_damped->damping > 0.0)) {
     result.trust.inherit(paper.trust);
     if (!result.trust.refused()) {
-      result.trust.refuse("the device on paper has no region of stable walls that gives the scale of the dampings; see "
-                          "region of the device");
+      result.trust.refuse(
+          "the device on paper has no region of stable walls that gives the scale of the dampings; see "
+          "region of the device");
     }
     return result;
   }
   StagedProgress stages(progress);
   stages.next(share_of_search);
   Units all(run, units);
-  const double end = end_of(all, rank_of(shares[std::size(shares) - 1], units), paper.region.most_damped->damping,
-                            stages.stage());
+  const double end =
+      end_of(all, rank_of(shares[std::size(shares) - 1], units), paper.region.most_damped->damping, stages.stage());
   result.damping_step = end / static_cast<double>(steps);
-  for (const double share : shares) result.contours.push_back({share, {}, {}, {}});
+  for (const Share& share : shares) result.contours.push_back({share.reaching, {}, {}, {}});
   for (std::size_t i = 0; i <= steps; ++i) {
-    stages.next(share_of_search + (1.0 - share_of_search) * static_cast<double>(i + 1) / static_cast<double>(steps + 1));
+    stages.next(share_of_search +
+                (1.0 - share_of_search) * static_cast<double>(i + 1) / static_cast<double>(steps + 1));
     result.dampings.push_back(i == steps ? end : result.damping_step * static_cast<double>(i));
     const std::vector<double>& limits = all.limits(result.dampings.back(), stages.stage());
-    for (RegionContour& contour : result.contours) add_point(limits, contour);
+    for (std::size_t k = 0; k < std::size(shares); ++k) add_point(limits, shares[k], result.contours[k]);
   }
   all.judge(result.trust);
   if (const RegionContour& last = result.contours.back(); last.stiffness.back() > 0.0) {

@@ -14,7 +14,7 @@ class StudyRun;
 
 inline constexpr std::uint64_t least_region_units = 368;  ///< with fewer, no interval of the 1 % contour has both ends
 inline constexpr std::uint64_t most_region_units = std::uint64_t{1} << 20U;  ///< of one call
-inline constexpr std::size_t region_grid_points = 61;  ///< dampings of the contours
+inline constexpr std::size_t region_grid_points = 61;                        ///< dampings of the contours
 
 /// The stiffest walls that one share of the units renders, by their damping.
 struct RegionContour {
@@ -26,9 +26,9 @@ struct RegionContour {
 
 /// What many units render: the walls (K, B) that are stable, with every softer one, on 99 %, 50 % and 1 % of them.
 struct RegionContours {
-  std::uint64_t units = 0;       ///< that were asked: the first ones of the study
-  std::vector<double> dampings;  ///< B: 0 and equal steps, up to where the last contour has ended
-  double damping_step = 0.0;     ///< between two of them nothing is stated
+  std::uint64_t units = 0;              ///< that were asked: the first ones of the study
+  std::vector<double> dampings;         ///< B: 0 and equal steps, up to where the last contour has ended
+  double damping_step = 0.0;            ///< between two of them nothing is stated
   std::vector<RegionContour> contours;  ///< by falling share; empty where the trust is refused
   Trust trust;                          ///< of the contours: the device's, and of every unit's answers
 };
