@@ -185,6 +185,9 @@ void write_all(const std::string& path, const StudyRun& run, const ChunkSource& 
 void write_result(const std::string& path, const StudyRun& run, const ChunkSource& chunks, const Study& study) {
   const fs::path temporary = path + ".part";  // nobody else writes it: the checkpoint is locked
   ::unlink(temporary.c_str());                // left by a process that was killed
+  // A file that could not be closed stays open in HDF5, which would write to it again when the process ends, and crash.
+  // Everything else is closed by its Handle.
+  H5dont_atexit();
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   try {
     write_all(temporary.string(), run, chunks, study);

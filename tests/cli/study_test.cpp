@@ -14,6 +14,7 @@ namespace {
 
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 const std::string lhifam = "zwidth study devices/lhifam.toml --study devices/studies/lhifam.toml";
@@ -156,6 +157,39 @@ TEST_F(Study, ADiskThatFailsKeepsWhatThereIs) {
   ASSERT_TRUE(std::filesystem::exists(directory() / "units.h5.partial.0"));
   const Outcome resumed = run(lhifam + " --samples 60000 --index-samples 0 --output units.h5 --resume");
   EXPECT_EQ(resumed.status, 0) << resumed.errors;
+}
+
+// The checkpoint fits, the result beside it does not.
+TEST_F(Study, ADiskThatIsFullAtTheEndKeepsWhatThereIs) {
+  const std::string many = lhifam + " --samples 60000 --index-samples 0 --output ";
+  ASSERT_EQ(run(many + "whole.h5").status, 0);
+  const Outcome mounted = run("mkdir small && unshare -m bash -c 'mount -t tmpfs -o size=2000k none small && " + many +
+                              "small/units.h5; echo $? > status; cp small/* .'");
+  if (contents("status").empty()) GTEST_SKIP() << "no right to mount a small disk";
+  EXPECT_EQ(contents("status"), "1\n");
+  EXPECT_THAT(mounted.errors, StartsWith("zwidth: small/units.h5: cannot write: No space left on device; make room"));
+  EXPECT_FALSE(std::filesystem::exists(directory() / "units.h5.part"));
+  ASSERT_TRUE(std::filesystem::exists(directory() / "units.h5.partial.0"));
+  const Outcome resumed = run(many + "units.h5 --resume");
+  EXPECT_EQ(resumed.status, 0) << resumed.errors;
+  EXPECT_EQ(contents("units.h5"), contents("whole.h5"));
+}
+
+TEST_F(Study, LeavesAStudyAloneThatAnotherProcessIsAt) {
+  const std::string many = lhifam + " --samples 3000000 --index-samples 0 --output units.h5";
+  const Outcome second = run("(timeout 20 " + many +
+                             " > /dev/null 2>&1 & echo $! > first); for i in $(seq 200); do [ -s "
+                             "units.h5.partial.0 ] && break; sleep 0.05; done; " +
+                             many + "; echo $? > status; " + many + " --resume; kill $(cat first)");
+  EXPECT_EQ(contents("status"), "2\n");
+  EXPECT_THAT(second.errors, HasSubstr("units.h5.partial.0: another process is at this study; wait for it"));
+  EXPECT_THAT(second.errors, Not(HasSubstr("remove that file")));
+}
+
+TEST_F(Study, AFolderIsNoResult) {
+  expect_refusal("mkdir units && " + lhifam + " --samples 100 --output units",
+                 "--output: units: is a folder; name a file");
+  EXPECT_EQ(partial_files(), 0);
 }
 
 TEST_F(Study, WritesAPageWithFigures) {
