@@ -209,6 +209,27 @@ TEST_F(Study, WritesAPageWithFigures) {
 }
 
 // Real processes, as many as asked for, meet at one result.
+TEST_F(Study, SaysWhichWallsSharesOfTheUnitsRender) {
+  const std::string asked = lhifam + " --samples 400 --index-samples 0 --region-units 400";
+  const auto regions = document(asked + " --report page.html")["regions"];
+  EXPECT_EQ(regions["units"], 400);
+  EXPECT_EQ(regions["trust"]["verdict"], "sound");
+  const auto& dampings = regions["dampings"];
+  EXPECT_NEAR(dampings[1].get<double>(), regions["damping_step"].get<double>(), 1e-12);
+  ASSERT_EQ(regions["contours"].size(), 3U);
+  for (const auto& contour : regions["contours"]) {
+    ASSERT_EQ(contour["stiffness"].size(), dampings.size());
+    for (std::size_t i = 0; i < dampings.size(); ++i) {
+      EXPECT_LE(contour["lower"][i], contour["stiffness"][i]);
+      EXPECT_LE(contour["stiffness"][i], contour["upper"][i]);
+    }
+  }
+  EXPECT_THAT(contents("page.html"), HasSubstr("stable for 99 % of the units"));
+  EXPECT_THAT(run(asked).output, HasSubstr("Walls (K, B) of 400 units, at dampings in steps of "));
+  EXPECT_TRUE(document(lhifam + " --samples 100 --index-samples 0")["regions"].is_null());
+  expect_refusal(lhifam + " --region-units 300", "--region-units: is 300; must be 0, or 368 to 1048576");
+}
+
 TEST_F(Study, IsTheSameForAnyNumberOfRanks) {
   if (run("command -v zwidth-study mpirun").status != 0) GTEST_SKIP() << "built without MPI";
   const std::string arguments =
