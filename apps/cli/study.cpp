@@ -37,6 +37,7 @@ struct StudyArguments {
   std::size_t threads = 0;
   std::optional<std::uint64_t> index_samples;
   std::uint64_t rare_samples = 0;
+  std::uint64_t region_units = 0;
   std::string result;
   std::string report;
   std::string worst;
@@ -49,6 +50,7 @@ constexpr std::pair<std::string_view, std::string_view> options_of_study[] = {
     {"threads", "--threads"},
     {"index_samples", "--index-samples"},
     {"rare_samples", "--rare-samples"},
+    {"region_units", "--region-units"},
     {"specification.any_user", "--study"},
     {"parameters", "--study"},
     {"specification.critical_stiffness", "--study"}};
@@ -66,6 +68,7 @@ StudyOptions options_of(const StudyArguments& arguments, const StudyFile& file) 
   options.threads = arguments.threads;
   options.index_samples = arguments.index_samples.value_or(options.index_samples);
   options.rare_samples = arguments.rare_samples;
+  options.region_units = arguments.region_units;
   options.specification = file.specification;
   return options;
 }
@@ -74,6 +77,7 @@ StudyOptions options_of(const StudyArguments& arguments, const StudyFile& file) 
 double units_of(const StudyOptions& options, std::size_t parameters) {
   const auto count = static_cast<double>(parameters);
   return static_cast<double>(options.samples) + static_cast<double>(options.rare_samples) +
+         static_cast<double>(region_grid_points * options.region_units) +
          (count + 2.0) * static_cast<double>(options.index_samples) +
          (count + 1.0) * static_cast<double>(std::min(options.samples, options.tightening_samples));
 }
@@ -178,6 +182,10 @@ void add_study(CLI::App& app) {
   command
       ->add_option("--rare-samples", arguments->rare_samples,
                    "Rare failures by importance sampling with N units: one in a thousand")
+      ->type_name("N");
+  command
+      ->add_option("--region-units", arguments->region_units,
+                   "Walls (K, B) that 99, 50 and 1 % of the first N units render")
       ->type_name("N");
   command->add_option("--threads", arguments->threads, "0: all cores; no result depends on it (default: 0)")
       ->type_name("T");

@@ -103,6 +103,21 @@ Json rare_json(const Study& study) {
           {"trust", rare.trust}};
 }
 
+Json regions_json(const Study& study) {
+  if (!study.regions) return nullptr;
+  const RegionContours& regions = *study.regions;
+  Json contours = Json::array();
+  for (const RegionContour& each : regions.contours) {
+    contours.push_back(
+        {{"share", each.share}, {"stiffness", each.stiffness}, {"lower", each.lower}, {"upper", each.upper}});
+  }
+  return {{"units", regions.units},
+          {"damping_step", regions.damping_step},
+          {"dampings", regions.dampings},
+          {"contours", contours},
+          {"trust", regions.trust}};
+}
+
 }  // namespace
 
 Json study_json(const StudyRun& run, const Study& study) {
@@ -137,6 +152,7 @@ Json study_json(const StudyRun& run, const Study& study) {
   json["sobol_indices"] = indices_json(study);
   json["tightening"] = tightening_json(study);
   json["rare_failures"] = rare_json(study);
+  json["regions"] = regions_json(study);
   json["worst"] = worst_json(study, study.worst);
   json["worst_any_user"] = worst_json(study, study.worst_any_user);
   json["trust"] = study.trust;

@@ -93,6 +93,7 @@ void write_bytes(const BatchStiffness& answers, std::vector<char>& bytes) {
   writer.put(answers.status);
   writer.put(answers.frequency);
   writer.put(answers.mode);
+  writer.put(answers.poles_leaving);
   writer.put(answers.verdict);
   writer.put(answers.any_user);
   writer.put(answers.any_user_frequency);
@@ -113,6 +114,7 @@ std::optional<BatchStiffness> answers_of(std::span<const char> bytes) {
   reader.get(answers.status);
   reader.get(answers.frequency);
   reader.get(answers.mode);
+  reader.get(answers.poles_leaving);
   reader.get(answers.verdict);
   reader.get(answers.any_user);
   reader.get(answers.any_user_frequency);

@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view first_line = "zwidth study checkpoint 1\n";
+constexpr std::string_view first_line = "zwidth study checkpoint 2\n";
 constexpr std::string_view last_line = "end of description\n";
 constexpr std::uint64_t record_mark = 0x6b6e756863646577;
 constexpr std::uint64_t most_record_bytes = std::uint64_t{1} << 32U;
@@ -51,6 +51,10 @@ std::uint64_t checksum_of(const RecordHead& head, const char* bytes) {
       : error == ENOENT || error == ENOTDIR                 ? "; make the folder first, or name another"
                                                             : "";
   throw report::OutputFailed(fmt::format("{}: cannot write: {}{}", path, std::strerror(error), remedy));
+}
+
+[[noreturn]] void fail_in_use(const std::string& path) {
+  throw CheckpointProblem(path + ": another process is at this study; wait for it, or name another output");
 }
 
 /// All bytes at the offset, or how many there were.
@@ -127,8 +131,13 @@ std::string description(const StudyRun& run) {
 }
 
 void StudyCheckpoint::require_none(const std::string& output) {
+  if (fs::is_directory(output)) throw CheckpointProblem(output + ": is a folder; name a file");
   const auto there = checkpoints_of(output);
   if (there.empty()) return;
+  const int first = ::open(there.front().c_str(), O_RDONLY | O_CLOEXEC);
+  const bool is_in_use = first >= 0 && ::flock(first, LOCK_SH | LOCK_NB) != 0;
+  if (first >= 0) ::close(first);
+  if (is_in_use) fail_in_use(there.front());
   throw CheckpointProblem(fmt::format(
       "{}: a study was ended before it was done; add --resume to go on with it, or remove that file to begin anew",
       there.front()));
@@ -141,7 +150,7 @@ StudyCheckpoint::StudyCheckpoint(const StudyRun& run, std::string output, std::s
   if (own_ < 0) fail(own_path_, errno);
   if (::flock(own_, LOCK_EX | LOCK_NB) != 0) {
     ::close(std::exchange(own_, -1));
-    throw CheckpointProblem(own_path_ + ": another process is at this study; wait for it, or name another output");
+    fail_in_use(own_path_);
   }
   const std::string head = fmt::format("{}{}{}", first_line, description(run_), last_line);
   if (start == Start::resumed) find_all();

@@ -25,6 +25,8 @@ namespace fs = std::filesystem;
 
 constexpr unsigned deflate_level = 1;  // numbers of random devices hardly compress; the first level takes what there is
 
+constexpr std::size_t most_listed = std::size_t{64} << 20U;  // bytes of what is said of single units, in memory at once
+
 struct Hdf5Failed {};
 
 hid_t checked(hid_t id) {
@@ -133,6 +135,7 @@ void write_columns(hid_t file, const StudyRun& run, const ChunkSource& chunks) {
   std::unique_ptr<Column> any_user;
   if (run.options().any_user) any_user = std::make_unique<Column>(file, "any_user", H5T_NATIVE_DOUBLE, samples);
   std::string exceptions;
+  std::uint64_t unlisted = 0;
   std::vector<std::uint8_t> small;
   const auto bytes = [&](const auto& values) {
     small.clear();
@@ -151,11 +154,16 @@ void write_columns(hid_t file, const StudyRun& run, const ChunkSource& chunks) {
     verdict.write(chunk, bytes(answers.verdict), size);
     if (any_user) any_user->write(chunk, answers.any_user.data(), size);
     for (const BatchException& each : answers.exceptions) {
+      if (exceptions.size() > most_listed) {
+        ++unlisted;
+        continue;
+      }
       const std::string why =
           each.failure.empty() ? fmt::format("{}", fmt::join(each.trust.reasons, "; ")) : each.failure;
       exceptions += fmt::format("{}\t{}\n", chunk * study_chunk_size + each.index, why);
     }
   }
+  if (unlisted > 0) exceptions += fmt::format("and {} more, by /status and /verdict\n", unlisted);
   put_text(file, "exceptions", exceptions);
 }
 
@@ -185,6 +193,9 @@ void write_all(const std::string& path, const StudyRun& run, const ChunkSource& 
 void write_result(const std::string& path, const StudyRun& run, const ChunkSource& chunks, const Study& study) {
   const fs::path temporary = path + ".part";  // nobody else writes it: the checkpoint is locked
   ::unlink(temporary.c_str());                // left by a process that was killed
+  // A file that could not be closed stays open in HDF5, which would write to it again when the process ends, and crash.
+  // Everything else is closed by its Handle.
+  H5dont_atexit();
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   try {
     write_all(temporary.string(), run, chunks, study);

@@ -95,6 +95,7 @@
 #include "zwidth/stability/worst_user.hpp"
 #include "zwidth/study/distribution.hpp"
 #include "zwidth/study/rare_failures.hpp"
+#include "zwidth/study/region_contours.hpp"
 #include "zwidth/study/sample_statistics.hpp"
 #include "zwidth/study/sampling_plan.hpp"
 #include "zwidth/study/sobol_indices.hpp"

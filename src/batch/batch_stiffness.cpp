@@ -25,7 +25,9 @@ namespace zwidth {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t block_size = 512;  // devices: enough of one delay for whole vectors, few enough for the cache
+// Devices: enough of one delay for whole vectors, few enough for the cache; and what takes long is shared out evenly.
+constexpr std::size_t kernel_block = 512;
+constexpr std::size_t one_by_one_block = 8;
 
 /// Of one thread.
 struct Memory {
@@ -39,6 +41,7 @@ BatchStiffness columns_of(std::size_t count, bool any_user) {
   columns.status.assign(count, StiffnessStatus::refused);
   columns.frequency.assign(count, none);
   columns.mode.assign(count, -1);
+  columns.poles_leaving.assign(count, 0);
   columns.verdict.assign(count, Trust::Verdict::refused);
   if (any_user) {
     columns.any_user.assign(count, none);
@@ -83,6 +86,7 @@ class Devices {
       if (critical.limit) {
         columns.frequency[i] = critical.limit->frequency;
         columns.mode[i] = static_cast<std::int16_t>(critical.limit->limited_by.mode);
+        columns.poles_leaving[i] = static_cast<std::int8_t>(critical.limit->poles_leaving);
       }
     } catch (const Error& error) {
       said.failure = error.what();
@@ -120,12 +124,14 @@ void take_answer(const internal::KernelAnswers& answers, std::size_t at, std::si
   columns.stiffness[i] = answers.stiffness[at];
   columns.frequency[i] = answers.frequency[at];
   columns.mode[i] = answers.mode[at];
+  columns.poles_leaving[i] = answers.poles_leaving[at];
 }
 
 void withdraw(std::size_t i, BatchStiffness& columns) {
   columns.status[i] = StiffnessStatus::refused;
   columns.stiffness[i] = columns.frequency[i] = none;
   columns.mode[i] = -1;
+  columns.poles_leaving[i] = 0;
 }
 
 const BatchException* exception_of(const BatchStiffness& columns, std::size_t i) {
@@ -177,6 +183,7 @@ BatchStiffness batch_stiffness(const Device& device, std::span<const ParameterVa
   const bool by_kernel = options.vectorised && kernel.suits() && !devices.trust().refused();
   BatchStiffness columns = columns_of(count, options.any_user);
   columns.trust = devices.trust();
+  const std::size_t block_size = by_kernel && !options.any_user ? kernel_block : one_by_one_block;
   const std::size_t blocks = (count + block_size - 1) / block_size;
   std::vector<std::vector<BatchException>> said(blocks);
   std::vector<std::size_t> alone(blocks);

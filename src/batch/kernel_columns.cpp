@@ -120,6 +120,7 @@ void KernelColumns::solve(std::size_t begin, std::size_t end, KernelAnswers& ans
   answers.stiffness.resize(count);
   answers.frequency.resize(count);
   answers.mode.resize(count);
+  answers.poles_leaving.resize(count);
   answers.certain.assign(count, 0);
   if (!suits_) return;
   const std::size_t length = padded(count);
@@ -128,6 +129,7 @@ void KernelColumns::solve(std::size_t begin, std::size_t end, KernelAnswers& ans
   scratch.answers.stiffness.resize(length);
   scratch.answers.frequency.resize(length);
   scratch.answers.mode.resize(length);
+  scratch.answers.poles_leaving.resize(length);
   scratch.answers.certain.resize(length);
   scratch.groups.resize(GroupOf::count);
   for (std::vector<std::size_t>& group : scratch.groups) group.clear();
@@ -175,6 +177,7 @@ void KernelColumns::solve(std::size_t begin, std::size_t end, KernelAnswers& ans
       answers.stiffness[i] = scratch.answers.stiffness[at];
       answers.frequency[i] = scratch.answers.frequency[at];
       answers.mode[i] = scratch.answers.mode[at];
+      answers.poles_leaving[i] = scratch.answers.poles_leaving[at];
       answers.certain[i] = scratch.answers.certain[at];
     }
   }

@@ -185,11 +185,14 @@ HWY_NOINLINE void answer(const KernelGroup& group, const KernelDevices& devices,
     hn::StoreU(angle / rows[sample_period], tag, answers.frequency.data() + at);
     HWY_ALIGN double flags[8];
     HWY_ALIGN double vibrates[8];
+    HWY_ALIGN double real[8];
     hn::Store(hn::IfThenElseZero(certain, one), tag, flags);
     hn::Store(hn::IfThenElseZero(mode > rigid, one), tag, vibrates);
+    hn::Store(hn::IfThenElseZero(by_nyquist, one), tag, real);
     for (std::size_t i = 0; i < hn::Lanes(tag); ++i) {
       answers.certain[at + i] = flags[i] != 0.0 ? 1 : 0;
       answers.mode[at + i] = vibrates[i] != 0.0 ? 1 : 0;
+      answers.poles_leaving[at + i] = real[i] != 0.0 ? 1 : 2;  // a certain root is simple, and left unstable
     }
   }
 }

@@ -54,9 +54,10 @@ struct KernelDevices {
 // Of every device: whether its answer is certain, and then what it is: finite, and sound.
 struct KernelAnswers {
   std::vector<double> stiffness;
-  std::vector<double> frequency;      // rad/s
-  std::vector<std::int16_t> mode;     // as BatchStiffness::mode
-  std::vector<std::uint8_t> certain;  // 0: the device is to be asked one by one
+  std::vector<double> frequency;           // rad/s
+  std::vector<std::int16_t> mode;          // as BatchStiffness::mode
+  std::vector<std::int8_t> poles_leaving;  // as BatchStiffness::poles_leaving
+  std::vector<std::uint8_t> certain;       // 0: the device is to be asked one by one
 };
 
 // Reused from call to call, so that nothing is allocated within.

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "staged_progress.hpp"
+#include "zwidth/batch/batch_stiffness.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/device_trust.hpp"
 #include "zwidth/model/parameter.hpp"
@@ -76,6 +77,20 @@ class Points {
     return moved;
   }
 
+  /// The values of every point, by axis.
+  [[nodiscard]] std::vector<ParameterValues> columns() const {
+    std::vector<ParameterValues> columns;
+    std::size_t repeated = count();
+    for (std::size_t axis = 0; axis < axes_.size(); ++axis) {
+      repeated /= values_[axis].size();
+      columns.push_back({axes_[axis].key, std::vector<double>(count())});
+      for (std::size_t i = 0; i < count(); ++i) {
+        columns.back().values[i] = values_[axis][i / repeated % values_[axis].size()];
+      }
+    }
+    return columns;
+  }
+
  private:
   DeviceParameters parameters_;
   const std::vector<SweepAxis>& axes_;
@@ -97,6 +112,19 @@ SweepPoint point_of(const Device& device, const SweepOptions& options, const Tru
   }
   if (options.crossovers) point.crossovers = std::move(critical.crossovers);
   return point;
+}
+
+/// The limits alone, by the kernel of many devices.
+void find_limits(const Device& device, const Points& points, std::vector<SweepPoint>& found, const Progress& progress) {
+  const BatchStiffness answers = batch_stiffness(device, points.columns(), {}, progress);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (!answers.failure_of(i).empty()) (void)critical_stiffness(Device(points.at(i)));  // throws as it did there
+    SweepPoint& point = found[i];
+    point = {answers.status[i], answers.stiffness[i], std::nullopt, std::nullopt, {}, answers.trust_of(i)};
+    if (const auto mechanism = answers.limited_by(i)) {
+      point.limit = Crossover{answers.frequency[i], answers.stiffness[i], *mechanism, answers.poles_leaving[i]};
+    }
+  }
 }
 
 /// The points' reasons stand with them.
@@ -175,7 +203,9 @@ ParameterSweep parameter_sweep(const Device& device, const std::vector<SweepAxis
     sweep.points[i] = point_of(Device(points.at(i)), options, trust);
     shared.add();
   };
-  if (sweep.points.size() > worth_threads) {
+  if (!options.any_user && !options.crossovers && !trust.refused()) {
+    find_limits(device, points, sweep.points, progress);
+  } else if (sweep.points.size() > worth_threads) {
     tbb::parallel_for(std::size_t{0}, sweep.points.size(), compute);
   } else {
     for (std::size_t i = 0; i < sweep.points.size(); ++i) compute(i);

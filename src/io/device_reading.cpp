@@ -107,15 +107,19 @@ void TableReader::refuse_type(const toml::node& node, std::string_view key, std:
 
 std::optional<double> TableReader::number(std::string_view key, std::optional<Measure> measure) {
   const toml::node* node = find(key);
-  if (!node) return std::nullopt;
-  if (const auto value = as_number(*node)) return value;
-  if (!measure || !node->is_string()) {
-    refuse_type(*node, key, measure ? allowed_numbers(*measure, reading_.motion()) : "must be a number");
+  return node ? number_of(*node, key, measure, "must be a number") : std::nullopt;
+}
+
+std::optional<double> TableReader::number_of(const toml::node& node, std::string_view key,
+                                             std::optional<Measure> measure, std::string_view allowed) {
+  if (const auto value = as_number(node)) return value;
+  if (!measure || !node.is_string()) {
+    refuse_type(node, key, measure ? allowed_numbers(*measure, reading_.motion()) : allowed);
     return std::nullopt;
   }
-  auto value = number_with_unit(node->as_string()->get(), *measure, reading_.motion());
+  auto value = number_with_unit(node.as_string()->get(), *measure, reading_.motion());
   if (value) return *value;
-  reading_.refuse(node->source(), full_key(key), std::move(value.error().what), std::move(value.error().allowed));
+  reading_.refuse(node.source(), full_key(key), std::move(value.error().what), std::move(value.error().allowed));
   return std::nullopt;
 }
 
@@ -145,9 +149,9 @@ const toml::array* TableReader::required_array(std::string_view key, std::string
   return node->as_array();
 }
 
-std::vector<double> TableReader::required_numbers(std::string_view key) {
+std::vector<double> TableReader::required_numbers(std::string_view key, std::optional<Measure> measure) {
   const toml::array* array = required_array(key, "an array of numbers");
-  return array ? numbers_of(*array, key) : std::vector<double>{};
+  return array ? numbers_of(*array, key, measure) : std::vector<double>{};
 }
 
 std::vector<std::vector<double>> TableReader::required_rows(std::string_view key) {
@@ -161,12 +165,11 @@ std::vector<std::vector<double>> TableReader::required_rows(std::string_view key
   return rows;
 }
 
-std::vector<double> TableReader::numbers_of(const toml::array& array, std::string_view key) {
+std::vector<double> TableReader::numbers_of(const toml::array& array, std::string_view key,
+                                            std::optional<Measure> measure) {
   std::vector<double> numbers;
   for (const toml::node& element : array) {
-    const auto value = as_number(element);
-    if (!value) refuse_type(element, key, "every element must be a number");
-    numbers.push_back(value.value_or(0.0));
+    numbers.push_back(number_of(element, key, measure, "every element must be a number").value_or(0.0));
   }
   return numbers;
 }

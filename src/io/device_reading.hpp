@@ -62,7 +62,8 @@ class TableReader {
   [[nodiscard]] double required_positive_number(std::string_view key, Measure measure);
   [[nodiscard]] std::optional<std::string> text(std::string_view key);
   /// All elements, each required to be what the name says; empty (and refused) when the key is missing.
-  [[nodiscard]] std::vector<double> required_numbers(std::string_view key);
+  [[nodiscard]] std::vector<double> required_numbers(std::string_view key,
+                                                     std::optional<Measure> measure = std::nullopt);
   /// `allowed` says what the array is of: "an array of two body names".
   [[nodiscard]] std::vector<std::string> required_texts(std::string_view key, std::string_view allowed);
   [[nodiscard]] std::vector<std::vector<double>> required_rows(std::string_view key);
@@ -78,7 +79,10 @@ class TableReader {
 
  private:
   [[nodiscard]] const toml::node* find(std::string_view key);
-  [[nodiscard]] std::vector<double> numbers_of(const toml::array& array, std::string_view key);
+  [[nodiscard]] std::optional<double> number_of(const toml::node& node, std::string_view key,
+                                                std::optional<Measure> measure, std::string_view allowed);
+  [[nodiscard]] std::vector<double> numbers_of(const toml::array& array, std::string_view key,
+                                               std::optional<Measure> measure = std::nullopt);
   [[nodiscard]] const toml::array* required_array(std::string_view key, std::string_view allowed);
   [[nodiscard]] std::string full_key(std::string_view key) const;
   void refuse_type(const toml::node& node, std::string_view key, std::string_view allowed);

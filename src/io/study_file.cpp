@@ -117,6 +117,18 @@ class StudyReader {
     allowed.insert(allowed.end(), keys->second.begin(), keys->second.end());
     reader.refuse_keys_not_in(allowed);
     one.distribution = read_distribution(reader, name, one.key);
+    if (const auto problem = find_problem(one.distribution)) {
+      reader.refuse(key_of(problem->member, name), problem->what, problem->allowed);
+    }
+  }
+
+  /// As the file calls a member of Distribution.
+  static std::string key_of(const std::string& member, const std::string& distribution) {
+    if (member == "centre") {
+      return distribution == "normal" ? "mean" : distribution == "lognormal" ? "median" : "mode";
+    }
+    if (member == "deviation") return distribution == "lognormal" ? "log_deviation" : "standard_deviation";
+    return distribution == "file" ? "file" : member;
   }
 
   Distribution read_distribution(TableReader& reader, const std::string& name, const std::string& key) {
@@ -131,7 +143,7 @@ class StudyReader {
     };
     Distribution result;
     if (name == "file") return read_samples(reader, measure);
-    if (name == "discrete") return read_discrete(reader);
+    if (name == "discrete") return read_discrete(reader, measure);
     if (name == "device") {
       const auto uncertain = uncertainty_of(device_, key);
       if (!uncertain || !(uncertain->deviation > 0.0)) {
@@ -149,6 +161,10 @@ class StudyReader {
         reader.refuse("relative_deviation", "is given beside standard_deviation", "must be one of the two");
       }
       result.deviation = relative ? std::abs(result.centre) * *relative : required("standard_deviation", std::nullopt);
+      if (relative && !(result.deviation > 0.0 && std::isfinite(*relative))) {
+        reader.refuse("relative_deviation", fmt::format("is {}, of a mean of {}", *relative, result.centre),
+                      "must be finite and > 0, of a mean that is not 0");
+      }
     }
     if (name == "lognormal") {
       result = {.kind = Kind::lognormal, .centre = required("median", own), .deviation = 1.0};
@@ -167,7 +183,7 @@ class StudyReader {
         if (reader.has("lower") || reader.has("upper")) {
           reader.refuse("relative_tolerance", "is given beside lower or upper", "must be either it or both of them");
         }
-        const double half = std::abs(own.value_or(1.0) * *tolerance);
+        const double half = std::abs(own.value_or(1.0)) * *tolerance;
         if (!(half > 0.0))
           reader.refuse("relative_tolerance", "leaves no width", "must be > 0, of a number that is not 0");
         result.lower = own.value_or(1.0) - half, result.upper = own.value_or(1.0) + half;
@@ -181,14 +197,17 @@ class StudyReader {
     return result;
   }
 
-  static Distribution read_discrete(TableReader& reader) {
-    const std::vector<double> values = reader.required_numbers("values");
+  static Distribution read_discrete(TableReader& reader, Measure measure) {
+    const std::vector<double> values = reader.required_numbers("values", measure);
     std::vector<double> weights(values.size(), 1.0);
     if (reader.has("weights")) weights = reader.required_numbers("weights");
     if (weights.size() != values.size()) {
       reader.refuse("weights", fmt::format("has length {}", weights.size()),
                     fmt::format("must have one of each value: {}", values.size()));
       return {.kind = Kind::discrete};
+    }
+    if (!values.empty() && std::ranges::count(weights, 0.0) == std::ssize(weights)) {
+      reader.refuse("weights", "are all 0", "must be > 0 for one value at least");
     }
     return discrete_of(values, weights);
   }
@@ -271,7 +290,7 @@ class StudyReader {
 
 tl::expected<StudyFile, InputError> parse_study(std::string_view text, std::string_view source, const Device& device,
                                                 const std::optional<std::string>& folder) {
-  auto document = parse_toml(text, source);
+  auto document = parse_toml(text, source, "a study");
   if (!document) return tl::unexpected(std::move(document.error()));
   DeviceReading reading(source);
   reading.set_motion(device.parameters().motion);

@@ -33,7 +33,7 @@ bool is_number_out_of_range(std::string_view description) {
          description.find("is not representable in 64 bits") != std::string_view::npos;
 }
 
-std::optional<InputError> problem_of_text(std::string_view text, std::string_view source) {
+std::optional<InputError> problem_of_text(std::string_view text, std::string_view source, std::string_view of) {
   const auto refusal = [&](LineOfText line, std::string what, std::string allowed) {
     return InputError{std::string(source), line.number, line.column, "", std::move(what), std::move(allowed)};
   };
@@ -42,7 +42,8 @@ std::optional<InputError> problem_of_text(std::string_view text, std::string_vie
     const std::size_t end = std::min(text.find('\n', begin), text.size());
     const std::string_view line = text.substr(begin, end - begin);
     if (const auto nul = line.find('\0'); nul != std::string_view::npos) {
-      return refusal({number, nul + 1}, "is not text: it has a zero byte", "must be the TOML text of a device");
+      return refusal({number, nul + 1}, "is not text: it has a zero byte",
+                     fmt::format("must be the TOML text of {}", of));
     }
     if (std::ranges::count(line, '.') > most_dots_in_line) {
       return refusal({number, 1}, fmt::format("the line has more than {} dots", most_dots_in_line),
@@ -55,20 +56,20 @@ std::optional<InputError> problem_of_text(std::string_view text, std::string_vie
 
 }  // namespace
 
-tl::expected<toml::table, InputError> parse_toml(std::string_view text, std::string_view source) {
-  if (auto problem = problem_of_text(text, source)) return tl::unexpected(std::move(*problem));
+tl::expected<toml::table, InputError> parse_toml(std::string_view text, std::string_view source, std::string_view of) {
+  if (auto problem = problem_of_text(text, source, of)) return tl::unexpected(std::move(*problem));
   toml::parse_result parsed = toml::parse(text, source);
   if (parsed.failed()) {
     const toml::parse_error& error = parsed.error();
     const bool is_out_of_range = is_number_out_of_range(error.description());
-    return tl::unexpected(
-        InputError{.source = std::string(source),
-                   .line = std::max<std::size_t>(1, error.source().begin.line),
-                   .column = std::max<std::size_t>(1, error.source().begin.column),
-                   .key = "",
-                   .what = is_out_of_range ? std::string(number_out_of_range)
-                                           : fmt::format("is not TOML: {}", without_macro(error.description())),
-                   .allowed = std::string(is_out_of_range ? number_range : "must be the TOML text of a device")});
+    return tl::unexpected(InputError{
+        .source = std::string(source),
+        .line = std::max<std::size_t>(1, error.source().begin.line),
+        .column = std::max<std::size_t>(1, error.source().begin.column),
+        .key = "",
+        .what = is_out_of_range ? std::string(number_out_of_range)
+                                : fmt::format("is not TOML: {}", without_macro(error.description())),
+        .allowed = is_out_of_range ? std::string(number_range) : fmt::format("must be the TOML text of {}", of)});
   }
   return std::move(parsed).table();
 }

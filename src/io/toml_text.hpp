@@ -13,8 +13,10 @@ inline constexpr std::string_view number_out_of_range = "the number is out of ra
 inline constexpr std::string_view number_range =
     "must be 0 or from 1e-30 to 1e30 in magnitude (coefficients: 1e-100 to 1e100)";
 
-/// Parses TOML text; an error carries the place in `source`. Never throws, never exhausts the stack.
-[[nodiscard]] tl::expected<toml::table, InputError> parse_toml(std::string_view text, std::string_view source);
+/// Parses TOML text; an error carries the place in `source`, and says what the text is to be `of`. Never throws, never
+/// exhausts the stack.
+[[nodiscard]] tl::expected<toml::table, InputError> parse_toml(std::string_view text, std::string_view source,
+                                                               std::string_view of = "a device");
 
 /// The place of keys that an override adds.
 [[nodiscard]] toml::source_region override_region();

@@ -90,9 +90,7 @@ class Counter {
 
   void fail(std::uint64_t sample, const BatchStiffness& answers, std::size_t i) {
     if (++study_.failed_count > most_failed) return;
-    std::string reason = answers.failure_of(i);
-    if (reason.empty()) reason = fmt::format("refused: {}", fmt::join(answers.trust_of(i).reasons, "; "));
-    study_.failed.push_back({sample, std::move(reason)});
+    study_.failed.push_back({sample, reason_of(answers, i)});
   }
 
   static void keep_if_low(std::uint64_t sample, double limit, std::vector<LowSample>& lows) {
@@ -213,6 +211,11 @@ StiffnessHistogram histogram_of(const StudyRun& run, const ChunkSource& chunks, 
 }
 
 }  // namespace
+
+std::string reason_of(const BatchStiffness& answers, std::size_t i) {
+  std::string reason = answers.failure_of(i);
+  return reason.empty() ? fmt::format("refused: {}", fmt::join(answers.trust_of(i).reasons, "; ")) : reason;
+}
 
 CountedChunks count_chunks(const StudyRun& run, const ChunkSource& chunks, const Progress& progress) {
   Counter counter(run);

@@ -124,14 +124,7 @@ void internal::add_tightening(const StudyRun& run, Study& study, const Progress&
   const auto& parameters = run.distributions().parameters;
   const std::uint64_t count = std::min(options.samples, options.tightening_samples);
   if (count == 0 || !study.yield) return;
-  std::vector<ParameterValues> columns;
-  columns.reserve(parameters.size());
-  for (const StudyParameter& each : parameters) columns.push_back({each.key, std::vector<double>(count)});
-  std::vector<double> row(parameters.size());
-  for (std::uint64_t i = 0; i < count; ++i) {
-    run.values(i, row);
-    for (std::size_t j = 0; j < row.size(); ++j) columns[j].values[i] = row[j];
-  }
+  std::vector<ParameterValues> columns = run.columns(0, static_cast<std::size_t>(count));
   const bool any_user = options.specification.any_user.has_value();
   StagedProgress stages(progress);
   const auto steps = static_cast<double>(parameters.size() + 1);
@@ -166,10 +159,14 @@ Study summary(const StudyRun& run, const ChunkSource& chunks, const Progress& pr
   auto [study, lows, any_user_lows] = count_chunks(run, chunks, stages.stage());
   study.trust.inherit(trust_of(run.device()));
   if (study.trust.refused()) return std::move(study);
-  stages.next(0.7);
+  stages.next(0.65);
   add_indices(run, study, stages.stage());
-  stages.next(0.85);
+  stages.next(0.75);
   add_tightening(run, study, stages.stage());
+  stages.next(0.85);
+  if (run.options().region_units > 0) {
+    study.regions = region_contours(run, run.options().region_units, stages.stage());
+  }
   stages.next(0.95);
   if (run.options().rare_samples > 0) {
     study.rare_failures = rare_failures(run, {.samples = run.options().rare_samples}, stages.stage());

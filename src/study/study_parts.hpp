@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "zwidth/progress.hpp"
@@ -29,6 +30,14 @@ enum class SearchedLimit { critical, any_user };
 /// has a limit.
 [[nodiscard]] std::optional<WorstDevice> find_worst(const StudyRun& run, const std::vector<LowSample>& lows,
                                                     SearchedLimit searched, const Progress& progress);
+
+/// Of StudyOptions::region_units, which is not 0.
+[[nodiscard]] std::optional<OptionProblem> find_region_problem(std::uint64_t units, std::uint64_t samples,
+                                                               const Device& device,
+                                                               const StudyDistributions& distributions);
+
+/// Why the unit has no answer.
+[[nodiscard]] std::string reason_of(const BatchStiffness& answers, std::size_t i);
 
 /// Sobol indices of K_CR; a remark instead where they do not exist.
 void add_indices(const StudyRun& run, Study& study, const Progress& progress);

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "require_valid.hpp"
+#include "study/study_parts.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth {
@@ -83,6 +84,10 @@ std::optional<OptionProblem> find_problem(const StudyOptions& options, const Dev
       return OptionProblem{"rare_samples", "is given without a specification", "failures need [specification]"};
     }
   }
+  if (options.region_units != 0) {
+    if (auto problem = find_region_problem(options.region_units, options.samples, device, distributions))
+      return problem;
+  }
   if (auto problem = find_specification_problem("critical_stiffness", wanted.critical_stiffness)) return problem;
   if (auto problem = find_specification_problem("any_user", wanted.any_user)) return problem;
   if ((options.any_user || wanted.any_user) && !device.has_bodies()) {
@@ -122,12 +127,16 @@ void StudyRun::scores(std::uint64_t sample, std::span<double> scores) const {
 }
 
 std::vector<ParameterValues> StudyRun::columns(std::uint64_t chunk) const {
-  const std::size_t size = size_of(chunk);
+  return columns(chunk * study_chunk_size, size_of(chunk));
+}
+
+std::vector<ParameterValues> StudyRun::columns(std::uint64_t first, std::size_t count) const {
   std::vector<ParameterValues> columns;
-  for (const StudyParameter& each : distributions_.parameters) columns.push_back({each.key, std::vector<double>(size)});
+  for (const StudyParameter& each : distributions_.parameters)
+    columns.push_back({each.key, std::vector<double>(count)});
   std::vector<double> row(columns.size());
-  for (std::size_t i = 0; i < size; ++i) {
-    values(chunk * study_chunk_size + i, row);
+  for (std::size_t i = 0; i < count; ++i) {
+    values(first + i, row);
     for (std::size_t j = 0; j < row.size(); ++j) columns[j].values[i] = row[j];
   }
   return columns;

@@ -14,6 +14,7 @@ namespace {
 
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 const std::string lhifam = "zwidth study devices/lhifam.toml --study devices/studies/lhifam.toml";
@@ -158,6 +159,39 @@ TEST_F(Study, ADiskThatFailsKeepsWhatThereIs) {
   EXPECT_EQ(resumed.status, 0) << resumed.errors;
 }
 
+// The checkpoint fits, the result beside it does not.
+TEST_F(Study, ADiskThatIsFullAtTheEndKeepsWhatThereIs) {
+  const std::string many = lhifam + " --samples 60000 --index-samples 0 --output ";
+  ASSERT_EQ(run(many + "whole.h5").status, 0);
+  const Outcome mounted = run("mkdir small && unshare -m bash -c 'mount -t tmpfs -o size=2000k none small && " + many +
+                              "small/units.h5; echo $? > status; cp small/* .'");
+  if (contents("status").empty()) GTEST_SKIP() << "no right to mount a small disk";
+  EXPECT_EQ(contents("status"), "1\n");
+  EXPECT_THAT(mounted.errors, StartsWith("zwidth: small/units.h5: cannot write: No space left on device; make room"));
+  EXPECT_FALSE(std::filesystem::exists(directory() / "units.h5.part"));
+  ASSERT_TRUE(std::filesystem::exists(directory() / "units.h5.partial.0"));
+  const Outcome resumed = run(many + "units.h5 --resume");
+  EXPECT_EQ(resumed.status, 0) << resumed.errors;
+  EXPECT_EQ(contents("units.h5"), contents("whole.h5"));
+}
+
+TEST_F(Study, LeavesAStudyAloneThatAnotherProcessIsAt) {
+  const std::string many = lhifam + " --samples 3000000 --index-samples 0 --output units.h5";
+  const Outcome second = run("(timeout 20 " + many +
+                             " > /dev/null 2>&1 & echo $! > first); for i in $(seq 200); do [ -s "
+                             "units.h5.partial.0 ] && break; sleep 0.05; done; " +
+                             many + "; echo $? > status; " + many + " --resume; kill $(cat first)");
+  EXPECT_EQ(contents("status"), "2\n");
+  EXPECT_THAT(second.errors, HasSubstr("units.h5.partial.0: another process is at this study; wait for it"));
+  EXPECT_THAT(second.errors, Not(HasSubstr("remove that file")));
+}
+
+TEST_F(Study, AFolderIsNoResult) {
+  expect_refusal("mkdir units && " + lhifam + " --samples 100 --output units",
+                 "--output: units: is a folder; name a file");
+  EXPECT_EQ(partial_files(), 0);
+}
+
 TEST_F(Study, WritesAPageWithFigures) {
   write(
       "free.toml",
@@ -175,6 +209,27 @@ TEST_F(Study, WritesAPageWithFigures) {
 }
 
 // Real processes, as many as asked for, meet at one result.
+TEST_F(Study, SaysWhichWallsSharesOfTheUnitsRender) {
+  const std::string asked = lhifam + " --samples 400 --index-samples 0 --region-units 400";
+  const auto regions = document(asked + " --report page.html")["regions"];
+  EXPECT_EQ(regions["units"], 400);
+  EXPECT_EQ(regions["trust"]["verdict"], "sound");
+  const auto& dampings = regions["dampings"];
+  EXPECT_NEAR(dampings[1].get<double>(), regions["damping_step"].get<double>(), 1e-12);
+  ASSERT_EQ(regions["contours"].size(), 3U);
+  for (const auto& contour : regions["contours"]) {
+    ASSERT_EQ(contour["stiffness"].size(), dampings.size());
+    for (std::size_t i = 0; i < dampings.size(); ++i) {
+      EXPECT_LE(contour["lower"][i], contour["stiffness"][i]);
+      EXPECT_LE(contour["stiffness"][i], contour["upper"][i]);
+    }
+  }
+  EXPECT_THAT(contents("page.html"), HasSubstr("stable for 99 % of the units"));
+  EXPECT_THAT(run(asked).output, HasSubstr("Walls (K, B) of 400 units, at dampings in steps of "));
+  EXPECT_TRUE(document(lhifam + " --samples 100 --index-samples 0")["regions"].is_null());
+  expect_refusal(lhifam + " --region-units 300", "--region-units: is 300; must be 0, or 368 to 1048576");
+}
+
 TEST_F(Study, IsTheSameForAnyNumberOfRanks) {
   if (run("command -v zwidth-study mpirun").status != 0) GTEST_SKIP() << "built without MPI";
   const std::string arguments =

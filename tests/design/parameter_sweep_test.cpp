@@ -7,6 +7,7 @@
 #include <mutex>
 
 #include "lhifam.hpp"
+#include "property/random_devices.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/parameter.hpp"
 
@@ -35,9 +36,43 @@ TEST(ParameterSweep, EveryPointIsTheCriticalStiffnessOfItsDevice) {
       DeviceParameters moved = parameters;
       moved.links[0].stiffness = sweep.values[0][i];
       moved.loop.delay = sweep.values[1][j];
-      const CriticalStiffness expected = critical_stiffness(filtered_plant(Device(moved)));
-      EXPECT_EQ(sweep.points[i * 11 + j].stiffness, expected.stiffness);
-      EXPECT_TRUE(sweep.points[i * 11 + j].crossovers.empty());
+      const CriticalStiffness expected = critical_stiffness(Device(moved));
+      const SweepPoint& point = sweep.points[i * 11 + j];
+      EXPECT_NEAR(point.stiffness / expected.stiffness, 1.0, 1e-12);  // the kernel's promise
+      EXPECT_NEAR(point.limit->frequency / expected.limit->frequency, 1.0, 1e-12);
+      EXPECT_EQ(point.limit->stiffness, point.stiffness);
+      EXPECT_EQ(point.limit->limited_by.mode, expected.limit->limited_by.mode);
+      EXPECT_EQ(point.limit->poles_leaving, expected.limit->poles_leaving);
+      EXPECT_EQ(point.trust, expected.trust);
+      EXPECT_TRUE(point.crossovers.empty());
+    }
+  }
+}
+
+// Whatever is asked for beside it, through the kernel or not, a limit is the same.
+TEST(ParameterSweep, LimitsDoNotDependOnWhatElseIsAskedFor) {
+  test::RandomDevices random(20261123);
+  for (const char* kind : {"two_mass", "user_side", "long_delay", "fractional_delay", "virtual_damper", "grounded",
+                           "filtered_damper", "actuator_lag", "overdamped", "stiff_link"}) {
+    SCOPED_TRACE(kind);
+    const Device device(random.device(kind));
+    const double mass = device.bodies()[0].mass;
+    const std::vector<SweepAxis> axes{{"body." + device.bodies()[0].name + ".mass", 0.2 * mass, 5.0 * mass, 30},
+                                      {"wall.damping", 0.0, mass / device.loop().sampling_period, 30}};
+    const ParameterSweep alone = parameter_sweep(device, axes);
+    const ParameterSweep whole = parameter_sweep(device, axes, {.crossovers = true});
+    ASSERT_EQ(alone.points.size(), whole.points.size());
+    for (std::size_t i = 0; i < alone.points.size(); ++i) {
+      const SweepPoint& a = alone.points[i];
+      const SweepPoint& b = whole.points[i];
+      ASSERT_EQ(a.status, b.status) << i;
+      ASSERT_EQ(a.trust, b.trust) << i;
+      ASSERT_EQ(a.limit.has_value(), b.limit.has_value()) << i;
+      if (!a.limit) continue;
+      ASSERT_NEAR(a.stiffness / b.stiffness, 1.0, 1e-12) << i;
+      ASSERT_NEAR(a.limit->frequency, b.limit->frequency, 1e-12 * b.limit->frequency) << i;
+      ASSERT_EQ(a.limit->limited_by.mode, b.limit->limited_by.mode) << i;
+      ASSERT_EQ(a.limit->poles_leaving, b.limit->poles_leaving) << i;
     }
   }
 }

@@ -106,6 +106,33 @@ TEST(StudyFile, RefusesWithThePlace) {
   definite.replace(definite.find("[[1, 0.5], [0.5, 1]]"), 20, "[[1, 1.0], [1.0, 1]]");
   begins(definite, "study.toml:28:10: correlation.matrix: is not positive definite");
   begins("a = [\n", "study.toml:");
+  begins("a = 1\na = 2\n", "study.toml:2:");
+  EXPECT_TRUE(refusal("a = [\n").ends_with("must be the TOML text of a study")) << refusal("a = [\n");
+  const std::string normal = "key = \"link.stiffness\"\ndistribution = \"normal\"\n";
+  begins(parameter_with(normal + "mean = nan\nstandard_deviation = 1\n"),
+         "study.toml:4:8: parameter.0.mean: is nan; must be finite");
+  begins(parameter_with(normal + "standard_deviation = inf\n"),
+         "study.toml:4:22: parameter.0.standard_deviation: is inf; must be finite and > 0");
+  begins(parameter_with(normal + "relative_deviation = -0.1\n"),
+         "study.toml:4:22: parameter.0.relative_deviation: is -0.1, of a mean of 79500; must be finite and > 0");
+  begins(parameter_with("key = \"link.stiffness\"\ndistribution = \"uniform\"\nrelative_tolerance = -0.1\n"),
+         "study.toml:4:22: parameter.0.relative_tolerance: leaves no width; must be > 0");
+  begins(parameter_with("key = \"link.stiffness\"\ndistribution = \"lognormal\"\nlog_deviation = 0\n"),
+         "study.toml:4:17: parameter.0.log_deviation: is 0; must be finite and > 0");
+  begins(parameter_with("key = \"loop.delay\"\ndistribution = \"triangular\"\nlower = 1e-4\nupper = 2e-4\nmode = 1\n"),
+         "study.toml:6:8: parameter.0.mode: is 1; ");
+  const std::string discrete = "key = \"body.motor.mass\"\ndistribution = \"discrete\"\n";
+  begins(parameter_with(discrete + "values = [1, 2]\nweights = [0, 0]\n"),
+         "study.toml:5:11: parameter.0.weights: are all 0; must be > 0 for one value");
+  begins(parameter_with(discrete + "values = [1, \"2 m\"]\n"), "study.toml:4:14: parameter.0.values: \"m\" is no unit");
+}
+
+TEST(StudyFile, TakesValuesWithUnits) {
+  const auto study =
+      parse_study("[[parameter]]\nkey = \"body.motor.mass\"\ndistribution = \"discrete\"\nvalues = [\"300 g\", 0.31]\n",
+                  "study.toml", device);
+  ASSERT_TRUE(study) << study.error().str();
+  EXPECT_EQ(study->distributions.parameters[0].distribution.values, (std::vector<double>{0.3, 0.31}));
 }
 
 // What a device says of itself: its deviations, and their correlation.

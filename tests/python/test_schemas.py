@@ -38,6 +38,7 @@ OTHERS = [
     ["design", LHIFAM, "--target", "6000", "--any-user"],
     ["study", LHIFAM, *STUDY],
     ["study", LHIFAM, *STUDY, "--rare-samples", "300"],
+    ["study", LHIFAM, "--study", "devices/studies/lhifam.toml", "--samples", "400", "--region-units", "400"],
     ["study", "devices/lhifam_reduced_pretension.toml", *STUDY],
     ["rig", "check", LHIFAM, "--duration", "0.2"],
     ["rig", "check", LHIFAM, "--set", "loop.sampling_period=0.02", "--real-time", "--duration", "0.2"],

@@ -46,6 +46,28 @@ std::vector<std::size_t> by_weight(const Study& study) {
   return order;
 }
 
+/// How a contour is drawn, from the largest share to the least.
+struct ContourLook {
+  std::string_view line;
+  std::string_view band;
+};
+constexpr ContourLook contour_looks[] = {{green, "#bfe3c8"}, {blue, "#c5d6ee"}, {orange, "#f5d3bf"}};
+
+/// B, K and its interval, to where the contour ends; nothing of what is unbounded.
+std::string contour_rows(const std::vector<double>& dampings, const RegionContour& contour, double stiffness_unit) {
+  std::size_t size = dampings.size();
+  while (size > 1 && contour.upper[size - 2] == 0.0) --size;
+  std::string rows;
+  for (std::size_t i = 0; i < size; ++i) {
+    rows += fmt::format("{:.9g}", dampings[i]);
+    for (const double value : {contour.stiffness[i], contour.lower[i], contour.upper[i]}) {
+      rows += std::isfinite(value) ? fmt::format(" {:.9g}", value / stiffness_unit) : " NaN";
+    }
+    rows += "\n";
+  }
+  return rows;
+}
+
 }  // namespace
 
 std::optional<std::string> draw_study_distribution(const StudyRun& run, const Study& study, FigureFormat format) {
@@ -165,6 +187,48 @@ std::optional<std::string> draw_study_tornado(const Study& study, FigureFormat f
   x_label(canvas, frame, "Share of the variance (%)");
   canvas.commands(fmt::format("{}\nset xrange [0:100]\nset yrange [0:1]\nunset ytics", axes_look()));
   canvas.plot(frame, "NaN notitle");
+  return canvas.draw(format);
+}
+
+std::optional<std::string> draw_study_regions(const StudyRun& run, const Study& study, FigureFormat format) {
+  if (!study.regions || study.regions->contours.empty()) return std::nullopt;
+  const RegionContours& regions = *study.regions;
+  const Units units = units_of(run.device().parameters().motion);
+  double high = 0.0;
+  for (const RegionContour& each : regions.contours) {
+    for (const double value : each.upper) high = std::isfinite(value) ? std::max(high, value) : high;
+  }
+  if (high == 0.0) return std::nullopt;
+  const AxisUnit axis = axis_unit(high, 3.0);
+  const std::string title =
+      fmt::format("Walls that shares of {} units of {} render{}", regions.units, display_name(run.device()),
+                  regions.trust.sound() ? doubt(study) : " (DOUBTFUL)");
+  std::vector<LegendEntry> legend;
+  std::string bands;
+  std::string lines;
+  for (std::size_t i = 0; i < regions.contours.size(); ++i) {
+    const ContourLook& look = contour_looks[std::min(i, std::size(contour_looks) - 1)];
+    legend.push_back({fmt::format("stable for {:g} % of the units", 100.0 * regions.contours[i].share),
+                      {look.line, 2.0},
+                      look.band});
+    bands +=
+        fmt::format("$contour{} using 1:3:4 with filledcurves fc rgb '{}' fs solid noborder notitle, ", i, look.band);
+    lines += fmt::format("$contour{} using 1:2 with lines {} notitle, ", i, gnuplot_line({look.line, 2.0}));
+  }
+  const Heading heading(title, legend,
+                        fmt::format("Exact every {} {}, with straight lines between; bands: 95 % intervals",
+                                    number(regions.damping_step), units.damping));
+  const Box frame{frame_left, frame_right, heading.bottom() + 16.0, heading.bottom() + 16.0 + study_panel_height};
+  Canvas canvas(title, canvas_width, frame.bottom + 62.0);
+  heading.draw(canvas);
+  for (std::size_t i = 0; i < regions.contours.size(); ++i) {
+    data_block(canvas, fmt::format("contour{}", i), contour_rows(regions.dampings, regions.contours[i], axis.size));
+  }
+  canvas.commands(fmt::format("{}\nset xrange [0:{:.9g}]\nset yrange [0:{:.9g}]\n{}", axes_look(),
+                              regions.dampings.back(), 1.06 * high / axis.size,
+                              y_label(fmt::format("Stiffness K ({}{})", axis.prefix, units.stiffness))));
+  x_label(canvas, frame, fmt::format("Virtual damping B ({})", units.damping));
+  canvas.plot(frame, bands + lines + "NaN notitle");
   return canvas.draw(format);
 }
 

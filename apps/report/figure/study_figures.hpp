@@ -21,4 +21,8 @@ namespace zwidth::report {
 /// Share of the variance of K_CR by parameter: alone, and with others.
 [[nodiscard]] std::optional<std::string> draw_study_tornado(const Study& study, FigureFormat format);
 
+/// The walls (K, B) that 99 %, 50 % and 1 % of the units render, with the band of their intervals.
+[[nodiscard]] std::optional<std::string> draw_study_regions(const StudyRun& run, const Study& study,
+                                                            FigureFormat format);
+
 }  // namespace zwidth::report

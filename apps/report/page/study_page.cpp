@@ -44,6 +44,12 @@ std::string study_page(const StudyRun& run, const Study& study) {
                  "First-order and total Sobol indices: shares of the variance of K_CR.");
   body += figure(draw_study_scatter(run, study, FigureFormat::svg), "scatter",
                  "The two parameters that matter most; every point a unit, coloured by what limits it.");
+  if (study.regions) {
+    body += section(region_heading(run, study), region_table(run, study));
+    if (const auto note = trust_note(study.regions->trust)) body += element("p", *note);
+    body += figure(draw_study_regions(run, study, FigureFormat::svg), "regions",
+                   "A wall below a line is stable, with every softer one of its damping, for that share of the units.");
+  }
   body += section("Units that miss the specification", cluster_table(study));
   const std::string worst = worst_sentence(run, study);
   if (!worst.empty()) body += element("h2", "The worst unit") + element("p", worst);

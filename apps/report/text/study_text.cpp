@@ -137,6 +137,39 @@ TextTable cluster_table(const Study& study) {
   return table;
 }
 
+std::string region_heading(const StudyRun& run, const Study& study) {
+  if (!study.regions) return {};
+  const Units units = units_of(run.device().parameters().motion);
+  const std::string asked = fmt::format("Walls (K, B) of {} units", study.regions->units);
+  if (study.regions->contours.empty()) return asked;
+  return fmt::format("{}, at dampings in steps of {} {}", asked, number(study.regions->damping_step), units.damping);
+}
+
+TextTable region_table(const StudyRun& run, const Study& study) {
+  TextTable table{{Align::right, Align::right, Align::left, Align::right, Align::right},
+                  {{"of the units", "render K up to", "95 % interval", "at B of", "and B up to"}}};
+  if (!study.regions) return table;
+  const Units units = units_of(run.device().parameters().motion);
+  const std::vector<double>& dampings = study.regions->dampings;
+  for (const RegionContour& each : study.regions->contours) {
+    std::size_t best = 0;
+    std::size_t last = 0;
+    for (std::size_t i = 0; i < dampings.size(); ++i) {
+      if (each.stiffness[i] > each.stiffness[best]) best = i;
+      if (each.stiffness[i] > 0.0) last = i;
+    }
+    std::vector<std::string> row{fmt::format("{:g} %", 100.0 * each.share), "none", "", "", ""};
+    if (each.stiffness[best] > 0.0) {
+      row[1] = stiffness_text(run, each.stiffness[best]);
+      row[2] = fmt::format("{} to {}", stiffness_text(run, each.lower[best]), stiffness_text(run, each.upper[best]));
+      row[3] = fmt::format("{} {}", number(dampings[best]), units.damping);
+      row[4] = fmt::format("{} {}", number(dampings[last]), units.damping);
+    }
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
 std::string worst_sentence(const StudyRun& run, const Study& study) {
   std::string text;
   for (const std::optional<WorstDevice>* found : {&study.worst, &study.worst_any_user}) {
@@ -210,6 +243,10 @@ std::string study_text(const StudyRun& run, const Study& study) {
   paragraph(tightening_sentence(study));
   table("Critical stiffness K_CR", quantile_table(run, study));
   table("What it depends on", parameter_table(study));
+  if (study.regions) {
+    if (const auto note = trust_note(study.regions->trust)) paragraph(*note);
+    table(region_heading(run, study), region_table(run, study));
+  }
   table("Units that miss the specification (s: standard deviations from the middle)", cluster_table(study));
   if (!study.remarks.empty()) text += "\n";
   for (const Remark& remark : study.remarks) paragraph(remark_line(remark));

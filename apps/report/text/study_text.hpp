@@ -19,6 +19,10 @@ namespace zwidth::report {
 /// By parameter: Sobol indices, and what half its spread gains.
 [[nodiscard]] TextTable parameter_table(const Study& study);
 [[nodiscard]] TextTable cluster_table(const Study& study);
+/// The stiffest and the most damped walls of each share of the units, where they are asked for.
+[[nodiscard]] TextTable region_table(const StudyRun& run, const Study& study);
+/// "Walls that shares of 1000 units render, B in steps of 2.5 N s/m"; empty unless asked for.
+[[nodiscard]] std::string region_heading(const StudyRun& run, const Study& study);
 /// The worst device: its limit and its numbers. Empty where there is none.
 [[nodiscard]] std::string worst_sentence(const StudyRun& run, const Study& study);
 /// Which tolerance to tighten first. Empty where none gains.

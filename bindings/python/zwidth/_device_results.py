@@ -229,6 +229,7 @@ class Study(Result):
     sobol_indices = maybe_one(Record, "By parameter; None where a remark says why.")
     tightening = maybe_one(Record, "By parameter: yield gained by half the spread; None without a specification.")
     rare_failures = maybe_one(Record, "With rare_samples=...: the share of failures by importance sampling.")
+    regions = maybe_one(Record, "With region_units=...: the walls (K, B) that 99, 50 and 1 % of the units render.")
     worst = maybe_one(Record, "The worst unit found.")
     worst_any_user = maybe_one(Record, "The one with the lowest any-user limit, where it is asked for.")
     trust = one(Trust, "How far the numbers may be relied on.")

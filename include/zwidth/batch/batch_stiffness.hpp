@@ -41,8 +41,9 @@ struct BatchStiffness {
   std::vector<StiffnessStatus> status;  ///< refused too where the device failed
   std::vector<double> frequency;        ///< rad/s, of the limiting crossover; NaN unless finite
   std::vector<std::int16_t> mode;       ///< of the limiting mechanism: 0 the rigid body, 1.. the mode; -1 unless finite
-  std::vector<Trust::Verdict> verdict;  ///< of trust_of(i)
-  std::vector<double> any_user;         ///< AnyUserLimit::stiffness; NaN when refused; empty unless asked for
+  std::vector<std::int8_t> poles_leaving;  ///< Crossover::poles_leaving of the limiting one; 0 unless finite
+  std::vector<Trust::Verdict> verdict;     ///< of trust_of(i)
+  std::vector<double> any_user;            ///< AnyUserLimit::stiffness; NaN when refused; empty unless asked for
   std::vector<double> any_user_frequency;  ///< rad/s, AnyUserLimit::frequency; as any_user
   Trust trust;                             ///< of the base device: every element has it
   std::vector<BatchException> exceptions;  ///< by rising index: every device with more to say than `trust`

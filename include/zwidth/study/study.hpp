@@ -11,6 +11,7 @@
 #include "zwidth/remark.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
 #include "zwidth/study/rare_failures.hpp"
+#include "zwidth/study/region_contours.hpp"
 #include "zwidth/study/sample_statistics.hpp"
 #include "zwidth/study/sobol_indices.hpp"
 #include "zwidth/study/study_distributions.hpp"
@@ -32,12 +33,14 @@ struct StudyOptions {
   std::uint64_t index_samples = 1024;         ///< of each set of Sobol indices; 0: none
   std::uint64_t tightening_samples = 10'000;  ///< on which a tighter tolerance is tried, `samples` at most; 0: none
   std::uint64_t rare_samples = 0;             ///< importance sampling of failures with so many units; 0: none
-  bool worst = true;                          ///< search for the worst device
-  std::size_t threads = 0;                    ///< 0: all cores. No result depends on it
+  /// The walls that 99 %, 50 % and 1 % of the first so many units render, see region_contours(); 0: not asked.
+  std::uint64_t region_units = 0;
+  bool worst = true;        ///< search for the worst device
+  std::size_t threads = 0;  ///< 0: all cores. No result depends on it
 };
 
 /// Checks: samples and parameters as SamplingPlan; index_samples 0 or 16 to 2^24; tightening_samples at most 2^24;
-/// rare_samples 0 or 100 to 2^24, with a specification; a specification finite and > 0, of any user for bodies alone;
+/// rare_samples 0 or 100 to 2^24, with a specification; region_units 0 or as region_contours(); a specification finite and > 0, of any user for bodies alone;
 /// threads.
 [[nodiscard]] std::optional<OptionProblem> find_problem(const StudyOptions& options, const Device& device,
                                                         const StudyDistributions& distributions);
@@ -131,6 +134,7 @@ struct Study {
   std::optional<std::vector<SobolIndex>> sobol_indices;   ///< by parameter; absent where a remark says why
   std::optional<std::vector<TighteningGain>> tightening;  ///< by parameter; absent without a specification
   std::optional<RareFailures> rare_failures;              ///< absent unless asked for
+  std::optional<RegionContours> regions;                  ///< absent unless asked for
   std::optional<WorstDevice> worst;                       ///< absent where no unit has a limit
   std::optional<WorstDevice> worst_any_user;              ///< by the limit of any user; absent unless asked for
   std::vector<StudyPoint> points;                         ///< of at most 2000 samples, evenly apart

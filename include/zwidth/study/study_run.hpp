@@ -35,7 +35,8 @@ class StudyRun {
   [[nodiscard]] std::vector<double> independent_scores(std::uint64_t sample) const;
   /// The normal scores of the values.
   void scores(std::uint64_t sample, std::span<double> scores) const;
-  /// Columns of values, one per parameter.
+  /// Columns of values, one per parameter: of `count` samples from the first of them on, or of a chunk.
+  [[nodiscard]] std::vector<ParameterValues> columns(std::uint64_t first, std::size_t count) const;
   [[nodiscard]] std::vector<ParameterValues> columns(std::uint64_t chunk) const;
 
   /// The answers of a chunk, on one thread.
