@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "identification/fit_judgement.hpp"
+#include "identification/nonlinearity_of_equations.hpp"
 #include "identification/percent.hpp"
 #include "identification/plausibility.hpp"
 #include "require_valid.hpp"
@@ -109,6 +110,17 @@ void judge_mode(RigidBodyIdentification& identified) {
       {Remark::Severity::warning, what, "a mode may limit the wall before the rigid body does", remedy});
 }
 
+void judge_nonlinearity(RigidBodyIdentification& identified, const Recording& recording, Motion motion) {
+  if (auto doubt = doubt_of_counts(recording)) identified.trust.doubt(*std::move(doubt));
+  const auto found = find_nonlinearity_of_equations(identified.fit, recording.channels[0].samples,
+                                                    recording.channels[1].samples, recording.sampling_period, motion);
+  if (!found) return;
+  const std::string what = fmt::format("the record shows {}", found->what);
+  identified.trust.doubt(fmt::format("{}; {}", what, found->remedy));
+  identified.remarks.push_back(
+      {Remark::Severity::warning, what, "the fit takes it for mass, friction and offset", found->remedy});
+}
+
 }  // namespace
 
 std::optional<OptionProblem> find_problem(const RigidBodyOptions& options) {
@@ -168,6 +180,7 @@ RigidBodyIdentification identify_rigid_body(const Recording& recording, const Ri
   judge_residual(identified);
   judge_mode(identified);
   judge_delay(identified, period);
+  judge_nonlinearity(identified, recording, options.motion);
   identified.device = with_trust(identified.device, identified.trust);
   return identified;
 }
