@@ -226,25 +226,16 @@ std::optional<Nonlinearity> internal::find_nonlinearity_of_equations(const Rigid
     for (Eigen::Index i = 0; i < rows; ++i) values(i) = filtered[kept[static_cast<std::size_t>(i)]];
     return values;
   };
-  const auto of_command = [&](std::span<const double> each) -> Eigen::VectorXd {
-    const std::vector<double> values = zero_phase_low_pass(combined(each, hold_stencil), cutoff);
-    const std::vector<double> slopes = zero_phase_low_pass(combined(each, slope_stencil(sampling_period)), cutoff);
-    Eigen::VectorXd late(rows);
-    for (Eigen::Index i = 0; i < rows; ++i) {
-      const double at = static_cast<double>(kept[static_cast<std::size_t>(i)]) - fit.delay.value / sampling_period;
-      late(i) = interpolated(values, slopes, at, sampling_period);
-    }
-    return late;
-  };
   Eigen::MatrixXd known(rows, solution.regressors.cols() + 1);
   known << solution.regressors, of_position(position);
   const Eigen::MatrixXd linear = outside_linear_terms(std::move(known), Eigen::MatrixXd::Zero(rows, 0));
   const Eigen::VectorXd left = solution.residuals - linear * (linear.transpose() * solution.residuals);
   return clearest_nonlinearity(position, force, motion, [&](const NonlinearForce& candidate) {
+    // Where noise of the position hides an acceleration, the force itself is left over, and a part of it with it.
+    if (candidate.is_of_command) return NonlinearEvidence{};
     Eigen::MatrixXd columns(rows, static_cast<Eigen::Index>(candidate.terms.size()));
     for (std::size_t j = 0; j < candidate.terms.size(); ++j) {
-      columns.col(static_cast<Eigen::Index>(j)) =
-          candidate.is_of_command ? of_command(candidate.terms[j]) : of_position(candidate.terms[j]);
+      columns.col(static_cast<Eigen::Index>(j)) = of_position(candidate.terms[j]);
     }
     const Eigen::MatrixXd basis = outside_linear_terms(std::move(columns), linear);
     if (basis.cols() == 0) return NonlinearEvidence{};

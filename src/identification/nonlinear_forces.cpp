@@ -66,13 +66,14 @@ std::optional<Nonlinearity> clearest_nonlinearity(
   const double step = encoder_step(position);
   for (int waves = 1; waves <= most_waves && range > least_steps * step * waves; ++waves) {
     const double wave_number = 2.0 * std::numbers::pi * waves / range;
-    examine({{mapped(position, [=](double x) { return std::cos(wave_number * (x - least)); }),
-              mapped(position, [=](double x) { return std::sin(wave_number * (x - least)); })},
-             false,
-             fmt::format("a force that comes and goes with the position, about every {:.2g} {}: cogging, gear teeth, or "
-                         "a bearing",
-                         range / waves, motion == Motion::rotary ? "rad" : "m"),
-             "compensate it, or excite more strongly: its share falls with the amplitude"});
+    examine(
+        {{mapped(position, [=](double x) { return std::cos(wave_number * (x - least)); }),
+          mapped(position, [=](double x) { return std::sin(wave_number * (x - least)); })},
+         false,
+         fmt::format("a force that comes and goes with the position, about every {:.2g} {}: cogging, gear teeth, or "
+                     "a bearing",
+                     range / waves, motion == Motion::rotary ? "rad" : "m"),
+         "compensate it, or excite more strongly: its share falls with the amplitude"});
   }
   return found;
 }

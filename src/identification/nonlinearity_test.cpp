@@ -81,7 +81,8 @@ class PredictionErrors {
       const std::size_t reach = std::max(least_reach, k / 4);
       const std::size_t begin = k - std::min(k, reach);
       const std::size_t end = std::min(lines.size(), k + reach + 1);
-      return std::max(1.0, (sums[end] - sums[begin]) / (static_cast<double>(end - begin) * static_cast<double>(errors.size())));
+      return std::max(
+          1.0, (sums[end] - sums[begin]) / (static_cast<double>(end - begin) * static_cast<double>(errors.size())));
     };
     std::vector<std::vector<std::complex<double>>> columns;
     for (const auto& column : basis.colwise()) columns.push_back(lines_of(column));
