@@ -59,6 +59,18 @@ DeviceParameters device_of(const RigidBodyFit& fit, const RigidBodyOptions& opti
   return parameters;
 }
 
+/// Friction that drives the body is none: it is biased by more than its interval.
+void judge_friction(RigidBodyIdentification& identified) {
+  for (const ParameterEstimate* each : {&identified.fit.viscous, &identified.fit.coulomb}) {
+    if (!each->upper || *each->upper >= 0.0) continue;
+    identified.trust.doubt(
+        fmt::format("{} friction comes out as {:.3g}, below 0 by more than its interval: motion is too noisy, or "
+                    "another force acts; "
+                    "lower the cutoff, or fit in time",
+                    each->key, each->value));
+  }
+}
+
 /// A force that acts later than one that is held delays the loop, too.
 void judge_delay(RigidBodyIdentification& identified, double recorded_period) {
   const ParameterEstimate& delay = identified.fit.delay;
@@ -178,6 +190,7 @@ RigidBodyIdentification identify_rigid_body(const Recording& recording, const Ri
   RigidBodyIdentification identified{recording.source, std::move(fit), std::move(device), std::move(remarks),
                                      std::move(trust)};
   judge_residual(identified);
+  judge_friction(identified);
   judge_mode(identified);
   judge_delay(identified, period);
   judge_nonlinearity(identified, recording, options.motion);
