@@ -32,7 +32,8 @@ std::optional<std::string> doubt_of_hand(const Device& structure, const std::vec
   if (!structure.has_bodies() || !locked.empty()) return std::nullopt;
   const Body& held = structure.bodies()[structure.loop().held];
   const auto ratio = [&](const char* number, double known) {
-    const auto found = std::ranges::find(estimates, fmt::format("body.{}.{}", held.name, number), &ParameterEstimate::key);
+    const auto found =
+        std::ranges::find(estimates, fmt::format("body.{}.{}", held.name, number), &ParameterEstimate::key);
     if (found == estimates.end() || !found->lower || !(known > 0.0)) return 0.0;
     return *found->lower / known;
   };
@@ -42,7 +43,8 @@ std::optional<std::string> doubt_of_hand(const Device& structure, const std::vec
   constexpr double more_damped = 2.0;
   if (!(of_mass > heavier && of_damping > more_damped)) return std::nullopt;
   return fmt::format(
-      "{} comes out at least {:.2g} times as heavy and {:.2g} times as damped as in the structure: a hand on it would be "
+      "{} comes out at least {:.2g} times as heavy and {:.2g} times as damped as in the structure: a hand on it would "
+      "be "
       "in both, and in the critical stiffness; record it with nobody on it, or correct the structure",
       held.name, of_mass, of_damping);
 }
