@@ -1,6 +1,8 @@
 // How often identify() is right: simulated recordings over structures, noises, bands, delays and frictions.
 //
-//   identification_campaign [FIRST_SEED [COUNT]]
+//   identification_campaign [FIRST_SEED [COUNT [BODIES NAMED]]]
+//
+// BODIES and NAMED: devices of so many bodies without friction, of which the structure names so many.
 //
 // COUNT recordings from FIRST_SEED on; a seed whose device no wall is stable with, or that none limits, makes none. One
 // line per recording, and every 100 and at the end a table of the shares that matter: of the answers called sound, how
@@ -67,10 +69,12 @@ void print(const std::string& name, const Count& count) {
 int main(int argc, char** argv) {
   const auto first = static_cast<std::uint64_t>(argc > 1 ? std::atoll(argv[1]) : 1);
   const auto count = static_cast<std::uint64_t>(argc > 2 ? std::atoll(argv[2]) : 200);
+  test::RecordingFamily family;
+  if (argc > 4) family = {0.0, 0.0, std::strtoul(argv[3], nullptr, 10), std::strtoul(argv[4], nullptr, 10)};
   std::map<std::string, Count> counts;
   std::uint64_t recordings = 0;
   for (std::uint64_t seed = first; recordings < count; ++seed) {
-    const auto made = test::random_recording(seed);
+    const auto made = test::random_recording(seed, family);
     if (!made) continue;
     ++recordings;
     const auto begin = std::chrono::steady_clock::now();

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "identification/friction_test.hpp"
+#include "identification/held_device.hpp"
 #include "identification/nonlinearity_test.hpp"
 #include "identification/percent.hpp"
 #include "identification/plausibility.hpp"
@@ -72,6 +73,7 @@ class Judge {
     judge_measured_crossover();
     judge_search();
     judge_friction();
+    judge_hand();
     result_.device_trust = result_.trust;
     judge_open_numbers();
     for (Remark& remark : implausible_device(fit_.device, known_structure(), judged_.fit.response.sampling_period)) {
@@ -234,6 +236,24 @@ class Judge {
     result_.trust.doubt(what + ": " + meaning);
     result_.remarks.push_back(
         {Remark::Severity::warning, what, meaning, "excite more strongly: its share falls with the amplitude"});
+  }
+
+  void judge_hand() {
+    if (auto remark = remark_of_operator(judged_.structure)) result_.remarks.push_back(*std::move(remark));
+    if (known_structure()) {
+      if (auto doubt = doubt_of_hand(judged_.structure, fit_.estimates, judged_.options.fit.locked)) {
+        result_.trust.doubt(*std::move(doubt));
+      }
+    }
+    if (result_.trust.refused()) return;
+    const std::optional<double> spring = missing_spring(judged_.fit, judged_.options.fit);
+    if (!spring) return;
+    const Body& held = fit_.device.bodies()[fit_.device.loop().held];
+    result_.trust.doubt(
+        fmt::format("the record shows a spring of about {:.3g} {} from {} to the ground, which the structure does not "
+                    "have: a hand on "
+                    "it, a cable, or gravity; record it with nobody on it, or give the body that stiffness",
+                    *spring, stiffness_unit(fit_.device), held.name));
   }
 
   const JudgedFit& judged_;

@@ -10,6 +10,7 @@
 
 #include "eigenvalues.hpp"
 #include "identification/correlated_residuals.hpp"
+#include "identification/nonlinearity_of_equations.hpp"
 #include "identification/rigid_band.hpp"
 #include "linear_systems.hpp"
 #include "signal/zero_phase_filter.hpp"
@@ -209,6 +210,42 @@ ParameterEstimate estimate(std::string key, double value, double deviation, doub
 }
 
 }  // namespace
+
+std::optional<Nonlinearity> internal::find_nonlinearity_of_equations(const RigidBodyFit& fit,
+                                                                     std::span<const double> force,
+                                                                     std::span<const double> position,
+                                                                     double sampling_period, Motion motion) {
+  const double cutoff = fit.cutoff_hz * sampling_period;
+  const Terms terms = filtered_terms(force, position, sampling_period, cutoff);
+  const std::vector<std::size_t> kept = kept_samples(terms, cutoff, fit.decimation);
+  const DynamicsSolution solution = solve(terms, kept, sampling_period, fit.delay.value, delay);
+  const auto rows = static_cast<Eigen::Index>(kept.size());
+  const auto of_position = [&](std::span<const double> each) -> Eigen::VectorXd {
+    const std::vector<double> filtered = zero_phase_low_pass(each.subspan(reach, terms.force.size()), cutoff);
+    Eigen::VectorXd values(rows);
+    for (Eigen::Index i = 0; i < rows; ++i) values(i) = filtered[kept[static_cast<std::size_t>(i)]];
+    return values;
+  };
+  Eigen::MatrixXd known(rows, solution.regressors.cols() + 1);
+  known << solution.regressors, of_position(position);
+  const Eigen::MatrixXd linear = outside_linear_terms(std::move(known), Eigen::MatrixXd::Zero(rows, 0));
+  const Eigen::VectorXd left = solution.residuals - linear * (linear.transpose() * solution.residuals);
+  return clearest_nonlinearity(position, force, motion, [&](const NonlinearForce& candidate) {
+    // Where noise of the position hides an acceleration, the force itself is left over, and a part of it with it.
+    if (candidate.is_of_command) return NonlinearEvidence{};
+    Eigen::MatrixXd columns(rows, static_cast<Eigen::Index>(candidate.terms.size()));
+    for (std::size_t j = 0; j < candidate.terms.size(); ++j) {
+      columns.col(static_cast<Eigen::Index>(j)) = of_position(candidate.terms[j]);
+    }
+    const Eigen::MatrixXd basis = outside_linear_terms(std::move(columns), linear);
+    if (basis.cols() == 0) return NonlinearEvidence{};
+    const Eigen::VectorXd effects = basis.transpose() * left;
+    const Eigen::MatrixXd covariance = covariance_with_correlated_residuals(basis, left - basis * effects);
+    return NonlinearEvidence{
+        effects.dot(internal::solve(covariance, effects)) - static_cast<double>(candidate.terms.size()),
+        effects.squaredNorm() / left.squaredNorm()};
+  });
+}
 
 std::vector<ParameterEstimate> estimates(const RigidBodyFit& fit) {
   return {fit.mass, fit.viscous, fit.coulomb, fit.offset, fit.delay};

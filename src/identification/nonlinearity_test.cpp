@@ -1,18 +1,17 @@
 #include "identification/nonlinearity_test.hpp"
 
-#include <fmt/format.h>
-
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <complex>
 #include <utility>
 #include <vector>
 
 #include "identification/shot_fit.hpp"
 #include "identification/time_domain_start.hpp"
+#include "linear_systems.hpp"
+#include "signal/fourier.hpp"
 #include "zwidth/model/state_space.hpp"
-#include "zwidth/quantity.hpp"
 #include "zwidth/sampling/discrete_state_space.hpp"
 #include "zwidth/sampling/forced_response.hpp"
 
@@ -22,9 +21,6 @@ namespace {
 constexpr std::size_t least_examined = 512;
 constexpr std::size_t most_examined = std::size_t{1} << 16U;
 constexpr std::size_t error_terms = 24;
-// Of chi-squared, and of the squares that are left.
-constexpr double clear_evidence = 40.0;
-constexpr double notable_share = 0.01;
 
 using Signal = std::vector<double>;
 
@@ -49,27 +45,61 @@ class PredictionErrors {
 
   [[nodiscard]] const Signal& position() const { return position_; }
   [[nodiscard]] const Signal& force() const { return force_; }
-  [[nodiscard]] double squares() const { return left_.squaredNorm(); }
 
-  /// Effect of a force at the sensed body, or beside the commanded one, on the prediction error.
-  [[nodiscard]] Eigen::VectorXd of_push(const Signal& force) const { return errors_of(at_sensed_, force); }
-  [[nodiscard]] Eigen::VectorXd of_command(const Signal& force) const { return errors_of(from_force_, force); }
-
-  /// Squares that these columns explain beyond the linear terms.
-  [[nodiscard]] double explained_by(Eigen::MatrixXd columns) const {
-    const Eigen::VectorXd before = columns.colwise().norm();
-    columns -= linear_ * (linear_.transpose() * columns).eval();
-    constexpr double own = 1e-4;  // what is less is a linear term but for rounding
-    for (Eigen::Index j = 0; j < columns.cols(); ++j) {
-      const double norm = columns.col(j).norm();
-      columns.col(j) *= norm > own * before(j) ? 1.0 / norm : 0.0;
+  /// What this force explains beyond the linear terms.
+  [[nodiscard]] NonlinearEvidence of(const NonlinearForce& force) const {
+    Eigen::MatrixXd columns(left_.size(), static_cast<Eigen::Index>(force.terms.size()));
+    for (std::size_t j = 0; j < force.terms.size(); ++j) {
+      columns.col(static_cast<Eigen::Index>(j)) =
+          errors_of(force.is_of_command ? from_force_ : at_sensed_, force.terms[j]);
     }
-    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
-    qr.setThreshold(own);
-    return (qr.householderQ().adjoint() * left_).head(qr.rank()).squaredNorm();
+    const Eigen::MatrixXd basis = outside_linear_terms(std::move(columns), linear_);
+    const Eigen::VectorXd effects = basis.transpose() * left_;
+    const double freedom = static_cast<double>(force.terms.size());
+    NonlinearEvidence evidence{effects.squaredNorm() - freedom, effects.squaredNorm() / left_.squaredNorm()};
+    if (!(evidence.chi_squared > 0.0)) return evidence;
+    const Eigen::VectorXd scaled = solve(covariance(basis, left_ - basis * effects), effects);
+    evidence.chi_squared = effects.dot(scaled) - freedom;
+    return evidence;
   }
 
  private:
+  /// Covariance of basis^T e where e has the spectrum of these errors, smoothed, where that is above white noise's: what
+  /// drifts more slowly than the autoregression sees is no evidence.
+  [[nodiscard]] static Eigen::MatrixXd covariance(const Eigen::MatrixXd& basis, const Eigen::VectorXd& errors) {
+    const std::size_t length = fast_length(static_cast<std::size_t>(errors.size()));
+    const auto lines_of = [&](const Eigen::VectorXd& signal) {
+      Signal padded(length, 0.0);
+      std::copy(signal.begin(), signal.end(), padded.begin());
+      return spectrum(padded);
+    };
+    const auto lines = lines_of(errors);
+    std::vector<double> sums(lines.size() + 1, 0.0);
+    for (std::size_t k = 0; k < lines.size(); ++k) sums[k + 1] = sums[k] + std::norm(lines[k]);
+    const auto density = [&](std::size_t k) {
+      constexpr std::size_t least_reach = 4;
+      const std::size_t reach = std::max(least_reach, k / 4);
+      const std::size_t begin = k - std::min(k, reach);
+      const std::size_t end = std::min(lines.size(), k + reach + 1);
+      return std::max(
+          1.0, (sums[end] - sums[begin]) / (static_cast<double>(end - begin) * static_cast<double>(errors.size())));
+    };
+    std::vector<std::vector<std::complex<double>>> columns;
+    for (const auto& column : basis.colwise()) columns.push_back(lines_of(column));
+    Eigen::MatrixXd result = Eigen::MatrixXd::Zero(basis.cols(), basis.cols());
+    for (std::size_t k = 0; k < lines.size(); ++k) {
+      const double both_sides = k == 0 || 2 * k == length ? 1.0 : 2.0;
+      const double weight = both_sides * density(k) / static_cast<double>(length);
+      for (Eigen::Index i = 0; i < basis.cols(); ++i) {
+        for (Eigen::Index j = 0; j < basis.cols(); ++j) {
+          result(i, j) += weight * std::real(columns[static_cast<std::size_t>(i)][k] *
+                                             std::conj(columns[static_cast<std::size_t>(j)][k]));
+        }
+      }
+    }
+    return result;
+  }
+
   static DiscreteStateSpace discrete(const Device& device) {
     return sample(state_space(device), {device.loop().sampling_period, device.loop().delay});
   }
@@ -113,7 +143,7 @@ class PredictionErrors {
       Signal shifted(size_, 0.0);
       for (std::size_t k = latest; k + 1 < size_; ++k)
         shifted[k] = force_[static_cast<std::size_t>(static_cast<int>(k) - late)];
-      terms.push_back(of_command(shifted));
+      terms.push_back(errors_of(from_force_, shifted));
     }
     constexpr std::size_t span = 4;  // samples, over which a velocity is taken
     Signal velocity(size_, 0.0);
@@ -125,7 +155,7 @@ class PredictionErrors {
       direction[k] = velocity[k] > 0.0 ? 1.0 : velocity[k] < 0.0 ? -1.0 : 0.0;
     }
     for (const Signal& each : {position_, velocity, acceleration, direction, Signal(size_, 1.0)})
-      terms.push_back(of_push(each));
+      terms.push_back(errors_of(at_sensed_, each));
     Eigen::MatrixXd columns(left_.size(), static_cast<Eigen::Index>(terms.size()));
     for (std::size_t j = 0; j < terms.size(); ++j) {
       columns.col(static_cast<Eigen::Index>(j)) = terms[j] / std::max(terms[j].norm(), 1e-300);
@@ -146,78 +176,17 @@ class PredictionErrors {
   Eigen::MatrixXd linear_;  ///< orthonormal
 };
 
-template <class Function>
-Signal mapped(const Signal& signal, Function function) {
-  Signal result(signal.size());
-  std::ranges::transform(signal, result.begin(), function);
-  return result;
-}
-
-template <std::size_t count>
-Eigen::MatrixXd side_by_side(const Eigen::VectorXd (&columns)[count]) {
-  Eigen::MatrixXd result(columns[0].size(), static_cast<Eigen::Index>(count));
-  for (std::size_t j = 0; j < count; ++j) result.col(static_cast<Eigen::Index>(j)) = columns[j];
-  return result;
-}
-
 }  // namespace
 
 std::optional<Nonlinearity> find_nonlinearity(const NonlinearityQuestion& question) {
   if (question.residuals.size() < least_examined) return std::nullopt;
-  const auto extremes = std::ranges::minmax(question.position);
-  const double least = extremes.min;  // no structured binding: the closures below capture it
-  const double most = extremes.max;
-  const double range = most - least;
-  const double middle = 0.5 * (most + least);
-  const double largest = std::ranges::max(question.force, {}, [](double each) { return std::abs(each); });
+  const auto [least, most] = std::ranges::minmax(question.position);
   constexpr double nothing = 1e-9;  // of the range: rounding
   const double left = std::ranges::max(question.residuals, {}, [](double each) { return std::abs(each); });
-  if (!(std::abs(left) > nothing * range) || !(std::abs(largest) > 0.0)) return std::nullopt;
+  if (!(std::abs(left) > nothing * (most - least))) return std::nullopt;
   const PredictionErrors errors(question);
-
-  std::optional<Nonlinearity> found;
-  const auto keep = [&](double explained, double terms, std::string what, std::string remedy) {
-    // Prediction errors are counted in their deviation, which an encoder's rounding bounds from below.
-    const double evidence = explained - terms;
-    const double share = explained / errors.squares();
-    if (!(evidence > clear_evidence && share > notable_share) || (found && found->evidence >= evidence)) return;
-    found = Nonlinearity{std::move(what), std::move(remedy), evidence, share};
-  };
-
-  keep(errors.explained_by(side_by_side(
-           {errors.of_push(mapped(errors.position(), [&](double x) { return std::pow((x - middle) / range, 2); })),
-            errors.of_push(mapped(errors.position(), [&](double x) { return std::pow((x - middle) / range, 3); }))})),
-       2.0,
-       "a force that changes with the position, but not in proportion to it: a spring that stiffens, gravity on a "
-       "lever, or a stop",
-       "record smaller motion, about the place that matters");
-
-  const auto beyond = [&](double share) {
-    const double bound = share * std::abs(largest);
-    return errors.of_command(
-        mapped(errors.force(), [&](double u) { return std::copysign(std::max(0.0, std::abs(u) - bound), u); }));
-  };
-  keep(errors.explained_by(side_by_side({beyond(0.25), beyond(0.5), beyond(0.75)})), 3.0,
-       "a force that is not in proportion to the recorded one: an amplifier that saturates, or a torque that falls at "
-       "large currents",
-       "record the force that acts, or excite less strongly");
-
-  constexpr int most_waves = 100;
-  constexpr double least_steps = 20.0;  // of an encoder, per wave: less is its rounding
-  const double step = encoder_step(errors.position());
-  for (int waves = 1; waves <= most_waves && range > least_steps * step * waves; ++waves) {
-    const double wave_number = 2.0 * std::numbers::pi * waves / range;
-    keep(errors.explained_by(side_by_side(
-             {errors.of_push(mapped(errors.position(), [&](double x) { return std::cos(wave_number * (x - least)); })),
-              errors.of_push(
-                  mapped(errors.position(), [&](double x) { return std::sin(wave_number * (x - least)); }))})),
-         2.0,
-         fmt::format(
-             "a force that comes and goes with the position, about every {:.2g} {}: cogging, gear teeth, or a bearing",
-             range / waves, question.device.parameters().motion == Motion::rotary ? "rad" : "m"),
-         "compensate it, or excite more strongly: its share falls with the amplitude");
-  }
-  return found;
+  return clearest_nonlinearity(errors.position(), errors.force(), question.device.parameters().motion,
+                               [&](const NonlinearForce& force) { return errors.of(force); });
 }
 
 }  // namespace zwidth::internal

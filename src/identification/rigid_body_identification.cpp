@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "identification/fit_judgement.hpp"
+#include "identification/nonlinearity_of_equations.hpp"
 #include "identification/percent.hpp"
 #include "identification/plausibility.hpp"
 #include "require_valid.hpp"
@@ -56,6 +57,18 @@ DeviceParameters device_of(const RigidBodyFit& fit, const RigidBodyOptions& opti
   parameters.loop.sampling_period = sampling_period;
   parameters.uncertainty = std::move(uncertainty);
   return parameters;
+}
+
+/// Friction that drives the body is none: it is biased by more than its interval.
+void judge_friction(RigidBodyIdentification& identified) {
+  for (const ParameterEstimate* each : {&identified.fit.viscous, &identified.fit.coulomb}) {
+    if (!each->upper || *each->upper >= 0.0) continue;
+    identified.trust.doubt(
+        fmt::format("{} friction comes out as {:.3g}, below 0 by more than its interval: motion is too noisy, or "
+                    "another force acts; "
+                    "lower the cutoff, or fit in time",
+                    each->key, each->value));
+  }
 }
 
 /// A force that acts later than one that is held delays the loop, too.
@@ -107,6 +120,17 @@ void judge_mode(RigidBodyIdentification& identified) {
   identified.trust.doubt(fmt::format("{}; {}", what, remedy));
   identified.remarks.push_back(
       {Remark::Severity::warning, what, "a mode may limit the wall before the rigid body does", remedy});
+}
+
+void judge_nonlinearity(RigidBodyIdentification& identified, const Recording& recording, Motion motion) {
+  if (auto doubt = doubt_of_counts(recording)) identified.trust.doubt(*std::move(doubt));
+  const auto found = find_nonlinearity_of_equations(identified.fit, recording.channels[0].samples,
+                                                    recording.channels[1].samples, recording.sampling_period, motion);
+  if (!found) return;
+  const std::string what = fmt::format("the record shows {}", found->what);
+  identified.trust.doubt(fmt::format("{}; {}", what, found->remedy));
+  identified.remarks.push_back(
+      {Remark::Severity::warning, what, "the fit takes it for mass, friction and offset", found->remedy});
 }
 
 }  // namespace
@@ -166,8 +190,10 @@ RigidBodyIdentification identify_rigid_body(const Recording& recording, const Ri
   RigidBodyIdentification identified{recording.source, std::move(fit), std::move(device), std::move(remarks),
                                      std::move(trust)};
   judge_residual(identified);
+  judge_friction(identified);
   judge_mode(identified);
   judge_delay(identified, period);
+  judge_nonlinearity(identified, recording, options.motion);
   identified.device = with_trust(identified.device, identified.trust);
   return identified;
 }

@@ -13,6 +13,7 @@
 #include "identification/fit_judgement.hpp"
 #include "identification/fit_weights.hpp"
 #include "identification/friction_test.hpp"
+#include "identification/held_device.hpp"
 #include "identification/nonlinearity_test.hpp"
 #include "identification/percent.hpp"
 #include "identification/plausibility.hpp"
@@ -85,6 +86,7 @@ class Judge {
     judge_misfit();
     judge_feedback();
     judge_search();
+    judge_hand();
     const std::vector<std::string> open = open_numbers();
     if (!open.empty()) {
       trust_.doubt(fmt::format("the data do not determine {}: taken as they stand in the start of the search",
@@ -168,6 +170,14 @@ class Judge {
     trust_.doubt(
         "the search for the parameters was stopped while it still improved; free fewer parameters, or start from "
         "values that are nearly right");
+  }
+
+  void judge_hand() {
+    if (auto remark = remark_of_operator(judged_.structure)) fit_.remarks.push_back(*std::move(remark));
+    if (judged_.options.structure_values != IdentifyOptions::StructureValues::known) return;
+    if (auto doubt = doubt_of_hand(judged_.structure, fit_.estimates, judged_.options.locked)) {
+      trust_.doubt(*std::move(doubt));
+    }
   }
 
   [[nodiscard]] std::vector<std::string> open_numbers() const {

@@ -232,5 +232,48 @@ TEST(Identification, NamesTheMemberOfAnImpossibleOption) {
   EXPECT_THROW((void)identify(recorded(late_rotor(), multisine(0.5, 60.0, 500.0), {}), late_rotor(), options), Error);
 }
 
+/// A body and a handle, recorded while somebody holds the handle.
+Recording held_recording(const Operator& hand, std::uint64_t seed) {
+  DeviceParameters device;
+  device.bodies = {{"motor", 0.4, 0.5, 0.0, 0.0}, {"handle", 0.2, 0.3, 0.0, 0.0}};
+  device.links = {{0, 1, 3000.0, 1.0}};
+  device.loop = {0, 0, 1, 1e-3, 0.0};
+  device.user = hand;
+  return recorded(Device(device), noise(0.5, 80.0, 1000.0, seed), {0.02, 1e-6, seed});
+}
+
+// The device with the hand bears walls 2.5 times as stiff, and was sound as the device alone.
+TEST(Identification, AHandOnTheDeviceIsDoubtfulWhereItTells) {
+  DeviceParameters known;
+  known.bodies = {{"motor", 0.4, 0.5, 0.0, 0.0}, {"handle", 0.2, 0.3, 0.0, 0.0}};
+  known.links = {{0, 1, 3000.0, 1.0}};
+  known.loop = {0, 0, 1, 1e-3, 0.0};
+  const double alone = true_stiffness(Device(known));
+  for (const std::uint64_t seed : {1U, 2U}) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const Identification free = identify(held_recording({}, seed), Device(known));
+    EXPECT_TRUE(free.trust.sound()) << all_reasons(free.trust);
+    EXPECT_NEAR(free.analysis.critical.stiffness, alone, 0.05 * alone);
+
+    const Identification held = identify(held_recording({0.3, 3.0, 0.0}, seed), Device(known));
+    EXPECT_THAT(all_reasons(held.trust), HasSubstr("a hand on it would be in both"));
+
+    const Identification sprung =
+        identify(held_recording({0.3, 5.0, 300.0}, seed), chain(2, 1e-3), of_a_named_structure());
+    EXPECT_THAT(all_reasons(sprung.trust), HasSubstr("from body1 to the ground"));
+
+    // An operator of the structure is the hand.
+    DeviceParameters with_operator = known;
+    with_operator.user = {0.3, 3.0, 0.0};
+    const Identification beside = identify(held_recording(with_operator.user, seed), Device(with_operator));
+    EXPECT_TRUE(beside.trust.sound()) << all_reasons(beside.trust);
+    EXPECT_THAT(beside.remarks, Contains(Field(&Remark::what, HasSubstr("operator is taken to hold the device"))));
+    DeviceParameters let_go = beside.fit.device.parameters();
+    let_go.user = {};
+    let_go.uncertainty.reset();
+    EXPECT_NEAR(true_stiffness(Device(let_go)), alone, 0.1 * alone);
+  }
+}
+
 }  // namespace
 }  // namespace zwidth

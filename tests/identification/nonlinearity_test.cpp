@@ -11,6 +11,7 @@
 #include "identification/plausibility.hpp"
 #include "zwidth/identification/excitation.hpp"
 #include "zwidth/identification/identification.hpp"
+#include "zwidth/identification/rigid_body_identification.hpp"
 #include "zwidth/identification/time_domain.hpp"
 
 namespace zwidth {
@@ -86,6 +87,23 @@ TEST(Nonlinearity, ASaturatedAmplifierIsDoubtful) {
 TEST(Nonlinearity, ALinearBodyIsNot) {
   for (const std::uint64_t seed : {7U, 8U}) {
     EXPECT_EQ(reasons_in_time({}, seed).find("shows a force"), std::string::npos) << "seed " << seed;
+  }
+}
+
+std::string reasons_of_inverse_dynamics(const Defects& defects, std::uint64_t seed) {
+  std::string all;
+  for (const std::string& each : identify_rigid_body(record_of(defects, seed)).trust.reasons) all += each;
+  return all;
+}
+
+// Inverse dynamics asks the same of its equations, but for the amplifier, which only leaves more unexplained.
+TEST(Nonlinearity, InverseDynamicsAsksToo) {
+  EXPECT_NE(reasons_of_inverse_dynamics({.cogging = 0.03}, 7).find("comes and goes with the position"),
+            std::string::npos);
+  EXPECT_NE(reasons_of_inverse_dynamics({.cubic = 1e7}, 7).find("with the position"), std::string::npos);
+  EXPECT_NE(reasons_of_inverse_dynamics({.saturation = 1.0}, 7).find("stays unexplained"), std::string::npos);
+  for (const std::uint64_t seed : {7U, 8U, 9U}) {
+    EXPECT_EQ(reasons_of_inverse_dynamics({}, seed).find("shows a force"), std::string::npos) << "seed " << seed;
   }
 }
 

@@ -39,6 +39,8 @@ struct RandomRecording {
 struct RecordingFamily {
   double friction_share = 0.25;
   double wrong_structure_share = 0.15;
+  std::size_t bodies = 0;  ///< of the device, at most 5; 0: 1 to 3
+  std::size_t named = 0;   ///< of the structure; 0: as many, or one too few
 };
 
 namespace detail {
@@ -59,7 +61,7 @@ class Draw {
 
 /// A chain of bodies from the motor to the handle.
 inline DeviceParameters random_chain(Draw& draw, std::size_t bodies) {
-  static const std::array names{"motor", "body", "handle"};
+  static const std::array names{"motor", "body", "second", "third", "handle"};
   DeviceParameters device;
   device.name = "random";
   device.loop.sampling_period = std::array{0.5e-3, 1e-3, 2e-3}[draw.below(3)];
@@ -130,7 +132,8 @@ inline std::optional<RandomRecording> random_recording(std::uint64_t seed, const
   detail::Draw draw(seed);
   RandomRecording made;
   made.seed = seed;
-  const std::size_t bodies = std::array<std::size_t, 6>{1, 1, 2, 2, 2, 3}[draw.below(6)];
+  const std::size_t drawn = std::array<std::size_t, 6>{1, 1, 2, 2, 2, 3}[draw.below(6)];
+  const std::size_t bodies = family.bodies > 0 ? family.bodies : drawn;
   DeviceParameters truth = detail::random_chain(draw, bodies);
   const bool handle_sensed = bodies == 2 && draw.chance(0.3);
   if (handle_sensed) truth.loop.sensed = 1;
@@ -178,10 +181,11 @@ inline std::optional<RandomRecording> random_recording(std::uint64_t seed, const
   for (double& value : position) value = resolution * std::round((value + noise * draw.normal() + offset) / resolution);
 
   made.truth = truth;
-  made.right_structure = bodies == 1 || !draw.chance(family.wrong_structure_share);
+  made.right_structure =
+      family.named > 0 ? family.named == bodies : bodies == 1 || !draw.chance(family.wrong_structure_share);
   DeviceParameters structure;
   structure.name = "structure";
-  const std::size_t named = made.right_structure ? bodies : bodies - 1;
+  const std::size_t named = family.named > 0 ? family.named : made.right_structure ? bodies : bodies - 1;
   for (std::size_t i = 0; i < named; ++i) {
     structure.bodies.push_back({"body" + std::to_string(i), 1.0, 1.0, 0.0, 0.0});
     if (i > 0) structure.links.push_back({i - 1, i, 1.0, 1.0});

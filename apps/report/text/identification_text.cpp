@@ -70,8 +70,8 @@ TextTable estimate_table(std::span<const ParameterEstimate> estimates, Motion mo
 std::string limit_text(const Device& device, const Analysis& analysis, const StiffnessBasis& basis) {
   const AnalysedDevice analysed{device, analysis};
   const Motion motion = device.parameters().motion;
-  std::string text = wrap(fmt::format("Critical stiffness of this device, {}: {}.", basis_text(basis, motion),
-                                      critical_stiffness_text(analysis.critical, motion)),
+  std::string text = wrap(fmt::format("Critical stiffness of this device as recorded, {}: {}.",
+                                      basis_text(basis, motion), critical_stiffness_text(analysis.critical, motion)),
                           line_width, 0);
   if (const auto interval = interval_note(analysed)) text += wrap("95 % interval: " + *interval + ".", line_width, 0);
   if (const auto limit = what_limits(analysed)) text += wrap("Limited by " + *limit + ".", line_width, 0);

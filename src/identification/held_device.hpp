@@ -1,0 +1,27 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "zwidth/identification/parameter_fit.hpp"
+#include "zwidth/identification/record_fit.hpp"
+#include "zwidth/remark.hpp"
+
+namespace zwidth::internal {
+
+// Who holds the device while it is recorded is fitted with it: the limit is then that of the device in this hand.
+
+/// What the structure's operator means in a fit; nothing where it has none.
+[[nodiscard]] std::optional<Remark> remark_of_operator(const Device& structure);
+
+/// Why a known structure's held body looks held: heavier than it is, and damped several times as much.
+[[nodiscard]] std::optional<std::string> doubt_of_hand(const Device& structure,
+                                                       const std::vector<ParameterEstimate>& estimates,
+                                                       const std::vector<std::string>& locked);
+
+/// Stiffness of a spring from the held body to the ground that a structure without any lacks, N/m or N m/rad: with it
+/// half of what is unexplained, or less, stays so. Nothing where next to nothing is unexplained, or bodies are locked.
+[[nodiscard]] std::optional<double> missing_spring(const RecordFit& fit, const ParameterFitOptions& options);
+
+}  // namespace zwidth::internal

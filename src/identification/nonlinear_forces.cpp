@@ -1,0 +1,94 @@
+#include "identification/nonlinear_forces.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "identification/time_domain_start.hpp"
+
+namespace zwidth::internal {
+namespace {
+
+constexpr double clear_evidence = 40.0;
+constexpr double notable_share = 0.01;
+
+template <class Function>
+std::vector<double> mapped(std::span<const double> signal, Function function) {
+  std::vector<double> result(signal.size());
+  std::ranges::transform(signal, result.begin(), function);
+  return result;
+}
+
+}  // namespace
+
+std::optional<Nonlinearity> clearest_nonlinearity(
+    std::span<const double> position, std::span<const double> force, Motion motion,
+    const std::function<NonlinearEvidence(const NonlinearForce&)>& evidence_of) {
+  const auto extremes = std::ranges::minmax(position);
+  const double least = extremes.min;  // no structured binding: the closures below capture it
+  const double range = extremes.max - least;
+  const double middle = least + 0.5 * range;
+  const double largest = std::abs(std::ranges::max(force, {}, [](double each) { return std::abs(each); }));
+  if (!(range > 0.0 && largest > 0.0)) return std::nullopt;
+
+  std::optional<Nonlinearity> found;
+  const auto examine = [&](NonlinearForce candidate) {
+    const NonlinearEvidence evidence = evidence_of(candidate);
+    if (!(evidence.chi_squared > clear_evidence && evidence.share > notable_share)) return;
+    if (found && found->evidence.chi_squared >= evidence.chi_squared) return;
+    found = Nonlinearity{std::move(candidate.what), std::move(candidate.remedy), evidence};
+  };
+
+  const auto power = [&](int exponent) {
+    return mapped(position, [=](double x) { return std::pow((x - middle) / range, exponent); });
+  };
+  examine({{power(2), power(3)},
+           false,
+           "a force that changes with the position, but not in proportion to it: a spring that stiffens, gravity on a "
+           "lever, or a stop",
+           "record smaller motion, about the place that matters"});
+
+  const auto beyond = [&](double share) {
+    const double bound = share * largest;
+    return mapped(force, [=](double u) { return std::copysign(std::max(0.0, std::abs(u) - bound), u); });
+  };
+  examine({{beyond(0.25), beyond(0.5), beyond(0.75)},
+           true,
+           "a force that is not in proportion to the recorded one: an amplifier that saturates, or a torque that falls "
+           "at large currents",
+           "record the force that acts, or excite less strongly"});
+
+  constexpr int most_waves = 100;
+  constexpr double least_steps = 20.0;  // of an encoder, per wave: less is its rounding
+  const double step = encoder_step(position);
+  for (int waves = 1; waves <= most_waves && range > least_steps * step * waves; ++waves) {
+    const double wave_number = 2.0 * std::numbers::pi * waves / range;
+    examine(
+        {{mapped(position, [=](double x) { return std::cos(wave_number * (x - least)); }),
+          mapped(position, [=](double x) { return std::sin(wave_number * (x - least)); })},
+         false,
+         fmt::format("a force that comes and goes with the position, about every {:.2g} {}: cogging, gear teeth, or "
+                     "a bearing",
+                     range / waves, motion == Motion::rotary ? "rad" : "m"),
+         "compensate it, or excite more strongly: its share falls with the amplitude"});
+  }
+  return found;
+}
+
+Eigen::MatrixXd outside_linear_terms(Eigen::MatrixXd columns, const Eigen::MatrixXd& linear) {
+  const Eigen::VectorXd before = columns.colwise().norm();
+  columns -= linear * (linear.transpose() * columns).eval();
+  constexpr double own = 1e-4;  // what is less is a linear term but for rounding
+  for (Eigen::Index j = 0; j < columns.cols(); ++j) {
+    const double norm = columns.col(j).norm();
+    columns.col(j) *= norm > own * before(j) ? 1.0 / norm : 0.0;
+  }
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
+  qr.setThreshold(own);
+  return qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), qr.rank());
+}
+
+}  // namespace zwidth::internal
