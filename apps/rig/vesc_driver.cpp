@@ -30,10 +30,12 @@ double torque_constant_of(const SerialLink& link) {
 
 }  // namespace
 
-VescDriver::VescDriver(const SerialLink& link)
+VescDriver::VescDriver(const SerialLink& link) : VescDriver(link, torque_constant_of(link)) {}
+
+VescDriver::VescDriver(const SerialLink& link, double torque_constant)
     : SerialDriver({.name = "vesc:" + link.port, .watchdog = default_watchdog, .bytes_per_cycle = bytes_per_cycle},
                    link, default_baud),
-      torque_constant_(torque_constant_of(link)) {
+      torque_constant_(torque_constant) {
   if (const int fault = values().fault; fault != 0) {
     throw DriverFailed(fmt::format("the drive stands on fault {}; VESC Tool tells its cause", fault));
   }

@@ -148,16 +148,18 @@ TEST(VescDriver, CountsTurns) {
   EXPECT_FALSE(driver.measure()) << "for good";
 }
 
-TEST(VescDriver, NeedsATorqueConstant) {
+// What the device file lacks is said before a port is touched: this one does not exist.
+TEST(SerialDriver, NeedsATorqueConstantBeforeItsPort) {
   DeviceParameters parameters = belt_device().parameters();
   parameters.driver->torque_constant.reset();
-  const Device device(parameters);
-  PtyEmulator emulator(std::make_unique<test::VescFirmware>(), belt_device());
-  try {
-    (void)open_driver("vesc:" + emulator.path(), device, {});
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("driver.torque_constant: is missing"));
+  parameters.driver->torque_per_volt.reset();
+  for (const char* name : {"vesc:/no/such/port", "simplefoc:/no/such/port"}) {
+    try {
+      (void)open_driver(name, Device(parameters), {});
+      ADD_FAILURE() << name;
+    } catch (const Error& error) {
+      EXPECT_THAT(error.what(), HasSubstr("driver.torque_constant: is missing")) << name;
+    }
   }
 }
 
