@@ -12,7 +12,7 @@ namespace {
 constexpr int default_baud = 115200;
 constexpr double default_watchdog = 1.0;               // s, APPCONF_TIMEOUT_MSEC
 constexpr double silence = 1.2;                        // s, after which it must have let go
-constexpr std::int64_t arming_patience = 500'000'000;  // ns
+constexpr std::int64_t arming_patience = 2'000'000'000;  // ns: a busy machine hands answers on late
 constexpr std::int64_t between_looks = 10'000'000;
 constexpr int idle_frames = 3;
 constexpr double most_turns_per_cycle = 0.25;
@@ -26,6 +26,11 @@ double torque_constant_of(const SerialLink& link) {
                 "driver.torque_constant: is missing: a VESC takes a current; must be given, such as \"50 mN m/A\"");
   }
   return *link.drive.torque_constant;
+}
+
+std::optional<std::string> payload_of_values(std::string_view frame) {
+  const auto found = vesc_payload(frame);
+  return found && vesc_values(*found) ? std::optional<std::string>(*found) : std::nullopt;
 }
 
 }  // namespace
@@ -42,12 +47,7 @@ VescDriver::VescDriver(const SerialLink& link, double torque_constant)
 }
 
 VescValues VescDriver::values() {
-  const std::string payload =
-      ask_until_answered(question().view(), [](std::string_view frame) -> std::optional<std::string> {
-        const auto found = vesc_payload(frame);
-        return found && vesc_values(*found) ? std::optional<std::string>(*found) : std::nullopt;
-      });
-  return vesc_values(payload).value_or(VescValues{});
+  return vesc_values(ask_until_answered(question().view(), payload_of_values)).value_or(VescValues{});
 }
 
 void VescDriver::arm() {
@@ -55,8 +55,10 @@ void VescDriver::arm() {
   do {
     tell(torque_frame(0.0).view());
     sleep_until(clock_now() + between_looks);  // its watchdog looks every 10 ms
-    const VescValues found = values();
-    if (found.fault == 0 && !found.has_let_go) {
+    // Asked once, and fed again: questions alone let the watchdog bite meanwhile.
+    const auto payload = ask(question().view(), payload_of_values);
+    const auto found = payload ? vesc_values(*payload) : std::nullopt;
+    if (found && found->fault == 0 && !found->has_let_go) {
       tell(torque_frame(0.0).view());
       last_turns_.reset();
       has_lost_count_ = false;
