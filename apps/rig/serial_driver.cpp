@@ -116,7 +116,11 @@ std::optional<std::string> SerialDriver::ask(std::string_view frame, const Under
 std::string SerialDriver::ask_until_answered(std::string_view frame, const Understood& understood, int tries) {
   for (int i = 0; i < tries; ++i) {
     const std::int64_t begin = clock_now();
-    if (auto text = ask(frame, understood)) return *std::move(text);
+    if (auto text = ask(frame, understood)) {
+      // Answers that are late may still come, and would be taken for those of the next question.
+      if (i > 0) sleep_until(clock_now() + i * setup_patience);
+      return *std::move(text);
+    }
     sleep_until(begin + setup_patience);  // a port that is gone answers at once
   }
   throw DriverFailed("the drive does not answer; check port, power, wiring, and that driver.baud is the drive's");

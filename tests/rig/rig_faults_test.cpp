@@ -244,6 +244,27 @@ TEST_F(RigFault, TheExampleInCIsSuchADrive) {
   EXPECT_EQ(example.line(), "let go\n");
 }
 
+// The file says how it was measured, and analyze takes it.
+TEST_F(RigFault, CheckWritesTheMeasuredDelay) {
+  UdpEmulator emulator(slow_device());
+  const std::string found = folder / "found.toml";
+  const std::string check = ZWIDTH_PROGRAM " rig check " + (folder / "device.toml").string() + " --driver udp:" +
+                            emulator.address() + " --position-limit 1 --duration 1 --output-device " + found +
+                            " > " + (folder / "text").string() + " 2>&1";
+  int status = -1;
+  for (int i = 0; i < 3 && status != 0; ++i) status = std::system(check.c_str());  // a machine that pauses stops it
+  ASSERT_EQ(status, 0) << std::ifstream(folder / "text").rdbuf();
+  const auto device = read_device_file(found);
+  ASSERT_TRUE(device) << device.error().str();
+  EXPECT_GT(device->loop().delay, 0.0);
+  EXPECT_LT(device->loop().delay, period) << "the answer came within its cycle";
+  std::stringstream text;
+  text << std::ifstream(found).rdbuf();
+  EXPECT_THAT(text.str(), testing::StartsWith("# loop.delay: "));
+  EXPECT_THAT(text.str(), HasSubstr("simulate --jitter "));
+  EXPECT_EQ(std::system((ZWIDTH_PROGRAM " analyze " + found + " > /dev/null").c_str()), 0);
+}
+
 TEST_F(RigFault, FirmwareWithoutAWatchdogIsRefused) {
   UdpEmulator emulator(slow_device());
   emulator.set_fault(Fault::no_watchdog);
