@@ -91,7 +91,8 @@ bool time_body(std::size_t cycles) {
 /// What cyclictest's histogram says, by the microsecond; nothing where there is none.
 std::optional<LatencySummary> cyclictest(int seconds, long processor) {
   const std::string command = fmt::format(
-      "cyclictest --quiet --mlockall --priority=80 --affinity={} --interval=1000 --loops={} --histogram=100000 2>/dev/null",
+      "cyclictest --quiet --mlockall --priority=80 --affinity={} --interval=1000 --loops={} --histogram=100000 "
+      "2>/dev/null",
       processor, 1000 * seconds);
   FILE* output = popen(command.c_str(), "r");
   if (output == nullptr) return std::nullopt;
@@ -135,6 +136,7 @@ int main(int count, char** arguments) {
   fmt::print("{:34} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}\n", "us", "count", "p50", "p99", "p99.9", "p99.99", "max");
   const bool is_quick = zwidth::rig::time_body(cycles);
   if (seconds > 0) zwidth::rig::time_clock(seconds);
-  fmt::print("{}\n", is_quick ? "99 % of the bodies within 20 us, nothing allocated, no page touched" : "NOT within 20 us");
+  fmt::print("{}\n",
+             is_quick ? "99 % of the bodies within 20 us, nothing allocated, no page touched" : "NOT within 20 us");
   return is_quick ? 0 : 1;
 }

@@ -73,9 +73,7 @@ constexpr std::pair<std::string_view, std::string_view> options_of_wall[] = {{"s
                                                                              {"safety_factor", "--safety-factor"}};
 
 constexpr std::pair<std::string_view, std::string_view> options_of_drive[] = {
-    {"sampling_period", "--drive-rate"},
-    {"delay", "--drive-delay"},
-    {"estimator_bandwidth", "--estimator-bandwidth"}};
+    {"sampling_period", "--drive-rate"}, {"delay", "--drive-delay"}, {"estimator_bandwidth", "--estimator-bandwidth"}};
 
 /// A limit to take a share of, or the reason why there is none.
 void check_share(const ExportArguments& arguments, const SafeWall& wall) {

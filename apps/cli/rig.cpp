@@ -153,7 +153,8 @@ std::string measured_device(const Rig& rig, const RigCheck& result) {
   const LoopTiming& timing = result.session.timing;
   parameters.loop.delay = timing.delay.p50;
   return fmt::format(
-             "# loop.delay: from asking for the position to having sent the force, the middle of {} cycles of rig check "
+             "# loop.delay: from asking for the position to having sent the force, the middle of {} cycles of rig "
+             "check "
              "on\n# {}; 99 %: {:.3g} s. Cycles began up to {:.3g} s late (99 %): simulate --jitter {:.3g}\n",
              timing.delay.count, rig.arguments.driver, timing.delay.p99, timing.latency.p99, timing.latency.p99) +
          write_device(parameters);
@@ -219,8 +220,8 @@ void run_wall(const Rig& rig) {
   if (arguments.contact == "unilateral") options.controller.contact = ControllerOptions::Contact::unilateral;
   if (arguments.duration) options.duration = *arguments.duration;
   if (arguments.amplitude || arguments.driver == "simulated") options.knock = amplitude_of(rig);
-  const RigWall result = watched(
-      rig, [&](const rig::RigOptions& own) { return rig::render_wall(rig.device, *rig.driver, own, options); });
+  const RigWall result =
+      watched(rig, [&](const rig::RigOptions& own) { return rig::render_wall(rig.device, *rig.driver, own, options); });
   answer(rig, result, result.session);
   if (result.oscillates) throw WorkFailed("an oscillation grew: the wall was taken away");
 }

@@ -100,9 +100,12 @@ void add_rig_arguments(CLI::App& command, RigArguments& arguments) {
   const auto file = [&](const char* name, std::string& value, const char* what) {
     command.add_option(name, value, what)->type_name("FILE");
   };
-  file("--flight-record", arguments.flight_record, "Write the last 60 s of every signal as CSV, however it ended;\nwithout it only where it stopped, and it says where");
+  file("--flight-record", arguments.flight_record,
+       "Write the last 60 s of every signal as CSV, however it ended;\nwithout it only where it stopped, and it says "
+       "where");
   file("--recording", arguments.recording, "measure, identify: write force and position as CSV");
-  file("--output-device", arguments.output_device, "identify: write the device file; check: that of FILE with the\ndelay as measured on a drive");
+  file("--output-device", arguments.output_device,
+       "identify: write the device file; check: that of FILE with the\ndelay as measured on a drive");
   file("--report", arguments.report, "Write all of it as one HTML page");
 }
 

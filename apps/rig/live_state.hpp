@@ -24,9 +24,10 @@ struct LiveState {
 class LiveBoard {
  public:
   void put(const LiveState& state) noexcept {
-    const std::array<double, size> values{state.time,    state.position,        state.force,           state.stiffness,
-                                          state.damping, state.swing.frequency, state.swing.amplitude, state.swing.growth_rate,
-                                          state.worst};
+    const std::array<double, size> values{
+        state.time,    state.position,        state.force,           state.stiffness,
+        state.damping, state.swing.frequency, state.swing.amplitude, state.swing.growth_rate,
+        state.worst};
     for (std::size_t i = 0; i < size; ++i) values_[i].store(values[i], std::memory_order_relaxed);
   }
   [[nodiscard]] LiveState look() const noexcept {

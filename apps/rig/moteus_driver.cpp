@@ -8,8 +8,8 @@ namespace zwidth::rig {
 namespace {
 
 constexpr int default_baud = 921600;
-constexpr double watchdog = 0.1;               // s
-constexpr std::int64_t silence = 250'000'000;  // ns, after which it must have let go
+constexpr double watchdog = 0.1;                         // s
+constexpr std::int64_t silence = 250'000'000;            // ns, after which it must have let go
 constexpr std::int64_t arming_patience = 2'000'000'000;  // a busy machine hands answers on late
 constexpr std::int64_t between_looks = 10'000'000;
 constexpr int idle_frames = 2;

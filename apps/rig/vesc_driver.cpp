@@ -10,8 +10,8 @@ namespace zwidth::rig {
 namespace {
 
 constexpr int default_baud = 115200;
-constexpr double default_watchdog = 1.0;               // s, APPCONF_TIMEOUT_MSEC
-constexpr double silence = 1.2;                        // s, after which it must have let go
+constexpr double default_watchdog = 1.0;                 // s, APPCONF_TIMEOUT_MSEC
+constexpr double silence = 1.2;                          // s, after which it must have let go
 constexpr std::int64_t arming_patience = 2'000'000'000;  // ns: a busy machine hands answers on late
 constexpr std::int64_t between_looks = 10'000'000;
 constexpr int idle_frames = 3;

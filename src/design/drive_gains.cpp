@@ -125,14 +125,15 @@ std::vector<Remark> remarks_of(DriveFirmware firmware, const DriveGains& gains, 
   if (firmware == DriveFirmware::simplefoc && !options.sampling_period) {
     remarks.push_back(note("the loop of the sketch is taken to run at the device's sampling rate: measure it"));
   } else {
-    remarks.push_back(note(fmt::format("the loop closes on the drive: {:g} Hz, {}, and a delay of {}",
-                                       std::round(1.0 / gains.sampling_period),
-                                       options.sampling_period ? "as given" : "its default",
-                                       options.delay ? quantity(gains.delay, "s") : "one period, as is taken")));
+    remarks.push_back(
+        note(fmt::format("the loop closes on the drive: {:g} Hz, {}, and a delay of {}",
+                         std::round(1.0 / gains.sampling_period), options.sampling_period ? "as given" : "its default",
+                         options.delay ? quantity(gains.delay, "s") : "one period, as is taken")));
   }
   if (firmware == DriveFirmware::odrive) {
-    remarks.push_back(note(fmt::format("position and velocity are the estimator's: encoder.config.bandwidth {:g} rad/s, {}",
-                                       bandwidth, options.estimator_bandwidth ? "as given" : "its default")));
+    remarks.push_back(
+        note(fmt::format("position and velocity are the estimator's: encoder.config.bandwidth {:g} rad/s, {}",
+                         bandwidth, options.estimator_bandwidth ? "as given" : "its default")));
   }
   if (firmware == DriveFirmware::odrive || firmware == DriveFirmware::simplefoc) {
     remarks.push_back(
@@ -195,7 +196,8 @@ std::optional<OptionProblem> find_problem(const DriveLoopOptions& options, Drive
   }
   if (firmware != DriveFirmware::odrive) {
     if (!options.estimator_bandwidth) return std::nullopt;
-    return OptionProblem{"estimator_bandwidth", "is given", "is for odrive: the law of this firmware's is not modelled"};
+    return OptionProblem{"estimator_bandwidth", "is given",
+                         "is for odrive: the law of this firmware's is not modelled"};
   }
   const double bandwidth = options.estimator_bandwidth.value_or(default_bandwidth);
   if (bandwidth > 0.0 && bandwidth < 0.5 / period) return std::nullopt;

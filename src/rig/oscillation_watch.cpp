@@ -102,8 +102,7 @@ WatchedSwing OscillationWatch::strongest() const noexcept {
   WatchedSwing swing{most->frequency, most->rise.last, 0.0};
   const bool has_both = most->rise.before > 0.0 && most->rise.last > 0.0;
   if (has_both) {
-    swing.growth_rate =
-        std::log(most->rise.last / most->rise.before) / (static_cast<double>(most->length) * period_);
+    swing.growth_rate = std::log(most->rise.last / most->rise.before) / (static_cast<double>(most->length) * period_);
   }
   return swing;
 }

@@ -102,7 +102,8 @@ TEST_F(Rig, LimitsEndTheSessionAndTheRecordIsThere) {
 
 TEST_F(Rig, WhereNobodySaysWhereARigThatStoppedPutsItsRecordInAPlaceOfItsOwn) {
   const std::string stops = "zwidth rig wall " + lhifam + "--stiffness 4000 --amplitude 50 --position-limit 1e-3 ";
-  const Outcome outcome = run("export XDG_STATE_HOME=$PWD/state; " + stops + "&& exit 9; cat state/zwidth/flight-*.csv");
+  const Outcome outcome =
+      run("export XDG_STATE_HOME=$PWD/state; " + stops + "&& exit 9; cat state/zwidth/flight-*.csv");
   EXPECT_THAT(outcome.errors, HasSubstr("zwidth: flight record: "));
   EXPECT_THAT(outcome.errors, HasSubstr("/state/zwidth/flight-"));
   EXPECT_THAT(outcome.output, HasSubstr("time_s,force,position,velocity,wanted_force,latency_s,stop"));
@@ -121,8 +122,9 @@ TEST_F(Rig, WhereNobodySaysWhereARigThatStoppedPutsItsRecordInAPlaceOfItsOwn) {
 // A line that is written over, about ten times a second; lines as of a log where there is no terminal; no colours where
 // they are not wanted.
 TEST_F(Rig, ATerminalShowsWhatTheLoopDoes) {
-  const std::string wall = "zwidth rig wall " + lhifam +
-                           "--stiffness 20 --real-time --duration 3 --set loop.sampling_period=0.02 --flight-record f.csv";
+  const std::string wall =
+      "zwidth rig wall " + lhifam +
+      "--stiffness 20 --real-time --duration 3 --set loop.sampling_period=0.02 --flight-record f.csv";
   const Outcome seen = run("export TERM=xterm NO_COLOR=1; script -qec '" + wall + "' /dev/null");
   EXPECT_THAT(seen.output, HasSubstr("\r\x1b[K"));
   EXPECT_THAT(seen.output, HasSubstr(" s  K 20 B 0  F "));

@@ -203,8 +203,8 @@ Outcome run_once(const Run& run, const FaultCase& fault) {
   outcome.errors = host.errors();
   if (fault.udp) drive.set_fault(Serial::none, Udp::none);
   outcome.forces_after = drive.nonzero_forces() - from;
-  outcome.is_safe = is_as_told && outcome.forces_after <= most_cycles_after &&
-                    (outcome.force_stays || within(to_let_go, is_zero));
+  outcome.is_safe =
+      is_as_told && outcome.forces_after <= most_cycles_after && (outcome.force_stays || within(to_let_go, is_zero));
   outcome.is_whole = fault.name == "full_disk" ? outcome.errors.find("/dev/full") != std::string::npos
                                                : is_whole_record(run.folder / "host.csv");
   return outcome;
@@ -284,12 +284,13 @@ Tally tally_of(std::string_view driver, const FaultCase& fault, int runs, std::u
 
 int campaign(int runs, std::uint64_t seed, int together, std::string_view one_driver, std::string_view one_fault) {
   fmt::print("{} runs of each, seed {}, {} side by side, period {} s\n", runs, seed, together, period);
-  fmt::print("{:10} {:16} {:>6} {:>6} {:>6} {:>9} {:>9}  {}\n", "driver", "fault", "zero", "whole", "of", "forces", "restarts",
-             "what stopped it");
+  fmt::print("{:10} {:16} {:>6} {:>6} {:>6} {:>9} {:>9}  {}\n", "driver", "fault", "zero", "whole", "of", "forces",
+             "restarts", "what stopped it");
   bool is_safe = true;
   for (const std::string_view driver : {"udp", "odrive", "moteus", "vesc", "simplefoc"}) {
     for (const FaultCase& fault : fault_cases) {
-      const bool is_asked = (one_driver.empty() || one_driver == driver) && (one_fault.empty() || one_fault == fault.name);
+      const bool is_asked =
+          (one_driver.empty() || one_driver == driver) && (one_fault.empty() || one_fault == fault.name);
       if (!is_asked || !is_possible(driver, fault.name)) continue;
       const Tally tally = tally_of(driver, fault, runs, seed, together);
       const bool stays = tally.staying > 0;
@@ -298,8 +299,8 @@ int campaign(int runs, std::uint64_t seed, int together, std::string_view one_dr
                  stays ? "no watchdog: the force stays" : "");
       for (const auto& [stop, count] : tally.stops) fmt::print("{:>62} x {}\n", count, stop);
       std::fflush(stdout);
-      is_safe = is_safe && tally.never_begun == 0 && tally.safe + tally.staying == tally.runs &&
-                tally.whole == tally.runs;
+      is_safe =
+          is_safe && tally.never_begun == 0 && tally.safe + tally.staying == tally.runs && tally.whole == tally.runs;
     }
   }
   fmt::print("{}\n", is_safe ? "all zero in time, every record whole" : "NOT all");

@@ -248,9 +248,9 @@ TEST_F(RigFault, TheExampleInCIsSuchADrive) {
 TEST_F(RigFault, CheckWritesTheMeasuredDelay) {
   UdpEmulator emulator(slow_device());
   const std::string found = folder / "found.toml";
-  const std::string check = ZWIDTH_PROGRAM " rig check " + (folder / "device.toml").string() + " --driver udp:" +
-                            emulator.address() + " --position-limit 1 --duration 1 --output-device " + found +
-                            " > " + (folder / "text").string() + " 2>&1";
+  const std::string check =
+      ZWIDTH_PROGRAM " rig check " + (folder / "device.toml").string() + " --driver udp:" + emulator.address() +
+      " --position-limit 1 --duration 1 --output-device " + found + " > " + (folder / "text").string() + " 2>&1";
   int status = -1;
   for (int i = 0; i < 3 && status != 0; ++i) status = std::system(check.c_str());  // a machine that pauses stops it
   ASSERT_EQ(status, 0) << std::ifstream(folder / "text").rdbuf();

@@ -83,8 +83,8 @@ class Host {
   }
   [[nodiscard]] bool has_ended() {
     siginfo_t info{};
-    return process_ > 0 &&
-           waitid(P_PID, static_cast<id_t>(process_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid != 0;
+    return process_ > 0 && waitid(P_PID, static_cast<id_t>(process_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+           info.si_pid != 0;
   }
   [[nodiscard]] std::string errors() const {
     std::stringstream text;

@@ -51,7 +51,8 @@ class DriveFault : public testing::TestWithParam<DriveKind> {
   [[nodiscard]] bool runs(const PtyEmulator& emulator, Host& rig) {
     const auto has_force = [&] { return emulator.motor().nonzero_forces() > 5; };
     if (within(20s, [&] { return has_force() || rig.has_ended(); }) && has_force()) return true;
-    EXPECT_THAT(rig.errors(), AnyOf(HasSubstr("came late"), HasSubstr("stood still"), HasSubstr("brought no position")));
+    EXPECT_THAT(rig.errors(),
+                AnyOf(HasSubstr("came late"), HasSubstr("stood still"), HasSubstr("brought no position")));
     EXPECT_LT(++pauses, 4) << rig.errors();
     return false;
   }

@@ -30,7 +30,8 @@ class UdpEmulator {
   using Clock = std::chrono::steady_clock;
   static constexpr std::chrono::milliseconds watchdog{100};
 
-  explicit UdpEmulator(const Device& device) : loop_(device, {}), socket_(socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
+  explicit UdpEmulator(const Device& device)
+      : loop_(device, {}), socket_(socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
     sockaddr_in own{};
     own.sin_family = AF_INET;
     own.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
