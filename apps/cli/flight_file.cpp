@@ -9,8 +9,10 @@
 #include <exception>
 #include <filesystem>
 #include <string>
+#include <system_error>
 #include <vector>
 
+#include "cli/outputs.hpp"
 #include "cli/standard_output.hpp"
 #include "report/output_file.hpp"
 
@@ -18,6 +20,8 @@ namespace zwidth::cli {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* flight_option = "--flight-record";
 
 /// An absolute path that a variable holds: others are no place that anybody would find again.
 fs::path directory_in(const char* variable) {
@@ -44,9 +48,13 @@ void keep(const rig::FlightRecorder& recorder) {
   std::string failures;
   for (const fs::path& directory : directories()) {
     const std::string path = directory / name;
+    std::error_code reported_by_the_write;
+    fs::create_directories(directory, reported_by_the_write);
     try {
-      report::make_directory(directory);
-      report::write_whole(path, [&](const report::Sink& sink) { recorder.write(sink); });
+      Outputs file;
+      file.add(flight_option, path);
+      file.put(flight_option, [&](const report::Sink& sink) { recorder.write(sink); });
+      file.commit();
       return write_standard_error(fmt::format("zwidth: flight record: {}\n", path));
     } catch (const report::OutputFailed& failure) {
       failures += fmt::format("zwidth: flight record: {}\n", failure.what());
