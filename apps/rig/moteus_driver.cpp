@@ -8,8 +8,9 @@ namespace zwidth::rig {
 namespace {
 
 constexpr int default_baud = 921600;
-constexpr double watchdog = 0.1;                         // s
-constexpr std::int64_t silence = 250'000'000;            // ns, after which it must have let go
+constexpr double watchdog = 0.1;               // s
+constexpr std::int64_t silence = 250'000'000;  // ns, after which it must have let go
+constexpr std::int64_t refusal_patience = 100'000'000;
 constexpr std::int64_t arming_patience = 2'000'000'000;  // a busy machine hands answers on late
 constexpr std::int64_t between_looks = 10'000'000;
 constexpr int idle_frames = 2;
@@ -29,9 +30,12 @@ MoteusDriver::MoteusDriver(const SerialLink& link)
       id_(link.drive.id.value_or(1)) {
   if (id_ < 1) throw DriverFailed("driver.id is 0; a moteus has 1 to 127");
   // An fdcanusb takes the checksum for a flag that it does not know, and says so.
-  const auto refused = ask(line(moteus_question(id_)).view(), [](std::string_view frame) -> std::optional<std::string> {
-    return frame.starts_with("ERR") ? std::optional<std::string>(frame) : std::nullopt;
-  });
+  const auto refused = ask(
+      line(moteus_question(id_)).view(),
+      [](std::string_view frame) -> std::optional<std::string> {
+        return frame.starts_with("ERR") ? std::optional<std::string>(frame) : std::nullopt;
+      },
+      refusal_patience);
   if (refused) has_checksums_ = moteus_answer(*refused, true).has_value();
   if (mode() == fault_mode) {
     throw DriverFailed(

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int default_baud = 115200;
 constexpr int idle_frames = 2;
-constexpr int tries_while_booting = 30;  // many boards start anew when their port is opened: 2 s
+constexpr int tries_while_booting = 8;  // many boards start anew when their port is opened: 2 s
 constexpr std::string_view machine_readable = "@3\n";
 constexpr std::string_view six_decimals = "#6\n";
 constexpr std::string_view get_angle = "MG6";

@@ -79,6 +79,21 @@ TEST_P(OnDrive, TheWatchdogIsProvedBySilence) {
   EXPECT_TRUE(test::within(std::chrono::seconds(5), [&] { return emulator.motor().force() == 0.0; }));
 }
 
+// On a busy machine: answers that come after their question was given up are not taken for those of the next one, and
+// a watchdog that bites meanwhile does not keep the drive from being armed.
+TEST_P(OnDrive, AWatchdogIsProvedThoughAnswersAreLate) {
+  if (!GetParam().has_watchdog) return;
+  PtyEmulator emulator(GetParam().firmware(), device);
+  const auto driver = GetParam().driver(link(emulator, device, false));
+  emulator.set_lateness(130);  // ms: longer than the patience of 100
+  emulator.set_fault(Fault::late);
+  EXPECT_EQ(driver->proves_watchdog(), true);
+  emulator.set_fault(Fault::none);
+  driver->arm();
+  EXPECT_TRUE(driver->measure());
+  EXPECT_EQ(emulator.motor().nonzero_forces(), 0);
+}
+
 TEST_P(OnDrive, AWatchdogThatDoesNotBiteIsNone) {
   PtyEmulator emulator(GetParam().firmware(), device);
   emulator.set_fault(Fault::no_watchdog);
