@@ -303,8 +303,16 @@ void run_rig(const RigArguments& arguments) {
       if (stop != StopReason::none) keep_flight_record(recorder);
       return;
     }
-    flight.put("--flight-record", [&](const report::Sink& sink) { recorder.write(sink); });
-    flight.commit();
+    try {
+      flight.put("--flight-record", [&](const report::Sink& sink) { recorder.write(sink); });
+      flight.commit();
+    } catch (const report::OutputFailed&) {
+      if (stop != StopReason::none) keep_flight_record(recorder);  // it cannot be made again
+      throw;
+    }
+    if (stop != StopReason::none) {
+      write_standard_error(fmt::format("zwidth: flight record: {}\n", arguments.flight_record));
+    }
   };
   Rig rig{arguments,          device,
           analysis.trust,     outputs,

@@ -90,6 +90,7 @@ class RigFault : public testing::Test {
     std::string name = (std::filesystem::temp_directory_path() / "zwidth_rig_XXXXXX").string();
     ASSERT_NE(mkdtemp(name.data()), nullptr);
     folder = name;
+    setenv("XDG_STATE_HOME", (folder / "state").c_str(), 1);
     std::ofstream(folder / "device.toml") << write_device(slow_device().parameters());
   }
   void TearDown() override { std::filesystem::remove_all(folder); }
@@ -207,6 +208,8 @@ TEST_F(RigFault, AFullDiskForTheRecord) {
     host.send(SIGINT);
     EXPECT_EQ(host.status(), 1);
     EXPECT_THAT(host.errors(), HasSubstr("/dev/full"));
+    EXPECT_THAT(host.errors(), HasSubstr("flight record: " + (folder / "state/zwidth/flight-").string()))
+        << "elsewhere";
     EXPECT_TRUE(within(5s, [&] { return emulator.force() == 0.0; }));
   }
 }
