@@ -26,10 +26,15 @@
 namespace zwidth::cli {
 namespace {
 
+constexpr double lowest_rate = 1.0;  // Hz, of a drive's loop
+constexpr double highest_rate = 1e7;
+
 struct ExportArguments {
   DeviceArguments devices;
   std::string format;
   std::optional<DriveFirmware> units;
+  DriveLoopOptions drive_loop;
+  std::optional<double> drive_rate;  // Hz
   std::string output;
   std::string contact = "bilateral";
   std::optional<double> stiffness;
@@ -50,6 +55,9 @@ void check(const ExportArguments& arguments, const CLI::App& command) {
                                    : "--format: is missing; must be a value, or give --units");
   }
   only_for("--contact", {"c"});
+  for (const char* option : {"--drive-rate", "--drive-delay", "--estimator-bandwidth"}) {
+    if (!arguments.units && command.count(option) > 0) throw BadInput(fmt::format("{}: is for --units", option));
+  }
   if (arguments.units) {
     if (command.count("--safety-factor") == 0) return;
     throw BadInput(
@@ -63,6 +71,9 @@ void check(const ExportArguments& arguments, const CLI::App& command) {
 /// The library's members as the options that set them.
 constexpr std::pair<std::string_view, std::string_view> options_of_wall[] = {{"stiffness", "--stiffness"},
                                                                              {"safety_factor", "--safety-factor"}};
+
+constexpr std::pair<std::string_view, std::string_view> options_of_drive[] = {
+    {"sampling_period", "--drive-rate"}, {"delay", "--drive-delay"}, {"estimator_bandwidth", "--estimator-bandwidth"}};
 
 /// A limit to take a share of, or the reason why there is none.
 void check_share(const ExportArguments& arguments, const SafeWall& wall) {
@@ -125,7 +136,15 @@ std::string exported_for_drive(const ExportArguments& arguments) {
   if (const auto problem = find_problem(*arguments.units, wall.device)) {
     throw BadInput(fmt::format("{}: {}: {}; {}", file, problem->member, problem->what, problem->allowed));
   }
-  const DriveGains gains = worked(file, [&] { return drive_gains(wall.device, *arguments.units); });
+  DriveLoopOptions loop = arguments.drive_loop;
+  if (const auto rate = arguments.drive_rate) {
+    if (!(*rate >= lowest_rate && *rate <= highest_rate)) {
+      throw BadInput(fmt::format("--drive-rate: is {} Hz; must be {} to {:g}", *rate, lowest_rate, highest_rate));
+    }
+    loop.sampling_period = 1.0 / *rate;
+  }
+  if (const auto problem = find_problem(loop, *arguments.units, wall.device)) refuse(*problem, options_of_drive);
+  const DriveGains gains = worked(file, [&] { return drive_gains(wall.device, *arguments.units, loop); });
   const Trust& trust = gains.on_drive.trust;
   if (trust.refused()) throw WorkFailed(fmt::format("{}: closed on the drive: {}", file, report::verdict_text(trust)));
   if (!gains.on_drive.wall->stable) {
@@ -191,6 +210,19 @@ void add_export(CLI::App& app) {
                                                                        {"simplefoc", DriveFirmware::simplefoc},
                                                                        {"openffboard", DriveFirmware::openffboard},
                                                                        {"vesc", DriveFirmware::vesc}}));
+  command
+      ->add_option("--drive-rate", arguments->drive_rate,
+                   "--units: rate of the drive's own loop, instead of its default\n"
+                   "(simplefoc: of the sketch, measured)")
+      ->type_name("HZ");
+  command
+      ->add_option("--drive-delay", arguments->drive_loop.delay,
+                   "--units: delay of that loop; one of its periods unless given")
+      ->type_name("S");
+  command
+      ->add_option("--estimator-bandwidth", arguments->drive_loop.estimator_bandwidth,
+                   "--units odrive: encoder.config.bandwidth; 1000 unless given")
+      ->type_name("RAD/S");
   command->add_option("-o,--output", arguments->output, "File to write; standard output unless given")
       ->type_name("FILE");
   command
@@ -216,7 +248,9 @@ void add_export(CLI::App& app) {
       "  zwidth export devices/lhifam.toml --format c --stiffness 3000 --contact unilateral -o wall.c\n"
       "  zwidth export devices/lhifam.toml --format c --safety-factor 0.5 --output wall.c\n"
       "  zwidth export devices/lhifam.toml --format chai3d --safety-factor 0.5\n"
-      "  zwidth export devices/lhifam.toml --units moteus --stiffness 3000 --set driver.travel=0.06");
+      "  zwidth export devices/lhifam.toml --units moteus --stiffness 3000 --set driver.travel=0.06\n"
+      "  zwidth export devices/lhifam.toml --units odrive --stiffness 3000 --set wall.damping=5 \\\n"
+      "    --set driver.travel=0.06 --drive-rate 8000 --estimator-bandwidth 2000");
   command->callback([arguments, command] {
     check(*arguments, *command);
     run_export(*arguments);

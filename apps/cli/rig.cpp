@@ -8,6 +8,8 @@
 #include <string_view>
 #include <utility>
 
+#include "cli/flight_file.hpp"
+#include "cli/live_line.hpp"
 #include "cli/option_refusal.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/remark_lines.hpp"
@@ -145,10 +147,26 @@ std::string recording_csv(const Recording& recording) {
   return csv.text();
 }
 
+/// The device of the file with the delay that was measured, and how it was.
+std::string measured_device(const Rig& rig, const RigCheck& result) {
+  DeviceParameters parameters = rig.device.parameters();
+  const LoopTiming& timing = result.session.timing;
+  parameters.loop.delay = timing.delay.p50;
+  return fmt::format(
+             "# loop.delay: from asking for the position to having sent the force, the middle of {} cycles of rig "
+             "check "
+             "on\n# {}; 99 %: {:.3g} s. Cycles began up to {:.3g} s late (99 %): simulate --jitter {:.3g}\n",
+             timing.delay.count, rig.arguments.driver, timing.delay.p99, timing.latency.p99, timing.latency.p99) +
+         write_device(parameters);
+}
+
 void run_check(const Rig& rig) {
   const double duration = rig.arguments.duration.value_or(checked_duration);
   RigCheck result = rig::check(rig.device, *rig.driver, rig.options, duration);
   result.watchdog_proved = rig.watchdog_proved;
+  if (result.session.stop == StopReason::none) {
+    rig.outputs.put("--output-device", [&] { return measured_device(rig, result); });
+  }
   answer(rig, result, result.session);
 }
 
@@ -186,6 +204,15 @@ void run_relay_on_rig(const Rig& rig) {
   answer(rig, result, result.session);
 }
 
+/// What work() returns; meanwhile people see what the loop does.
+template <typename Work>
+auto watched(const Rig& rig, const Work& work) {
+  LiveLine line(units_of(rig.device.parameters().motion), !rig.driver->facts().lock_step);
+  rig::RigOptions own = rig.options;
+  own.watcher = [&line](const rig::LiveState& state) { line.show(state); };
+  return work(own);
+}
+
 void run_wall(const Rig& rig) {
   const RigArguments& arguments = rig.arguments;
   rig::WallOptions options;
@@ -193,7 +220,8 @@ void run_wall(const Rig& rig) {
   if (arguments.contact == "unilateral") options.controller.contact = ControllerOptions::Contact::unilateral;
   if (arguments.duration) options.duration = *arguments.duration;
   if (arguments.amplitude || arguments.driver == "simulated") options.knock = amplitude_of(rig);
-  const RigWall result = rig::render_wall(rig.device, *rig.driver, rig.options, options);
+  const RigWall result =
+      watched(rig, [&](const rig::RigOptions& own) { return rig::render_wall(rig.device, *rig.driver, own, options); });
   answer(rig, result, result.session);
   if (result.oscillates) throw WorkFailed("an oscillation grew: the wall was taken away");
 }
@@ -209,8 +237,8 @@ void run_limit(const Rig& rig) {
     throw BadInput("--from, --ceiling: missing; no finite limit is predicted to search around");
   }
   if (const auto problem = find_problem(options.search)) refuse(*problem, options_of_rig);
-  ProgressLine line("raising the stiffness");
-  const RigLimit result = rig::measure_limit(rig.device, *rig.driver, rig.options, options, line.progress());
+  const RigLimit result = watched(
+      rig, [&](const rig::RigOptions& own) { return rig::measure_limit(rig.device, *rig.driver, own, options, {}); });
   answer(rig, result, result.session);
 }
 
@@ -270,9 +298,21 @@ void run_rig(const RigArguments& arguments) {
   const Analysis analysis = analyze(device, limit_and_wall_only());
   check_permission(arguments, analysis.trust);
   if (arguments.action == "wall") check_wall(arguments, device, analysis);
-  options.record = [&](const rig::FlightRecorder& recorder) {
-    flight.put("--flight-record", [&](const report::Sink& sink) { recorder.write(sink); });
-    flight.commit();
+  options.record = [&](const rig::FlightRecorder& recorder, StopReason stop) {
+    if (arguments.flight_record.empty()) {
+      if (stop != StopReason::none) keep_flight_record(recorder);
+      return;
+    }
+    try {
+      flight.put("--flight-record", [&](const report::Sink& sink) { recorder.write(sink); });
+      flight.commit();
+    } catch (const report::OutputFailed&) {
+      if (stop != StopReason::none) keep_flight_record(recorder);  // it cannot be made again
+      throw;
+    }
+    if (stop != StopReason::none) {
+      write_standard_error(fmt::format("zwidth: flight record: {}\n", arguments.flight_record));
+    }
   };
   Rig rig{arguments,          device,
           analysis.trust,     outputs,

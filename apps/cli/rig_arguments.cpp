@@ -32,7 +32,7 @@ constexpr std::array<OptionOfActions, 13> options_of_actions{
      {"--trials", "relay "},
      {"--hysteresis", "relay "},
      {"--recording", "measure identify "},
-     {"--output-device", "identify "}}};
+     {"--output-device", "check identify "}}};
 
 void add_work_options(CLI::App& command, RigArguments& arguments) {
   const auto add = [&](const char* name, auto& value, const char* what, const char* type) {
@@ -100,9 +100,12 @@ void add_rig_arguments(CLI::App& command, RigArguments& arguments) {
   const auto file = [&](const char* name, std::string& value, const char* what) {
     command.add_option(name, value, what)->type_name("FILE");
   };
-  file("--flight-record", arguments.flight_record, "Write the last 60 s of every signal as CSV, however it ended");
+  file("--flight-record", arguments.flight_record,
+       "Write the last 60 s of every signal as CSV, however it ended;\nwithout it only where it stopped, and it says "
+       "where");
   file("--recording", arguments.recording, "measure, identify: write force and position as CSV");
-  file("--output-device", arguments.output_device, "identify: write the device file");
+  file("--output-device", arguments.output_device,
+       "identify: write the device file; check: that of FILE with the\ndelay as measured on a drive");
   file("--report", arguments.report, "Write all of it as one HTML page");
 }
 
@@ -113,7 +116,12 @@ void check_rig_arguments(const CLI::App& command, const RigArguments& arguments)
       throw BadInput(fmt::format("{}: is not for rig {}", option, arguments.action));
     }
   }
-  if (arguments.driver == "simulated") return;
+  if (arguments.driver == "simulated") {
+    if (arguments.action == "check" && command.count("--output-device") > 0) {
+      throw BadInput("--output-device: a simulated device has the delay of its file: check a drive");
+    }
+    return;
+  }
   if (!rig::is_driver_name(arguments.driver)) {
     throw BadInput(fmt::format("--driver: {} is none; {}", arguments.driver, rig::driver_names));
   }

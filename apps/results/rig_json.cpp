@@ -100,7 +100,8 @@ Json rig_json(const Device& device, const RigCheck& check) {
   json["watchdog_proved"] = check.watchdog_proved;
   const LoopTiming& timing = check.session.timing;
   const bool has_clock = timing.delay.count > 0;
-  json["measured_delay_s"] = has_clock ? Json(timing.delay.p50) : Json(nullptr);
+  const bool has_delay = has_clock && check.session.driver != "simulated";  // whose delay is its file's
+  json["measured_delay_s"] = has_delay ? Json(timing.delay.p50) : Json(nullptr);
   json["measured_jitter_s"] = has_clock ? Json(timing.latency.p99) : Json(nullptr);
   return json;
 }

@@ -22,13 +22,10 @@ class LatencyHistogram {
     max_ = std::max(max_, value);
   }
 
+  [[nodiscard]] double max() const noexcept { return 1e-9 * static_cast<double>(max_); }  ///< s
+
   [[nodiscard]] LatencySummary summary() const {
-    return {count_,
-            percentile(0.5),
-            percentile(0.99),
-            percentile(0.999),
-            percentile(0.9999),
-            1e-9 * static_cast<double>(max_)};
+    return {count_, percentile(0.5), percentile(0.99), percentile(0.999), percentile(0.9999), max()};
   }
 
  private:

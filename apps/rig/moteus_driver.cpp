@@ -10,7 +10,8 @@ namespace {
 constexpr int default_baud = 921600;
 constexpr double watchdog = 0.1;               // s
 constexpr std::int64_t silence = 250'000'000;  // ns, after which it must have let go
-constexpr std::int64_t arming_patience = 500'000'000;
+constexpr std::int64_t refusal_patience = 100'000'000;
+constexpr std::int64_t arming_patience = 2'000'000'000;  // a busy machine hands answers on late
 constexpr std::int64_t between_looks = 10'000'000;
 constexpr int idle_frames = 2;
 
@@ -29,9 +30,12 @@ MoteusDriver::MoteusDriver(const SerialLink& link)
       id_(link.drive.id.value_or(1)) {
   if (id_ < 1) throw DriverFailed("driver.id is 0; a moteus has 1 to 127");
   // An fdcanusb takes the checksum for a flag that it does not know, and says so.
-  const auto refused = ask(line(moteus_question(id_)).view(), [](std::string_view frame) -> std::optional<std::string> {
-    return frame.starts_with("ERR") ? std::optional<std::string>(frame) : std::nullopt;
-  });
+  const auto refused = ask(
+      line(moteus_question(id_)).view(),
+      [](std::string_view frame) -> std::optional<std::string> {
+        return frame.starts_with("ERR") ? std::optional<std::string>(frame) : std::nullopt;
+      },
+      refusal_patience);
   if (refused) has_checksums_ = moteus_answer(*refused, true).has_value();
   if (mode() == fault_mode) {
     throw DriverFailed(
@@ -50,9 +54,9 @@ int MoteusDriver::mode() {
 }
 
 void MoteusDriver::arm() {
-  tell(line(moteus_stop(id_)).view());
   const std::int64_t until = clock_now() + arming_patience;
   do {
+    tell(line(moteus_stop(id_)).view());  // each time: its watchdog may bite while an answer is under way
     tell(torque_frame(0.0).view());
     if (mode() == position_mode) {
       tell(torque_frame(0.0).view());
@@ -65,12 +69,15 @@ void MoteusDriver::arm() {
 }
 
 std::optional<bool> MoteusDriver::proves_watchdog() {
-  arm();
-  sleep_until(clock_now() + silence);
-  const bool has_let_go = mode() == timeout_mode;
-  if (!has_let_go) set_watchdog(std::nullopt);
-  send_idle();
-  return has_let_go;
+  for (int i = 0; i < proofs; ++i) {
+    arm();
+    sleep_until(clock_now() + silence);
+    const bool has_let_go = mode() == timeout_mode;
+    send_idle();
+    if (has_let_go) return true;
+  }
+  set_watchdog(std::nullopt);
+  return false;
 }
 
 SerialDriver::Heard MoteusDriver::hear(std::string_view frame) noexcept {

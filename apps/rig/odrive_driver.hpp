@@ -28,6 +28,7 @@ class OdriveDriver : public SerialDriver {
  private:
   [[nodiscard]] std::string property(std::string_view name);
   void set_property(std::string_view name, std::string_view value);
+  void request_closed_loop();
   [[nodiscard]] long error();
 
   int axis_;

@@ -5,7 +5,6 @@
 #include <numbers>
 #include <utility>
 
-#include "rig/rig_run.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/quantity.hpp"
 #include "zwidth/stability/any_user.hpp"
@@ -72,9 +71,9 @@ Recording recording_of(Played played, const Device& device, const std::string& n
 }
 
 /// Ends the session, and hands its record over.
-RigSession ended(RigRun& run, const RigOptions& options) {
+RigSession ended(RigRun& run, const RigOptions& options, StopReason otherwise = StopReason::none) {
   RigSession session = run.end();
-  if (options.record) options.record(run.recorder());
+  if (options.record) options.record(run.recorder(), session.stop != StopReason::none ? session.stop : otherwise);
   return session;
 }
 
@@ -253,9 +252,9 @@ RigWall render_wall(const Device& device, Driver& driver, const RigOptions& opti
     segment.force.insert(segment.force.end(), knock.begin(), knock.end());
     after = segment.watch_from = std::min(segment.cycles, segment.force.size());
   }
-  RigRun run(driver, options.limits, period);
+  RigRun run(driver, options.limits, period, options.watcher);
   const Played played = run.play(segment);
-  result.session = ended(run, options);
+  result.session = ended(run, options, played.stop);
   result.oscillates = played.stop == StopReason::oscillation;
   result.peak_force = largest(played.force);
   result.peak_position = largest(played.position);
@@ -277,7 +276,7 @@ RigLimit measure_limit(const Device& device, Driver& driver, const RigOptions& o
   const double period = device.loop().sampling_period;
   LimitSearch search(limit.search);
   const std::vector<double> knock = knock_at(frequency_of(result.predicted), limit.knock, period);
-  RigRun run(driver, options.limits, period);
+  RigRun run(driver, options.limits, period, options.watcher);
   Segment holding;
   holding.controller = wall_of(device, limit.search.start);
   holding.cycles = cycles_of(0.5 * limit.dwell, device);

@@ -5,6 +5,7 @@
 
 #include "rig/driver.hpp"
 #include "rig/flight_recorder.hpp"
+#include "rig/rig_run.hpp"
 #include "zwidth/model/device.hpp"
 #include "zwidth/option_problem.hpp"
 #include "zwidth/progress.hpp"
@@ -15,7 +16,9 @@ namespace zwidth::rig {
 /// What the actions share. Each ends with zero force, whatever happens, and then hands over what the recorder holds.
 struct RigOptions {
   SafetyLimits limits;
-  std::function<void(const FlightRecorder&)> record = {};
+  /// Takes the record, and why the session ended: none where it came to its end, oscillation where a wall was taken away.
+  std::function<void(const FlightRecorder&, StopReason)> record = {};
+  Watcher watcher = {};  ///< of wall and limit
 };
 
 struct MeasureOptions {

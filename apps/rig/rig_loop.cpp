@@ -21,7 +21,9 @@ RunningSegment::RunningSegment(const Segment& segment, double sampling_period)
       force_(segment.cycles),
       position_(segment.cycles),
       watch_from_(segment.watch_from),
-      ramps_(segment.ramps) {
+      ramps_(segment.ramps),
+      stiffness_(segment.controller.kind == ControllerOptions::Kind::wall ? segment.controller.stiffness : 0.0),
+      damping_(segment.controller.kind == ControllerOptions::Kind::wall ? segment.controller.damping : 0.0) {
   added_.resize(segment.cycles, 0.0);
 }
 
@@ -34,6 +36,12 @@ bool RunningSegment::sent(double force, std::optional<double> position) noexcept
   if (cycle_ >= watch_from_ && watch_.update(last_position_)) stop_ = StopReason::oscillation;
   ++cycle_;
   return cycle_ == force_.size() || stop_ != StopReason::none;
+}
+
+void RunningSegment::show(LiveState& state) const noexcept {
+  state.stiffness = stiffness_;
+  state.damping = damping_;
+  state.swing = watch_.strongest();
 }
 
 Played RunningSegment::played() {
@@ -100,11 +108,19 @@ void RigLoop::cycle(std::int64_t now, std::int64_t due) noexcept {
     stopped_at_ = time;
     stopped_.store(stop, std::memory_order_release);
   }
+  LiveState live;
+  live.time = time;
+  live.position = position.value_or(origin_) - origin_;
+  live.force = force;
+  live.worst = body_.max();
   if (segment != nullptr) {
     if (stop != StopReason::none) segment->stop(stop);
     const auto relative = position ? std::optional(*position - origin_) : std::nullopt;
-    if (segment->sent(force, relative) || stop != StopReason::none) finish(segment);
+    const bool is_over = segment->sent(force, relative) || stop != StopReason::none;
+    segment->show(live);
+    if (is_over) finish(segment);
   }
+  board_.put(live);
   const std::int64_t end = clock_now();
   body_.add(end - begin);
   if (has_clock_) delay_.add(end - begin);

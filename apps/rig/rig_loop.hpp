@@ -9,6 +9,7 @@
 #include "rig/driver.hpp"
 #include "rig/flight_recorder.hpp"
 #include "rig/latency_histogram.hpp"
+#include "rig/live_state.hpp"
 #include "zwidth/control/sampled_controller.hpp"
 #include "zwidth/rig/force_guard.hpp"
 #include "zwidth/rig/oscillation_watch.hpp"
@@ -43,6 +44,8 @@ class RunningSegment {
   /// What was sent for it. True: the segment is over.
   bool sent(double force, std::optional<double> position) noexcept;
   void stop(StopReason reason) noexcept { stop_ = reason; }
+  /// The wall and its oscillation, as they are now.
+  void show(LiveState& state) const noexcept;
 
   /// The force has to grow from zero, from this cycle on.
   [[nodiscard]] bool begins_ramp() const noexcept { return ramps_ && cycle_ == 0; }
@@ -57,6 +60,8 @@ class RunningSegment {
   std::vector<double> position_;
   std::size_t watch_from_;
   bool ramps_;
+  double stiffness_;
+  double damping_;
   std::size_t cycle_ = 0;
   double last_position_ = 0.0;
   StopReason stop_ = StopReason::none;
@@ -81,6 +86,8 @@ class RigLoop {
   [[nodiscard]] StopReason stopped() const noexcept { return stopped_.load(std::memory_order_acquire); }
   [[nodiscard]] std::uint64_t cycles() const noexcept { return cycles_.load(std::memory_order_relaxed); }
   [[nodiscard]] bool has_clock() const noexcept { return has_clock_; }
+  /// What it does now; from any thread.
+  [[nodiscard]] LiveState look() const noexcept { return board_.look(); }
   /// When the loop does not run.
   [[nodiscard]] const FlightRecorder& recorder() const noexcept { return recorder_; }
   [[nodiscard]] LoopTiming timing() const;
@@ -95,6 +102,7 @@ class RigLoop {
   bool has_clock_;
   ForceGuard guard_;
   FlightRecorder recorder_;
+  LiveBoard board_;
   LatencyHistogram latency_;
   LatencyHistogram between_;
   LatencyHistogram body_;

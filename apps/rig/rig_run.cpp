@@ -13,7 +13,8 @@ namespace {
 
 constexpr std::int64_t shortest_look = 1'000'000;  // ns, between looks of the watchdog
 constexpr auto wait_for_loop = std::chrono::milliseconds(2);
-constexpr unsigned cycles_between_looks_at_signals = 64;  // in lock step
+constexpr unsigned cycles_between_looks = 64;  // at signals and at what the watcher waits for, in lock step
+constexpr auto between_tellings = std::chrono::milliseconds(100);
 
 std::atomic<bool> is_interrupted = false;
 static_assert(std::atomic<bool>::is_always_lock_free);
@@ -35,8 +36,13 @@ InterruptsStopRigs::~InterruptsStopRigs() {
   std::signal(SIGHUP, SIG_DFL);
 }
 
-RigRun::RigRun(Driver& driver, const SafetyLimits& limits, double sampling_period)
-    : driver_(driver), limits_(limits), period_(sampling_period), loop_(driver, limits, sampling_period) {
+RigRun::RigRun(Driver& driver, const SafetyLimits& limits, double sampling_period, Watcher watcher)
+    : driver_(driver),
+      limits_(limits),
+      period_(sampling_period),
+      loop_(driver, limits, sampling_period),
+      watcher_(std::move(watcher)),
+      told_(std::chrono::steady_clock::now()) {
   if (loop_.has_clock()) remarks_ = lock_memory();
   driver_.arm();
   if (!loop_.has_clock()) return;
@@ -98,6 +104,16 @@ void RigRun::watch() noexcept {
   }
 }
 
+void RigRun::tell_watcher() noexcept {
+  if (!watcher_ || std::chrono::steady_clock::now() - told_ < between_tellings) return;
+  told_ = std::chrono::steady_clock::now();
+  try {
+    watcher_(loop_.look());
+  } catch (...) {  // the loop has the segment: whoever watches must not end the wait for it
+    watcher_ = {};
+  }
+}
+
 Played RigRun::play(const Segment& segment) {
   if (segment.cycles == 0 || is_stopped()) return {{}, {}, loop_.stopped()};
   RunningSegment running(segment, period_);
@@ -105,8 +121,12 @@ Played RigRun::play(const Segment& segment) {
   for (unsigned k = 0; !loop_.is_idle(); ++k) {
     if (loop_.has_clock()) {
       std::this_thread::sleep_for(wait_for_loop);
+      tell_watcher();
     } else {
-      if (k % cycles_between_looks_at_signals == 0 && is_interrupted) loop_.request_stop(StopReason::interrupted);
+      if (k % cycles_between_looks == 0) {
+        if (is_interrupted) loop_.request_stop(StopReason::interrupted);
+        tell_watcher();
+      }
       loop_.cycle(0, 0);
     }
   }

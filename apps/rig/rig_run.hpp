@@ -1,6 +1,8 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
+#include <functional>
 #include <optional>
 #include <thread>
 #include <utility>
@@ -21,6 +23,9 @@ class InterruptsStopRigs {
   InterruptsStopRigs& operator=(const InterruptsStopRigs&) = delete;
 };
 
+/// Told about ten times a second what the loop does, by the thread that waits for it: never by the loop's own.
+using Watcher = std::function<void(const LiveState&)>;
+
 /// A session on a drive: arms it, runs the loop, and whatever happens leaves it with zero force.
 ///
 /// In lock step cycles run in play(); else in a thread of their own on the clock, with a watchdog beside it: one that
@@ -28,7 +33,7 @@ class InterruptsStopRigs {
 class RigRun {
  public:
   /// Throws DriverFailed, and Error where find_problem(limits) finds one.
-  RigRun(Driver& driver, const SafetyLimits& limits, double sampling_period);
+  RigRun(Driver& driver, const SafetyLimits& limits, double sampling_period, Watcher watcher = {});
   RigRun(const RigRun&) = delete;
   RigRun& operator=(const RigRun&) = delete;
   ~RigRun();
@@ -45,11 +50,14 @@ class RigRun {
   void run_on_clock() noexcept;
   void watch() noexcept;
   void halt() noexcept;
+  void tell_watcher() noexcept;
 
   Driver& driver_;
   SafetyLimits limits_;
   double period_;
   RigLoop loop_;
+  Watcher watcher_;
+  std::chrono::steady_clock::time_point told_;
   std::optional<InterruptsStopRigs> interrupts_{std::in_place};  // until the force is zero
   std::vector<Remark> remarks_;
   std::vector<Remark> thread_remarks_;

@@ -13,7 +13,6 @@ namespace zwidth::rig {
 namespace {
 
 constexpr std::int64_t lock_step_patience = 500'000'000;
-constexpr std::int64_t setup_patience = 100'000'000;  // ns, for an answer while nothing runs
 constexpr double cycles_within_watchdog = 2.0;
 
 int baud_of(const SerialLink& link, int otherwise) { return link.drive.baud.value_or(otherwise); }
@@ -101,10 +100,11 @@ std::optional<double> SerialDriver::measure() noexcept {
   return std::nullopt;
 }
 
-std::optional<std::string> SerialDriver::ask(std::string_view frame, const Understood& understood) {
+std::optional<std::string> SerialDriver::ask(std::string_view frame, const Understood& understood,
+                                             std::int64_t patience) {
   forget_input();
   tell(frame);
-  const std::int64_t until = clock_now() + setup_patience;
+  const std::int64_t until = clock_now() + patience;
   while (fill(until)) {
     for (std::string_view answer = next_frame(); !answer.empty(); answer = next_frame()) {
       if (auto text = understood(answer)) return text;
@@ -114,9 +114,14 @@ std::optional<std::string> SerialDriver::ask(std::string_view frame, const Under
 }
 
 std::string SerialDriver::ask_until_answered(std::string_view frame, const Understood& understood, int tries) {
+  const std::int64_t first = clock_now();
   for (int i = 0; i < tries; ++i) {
     const std::int64_t begin = clock_now();
-    if (auto text = ask(frame, understood)) return *std::move(text);
+    if (auto text = ask(frame, understood)) {
+      // Those to the questions after the first may still come, and would be taken for answers to the next one.
+      if (i > 0) sleep_until(clock_now() + (clock_now() - first));
+      return *std::move(text);
+    }
     sleep_until(begin + setup_patience);  // a port that is gone answers at once
   }
   throw DriverFailed("the drive does not answer; check port, power, wiring, and that driver.baud is the drive's");

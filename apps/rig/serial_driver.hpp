@@ -54,10 +54,12 @@ class SerialDriver : public Driver {
 
   // While nothing runs on the clock:
   using Understood = std::function<std::optional<std::string>(std::string_view frame)>;
+  static constexpr std::int64_t setup_patience = 500'000'000;  ///< ns, for an answer: a busy machine hands it on late
   /// Writes the frame, and waits for what is understood of those that come; nothing where none is.
-  [[nodiscard]] std::optional<std::string> ask(std::string_view frame, const Understood& understood);
+  [[nodiscard]] std::optional<std::string> ask(std::string_view frame, const Understood& understood,
+                                               std::int64_t patience = setup_patience);
   /// The same, several times if need be; throws DriverFailed where the drive never answers.
-  [[nodiscard]] std::string ask_until_answered(std::string_view frame, const Understood& understood, int tries = 10);
+  [[nodiscard]] std::string ask_until_answered(std::string_view frame, const Understood& understood, int tries = 4);
   /// Throws DriverFailed where the port is full.
   void tell(std::string_view frame);
   void forget_input() noexcept;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int default_baud = 115200;
 constexpr int idle_frames = 2;
-constexpr int tries_while_booting = 30;  // many boards start anew when their port is opened: 2 s
+constexpr int tries_while_booting = 8;  // many boards start anew when their port is opened: 2 s
 constexpr std::string_view machine_readable = "@3\n";
 constexpr std::string_view six_decimals = "#6\n";
 constexpr std::string_view get_angle = "MG6";
@@ -25,10 +25,16 @@ double constant(const std::optional<double>& given, std::string_view key, std::s
               fmt::format("driver.{}: is missing: the sketch controls torque in {}; must be given", key, unit));
 }
 
+/// Either may do; which one the sketch needs it tells on the line alone.
+const std::string& checked_port(const SerialLink& link) {
+  if (!link.drive.torque_per_volt) (void)constant(link.drive.torque_constant, "torque_constant", "amperes");
+  return link.port;
+}
+
 }  // namespace
 
 SimplefocDriver::SimplefocDriver(const SerialLink& link)
-    : SerialDriver({.name = "simplefoc:" + link.port, .bytes_per_cycle = bytes_per_cycle}, link, default_baud),
+    : SerialDriver({.name = "simplefoc:" + checked_port(link), .bytes_per_cycle = bytes_per_cycle}, link, default_baud),
       motor_(link.drive.command),
       torque_per_target_(torque_per_target()) {}
 

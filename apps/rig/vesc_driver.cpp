@@ -10,9 +10,9 @@ namespace zwidth::rig {
 namespace {
 
 constexpr int default_baud = 115200;
-constexpr double default_watchdog = 1.0;               // s, APPCONF_TIMEOUT_MSEC
-constexpr double silence = 1.2;                        // s, after which it must have let go
-constexpr std::int64_t arming_patience = 500'000'000;  // ns
+constexpr double default_watchdog = 1.0;                 // s, APPCONF_TIMEOUT_MSEC
+constexpr double silence = 1.2;                          // s, after which it must have let go
+constexpr std::int64_t arming_patience = 2'000'000'000;  // ns: a busy machine hands answers on late
 constexpr std::int64_t between_looks = 10'000'000;
 constexpr int idle_frames = 3;
 constexpr double most_turns_per_cycle = 0.25;
@@ -28,24 +28,26 @@ double torque_constant_of(const SerialLink& link) {
   return *link.drive.torque_constant;
 }
 
+std::optional<std::string> payload_of_values(std::string_view frame) {
+  const auto found = vesc_payload(frame);
+  return found && vesc_values(*found) ? std::optional<std::string>(*found) : std::nullopt;
+}
+
 }  // namespace
 
-VescDriver::VescDriver(const SerialLink& link)
+VescDriver::VescDriver(const SerialLink& link) : VescDriver(link, torque_constant_of(link)) {}
+
+VescDriver::VescDriver(const SerialLink& link, double torque_constant)
     : SerialDriver({.name = "vesc:" + link.port, .watchdog = default_watchdog, .bytes_per_cycle = bytes_per_cycle},
                    link, default_baud),
-      torque_constant_(torque_constant_of(link)) {
+      torque_constant_(torque_constant) {
   if (const int fault = values().fault; fault != 0) {
     throw DriverFailed(fmt::format("the drive stands on fault {}; VESC Tool tells its cause", fault));
   }
 }
 
 VescValues VescDriver::values() {
-  const std::string payload =
-      ask_until_answered(question().view(), [](std::string_view frame) -> std::optional<std::string> {
-        const auto found = vesc_payload(frame);
-        return found && vesc_values(*found) ? std::optional<std::string>(*found) : std::nullopt;
-      });
-  return vesc_values(payload).value_or(VescValues{});
+  return vesc_values(ask_until_answered(question().view(), payload_of_values)).value_or(VescValues{});
 }
 
 void VescDriver::arm() {
@@ -53,8 +55,10 @@ void VescDriver::arm() {
   do {
     tell(torque_frame(0.0).view());
     sleep_until(clock_now() + between_looks);  // its watchdog looks every 10 ms
-    const VescValues found = values();
-    if (found.fault == 0 && !found.has_let_go) {
+    // Asked once, and fed again: questions alone let the watchdog bite meanwhile.
+    const auto payload = ask(question().view(), payload_of_values);
+    const auto found = payload ? vesc_values(*payload) : std::nullopt;
+    if (found && found->fault == 0 && !found->has_let_go) {
       tell(torque_frame(0.0).view());
       last_turns_.reset();
       has_lost_count_ = false;

@@ -14,7 +14,7 @@ namespace zwidth::rig {
 class VescDriver : public SerialDriver {
  public:
   /// Throws DriverFailed where the drive does not answer, or stands on a fault; Error (invalid_argument) without a torque
-  /// constant.
+  /// constant, before the port is opened.
   explicit VescDriver(const SerialLink& link);
 
   void arm() override;
@@ -30,6 +30,7 @@ class VescDriver : public SerialDriver {
   void send_idle() noexcept override;
 
  private:
+  VescDriver(const SerialLink& link, double torque_constant);
   [[nodiscard]] VescValues values();
 
   double torque_constant_;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "require_valid.hpp"
+#include "zwidth/quantity.hpp"
 
 namespace zwidth {
 namespace {
@@ -16,6 +17,7 @@ constexpr double degree = std::numbers::pi / 180.0;  // rad
 constexpr double endstop_gain = 25.0;                // of OpenFFBoard, counts of torque per degree and esgain
 constexpr double endstop_full_scale = 32767.0;       // counts of torque
 constexpr double most_endstop = 255.0;               // esgain
+constexpr double default_bandwidth = 1000.0;         // rad/s, of an ODrive's estimator
 
 MotorDrive drive_of(const Device& device) { return device.parameters().driver.value_or(MotorDrive{}); }
 
@@ -89,15 +91,49 @@ std::vector<DriveNumber> numbers_of(DriveFirmware firmware, const Device& device
   return {};
 }
 
-std::vector<Remark> remarks_of(DriveFirmware firmware, double period) {
+/// The low-pass exp(-2 pi f T) whose pole is a.
+double cutoff_of(double pole, double period) { return -std::log(pole) / (turn * period); }
+
+/// The wall as the firmware computes it, estimator and all.
+Wall wall_on_drive(DriveFirmware firmware, Wall wall, double period, double bandwidth) {
+  if (firmware == DriveFirmware::odrive) {
+    const double step = bandwidth * period;
+    wall.filters.push_back({.kind = WallFilter::Kind::digital,
+                            .numerator = {2.0 * step, step * step - 2.0 * step, 0.0},
+                            .denominator = {1.0, 2.0 * step + step * step - 2.0, 1.0 - 2.0 * step}});
+    wall.velocity_filter_hz = cutoff_of(1.0 - 0.5 * step, period);
+  } else if (firmware == DriveFirmware::simplefoc && wall.velocity_filter_hz > 0.0) {
+    const double time_constant = 1.0 / (turn * wall.velocity_filter_hz);
+    wall.velocity_filter_hz = cutoff_of(time_constant / (time_constant + period), period);
+  }
+  return wall;
+}
+
+/// What is not in the analysis, whatever it says.
+std::string doubt_of(DriveFirmware firmware) {
+  const bool has_estimator = firmware == DriveFirmware::odrive || firmware == DriveFirmware::simplefoc;
+  return fmt::format(
+      "the drive's current loop {} not modelled: the limit on the drive may be {} lower; begin with a tenth of it, and "
+      "raise K by half until it vibrates",
+      has_estimator ? "is" : "and its estimate of position and velocity are", has_estimator ? "well" : "several times");
+}
+
+std::vector<Remark> remarks_of(DriveFirmware firmware, const DriveGains& gains, const DriveLoopOptions& options,
+                               double bandwidth) {
   const auto note = [](std::string what) { return Remark{.what = std::move(what), .consequence = ""}; };
   std::vector<Remark> remarks;
-  if (firmware == DriveFirmware::simplefoc) {
+  if (firmware == DriveFirmware::simplefoc && !options.sampling_period) {
     remarks.push_back(note("the loop of the sketch is taken to run at the device's sampling rate: measure it"));
   } else {
     remarks.push_back(
-        note(fmt::format("the loop closes on the drive: {:g} Hz, its default, and a delay of one period are taken",
-                         std::round(1.0 / period))));
+        note(fmt::format("the loop closes on the drive: {:g} Hz, {}, and a delay of {}",
+                         std::round(1.0 / gains.sampling_period), options.sampling_period ? "as given" : "its default",
+                         options.delay ? quantity(gains.delay, "s") : "one period, as is taken")));
+  }
+  if (firmware == DriveFirmware::odrive) {
+    remarks.push_back(
+        note(fmt::format("position and velocity are the estimator's: encoder.config.bandwidth {:g} rad/s, {}",
+                         bandwidth, options.estimator_bandwidth ? "as given" : "its default")));
   }
   if (firmware == DriveFirmware::odrive || firmware == DriveFirmware::simplefoc) {
     remarks.push_back(
@@ -148,11 +184,34 @@ std::optional<OptionProblem> find_problem(DriveFirmware firmware, const Device& 
   return std::nullopt;
 }
 
-DriveGains drive_gains(const Device& device, DriveFirmware firmware) {
+std::optional<OptionProblem> find_problem(const DriveLoopOptions& options, DriveFirmware firmware,
+                                          const Device& device) {
+  if (options.sampling_period && !(std::isfinite(*options.sampling_period) && *options.sampling_period > 0.0)) {
+    return OptionProblem{"sampling_period", fmt::format("is {}", *options.sampling_period), "must be a time > 0"};
+  }
+  const double period = options.sampling_period.value_or(period_of(firmware, device));
+  if (options.delay && !(*options.delay >= 0.0 && *options.delay <= max_delay_samples * period)) {
+    return OptionProblem{"delay", fmt::format("is {}", *options.delay),
+                         fmt::format("must be 0 to {} of the drive's periods", max_delay_samples)};
+  }
+  if (firmware != DriveFirmware::odrive) {
+    if (!options.estimator_bandwidth) return std::nullopt;
+    return OptionProblem{"estimator_bandwidth", "is given",
+                         "is for odrive: the law of this firmware's is not modelled"};
+  }
+  const double bandwidth = options.estimator_bandwidth.value_or(default_bandwidth);
+  if (bandwidth > 0.0 && bandwidth < 0.5 / period) return std::nullopt;
+  return OptionProblem{"estimator_bandwidth", fmt::format("is {}", bandwidth),
+                       fmt::format("must be > 0 and below half of the drive's rate, {:g}", 0.5 / period)};
+}
+
+DriveGains drive_gains(const Device& device, DriveFirmware firmware, const DriveLoopOptions& options) {
   internal::require_valid(find_problem(firmware, device));
+  internal::require_valid(find_problem(options, firmware, device));
   DriveGains gains;
   gains.numbers = numbers_of(firmware, device);
-  gains.sampling_period = period_of(firmware, device);
+  gains.sampling_period = options.sampling_period.value_or(period_of(firmware, device));
+  gains.delay = options.delay.value_or(gains.sampling_period);
   DeviceParameters parameters = device.parameters();
   if (firmware == DriveFirmware::openffboard) {
     const MotorWall wall = at_motor(device);
@@ -160,14 +219,13 @@ DriveGains drive_gains(const Device& device, DriveFirmware firmware) {
                                 wall.full_torque / (wall.stiffness * degree * endstop_full_scale);
   }
   gains.stiffness = *parameters.wall.stiffness;
+  const double bandwidth = options.estimator_bandwidth.value_or(default_bandwidth);
   parameters.loop.sampling_period = gains.sampling_period;
-  parameters.loop.delay = gains.sampling_period;
+  parameters.loop.delay = gains.delay;
+  parameters.wall = wall_on_drive(firmware, std::move(parameters.wall), gains.sampling_period, bandwidth);
   gains.on_drive = analyze(Device(std::move(parameters)));
-  gains.on_drive.trust.doubt(
-      "the drive's current loop and its estimate of position and velocity are not modelled: the limit on the drive may "
-      "be "
-      "several times lower; begin with a tenth of it, and raise K by half until it vibrates");
-  gains.remarks = remarks_of(firmware, gains.sampling_period);
+  gains.on_drive.trust.doubt(doubt_of(firmware));
+  gains.remarks = remarks_of(firmware, gains, options, bandwidth);
   return gains;
 }
 

@@ -50,6 +50,7 @@ bool OscillationWatch::Rise::update(double amplitude) noexcept {
   } else {
     windows = 0;
   }
+  before = last;
   last = amplitude;
   return windows >= rises_of_growth && amplitude > growth * lowest;
 }
@@ -90,6 +91,20 @@ bool OscillationWatch::sweep(double position) noexcept {
   if (!oscillates || !sweep_rise_.update(amplitude) || !(amplitude > floor_)) return false;
   if (!detected_) frequency_ = pi * crossings / (length * period_);
   return true;
+}
+
+WatchedSwing OscillationWatch::strongest() const noexcept {
+  const Band* most = nullptr;
+  for (std::size_t i = 0; i < count_; ++i) {
+    if (most == nullptr || bands_[i].rise.last > most->rise.last) most = &bands_[i];
+  }
+  if (most == nullptr) return {};
+  WatchedSwing swing{most->frequency, most->rise.last, 0.0};
+  const bool has_both = most->rise.before > 0.0 && most->rise.last > 0.0;
+  if (has_both) {
+    swing.growth_rate = std::log(most->rise.last / most->rise.before) / (static_cast<double>(most->length) * period_);
+  }
+  return swing;
 }
 
 bool OscillationWatch::update(double position) noexcept {

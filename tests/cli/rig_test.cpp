@@ -100,6 +100,43 @@ TEST_F(Rig, LimitsEndTheSessionAndTheRecordIsThere) {
   EXPECT_THAT(last, ::testing::EndsWith(",3")) << "position_limit";
 }
 
+TEST_F(Rig, WhereNobodySaysWhereARigThatStoppedPutsItsRecordInAPlaceOfItsOwn) {
+  const std::string stops = "zwidth rig wall " + lhifam + "--stiffness 4000 --amplitude 50 --position-limit 1e-3 ";
+  const Outcome outcome =
+      run("export XDG_STATE_HOME=$PWD/state; " + stops + "&& exit 9; cat state/zwidth/flight-*.csv");
+  EXPECT_THAT(outcome.errors, HasSubstr("zwidth: flight record: "));
+  EXPECT_THAT(outcome.errors, HasSubstr("/state/zwidth/flight-"));
+  EXPECT_THAT(outcome.output, HasSubstr("time_s,force,position,velocity,wanted_force,latency_s,stop"));
+  EXPECT_THAT(outcome.output, ::testing::EndsWith(",3\n")) << "position_limit";
+  const Outcome oscillating = run("export XDG_STATE_HOME=$PWD/other; zwidth rig wall " + lhifam +
+                                  "--stiffness 20000 --accept-unstable --duration 60; ls other/zwidth | wc -l");
+  EXPECT_THAT(oscillating.output, ::testing::EndsWith("1\n")) << "a wall that was taken away";
+  const Outcome nowhere = run("export TMPDIR=/no/such XDG_STATE_HOME=/dev/null/no; " + stops);
+  EXPECT_EQ(nowhere.status, 1);
+  EXPECT_THAT(nowhere.errors, HasSubstr("name a file with --flight-record"));
+  EXPECT_THAT(nowhere.errors, HasSubstr("the position went beyond its limit"));
+  EXPECT_EQ(run("export XDG_STATE_HOME=$PWD/none; zwidth rig wall " + lhifam + "--stiffness 4000; ls none").status, 2)
+      << "one that came to its end";
+}
+
+// A line that is written over, about ten times a second; lines as of a log where there is no terminal; no colours where
+// they are not wanted.
+TEST_F(Rig, ATerminalShowsWhatTheLoopDoes) {
+  const std::string wall =
+      "zwidth rig wall " + lhifam +
+      "--stiffness 20 --real-time --duration 3 --set loop.sampling_period=0.02 --flight-record f.csv";
+  const Outcome seen = run("export TERM=xterm NO_COLOR=1; script -qec '" + wall + "' /dev/null");
+  EXPECT_THAT(seen.output, HasSubstr("\r\x1b[K"));
+  EXPECT_THAT(seen.output, HasSubstr(" s  K 20 B 0  F "));
+  EXPECT_THAT(seen.output, HasSubstr("worst "));
+  EXPECT_THAT(seen.output, ::testing::Not(HasSubstr("\x1b[3")));
+  std::size_t lines = 0;
+  for (std::size_t at = 0; (at = seen.output.find("\x1b[K", at)) != std::string::npos; ++at) ++lines;
+  EXPECT_LE(lines, 32U);
+  const Outcome logged = run(wall);
+  EXPECT_THAT(logged.errors, ::testing::Not(HasSubstr("\x1b")));
+}
+
 TEST_F(Rig, TheFlightRecordIsReadByTheOtherCommands) {
   ASSERT_EQ(run("zwidth rig measure " + lhifam + "--flight-record f.csv --recording r.csv").status, 0);
   const Outcome frf = run("zwidth frf f.csv --force force --position position --json");
@@ -141,6 +178,7 @@ TEST_F(Rig, TellsWhatItCannotDo) {
   expect_refused("limit " + lhifam + "--set actuator.force_limit=5 --amplitude 6", 2, "at most the force limit");
   expect_refused("limit " + lhifam + "--flight-record a.csv --report a.csv", 2, "is the same file");
   expect_refused("limit " + lhifam + "--flight-record devices/lhifam.toml", 2, "would overwrite the device file");
+  expect_refused("check " + lhifam + "--output-device a.toml", 2, "--output-device: a simulated device");
   expect_refused("check " + lhifam + "--driver serial", 2, "--driver: serial is none; simulated, odrive:PORT");
   expect_refused("check " + lhifam + "--driver udp:127.0.0.1:9", 2, "--force-limit: missing");
   expect_refused("check " + lhifam + "--driver udp:127.0.0.1:9 --force-limit 1", 2, "--position-limit: missing");

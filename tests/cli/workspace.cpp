@@ -31,8 +31,8 @@ Workspace::~Workspace() {
 Outcome Workspace::run(const std::string& command_line) const {
   // The command line stands in a file of its own, so that it needs no quoting here.
   // Its locale and the width of its lines do not depend on who runs the tests.
-  write(".command",
-        fmt::format("export PATH='{}':$PATH LC_ALL=C.UTF-8\nunset COLUMNS\n{}\n", ZWIDTH_PROGRAM_DIR, command_line));
+  write(".command", fmt::format("export PATH='{}':$PATH LC_ALL=C.UTF-8 XDG_STATE_HOME=$PWD/.state\nunset COLUMNS\n{}\n",
+                                ZWIDTH_PROGRAM_DIR, command_line));
   const std::string wrapped =
       fmt::format("cd '{0}' && bash .command > .output 2> .errors < /dev/null", directory_.string());
   const int raw = std::system(wrapped.c_str());

@@ -2,11 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
 
 #include "zwidth/error.hpp"
+#include "zwidth/simulation/hybrid_loop.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
 
 namespace zwidth {
@@ -95,12 +97,89 @@ TEST(DriveGains, AnEndStopIsAWholeNumberRoundedDown) {
 
 TEST(DriveGains, TheLimitIsThatOfTheLoopOnTheDrive) {
   DeviceParameters parameters = knob();
-  const DriveGains gains = drive_gains(Device(parameters), DriveFirmware::odrive);
-  parameters.loop.sampling_period = parameters.loop.delay = 1.0 / 8000.0;
+  const DriveGains gains = drive_gains(Device(parameters), DriveFirmware::moteus);
+  parameters.loop.sampling_period = parameters.loop.delay = 1.0 / 30000.0;
   EXPECT_EQ(gains.on_drive.critical.stiffness, critical_stiffness(Device(parameters)).stiffness);
   EXPECT_GT(gains.on_drive.critical.stiffness, critical_stiffness(Device(knob())).stiffness);
-  EXPECT_EQ(gains.sampling_period, 1.0 / 8000.0);
-  EXPECT_FALSE(gains.on_drive.trust.sound());  // an ODrive's estimator of 1000 rad/s takes it to 14 N m/rad
+  EXPECT_EQ(gains.sampling_period, 1.0 / 30000.0);
+  EXPECT_FALSE(gains.on_drive.trust.sound());
+  const DriveLoopOptions options{.sampling_period = 1e-4, .delay = 3e-4};
+  parameters.loop.sampling_period = 1e-4;
+  parameters.loop.delay = 3e-4;
+  const DriveGains slow = drive_gains(Device(knob()), DriveFirmware::moteus, options);
+  EXPECT_EQ(slow.on_drive.critical.stiffness, critical_stiffness(Device(parameters)).stiffness);
+}
+
+/// Energy-like size of the motion after the firmware's own loop has run on the simulated device for a while.
+template <typename Firmware>
+double swing_after(const DeviceParameters& parameters, double seconds, Firmware firmware) {
+  HybridLoopOptions options;
+  options.initial_position.assign(1, 0.01);
+  HybridLoop loop(Device(parameters), options);
+  const auto cycles = static_cast<int>(seconds / parameters.loop.sampling_period);
+  double most = 0.0;
+  for (int k = 0; k < cycles; ++k) {
+    const double position = loop.measure();
+    if (k > cycles * 3 / 4) most = std::max(most, std::abs(position));
+    loop.move(firmware(position));
+  }
+  return most;
+}
+
+// The limit of the analysis is where the firmware's own equations, run on the device in time, begin to grow.
+TEST(DriveGains, TheLimitWithAnOdrivesEstimatorIsWhereItsEquationsBeginToGrow) {
+  for (const double bandwidth : {1000.0, 300.0, 3000.0}) {
+    DeviceParameters parameters = knob();
+    const DriveLoopOptions options{.estimator_bandwidth = bandwidth};
+    const double limit = drive_gains(Device(parameters), DriveFirmware::odrive, options).on_drive.critical.stiffness;
+    parameters.loop.sampling_period = parameters.loop.delay = 1.0 / 8000.0;
+    const auto swing_at = [&](double stiffness) {
+      const double period = parameters.loop.sampling_period;
+      double estimate = 0.01;  // as encoder.cpp
+      double velocity = 0.0;
+      return swing_after(parameters, 3.0, [&](double position) {
+        estimate += period * velocity;
+        const double error = position - estimate;
+        estimate += period * 2.0 * bandwidth * error;
+        velocity += period * bandwidth * bandwidth * error;
+        return -(stiffness * estimate + parameters.wall.damping * velocity);
+      });
+    };
+    EXPECT_LT(swing_at(0.98 * limit), 0.01) << bandwidth;
+    EXPECT_GT(swing_at(1.02 * limit), 0.01) << bandwidth;
+  }
+  const Device device(knob());
+  EXPECT_NEAR(drive_gains(device, DriveFirmware::odrive).on_drive.critical.stiffness, 14.0, 1.0);
+  EXPECT_EQ(find_problem(DriveLoopOptions{.estimator_bandwidth = 4000.0}, DriveFirmware::odrive, device)->member,
+            "estimator_bandwidth");
+  EXPECT_EQ(find_problem(DriveLoopOptions{.estimator_bandwidth = 900.0}, DriveFirmware::vesc, device)->member,
+            "estimator_bandwidth");
+  EXPECT_EQ(find_problem(DriveLoopOptions{.sampling_period = 0.0}, DriveFirmware::vesc, device)->member,
+            "sampling_period");
+  EXPECT_EQ(find_problem(DriveLoopOptions{.delay = -1.0}, DriveFirmware::vesc, device)->member, "delay");
+  EXPECT_FALSE(drive_gains(device, DriveFirmware::odrive).on_drive.trust.sound());
+}
+
+TEST(DriveGains, TheLimitWithSimplefocsLowPassIsWhereItsEquationsBeginToGrow) {
+  DeviceParameters parameters = knob();
+  parameters.wall.velocity_filter_hz = 1.0 / (2.0 * pi * 0.005);  // its default, Tf = 5 ms
+  parameters.driver.emplace().torque_per_volt = 0.02;
+  const DriveGains gains = drive_gains(Device(parameters), DriveFirmware::simplefoc);
+  EXPECT_NEAR(number(gains, "LPF_velocity.Tf"), 0.005, 1e-12);
+  parameters.loop.delay = parameters.loop.sampling_period;
+  const auto swing_at = [&](double stiffness) {
+    const double period = parameters.loop.sampling_period;
+    double last = 0.01;
+    double velocity = 0.0;
+    return swing_after(parameters, 6.0, [&](double position) {
+      const double pole = 0.005 / (0.005 + period);  // as lowpass_filter.cpp
+      velocity = pole * velocity + (1.0 - pole) * (position - last) / period;
+      last = position;
+      return -(stiffness * position + parameters.wall.damping * velocity);
+    });
+  };
+  EXPECT_LT(swing_at(0.98 * gains.on_drive.critical.stiffness), 0.01);
+  EXPECT_GT(swing_at(1.02 * gains.on_drive.critical.stiffness), 0.01);
 }
 
 TEST(DriveGains, WhatIsMissingIsNamed) {

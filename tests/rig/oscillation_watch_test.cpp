@@ -56,5 +56,22 @@ TEST(OscillationWatch, SeesNoneInWhatAUserDoes) {
   EXPECT_EQ(cycles_until_detected(below, 4000, [](double t) { return 1e-6 * std::exp(t) * std::sin(40.0 * t); }), -1);
 }
 
+TEST(OscillationWatch, TellsWhatSwingsMostAndHowItGrows) {
+  constexpr double rate = 0.7;  // 1/s
+  const std::vector<double> frequencies{60.0, 200.0};
+  OscillationWatch watch(frequencies, period, 0.0);
+  EXPECT_EQ(watch.strongest().amplitude, 0.0) << "no whole window yet";
+  double t = 0.0;
+  for (int k = 0; k < 4000; ++k) {
+    t = k * period;
+    watch.update(1e-3 * std::exp(rate * t) * std::sin(60.0 * t) + 1e-4 * std::sin(200.0 * t));
+  }
+  const WatchedSwing swing = watch.strongest();
+  EXPECT_EQ(swing.frequency, 60.0);
+  EXPECT_NEAR(swing.growth_rate, rate, 0.05 * rate);
+  EXPECT_LT(swing.amplitude, 1e-3 * std::exp(rate * t));
+  EXPECT_GT(swing.amplitude, 1e-3 * std::exp(rate * (t - 1.3)));  // two windows of 0.63 s before
+}
+
 }  // namespace
 }  // namespace zwidth

@@ -78,6 +78,10 @@ class PtyEmulator {
 
   [[nodiscard]] const std::string& path() const { return path_; }
   [[nodiscard]] const EmulatedMotor& motor() const { return motor_; }
+  /// Where frames are cut off: any number.
+  void set_place(unsigned place) { place_ = place; }
+  /// ms, by which answers come late.
+  void set_lateness(int lateness) { lateness_ = lateness; }
   void set_fault(Fault fault) {
     motor_.is_not_a_number = fault == Fault::not_a_number;
     fault_ = fault;
@@ -121,8 +125,8 @@ class PtyEmulator {
     if (fault == Fault::silent) return;
     if (fault == Fault::lost_answers && ++answers_ % 3 == 0) return;
     if (fault == Fault::wrong_checksum) frame[frame.size() / 2] ^= 1;
-    if (fault == Fault::half_frames) frame.resize(frame.size() / 2);
-    if (fault == Fault::late) std::this_thread::sleep_for(std::chrono::milliseconds(60));
+    if (fault == Fault::half_frames) frame.resize(place_ % frame.size());
+    if (fault == Fault::late) std::this_thread::sleep_for(std::chrono::milliseconds(lateness_));
     take_time(frame.size());
     std::size_t sent = 0;
     while (sent < frame.size() && !is_ending_) {
@@ -160,6 +164,8 @@ class PtyEmulator {
   bool has_failed_ = false;
   std::atomic<bool> is_ending_ = false;
   std::atomic<Fault> fault_ = Fault::none;
+  std::atomic<unsigned> place_ = 5;
+  std::atomic<int> lateness_ = 60;
   std::thread thread_;
 };
 

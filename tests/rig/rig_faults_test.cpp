@@ -90,6 +90,7 @@ class RigFault : public testing::Test {
     std::string name = (std::filesystem::temp_directory_path() / "zwidth_rig_XXXXXX").string();
     ASSERT_NE(mkdtemp(name.data()), nullptr);
     folder = name;
+    setenv("XDG_STATE_HOME", (folder / "state").c_str(), 1);
     std::ofstream(folder / "device.toml") << write_device(slow_device().parameters());
   }
   void TearDown() override { std::filesystem::remove_all(folder); }
@@ -207,6 +208,8 @@ TEST_F(RigFault, AFullDiskForTheRecord) {
     host.send(SIGINT);
     EXPECT_EQ(host.status(), 1);
     EXPECT_THAT(host.errors(), HasSubstr("/dev/full"));
+    EXPECT_THAT(host.errors(), HasSubstr("flight record: " + (folder / "state/zwidth/flight-").string()))
+        << "elsewhere";
     EXPECT_TRUE(within(5s, [&] { return emulator.force() == 0.0; }));
   }
 }
@@ -242,6 +245,27 @@ TEST_F(RigFault, TheExampleInCIsSuchADrive) {
   EXPECT_EQ(example.line(), "takes hold\n");
   host.send(SIGKILL);
   EXPECT_EQ(example.line(), "let go\n");
+}
+
+// The file says how it was measured, and analyze takes it.
+TEST_F(RigFault, CheckWritesTheMeasuredDelay) {
+  UdpEmulator emulator(slow_device());
+  const std::string found = folder / "found.toml";
+  const std::string check =
+      ZWIDTH_PROGRAM " rig check " + (folder / "device.toml").string() + " --driver udp:" + emulator.address() +
+      " --position-limit 1 --duration 1 --output-device " + found + " > " + (folder / "text").string() + " 2>&1";
+  int status = -1;
+  for (int i = 0; i < 3 && status != 0; ++i) status = std::system(check.c_str());  // a machine that pauses stops it
+  ASSERT_EQ(status, 0) << std::ifstream(folder / "text").rdbuf();
+  const auto device = read_device_file(found);
+  ASSERT_TRUE(device) << device.error().str();
+  EXPECT_GT(device->loop().delay, 0.0);
+  EXPECT_LT(device->loop().delay, period) << "the answer came within its cycle";
+  std::stringstream text;
+  text << std::ifstream(found).rdbuf();
+  EXPECT_THAT(text.str(), testing::StartsWith("# loop.delay: "));
+  EXPECT_THAT(text.str(), HasSubstr("simulate --jitter "));
+  EXPECT_EQ(std::system((ZWIDTH_PROGRAM " analyze " + found + " > /dev/null").c_str()), 0);
 }
 
 TEST_F(RigFault, FirmwareWithoutAWatchdogIsRefused) {

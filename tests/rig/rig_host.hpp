@@ -33,15 +33,15 @@ inline bool within(std::chrono::milliseconds patience, const std::function<bool(
   return true;
 }
 
-/// `zwidth rig wall` on a drive, for ever.
+/// `zwidth rig ACTION` on a drive, for ever: wall, unless told.
 class Host {
  public:
   Host(const std::filesystem::path& folder, const std::string& driver, const std::string& name,
-       const std::string& record, const std::vector<std::string>& more = {}) {
+       const std::string& record, const std::vector<std::string>& more = {}, const std::string& action = "wall") {
     errors_ = folder / (name + ".errors");
     std::vector<std::string> words{ZWIDTH_PROGRAM,
                                    "rig",
-                                   "wall",
+                                   action,
                                    folder / "device.toml",
                                    "--driver",
                                    driver,
@@ -80,6 +80,11 @@ class Host {
     if (!within(std::chrono::seconds(20), [&] { return waitpid(process_, &status, WNOHANG) == process_; })) return -1;
     process_ = -1;
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  [[nodiscard]] bool has_ended() {
+    siginfo_t info{};
+    return process_ > 0 && waitid(P_PID, static_cast<id_t>(process_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+           info.si_pid != 0;
   }
   [[nodiscard]] std::string errors() const {
     std::stringstream text;

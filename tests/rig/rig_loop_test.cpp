@@ -13,8 +13,10 @@
 #include <functional>
 #include <limits>
 #include <new>
+#include <stdexcept>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "rig/rig_devices.hpp"
 #include "rig/rig_run.hpp"
@@ -187,6 +189,29 @@ TEST(RigRun, OnTheClockALoopThatStandsStillIsDisarmedByTheWatchdog) {
   const RigSession session = run.end();
   EXPECT_TRUE(session.stop == StopReason::watchdog || session.stop == StopReason::missed_cycles);
   EXPECT_EQ(driver.force, 0.0);
+}
+
+// What people see is told by the thread that waits, whatever becomes of it; the loop's own never does.
+TEST(RigRun, TellsAWatcherFromTheWaitingThread) {
+  ToldDriver driver(true);
+  SafetyLimits limits;
+  limits.missed_cycles = 1000;
+  limits.ramp = 0.0;
+  std::vector<LiveState> seen;
+  RigRun run(driver, limits, 2e-3, [&, own = std::this_thread::get_id()](const LiveState& state) {
+    EXPECT_EQ(std::this_thread::get_id(), own);
+    if (state.stiffness == 0.0) return;  // before the first cycle of the segment
+    seen.push_back(state);
+    if (seen.size() == 2) throw std::runtime_error("a watcher that fails is not asked again");
+  });
+  driver.position = 2e-3;
+  Segment segment = wall_segment(500);
+  EXPECT_EQ(run.play(segment).force.size(), 500U);
+  ASSERT_EQ(seen.size(), 2U);
+  EXPECT_EQ(seen[0].stiffness, 1000.0);
+  EXPECT_EQ(seen[0].damping, 1.0);
+  EXPECT_GT(seen[1].time, seen[0].time);
+  EXPECT_GT(seen[1].worst, 0.0);
 }
 
 TEST(RigRun, OnTheClockItKeepsItsRateInTheMiddle) {

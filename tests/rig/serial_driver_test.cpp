@@ -79,6 +79,21 @@ TEST_P(OnDrive, TheWatchdogIsProvedBySilence) {
   EXPECT_TRUE(test::within(std::chrono::seconds(5), [&] { return emulator.motor().force() == 0.0; }));
 }
 
+// On a busy machine: answers that come after their question was given up are not taken for those of the next one, and
+// a watchdog that bites meanwhile does not keep the drive from being armed.
+TEST_P(OnDrive, AWatchdogIsProvedThoughAnswersAreLate) {
+  if (!GetParam().has_watchdog) return;
+  PtyEmulator emulator(GetParam().firmware(), device);
+  const auto driver = GetParam().driver(link(emulator, device, false));
+  emulator.set_lateness(130);  // ms: longer than the patience of 100
+  emulator.set_fault(Fault::late);
+  EXPECT_EQ(driver->proves_watchdog(), true);
+  emulator.set_fault(Fault::none);
+  driver->arm();
+  EXPECT_TRUE(driver->measure());
+  EXPECT_EQ(emulator.motor().nonzero_forces(), 0);
+}
+
 TEST_P(OnDrive, AWatchdogThatDoesNotBiteIsNone) {
   PtyEmulator emulator(GetParam().firmware(), device);
   emulator.set_fault(Fault::no_watchdog);
@@ -148,16 +163,18 @@ TEST(VescDriver, CountsTurns) {
   EXPECT_FALSE(driver.measure()) << "for good";
 }
 
-TEST(VescDriver, NeedsATorqueConstant) {
+// What the device file lacks is said before a port is touched: this one does not exist.
+TEST(SerialDriver, NeedsATorqueConstantBeforeItsPort) {
   DeviceParameters parameters = belt_device().parameters();
   parameters.driver->torque_constant.reset();
-  const Device device(parameters);
-  PtyEmulator emulator(std::make_unique<test::VescFirmware>(), belt_device());
-  try {
-    (void)open_driver("vesc:" + emulator.path(), device, {});
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("driver.torque_constant: is missing"));
+  parameters.driver->torque_per_volt.reset();
+  for (const char* name : {"vesc:/no/such/port", "simplefoc:/no/such/port"}) {
+    try {
+      (void)open_driver(name, Device(parameters), {});
+      ADD_FAILURE() << name;
+    } catch (const Error& error) {
+      EXPECT_THAT(error.what(), HasSubstr("driver.torque_constant: is missing")) << name;
+    }
   }
 }
 

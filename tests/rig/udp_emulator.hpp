@@ -26,11 +26,12 @@ namespace zwidth::test {
 /// with each force, and its watchdog runs on the clock.
 class UdpEmulator {
  public:
-  enum class Fault { none, silent, half_frames, wrong_checksum, not_a_number, late, stalled, no_watchdog };
+  enum class Fault { none, silent, unplugged, half_frames, wrong_checksum, not_a_number, late, stalled, no_watchdog };
   using Clock = std::chrono::steady_clock;
   static constexpr std::chrono::milliseconds watchdog{100};
 
-  explicit UdpEmulator(const Device& device) : loop_(device, {}), socket_(socket(AF_INET, SOCK_DGRAM, 0)) {
+  explicit UdpEmulator(const Device& device)
+      : loop_(device, {}), socket_(socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
     sockaddr_in own{};
     own.sin_family = AF_INET;
     own.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
@@ -53,6 +54,8 @@ class UdpEmulator {
 
   [[nodiscard]] std::string address() const { return "127.0.0.1:" + std::to_string(port_); }
   void set_fault(Fault fault) { fault_ = fault; }
+  /// Where frames are cut off or falsified: any number.
+  void set_place(unsigned place) { place_ = place; }
   /// Of the motor; 0 after the watchdog has let go.
   [[nodiscard]] double force() const { return force_; }
   [[nodiscard]] bool has_let_go() const { return has_let_go_; }
@@ -82,7 +85,7 @@ class UdpEmulator {
         std::this_thread::sleep_for(std::chrono::milliseconds(300));
         continue;
       }
-      if (count < 0) continue;
+      if (count < 0 || fault_ == Fault::unplugged) continue;
       const auto frame = rig::decoded_udp_frame({bytes.data(), static_cast<std::size_t>(count)});
       const bool is_owner = peer.sin_port == owner_.sin_port;
       if (frame && (has_let_go_ || is_owner)) answer(*frame, peer);
@@ -104,9 +107,10 @@ class UdpEmulator {
     frame.position = fault == Fault::not_a_number ? std::numeric_limits<double>::quiet_NaN() : loop_.measure();
     frame.force = has_let_go_ ? std::numeric_limits<double>::quiet_NaN() : force_.load();
     auto bytes = rig::encoded(frame);
-    if (fault == Fault::wrong_checksum) bytes.back() ^= std::byte{1};
+    const std::size_t place = place_ % bytes.size();
+    if (fault == Fault::wrong_checksum) bytes[place] ^= std::byte{1};
     if (fault == Fault::late) std::this_thread::sleep_for(std::chrono::milliseconds(60));
-    const std::size_t size = fault == Fault::half_frames ? bytes.size() / 2 : bytes.size();
+    const std::size_t size = fault == Fault::half_frames ? place : bytes.size();
     sendto(socket_, bytes.data(), size, 0, as_address(peer), sizeof peer);
   }
 
@@ -117,6 +121,7 @@ class UdpEmulator {
   Clock::time_point last_force_;
   std::atomic<bool> is_ending_ = false;
   std::atomic<Fault> fault_ = Fault::none;
+  std::atomic<unsigned> place_ = 20;
   std::atomic<bool> has_let_go_ = true;
   std::atomic<double> force_ = 0.0;
   std::atomic<int> forces_ = 0;

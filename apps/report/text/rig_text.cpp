@@ -94,8 +94,10 @@ std::string rig_text(const Device& device, const RigCheck& check) {
     text += labelled("  watchdog", "none to prove: there is no firmware that has one");
   }
   if (session.timing.delay.count > 0) {
-    text += labelled("  delay", fmt::format("{}; for analyze: --set loop.delay={:.3g}",
-                                            quantity(session.timing.delay.p50, "s"), session.timing.delay.p50));
+    if (session.driver != "simulated") {  // whose delay is that of its file
+      text += labelled("  delay", fmt::format("{}; for analyze: --set loop.delay={:.3g}",
+                                              quantity(session.timing.delay.p50, "s"), session.timing.delay.p50));
+    }
     text += labelled("  jitter", fmt::format("{}; for simulate: --jitter {:.3g}",
                                              quantity(session.timing.latency.p99, "s"), session.timing.latency.p99));
   }

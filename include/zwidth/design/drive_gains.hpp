@@ -27,15 +27,23 @@ struct DriveNumber {
   std::string unit;    ///< "N m/turn"; empty: a bare number
 };
 
+/// The loop as it closes on a drive, where it is not as the firmware has it by default.
+struct DriveLoopOptions {
+  std::optional<double> sampling_period = {};      ///< s; > 0
+  std::optional<double> delay = {};                ///< s; >= 0; absent: one sampling period
+  std::optional<double> estimator_bandwidth = {};  ///< rad/s, encoder.config.bandwidth of an odrive; absent: 1000
+};
+
 /// A wall in the numbers of a motor drive.
 struct DriveGains {
   std::vector<DriveNumber> numbers;  ///< to be set; integral gains among them, as 0
   double stiffness = 0.0;            ///< K that these numbers make: less than asked for where the firmware rounds
-  /// The device with this wall closed on the drive: its own sampling period, a delay of one of them, no velocity filter but
-  /// one that the firmware has. Doubtful, always: the drive's current loop and its estimate of position and velocity are
-  /// not in it, so that its limits bound those of the drive from above (ODrive's estimator alone: a quarter in one case).
+  /// The device with this wall closed on the drive, with the estimator of position and velocity where its law is known:
+  /// odrive and simplefoc. Doubtful, always: the drive's current loop is not in it, nor the others' estimators, so that its
+  /// limits bound those of the drive from above.
   Analysis on_drive;
   double sampling_period = 0.0;  ///< s, of that loop
+  double delay = 0.0;            ///< s, of that loop
   std::vector<Remark> remarks;   ///< what was taken for granted
 };
 
@@ -46,6 +54,11 @@ struct DriveGains {
 /// openffboard; a torque per volt or per ampere for simplefoc; actuator.force_limit for vesc and openffboard, which count
 /// in shares of it.
 [[nodiscard]] std::optional<OptionProblem> find_problem(DriveFirmware firmware, const Device& device);
+
+/// The first member outside its domain. An estimator's bandwidth is for odrive alone, and below 1/(2T), beyond which the
+/// firmware refuses it; for simplefoc it is that of wall.velocity_filter_hz.
+[[nodiscard]] std::optional<OptionProblem> find_problem(const DriveLoopOptions& options, DriveFirmware firmware,
+                                                        const Device& device);
 
 /// The device's wall as the numbers that a drive's firmware takes.
 ///
@@ -62,9 +75,17 @@ struct DriveGains {
 /// tau: the torque of the motor that makes actuator.force_limit; for vesc at the largest current, for openffboard at full
 /// power. The loop closes on the drive then, at its rate, not at the device's: odrive 8 kHz, moteus 30 kHz, openffboard and
 /// vesc 1 kHz, each the default; simplefoc at the rate of the sketch, taken as the device's.
+///
+/// An ODrive takes position and velocity from a phase-locked loop of bandwidth w, for each position x measured
+///
+///     d = x - P - T V,    P += T V + 2 w T d,    V += w² T d
+///
+/// so that its wall is (K + B v) P(z)/x(z), v the difference low-passed by (1 - a)/(1 - a/z), a = 1 - w T/2. SimpleFOC
+/// low-passes its velocity with a = Tf/(Tf + T), Tf = 1/(2 pi wall.velocity_filter_hz).
 /// Throws Error (invalid_argument) where find_problem() finds one, and as analyze() does.
-/// Sources: controller.cpp (ODrive 0.5.6), docs of moteus 0.3 (servo.pid_position), FOCMotor and BLDCMotor (SimpleFOC 2.3),
+/// Sources: controller.cpp, encoder.cpp (ODrive 0.5.6), lowpass_filter.cpp (SimpleFOC 2.3), docs of moteus 0.3 (servo.pid_position), FOCMotor and BLDCMotor (SimpleFOC 2.3),
 /// Axis.cpp (OpenFFBoard 1.16), foc_math.c (VESC 6).
-[[nodiscard]] DriveGains drive_gains(const Device& device, DriveFirmware firmware);
+[[nodiscard]] DriveGains drive_gains(const Device& device, DriveFirmware firmware,
+                                     const DriveLoopOptions& options = {});
 
 }  // namespace zwidth

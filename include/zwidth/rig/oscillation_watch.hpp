@@ -8,6 +8,13 @@
 
 namespace zwidth {
 
+/// What swings near a predicted frequency.
+struct WatchedSwing {
+  double frequency = 0.0;    ///< rad/s; 0: nothing is watched
+  double amplitude = 0.0;    ///< m or rad, in the last whole window; 0: none is whole yet
+  double growth_rate = 0.0;  ///< 1/s, from the window before to that one; 0 where there is no window before
+};
+
 /// Notices an oscillation that grows while it runs: the power near the predicted frequencies, window by window.
 ///
 ///     A_j = 2 |sum_n h[n] x[n] e^{-jwnT}| / sum_n h[n]      Hann windows h of six cycles of each w, one after the other
@@ -30,11 +37,14 @@ class OscillationWatch {
   [[nodiscard]] bool detected() const noexcept { return detected_; }  ///< an oscillation grew, now or before
   /// rad/s, of the band that grew; 0: none did.
   [[nodiscard]] double frequency() const noexcept { return frequency_; }
+  /// What swings most, of the predicted frequencies.
+  [[nodiscard]] WatchedSwing strongest() const noexcept;
 
  private:
   /// A rise, window by window.
   struct Rise {
     double last = 0.0;
+    double before = 0.0;
     double lowest = 0.0;  // where it began
     int windows = 0;
     /// The next window's amplitude; whether it has risen long and far enough.

@@ -1,0 +1,33 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "cli/workspace.hpp"
+
+namespace zwidth::cli {
+namespace {
+
+using ::testing::HasSubstr;
+
+class ExportUnits : public Workspace {};
+
+TEST_F(ExportUnits, TheDrivesOwnLoopMayBeGiven) {
+  const std::string wall =
+      "zwidth export devices/lhifam.toml --stiffness 3000 --set wall.damping=5 --set driver.travel=0.06 --units ";
+  const Outcome slow = run(wall + "moteus --drive-rate 5000 --drive-delay 400e-6");
+  EXPECT_EQ(slow.status, 0) << slow.errors;
+  EXPECT_THAT(slow.output, HasSubstr("5000 Hz, as given, and a delay of 400 µs"));
+  const Outcome odrive = run(wall + "odrive --estimator-bandwidth 2000");
+  EXPECT_THAT(odrive.output, HasSubstr("encoder.config.bandwidth 2000 rad/s, as given"));
+  EXPECT_THAT(odrive.output, HasSubstr("DOUBTFUL: the drive's current loop is not modelled"));
+  EXPECT_THAT(run(wall + "odrive").output, HasSubstr("1000 rad/s, its default"));
+  expect_refusal(wall + "odrive --estimator-bandwidth 4000", "--estimator-bandwidth: is 4000");
+  expect_refusal(wall + "vesc --estimator-bandwidth 900 --set actuator.force_limit=9", "is for odrive");
+  expect_refusal(wall + "moteus --drive-rate 0", "--drive-rate: is 0 Hz");
+  expect_refusal(wall + "moteus --drive-delay -1", "--drive-delay: is -1");
+  expect_refusal("zwidth export devices/lhifam.toml --format c --drive-rate 3", "--drive-rate: is for --units");
+}
+
+}  // namespace
+}  // namespace zwidth::cli
