@@ -102,12 +102,14 @@ Json rig_json(const Device& device, const RigCheck& check) {
   const bool has_clock = timing.delay.count > 0;
   json["measured_delay_s"] = has_clock ? Json(timing.delay.p50) : Json(nullptr);
   json["measured_jitter_s"] = has_clock ? Json(timing.latency.p99) : Json(nullptr);
+  json["trust"] = check.trust;
   return json;
 }
 
 Json rig_json(const Device& device, const RigMeasurement& measurement) {
   Json json = begun("measure", device, measurement.session);
   add_measurement(json, device, measurement);
+  json["trust"] = measurement.trust;
   return json;
 }
 
@@ -116,6 +118,7 @@ Json rig_json(const Device& device, const RigIdentification& identification) {
   add_measurement(json, device, identification.measurement);
   json["identification"] =
       identification.identification ? identification_json(*identification.identification) : Json(nullptr);
+  json["trust"] = identification.trust;
   return json;
 }
 
@@ -131,6 +134,7 @@ Json rig_json(const Device& device, const RigRelay& relay) {
                            {"stiffness_db", decibels(std::optional(mean.stiffness))},
                            {"trials", mean.trials}};
   }
+  json["trust"] = relay.trust;
   return json;
 }
 
