@@ -80,8 +80,9 @@ void check_share(const ExportArguments& arguments, const SafeWall& wall) {
   const std::string& file = arguments.devices.files.front();
   if (wall.status == SafeWall::Status::chosen) return;
   if (wall.status == SafeWall::Status::refused) throw WorkFailed(file + ": " + report::verdict_text(wall.trust));
-  const std::string why = fmt::format("{} wall is stable, there is no limit to take a share of",
-                                      wall.status == SafeWall::Status::unbounded ? "every" : "no");
+  const std::string why = fmt::format(
+      "{}: there is no limit to take a share of",
+      wall.status == SafeWall::Status::unbounded ? "every wall is stable" : "no wall is stable from K = 0 on");
   if (arguments.format == "chai3d") throw WorkFailed(file + ": there is no ceiling to declare: " + why);
   throw BadInput(file + ": --safety-factor: " + why + "; give --stiffness");
 }
@@ -90,8 +91,10 @@ void check_share(const ExportArguments& arguments, const SafeWall& wall) {
 std::string source_of(const ExportArguments& arguments, const WallToRun& wall) {
   if (!wall.share) return arguments.stiffness ? "--stiffness" : "wall.stiffness";
   const char* limit = wall.share->basis == SafeWall::Basis::any_user ? "limit for any user" : "critical stiffness";
-  return fmt::format("{} of the {}{}", *arguments.safety_factor, limit,
-                     wall.share->uncertainty_share == 1.0 ? "" : " at the lower end of its 95 % interval");
+  std::string text = fmt::format("{} of the {}", *arguments.safety_factor, limit);
+  if (wall.share->uncertainty_share == 1.0) return text;
+  return text + fmt::format(", at {:.4g} of it: the lower end of the critical stiffness' 95 % interval",
+                            wall.share->uncertainty_share);
 }
 
 WallToRun released_wall(const ExportArguments& arguments) {

@@ -217,7 +217,7 @@ tl::expected<RequestAnswer, Problem> RequestCommands::answer(const CommandReques
   } catch (const WorkFailed& error) {
     // The document says itself what of it is refused.
     if (!own.output.empty()) return answer_in(own);
-    return tl::unexpected(problem_in(error.what(), request));
+    return tl::unexpected(failure_in(error.what(), request));
   } catch (const Error& error) {
     return tl::unexpected(Problem{"", error.what(), ""});
   }

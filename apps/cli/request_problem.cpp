@@ -4,6 +4,7 @@
 #include <charconv>
 #include <filesystem>
 #include <string_view>
+#include <utility>
 #include <variant>
 
 #include "zwidth/io/input_error.hpp"
@@ -87,6 +88,17 @@ server::Problem problem_in(std::string message, const server::CommandRequest& re
   put_place(study, problem);
   if (request.device_is_text) put_place(device, problem);
   return problem;
+}
+
+server::Problem failure_in(std::string message, const server::CommandRequest& request) {
+  (void)take_place(message, [&](std::string_view text) {
+    return names(text, device_name) ||
+           std::ranges::any_of(request.recordings, [&](const auto& recording) { return names(text, recording.name); });
+  });
+  for (std::size_t end = message.find('\n'); end != std::string::npos; end = message.find('\n', end)) {
+    message.replace(end, 1, "; ");
+  }
+  return {"", std::move(message), ""};
 }
 
 server::Problem problem_of_option(const std::string& message, std::string_view file) {

@@ -15,6 +15,9 @@ inline constexpr const char* study_name = "study";
 /// the device and its keys, and recordings.
 [[nodiscard]] server::Problem problem_in(std::string message, const server::CommandRequest& request);
 
+/// The message of work that failed: it has no place, and its reasons stay together.
+[[nodiscard]] server::Problem failure_in(std::string message, const server::CommandRequest& request);
+
 /// CLI11's message about an option as the request's problem. `file`: what its positional argument is, device or recording.
 [[nodiscard]] server::Problem problem_of_option(const std::string& message, std::string_view file);
 

@@ -42,7 +42,7 @@ std::string any_user_text(const Analysis& analysis, std::string_view unit) {
 }
 
 std::string critical_text(const CriticalStiffness& critical, std::string_view unit) {
-  if (critical.status == StiffnessStatus::none_stable) return "none: no wall is stable";
+  if (critical.status == StiffnessStatus::none_stable) return "none: no wall is stable from K = 0 on";
   if (critical.status == StiffnessStatus::unbounded) return "unbounded";
   return fmt::format("{:.6g} {}", critical.stiffness, unit);
 }

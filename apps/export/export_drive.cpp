@@ -14,7 +14,7 @@ namespace {
 
 std::string limit_text(const CriticalStiffness& critical, Units units) {
   if (critical.status == StiffnessStatus::unbounded) return "every wall is stable";
-  if (critical.status == StiffnessStatus::none_stable) return "no wall is stable";
+  if (critical.status == StiffnessStatus::none_stable) return "no wall is stable from K = 0 on";
   return fmt::format("K_CR {}", quantity(critical.stiffness, units.stiffness));
 }
 

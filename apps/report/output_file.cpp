@@ -48,12 +48,17 @@ class Descriptor {
   explicit Descriptor(int value) : value_(value) {}
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;
+  Descriptor& operator=(Descriptor&& other) noexcept {
+    std::swap(value_, other.value_);
+    return *this;
+  }
   ~Descriptor() {
     if (value_ >= 0) ::close(value_);
   }
   [[nodiscard]] int get() const { return value_; }
   /// 0 or errno: some file systems report a failed write only here.
   [[nodiscard]] int close() { return ::close(std::exchange(value_, -1)) == 0 ? 0 : errno; }
+  [[nodiscard]] int release() { return std::exchange(value_, -1); }
 
  private:
   int value_;
@@ -85,13 +90,28 @@ void write_through(const std::string& path, const Produce& produce) {
   if (const int error = file.close()) throw SystemError{error};
 }
 
-void write_temporary(const fs::path& temporary, const Produce& produce, const struct stat* replaced) {
-  Descriptor file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+std::string link_of(int descriptor) { return fmt::format("/proc/self/fd/{}", descriptor); }
+
+/// A file without a name in the folder; -1 where the file system, or the lack of /proc to name it by, does not allow one.
+int open_unnamed(const fs::path& folder) {
+  const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
+  if (descriptor >= 0 && ::access(link_of(descriptor).c_str(), F_OK) == 0) return descriptor;
+  if (descriptor >= 0) ::close(descriptor);
+  return -1;
+}
+
+/// The descriptor of the flushed file while it has no name; -1 where `temporary` is its name.
+int write_temporary(const fs::path& temporary, const Produce& produce, const struct stat* replaced) {
+  Descriptor file(open_unnamed(temporary.parent_path()));
+  const bool is_unnamed = file.get() >= 0;
+  if (!is_unnamed) file = Descriptor(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
   if (file.get() < 0) throw SystemError{errno};
   if (replaced != nullptr && ::fchmod(file.get(), replaced->st_mode & 07777) != 0) throw SystemError{errno};
   produce_into(file, produce);
   if (::fsync(file.get()) != 0) throw SystemError{errno};
+  if (is_unnamed) return file.release();
   if (const int error = file.close()) throw SystemError{error};
+  return -1;
 }
 
 /// The place behind links, and what is there.
@@ -117,7 +137,10 @@ Target target_of(const std::string& path) {
 }  // namespace
 
 OutputFiles::~OutputFiles() {
-  for (const Pending& each : pending_) ::unlink(each.temporary.c_str());
+  for (const Pending& each : pending_) {
+    ::unlink(each.temporary.c_str());
+    if (each.unnamed >= 0) ::close(each.unnamed);
+  }
 }
 
 void OutputFiles::write(const std::string& path, std::string_view contents) {
@@ -133,13 +156,21 @@ void OutputFiles::write(const std::string& path, const std::function<void(const 
         target.path.parent_path() / fmt::format(".zwidth-{}-{}.part", ::getpid(), pending_.size());
     ::unlink(temporary.c_str());  // left by a killed process that had our number
     pending_.push_back({path, temporary, target.path});
-    write_temporary(temporary, produce, target.existing ? &*target.existing : nullptr);
+    pending_.back().unnamed = write_temporary(temporary, produce, target.existing ? &*target.existing : nullptr);
   } catch (const SystemError& error) {
     fail(path, error.number);
   }
 }
 
 void OutputFiles::commit() {
+  for (Pending& each : pending_) {
+    if (each.unnamed < 0) continue;
+    const std::string link = link_of(each.unnamed);
+    if (::linkat(AT_FDCWD, link.c_str(), AT_FDCWD, each.temporary.c_str(), AT_SYMLINK_FOLLOW) != 0) {
+      fail(each.path, errno);
+    }
+    if (::close(std::exchange(each.unnamed, -1)) != 0) fail(each.path, errno);
+  }
   for (const Pending& each : pending_) {
     if (::rename(each.temporary.c_str(), each.target.c_str()) != 0) fail(each.path, errno);
   }

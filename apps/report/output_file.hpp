@@ -16,8 +16,9 @@ struct OutputFailed : std::runtime_error {
 /// Takes the next piece of a text.
 using Sink = std::function<void(std::string_view)>;
 
-/// Files that appear together, whole or not at all: each is written to a temporary beside its place and flushed to
-/// disk; commit() renames them over what was there.
+/// Files that appear together, whole or not at all: each is written to a file without a name on the disk of its place and
+/// flushed; commit() names them and renames them over what was there. So an interrupted program leaves nothing behind.
+/// Where the file system has no such files, each has a name beside its place from the beginning.
 ///
 /// A symbolic link is followed. What is not a regular file (/dev/stdout, a FIFO) is written straight through.
 /// What fails (missing or unwritable directory, full disk, a directory) throws OutputFailed; then, and without
@@ -40,6 +41,7 @@ class OutputFiles {
     std::string path;  ///< as given, for messages
     std::string temporary;
     std::string target;
+    int unnamed = -1;  ///< open, while the temporary has no name; else -1
   };
   std::vector<Pending> pending_;
 };

@@ -103,12 +103,14 @@ Json rig_json(const Device& device, const RigCheck& check) {
   const bool has_delay = has_clock && check.session.driver != "simulated";  // whose delay is its file's
   json["measured_delay_s"] = has_delay ? Json(timing.delay.p50) : Json(nullptr);
   json["measured_jitter_s"] = has_clock ? Json(timing.latency.p99) : Json(nullptr);
+  json["trust"] = check.trust;
   return json;
 }
 
 Json rig_json(const Device& device, const RigMeasurement& measurement) {
   Json json = begun("measure", device, measurement.session);
   add_measurement(json, device, measurement);
+  json["trust"] = measurement.trust;
   return json;
 }
 
@@ -117,6 +119,7 @@ Json rig_json(const Device& device, const RigIdentification& identification) {
   add_measurement(json, device, identification.measurement);
   json["identification"] =
       identification.identification ? identification_json(*identification.identification) : Json(nullptr);
+  json["trust"] = identification.trust;
   return json;
 }
 
@@ -132,6 +135,7 @@ Json rig_json(const Device& device, const RigRelay& relay) {
                            {"stiffness_db", decibels(std::optional(mean.stiffness))},
                            {"trials", mean.trials}};
   }
+  json["trust"] = relay.trust;
   return json;
 }
 

@@ -14,6 +14,7 @@ struct DriverFailed : std::runtime_error {
 
 struct DriverFacts {
   std::string name;
+  bool is_simulated = false;             ///< what it measures is what the device's file says
   bool lock_step = false;                ///< its time moves one period with each command: there is no clock to keep
   bool is_zeroed = false;                ///< its positions count from where the wall begins; else from the first one
   std::optional<double> watchdog = {};   ///< s, of the firmware; absent: it has none

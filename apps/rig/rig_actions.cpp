@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "zwidth/error.hpp"
+#include "zwidth/model/device_trust.hpp"
 #include "zwidth/quantity.hpp"
 #include "zwidth/stability/any_user.hpp"
 
@@ -95,6 +96,21 @@ double largest(const std::vector<double>& values) {
   return most;
 }
 
+/// What was identified on a simulated device is trusted no more than its file, and the file that it makes says so.
+void inherit(const Trust& trust, Identification& identified) {
+  if (trust.sound()) return;
+  identified.trust.inherit(trust);
+  identified.analysis.trust.inherit(trust);
+  DeviceParameters parameters = identified.fit.device.parameters();
+  if (!parameters.uncertainty) parameters.uncertainty.emplace();
+  Trust of_file = trust_of(identified.fit.device);
+  of_file.inherit(trust);
+  parameters.uncertainty->verdict = of_file.verdict;
+  parameters.uncertainty->warning.clear();
+  parameters.uncertainty->reasons = of_file.reasons;
+  identified.fit.device = Device(std::move(parameters));
+}
+
 /// Holds the device until it swings a hundredth of what it did, or has been held long enough.
 void bring_to_rest(RigRun& run, const Segment& holding, double swung) {
   for (int i = 0; i < most_holds && !run.is_stopped(); ++i) {
@@ -156,12 +172,14 @@ RigCheck check(const Device& device, Driver& driver, const RigOptions& options, 
     (void)run.play(segment);
     result.session = ended(run, options);
   }
+  result.trust = trust_of(device);
   return result;
 }
 
 RigMeasurement measure(const Device& device, Driver& driver, const RigOptions& options,
                        const MeasureOptions& measurement, const Progress& progress) {
   RigMeasurement result;
+  result.trust = trust_of(device);
   result.excitation = excite(measurement.excitation, device);
   RigRun run(driver, options.limits, device.loop().sampling_period);
   Segment segment;
@@ -179,19 +197,23 @@ RigMeasurement measure(const Device& device, Driver& driver, const RigOptions& o
   response.period = result.excitation.period;
   response.skip_periods = skipped_periods;
   result.response = frequency_response(result.recording, response);
+  if (driver.facts().is_simulated) result.response->trust.inherit(result.trust);
+  result.trust.inherit(result.response->trust);
   report(progress, 1.0);
   return result;
 }
 
 RigIdentification identify_on_rig(const Device& device, Driver& driver, const RigOptions& options,
                                   const MeasureOptions& measurement, const Progress& progress) {
-  RigIdentification result{measure(device, driver, options, measurement, {}), {}};
+  RigIdentification result{measure(device, driver, options, measurement, {}), {}, trust_of(device)};
   if (!result.measurement.response) return result;
   IdentifyOptions identification;
   identification.response.excitation = FrequencyResponseOptions::Excitation::periodic;
   identification.response.period = result.measurement.excitation.period;
   identification.response.skip_periods = skipped_periods;
   result.identification = identify(result.measurement.recording, device, identification, progress);
+  if (driver.facts().is_simulated) inherit(result.trust, *result.identification);
+  result.trust.inherit(result.identification->trust);
   return result;
 }
 
@@ -200,6 +222,7 @@ RigRelay relay_on_rig(const Device& device, Driver& driver, const RigOptions& op
   const CriticalStiffness predicted = critical_stiffness(device);
   const double pause = settling_cycles * 2.0 * std::numbers::pi / frequency_of(predicted);
   RigRelay result;
+  result.trust = trust_of(device);
   RigRun run(driver, options.limits, device.loop().sampling_period);
   Segment segment;
   segment.controller.kind = ControllerOptions::Kind::relay;
@@ -224,6 +247,7 @@ RigRelay relay_on_rig(const Device& device, Driver& driver, const RigOptions& op
   record.hysteresis = trials.relay.hysteresis;
   record.analysis = trials.analysis;
   result.relay = relay(std::move(recordings), record);
+  result.trust.inherit(result.relay->trust);
   return result;
 }
 

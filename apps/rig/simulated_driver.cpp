@@ -12,7 +12,7 @@ HybridLoopOptions starting_at(const Device& device, double start) {
 }  // namespace
 
 SimulatedDriver::SimulatedDriver(const Device& device, double start, bool real_time)
-    : facts_{.name = "simulated", .lock_step = !real_time, .is_zeroed = true},
+    : facts_{.name = "simulated", .is_simulated = true, .lock_step = !real_time, .is_zeroed = true},
       loop_(device, starting_at(device, start)) {}
 
 }  // namespace zwidth::rig

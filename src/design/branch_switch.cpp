@@ -23,6 +23,7 @@ constexpr double jump = 0.02;        // of log frequency: another crossover
 constexpr double resolution = 1e-9;  // of p
 constexpr int max_bisections = 60;
 constexpr double first_share_of_way = 1e-3;  // of the way from 0
+constexpr double farthest_beyond = 1e-3;     // of p
 
 struct FollowedPoint {
   double value = 0.0;
@@ -66,8 +67,9 @@ class Way {
       (before >= beyond ? far : near) = *std::move(middle);
     }
     if (distance(near, far) < jump) return std::nullopt;
-    return BranchSwitch{
-        key_, far.value, near.critical.stiffness, far.critical.stiffness, *near.critical.limit, far.critical.limit};
+    const std::optional<CriticalStiffness> after = beyond(far, far.value > near.value ? 1.0 : -1.0);
+    if (!after) return std::nullopt;
+    return BranchSwitch{key_, far.value, near.critical.stiffness, after->stiffness, *near.critical.limit, after->limit};
   }
 
   /// The first switch along rising step numbers.
@@ -88,6 +90,20 @@ class Way {
   }
 
  private:
+  /// What holds beyond a switch. Where no crossover limits there, rounding decides at its very edge between no wall and
+  /// every wall: then the first answer on the way onward that the second route confirms. Nothing where there is none.
+  [[nodiscard]] std::optional<CriticalStiffness> beyond(const FollowedPoint& far, double direction) const {
+    if (far.critical.limit) return far.critical;
+    for (double step = resolution; step <= farthest_beyond; step *= 10.0) {
+      DeviceParameters moved = parameters_;
+      set_parameter(moved, key_, far.value + direction * step * std::abs(far.value));
+      if (find_problem(moved)) return std::nullopt;
+      CriticalStiffness critical = critical_stiffness(Device(std::move(moved)));
+      if (critical.trust.sound()) return critical;
+    }
+    return std::nullopt;
+  }
+
   DeviceParameters parameters_;
   std::string key_;
   SharedProgress& progress_;

@@ -25,7 +25,10 @@ Design design(const Device& device, const DesignOptions& options) {
   design.analysis = analyze(device, {.any_user = options.any_user, .draws = 0, .progress = stages.stage()});
   design.trust = design.analysis.trust;
   design.remarks = design.analysis.remarks;
-  if (design.trust.refused()) return design;
+  if (design.trust.refused()) {
+    if (options.branch_switches) design.branch_switches.emplace();
+    return design;
+  }
   stages.next(0.15);
   design.sensitivities = stiffness_sensitivities(device, design.analysis.critical);
   stages.next(0.2);

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "identification/encoder_step.hpp"
 #include "identification/fit_judgement.hpp"
 #include "identification/friction_test.hpp"
 #include "identification/shot_covariance.hpp"

@@ -177,6 +177,10 @@ std::optional<FrictionEvidence> find_friction(const FrictionQuestion& question, 
     known.col(static_cast<Eigen::Index>(j)) = lines_of(columns[j], first, last);
   }
   const Eigen::VectorXcd target = lines_of(rest, first, last);
+  // Less than this share of the force is what rounds off the record's numbers, where they have no other noise.
+  constexpr double least_friction = 1e-6;
+  double largest_force = 0.0;
+  for (const double each : force) largest_force = std::max(largest_force, std::abs(each));
   std::optional<FrictionEvidence> best;
   double best_ratio = 0.0;
   for (const Sliding& each : effects) {
@@ -191,6 +195,7 @@ std::optional<FrictionEvidence> find_friction(const FrictionQuestion& question, 
       left = found->rest;
     }
     if (!found || !(found->deviations(friction) > 0.0)) continue;
+    if (found->values(friction) < least_friction * largest_force) continue;
     const double ratio = found->values(friction) / found->deviations(friction);
     if (best && ratio <= best_ratio) continue;
     best_ratio = ratio;

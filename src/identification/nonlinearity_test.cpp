@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "identification/encoder_step.hpp"
 #include "identification/shot_fit.hpp"
 #include "identification/time_domain_start.hpp"
 #include "linear_systems.hpp"

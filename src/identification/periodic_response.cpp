@@ -9,6 +9,7 @@
 #include <numeric>
 #include <vector>
 
+#include "identification/encoder_step.hpp"
 #include "identification/line_scatter.hpp"
 #include "signal/fourier.hpp"
 
@@ -189,12 +190,17 @@ FrequencyResponse periodic_response(std::span<const double> force, std::span<con
   response.sampling_period = sampling_period;
   response.averages = count;
   const std::vector<bool> excited = excited_lines(sums.lines, count);
+  // An encoder rounds by step^2 / 12 (white, over the lines of a period). Where the motion repeats to less than its
+  // step, so does what it rounds off: the scatter of the periods does not show that part, and no average takes it off.
+  const double step = encoder_step(output);
+  const double rounding = step * step / 12.0 * static_cast<double>(period);
   for (std::size_t k = 1; k < sums.lines.size(); ++k) {
     if (!excited[k]) continue;
     const double turns = static_cast<double>(k) / (static_cast<double>(period) * sampling_period);
     ResponsePoint point = response_point(sums.lines[k], count, 2.0 * std::numbers::pi * turns);
     point.value /= periods.output_scale();
     point.variance /= periods.output_scale() * periods.output_scale();
+    point.variance += std::max(0.0, rounding / std::norm(point.force) - count * point.variance);
     point.force *= 2.0 / static_cast<double>(period);
     response.points.push_back(point);
   }

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "identification/encoder_step.hpp"
 #include "identification/feedback_test.hpp"
 #include "identification/fit_judgement.hpp"
 #include "identification/shot_covariance.hpp"

@@ -32,7 +32,4 @@ struct TimeDomainStart {
 [[nodiscard]] std::vector<Coordinate> time_domain_coordinates(const TimeDomainStart& start,
                                                               std::span<const Recording> recordings);
 
-/// The encoder's step where the position holds whole steps only; else 0.
-[[nodiscard]] double encoder_step(std::span<const double> position);
-
 }  // namespace zwidth::internal

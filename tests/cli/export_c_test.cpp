@@ -172,6 +172,22 @@ TEST_F(ExportCCommand, ASafetyFactorSetsTheStiffness) {
   EXPECT_THAT(outcome.output, HasSubstr("stiffness K         2888."));  // of 5776.09 N/m
 }
 
+TEST_F(ExportCCommand, AShareOfAnUncertainLimitSaysOfWhat) {
+  write("uncertain.toml", contents("devices/lhifam.toml") +
+                              "\n[uncertainty]\nparameters = ['body.handle.damping']\ncovariance = [[0.04]]\n");
+  const Outcome outcome = run("zwidth export uncertain.toml --format c --safety-factor 0.5");
+  ASSERT_EQ(outcome.status, 0) << outcome.errors;
+  EXPECT_THAT(outcome.output, HasSubstr("(0.5 of the limit for any user, at 0.85"));
+  EXPECT_THAT(outcome.output, HasSubstr(" of it: the lower end of the critical stiffness' 95 % interval)"));
+}
+
+TEST_F(ExportCCommand, WhereTheSoftestWallsAreUnstableThereIsNoShare) {
+  write("none.toml", "[[body]]\nname = 'a'\nmass = 1\n[loop]\nsampling_period = 1e-3\n");
+  const Outcome outcome = run("zwidth export none.toml --format c --safety-factor 0.5");
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.errors, HasSubstr("--safety-factor: no wall is stable from K = 0 on: there is no limit"));
+}
+
 TEST_F(ExportCCommand, WhatDoesNotFitIsRefused) {
   const auto refusal = [&](const std::string& rest) {
     const Outcome outcome = run("zwidth export devices/lhifam.toml " + rest);

@@ -68,6 +68,22 @@ TEST_F(Rig, ARefusedDeviceNever) {
   }
 }
 
+// In the simulated device nothing is measured that its file does not say.
+TEST_F(Rig, EveryActionRepeatsTheDoubtOfTheFile) {
+  const std::string doubtful = "--set uncertainty.verdict=doubtful --set uncertainty.warning=guessed --accept-doubt ";
+  for (const std::string action : {"check", "measure", "identify --output-device found.toml",
+                                   "relay --amplitude 5 --trials 1", "wall --stiffness 3000", "limit"}) {
+    const auto document = json(action + " " + lhifam + doubtful);
+    EXPECT_EQ(document["trust"]["verdict"], "doubtful") << action;
+    EXPECT_EQ(document["trust"]["reasons"][0], "guessed") << action;
+    const Outcome text = run("zwidth rig " + action + " " + lhifam + doubtful);
+    EXPECT_THAT(text.output, HasSubstr("guessed")) << action;
+  }
+  const auto found = nlohmann::json::parse(run("zwidth analyze found.toml --json").output, nullptr, false);
+  EXPECT_EQ(found["trust"]["verdict"], "doubtful");
+  EXPECT_THAT(found["trust"]["reasons"].dump(), HasSubstr("guessed"));
+}
+
 TEST_F(Rig, AnUnstableWallIsRefusedAndIfAcceptedTakenAwayAtOnce) {
   expect_refused("wall " + lhifam + "--stiffness 20000", 1, "UNSTABLE");
   const Outcome outcome = run("zwidth rig wall --json " + lhifam +

@@ -56,6 +56,21 @@ TEST_F(ServedErrors, AnErrorNamesTheFieldThatCausedIt) {
                "body = [{name = \"a b\", mass = -1}]\nloop.sampling_period = 1e-3");
 }
 
+// The device's own reasons are not cut at their semicolons and colons into a place and what is allowed.
+TEST_F(ServedErrors, WorkThatFailsHasNoPlace) {
+  for (const std::string verdict : {"doubtful", "refused"}) {
+    const std::string device = contents("devices/lhifam.toml") + "\n[uncertainty]\nverdict = '" + verdict +
+                               "'\nreasons = ['one: a; b', 'another']\n";
+    const json request{{"device_toml", device}, {"options", {{"format", "c"}, {"stiffness", 100}}}};
+    const HttpAnswer answer = post("export", request.dump());
+    EXPECT_EQ(answer.status, 400);
+    const json error = json::parse(answer.body).at("error");
+    EXPECT_EQ(error.at("where"), "") << error;
+    EXPECT_THAT(error.at("what").get<std::string>(), HasSubstr("one: a; b; another")) << error;
+    EXPECT_EQ(error.at("allowed"), "") << error;
+  }
+}
+
 TEST_F(ServedErrors, AStudyIsBoundedAndNamesNoFile) {
   const auto expect_place = [&](const json& options, const json& study, const std::string& where) {
     json request{{"device_toml", contents("devices/lhifam.toml")}, {"options", options}};

@@ -58,6 +58,21 @@ TEST(BranchSwitch, ARigidDeviceHasNone) {
   }
 }
 
+// 1e-9/(s + 1000) has one crossover, at Nyquist: K + 2 B/T = 1/|P(-1)|. With more damping no wall is stable.
+TEST(BranchSwitch, BeyondTheLastCrossoverNoWallIsStable) {
+  DeviceParameters parameters;
+  parameters.transfer_function = TransferFunction{{1e-9}, {1.0, 1000.0}};
+  parameters.loop.sampling_period = 1e-3;
+  const Device device(parameters);
+  const double largest = 0.5 * parameters.loop.sampling_period * critical_stiffness(device).stiffness;
+  const auto switches = branch_switches(device);
+  const auto found = std::ranges::find(switches, "wall.damping", &BranchSwitch::key);
+  ASSERT_NE(found, switches.end());
+  EXPECT_NEAR(found->value / largest, 1.0, 1e-6);
+  EXPECT_EQ(found->stiffness_beyond, 0.0);
+  EXPECT_FALSE(found->beyond);
+}
+
 TEST(BranchSwitch, RefusesAFactorThatDoesNotMove) {
   EXPECT_THROW((void)branch_switches(Device(test::rigid_parameters()), {.factor = 1.0}), Error);
 }

@@ -19,6 +19,7 @@ namespace {
 using ::testing::Contains;
 using ::testing::Field;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 Recording recorded(const Device& device, const ExcitationOptions& excitation, const test::RecordNoise& noise) {
   const std::vector<double> force = excite(excitation).samples;
@@ -137,6 +138,34 @@ TEST(Identification, ARightStructureInAWholeBandIsSound) {
     EXPECT_NEAR(found.analysis.critical.stiffness, truth, 0.05 * truth) << "seed " << seed;
   }
   EXPECT_LE(unsafe, 1);
+}
+
+/// LHIfAM under a multisine that repeats exactly, its numbers rounded to a multiple of `step`.
+Recording rounded_lhifam(double step) {
+  ExcitationOptions excitation = multisine(1.0, 200.0, 1000.0);
+  excitation.amplitude = 3.0;
+  excitation.duration = 40.0;
+  excitation.periods = 10;
+  Recording recording = recorded(Device(test::lhifam_parameters()), excitation, {0.0, 0.0, 1});
+  for (double& each : recording.channels[1].samples) each = std::round(each / step) * step;
+  return recording;
+}
+
+// Without other noise the encoder rounds off the same in every period: the periods agree, and are wrong by as much.
+TEST(Identification, ARoundingThatRepeatsIsNoMissingBody) {
+  const Device truth(test::lhifam_parameters());
+  const Identification found = identify(rounded_lhifam(3.14e-6), truth);
+  EXPECT_THAT(all_reasons(found.trust), Not(HasSubstr("a body that it lacks")));
+  ASSERT_TRUE(found.analysis.interval);
+  EXPECT_LE(found.analysis.interval->lower, true_stiffness(truth));
+  EXPECT_GE(found.analysis.interval->upper, true_stiffness(truth));
+}
+
+TEST(Identification, RoundedNumbersAreNoFriction) {
+  const Device truth(test::lhifam_parameters());
+  const Identification found = identify(rounded_lhifam(1e-12), truth);
+  EXPECT_THAT(all_reasons(found.trust), Not(HasSubstr("friction")));
+  EXPECT_NEAR(found.analysis.critical.stiffness / true_stiffness(truth), 1.0, 1e-3);
 }
 
 TEST(Identification, ADelayThatAFilesStructureLacksIsFitted) {

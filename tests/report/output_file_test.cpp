@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -115,6 +116,24 @@ TEST_F(OutputFile, SeveralAppearTogetherOrNotAtAll) {
   files.commit();
   EXPECT_EQ(contents("a") + contents("b"), "newnew");
   EXPECT_EQ(entries(), 2U);
+}
+
+TEST_F(OutputFile, AKilledProgramLeavesNothingBehind) {
+  write_whole(path("old"), "old");
+  const ::pid_t child = ::fork();
+  if (child == 0) {
+    OutputFiles files;
+    files.write(path("old"), "new");
+    files.write(path("new"), [](const Sink& sink) {
+      sink("half of it");
+      ::raise(SIGKILL);
+    });
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  EXPECT_TRUE(WIFSIGNALED(status));
+  EXPECT_EQ(contents("old"), "old");
+  EXPECT_EQ(entries(), 1U);
 }
 
 TEST_F(OutputFile, MakesDirectoriesButNotOverAFile) {

@@ -16,7 +16,7 @@ constexpr std::size_t target_width = 30;
 
 std::string limit_text(const DesignTargets& targets, std::string_view unit) {
   if (!targets.limit_now) return "refused";
-  if (*targets.limit_now == 0.0) return "none: no wall is stable";
+  if (*targets.limit_now == 0.0) return "none: no wall is stable from K = 0 on";
   return std::isfinite(*targets.limit_now) ? quantity(*targets.limit_now, unit) : std::string("unbounded");
 }
 

@@ -54,7 +54,7 @@ std::string limit_of(const CriticalStiffness& predicted, const Units& units) {
       return fmt::format("{} at {}", quantity(predicted.stiffness, units.stiffness),
                          crossover_frequency_text(predicted.limit->frequency));
     case StiffnessStatus::none_stable:
-      return "no wall is stable";
+      return "none: no wall is stable from K = 0 on";
     case StiffnessStatus::unbounded:
       return "every wall is stable";
     case StiffnessStatus::refused:
@@ -86,6 +86,7 @@ std::string trial_rows(const LimitMeasurement& measured, const Units& units) {
 std::string rig_text(const Device& device, const RigCheck& check) {
   const RigSession& session = check.session;
   std::string text = rig_heading(device, "Rig check", session);
+  text += trust_lines(check.trust);
   if (session.stop == StopReason::none) text += labelled("  link", "answers every cycle, with zero force");
   if (check.watchdog_proved) {
     text += labelled("  watchdog", *check.watchdog_proved ? "proved: after silence the drive had let go"
@@ -106,12 +107,14 @@ std::string rig_text(const Device& device, const RigCheck& check) {
 
 std::string rig_text(const Device& device, const RigMeasurement& measurement) {
   std::string text = rig_heading(device, "Rig measurement", measurement.session);
+  text += trust_lines(measurement.trust);
   if (measurement.response) text += frf_text(*measurement.response, units_of_response(device));
   return text + session_text(measurement.session);
 }
 
 std::string rig_text(const Device& device, const RigIdentification& identification) {
   std::string text = rig_heading(device, "Identified on the rig", identification.measurement.session);
+  text += trust_lines(identification.trust);
   if (identification.identification) text += identification_text(*identification.identification);
   return text + session_text(identification.measurement.session);
 }

@@ -22,6 +22,7 @@ struct RigCheck {
   RigSession session;  ///< what ran
   /// Silence made the firmware let go. Absent: there is no firmware, or none that watches.
   std::optional<bool> watchdog_proved;
+  Trust trust;  ///< of the device's file
 };
 
 /// A record of the device under excitation.
@@ -30,18 +31,21 @@ struct RigMeasurement {
   Excitation excitation;                     ///< what was commanded
   Recording recording;                       ///< force and position; empty where the rig stopped
   std::optional<MeasuredResponse> response;  ///< absent where the rig stopped
+  Trust trust;                               ///< of the device's file, and of the response
 };
 
 /// The device as fitted to a record of its own.
 struct RigIdentification {
   RigMeasurement measurement;                    ///< what was fitted
   std::optional<Identification> identification;  ///< absent where the rig stopped
+  Trust trust;                                   ///< of the device's file that ran, and of what was identified
 };
 
 /// The relay experiment on the device.
 struct RigRelay {
   RigSession session;                ///< what ran
   std::optional<RelayResult> relay;  ///< absent where the rig stopped in the first trial
+  Trust trust;                       ///< of the device's file, and of what was measured
 };
 
 /// A wall that was rendered.

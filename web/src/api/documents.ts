@@ -91,16 +91,17 @@ export interface Design extends Judged {
   limited_by: LimitedBy | null
   any_user_stiffness: number | null
   sensitivities: Sensitivity[]
+  /** null: not searched, above 8 bodies. */
   branch_switches: {
     parameter: string
     value: number
     critical_stiffness: number
-    critical_stiffness_beyond: number
+    critical_stiffness_beyond: number | null
     limited_by: LimitedBy
-    limited_by_beyond: LimitedBy
+    limited_by_beyond: LimitedBy | null
     frequency_rad_s: number
-    frequency_beyond_rad_s: number
-  }[]
+    frequency_beyond_rad_s: number | null
+  }[] | null
 }
 export interface Sweep {
   axes: { parameter: string; unit: string; values: number[] }[]
