@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <hdf5.h>
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -15,6 +17,7 @@
 
 #include "report/output_file.hpp"
 #include "results/study_json.hpp"
+#include "study/stored_chunk.hpp"
 #include "study/study_checkpoint.hpp"
 #include "zwidth/io/device_file.hpp"
 
@@ -22,8 +25,6 @@ namespace zwidth::study_engine {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr unsigned deflate_level = 1;  // numbers of random devices hardly compress; the first level takes what there is
 
 constexpr std::size_t most_listed = std::size_t{64} << 20U;  // bytes of what is said of single units, in memory at once
 
@@ -58,17 +59,11 @@ class Handle {
 class Column {
  public:
   Column(hid_t folder, const std::string& name, hid_t type, std::uint64_t samples)
-      : type_(type), data_(create(folder, name, type, samples), H5Dclose) {}
+      : data_(create(folder, name, type, samples), H5Dclose) {}
 
-  void write(std::uint64_t chunk, const void* values, std::size_t size) {
+  void write(std::uint64_t chunk, const StoredChunk& bytes) {
     const hsize_t start = chunk * study_chunk_size;
-    const hsize_t count = size;
-    const Handle memory(H5Screate_simple(1, &count, nullptr), H5Sclose);
-    const Handle file(H5Dget_space(data_.get()), H5Sclose);
-    if (H5Sselect_hyperslab(file.get(), H5S_SELECT_SET, &start, nullptr, &count, nullptr) < 0 ||
-        H5Dwrite(data_.get(), type_, memory.get(), file.get(), H5P_DEFAULT, values) < 0) {
-      throw Hdf5Failed{};
-    }
+    if (H5Dwrite_chunk(data_.get(), H5P_DEFAULT, 0, &start, bytes.size(), bytes.data()) < 0) throw Hdf5Failed{};
   }
 
  private:
@@ -84,7 +79,6 @@ class Column {
     return H5Dcreate2(folder, name.c_str(), type, space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT);
   }
 
-  hid_t type_;
   Handle data_;
 };
 
@@ -118,53 +112,111 @@ void put_attribute(hid_t folder, const char* name, std::uint64_t value) {
   if (H5Awrite(attribute.get(), H5T_NATIVE_UINT64, &value) < 0) throw Hdf5Failed{};
 }
 
-void write_columns(hid_t file, const StudyRun& run, const ChunkSource& chunks) {
-  const std::uint64_t samples = run.options().samples;
-  const Handle folder_properties(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
-  H5Pset_obj_track_times(folder_properties.get(), false);
-  const Handle folder(H5Gcreate2(file, "parameters", H5P_DEFAULT, folder_properties.get(), H5P_DEFAULT), H5Gclose);
-  std::vector<std::unique_ptr<Column>> parameters;
-  for (const StudyParameter& each : run.distributions().parameters) {
-    parameters.push_back(std::make_unique<Column>(folder.get(), each.key, H5T_NATIVE_DOUBLE, samples));
-  }
-  Column stiffness(file, "critical_stiffness", H5T_NATIVE_DOUBLE, samples);
-  Column frequency(file, "frequency_rad_s", H5T_NATIVE_DOUBLE, samples);
-  Column mode(file, "mode", H5T_NATIVE_INT16, samples);
-  Column status(file, "status", H5T_NATIVE_UINT8, samples);
-  Column verdict(file, "verdict", H5T_NATIVE_UINT8, samples);
-  std::unique_ptr<Column> any_user;
-  if (run.options().any_user) any_user = std::make_unique<Column>(file, "any_user", H5T_NATIVE_DOUBLE, samples);
-  std::string exceptions;
-  std::uint64_t unlisted = 0;
-  std::vector<std::uint8_t> small;
-  const auto bytes = [&](const auto& values) {
-    small.clear();
-    for (const auto value : values) small.push_back(static_cast<std::uint8_t>(value));
-    return small.data();
+/// A chunk of the study, ready to be written.
+struct PreparedChunk {
+  std::uint64_t chunk = 0;
+  BatchStiffness answers;
+  std::vector<StoredChunk> columns;
+};
+
+/// In the order of Columns.
+void prepare(const StudyRun& run, PreparedChunk& one) {
+  const BatchStiffness& answers = one.answers;
+  const std::size_t count = answers.size();
+  const auto capacity = static_cast<std::size_t>(std::min(study_chunk_size, run.options().samples));
+  const auto store = [&](const auto& values) {
+    one.columns.push_back(stored_chunk(values.data(), sizeof values[0], count, capacity));
   };
-  for (std::uint64_t chunk = 0; chunk < run.chunk_count(); ++chunk) {
-    const BatchStiffness& answers = chunks(chunk);
-    const std::size_t size = answers.size();
-    const std::vector<ParameterValues> columns = run.columns(chunk);
-    for (std::size_t j = 0; j < columns.size(); ++j) parameters[j]->write(chunk, columns[j].values.data(), size);
-    stiffness.write(chunk, answers.stiffness.data(), size);
-    frequency.write(chunk, answers.frequency.data(), size);
-    mode.write(chunk, answers.mode.data(), size);
-    status.write(chunk, bytes(answers.status), size);
-    verdict.write(chunk, bytes(answers.verdict), size);
-    if (any_user) any_user->write(chunk, answers.any_user.data(), size);
+  const auto store_small = [&](const auto& values) {
+    std::vector<std::uint8_t> small;
+    small.reserve(count);
+    for (const auto value : values) small.push_back(static_cast<std::uint8_t>(value));
+    store(small);
+  };
+  for (const ParameterValues& each : run.columns(one.chunk)) store(each.values);
+  store(answers.stiffness);
+  store(answers.frequency);
+  store(answers.mode);
+  store_small(answers.status);
+  store_small(answers.verdict);
+  if (run.options().any_user) store(answers.any_user);
+}
+
+/// What is to be said of single units, as long as there is room for it.
+class Exceptions {
+ public:
+  void add(std::uint64_t chunk, const BatchStiffness& answers) {
     for (const BatchException& each : answers.exceptions) {
-      if (exceptions.size() > most_listed) {
-        ++unlisted;
+      if (text_.size() > most_listed) {
+        ++unlisted_;
         continue;
       }
       const std::string why =
           each.failure.empty() ? fmt::format("{}", fmt::join(each.trust.reasons, "; ")) : each.failure;
-      exceptions += fmt::format("{}\t{}\n", chunk * study_chunk_size + each.index, why);
+      text_ += fmt::format("{}\t{}\n", chunk * study_chunk_size + each.index, why);
     }
   }
-  if (unlisted > 0) exceptions += fmt::format("and {} more, by /status and /verdict\n", unlisted);
-  put_text(file, "exceptions", exceptions);
+  [[nodiscard]] std::string text() const {
+    return unlisted_ == 0 ? text_ : fmt::format("{}and {} more, by /status and /verdict\n", text_, unlisted_);
+  }
+
+ private:
+  std::string text_;
+  std::uint64_t unlisted_ = 0;
+};
+
+std::vector<std::unique_ptr<Column>> create_columns(hid_t file, hid_t folder, const StudyRun& run) {
+  const std::uint64_t samples = run.options().samples;
+  std::vector<std::unique_ptr<Column>> columns;
+  const auto create = [&](hid_t in, const std::string& name, hid_t type) {
+    columns.push_back(std::make_unique<Column>(in, name, type, samples));
+  };
+  for (const StudyParameter& each : run.distributions().parameters) create(folder, each.key, H5T_NATIVE_DOUBLE);
+  create(file, "critical_stiffness", H5T_NATIVE_DOUBLE);
+  create(file, "frequency_rad_s", H5T_NATIVE_DOUBLE);
+  create(file, "mode", H5T_NATIVE_INT16);
+  create(file, "status", H5T_NATIVE_UINT8);
+  create(file, "verdict", H5T_NATIVE_UINT8);
+  if (run.options().any_user) create(file, "any_user", H5T_NATIVE_DOUBLE);
+  return columns;
+}
+
+/// One reads, all compress, one writes.
+void write_columns(hid_t file, const StudyRun& run, const ChunkSource& chunks) {
+  const Handle folder_properties(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
+  H5Pset_obj_track_times(folder_properties.get(), false);
+  const Handle folder(H5Gcreate2(file, "parameters", H5P_DEFAULT, folder_properties.get(), H5P_DEFAULT), H5Gclose);
+  const std::vector<std::unique_ptr<Column>> columns = create_columns(file, folder.get(), run);
+  Exceptions exceptions;
+  std::uint64_t next = 0;
+  const auto read = [&](tbb::flow_control& flow) {
+    auto one = std::make_shared<PreparedChunk>();
+    if (next == run.chunk_count()) {
+      flow.stop();
+    } else {
+      one->chunk = next++;
+      one->answers = chunks(one->chunk);
+    }
+    return one;
+  };
+  const auto compress = [&](std::shared_ptr<PreparedChunk> one) {
+    prepare(run, *one);
+    return one;
+  };
+  const auto write = [&](const std::shared_ptr<PreparedChunk>& one) {
+    for (std::size_t i = 0; i < columns.size(); ++i) columns[i]->write(one->chunk, one->columns[i]);
+    exceptions.add(one->chunk, one->answers);
+  };
+  using Piece = std::shared_ptr<PreparedChunk>;
+  const std::size_t threads = run.options().threads;
+  tbb::task_arena arena(threads == 0 ? tbb::task_arena::automatic : static_cast<int>(threads));
+  arena.execute([&] {
+    const auto in_work = 2 * static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()) + 2;
+    tbb::parallel_pipeline(in_work, tbb::make_filter<void, Piece>(tbb::filter_mode::serial_in_order, read) &
+                                        tbb::make_filter<Piece, Piece>(tbb::filter_mode::parallel, compress) &
+                                        tbb::make_filter<Piece, void>(tbb::filter_mode::serial_in_order, write));
+  });
+  put_text(file, "exceptions", exceptions.text());
 }
 
 void write_all(const std::string& path, const StudyRun& run, const ChunkSource& chunks, const Study& study) {
