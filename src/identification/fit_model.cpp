@@ -72,7 +72,10 @@ void check_free(const DeviceParameters& parameters, const std::string& key) {
 
 }  // namespace
 
-double Coordinate::value(double x) const { return kind == Kind::logarithmic ? unit * std::exp(x) : unit * x; }
+double Coordinate::value(double x) const {
+  constexpr double least = 1e-30;  // that a device may have
+  return kind == Kind::logarithmic ? std::clamp(unit * std::exp(x), least, 1.0 / least) : unit * x;
+}
 
 double Coordinate::position(double value) const {
   return kind == Kind::logarithmic ? std::log(std::max(value, 1e-12 * unit) / unit) : value / unit;

@@ -38,6 +38,26 @@ double stiffness_beside(DeviceParameters parameters) {
   return limit_of(Device(std::move(parameters))).stiffness;
 }
 
+/// Whether a fit with friction, the last coordinate of the model, explains the shots better than the linear device does: a side
+/// minimum explains them less.
+bool explains_more(const ShotSearch& search, const ShotModel& model, const std::vector<Shot>& shots,
+                   const Eigen::VectorXd& linear, const FittedShots& with_friction) {
+  ShotFit start{linear, model.recorded_states(shots),
+                std::vector<bool>(static_cast<std::size_t>(linear.size()), false)};
+  const auto friction = static_cast<Eigen::Index>(model.coordinates().size()) - 1;
+  start.x(friction) = 0.0;
+  start.held[static_cast<std::size_t>(friction)] = true;
+  std::optional<FittedShots> without;
+  constexpr int rounds = 2;  // the noise of the first is that of states that were not fitted
+  for (int round = 0; round < rounds; ++round) {
+    without =
+        search.with_noise(without ? without->fit : start, shots, linear, {.most_iterations = 8, .tolerance = 1e-3});
+    if (!without) return true;
+  }
+  constexpr double least_gain = 2.0;  // of the log-likelihood: two deviations
+  return search.badness(with_friction, shots) < search.badness(*without, shots) - least_gain;
+}
+
 /// Friction of the heaviest body beside all numbers of the fit; nothing where no such motion can be followed.
 std::optional<ShownFriction> friction_beside(const ParameterFit& fit, const std::vector<std::string>& locked,
                                              const Recording& recording) {
@@ -48,7 +68,8 @@ std::optional<ShownFriction> friction_beside(const ParameterFit& fit, const std:
   if (record.force.size() < shortest || !body) return std::nullopt;
   DeviceParameters parameters = fit.device.parameters();
   parameters.uncertainty.reset();
-  TimeDomainStart start{.device = Device(std::move(parameters)), .free = {}};
+  const Device linear(std::move(parameters));
+  TimeDomainStart start{.device = linear, .free = {}};
   for (const ParameterEstimate& each : fit.estimates) start.free.push_back(each.key);
   start.free.push_back("body." + body->name + ".coulomb");
 
@@ -94,7 +115,7 @@ std::optional<ShownFriction> friction_beside(const ParameterFit& fit, const std:
   if (!best) return std::nullopt;
   const Eigen::VectorXd towards = best->fit.x;
   best = search.with_noise(best->fit, shots, towards, {.most_iterations = 12, .tolerance = 1e-5});
-  if (!best) return std::nullopt;
+  if (!best || !explains_more(search, model, shots, model.position_of(linear.parameters()), *best)) return std::nullopt;
   const auto slopes = shot_slopes(model, shots, best->noise, best->fit.x, best->fit.states);
   if (!slopes) return std::nullopt;
   const Eigen::VectorXd& x = best->fit.x;

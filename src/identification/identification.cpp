@@ -220,8 +220,12 @@ class Fitting {
     }
   }
 
-  /// What is left beyond the noise, now that all is free which shows, may be that of a side minimum.
+  /// A search that was stopped goes on. What is left beyond the noise, all free that shows, may be a side minimum's.
   void leave_side_minimum() {
+    if (!fit_->fit.settled) {
+      auto further = with_free({}, ParameterFitOptions::Start::from_structure);
+      if (further && further->fit.model_error <= fit_->fit.model_error) fit_ = std::move(further);
+    }
     constexpr double poor = 1.4;  // residuals over the noise: a right structure hardly leaves more
     const ParameterFit& fit = fit_->fit;
     if (fit_options_.start != ParameterFitOptions::Start::from_data || !fit.misfit || *fit.misfit < poor) return;
@@ -310,8 +314,6 @@ void judge_interval(Identification& result, Trust device_trust) {
   result.fit.device = with_trust(result.fit.device, device_trust);
 }
 
-void check(const IdentifyOptions& options) { require_valid(find_problem(options)); }
-
 Identification identified(const MeasuredResponse& measured, std::span<const Recording> recordings,
                           const Device& structure, const IdentifyOptions& options) {
   Fitting fitting(measured, recordings, structure, options);
@@ -362,7 +364,7 @@ Identification identify(const Recording& recording, const Device& structure, con
 
 Identification identify(std::span<const Recording> recordings, const Device& structure, const IdentifyOptions& options,
                         const Progress& progress) {
-  check(options);
+  require_valid(find_problem(options));
   IdentifyOptions decided = options;
   decided.response.excitation = excitation_of(options.response);
   Identification found =
@@ -390,7 +392,7 @@ Identification identify(std::span<const Recording> recordings, const Device& str
 }
 
 Identification identify(const MeasuredResponse& measured, const Device& structure, const IdentifyOptions& options) {
-  check(options);
+  require_valid(find_problem(options));
   return identified(measured, {}, structure, options);
 }
 

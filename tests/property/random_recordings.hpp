@@ -172,6 +172,7 @@ inline std::optional<RandomRecording> random_recording(std::uint64_t seed, const
   std::vector<double> position =
       made.has_friction ? detail::motion_with_friction(truth, real)
                         : forced_response(sample(state_space(Device(truth)), {period, truth.loop.delay}), real);
+  if (!std::isfinite(position.back())) return std::nullopt;  // steps of friction too coarse for its stiffest mode
   double moved = 0.0;
   for (std::size_t k = 1; k < position.size(); ++k) moved += std::pow(position[k] - position[k - 1], 2);
   moved = std::sqrt(moved / static_cast<double>(position.size()));
