@@ -201,7 +201,7 @@ Outcome run_once(const Run& run, const FaultCase& fault) {
     if (fault.name == "second_rig") {
       Host other = begun("other", run.folder / "other.csv");
       is_as_told = other.status() == 1 && other.errors().find("other rig") != std::string::npos;
-      is_as_told = is_as_told && within(to_let_go, [&] { return drive.nonzero_forces() > before; });
+      is_as_told = is_as_told && within(to_let_go, [&] { return drive.nonzero_forces() > before || host.has_ended(); });
     }
     host.send(SIGINT);
   }
@@ -210,8 +210,10 @@ Outcome run_once(const Run& run, const FaultCase& fault) {
   outcome.errors = host.errors();
   if (fault.udp) drive.set_fault(Serial::none, Udp::none);
   outcome.forces_after = drive.nonzero_forces() - from;
-  outcome.is_safe =
-      is_as_told && outcome.forces_after <= most_cycles_after && (outcome.force_stays || within(to_let_go, is_zero));
+  const bool has_stopped = is_as_told && outcome.forces_after <= most_cycles_after;
+  const bool is_zero_now = within(outcome.force_stays ? milliseconds(300) : to_let_go, is_zero);
+  outcome.is_safe = has_stopped && is_zero_now;
+  outcome.force_stays = outcome.force_stays && has_stopped;
   outcome.is_whole = is_whole_record(run.folder / "host.csv");
   if (fault.name == "full_disk") {  // told, and whole elsewhere
     const auto elsewhere = word_after("flight record: ", outcome.errors);
