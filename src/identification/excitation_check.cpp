@@ -1,11 +1,13 @@
 #include "identification/excitation_check.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "zwidth/model/device_trust.hpp"
 #include "zwidth/model/state_space.hpp"
 #include "zwidth/quantity.hpp"
 #include "zwidth/sampling/forced_response.hpp"
@@ -59,6 +61,11 @@ ExcitationCheck check_excitation(const Excitation& excitation, const Device& dev
                              fmt::format("the device moves at most {:.4g} {}, {:.2g} steps of its encoder",
                                          check.peak_stroke, units.length, check.peak_stroke / resolution),
                              "the record would be mostly rounding; raise the amplitude"});
+  }
+  if (const Trust trust = trust_of(device); !trust.sound()) {
+    check.remarks.push_back(
+        {warning, fmt::format("the device's file is not to be relied on: {}", fmt::join(trust.reasons, "; ")),
+         "the stroke may be another; begin with less force"});
   }
   const bool friction =
       std::any_of(device.bodies().begin(), device.bodies().end(), [](const Body& body) { return body.coulomb > 0.0; });

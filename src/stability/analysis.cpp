@@ -77,6 +77,17 @@ void confirm_delay_margin(const Device& device, Analysis& analysis) {
   }
 }
 
+/// Of a wall many powers of ten below all limits its search does not settle: nothing else is lost by that.
+void add_disk_margin(const FilteredPlant& plant, const Wall& wall, Analysis& analysis) {
+  try {
+    analysis.disk_margin = disk_margin(plant, wall);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::did_not_converge) throw;
+    analysis.remarks.push_back({Remark::Severity::note, "the disk margin is left out: its search did not settle",
+                                "the other margins of the wall stand", "take a wall nearer to the limits"});
+  }
+}
+
 /// The wall given, and whether the second route agrees on it. Within rounding of a crossover there is nothing to agree
 /// on.
 void judge_wall(const Device& device, const FilteredPlant& plant, const PoleCount& poles, Analysis& analysis) {
@@ -88,7 +99,7 @@ void judge_wall(const Device& device, const FilteredPlant& plant, const PoleCoun
   distrust(agreement(poles, stiffness, analysis.wall->stable), stiffness, analysis.trust);
   if (!analysis.trust.refused()) {
     if (analysis.wall->delay_margin) confirm_delay_margin(device, analysis);
-    analysis.disk_margin = disk_margin(plant, device.parameters().wall);
+    add_disk_margin(plant, device.parameters().wall, analysis);
     return;
   }
   analysis.wall.reset();

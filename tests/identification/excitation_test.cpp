@@ -333,6 +333,15 @@ TEST(ExcitationCheck, AnUnstableDeviceLeavesEveryStroke) {
   EXPECT_EQ(check.exceeded.size(), 1U);
 }
 
+TEST(ExcitationCheck, DoubtsOfTheDeviceAreRepeated) {
+  DeviceParameters parameters = test::lhifam_parameters();
+  EXPECT_TRUE(excite({}, Device(parameters)).check->remarks.empty());
+  parameters.uncertainty.emplace().warning = "guessed";
+  const Excitation excitation = excite({}, Device(parameters));
+  ASSERT_EQ(excitation.check->remarks.size(), 1U);
+  EXPECT_NE(excitation.check->remarks[0].what.find("guessed"), std::string::npos);
+}
+
 TEST(ExcitationCheck, DoubtsAboutEncoderAndFrictionAreSaid) {
   DeviceParameters parameters = test::lhifam_parameters();
   parameters.sensor.resolution = 1e-3;

@@ -47,9 +47,47 @@ OTHERS = [
     ["rig", "limit", LHIFAM],
     ["rig", "relay", LHIFAM],
     ["rig", "identify", LHIFAM],
+    *[["simulate", LHIFAM, "--duration", "0.2", "--user-force", force] for force in ("step:5@0.1", "ramp:5@0.1", "sine:1,5@0")],
+    *[["rig", action, LHIFAM, "--velocity-limit", "1e-9"] for action in ("measure", "identify", "relay", "limit")],
+    ["rig", "limit", LHIFAM, "--ceiling", "100", "--from", "90"],
 ]
-# with a warning of its own; with nobody to hold it; that no wall leaves stable
+LOOP = "[loop]\nsampling_period = 1e-3\n"
+BODY = '[[body]]\nname = "a"\nmass = 1\ndamping = 1\n'
+FILTERS = """[[wall.filter]]
+type = "low_pass"
+frequency_hz = 300
+order = 2
+[[wall.filter]]
+type = "notch"
+frequency_hz = 60
+[[wall.filter]]
+type = "lead_lag"
+frequency_hz = 30
+ratio = 1.5
+[[wall.filter]]
+type = "biquad"
+frequency_hz = 20
+numerator = [1e-8, 1e-4, 1]
+denominator = [1e-8, 2e-4, 1]
+[[wall.filter]]
+type = "digital"
+numerator = [1]
+denominator = [1, 0.1]
+"""
+# with a warning of its own; with nobody to hold it; that no wall leaves stable; ...
 DEVICES = {
+    "all_keys": BODY.replace("name", "stiffness = 1\ncoulomb = 0.1\nname") + LOOP + "delay = 1e-4\n"
+    "[actuator]\ntime_constant = 1e-4\nforce_limit = 10\n[sensor]\nresolution = 1e-6\n[operator]\nmass = 1\ndamping = 2\nstiffness = 3\n"
+    "[driver]\ntravel = 0.01\ngear = 2\nsign = -1\ntorque_constant = 0.1\ntorque_per_volt = 0.2\nid = 1\ncommand = 'M'\nbaud = 115200\n"
+    "[wall]\nstiffness = 100\ndamping = 1\nvelocity_filter_hz = 50\n"
+    "[uncertainty]\nparameters = ['body.a.mass']\ncovariance = [[1e-4]]\nverdict = 'doubtful'\nwarning = 'guessed'\nreasons = ['one']\n",
+    "filters": BODY + LOOP + "[wall]\nstiffness = 10\n" + FILTERS,
+    "low_pass": BODY + LOOP + FILTERS.split("[[wall.filter]]\ntype = \"notch")[0].replace("order = 2", "order = 1"),
+    "uncertain": BODY + LOOP + "[uncertainty]\nparameters = ['body.a.mass']\ncovariance = [[1e-4]]\n",
+    "refused": (ROOT / LHIFAM).read_text() + "[wall]\nstiffness = 10\n[uncertainty]\nverdict = 'refused'\n",
+    "lag": "[transfer_function]\nnumerator = [1e-9]\ndenominator = [1, 1000]\n" + LOOP,
+    "nine_bodies": "".join(f'[[body]]\nname = "b{i}"\nmass = 0.1\ndamping = 0.1\n' for i in range(9))
+    + "".join(f'[[link]]\nbetween = ["b{i}", "b{i + 1}"]\nstiffness = 2e4\ndamping = 1\n' for i in range(8)) + LOOP,
     "doubtful": '[[body]]\nname = "a"\nmass = 1\ndamping = 1\n[loop]\nsampling_period = 1e-3\n[uncertainty]\nwarning = "misfit"\n',
     "transfer_function": "[transfer_function]\nnumerator = [1]\ndenominator = [1, 2, 0]\n[loop]\nsampling_period = 1e-3\n",
     "undamped": '[[body]]\nname = "a"\nmass = 1\n[loop]\nsampling_period = 1e-3\n',
@@ -63,9 +101,13 @@ def documents(random_devices, device_files, tmp_path_factory):
     for name, text in DEVICES.items():
         (folder / f"{name}.toml").write_text(text)
     files = [*sorted(folder.glob("*.toml")), *device_files, *random_devices[:30]]
+    (folder / "study.toml").write_text("[[parameter]]\nkey = 'link.stiffness'\ndistribution = 'uniform'\nrelative_tolerance = 0.1\n")
     devices = [zwidth.Device.from_toml(file) for file in files]
     dear = {call for call, count in CALLS.items() if count < 200}
-    asked = [words_of(call, *each) for call in CALLS for each in list(zip(devices, files))[: 14 if call in dear else None]]
+    asked = [words_of(call, *each) for call in CALLS for each in list(zip(devices, files))[: 21 if call in dear else None]]
+    asked += [["study", folder / "refused.toml", *STUDY[2:], "--study", folder / "study.toml", "--json"]]
+    asked += [["rig", action, folder / f"{name}.toml", "--set", "wall.stiffness=10", "--duration", "0.2", "--json"] for action in ("check", "wall") for name in ("filters", "nine_bodies")]
+    asked += [["design", folder / "refused.toml", *rest, "--json"] for rest in (["--notch"], ["--compare", "loop.delay=0,0.01", "--operator", "1,2,3"])]
     asked += [[*words, "--json"] for words in OTHERS]
     found = defaultdict(list)
     for words, (text, status) in zip(asked, answers(asked, tmp_path_factory.mktemp("documents"))):

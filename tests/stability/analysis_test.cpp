@@ -38,6 +38,20 @@ TEST(Analysis, OfLhifam) {
   EXPECT_LT(analysis.wall->spectral_radius, 1.0);
 }
 
+// So far below the limit the search for the disk margin does not settle; all else was lost with it.
+TEST(Analysis, AWallOfNearlyNothingIsJudged) {
+  for (const double stiffness : {1e-12, 1e-9, 1e-6}) {
+    DeviceParameters device = test::lhifam_parameters();
+    device.wall.stiffness = stiffness;
+    const Analysis analysis = analyze(Device(device));
+    EXPECT_NEAR(analysis.critical.stiffness, 8848.70869499712, 1e-5);
+    ASSERT_TRUE(analysis.wall);
+    EXPECT_TRUE(analysis.wall->stable);
+    EXPECT_NEAR(*analysis.wall->gain_margin * stiffness, 8848.70869499712, 1e-5);
+    EXPECT_TRUE(analysis.disk_margin || !analysis.remarks.empty()) << stiffness;
+  }
+}
+
 TEST(Analysis, WithoutAWallNothingIsJudged) {
   EXPECT_FALSE(analyze(Device(test::lhifam_parameters())).wall.has_value());
 }
