@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "identification/time_domain_start.hpp"
+#include "identification/encoder_step.hpp"
 
 namespace zwidth::internal {
 namespace {
