@@ -50,6 +50,7 @@ OTHERS = [
     *[["simulate", LHIFAM, "--duration", "0.2", "--user-force", force] for force in ("step:5@0.1", "ramp:5@0.1", "sine:1,5@0")],
     *[["rig", action, LHIFAM, "--velocity-limit", "1e-9"] for action in ("measure", "identify", "relay", "limit")],
     ["rig", "limit", LHIFAM, "--ceiling", "100", "--from", "90"],
+    ["excite", "--amplitude", "1"],
 ]
 LOOP = "[loop]\nsampling_period = 1e-3\n"
 BODY = '[[body]]\nname = "a"\nmass = 1\ndamping = 1\n'
@@ -107,6 +108,7 @@ def documents(random_devices, device_files, tmp_path_factory):
     asked = [words_of(call, *each) for call in CALLS for each in list(zip(devices, files))[: 21 if call in dear else None]]
     asked += [["study", folder / "refused.toml", *STUDY[2:], "--study", folder / "study.toml", "--json"]]
     asked += [["rig", action, folder / f"{name}.toml", "--set", "wall.stiffness=10", "--duration", "0.2", "--json"] for action in ("check", "wall") for name in ("filters", "nine_bodies")]
+    asked += [["rig", "limit", folder / f"{name}.toml", "--duration", "0.2", "--json"] for name in ("lag", "nine_bodies")]
     asked += [["design", folder / "refused.toml", *rest, "--json"] for rest in (["--notch"], ["--compare", "loop.delay=0,0.01", "--operator", "1,2,3"])]
     asked += [[*words, "--json"] for words in OTHERS]
     found = defaultdict(list)
