@@ -95,6 +95,17 @@ class RigFault : public testing::Test {
   }
   void TearDown() override { std::filesystem::remove_all(folder); }
 
+  /// Whether it runs, with a force. A machine that pauses for three periods stops any rig: that is tried again, three
+  /// times at most.
+  [[nodiscard]] bool runs(const UdpEmulator& emulator, Host& host) {
+    const auto has_force = [&] { return emulator.nonzero_forces() > 5; };
+    if (within(20s, [&] { return has_force() || host.has_ended(); }) && has_force()) return true;
+    EXPECT_THAT(host.errors(),
+                AnyOf(HasSubstr("came late"), HasSubstr("stood still"), HasSubstr("brought no position")));
+    EXPECT_LT(++pauses, 4) << host.errors();
+    return false;
+  }
+
   /// The record is there as a whole: a header, rows of seven numbers, the last of them without a force.
   void expect_whole_record() const {
     std::ifstream file(folder / "record.csv");
@@ -127,7 +138,11 @@ class RigFault : public testing::Test {
     for (int i = 0; i < times(5); ++i) {
       UdpEmulator emulator(slow_device());
       Host host(folder, "udp:" + emulator.address(), "host", folder / "record.csv");
-      ASSERT_TRUE(within(20s, [&] { return emulator.nonzero_forces() > 5; })) << host.errors();
+      if (!runs(emulator, host)) {
+        if (HasFailure()) return;
+        --i;
+        continue;
+      }
       const int forces_before = emulator.nonzero_forces();
       fault(emulator, host);
       EXPECT_EQ(host.status(), 1) << host.errors();
@@ -147,13 +162,18 @@ class RigFault : public testing::Test {
   }
 
   std::filesystem::path folder;
+  int pauses = 0;  // of the machine, before a fault
 };
 
 TEST_F(RigFault, AKilledHostLeavesTheDriveToItsWatchdog) {
   for (int i = 0; i < times(5); ++i) {
     UdpEmulator emulator(slow_device());
     Host host(folder, "udp:" + emulator.address(), "host", folder / "record.csv");
-    ASSERT_TRUE(within(20s, [&] { return emulator.nonzero_forces() > 5; })) << host.errors();
+    if (!runs(emulator, host)) {
+      if (HasFailure()) return;
+      --i;
+      continue;
+    }
     const int let_go_before = emulator.times_let_go();
     host.send(SIGKILL);
     EXPECT_EQ(host.status(), -1);
@@ -204,7 +224,11 @@ TEST_F(RigFault, AFullDiskForTheRecord) {
   for (int i = 0; i < times(5); ++i) {
     UdpEmulator emulator(slow_device());
     Host host(folder, "udp:" + emulator.address(), "host", "/dev/full");
-    ASSERT_TRUE(within(20s, [&] { return emulator.nonzero_forces() > 5; })) << host.errors();
+    if (!runs(emulator, host)) {
+      if (HasFailure()) return;
+      --i;
+      continue;
+    }
     host.send(SIGINT);
     EXPECT_EQ(host.status(), 1);
     EXPECT_THAT(host.errors(), HasSubstr("/dev/full"));
@@ -218,7 +242,11 @@ TEST_F(RigFault, ASecondRigOnTheSameDrive) {
   for (int i = 0; i < times(5); ++i) {
     UdpEmulator emulator(slow_device());
     Host host(folder, "udp:" + emulator.address(), "host", folder / "record.csv");
-    ASSERT_TRUE(within(20s, [&] { return emulator.nonzero_forces() > 5; })) << host.errors();
+    if (!runs(emulator, host)) {
+      if (HasFailure()) return;
+      --i;
+      continue;
+    }
     Host other(folder, "udp:" + emulator.address(), "other", folder / "other.csv");
     EXPECT_EQ(other.status(), 1);
     EXPECT_THAT(other.errors(), HasSubstr("no other rig holds it"));
