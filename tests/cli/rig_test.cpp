@@ -70,13 +70,13 @@ TEST_F(Rig, ARefusedDeviceNever) {
 
 // In the simulated device nothing is measured that its file does not say.
 TEST_F(Rig, EveryActionRepeatsTheDoubtOfTheFile) {
-  const std::string doubtful = "--set uncertainty.verdict=doubtful --set uncertainty.warning=guessed --accept-doubt ";
+  const std::string accepted = "--set uncertainty.verdict=doubtful --set uncertainty.warning=guessed --accept-doubt ";
   for (const std::string action : {"check", "measure", "identify --output-device found.toml",
                                    "relay --amplitude 5 --trials 1", "wall --stiffness 3000", "limit"}) {
-    const auto document = json(action + " " + lhifam + doubtful);
+    const auto document = json(action + " " + lhifam + accepted);
     EXPECT_EQ(document["trust"]["verdict"], "doubtful") << action;
     EXPECT_EQ(document["trust"]["reasons"][0], "guessed") << action;
-    const Outcome text = run("zwidth rig " + action + " " + lhifam + doubtful);
+    const Outcome text = run("zwidth rig " + action + " " + lhifam + accepted);
     EXPECT_THAT(text.output, HasSubstr("guessed")) << action;
   }
   const auto found = nlohmann::json::parse(run("zwidth analyze found.toml --json").output, nullptr, false);
