@@ -204,6 +204,7 @@ void write_columns(hid_t file, const StudyRun& run, const ChunkSource& chunks) {
     return one;
   };
   const auto write = [&](const std::shared_ptr<PreparedChunk>& one) {
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // of this thread
     for (std::size_t i = 0; i < columns.size(); ++i) columns[i]->write(one->chunk, one->columns[i]);
     exceptions.add(one->chunk, one->answers);
   };

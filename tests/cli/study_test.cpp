@@ -252,10 +252,11 @@ TEST_F(Study, GoesOnAfterALostRank) {
   const std::string arguments =
       " devices/lhifam.toml --study devices/studies/lhifam.toml --samples 1000000 --index-samples 0 --threads 1 --json";
   const Outcome alone = run("zwidth study" + arguments + " --output alone.h5");
-  const Outcome lost = run(
-      "mpirun --allow-run-as-root --oversubscribe -n 2 bash -c 'if [ $OMPI_COMM_WORLD_RANK = 1 ]; then timeout -s KILL "
-      "1.5 zwidth-study" +
-      arguments + " --output lost.h5; kill -9 $$; else zwidth-study" + arguments + " --output lost.h5; fi'");
+  const Outcome lost =
+      run("mpirun --allow-run-as-root --oversubscribe -n 2 bash -c 'if [ $OMPI_COMM_WORLD_RANK = 1 ]; then (for i in "
+          "$(seq 1000); "
+          "do [ -s lost.h5.partial.1 ] && break; sleep 0.01; done; kill -9 $$) & fi; exec zwidth-study" +
+          arguments + " --output lost.h5'");
   ASSERT_NE(lost.status, 0);
   ASSERT_GT(partial_files(), 0);
   const Outcome resumed = run("zwidth study" + arguments + " --output lost.h5 --resume");
