@@ -8,6 +8,7 @@
 #include <numbers>
 #include <utility>
 
+#include "identification/quiet_solve.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth::internal {
@@ -222,10 +223,7 @@ LeastSquares least_squares(const FitModel& model, const FitData& data, const Eig
   solver.function_tolerance = options.tolerance;
   solver.parameter_tolerance = 1e-8;
   solver.gradient_tolerance = 1e-12;
-  solver.logging_type = ceres::SILENT;
-  solver.num_threads = 1;
-  ceres::Solver::Summary summary;
-  ceres::Solve(solver, &problem, &summary);
+  const ceres::Solver::Summary summary = quiet_solve(solver, problem);
   settle_on_zero(problem, position);
   return {position.x(), summary.final_cost, summary.termination_type == ceres::CONVERGENCE || hardly_gains(summary)};
 }

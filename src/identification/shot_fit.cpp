@@ -9,6 +9,8 @@
 #include <memory>
 #include <utility>
 
+#include "identification/quiet_solve.hpp"
+
 namespace zwidth::internal {
 namespace {
 
@@ -169,7 +171,7 @@ bool search(const ShotModel& model, const std::vector<Shot>& shots, const std::v
   std::ranges::sort(shared.states, {}, [](const Eigen::VectorXd& each) { return each.data(); });
   for (std::size_t i = 0; i < states.size(); ++i) shared.states[i] = states[i];
   shared.PrepareForEvaluation(true, true);
-  if (!shared.is_valid()) return false;  // of a start without slopes Ceres writes to the terminal
+  if (!shared.is_valid()) return false;  // nothing to search from
   ceres::Problem::Options problem_options;
   problem_options.evaluation_callback = &shared;
   ceres::Problem problem(problem_options);
@@ -206,10 +208,7 @@ bool search(const ShotModel& model, const std::vector<Shot>& shots, const std::v
   solver.function_tolerance = options.tolerance;
   solver.parameter_tolerance = 1e-9;
   solver.gradient_tolerance = 1e-14;
-  solver.logging_type = ceres::SILENT;
-  solver.num_threads = 1;
-  ceres::Solver::Summary summary;
-  ceres::Solve(solver, &problem, &summary);
+  const ceres::Solver::Summary summary = quiet_solve(solver, problem);
   if (!summary.IsSolutionUsable()) return false;
   iterations += static_cast<int>(summary.iterations.size());
   fit.x = shared.x;
