@@ -22,8 +22,8 @@ inline constexpr std::uint16_t most_intervals = 300;  // of one device
 
 // Columns of `capacity` elements each.
 struct Polynomials {
-  const double* values;
-  const double* sizes;
+  const double* values = nullptr;
+  const double* sizes = nullptr;
   std::size_t stride = 0;
   std::size_t count = 0;  // of coefficients
 };

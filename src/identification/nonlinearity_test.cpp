@@ -56,7 +56,7 @@ class PredictionErrors {
     }
     const Eigen::MatrixXd basis = outside_linear_terms(std::move(columns), linear_);
     const Eigen::VectorXd effects = basis.transpose() * left_;
-    const double freedom = static_cast<double>(force.terms.size());
+    const auto freedom = static_cast<double>(force.terms.size());
     NonlinearEvidence evidence{effects.squaredNorm() - freedom, effects.squaredNorm() / left_.squaredNorm()};
     if (!(evidence.chi_squared > 0.0)) return evidence;
     const Eigen::VectorXd scaled = solve(covariance(basis, left_ - basis * effects), effects);
