@@ -12,52 +12,21 @@
 #include <cstdio>
 #include <cstdlib>
 #include <future>
-#include <new>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "counted_allocations.hpp"
 #include "rig/rig_devices.hpp"
 #include "rig/rig_run.hpp"
 #include "rig/simulated_driver.hpp"
-
-namespace {
-
-std::atomic<std::size_t> allocations = 0;
-
-void* allocate(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
-  throw std::bad_alloc();
-}
-
-}  // namespace
-
-void* operator new(std::size_t size) { return allocate(size); }
-void* operator new[](std::size_t size) { return allocate(size); }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete[](void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
+#include "rig/wall_segment.hpp"
 
 namespace zwidth::rig {
 namespace {
 
 constexpr double period = 1e-3;
 constexpr double most_of_body = 20e-6;  // s, its 99 %
-
-/// A wall with all that a wall may have: velocity filter, three notches, two frequencies that are watched.
-Segment wall_segment(std::size_t cycles) {
-  Segment segment;
-  segment.controller.kind = ControllerOptions::Kind::wall;
-  segment.controller.stiffness = 1000.0;
-  segment.controller.damping = 1.0;
-  segment.controller.velocity_filter_hz = 100.0;
-  segment.controller.filters.assign(3, {.kind = WallFilter::Kind::notch, .frequency_hz = 80.0});
-  segment.cycles = cycles;
-  segment.watched = {30.0, 200.0};
-  return segment;
-}
 
 long page_faults() {
   rusage usage{};
@@ -74,7 +43,7 @@ bool time_body(std::size_t cycles) {
   constexpr std::size_t warming = 100;
   SimulatedDriver driver(test::bench_device(2), period, false);
   RigLoop loop(driver, {}, period);
-  RunningSegment segment(wall_segment(cycles + warming), period);
+  RunningSegment segment(test::wall_segment(cycles + warming), period);
   loop.play(&segment);
   for (std::size_t k = 0; k < warming; ++k) loop.cycle(0, 0);
   const std::size_t allocations_before = allocations;
@@ -115,7 +84,7 @@ void time_clock(int seconds) {
   limits.missed_cycles = 1000;  // a pause of the machine is what is measured here
   SimulatedDriver driver(test::bench_device(2), 0.0, true);
   RigRun run(driver, limits, period);
-  (void)run.play(wall_segment(static_cast<std::size_t>(std::lround(seconds / period))));
+  (void)run.play(test::wall_segment(static_cast<std::size_t>(std::lround(seconds / period))));
   const RigSession session = run.end();
   print("loop on the clock: begins late by", session.timing.latency);
   print("loop on the clock: body", session.timing.body);

@@ -11,6 +11,12 @@
 namespace zwidth {
 namespace {
 
+void expect_interval_holds(const Identification& found, double stiffness, std::uint64_t seed) {
+  ASSERT_TRUE(found.analysis.interval) << "seed " << seed;
+  EXPECT_LE(found.analysis.interval->lower, stiffness) << "seed " << seed;
+  EXPECT_GE(found.analysis.interval->upper, stiffness) << "seed " << seed;
+}
+
 TEST(IdentificationProperty, WhatIsCalledSoundIsSafe) {
   int sound = 0;
   int unsafe = 0;
@@ -105,9 +111,7 @@ TEST(IdentificationProperty, DriftUnderAPeriodicForceIsKeptOut) {
     ASSERT_TRUE(made && made->right_structure);
     const Identification found = identified(*made);
     EXPECT_TRUE(found.trust.sound()) << "seed " << seed << ": " << found.trust.reasons.front();
-    ASSERT_TRUE(found.analysis.interval);
-    EXPECT_LE(found.analysis.interval->lower, made->stiffness) << "seed " << seed;
-    EXPECT_GE(found.analysis.interval->upper, made->stiffness) << "seed " << seed;
+    ASSERT_NO_FATAL_FAILURE(expect_interval_holds(found, made->stiffness, seed));
   }
 }
 
@@ -127,9 +131,7 @@ TEST(IdentificationProperty, ACombinationThatShowsVariesAsTheDataLeaveIt) {
     const auto made = test::random_recording(seed);
     ASSERT_TRUE(made && made->right_structure);
     const Identification found = identified(*made);
-    ASSERT_TRUE(found.analysis.interval);
-    EXPECT_LE(found.analysis.interval->lower, made->stiffness) << "seed " << seed;
-    EXPECT_GE(found.analysis.interval->upper, made->stiffness) << "seed " << seed;
+    ASSERT_NO_FATAL_FAILURE(expect_interval_holds(found, made->stiffness, seed));
   }
 }
 
@@ -140,9 +142,7 @@ TEST(IdentificationProperty, ASearchThatWasStoppedGoesOn) {
     ASSERT_TRUE(made && made->right_structure && !made->has_friction);
     const Identification found = identified(*made);
     EXPECT_TRUE(found.trust.sound()) << "seed " << seed << ": " << found.trust.reasons.front();
-    ASSERT_TRUE(found.analysis.interval);
-    EXPECT_LE(found.analysis.interval->lower, made->stiffness) << "seed " << seed;
-    EXPECT_GE(found.analysis.interval->upper, made->stiffness) << "seed " << seed;
+    ASSERT_NO_FATAL_FAILURE(expect_interval_holds(found, made->stiffness, seed));
   }
 }
 
@@ -165,9 +165,7 @@ TEST(IdentificationProperty, ASideMinimumIsLeft) {
     ASSERT_TRUE(made && made->right_structure && !made->has_friction);
     const Identification found = identified(*made);
     EXPECT_TRUE(found.trust.sound()) << "seed " << seed << ": " << found.trust.reasons.front();
-    ASSERT_TRUE(found.analysis.interval);
-    EXPECT_LE(found.analysis.interval->lower, made->stiffness) << "seed " << seed;
-    EXPECT_GE(found.analysis.interval->upper, made->stiffness) << "seed " << seed;
+    ASSERT_NO_FATAL_FAILURE(expect_interval_holds(found, made->stiffness, seed));
     EXPECT_LE(found.analysis.interval->upper, 1.01 * found.analysis.interval->lower) << "seed " << seed;
   }
 }
@@ -181,9 +179,7 @@ TEST(IdentificationProperty, OpenNumbersThatTheLimitDoesNotHangOnAreNoDoubt) {
     const Identification found = identified(*made);
     EXPECT_TRUE(found.trust.sound()) << "seed " << seed << ": " << found.trust.reasons.front();
     EXPECT_FALSE(found.analysis.trust.sound()) << "the device itself has open numbers";
-    ASSERT_TRUE(found.analysis.interval);
-    EXPECT_LE(found.analysis.interval->lower, made->stiffness) << "seed " << seed;
-    EXPECT_GE(found.analysis.interval->upper, made->stiffness) << "seed " << seed;
+    ASSERT_NO_FATAL_FAILURE(expect_interval_holds(found, made->stiffness, seed));
   }
 }
 

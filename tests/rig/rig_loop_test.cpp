@@ -12,50 +12,20 @@
 #include <cstdlib>
 #include <functional>
 #include <limits>
-#include <new>
 #include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "counted_allocations.hpp"
 #include "rig/rig_devices.hpp"
 #include "rig/rig_run.hpp"
 #include "rig/simulated_driver.hpp"
+#include "rig/wall_segment.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
-
-namespace {
-
-std::atomic<std::size_t> allocations = 0;
-
-void* allocate(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
-  throw std::bad_alloc();
-}
-
-}  // namespace
-
-void* operator new(std::size_t size) { return allocate(size); }
-void* operator new[](std::size_t size) { return allocate(size); }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete[](void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace zwidth::rig {
 namespace {
-
-Segment wall_segment(std::size_t cycles) {
-  Segment segment;
-  segment.controller.kind = ControllerOptions::Kind::wall;
-  segment.controller.stiffness = 1000.0;
-  segment.controller.damping = 1.0;
-  segment.controller.velocity_filter_hz = 100.0;
-  segment.controller.filters.assign(3, {.kind = WallFilter::Kind::notch, .frequency_hz = 80.0});
-  segment.cycles = cycles;
-  segment.watched = {30.0, 200.0};
-  return segment;
-}
 
 long page_faults() {
   rusage usage{};
@@ -67,7 +37,7 @@ TEST(RigLoop, AMillionCyclesAllocateNothingAndTouchNoNewPage) {
   constexpr std::size_t cycles = 1'000'000;
   SimulatedDriver driver(test::bench_device(2), 1e-3, false);
   RigLoop loop(driver, {}, 1e-3);
-  RunningSegment segment(wall_segment(cycles + 1000), 1e-3);
+  RunningSegment segment(test::wall_segment(cycles + 1000), 1e-3);
   loop.play(&segment);
   for (int k = 0; k < 100; ++k) loop.cycle(0, 0);
   const std::size_t allocations_before = allocations;
@@ -119,7 +89,7 @@ TEST(RigRun, EndsWithZeroForceAndTheDriveIdle) {
   {
     RigRun run(driver, {}, 1e-3);
     EXPECT_TRUE(driver.armed);
-    Segment segment = wall_segment(500);
+    Segment segment = test::wall_segment(500);
     segment.watched.clear();
     const Played played = run.play(segment);
     EXPECT_EQ(played.force.size(), 500U);
@@ -137,12 +107,12 @@ TEST(RigRun, EachFaultIsToldAndRecorded) {
     SafetyLimits limits;
     limits.position = 0.1;
     RigRun run(driver, limits, 1e-3);
-    (void)run.play(wall_segment(50));
+    (void)run.play(test::wall_segment(50));
     fault(driver);
-    const Played played = run.play(wall_segment(500));
+    const Played played = run.play(test::wall_segment(500));
     EXPECT_LE(played.force.size(), 3U);
     EXPECT_EQ(driver.force, 0.0);
-    EXPECT_TRUE(run.play(wall_segment(500)).force.empty()) << "nothing runs any more";
+    EXPECT_TRUE(run.play(test::wall_segment(500)).force.empty()) << "nothing runs any more";
     const RigSession session = run.end();
     EXPECT_EQ(run.recorder().size(), 50 + played.force.size());
     std::string csv;
@@ -185,7 +155,7 @@ TEST(RigRun, OnTheClockALoopThatStandsStillIsDisarmedByTheWatchdog) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   EXPECT_TRUE(driver.is_idle);
-  (void)run.play(wall_segment(100000));
+  (void)run.play(test::wall_segment(100000));
   const RigSession session = run.end();
   EXPECT_TRUE(session.stop == StopReason::watchdog || session.stop == StopReason::missed_cycles);
   EXPECT_EQ(driver.force, 0.0);
@@ -205,7 +175,7 @@ TEST(RigRun, TellsAWatcherFromTheWaitingThread) {
     if (seen.size() == 2) throw std::runtime_error("a watcher that fails is not asked again");
   });
   driver.position = 2e-3;
-  Segment segment = wall_segment(500);
+  Segment segment = test::wall_segment(500);
   EXPECT_EQ(run.play(segment).force.size(), 500U);
   ASSERT_EQ(seen.size(), 2U);
   EXPECT_EQ(seen[0].stiffness, 1000.0);
@@ -219,7 +189,7 @@ TEST(RigRun, OnTheClockItKeepsItsRateInTheMiddle) {
   SafetyLimits limits;
   limits.missed_cycles = 1000;
   RigRun run(driver, limits, 2e-3);
-  Segment segment = wall_segment(500);
+  Segment segment = test::wall_segment(500);
   segment.watched.clear();
   (void)run.play(segment);
   const RigSession session = run.end();
