@@ -116,6 +116,13 @@ void internal::add_indices(const StudyRun& run, Study& study, const Progress& pr
     warning(fmt::format("a Sobol index is known to {:.2g} only", worst_error),
             fmt::format("take more index samples than {}", options.index_samples));
   }
+  for (std::size_t i = 0; i < dimensions; ++i) {
+    if (indices[i].total != 0.0) continue;
+    study.remarks.push_back({Remark::Severity::note,
+                             run.distributions().parameters[i].key + " changes no unit's critical stiffness",
+                             "its tolerance can neither gain nor cost yield in that",
+                             "leave it out, unless the limit for any user depends on it"});
+  }
   study.sobol_indices = std::move(indices);
 }
 

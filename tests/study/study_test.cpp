@@ -221,6 +221,24 @@ TEST(Study, RoundingIsNoVariance) {
   }
 }
 
+TEST(Study, SaysWhichParameterChangesNoLimit) {
+  StudyDistributions distributions = tolerances();
+  distributions.parameters.push_back({"actuator.force_limit", {.kind = Kind::uniform, .lower = 1.0, .upper = 5.0}});
+  StudyOptions options;
+  options.samples = 100;
+  options.index_samples = 16;
+  const auto said = [&] {
+    std::vector<std::string> remarks;
+    for (const Remark& each : study(two_masses(), distributions, options).remarks) {
+      if (each.what.find("changes no") != std::string::npos) remarks.push_back(each.what);
+    }
+    return remarks;
+  };
+  EXPECT_EQ(said(), std::vector<std::string>{"actuator.force_limit changes no unit's critical stiffness"});
+  distributions.parameters.pop_back();
+  EXPECT_EQ(said(), std::vector<std::string>{});
+}
+
 // The unit that is worst for any user is no better than any sample, and than the one that is worst alone.
 TEST(Study, FindsTheWorstUnitForAnyUser) {
   const StudyDistributions distributions{
