@@ -17,7 +17,8 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr int first_segments = 16;         // of one period of delay
+constexpr int first_segments = 16;         // of one period of delay, and of one period of the fastest mode
+constexpr int most_segments = 256;         // modes that many times faster than the sampling hardly answer
 constexpr double shortest_segment = 1e-9;  // of a period
 constexpr double greatest_turn = 0.5;      // of a crossover's lag within a segment, beyond that of its angle; rad
 constexpr double greatest_move = 0.2;      // of a crossover's angle within a segment, relative
@@ -33,15 +34,30 @@ class DelayedLoop {
   explicit DelayedLoop(const Device& device) : device_(device), form_(modal_form(device)) {}
 
   [[nodiscard]] Instant at(double share) const {
-    const double period = device_.loop().sampling_period;
-    const Wall& wall = device_.parameters().wall;
-    const Sampling sampling{period, device_.loop().delay + share * period};
-    return {share, unit_gain_points(filtered_plant(sample(form_, sampling), wall.filters), wall)};
+    return {share, unit_gain_points(plant_with(share), device_.parameters().wall)};
+  }
+
+  // log |C P| at Nyquist with `share` of a sample added; the loop gain is real there.
+  [[nodiscard]] double level_at_nyquist(double share) const {
+    return std::log(std::abs(loop_gain(plant_with(share), device_.parameters().wall, pi)));
+  }
+
+  // As many as follow the quickest motion of the crossovers: that of the fastest mode between two samples.
+  [[nodiscard]] int segments() const {
+    double fastest = form_.suspended_rigid_body ? form_.suspended_rigid_body->frequency : 0.0;
+    for (const Mode& mode : form_.modes) fastest = std::max(fastest, mode.frequency);
+    const double periods = fastest * period() / (2.0 * pi);
+    return static_cast<int>(std::min(first_segments * (1.0 + periods), static_cast<double>(most_segments)));
   }
 
   [[nodiscard]] double period() const { return device_.loop().sampling_period; }
 
  private:
+  [[nodiscard]] FilteredPlant plant_with(double share) const {
+    return filtered_plant(sample(form_, {period(), device_.loop().delay + share * period()}),
+                          device_.parameters().wall.filters);
+  }
+
   const Device& device_;
   ModalForm form_;
 };
@@ -80,8 +96,9 @@ class Search {
 
   [[nodiscard]] std::optional<double> least_delay() {
     Instant previous = loop_.at(0.0);
-    for (int i = 1; i <= first_segments; ++i) {
-      Instant next = loop_.at(static_cast<double>(i) / first_segments);
+    const int segments = loop_.segments();
+    for (int i = 1; i <= segments; ++i) {
+      Instant next = loop_.at(static_cast<double>(i) / segments);
       look_between(previous, next);
       previous = std::move(next);
     }
@@ -103,7 +120,9 @@ class Search {
       return;
     }
     if (b.share - a.share <= shortest_segment) {
-      look_at_pairs(a.points.size() > b.points.size() ? a : b, a.share, b.share);
+      const Instant& more = a.points.size() > b.points.size() ? a : b;
+      look_at_pairs(more, a.share, b.share);
+      if ((a.points.size() + b.points.size()) % 2 != 0) look_at_nyquist(more, a.share, b.share);
       return;
     }
     const Instant middle = loop_.at(0.5 * (a.share + b.share));
@@ -140,6 +159,22 @@ class Search {
       if (whole > std::max(first, second) || std::abs(first - second) * a.angle > pi) continue;
       candidates_.push_back({whole, begin, end, i, 0.0, 0.0});
     }
+  }
+
+  // A crossover that is born or dies alone is so at Nyquist, where the loop gain is real: -1 there, or one sample later.
+  void look_at_nyquist(const Instant& more, double begin, double end) {
+    const double at_begin = loop_.level_at_nyquist(begin);
+    const double at_end = loop_.level_at_nyquist(end);
+    double share = begin;
+    if (at_begin != 0.0 && (at_begin > 0.0) != (at_end > 0.0)) {
+      std::uintmax_t most_steps = 100;
+      const auto level = [&](double at) { return loop_.level_at_nyquist(at); };
+      share = boost::math::tools::toms748_solve(level, begin, end, at_begin, at_end,
+                                                boost::math::tools::eps_tolerance<double>(50), most_steps)
+                  .first;
+    }
+    const double whole = std::abs(more.points.back().phase) < 0.5 * pi ? 0.0 : 1.0;
+    candidates_.push_back({whole, share, share, more.points.size() - 1, 0.0, 0.0});
   }
 
   // The share at which the lag left passes zero, and the whole samples.

@@ -118,7 +118,7 @@ Peak first_peak(const LoopFraction& loop, const Wall& wall) {
 Peak greatest_ratio(const LoopFraction& loop, const Wall& wall) {
   constexpr double tolerance = 1e-9;
   constexpr int most_rounds = 60;
-  constexpr int digits = 40;  // bits of the angle of a maximum
+  constexpr int digits = 40;  // bits of a maximum's place in its interval: a peak may be far narrower than its angle
   Peak peak = first_peak(loop, wall);
   const std::size_t pieces = std::max<std::size_t>(1, loop.plant().delay_samples);
   for (int round = 0; round < most_rounds; ++round) {
@@ -130,9 +130,10 @@ Peak greatest_ratio(const LoopFraction& loop, const Wall& wall) {
     for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
       if (above.value(0.5 * (ends[i] + ends[i + 1])) <= 0.0) continue;
       std::uintmax_t steps = 200;
-      const auto [angle, lowest] = boost::math::tools::brent_find_minima([&](double at) { return -ratio(loop, at); },
-                                                                         ends[i], ends[i + 1], digits, steps);
-      raise(loop, angle, peak);
+      const auto angle = [&](double share) { return std::lerp(ends[i], ends[i + 1], share); };
+      const auto [share, lowest] = boost::math::tools::brent_find_minima(
+          [&](double at) { return -ratio(loop, angle(at)); }, 0.0, 1.0, digits, steps);
+      raise(loop, angle(share), peak);
       for (const double end : {ends[i], ends[i + 1]}) raise(loop, end, peak);
     }
     if (peak.ratio <= before * (1.0 + tolerance)) return peak;

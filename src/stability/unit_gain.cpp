@@ -51,21 +51,29 @@ class UnitGain {
   int integrators_ = 0;  // of the plant, where one cancels
 };
 
+// c of the velocity filter's pole 1 - c; 1 without one.
+double filter_gain(const Wall& wall, double period) {
+  return wall.velocity_filter_hz > 0.0 ? -std::expm1(-2.0 * pi * wall.velocity_filter_hz * period) : 1.0;
+}
+
 }  // namespace
+
+std::complex<double> loop_gain(const FilteredPlant& plant, const Wall& wall, double angle) {
+  const double c = filter_gain(wall, plant.period);
+  const double half = std::sin(angle / 2.0);
+  const std::complex<double> delta(-2.0 * half * half, std::sin(angle));
+  const double rate = wall.damping * c / plant.period;
+  return (*wall.stiffness + rate * delta / (delta + c)) * response(plant, angle / plant.period);
+}
 
 std::vector<UnitGainPoint> unit_gain_points(const FilteredPlant& plant, const Wall& wall) {
   const double stiffness = *wall.stiffness;
-  const double c =
-      wall.velocity_filter_hz > 0.0 ? -std::expm1(-2.0 * pi * wall.velocity_filter_hz * plant.period) : 1.0;
+  const double c = filter_gain(wall, plant.period);
   const double rate = wall.damping * c / plant.period;
   std::vector<UnitGainPoint> points;
   if (stiffness == 0.0 && rate == 0.0) return points;
   for (const CircleRoot& root : roots_on_circle(UnitGain(plant, stiffness, rate, c), 1)) {
-    const double half = std::sin(root.angle / 2.0);
-    const std::complex<double> delta(-2.0 * half * half, std::sin(root.angle));
-    const std::complex<double> loop =
-        (stiffness + rate * delta / (delta + c)) * response(plant, root.angle / plant.period);
-    points.push_back({root.angle, std::arg(-loop)});
+    points.push_back({root.angle, std::arg(-loop_gain(plant, wall, root.angle))});
   }
   return points;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <complex>
 #include <vector>
 
 #include "zwidth/model/device.hpp"
@@ -15,6 +16,9 @@ struct UnitGainPoint {
 
 // All of them, by rising angle: as complete as the crossings of the gain locus. wall.stiffness is needed.
 [[nodiscard]] std::vector<UnitGainPoint> unit_gain_points(const FilteredPlant& plant, const Wall& wall);
+
+// C P at z = e^{j angle}, 0 < angle <= pi.
+[[nodiscard]] std::complex<double> loop_gain(const FilteredPlant& plant, const Wall& wall, double angle);
 
 // The lag, 0 to 2 pi, that takes the point to -1.
 [[nodiscard]] double lag_to_instability(const UnitGainPoint& point);

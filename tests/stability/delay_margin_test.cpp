@@ -43,6 +43,30 @@ TEST(DelayMargin, IsTheLeastOverAllCrossovers) {
   EXPECT_NEAR(wall_margins(Device(device)).delay_margin.value(), 0.04403901, 1e-8);
 }
 
+// The loop gain at Nyquist passes -1 between two samples of delay, and falls back: no pair of crossovers tells of it.
+// A crossover there at no delay has 3.1 ms. From the roots of the characteristic polynomial in 200 digits.
+TEST(DelayMargin, IsReachedAtNyquistWithinASample) {
+  DeviceParameters device;
+  device.name = "suspended";
+  device.bodies = {{"body", 0.021271167732987626, 7.752012274204508, 98453.27802428622, 0.0}};
+  device.loop.sampling_period = 0.002673877831365266;
+  device.wall = {97196.09424831664, 0.010096565883620229, 0.0};
+  const double margin = wall_margins(Device(device)).delay_margin.value();
+  EXPECT_NEAR(margin, 5.40004532601402e-4, 1e-12);
+  EXPECT_LT(excess_with(device, margin * (1.0 - 1e-9)), 0.0);
+  EXPECT_GT(excess_with(device, margin * (1.0 + 1e-9)), 0.0);
+}
+
+// Within the first sample the loop gain at Nyquist passes 1, which is -1 a sample later. In 200 digits, likewise.
+TEST(DelayMargin, IsReachedAtNyquistASampleLater) {
+  DeviceParameters device;
+  device.name = "suspended";
+  device.bodies = {{"body", 1.0, 0.57, 9.1, 0.0}};
+  device.loop.sampling_period = 1.0;
+  device.wall.stiffness = 1.6;
+  EXPECT_NEAR(wall_margins(Device(device)).delay_margin.value(), 1.7712052593809626, 1e-12);
+}
+
 // Stable at every delay looked at below the margin, and unstable just above it.
 TEST(DelayMargin, OfRandomDevicesIsTheFirstEdge) {
   constexpr double most_samples = 60.0;  // eigenvalues cost their cube

@@ -98,6 +98,22 @@ TEST(DiskMargin, StandsInTheAnalysisOfAWall) {
   EXPECT_FALSE(analyze(Device(device)).disk_margin);
 }
 
+// Just below the critical stiffness the peak is 1e-4 of its angle wide. By the stationary points of the ratio as a
+// polynomial, in 200 digits.
+TEST(DiskMargin, OfANarrowPeak) {
+  DeviceParameters device;
+  device.name = "body";
+  device.bodies = {{"body", 1.0, 0.1, 0.0, 0.0}};
+  device.loop.sampling_period = 2e-3;
+  device.loop.delay = 1e-4;
+  const auto alpha = [&device](double stiffness) {
+    device.wall.stiffness = stiffness;
+    return disk_margin(Device(device))->alpha;
+  };
+  EXPECT_NEAR(alpha(85.0) / 7.0530345290942671e-4, 1.0, 2e-9);
+  EXPECT_NEAR(alpha(90.0) / 1.0572870389030499e-4, 1.0, 2e-9);
+}
+
 // Every factor inside the disk leaves the loop stable; the worst one puts a pole at e^{jwT}; and gain and phase margins
 // are no wider than those that count one at a time.
 TEST(DiskMargin, OfRandomDevicesIsTheLargestStableDisk) {
