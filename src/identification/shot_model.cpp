@@ -122,14 +122,17 @@ class Player {
   bool play(const Shot& shot, const Eigen::VectorXd& state, ShotMotion& out) {
     start(shot, state);
     out.positions.resize(static_cast<Eigen::Index>(shot.count));
-    if (tangent_) out.slopes.resize(tangent_->slopes().cols(), out.positions.size());
+    if (tangent_) out.slopes.resize(tangent_->columns(), out.positions.size());
     const auto sensed = static_cast<Eigen::Index>(device_.loop().sensed);
     for (std::size_t i = 0; i < shot.count; ++i) {
       const auto column = static_cast<Eigen::Index>(i);
       out.positions(column) = motion_.sensed();
       if (tangent_) {
-        out.slopes.col(column) = tangent_->slopes().row(0).transpose();
-        if (sensed > 0) out.slopes.col(column) += tangent_->slopes().row(sensed).transpose();
+        const auto slopes_of = [&](Eigen::Index row) {
+          return tangent_->slopes().row(row).head(tangent_->columns()).transpose();
+        };
+        out.slopes.col(column) = slopes_of(0);
+        if (sensed > 0) out.slopes.col(column) += slopes_of(sensed);
       }
       const std::size_t k = shot.first + i;
       if (instants_.with_old > 0.0) {
@@ -174,7 +177,7 @@ class Player {
 
   /// As start() sets the states, whose positions but the first are relative to body 0's.
   void start_slopes(const LaggedForce& lagged) {
-    Eigen::MatrixXd& slopes = tangent_->slopes();
+    MotionTangent::Slopes& slopes = tangent_->slopes();
     slopes.setZero();
     const auto sensed = static_cast<Eigen::Index>(device_.loop().sensed);
     const auto bodies = static_cast<Eigen::Index>(positions_.size());

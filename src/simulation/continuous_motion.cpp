@@ -177,7 +177,7 @@ void ContinuousMotion::advance_part(std::size_t which, std::size_t halvings) noe
   const RecurringStep& step = pattern().steps[which * (most_halvings + 1) + halvings];
   multiply_(step.transition.data(), state_.data(), next_.data(), size_);
   if (friction_.empty() || nothing_happens(step)) {
-    if (tangent_ != nullptr) tangent_->step(step, stuck_, which * (most_halvings + 1) + halvings, state_.data());
+    if (tangent_ != nullptr) tangent_->step(stuck_, which * (most_halvings + 1) + halvings, state_.data());
     state_.swap(next_);
   } else if (halvings < most_halvings) {
     advance_part(which, halvings + 1);

@@ -7,6 +7,9 @@
 namespace zwidth::internal {
 namespace {
 
+/// Columns of S that are summed at once.
+constexpr std::size_t block = 4;
+
 /// Terms of a series in t with |A| t <= `size` until they are below rounding.
 int terms_for(double size) {
   constexpr int most = 24;
@@ -32,9 +35,19 @@ MotionTangent::MotionTangent(const ContinuousMotion& motion, std::vector<MotionP
     : parameters_(std::move(parameters)), size_(static_cast<std::size_t>(motion.patterns().front().matrix.rows())) {
   multiply_ = matrix_vector(size_);
   const auto n = static_cast<Eigen::Index>(size_);
-  slopes_ = Eigen::MatrixXd::Zero(n, static_cast<Eigen::Index>(parameters_.size() + others));
+  columns_ = static_cast<Eigen::Index>(parameters_.size() + others);
+  constexpr auto of_block = static_cast<Eigen::Index>(block);
+  slopes_ = Slopes::Zero(n, (columns_ + of_block - 1) / of_block * of_block);
   next_ = slopes_;
   term_ = slopes_;
+  change_.resize(size_);
+  for (const ContinuousMotion::Pattern& pattern : motion.patterns()) {
+    matrices_.push_back(sparse(pattern.matrix));
+    transitions_.emplace_back();
+    for (const ContinuousMotion::RecurringStep& step : pattern.steps) {
+      transitions_.back().push_back(sparse(step.transition));
+    }
+  }
   const Eigen::MatrixXd& free = motion.patterns().front().matrix;
   for (std::size_t j = 0; j < parameters_.size(); ++j) {
     if (parameters_[j].matrix.size() == 0 || parameters_[j].matrix.isZero(0.0)) continue;
@@ -84,67 +97,94 @@ void MotionTangent::make_steps(Varied& varied, const ContinuousMotion::Pattern& 
   }
 }
 
-void MotionTangent::step(const ContinuousMotion::RecurringStep& step, unsigned stuck, std::size_t which,
-                         const double* x) noexcept {
-  const auto columns = static_cast<std::size_t>(slopes_.cols());
-  for (std::size_t j = 0; j < columns; ++j) {
-    multiply_(step.transition.data(), slopes_.data() + j * size_, next_.data() + j * size_, size_);
+MotionTangent::Sparse MotionTangent::sparse(const Eigen::MatrixXd& matrix) {
+  Sparse result;
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    result.begins.push_back(result.entries.size());
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
+      if (matrix(i, j) == 0.0) continue;
+      result.entries.push_back({static_cast<std::size_t>(i), static_cast<std::size_t>(j), matrix(i, j)});
+    }
   }
+  result.begins.push_back(result.entries.size());
+  return result;
+}
+
+void MotionTangent::multiply(const Sparse& matrix, double factor, const Slopes& in, Slopes& out) const noexcept {
+  const auto width = static_cast<std::size_t>(in.cols());
+  const Entry* const entries = matrix.entries.data();
+  for (std::size_t i = 0; i < size_; ++i) {
+    const std::size_t begin = matrix.begins[i];
+    const std::size_t end = matrix.begins[i + 1];
+    double* __restrict row = out.data() + i * width;
+    for (std::size_t first = 0; first < width; first += block) {
+      double sum[block] = {};
+      for (std::size_t k = begin; k < end; ++k) {
+        const double* __restrict other = in.data() + entries[k].column * width + first;
+        for (std::size_t j = 0; j < block; ++j) sum[j] += entries[k].value * other[j];
+      }
+      for (std::size_t j = 0; j < block; ++j) row[first + j] = factor * sum[j];
+    }
+  }
+}
+
+void MotionTangent::step(unsigned stuck, std::size_t which, const double* x) noexcept {
+  multiply(transitions_[stuck][which], 1.0, slopes_, next_);
   slopes_.swap(next_);
+  const auto width = static_cast<std::size_t>(slopes_.cols());
   for (const Varied& each : varied_) {
-    double* change = next_.data();
-    multiply_(each.steps[stuck][which].data(), x, change, size_);
-    double* own = slopes_.data() + each.column * size_;
-    for (std::size_t i = 0; i < size_; ++i) own[i] += change[i];
+    multiply_(each.steps[stuck][which].data(), x, change_.data(), size_);
+    for (std::size_t i = 0; i < size_; ++i) slopes_.data()[i * width + each.column] += change_[i];
   }
 }
 
 void MotionTangent::move(const ContinuousMotion::Pattern& pattern, unsigned stuck, const Eigen::MatrixXd& series,
                          std::size_t known, double length, double fraction) noexcept {
   const int terms = terms_for(pattern.norm * length * fraction);
-  const auto columns = static_cast<std::size_t>(slopes_.cols());
-  const auto all = columns * size_;
+  const auto width = static_cast<std::size_t>(slopes_.cols());
+  const auto all = width * size_;
   std::copy_n(slopes_.data(), all, term_.data());
   double power = 1.0;  // of the fraction: the columns of `series` are over the whole length
   for (int k = 1; k <= terms; ++k) {
     const double factor = length * fraction / k;
-    for (std::size_t j = 0; j < columns; ++j) {
-      multiply_(pattern.matrix.data(), term_.data() + j * size_, next_.data() + j * size_, size_);
-    }
+    multiply(matrices_[stuck], factor, term_, next_);
     if (static_cast<std::size_t>(k) <= known) {
       const double* x = series.data() + static_cast<std::size_t>(k - 1) * size_;
       for (const Varied& each : varied_) {
-        double* own = next_.data() + each.column * size_;
-        for (const Entry& entry : each.entries[stuck]) own[entry.row] += entry.value * power * x[entry.column];
+        for (const Entry& entry : each.entries[stuck]) {
+          next_.data()[entry.row * width + each.column] += factor * entry.value * power * x[entry.column];
+        }
       }
     }
     power *= fraction;
-    for (std::size_t i = 0; i < all; ++i) {
-      term_.data()[i] = factor * next_.data()[i];
-      slopes_.data()[i] += term_.data()[i];
-    }
+    term_.swap(next_);
+    for (std::size_t i = 0; i < all; ++i) slopes_.data()[i] += term_.data()[i];
   }
+}
+
+void MotionTangent::turn(std::size_t velocity, double ratio) noexcept {
+  slopes_.row(static_cast<Eigen::Index>(velocity)) *= ratio;
 }
 
 void MotionTangent::slide(std::size_t body, std::size_t force, int direction) noexcept {
   for (std::size_t j = 0; j < parameters_.size(); ++j) {
     if (parameters_[j].limits.empty()) continue;
-    slopes_.data()[j * size_ + force] = -direction * parameters_[j].limits[body];
+    slopes_(static_cast<Eigen::Index>(force), static_cast<Eigen::Index>(j)) = -direction * parameters_[j].limits[body];
   }
 }
 
 void MotionTangent::start(std::size_t velocity, double acceleration) noexcept {
   for (std::size_t j = 0; j < parameters_.size(); ++j) {
-    slopes_.data()[j * size_ + velocity] -= acceleration * parameters_[j].switching;
+    slopes_(static_cast<Eigen::Index>(velocity), static_cast<Eigen::Index>(j)) -=
+        acceleration * parameters_[j].switching;
   }
 }
 
 void MotionTangent::switch_command(const Eigen::MatrixXd& matrix, std::size_t command, double fall) noexcept {
   for (std::size_t j = 0; j < parameters_.size(); ++j) {
     if (parameters_[j].switching == 0.0) continue;
-    for (std::size_t i = 0; i < size_; ++i) {
-      slopes_.data()[j * size_ + i] += matrix.data()[command * size_ + i] * fall * parameters_[j].switching;
-    }
+    slopes_.col(static_cast<Eigen::Index>(j)) +=
+        fall * parameters_[j].switching * matrix.col(static_cast<Eigen::Index>(command));
   }
 }
 

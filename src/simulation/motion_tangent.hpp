@@ -29,16 +29,20 @@ class MotionTangent {
   /// `motion`'s device at p; the parameters come first among the columns of S, `others` (initial states, constants) next.
   MotionTangent(const ContinuousMotion& motion, std::vector<MotionParameter> parameters, std::size_t others);
 
-  /// S, to be set before set_motion().
-  [[nodiscard]] Eigen::MatrixXd& slopes() noexcept { return slopes_; }
-  [[nodiscard]] const Eigen::MatrixXd& slopes() const noexcept { return slopes_; }
+  /// By rows, each filled up with zeros to whole blocks: a row of S is what one state's change adds to at once.
+  using Slopes = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+  /// S and, beyond columns(), zeros; to be set before set_motion().
+  [[nodiscard]] Slopes& slopes() noexcept { return slopes_; }
+  [[nodiscard]] const Slopes& slopes() const noexcept { return slopes_; }
+  [[nodiscard]] Eigen::Index columns() const noexcept { return columns_; }
 
   // What ContinuousMotion tells; x: its state before.
-  void step(const ContinuousMotion::RecurringStep& step, unsigned stuck, std::size_t which, const double* x) noexcept;
+  void step(unsigned stuck, std::size_t which, const double* x) noexcept;
   /// Over a fraction of the length of x's series, of which `known` terms are not 0.
   void move(const ContinuousMotion::Pattern& pattern, unsigned stuck, const Eigen::MatrixXd& series, std::size_t known,
             double length, double fraction) noexcept;
-  void turn(std::size_t velocity, double ratio) noexcept { slopes_.row(static_cast<Eigen::Index>(velocity)) *= ratio; }
+  void turn(std::size_t velocity, double ratio) noexcept;
   void slide(std::size_t body, std::size_t force, int direction) noexcept;
   void start(std::size_t velocity, double acceleration) noexcept;
   void switch_command(const Eigen::MatrixXd& matrix, std::size_t command, double fall) noexcept;
@@ -49,6 +53,11 @@ class MotionTangent {
     std::size_t column = 0;
     double value = 0.0;
   };
+  /// Of a matrix, by rows: what is not 0. Most of A is.
+  struct Sparse {
+    std::vector<Entry> entries;
+    std::vector<std::size_t> begins;  ///< of each row, and the end
+  };
   /// A parameter that A hangs on.
   struct Varied {
     std::size_t column = 0;                           // of S
@@ -56,16 +65,23 @@ class MotionTangent {
     std::vector<std::vector<Eigen::MatrixXd>> steps;  // de^{Ah}/dp, by pattern and recurring step
   };
 
+  [[nodiscard]] static Sparse sparse(const Eigen::MatrixXd& matrix);
   void make_steps(Varied& varied, const ContinuousMotion::Pattern& pattern, const Eigen::MatrixXd& slope,
                   const std::vector<double>& lengths) const;
+  /// out = factor * matrix * in.
+  void multiply(const Sparse& matrix, double factor, const Slopes& in, Slopes& out) const noexcept;
 
   std::vector<MotionParameter> parameters_;
   std::vector<Varied> varied_;
+  std::vector<Sparse> matrices_;                  // A, by pattern
+  std::vector<std::vector<Sparse>> transitions_;  // e^{Ah}, by pattern and recurring step
   MatrixVector multiply_ = nullptr;
   std::size_t size_ = 0;
-  Eigen::MatrixXd slopes_;
-  Eigen::MatrixXd next_;
-  Eigen::MatrixXd term_;
+  Eigen::Index columns_ = 0;  // of S, without the zeros that fill its rows up
+  std::vector<double> change_;
+  Slopes slopes_;
+  Slopes next_;
+  Slopes term_;
 };
 
 }  // namespace zwidth::internal
