@@ -36,7 +36,7 @@ def test_the_place_of_what_is_wrong(tmp_path, lhifam):
 
 def test_options_are_called_as_in_python(lhifam):
     assert "give stiffness or safety_factor" in refusal(lambda: zwidth.export(lhifam, "c")).allowed
-    assert refusal(lambda: zwidth.simulate(lhifam, user_force=7, duration="")).where == "options.duration"
+    assert refusal(lambda: zwidth.simulate(lhifam, duration="")).where == "options.duration"
     assert refusal(lambda: zwidth.simulate(lhifam, wall_position=[1, 2])).what == "has 2 values"
     assert refusal(lambda: zwidth.simulate(lhifam)).where == "options"
     doubtful = zwidth.Device.from_toml(lhifam.to_toml() + "\n[uncertainty]\nwarning = 'guessed'\n")
