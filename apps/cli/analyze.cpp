@@ -29,7 +29,7 @@ namespace {
 struct AnalyzeOptions {
   DeviceArguments devices;
   OutputArguments output;
-  std::optional<std::string> report;
+  std::string report;
   bool worst_user = false;
   bool require_stable = false;
   std::string users;
@@ -142,8 +142,7 @@ void check_walls(const AnalyzeOptions& options, const std::vector<report::Analys
 
 void run_analyze(const AnalyzeOptions& options) {
   Outputs outputs;
-  if (options.report && options.report->empty()) throw WorkFailed("--report: is empty; name a file");
-  outputs.add("--report", options.report.value_or(""));
+  outputs.add("--report", options.report, Ending::page);
   outputs.keep(options.devices.files, "device file");
   const std::vector<report::AnalysedDevice> analysed = analysed_devices(options);
   if (options.require_stable) check_walls(options, analysed);
@@ -156,7 +155,7 @@ void run_analyze(const AnalyzeOptions& options) {
     write_standard_output(lines);
   } else {
     write_text(report::analysis_text(analysed));
-    if (options.report) write_standard_output("\nThe report is in " + *options.report + "\n");
+    if (!options.report.empty()) write_standard_output("\nThe report is in " + options.report + "\n");
   }
   if (options.require_stable) require_stable(options, analysed);
 }

@@ -29,6 +29,12 @@ namespace {
 constexpr double lowest_rate = 1.0;  // Hz, of a drive's loop
 constexpr double highest_rate = 1e7;
 
+const std::map<std::string, DriveFirmware> drive_firmware{{"odrive", DriveFirmware::odrive},
+                                                          {"moteus", DriveFirmware::moteus},
+                                                          {"simplefoc", DriveFirmware::simplefoc},
+                                                          {"openffboard", DriveFirmware::openffboard},
+                                                          {"vesc", DriveFirmware::vesc}};
+
 struct ExportArguments {
   DeviceArguments devices;
   std::string format;
@@ -202,17 +208,13 @@ void add_export(CLI::App& app) {
       ->type_name("FORMAT")
       ->check(CLI::IsMember({"octave", "python", "json", "c", "chai3d"}));
   command
-      ->add_option("--units", arguments->units,
-                   "odrive, moteus, simplefoc, openffboard, vesc: the wall in the\n"
-                   "numbers that the drive's firmware takes, and what becomes of it\n"
-                   "where the loop closes on the drive; [driver] says what it turns")
+      ->add_option_function<std::string>(
+          "--units", [arguments](const std::string& name) { arguments->units = drive_firmware.at(name); },
+          "odrive, moteus, simplefoc, openffboard, vesc: the wall in the\n"
+          "numbers that the drive's firmware takes, and what becomes of it\n"
+          "where the loop closes on the drive; [driver] says what it turns")
       ->type_name("FIRMWARE")
-      ->transform(
-          CLI::CheckedTransformer(std::map<std::string, DriveFirmware>{{"odrive", DriveFirmware::odrive},
-                                                                       {"moteus", DriveFirmware::moteus},
-                                                                       {"simplefoc", DriveFirmware::simplefoc},
-                                                                       {"openffboard", DriveFirmware::openffboard},
-                                                                       {"vesc", DriveFirmware::vesc}}));
+      ->check(CLI::IsMember(std::vector<std::string>{"odrive", "moteus", "simplefoc", "openffboard", "vesc"}));
   command
       ->add_option("--drive-rate", arguments->drive_rate,
                    "--units: rate of the drive's own loop, instead of its default\n"

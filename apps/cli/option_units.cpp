@@ -19,9 +19,10 @@
 namespace zwidth::cli {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, Measure>, 8> measured_values{{{"S", Measure::time},
+constexpr std::array<std::pair<std::string_view, Measure>, 9> measured_values{{{"S", Measure::time},
                                                                                {"HZ", Measure::frequency_hz},
                                                                                {"W", Measure::angular_frequency},
+                                                                               {"RAD/S", Measure::angular_frequency},
                                                                                {"M", Measure::position},
                                                                                {"F", Measure::force},
                                                                                {"FORCE", Measure::force},
@@ -92,11 +93,14 @@ std::string whole_number(const std::string& text, const WholeNumbers& allowed) {
   const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
   const bool is_whole = failure == std::errc() && end == text.data() + text.size();
   if (is_whole && value >= allowed.least && value <= allowed.most) return fmt::format("{}", value);
-  const std::string range = allowed.most == WholeNumbers{}.most
-                                ? fmt::format("a whole number, {} or more", allowed.least)
-                                : fmt::format("a whole number from {} to {}", allowed.least, allowed.most);
+  const bool is_bounded = allowed.most != WholeNumbers{}.most || failure == std::errc::result_out_of_range;
+  const std::string range = is_bounded ? fmt::format("a whole number from {} to {}", allowed.least, allowed.most)
+                                       : fmt::format("a whole number, {} or more", allowed.least);
   throw CLI::ValidationError(fmt::format("is {}; {}", text, range));
 }
+
+/// Of a value: what is wrong with it, or nothing.
+std::string refused_empty(const std::string& text) { return text.empty() ? "is empty; a value" : ""; }
 
 }  // namespace
 
@@ -129,6 +133,8 @@ void accept_units(CLI::App& app) {
           return without_unit(text, unit, called);
         });
       }
+      // The last to be added is the first to look. A file that is no option says itself that it has no name.
+      if (!plain.empty() && !option->get_positional()) option->transform(CLI::Validator(refused_empty, ""));
     }
   }
 }

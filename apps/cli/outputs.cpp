@@ -15,10 +15,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_csv(const std::string& path) {
+std::string ending_of(const std::string& path) {
   std::string ending = fs::path(path).extension();
   std::ranges::transform(ending, ending.begin(), [](unsigned char letter) { return std::tolower(letter); });
-  return ending == ".csv";
+  return ending;
+}
+
+/// A device or a pipe, of which a file that is renamed would take the place.
+bool is_special(const std::string& path) {
+  std::error_code unknown;
+  return fs::is_other(fs::status(path, unknown));
 }
 
 bool same_file(const std::string& one, const std::string& other) {
@@ -46,13 +52,21 @@ void Outputs::add(const std::string& option, const std::string& path, Ending end
   if (path.empty()) return;
   if (surroundings() != nullptr)
     throw BadInput(option + ": writes a file; a request is answered with its document alone");
+  if (path == "-") throw BadInput(option + ": -: is not written to standard output; name a file");
   Output output{option, path, std::nullopt};
-  if (ending != Ending::any) output.figure = report::figure_format(path);
+  const std::string given = ending_of(path);
+  if (ending == Ending::figure || ending == Ending::figure_or_csv) output.figure = report::figure_format(path);
   if (ending == Ending::figure && !output.figure) {
     throw BadInput(fmt::format("{}: {}: unknown extension; .svg, .png or .pdf", option, path));
   }
-  if (ending == Ending::figure_or_csv && !output.figure && !is_csv(path)) {
+  if (ending == Ending::figure_or_csv && !output.figure && given != ".csv") {
     throw BadInput(fmt::format("{}: {}: unknown extension; .svg, .png, .pdf or .csv", option, path));
+  }
+  if (ending == Ending::page && !given.empty() && given != ".html" && given != ".htm") {
+    throw BadInput(fmt::format("{}: {}: unknown extension of a page; .html", option, path));
+  }
+  if (ending == Ending::hdf5 && is_special(path)) {
+    throw BadInput(fmt::format("{}: {}: is a device or a pipe; name a file", option, path));
   }
   for (const Output& other : outputs_) {
     if (same_file(path, other.path)) {

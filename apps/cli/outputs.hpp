@@ -13,7 +13,7 @@
 namespace zwidth::cli {
 
 /// What the ending of a file name may be.
-enum class Ending { any, figure, figure_or_csv };
+enum class Ending { any, figure, figure_or_csv, page, hdf5 };
 
 /// Where an answer goes, as the command line says it.
 struct OutputArguments {
@@ -42,8 +42,8 @@ class Outputs {
   explicit Outputs(const OutputArguments& arguments) { add(arguments); }
 
   void add(const OutputArguments& arguments);
-  /// Declares an output; an empty `path` is not asked for. Throws BadInput where its ending is not allowed, or where it
-  /// is the file of another output: the second would replace the first.
+  /// Declares an output; an empty `path` is not asked for. Throws BadInput where its ending is not allowed, where it is
+  /// "-" (who can write to standard output takes that before), or the file of another output, which it would replace.
   void add(const std::string& option, const std::string& path, Ending ending = Ending::any);
 
   /// Throws BadInput where an output is this input: `name` is "device file", "recording", "structure".

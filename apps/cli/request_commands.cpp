@@ -103,17 +103,25 @@ void put_inputs(const CommandRequest& request, const OfferedCommand& command, Su
   }
 }
 
+/// The long names of a command's options, without dashes.
+std::vector<std::string> names_of_options(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* each : command.get_options()) {
+    names.insert(names.end(), each->get_lnames().begin(), each->get_lnames().end());
+  }
+  return names;
+}
+
 /// "--name=value": no value can become an option. A flag is "--name".
-void put_option(const CLI::App& command, const CommandRequest::Option& given, std::vector<std::string>& arguments) {
+void put_option(const CLI::App& command, const CommandRequest::Option& given, CommandRequest::Naming naming,
+                std::vector<std::string>& arguments) {
   const std::string where = "options." + given.name;
   const CLI::Option* option = given.name == "help" ? nullptr : command.get_option_no_throw("--" + given.name);
   if (option == nullptr || given.name.find('=') != std::string::npos) {
-    std::vector<std::string> known;
-    for (const CLI::Option* each : command.get_options()) {
-      known.insert(known.end(), each->get_lnames().begin(), each->get_lnames().end());
-    }
+    std::vector<std::string> known = names_of_options(command);
     std::erase(known, "help");
-    const std::string near = nearest_word(given.name, known);
+    for (std::string& name : known) name = listed(name, naming);
+    const std::string near = nearest_word(listed(given.name, naming), known);
     throw Refused{{where, fmt::format("{} has no such option", command.get_name()),
                    near.empty() ? fmt::format("{}", fmt::join(known, ", ")) : fmt::format("did you mean {}?", near)}};
   }
@@ -152,7 +160,7 @@ RequestAnswer answered(const CommandRequest& request, const OfferedCommand& offe
     if (!offered.study.empty() && "--" + option.name == offered.study) {
       throw Refused{{"options." + option.name, "names a file", "study or study_toml beside the options"}};
     }
-    put_option(command, option, arguments);
+    put_option(command, option, request.naming, arguments);
   }
   const auto asks_for = [&](const char* option) {
     return std::ranges::count(request.options, option, &CommandRequest::Option::name) > 0;
@@ -166,6 +174,25 @@ RequestAnswer answered(const CommandRequest& request, const OfferedCommand& offe
   std::ranges::reverse(arguments);  // CLI11 takes them from the back
   app.parse(arguments);
   return answer_in(own);
+}
+
+tl::expected<RequestAnswer, Problem> answer_or_problem(const CommandRequest& request, const OfferedCommand& offered,
+                                                       Surroundings& own) {
+  try {
+    return answered(request, offered, own);
+  } catch (const Refused& refused) {
+    return tl::unexpected(refused.problem);
+  } catch (const CLI::ParseError& error) {
+    return tl::unexpected(problem_of_option(error.what(), offered.device == positional ? "device" : "recording"));
+  } catch (const BadInput& error) {
+    return tl::unexpected(problem_in(error.what(), request));
+  } catch (const WorkFailed& error) {
+    // The document says itself what of it is refused.
+    if (!own.output.empty()) return answer_in(own);
+    return tl::unexpected(failure_in(error.what(), request));
+  } catch (const Error& error) {
+    return tl::unexpected(Problem{"", error.what(), ""});
+  }
 }
 
 }  // namespace
@@ -206,21 +233,13 @@ tl::expected<RequestAnswer, Problem> RequestCommands::answer(const CommandReques
   own.progress = progress;
   own.bounds = bounds_;
   const InSurroundings inside(own);
-  try {
-    return answered(request, *offered, own);
-  } catch (const Refused& refused) {
-    return tl::unexpected(refused.problem);
-  } catch (const CLI::ParseError& error) {
-    return tl::unexpected(problem_of_option(error.what(), offered->device == positional ? "device" : "recording"));
-  } catch (const BadInput& error) {
-    return tl::unexpected(problem_in(error.what(), request));
-  } catch (const WorkFailed& error) {
-    // The document says itself what of it is refused.
-    if (!own.output.empty()) return answer_in(own);
-    return tl::unexpected(failure_in(error.what(), request));
-  } catch (const Error& error) {
-    return tl::unexpected(Problem{"", error.what(), ""});
-  }
+  return answer_or_problem(request, *offered, own).map_error([&](Problem&& problem) {
+    CLI::App app("", "zwidth");
+    offered->add(app);
+    const CLI::App& command = *app.get_subcommand(std::string(offered->name));
+    const std::string_view recording = offered->recording.starts_with("--") ? offered->recording.substr(2) : "";
+    return with_names(std::move(problem), request.naming, names_of_options(command), recording);
+  });
 }
 
 }  // namespace zwidth::cli

@@ -7,6 +7,7 @@
 #include <utility>
 #include <variant>
 
+#include "cli/usage_error.hpp"
 #include "zwidth/io/input_error.hpp"
 
 namespace zwidth::cli {
@@ -53,7 +54,31 @@ void put_place(std::string_view text, server::Problem& problem) {
   if (line.ptr != end) std::from_chars(line.ptr + 1, end, problem.column);
 }
 
+constexpr std::string_view in_options = "options.";
+constexpr std::string_view letters_of_options = "abcdefghijklmnopqrstuvwxyz0123456789-";
+
 }  // namespace
+
+std::string listed(std::string option, server::CommandRequest::Naming naming) {
+  if (naming == server::CommandRequest::Naming::keyword) std::ranges::replace(option, '-', '_');
+  return option;
+}
+
+server::Problem with_names(server::Problem problem, server::CommandRequest::Naming naming,
+                           const std::vector<std::string>& options, std::string_view recording) {
+  if (problem.where.starts_with(in_options)) problem.where = listed(problem.where, naming);
+  const bool is_document = naming == server::CommandRequest::Naming::document;
+  for (std::string* text : {&problem.what, &problem.allowed}) {
+    for (std::size_t at = text->find("--"); at != std::string::npos; at = text->find("--", at + 1)) {
+      const std::size_t end = std::min(text->find_first_not_of(letters_of_options, at), text->size());
+      const std::string name = text->substr(at + 2, end - at - 2);
+      if (std::ranges::find(options, name) == options.end()) continue;
+      const bool has_prefix = is_document && name != recording;
+      text->replace(at, end - at, (has_prefix ? std::string(in_options) : "") + listed(name, naming));
+    }
+  }
+  return problem;
+}
 
 server::Problem problem_in(std::string message, const server::CommandRequest& request) {
   message.erase(std::min(message.find('\n'), message.size()));  // what follows is further advice
@@ -84,7 +109,7 @@ server::Problem problem_in(std::string message, const server::CommandRequest& re
       where = study_name + (key.empty() ? study : "." + key);
     }
   }
-  server::Problem problem = split(where, message);
+  server::Problem problem = split(where.empty() ? "options" : where, message);
   put_place(study, problem);
   if (request.device_is_text) put_place(device, problem);
   return problem;
@@ -101,7 +126,8 @@ server::Problem failure_in(std::string message, const server::CommandRequest& re
   return {"", std::move(message), ""};
 }
 
-server::Problem problem_of_option(const std::string& message, std::string_view file) {
+server::Problem problem_of_option(const std::string& told, std::string_view file) {
+  const std::string message = clear_problem(told);
   constexpr std::string_view required = " is required";
   if (message.ends_with(required) && !message.starts_with("--"))
     return {std::string(file), "is missing",
@@ -118,16 +144,7 @@ server::Problem problem_of_option(const std::string& message, std::string_view f
     return {where, "is " + (value == std::string::npos ? "no number" : message.substr(value + 3)), "a number"};
   }
   if (begin != 0 || !message.substr(end).starts_with(": ")) return {where, message, ""};
-  const std::string told = message.substr(end + 2);
-  const std::size_t words = told.find(" not in {");
-  if (words != std::string::npos && told.ends_with('}')) {
-    const std::size_t first = words + std::string_view(" not in {").size();
-    std::string allowed;
-    for (const char letter : told.substr(first, told.size() - 1 - first))
-      allowed += letter == ',' ? ", " : std::string(1, letter);
-    return {where, "is " + told.substr(0, words), allowed};
-  }
-  return split(where, told);
+  return split(where, message.substr(end + 2));
 }
 
 }  // namespace zwidth::cli

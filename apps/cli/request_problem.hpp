@@ -2,6 +2,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "server/api/command_request.hpp"
 
@@ -19,6 +20,14 @@ inline constexpr const char* study_name = "study";
 [[nodiscard]] server::Problem failure_in(std::string message, const server::CommandRequest& request);
 
 /// CLI11's message about an option as the request's problem. `file`: what its positional argument is, device or recording.
-[[nodiscard]] server::Problem problem_of_option(const std::string& message, std::string_view file);
+[[nodiscard]] server::Problem problem_of_option(const std::string& told, std::string_view file);
+
+/// The problem with the command's `options` ("accept-doubt") called as who asked calls them; `recording`: the one that is
+/// no option of a request, if there is one.
+[[nodiscard]] server::Problem with_names(server::Problem problem, server::CommandRequest::Naming naming,
+                                         const std::vector<std::string>& options, std::string_view recording);
+
+/// An option's name in a list of them.
+[[nodiscard]] std::string listed(std::string option, server::CommandRequest::Naming naming);
 
 }  // namespace zwidth::cli

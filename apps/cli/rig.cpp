@@ -280,7 +280,7 @@ void add_outputs(const RigArguments& arguments, Outputs& outputs) {
   outputs.add(arguments.output);
   outputs.add("--recording", arguments.recording);
   outputs.add("--output-device", arguments.output_device);
-  outputs.add("--report", arguments.report);
+  outputs.add("--report", arguments.report, Ending::page);
 }
 
 void run_rig(const RigArguments& arguments) {

@@ -120,8 +120,8 @@ std::optional<Study> studied(const StudyRun& run, const StudyArguments& argument
 
 void run_study(const StudyArguments& arguments) {
   Outputs outputs;
-  outputs.add("--output", arguments.result);
-  outputs.add("--report", arguments.report);
+  outputs.add("--output", arguments.result, Ending::hdf5);
+  outputs.add("--report", arguments.report, Ending::page);
   outputs.add("--output-device", arguments.worst);
   outputs.keep(arguments.devices.files, "device file");
   outputs.keep(arguments.study, "study file");
@@ -171,7 +171,7 @@ void add_study(CLI::App& app) {
       ->required();
   command->add_option("--samples", arguments->samples, "Units; instead of the study's own (default: 10 000)")
       ->type_name("N");
-  command->add_option("--seed", arguments->seed, "Of the random numbers (default: 1)")->type_name("S");
+  command->add_option("--seed", arguments->seed, "Of the random numbers (default: 1)")->type_name("N");
   command->add_option("--sampling", arguments->sampling, "random, latin-hypercube or sobol (default: random)")
       ->type_name("HOW")
       ->check(CLI::IsMember({"random", "latin-hypercube", "sobol"}));
@@ -188,7 +188,7 @@ void add_study(CLI::App& app) {
                    "Walls (K, B) that 99, 50 and 1 % of the first N units render")
       ->type_name("N");
   command->add_option("--threads", arguments->threads, "0: all cores; no result depends on it (default: 0)")
-      ->type_name("T");
+      ->type_name("N");
   command->add_option("-o,--output", arguments->result, "Also write every unit, as HDF5")->type_name("FILE");
   command->add_flag("--resume", arguments->resume, "Go on with the --output of a run that was ended");
   command->add_option("--report", arguments->report, "Also write a page with figures: .html")->type_name("FILE");

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <regex>
 #include <vector>
 
+#include "cli/number_text.hpp"
 #include "zwidth/io/message_words.hpp"
 
 namespace zwidth::cli {
@@ -44,6 +46,27 @@ std::string unknown_argument(const CLI::App& app, const CLI::App& command, const
 
 }  // namespace
 
+std::string clear_problem(const std::string& message) {
+  using std::regex;
+  static const regex too_many("(.*): At Most (\\d+) required but received (\\d+)");
+  static const regex too_few("(.*): At least (\\d+) required but received (\\d+)");
+  static const regex none("(.*): (\\d+) required (.*) missing");
+  static const regex other("(.*): (.*) not in \\{(.*)\\}");
+  std::smatch part;
+  if (std::regex_match(message, part, too_many)) {
+    return fmt::format("{}: has {} values; at most {}", part.str(1), part.str(3), part.str(2));
+  }
+  if (std::regex_match(message, part, too_few)) {
+    return fmt::format("{}: has {} of {} values; all of them", part.str(1), part.str(3), part.str(2));
+  }
+  if (std::regex_match(message, part, none)) return fmt::format("{}: has no value; {}", part.str(1), part.str(3));
+  if (!std::regex_match(message, part, other)) return message;
+  std::vector<std::string> words = parts_of(part.str(3), ',');
+  const std::string near = nearest_word(part.str(2), words);
+  if (!near.empty()) words = {fmt::format("did you mean {}?", near)};
+  return fmt::format("{}: is {}; {}", part.str(1), part.str(2), fmt::join(words, ", "));
+}
+
 std::string usage_error(const CLI::App& app, const CLI::ParseError& error) {
   const auto parsed = app.get_subcommands();
   const CLI::App& command = parsed.empty() ? app : *parsed.front();
@@ -53,12 +76,13 @@ std::string usage_error(const CLI::App& app, const CLI::ParseError& error) {
     }
   }
   if (parsed.empty() && dynamic_cast<const CLI::RequiredError*>(&error) == nullptr) {
-    return fmt::format("{}; see zwidth --help", error.what());
+    return fmt::format("{}; see zwidth --help", clear_problem(error.what()));
   }
   if (parsed.empty()) {
     return fmt::format("no command given; commands are {}", fmt::join(command_names(app), ", "));
   }
-  return fmt::format("{}: {}; see zwidth {} --help", command.get_name(), error.what(), command.get_name());
+  return fmt::format("{}: {}; see zwidth {} --help", command.get_name(), clear_problem(error.what()),
+                     command.get_name());
 }
 
 }  // namespace zwidth::cli

@@ -9,4 +9,7 @@ namespace zwidth::cli {
 /// option that does not exist.
 [[nodiscard]] std::string usage_error(const CLI::App& app, const CLI::ParseError& error);
 
+/// CLI11's message on an option as "OPTION: WHAT; ALLOWED", where it has words of its own for what is wrong.
+[[nodiscard]] std::string clear_problem(const std::string& message);
+
 }  // namespace zwidth::cli

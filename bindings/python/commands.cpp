@@ -33,6 +33,7 @@ Answer run(const std::string& command, const Options& options, const Device* dev
            const StudyHeld& study) {
   CommandRequest request;
   request.command = command;
+  request.naming = CommandRequest::Naming::keyword;
   for (const auto& [name, values] : options) request.options.push_back({name, values});
   if (device != nullptr) request.device = write_device(device->parameters());
   request.study = study;

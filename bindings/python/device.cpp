@@ -44,6 +44,11 @@ Device from_toml(const py::object& source, const Overrides& overrides) {
     const auto text = py::module_::import("zwidth._device").attr("text_of")("device", source).cast<std::string>();
     if (text.find('\n') != std::string::npos) return device_of(parse_device(text, "device", overrides));
   }
+  if (!py::isinstance<py::str>(source) && !py::hasattr(source, "__fspath__")) {
+    const auto type = py::str(py::type::of(source).attr("__name__")).cast<std::string>();
+    raise_input_error("device", "is of type " + type,
+                      "a path, or the text itself: of bytes, what their decode() returns");
+  }
   const auto path = py::module_::import("os").attr("fsencode")(source).cast<std::string>();
   if (path.find('\0') != std::string::npos) raise_input_error("device", "has a character of code 0", "a path");
   return from_file(path, overrides);

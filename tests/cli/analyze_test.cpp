@@ -265,7 +265,7 @@ TEST_F(Analyze, TheReportIsOneFileAndTheAnswerIsStillPrinted) {
 }
 
 TEST_F(Analyze, AReportThatCannotBeWrittenFailsAndLeavesNothing) {
-  for (const std::string target : {"missing/report.html", "devices", "/dev/full", "''"}) {
+  for (const std::string target : {"missing/report.html", "devices", "/dev/full"}) {
     const Outcome outcome = run("zwidth analyze devices/lhifam.toml --report " + target);
     EXPECT_EQ(outcome.status, 1) << target;
     EXPECT_THAT(outcome.errors, StartsWith("zwidth: ")) << target;

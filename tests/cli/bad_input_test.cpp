@@ -136,5 +136,42 @@ TEST_F(BadInput, EveryBadFileIsNamedAndNothingIsComputed) {
   EXPECT_EQ(std::count(outcome.errors.begin(), outcome.errors.end(), '\n'), 2);
 }
 
+TEST_F(BadInput, FilesToWriteThatCannotBe) {
+  const std::string analyze = "zwidth analyze devices/lhifam.toml ";
+  const std::string study = "zwidth study devices/lhifam.toml --study devices/studies/lhifam.toml --samples 1 ";
+  expect_refused(analyze + "--report ''", "analyze: --report: is empty;");
+  expect_refused(analyze + "--report a.pdf", "--report: a.pdf: ");
+  expect_refused(study + "--report a.csv", "--report: a.csv: ");
+  expect_refused("zwidth rig check devices/lhifam.toml --report a.svg", "--report: a.svg: ");
+  expect_refused("zwidth bode devices/lhifam.toml --output ''", "bode: --output: is empty;");
+  expect_refused("zwidth simulate devices/lhifam.toml --start 1e-3 --csv -", "--csv: -: ");
+  expect_refused(analyze + "--report -", "--report: -: ");
+  expect_refused(study + "--output-device -", "--output-device: -: ");
+  expect_refused("zwidth rig measure devices/lhifam.toml --recording -", "--recording: -: ");
+  // A result is put in the place of what has its name: a device, or a pipe that somebody reads, is none.
+  EXPECT_EQ(run("mkfifo pipe").status, 0);
+  expect_refused(study + "--output pipe", "--output: pipe: is a device or a pipe;");
+  EXPECT_EQ(run("test -p pipe").status, 0);
+  EXPECT_EQ(run("ls").output, "devices\npipe\nrecordings\n");
+}
+
+TEST_F(BadInput, ValuesOfOptionsThatCannotBe) {
+  const std::string lhifam = " devices/lhifam.toml ";
+  expect_refused("zwidth analyze" + lhifam + "--report a.html --report b.html",
+                 "analyze: --report: has 2 values; at most 1;");
+  expect_refused("zwidth simulate" + lhifam + "--overrun 0.5", "simulate: --overrun: has 1 of 2 values; all of them;");
+  expect_refused("zwidth analyze" + lhifam + "--set", "analyze: --set: has no value; KEY=VALUE;");
+  expect_refused("zwidth export" + lhifam + "--units odriv", "export: --units: is odriv; did you mean odrive?;");
+  expect_refused("zwidth export" + lhifam + "--units 0",
+                 "export: --units: is 0; odrive, moteus, simplefoc, openffboard, vesc;");
+  expect_refused("zwidth simulate" + lhifam + "--contact soft", "simulate: --contact: is soft; bilateral, unilateral;");
+  expect_refused("zwidth study" + lhifam + "--study x.toml --threads -1",
+                 "study: --threads: is -1; a whole number, 0 or more;");
+  expect_refused("zwidth study" + lhifam + "--study x.toml --seed '1000 ms'",
+                 "study: --seed: is 1000 ms; a whole number, 0 or more;");
+  expect_refused("zwidth simulate" + lhifam + "--seed 18446744073709551616",
+                 "simulate: --seed: is 18446744073709551616; a whole number from 0 to 18446744073709551615;");
+}
+
 }  // namespace
 }  // namespace zwidth::cli

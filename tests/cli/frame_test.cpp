@@ -107,8 +107,10 @@ TEST_F(Frame, WrongUsageExitsWithTwoAndSaysWhatWasMeant) {
 
 TEST_F(Frame, NoCommandOverwritesItsDeviceFile) {
   write("device.csv", run("cat devices/lhifam.toml").output);
-  for (const std::string command : {"analyze device.csv --report ./device.csv", "bode device.csv --output ./device.csv",
-                                    "export device.csv --format json --output ./device.csv"}) {
+  write("device.html", run("cat devices/lhifam.toml").output);
+  for (const std::string command :
+       {"analyze device.html --report ./device.html", "bode device.csv --output ./device.csv",
+        "export device.csv --format json --output ./device.csv"}) {
     const Outcome outcome = run("zwidth " + command);
     EXPECT_EQ(outcome.status, 2) << command;
     EXPECT_THAT(outcome.errors, HasSubstr("would overwrite the device file")) << command;

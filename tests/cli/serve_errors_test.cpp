@@ -71,6 +71,22 @@ TEST_F(ServedErrors, WorkThatFailsHasNoPlace) {
   }
 }
 
+// Not by the names that the command line has for them.
+TEST_F(ServedErrors, AnErrorCallsOptionsAsARequestDoes) {
+  const std::string device = contents("devices/lhifam.toml");
+  const auto error_of = [&](const std::string& command, const std::string& text, const json& options) {
+    return json::parse(post(command, json{{"device_toml", text}, {"options", options}}.dump()).body).at("error");
+  };
+  const std::string doubtful = device + "\n[uncertainty]\nverdict = 'doubtful'\nreasons = ['guessed']\n";
+  EXPECT_THAT(error_of("export", doubtful, {{"format", "c"}, {"stiffness", 100}}).at("what").get<std::string>(),
+              HasSubstr("; options.accept-doubt writes the wall all the same"));
+  EXPECT_EQ(error_of("export", device, {{"format", "c"}}).at("allowed"),
+            "set it, or give options.stiffness or options.safety-factor");
+  EXPECT_EQ(error_of("diagnose", device, json::object()).at("allowed"),
+            "give the frequency, or a recording that shows it with recording");
+  EXPECT_EQ(error_of("simulate", device, json::object()).at("where"), "options");
+}
+
 TEST_F(ServedErrors, AStudyIsBoundedAndNamesNoFile) {
   const auto expect_place = [&](const json& options, const json& study, const std::string& where) {
     json request{{"device_toml", contents("devices/lhifam.toml")}, {"options", options}};

@@ -27,11 +27,34 @@ def test_the_place_of_what_is_wrong(tmp_path, lhifam):
     assert error.where.startswith(f"{file}:3:") and error.what == "is -1" and error.allowed
     assert isinstance(error, ValueError) and str(file) in str(error)
     assert refusal(lambda: lhifam.with_(link__stiffness=-5)).where == "device.link.0.stiffness"
-    assert refusal(lambda: zwidth.analyze(lhifam, worst_usr=True)).where == "options.worst-usr"
-    assert "worst-user" in refusal(lambda: zwidth.analyze(lhifam, worst_usr=True)).allowed
-    assert refusal(lambda: zwidth.diagnose(lhifam, oscillates_hz=-1)).where == "options.oscillates-hz"
+    assert refusal(lambda: zwidth.analyze(lhifam, worst_usr=True)).where == "options.worst_usr"
+    assert "worst_user" in refusal(lambda: zwidth.analyze(lhifam, worst_usr=True)).allowed
+    assert refusal(lambda: zwidth.diagnose(lhifam, oscillates_hz=-1)).where == "options.oscillates_hz"
     assert "loop.dely" in refusal(lambda: lhifam.with_(loop__dely=1)).where
     assert "body" in refusal(lambda: zwidth.Device(body=[{"name": "a", "mass": float("nan")}], loop={})).where
+
+
+def test_options_are_called_as_in_python(lhifam):
+    assert "give stiffness or safety_factor" in refusal(lambda: zwidth.export(lhifam, "c")).allowed
+    assert refusal(lambda: zwidth.simulate(lhifam, duration="")).where == "options.duration"
+    assert refusal(lambda: zwidth.simulate(lhifam, wall_position=[1, 2])).what == "has 2 values"
+    assert refusal(lambda: zwidth.simulate(lhifam)).where == "options"
+    doubtful = zwidth.Device.from_toml(lhifam.to_toml() + "\n[uncertainty]\nwarning = 'guessed'\n")
+    with pytest.raises(zwidth.WorkFailed, match="; accept_doubt writes the wall all the same"):
+        zwidth.export(doubtful, "c", stiffness=100)
+    assert "guessed" in zwidth.export(doubtful, "c", stiffness=100, accept_doubt=True)
+
+
+@pytest.mark.parametrize("source, type_name", [(b"[[body]]\n", "bytes"), (None, "NoneType"), (7, "int"), ([], "list")])
+def test_what_is_no_device_file_is_not_taken_for_a_path(source, type_name):
+    error = refusal(lambda: zwidth.Device.from_toml(source))
+    assert error.where == "device" and error.what == f"is of type {type_name}" and "decode" in error.allowed
+
+
+def test_none_is_no_value(lhifam):
+    for key in ("name", "wall.stiffness", "x"):
+        error = refusal(lambda: lhifam.with_({key: None}))
+        assert error.where == f"device.{key}" and error.what == "is None"
 
 
 @pytest.mark.parametrize(

@@ -37,7 +37,10 @@ struct CommandRequest {
     std::string name;
     std::variant<std::shared_ptr<const MemoryFile>, std::filesystem::path, std::shared_ptr<const RecordedColumns>> held;
   };
+  /// How a message calls an option: "options.accept-doubt", as in a document, or "accept_doubt", as a keyword of Python.
+  enum class Naming { document, keyword };
   std::string command;
+  Naming naming = Naming::document;
   std::vector<Option> options;
   std::optional<std::string> device;  ///< TOML text
   bool device_is_text = false;        ///< it came as that: places in it mean something to who sent it

@@ -97,11 +97,11 @@ def _options(options: Mapping[str, Any]) -> List[Tuple[str, List[str]]]:
             given.append((name, []))
         elif isinstance(value, (list, tuple, np.ndarray)):
             if np.ndim(value) != 1:
-                raise InputError(f"options.{name}", f"has {np.ndim(value)} dimensions", "a list")
+                raise InputError(f"options.{key}", f"has {np.ndim(value)} dimensions", "a list")
             if len(value) > 0:
-                given.append((name, [_value(name, each) for each in value]))
+                given.append((name, [_value(key, each) for each in value]))
         else:
-            given.append((name, [_value(name, value)]))
+            given.append((name, [_value(key, value)]))
     return given
 
 

@@ -24,8 +24,10 @@ def _plain(where: str, value: Any) -> Any:
     """A value with NumPy's numbers and arrays as Python's."""
     if isinstance(value, str):
         return text_of(where, value)
-    if isinstance(value, bool) or value is None:
+    if isinstance(value, bool):
         return value
+    if value is None:
+        raise InputError(where, "is None", "a value; what is not known is left out")
     if isinstance(value, Mapping):
         return {text_of(where, str(key)): _plain(f"{where}.{key}", each) for key, each in value.items()}
     if isinstance(value, numbers.Integral):
@@ -62,6 +64,8 @@ def overrides(changes: Mapping[str, Any], keywords: Mapping[str, Any]) -> List[s
         if not isinstance(key, str) or not key or "=" in key:
             raise InputError("device", f"{key!r} is no key", 'a key such as "link.stiffness"')
         text_of("device", key)
+        if value is None:
+            raise InputError(f"device.{key}", "is None", "a value; no key can be taken out")
         plain = _plain(f"device.{key}", value)
         texts.append(f"{key}={plain if isinstance(plain, str) else json.dumps(plain)}")
     return texts

@@ -5,6 +5,7 @@ import { written } from './decimal'
 import { History } from './history'
 import { fullKey, groupsOf, isRotary, sameKey, shapeOf, type Group, type Row } from './keys'
 import { empty, type Settings, type Snapshot } from './snapshot'
+import { confirm } from './parts'
 import { scan, set } from './toml'
 
 class Workbench {
@@ -91,7 +92,7 @@ class Workbench {
     let toml = this.state.toml
     for (const [key, raw] of Object.entries(values)) {
       const row = this.row(key)
-      if (row && !this.isLocked(key)) toml = set(toml, row.path, raw)
+      if (row && !this.isLocked(key)) toml = confirm(set(toml, row.path, raw), row.path)
     }
     if (more) toml = `${toml.replace(/\n*$/, '\n')}\n${more}`
     if (toml !== this.state.toml) this.change({ toml }, gesture)

@@ -1,7 +1,7 @@
 import { readFileSync, readdirSync } from 'node:fs'
 import { describe, expect, it } from 'vitest'
 import { groupsOf, shapeOf } from '../../src/model/keys'
-import { addBody, choose, connect, freeName, removeBody, removeLink } from '../../src/model/parts'
+import { addBody, choose, confirm, connect, firstValues, freeName, newDevice, newLinkedDevice, removeBody, removeLink } from '../../src/model/parts'
 import { find, scan, set, withoutComments } from '../../src/model/toml'
 
 const devices = new URL('../../../devices/', import.meta.url)
@@ -82,5 +82,25 @@ describe('toml', () => {
     expect(shapeOf(scan(other))).toMatchObject({ links: [['motor', 'handle'], ['motor', 'finger "1"']], sensed: 'handle' })
     expect(shapeOf(scan(removeLink(other, 0))).links).toEqual([['motor', 'finger "1"']])
     expect(freeName(three)).toBe('body 4')
+  })
+})
+
+describe('first values', () => {
+  it('are told until they are changed or said to be right', () => {
+    const wheel = newLinkedDevice('rotary')
+    const all = firstValues(wheel).map((path) => path.join('.'))
+    expect(all).toEqual(['body.0.inertia', 'body.0.damping', 'body.1.inertia', 'link.0.stiffness', 'link.0.damping', 'loop.sampling_period'])
+    const one = confirm(set(wheel, ['body', '1', 'inertia'], '"0.04 kg m^2"'), ['body', '1', 'inertia'])
+    expect(one).toContain('inertia = "0.04 kg m^2"\n')
+    expect(firstValues(one)).toHaveLength(5)
+    expect(firstValues(confirm(one))).toEqual([])
+    expect(confirm(one)).not.toContain('#')
+  })
+  it('are those of what is added to a device too, and no other comment', () => {
+    const device = newDevice('linear')
+    expect(firstValues(addBody(confirm(device), 'handle', 'body 1')).map((path) => path.join('.'))).toEqual(['body.1.mass', 'link.0.stiffness', 'link.0.damping'])
+    const other = '[[body]]\nmass = 1 # measured\n# a first value\n'
+    expect(firstValues(other)).toEqual([])
+    expect(confirm(other)).toBe(other)
   })
 })
