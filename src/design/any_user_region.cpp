@@ -32,8 +32,14 @@ class Sampler {
   [[nodiscard]] AnyUserPoint at(double damping) {
     tell(progress_, 0.0);
     const AnyUserLimit limit = search_.limit({damping, velocity_filter_hz_}, progress_);
+    if (!limit.trust.sound() && limit.truncation >= most_taken_off_) {
+      most_taken_off_ = limit.truncation;
+      trust_ = limit.trust;
+    }
     return {damping, limit.stiffness, limit.frequency};
   }
+
+  [[nodiscard]] const Trust& trust() const { return trust_; }
 
   // The end of the limit between a B where it is above 0 and one where it is 0.
   [[nodiscard]] AnyUserPoint end_between(const AnyUserPoint& inside, const AnyUserPoint& outside) {
@@ -70,6 +76,8 @@ class Sampler {
   double velocity_filter_hz_;
   double deviation_;
   const Progress& progress_;
+  double most_taken_off_ = 0.0;
+  Trust trust_;  // of that limit
 };
 
 std::vector<AnyUserPoint> scan(Sampler& sampler, double largest) {
@@ -135,6 +143,7 @@ AnyUserRegion any_user_region(const Device& device, double velocity_filter_hz, d
     region.most_damped = points.back();
     region.ranges.push_back(std::move(points));
   }
+  region.trust = sampler.trust();
   stages.done();
   return region;
 }

@@ -123,6 +123,7 @@ WallRegion region(const Device& device, const RegionOptions& options) {
       stages.next(0.95);
       result.any_user = any_user_region(device, result.walls->velocity_filter_hz(), result.region.most_damped->damping,
                                         {.progress = stages.stage()});
+      result.trust.inherit(result.any_user->trust);
     } else {
       result.remarks.push_back({Remark::Severity::note,
                                 fmt::format("no limit for any passive user: the device has {} bodies, more than {}",

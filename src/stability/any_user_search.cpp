@@ -185,8 +185,8 @@ AnyUserSearch::Sample AnyUserSearch::least_within(VirtualDamper damper, const Di
 }
 
 /// Shows that no K below the least found violates the condition, or finds the lower ones and shows it of those.
-/// The share of the least by which that could not be shown. What the free device itself reaches stands in any case.
-double AnyUserSearch::prove(VirtualDamper damper, double free_stiffness, const Progress& progress, Sample& least) {
+/// The share of the least by which that could not be shown.
+double AnyUserSearch::prove(VirtualDamper damper, const Progress& progress, Sample& least) {
   struct Open {
     std::size_t piece;
     std::size_t divisions;  // because it was undecided
@@ -249,7 +249,7 @@ double AnyUserSearch::prove(VirtualDamper damper, double free_stiffness, const P
       return answer_at(below).verdict == WallCondition::Verdict::holds;
     });
     within = std::max(within, proven != std::end(proven_within) ? *proven : 1.0);
-    if (within == 1.0 && least.stiffness < free_stiffness) return within;  // nothing of it is left
+    if (within == 1.0) return within;  // nothing of it is left
   }
   return within;
 }
@@ -270,11 +270,12 @@ AnyUserLimit AnyUserSearch::limit(VirtualDamper damper, const Progress& progress
   const bool is_nothing = least.stiffness <= nothing * typical_of(stiffnesses);
   if (is_nothing) least.stiffness = 0.0;
   double unproven = 0.0;
-  if (least.stiffness > 0.0) unproven = prove(damper, free.stiffness, progress, least);
+  if (least.stiffness > 0.0) unproven = prove(damper, progress, least);
   if (least.stiffness == 0.0) return limit;
-  limit.needs_no_user = nobody();
   limit.frequency = std::isfinite(least.stiffness) ? least.frequency : 0.0;
   limit.truncation = std::min(discs_.truncation() + unproven, 1.0);
+  // What the free device reaches stands where users are shown to reach no less.
+  limit.needs_no_user = nobody() && limit.truncation <= sound_within;
   limit.stiffness = limit.needs_no_user ? least.stiffness : least.stiffness * (1.0 - limit.truncation);
   if (unproven > sound_within) {
     limit.trust.doubt(

@@ -33,7 +33,7 @@ class AnyUserSearch {
   [[nodiscard]] std::vector<Sample> scan(VirtualDamper damper, const CriticalStiffness& free) const;
   void take_least_of(VirtualDamper damper, const std::vector<Sample>& samples, Sample& least) const;
   [[nodiscard]] Sample least_within(VirtualDamper damper, const DiscPieces::Piece& piece, double at) const;
-  [[nodiscard]] double prove(VirtualDamper damper, double free_stiffness, const Progress& progress, Sample& least);
+  [[nodiscard]] double prove(VirtualDamper damper, const Progress& progress, Sample& least);
 
   UserDiscs discs_;
   double period_ = 0.0;

@@ -14,10 +14,12 @@ class SharedPoles {
   void add(const ModalForm& form);
   [[nodiscard]] std::size_t size() const noexcept { return forms_.size(); }
 
-  // response() of each, in the order in which they came.
-  void responses(double frequency, std::complex<double>* values) const;
+  // response() of each, in the order in which they came; false where the terms of one cancel beyond 6 digits.
+  [[nodiscard]] bool responses(double frequency, std::complex<double>* values) const;
 
  private:
+  [[nodiscard]] bool sum_each(double frequency, std::complex<double>* values) const;
+
   struct Pair {  // s² + d1 s + d0
     double d0 = 0.0;
     double d1 = 0.0;

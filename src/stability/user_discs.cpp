@@ -18,7 +18,7 @@ constexpr double clear_of_modes = 2.5;    // aliases beyond this many times the 
 constexpr double clear_of_corners = 4.0;  // beyond this many times the highest corner frequency its tail begins
 constexpr std::size_t least_exact_aliases = 12;
 constexpr double most_exact_aliases = 20000.0;
-constexpr double weakly = 0.1;  // |D| beside |G_sa|
+constexpr double long_digits = 0x1p-11;  // rounding of a long double, of that of a double
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Device without_operator(const Device& device) {
@@ -72,16 +72,21 @@ UserDiscs::UserDiscs(const Device& device, const Progress& progress)
     tell(progress, 0.0);
     motions.push_back(motion_of(i));
   }
+  solved_ = SolvedMotions(free, held_);
   motions_.add(motions[sensed_]);
   motions_.add(motions[actuated_]);
+  solved_.add_body(sensed_);
+  solved_.add_body(actuated_);
   for (std::size_t i = 0; i < free.bodies().size(); ++i) {
     if (!(free.bodies()[i].damping > 0.0)) continue;
     motions_.add(motions[i]);
+    solved_.add_body(i);
     dampings_.push_back(free.bodies()[i].damping);
   }
   for (const Link& link : free.links()) {
     if (!(link.damping > 0.0)) continue;
     motions_.add(difference(motions[link.first], motions[link.second]));
+    solved_.add_length(link.first, link.second);
     dampings_.push_back(link.damping);
   }
   held_motion_ = motions[held_];
@@ -127,7 +132,7 @@ UserDiscs::Density UserDiscs::density(double frequency) const {
     many.resize(motions_.size());
     values = many.data();
   }
-  motions_.responses(frequency, values);
+  if (!motions_.responses(frequency, values)) solved_.responses(frequency, values);
   const std::complex<double> sensed = values[0];
   const std::complex<double> actuated = values[1];
   const std::complex<double>* lengths = values + 2;
@@ -220,14 +225,20 @@ UserDiscs::Disc UserDiscs::near_zero(double frequency, const Density& own, const
   const std::complex<double> through = response(through_, frequency) / lag;
   const std::complex<double> kept = kept_motion(frequency);
   const std::complex<double> held = std::conj(response(held_motion_, frequency));
-  // Where the user hardly reaches the wall's loop X and G_hh are nearly the same, and G_sa - D loses nothing.
-  const std::complex<double> s(0.0, frequency);
-  const bool is_weak = std::abs(own.value * frequency) < weakly * std::abs(through);
+  // Where the user hardly reaches the wall's loop, and at a frequency where it cannot, X and conj G_hh are nearly the
+  // same, and G_sa - D loses less.
+  const std::complex<double> free = through / std::complex<double>(0.0, frequency);
+  const std::complex<double> difference = free - own.value;
+  const double lost = (std::abs(free) + std::abs(own.value)) / std::abs(difference);
+  const bool is_product = std::abs(kept) + std::abs(held) < lost * std::abs(kept - held);
   const std::complex<double> own_centre =
-      factor * (is_weak ? through / s - own.value : through * (kept - held) / (2.0 * own.conductance));
+      factor * (is_product ? through * (kept - held) / (2.0 * own.conductance) : difference);
   const double own_radius = std::abs(factor) * std::abs(own.value);
-  const double own_power =
-      std::norm(factor / frequency) * std::norm(through) * (-frequency * kept.imag()) / own.conductance;
+  double own_power = (std::abs(own_centre) - own_radius) * (std::abs(own_centre) + own_radius);
+  const double lost_in_power = (std::norm(own_centre) + own_radius * own_radius) / std::abs(own_power);
+  if (is_product || long_digits * std::abs(kept) < lost_in_power * lost * std::abs(kept.imag())) {
+    own_power = std::norm(factor / frequency) * std::norm(through) * (-frequency * kept.imag()) / own.conductance;
+  }
   const std::complex<double> centre = factor * others.centre;
   const double radius = std::abs(factor) * others.radius;
   return {own_centre + centre, own_radius + radius,

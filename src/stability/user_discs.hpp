@@ -7,6 +7,7 @@
 #include "model/device_matrices.hpp"
 #include "stability/alias_rule.hpp"
 #include "stability/shared_poles.hpp"
+#include "stability/solved_motions.hpp"
 #include "zwidth/model/modal_form.hpp"
 #include "zwidth/progress.hpp"
 #include "zwidth/sampling/sampled_plant.hpp"
@@ -88,6 +89,7 @@ class UserDiscs {
   DeviceMatrices<long double> matrices_;
   std::vector<ModalTerm> poles_;  // the terms whose denominators are those of the device
   SharedPoles motions_;           // for a force at the held body: sensed, actuated, and the length of each damper
+  SolvedMotions solved_;          // the same, where terms of these cancel
   std::vector<double> dampings_;  // of those
   std::size_t sensed_ = 0;
   std::size_t actuated_ = 0;

@@ -9,6 +9,7 @@
 #include "lhifam.hpp"
 #include "zwidth/design/region_approximation.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/stability/any_user.hpp"
 
 namespace zwidth {
 namespace {
@@ -56,6 +57,21 @@ TEST(AnyUserRegion, RefusesWhatHasNoRange) {
   EXPECT_THROW((void)any_user_region(device, 0.0, 1.0, {0.0}), Error);
   const Device transfer(test::transfer_function_parameters({1.0}, {1.0, 1.0}, 1.0));
   EXPECT_THROW((void)any_user_region(transfer, 0.0, 1.0), Error);
+}
+
+// The limits of this chain are shown to hold to some per mille only: the region is as doubtful as they are.
+TEST(AnyUserRegion, IsAsDoubtfulAsItsLimits) {
+  DeviceParameters device;
+  device.bodies = {{"b0", 0.03431438631269368, 0.07394725824682534, 0.0, 0.0},
+                   {"b1", 7.535880186559966, 0.0, 0.0, 0.0},
+                   {"b2", 2.137837522572063, 0.0, 0.0, 0.0},
+                   {"b3", 0.02332093646085895, 0.0, 0.0, 0.0}};
+  device.links = {{0, 1, 7187.992899200791, 0.0}, {1, 2, 136156.3386349951, 0.0}, {1, 3, 154.3144575324455, 0.0}};
+  device.loop = {0, 0, 2, 0.0009342718492376095, 0.0};
+  EXPECT_EQ(any_user_limit(Device(device), {0.03, 0.0}).trust.verdict, Trust::Verdict::doubtful);
+  const AnyUserRegion region = any_user_region(Device(device), 0.0, 66.0);
+  EXPECT_EQ(region.trust.verdict, Trust::Verdict::doubtful);
+  EXPECT_TRUE(any_user_region(Device(test::lhifam_parameters()), 0.0, 600.0).trust.sound());
 }
 
 }  // namespace

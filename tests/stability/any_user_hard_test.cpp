@@ -94,6 +94,28 @@ TEST(AnyUserLimit, HoldsForVeryHeavyUsers) {
   EXPECT_LE(limit_of(delayed), with_user(delayed, {1e5, 0.0, 0.0}) * (1.0 + 1e-8));
 }
 
+// Only the motor is damped, held two springs away: far above its modes the held body hardly moves it, and at 81.34 rad/s
+// not at all (an undamped body there absorbs). Values by 50 digits at 3362.6108 rad/s, Nyquist.
+TEST(AnyUserLimit, OfAChainThatOnlyItsMotorDamps) {
+  DeviceParameters device;
+  device.bodies = {{"b0", 0.03431438631269368, 0.07394725824682534, 0.0, 0.0},
+                   {"b1", 7.535880186559966, 0.0, 0.0, 0.0},
+                   {"b2", 2.137837522572063, 0.0, 0.0, 0.0},
+                   {"b3", 0.02332093646085895, 0.0, 0.0, 0.0}};
+  device.links = {{0, 1, 7187.992899200791, 0.0}, {1, 2, 136156.3386349951, 0.0}, {1, 3, 154.3144575324455, 0.0}};
+  device.loop = {0, 0, 2, 0.0009342718492376095, 0.0};
+  const AnyUserLimit limit = any_user_limit(Device(device), {0.02976663780784853, 0.0});
+  EXPECT_FALSE(limit.needs_no_user);  // alone it bears 218.6
+  EXPECT_LE(limit.truncation, 0.01);
+  EXPECT_NEAR(limit.stiffness, 94.57765526 * (1.0 - limit.truncation), 1e-6);
+  const UserDiscs discs{Device(device)};
+  EXPECT_LT(discs.truncation(), 1e-12);
+  const UserDiscs::Disc at_zero = discs.at(81.344897337015396);
+  EXPECT_NEAR(at_zero.centre.imag(), -0.0830823, 1e-7);
+  EXPECT_NEAR(at_zero.radius, 0.0831423, 1e-7);
+  EXPECT_TRUE(std::isfinite(discs.at(2500.0).radius));
+}
+
 // Below clear_angle another formula takes over.
 TEST(UserDiscs, TheFormulaNearZeroAgreesWithTheSums) {
   for (const std::size_t sensed : {0u, 1u}) {

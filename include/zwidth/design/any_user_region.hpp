@@ -5,6 +5,7 @@
 
 #include "zwidth/model/device.hpp"
 #include "zwidth/progress.hpp"
+#include "zwidth/trust.hpp"
 
 namespace zwidth {
 
@@ -21,6 +22,7 @@ struct AnyUserRegion {
   std::optional<AnyUserPoint> stiffest;           ///< among the points
   std::optional<AnyUserPoint> most_damped;        ///< end of the last range
   double area = 0.0;                              ///< in (K, B), of the polygons
+  Trust trust = {};                               ///< of the limit of which most was taken off (see AnyUserLimit)
 };
 
 /// How finely the region for any passive user is traced.
