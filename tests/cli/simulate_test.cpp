@@ -158,6 +158,17 @@ TEST_F(Simulate, AnExcitationActsAsItWasWritten) {
   }
 }
 
+TEST_F(Simulate, SaysInItsFirstLinesWhatItsLimitIsWorth) {
+  const std::string doubtful = lhifam + "--set uncertainty.warning=guessed ";
+  const auto begins = [](const std::string& text, int lines) {
+    std::size_t end = 0;
+    for (int i = 0; i < lines; ++i) end = text.find('\n', end) + 1;
+    return text.substr(0, end);
+  };
+  EXPECT_THAT(begins(run("zwidth simulate " + doubtful + "--start 1e-3").output, 2), HasSubstr("DOUBTFUL: guessed"));
+  EXPECT_THAT(begins(run("zwidth relay " + doubtful + "--amplitude 5").output, 3), HasSubstr("DOUBTFUL: guessed"));
+}
+
 TEST_F(Simulate, FaultsAreRepeatedByTheirSeed) {
   const std::string faults = lhifam + "--lost-samples 0.2 --jitter 5e-4 --overrun 0.1,7e-4 --duration 1 ";
   const auto one = json_of(faults);
