@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <numbers>
@@ -89,9 +90,21 @@ constexpr ForceKind force_kinds[] = {
     {"ramp:", UserForce::Kind::ramp, false, "ramp:N_PER_S@S (rate in N/s or N m/s, start in s)"},
     {"sine:", UserForce::Kind::sine, true, "sine:N,HZ@S (amplitude, frequency in Hz, start in s)"}};
 
+/// The column that was named, "force", or what excite calls it.
+std::string force_column(const MotionArguments& arguments) {
+  if (arguments.force_column != MotionArguments{}.force_column || arguments.user_force == "-") {
+    return arguments.force_column;
+  }
+  const auto contents = list_named_recording(arguments.user_force, {});
+  for (const char* name : {"force", "force_N", "torque_N_m"}) {
+    if (contents && std::ranges::count(contents->columns, name, &RecordingColumn::name) == 1) return name;
+  }
+  return arguments.force_column;  // whose lack is told where it is read
+}
+
 UserForce recorded_force(const MotionArguments& arguments) {
   RecordingOptions options;
-  options.columns = {{arguments.force_column, arguments.force_scale}};
+  options.columns = {{force_column(arguments), arguments.force_scale}};
   options.rate = arguments.force_rate;
   ProgressLine line("reading " + arguments.user_force);
   const auto recording = read_named_recording(arguments.user_force, options, line.progress());
@@ -137,7 +150,9 @@ void add_motion_arguments(CLI::App& command, MotionArguments& arguments) {
           "Force on the held body: step:N@S, ramp:N_PER_S@S, sine:N,HZ@S\n(each from S seconds on), or a recording")
       ->type_name("FORCE|FILE")
       ->group(motion_group);
-  command.add_option("--user-force-column", arguments.force_column, "Column of the recording")
+  command
+      .add_option("--user-force-column", arguments.force_column,
+                  "Column of the recording; force_N and torque_N_m too, as excite writes")
       ->type_name("COLUMN")
       ->capture_default_str()
       ->group(motion_group);

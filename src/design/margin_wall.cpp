@@ -133,8 +133,9 @@ std::optional<double> short_of_phase(std::complex<double> minus_one_over_plant, 
 std::optional<OptionProblem> find_problem(const RequiredMargins& margins) {
   constexpr double most_gain = 1e5;  // 100 dB
   if (!(margins.gain >= 1.0 && margins.gain <= most_gain)) {
-    return OptionProblem{"gain_margin", fmt::format("is a factor of {}", margins.gain),
-                         "must be from 1 to 1e5, that is 0 to 100 dB"};
+    return OptionProblem{"gain_margin",
+                         fmt::format("is {:.4g} dB, a factor of {:.4g}", 20.0 * std::log10(margins.gain), margins.gain),
+                         "must be from 0 to 100 dB, a factor of 1 to 1e5"};
   }
   if (!(margins.phase >= 0.0 && margins.phase <= 0.5 * std::numbers::pi)) {
     return OptionProblem{"phase_margin", fmt::format("is {} degrees", degrees(margins.phase)),

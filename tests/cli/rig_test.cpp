@@ -192,7 +192,7 @@ TEST_F(Rig, TellsWhatItCannotDo) {
   expect_refused("limit " + lhifam + "--ramp -1", 2, "--ramp: is -1");
   expect_refused("limit " + lhifam + "--set actuator.force_limit=5 --force-limit 6", 2, "at most actuator.force_limit");
   expect_refused("limit " + lhifam + "--set actuator.force_limit=5 --amplitude 6", 2, "at most the force limit");
-  expect_refused("limit " + lhifam + "--flight-record a.csv --report a.csv", 2, "is the same file");
+  expect_refused("limit " + lhifam + "--flight-record a.html --report a.html", 2, "is the same file");
   expect_refused("limit " + lhifam + "--flight-record devices/lhifam.toml", 2, "would overwrite the device file");
   expect_refused("check " + lhifam + "--output-device a.toml", 2, "--output-device: a simulated device");
   expect_refused("check " + lhifam + "--driver serial", 2, "--driver: serial is none; simulated, odrive:PORT");

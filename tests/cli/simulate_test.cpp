@@ -147,6 +147,28 @@ TEST_F(Simulate, ARecordedForceIsReadInItsOwnTime) {
   EXPECT_GT(rows[200][4], 0.0);
 }
 
+TEST_F(Simulate, AnExcitationActsAsItWasWritten) {
+  const std::string rotary = "devices/quanser_torsion.toml ";
+  for (const std::string& device : {lhifam, rotary}) {
+    const std::string signal = "--kind relay --amplitude 0.5 --lowest-hz 5 --duration 0.5 --fade-in 0 ";
+    ASSERT_EQ(run("zwidth excite " + signal + "--device " + device + "--beyond-limits -o push.csv").status, 0);
+    const Outcome outcome = run("zwidth simulate " + device + "--user-force push.csv --duration 0.1 --csv a.csv");
+    ASSERT_EQ(outcome.status, 0) << outcome.errors;
+    EXPECT_EQ(rows_of(contents("a.csv"))[20][3], 0.5);
+  }
+}
+
+TEST_F(Simulate, SaysInItsFirstLinesWhatItsLimitIsWorth) {
+  const std::string doubtful = lhifam + "--set uncertainty.warning=guessed ";
+  const auto begins = [](const std::string& text, int lines) {
+    std::size_t end = 0;
+    for (int i = 0; i < lines; ++i) end = text.find('\n', end) + 1;
+    return text.substr(0, end);
+  };
+  EXPECT_THAT(begins(run("zwidth simulate " + doubtful + "--start 1e-3").output, 2), HasSubstr("DOUBTFUL: guessed"));
+  EXPECT_THAT(begins(run("zwidth relay " + doubtful + "--amplitude 5").output, 3), HasSubstr("DOUBTFUL: guessed"));
+}
+
 TEST_F(Simulate, FaultsAreRepeatedByTheirSeed) {
   const std::string faults = lhifam + "--lost-samples 0.2 --jitter 5e-4 --overrun 0.1,7e-4 --duration 1 ";
   const auto one = json_of(faults);
@@ -194,7 +216,7 @@ TEST_F(Simulate, Refusals) {
   expect_refused(lhifam + "--start arm=1", "no body 'arm'; the device has motor, handle");
   expect_refused(lhifam + "--start motor=far", "--start: 'motor=far'");
   expect_refused(lhifam + "--start motor=nan", "--start: 'motor=nan'");
-  expect_refused(lhifam + "--start-velocity ''", "--start-velocity: ''");
+  expect_refused(lhifam + "--start-velocity ''", "--start-velocity: is empty");
   expect_refused(lhifam + "--duration 0", "--duration: is 0 s");
   expect_refused(lhifam + "--duration 1e6", "1 to 20000000 sampling periods");
   expect_refused(lhifam + "--duration nan", "--duration: is nan s");

@@ -104,6 +104,7 @@ TEST(WallRecommendation, ATransferFunctionIsWarnedAbout) {
 TEST(WallRecommendation, NamesTheMemberOutsideItsRange) {
   const Device device = rigid(1.0, 1.0, 1e-3);
   EXPECT_EQ(find_problem({.gain_margin = 0.9}, device)->member, "gain_margin");
+  EXPECT_EQ(find_problem({.gain_margin = 0.1}, device)->what, "is -20 dB, a factor of 0.1");
   EXPECT_EQ(find_problem({.phase_margin = 2.0}, device)->member, "phase_margin");
   EXPECT_EQ(find_problem({.ripple = -1.0}, device)->member, "ripple");
   EXPECT_EQ(find_problem({.draws = 0}, device)->member, "draws");

@@ -37,7 +37,8 @@ std::string heading(const RelayResult& result) {
                            : "",
                        quantity(result.device->loop().delay, "s"));
   }
-  return text + "\n";
+  const auto note = trust_note(result.trust);
+  return text + (note ? wrap("as a limit for walls: " + *note, line_width, 2) : "") + "\n";
 }
 
 std::string trial_table(const RelayResult& result) {
@@ -159,9 +160,6 @@ std::vector<SharedRemark> shared_remarks(const std::vector<RelayTrial>& trials) 
 
 std::string remarks(const RelayResult& result) {
   std::string text;
-  if (!result.trust.refused()) {
-    for (const std::string& reason : result.trust.reasons) text += bulleted("doubtful as a limit for walls: " + reason);
-  }
   for (const Remark& remark : result.remarks) text += bulleted(remark_line(remark));
   for (const SharedRemark& remark : shared_remarks(result.trials)) {
     const bool is_of_all = remark.trials.size() == result.trials.size();
@@ -178,7 +176,7 @@ std::string remarks(const RelayResult& result) {
 }  // namespace
 
 std::string relay_text(const RelayResult& result) {
-  if (result.trials.empty()) return heading(result) + trust_lines(result.trust);
+  if (result.trials.empty()) return heading(result);
   std::string text = heading(result) + trial_table(result) + spectra_note(result);
   if (result.prediction) text += "\n" + prediction_table(result);
   if (!result.explanation.empty()) text += "\nWhat it means\n";

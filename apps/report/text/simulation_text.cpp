@@ -13,6 +13,7 @@
 #include "report/text/quantity.hpp"
 #include "report/text/remark_line.hpp"
 #include "report/text/text_table.hpp"
+#include "report/text/trust_text.hpp"
 #include "report/text/wall_filter_text.hpp"
 
 namespace zwidth::report {
@@ -193,6 +194,7 @@ std::string simulation_text(const Device& device, const Simulation& result) {
   const double period = device.loop().sampling_period;
   const bool has_wall = result.generated_energy.has_value();
   std::string text = shortened(display_name(device), line_width) + "\n";
+  if (const auto note = trust_note(result.trust)) text += line("trust", "of the limit: " + *note);
   text +=
       line("simulated", fmt::format("{}, {} samples at {}", quantity(static_cast<double>(result.samples) * period, "s"),
                                     result.samples, quantity(1.0 / period, "Hz")));
@@ -213,8 +215,6 @@ std::string simulation_text(const Device& device, const Simulation& result) {
   }
   if (result.friction_events > 0) text += line("stick-slip", fmt::format("{} instants", result.friction_events));
   text += line("linear answer", linear_answer(device, result));
-  for (const std::string& reason : result.trust.reasons)
-    text += line(result.trust.refused() ? "limit refused" : "doubtful", reason);
   for (const Remark& remark : result.remarks) {
     text += line("note", remark_line(remark));
   }

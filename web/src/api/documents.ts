@@ -131,6 +131,7 @@ export interface Option {
 }
 export interface Recommendation extends Judged, Omit<Option, 'what'> {
   status: string
+  asked: { gain_margin_db: number; phase_margin_rad: number }
   reason: string | null
   alternatives: Option[]
 }

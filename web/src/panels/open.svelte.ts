@@ -38,3 +38,10 @@ export function showPanel(id: string): void {
     panel?.querySelector<HTMLElement>('h2 button')?.focus()
   })
 }
+
+/** The answer of another device, on top; the keyboard goes on from there, to its numbers. */
+export function showAnswer(): void {
+  const title = document.getElementById('answer-title')
+  title?.scrollIntoView({ block: 'start' })
+  title?.focus({ preventScroll: true })
+}

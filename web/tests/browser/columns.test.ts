@@ -79,3 +79,53 @@ it('leaves no empty space at an unstable wall, and lets nothing jump while it is
   expect(complaints).toEqual([])
   await page.context().close()
 })
+
+it('takes a file that is dropped anywhere', async () => {
+  const { page, complaints } = await openPage(here, 1280)
+  const drop = (name: string, text: string): Promise<void> =>
+    page.evaluate(
+      ([name, text]) => {
+        const dataTransfer = new DataTransfer()
+        dataTransfer.items.add(new File([text!], name!))
+        for (const type of ['dragover', 'drop']) {
+          const event = new DragEvent(type, { dataTransfer, bubbles: true, cancelable: true })
+          document.querySelector('h1')!.dispatchEvent(event)
+          if (!event.defaultPrevented) throw new Error(`${type}: the browser opens the file instead`)
+        }
+      },
+      [name, text],
+    )
+  await drop('wheel.csv', 'time_s,torque_N_m,angle\n0,0,0\n0.001,1,0\n0.002,0,1e-6\n')
+  await page.getByRole('button', { name: 'Fit', exact: true }).waitFor()
+  expect(await page.locator('#body-recording').innerText()).toContain('wheel.csv: text, 3 columns of 3 samples')
+  expect([await page.getByLabel('Force (commanded)').inputValue(), await page.getByLabel('Position', { exact: true }).inputValue(), await page.getByLabel('Motion').inputValue()]).toEqual(['torque_N_m', 'angle', 'rotary'])
+  await drop('mine.TOML', 'name = "dropped"\n[[body]]\nname = "a"\nmass = 1\n[loop]\nsampling_period = 1e-3\n')
+  await page.getByRole('heading', { name: 'dropped' }).waitFor()
+  expect(complaints).toEqual([])
+  await page.context().close()
+})
+
+it('does not call a device sure whose numbers are the first ones', async () => {
+  const { page, complaints } = await openPage(here, 390)
+  const trust = (): Promise<string> => page.locator('[data-answer="trust"]').innerText()
+  await runPalette(page, 'new motor and wheel, rotary')
+  const told = page.locator('[data-answer="first-values"]')
+  await told.waitFor()
+  await type(page, 'body.wheel.mass', '0.04 kg m^2')
+  await settled(page)
+  expect(await told.innerText()).toContain('Body “motor”: inertia, damping; Link motor – wheel: stiffness, damping; Loop: sampling period.')
+  expect(await trust()).toBe('sound, of first values')
+  expect(await row(page, 'loop.sampling_period').locator('input[type="text"]').inputValue()).toBe('1 ms')
+  await page.getByRole('button', { name: 'They are right' }).click()
+  await told.waitFor({ state: 'detached' })
+  await settled(page)
+  expect(await trust()).toBe('✓ sound')
+  // No bar of an effect lies on its slider.
+  const over = await page.locator('.row').evaluateAll((rows) => rows.filter((each) => {
+    const [effect, slider] = [each.querySelector('.effect svg'), each.querySelector('input[type="range"]')]
+    return effect && slider && effect.getBoundingClientRect().left < slider.getBoundingClientRect().right && effect.getBoundingClientRect().top < slider.getBoundingClientRect().bottom
+  }).length)
+  expect(over).toBe(0)
+  expect(complaints).toEqual([])
+  await page.context().close()
+})

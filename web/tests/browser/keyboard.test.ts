@@ -113,3 +113,20 @@ it('sounds as the oscillation swings', async () => {
   expect(complaints).toEqual([])
   await context.close()
 })
+
+it('goes from a new device straight to its numbers', async () => {
+  const { page, context, complaints } = await openPage(here, 1280)
+  await tabTo(page, page.getByRole('button', { name: 'New, open, save' }))
+  await page.keyboard.press('Enter')
+  await tabTo(page, page.getByRole('button', { name: 'New motor and wheel, rotary' }))
+  await page.keyboard.press('Enter')
+  await page.waitForFunction(() => document.activeElement?.id === 'answer-title')
+  await settled(page)
+  expect(await page.evaluate(() => scrollY)).toBe(0)
+  const first = page.locator('[data-key="body.motor.mass"] input[type="text"]')
+  let tabs = 0
+  for (; tabs < 25 && !(await first.evaluate((element) => element === document.activeElement)); ++tabs) await page.keyboard.press('Tab')
+  expect(tabs).toBeLessThan(25)
+  expect(complaints).toEqual([])
+  await context.close()
+})
