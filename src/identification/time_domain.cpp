@@ -246,6 +246,7 @@ TimeDomainIdentification identify_in_time(std::span<const Recording> recordings,
   std::optional<ShotCovariance> known;
   std::optional<FittedShots> fitted;
   constexpr int most_rounds = 5;
+  bool is_at_rest = false;
   if (whole) take_short_lag_for_delay(model, *whole);
   for (int round = 0; whole && round < most_rounds; ++round) {
     const Eigen::VectorXd before = whole->x;
@@ -259,8 +260,8 @@ TimeDomainIdentification identify_in_time(std::span<const Recording> recordings,
     known = shot_covariance(*slopes, fitted->fit.held);
     add_open_scale(model, fitted->fit, *known);
     done(0.5 + 0.1 * (round + 1));
-    const bool is_still = stands_still(before, fitted->fit.x, known->covariance);
-    if (!release(*whole, *known) && is_still) break;
+    is_at_rest = !release(*whole, *known) && stands_still(before, fitted->fit.x, known->covariance);
+    if (is_at_rest) break;
   }
   if (!known) {
     throw Error(ErrorCode::did_not_converge,
@@ -270,7 +271,7 @@ TimeDomainIdentification identify_in_time(std::span<const Recording> recordings,
   TimeDomainIdentification result{.device = structure};
   result.lowest = start.lowest;
   result.highest = start.highest;
-  result.settled = fitted->fit.settled;
+  result.settled = fitted->fit.settled || is_at_rest;
   result.remarks = start.remarks;
   describe_parameters(result, model, fitted->fit, *known);
   describe_motions(result, recordings, model, shots, *fitted, known->covariance);
