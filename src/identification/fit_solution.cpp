@@ -53,6 +53,31 @@ double mean_misfit(const FitModel& model, const std::vector<ResponsePoint>& poin
   return sum / static_cast<double>(points.size());
 }
 
+/// The best of a solution and those reached from different positions, as it shows at some of the points.
+Solution searched_from(const ResponseFeatures& features, const std::vector<ResponsePoint>& some, const FitModel& model,
+                       const std::vector<ResponsePoint>& points, Solution found, double robust_threshold) {
+  constexpr std::size_t most_starts = 12;
+  constexpr std::size_t most_solved = 2;
+  constexpr int most_iterations = 80;
+  constexpr double promising = 0.8;  // of the cost at some of the points
+  const LeastSquaresOptions weighted{
+      .robust_threshold = robust_threshold, .most_iterations = most_iterations, .tolerance = 1e-4};
+  const FitData data = fit_data(some, found.model_error);
+  const LeastSquares own = least_squares(model, data, found.x, weighted);
+  std::vector<LeastSquares> fits;
+  for (const Eigen::VectorXd& x : different_positions(model, some, features, most_starts)) {
+    // Unpulled a body that moves as one with the next would vanish.
+    const LeastSquares near = least_squares(model, fit_data(some, 0.0), x, rough_fit, start_at(model, x).pull);
+    LeastSquares fit = least_squares(model, data, near.x, weighted, start_at(model, near.x).pull);
+    if (fit.x.allFinite() && fit.cost < promising * own.cost) fits.push_back(std::move(fit));
+  }
+  if (fits.empty()) return found;
+  std::ranges::stable_sort(fits, {}, &LeastSquares::cost);
+  std::vector<Start> starts{{found.x, found.pull}};
+  for (std::size_t i = 0; i < std::min(most_solved, fits.size()); ++i) starts.push_back(start_at(model, fits[i].x));
+  return solve(model, points, starts, robust_threshold);
+}
+
 /// From one position of a coordinate to another, in equal ratios of its value.
 double part_of_the_way(const Coordinate& coordinate, double from, double to, double share) {
   if (coordinate.kind == Coordinate::Kind::logarithmic) return from + share * (to - from);
@@ -135,30 +160,30 @@ Solution solve(const FitModel& model, const std::vector<ResponsePoint>& points, 
 Solution searched_widely(const FitModel& model, const std::vector<ResponsePoint>& points, Solution found,
                          double robust_threshold) {
   constexpr double poor = 1.5;  // mean square of the residuals, in variances of the noise
-  constexpr std::size_t most_starts = 12;
-  constexpr std::size_t most_solved = 2;
-  constexpr int most_iterations = 80;
-  constexpr double promising = 0.8;  // of the cost at some of the points
   const bool is_noise_known = std::ranges::all_of(points, [](const ResponsePoint& p) { return p.variance > 0.0; });
   if (!is_noise_known || mean_misfit(model, points, found.x, 0.0) < poor) return found;
   const ResponseFeatures features = response_features(points);
-  const std::vector<ResponsePoint> some = thinned(points, features, points_for_starts);
-  const LeastSquaresOptions weighted{
-      .robust_threshold = robust_threshold, .most_iterations = most_iterations, .tolerance = 1e-4};
-  const FitData data = fit_data(some, found.model_error);
-  const LeastSquares own = least_squares(model, data, found.x, weighted);
-  std::vector<LeastSquares> fits;
-  for (const Eigen::VectorXd& x : different_positions(model, some, features, most_starts)) {
-    // Unpulled a body that moves as one with the next would vanish.
-    const LeastSquares near = least_squares(model, fit_data(some, 0.0), x, rough_fit, start_at(model, x).pull);
-    LeastSquares fit = least_squares(model, data, near.x, weighted, start_at(model, near.x).pull);
-    if (fit.x.allFinite() && fit.cost < promising * own.cost) fits.push_back(std::move(fit));
+  return searched_from(features, thinned(points, features, points_for_starts), model, points, std::move(found),
+                       robust_threshold);
+}
+
+Solution searched_near(const std::vector<double>& modes, const FitModel& model,
+                       const std::vector<ResponsePoint>& points, Solution found, double robust_threshold) {
+  ResponseFeatures features = response_features(points);
+  std::vector<ResponsePoint> some = thinned(points, features, points_for_starts);
+  features.resonances = modes;
+  features.antiresonances.clear();
+  features.has_all_modes = true;
+  for (const ResponsePoint& point : points) {  // a mode that was passed over is narrow
+    constexpr double near = 0.05;
+    const bool shows_a_mode =
+        std::ranges::any_of(modes, [&](double mode) { return std::abs(point.frequency - mode) < near * mode; });
+    if (shows_a_mode) some.push_back(point);
   }
-  if (fits.empty()) return found;
-  std::ranges::stable_sort(fits, {}, &LeastSquares::cost);
-  std::vector<Start> starts{{found.x, found.pull}};
-  for (std::size_t i = 0; i < std::min(most_solved, fits.size()); ++i) starts.push_back(start_at(model, fits[i].x));
-  return solve(model, points, starts, robust_threshold);
+  std::ranges::sort(some, {}, &ResponsePoint::frequency);
+  const auto [first, last] = std::ranges::unique(some, {}, &ResponsePoint::frequency);
+  some.erase(first, last);
+  return searched_from(features, some, model, points, std::move(found), robust_threshold);
 }
 
 Solution drawn_back(const FitModel& model, const std::vector<ResponsePoint>& points, const Solution& solution,

@@ -44,6 +44,11 @@ struct Solution {
 [[nodiscard]] Solution searched_widely(const FitModel& model, const std::vector<ResponsePoint>& points, Solution found,
                                        double robust_threshold);
 
+/// The best of a solution and those that the search reaches with the links' resonances near these modes, rad/s: those that
+/// the solution has and one that it lacks.
+[[nodiscard]] Solution searched_near(const std::vector<double>& modes, const FitModel& model,
+                                     const std::vector<ResponsePoint>& points, Solution found, double robust_threshold);
+
 /// The solution with what the data leave open drawn to another position, as far as the data allow: where they are
 /// explained worse there, the solution itself.
 [[nodiscard]] Solution drawn_back(const FitModel& model, const std::vector<ResponsePoint>& points,

@@ -106,7 +106,7 @@ class Candidates {
     if (free.empty()) return;
     // The scale of the masses.
     Choices scales = {features_.inertia_below, features_.inertia_above};
-    for (const double resonance : features_.resonances) {
+    for (const double resonance : features_.has_all_modes ? std::vector<double>{} : features_.resonances) {
       scales.push_back(features_.stiffness_below / (resonance * resonance));
     }
     scale_choice_ = choices_.size();
@@ -126,6 +126,13 @@ class Candidates {
   }
 
   [[nodiscard]] Choices frequencies() const {
+    if (features_.has_all_modes) {
+      Choices near;
+      for (const double mode : features_.resonances) {
+        for (const double factor : {1.0, 1.4, 0.7}) near.push_back(factor * mode);  // bodies beyond a link shift it
+      }
+      return near;
+    }
     Choices frequencies = features_.resonances;
     frequencies.insert(frequencies.end(), features_.antiresonances.begin(), features_.antiresonances.end());
     // Far above the band bodies move as one there, but for a spring's share.

@@ -140,6 +140,29 @@ std::vector<double> mode_frequencies(const Device& device, const std::vector<std
   return frequencies;
 }
 
+/// A mode that is missing from the fit may be missing from a side minimum alone: a link whose ends move as one, or that
+/// hardly holds them, or two links for one mode.
+Solution with_missing_mode(const FitModel& model, const std::vector<ResponsePoint>& points, Solution found,
+                           double robust_threshold) {
+  constexpr double overdamped = 0.5;
+  std::vector<double> modes;
+  for (const Mode& mode : modal_form(locked_device(Device(model.parameters_at(found.x)), model.locked())).modes) {
+    const bool is_in_band = mode.frequency < points.back().frequency && mode.frequency > points.front().frequency;
+    if (is_in_band && mode.damping_ratio < overdamped) modes.push_back(mode.frequency);
+  }
+  std::vector<double> frequencies;
+  for (const ResponsePoint& point : points) frequencies.push_back(point.frequency);
+  const Eigen::VectorXcd fitted = model.response_at(found.x, frequencies);
+  std::vector<std::complex<double>> residuals;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    residuals.push_back(points[i].value - fitted(static_cast<Eigen::Index>(i)));
+  }
+  const std::optional<double> missing = missing_mode(residuals, points, modes);
+  if (!missing) return found;
+  modes.push_back(*missing);
+  return searched_near(modes, model, points, std::move(found), robust_threshold);
+}
+
 /// K_CR at the record's sampling period.
 double stiffness_at(const FitModel& model, const Eigen::VectorXd& x) {
   DeviceParameters parameters = model.parameters_at(x);
@@ -258,8 +281,10 @@ ParameterFit fit_parameters(const Device& structure, const FrequencyResponse& re
   const bool from_data = options.start == ParameterFitOptions::Start::from_data;
   const std::vector<Start> starts = from_data ? promising_starts(model, points) : std::vector{start_at(model, own)};
   Solution solution = solve(model, points, starts, options.robust_threshold);
-  if (from_data && options.search_widely)
+  if (from_data && options.search_widely) {
     solution = searched_widely(model, points, std::move(solution), options.robust_threshold);
+    solution = with_missing_mode(model, points, std::move(solution), options.robust_threshold);
+  }
   const Identifiability known = identifiability_at(model, points, solution);
   if (std::ranges::count(known.determined, false) > 0) {
     // What the data leave open depends on the start: it goes to the structure's values as far as the data allow.

@@ -34,7 +34,8 @@ struct Band {
 
 class Residuals {
  public:
-  Residuals(const ParameterFit& fit, const std::vector<ResponsePoint>& points) : fit_(fit), points_(points) {
+  Residuals(const std::vector<std::complex<double>>& residuals, const std::vector<ResponsePoint>& points)
+      : residuals_(residuals), points_(points) {
     // Where the noise is unknown every residual counts by its share of the response.
     for (const ResponsePoint& point : points) {
       deviations_.push_back(point.variance > 0.0 ? std::sqrt(point.variance) : 0.01 * std::abs(point.value));
@@ -42,10 +43,8 @@ class Residuals {
   }
 
   [[nodiscard]] double frequency(std::size_t i) const { return points_[i].frequency; }
-  [[nodiscard]] double normalised(std::size_t i) const { return std::abs(fit_.residuals[i]) / deviations_[i]; }
-  [[nodiscard]] double relative(std::size_t i) const {
-    return std::abs(fit_.residuals[i]) / std::abs(points_[i].value);
-  }
+  [[nodiscard]] double normalised(std::size_t i) const { return std::abs(residuals_[i]) / deviations_[i]; }
+  [[nodiscard]] double relative(std::size_t i) const { return std::abs(residuals_[i]) / std::abs(points_[i].value); }
 
   /// The point whose residual, with its neighbours', stands out most as a share of the response.
   [[nodiscard]] std::size_t peak() const {
@@ -66,7 +65,7 @@ class Residuals {
     constexpr std::size_t few = 5;
     std::vector<double> heights;
     for (std::size_t i = 0; i < points_.size(); ++i) {
-      heights.push_back(std::abs(fit_.residuals[i]) * frequency(i) * frequency(i));
+      heights.push_back(std::abs(residuals_[i]) * frequency(i) * frequency(i));
     }
     std::vector<std::size_t> peaks;
     for (std::size_t i = least_points; i + least_points < heights.size(); ++i) {
@@ -105,7 +104,7 @@ class Residuals {
         const std::size_t i = band.begin + static_cast<std::size_t>(k);
         const double w = frequency(i) / unit;
         const double scale = weight(k) / deviations_[i];
-        const std::complex<double> r = fit_.residuals[i] * scale;
+        const std::complex<double> r = residuals_[i] * scale;
         const std::complex<double> damped = std::complex<double>(0.0, w) * r;
         left.row(2 * k) << r.real(), damped.real(), -scale, 0.0;
         left.row(2 * k + 1) << r.imag(), damped.imag(), 0.0, -scale;
@@ -122,8 +121,8 @@ class Residuals {
       const std::size_t i = band.begin + static_cast<std::size_t>(k);
       const std::complex<double> fitted =
           std::complex<double>(solution(2), solution(3)) / denominator(solution, band, k, unit);
-      left_over += std::norm((fit_.residuals[i] - fitted) / deviations_[i]);
-      all += std::norm(fit_.residuals[i] / deviations_[i]);
+      left_over += std::norm((residuals_[i] - fitted) / deviations_[i]);
+      all += std::norm(residuals_[i] / deviations_[i]);
     }
     const double w0 = std::sqrt(solution(0));
     return Resonance{w0 * unit, solution(1) / (2.0 * w0), 1.0 - left_over / all};
@@ -138,7 +137,7 @@ class Residuals {
     return {solution(0) - w * w, solution(1) * w};
   }
 
-  const ParameterFit& fit_;
+  const std::vector<std::complex<double>>& residuals_;
   const std::vector<ResponsePoint>& points_;
   std::vector<double> deviations_;
 };
@@ -190,12 +189,19 @@ Remark largest_model_error(const Residuals& residuals, double model_error) {
 
 }  // namespace
 
+std::optional<double> missing_mode(const std::vector<std::complex<double>>& residuals,
+                                   const std::vector<ResponsePoint>& points, const std::vector<double>& modes) {
+  const auto found = missing_mode(Residuals(residuals, points), modes);
+  if (!found) return std::nullopt;
+  return found->frequency;
+}
+
 ResidualChecks check_residuals(const ParameterFit& fit, const std::vector<ResponsePoint>& points,
                                const std::vector<double>& modes) {
   ResidualChecks checks;
   std::vector<Remark>& remarks = checks.remarks;
   if (points.size() < 3 || fit.model_error < 1e-6) return checks;
-  const Residuals residuals(fit, points);
+  const Residuals residuals(fit.residuals, points);
   if (const auto mode = missing_mode(residuals, modes)) {
     checks.missing_mode = mode->frequency;
     remarks.push_back({Remark::Severity::warning,

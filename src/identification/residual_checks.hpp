@@ -19,4 +19,9 @@ struct ResidualChecks {
 [[nodiscard]] ResidualChecks check_residuals(const ParameterFit& fit, const std::vector<ResponsePoint>& points,
                                              const std::vector<double>& modes);
 
+/// rad/s: where the residuals have a resonance away from these modes, which a structure has already.
+[[nodiscard]] std::optional<double> missing_mode(const std::vector<std::complex<double>>& residuals,
+                                                 const std::vector<ResponsePoint>& points,
+                                                 const std::vector<double>& modes);
+
 }  // namespace zwidth::internal

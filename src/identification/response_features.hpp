@@ -16,6 +16,7 @@ struct ResponseFeatures {
   double stiffness_below = 0.0;        ///< 1 / |P| at the lowest frequencies: of a device tied to ground
   /// s: the slope of the phase, whatever the resonances do: half the period, delay and lag together.
   double delay = 0.0;
+  bool has_all_modes = false;  ///< the resonances are all that there are, from a fit and what it left
 };
 
 /// s: half of what the closest lines leave open, 2 pi / spacing; a longer delay is another one by an alias.

@@ -16,7 +16,7 @@ namespace {
 constexpr double calibration = 1.5;
 
 /// The columns less their least-squares share in the span of `of_states`, which may be of deficient rank.
-Eigen::MatrixXd without_states(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& of_states) {
+Eigen::MatrixXd outside(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& of_states) {
   const Eigen::VectorXd scale = of_states.colwise().norm().cwiseMax(1e-300).cwiseInverse();
   constexpr double rank_tolerance = 1e-9;
   return outside_span(columns, of_states * scale.asDiagonal(), rank_tolerance);
@@ -60,11 +60,11 @@ ShotCovariance shot_covariance(const ShotSlopes& slopes, const std::vector<bool>
   Eigen::Index row = 0;
   for (std::size_t i = 0; i < slopes.residuals.size(); ++i) {
     const Eigen::Index count = slopes.residuals[i].size();
-    regressors.middleRows(row, count) = without_states(slopes.of_parameters[i], slopes.of_states[i]);
+    regressors.middleRows(row, count) = outside(slopes.of_parameters[i], slopes.of_states[i]);
     residuals.segment(row, count) = slopes.residuals[i];
     row += count;
   }
-  ShotCovariance result{.known = {}, .covariance = Eigen::MatrixXd::Zero(size, size)};
+  ShotCovariance result{.known = {}, .covariance = Eigen::MatrixXd::Zero(size, size), .pull = {}};
   std::vector<Eigen::Index> varied;
   for (Eigen::Index i = 0; i < size; ++i) {
     if (!held[static_cast<std::size_t>(i)]) varied.push_back(i);
@@ -74,6 +74,14 @@ ShotCovariance shot_covariance(const ShotSlopes& slopes, const std::vector<bool>
   FitData data;
   data.deviations.assign(static_cast<std::size_t>(rows), 1.0);
   const Identifiability known = identifiability(at_solution, data);
+  // Of dampings that nearly make up for each other, one held at 0 shows in what the other cannot follow alone.
+  result.pull = Eigen::VectorXd::Zero(size);
+  for (Eigen::Index i = 0; i < size; ++i) {
+    if (!held[static_cast<std::size_t>(i)]) continue;
+    const Eigen::VectorXd own = outside(regressors.col(i), of_varied);
+    const double norm = own.norm();
+    if (norm > 0.0) result.pull(i) = -own.dot(residuals) / norm;
+  }
   result.known.determined.assign(static_cast<std::size_t>(size), true);
   result.known.estimated = result.known.determined;
   std::vector<Eigen::Index> kept;

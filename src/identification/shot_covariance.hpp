@@ -12,6 +12,8 @@ namespace zwidth::internal {
 struct ShotCovariance {
   Identifiability known;       ///< of the coordinates and the constant forces
   Eigen::MatrixXd covariance;  ///< of x; 0 for what is not determined
+  /// Of what is held: how clearly the residuals ask for more of it, all others free to follow, in standard deviations.
+  Eigen::VectorXd pull;
 };
 
 /// With the states eliminated: x's slopes less what the shots' own states explain of them; then

@@ -202,6 +202,7 @@ bool search(const ShotModel& model, const std::vector<Shot>& shots, const std::v
     solver.update_state_every_iteration = true;
   }
   solver.line_search_interpolation_type = ceres::BISECTION;  // at bounds: others take a Jacobian per step
+  solver.max_num_line_search_step_size_iterations = 5;       // a shorter step is the trust region's to find
   solver.linear_solver_type = ceres::DENSE_SCHUR;
   solver.linear_solver_ordering = ordering;
   solver.max_num_iterations = options.most_iterations - iterations;

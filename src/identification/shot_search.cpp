@@ -40,7 +40,13 @@ std::vector<Shot> some_of(const std::vector<Shot>& shots, std::size_t records, s
 }
 
 std::optional<FittedShots> ShotSearch::from(const Eigen::VectorXd& x, const std::vector<Shot>& shots) const {
-  const ShotFit start{x, model_.recorded_states(shots)};
+  // Friction in the place of damping changes slow motion, which white noise weighs most: masses and links would follow it.
+  ShotFit start{x, model_.recorded_states(shots), std::vector<bool>(static_cast<std::size_t>(x.size()), false)};
+  for (std::size_t i = 0; i < model_.coordinates().size(); ++i) {
+    const std::string& key = model_.coordinates()[i].key;
+    const bool is_of_friction = key.starts_with("body.") && (key.ends_with(".coulomb") || key.ends_with(".damping"));
+    start.held[i] = !is_of_friction;
+  }
   std::vector<ShotNoise> white(steps_.size());
   for (std::size_t r = 0; r < steps_.size(); ++r) {
     const auto& position = model_.records()[r].position;
@@ -50,8 +56,9 @@ std::optional<FittedShots> ShotSearch::from(const Eigen::VectorXd& x, const std:
   }
   constexpr int few = 8;
   constexpr double coarse = 1e-3;
-  const auto rough = fit_shots(model_, shots, white, start, x, {few, coarse});
+  auto rough = fit_shots(model_, shots, white, start, x, {few, coarse});
   if (!rough) return std::nullopt;
+  rough->held.assign(rough->held.size(), false);
   return with_noise(*rough, shots, x, {few, 1e-3});
 }
 

@@ -33,7 +33,8 @@ class ShotSearch {
   ShotSearch(const ShotModel& model, std::vector<double> steps, std::size_t order)
       : model_(model), steps_(std::move(steps)), order_(order) {}
 
-  /// From a device, with states from the record: as if the noise were white, then under that of the residuals.
+  /// From a device, with states from the record: as if the noise were white, what a linear fit does not tell from friction
+  /// alone, then all under the noise of the residuals.
   [[nodiscard]] std::optional<FittedShots> from(const Eigen::VectorXd& x, const std::vector<Shot>& shots) const;
 
   /// Noise from the residuals, then a fit under that noise.

@@ -48,19 +48,11 @@ void check(std::span<const Recording> recordings, const Device& structure, const
 }
 
 /// Lets go what is held at its bound although the data pull it away from there; whether there is any.
-bool release(ShotFit& fit, const ShotSlopes& slopes) {
+bool release(ShotFit& fit, const ShotCovariance& known) {
   bool any = false;
   for (std::size_t k = 0; k < fit.held.size(); ++k) {
-    if (!fit.held[k]) continue;
-    double gradient = 0.0;
-    double squares = 0.0;
-    for (std::size_t i = 0; i < slopes.residuals.size(); ++i) {
-      const auto column = slopes.of_parameters[i].col(static_cast<Eigen::Index>(k));
-      gradient += column.dot(slopes.residuals[i]);
-      squares += column.squaredNorm();
-    }
     constexpr double significant = 3.0;
-    if (!(gradient < -significant * std::sqrt(squares))) continue;
+    if (!fit.held[k] || !(known.pull(static_cast<Eigen::Index>(k)) > significant)) continue;
     fit.held[k] = false;
     any = true;
   }
@@ -250,16 +242,17 @@ TimeDomainIdentification identify_in_time(std::span<const Recording> recordings,
   const std::vector<Shot> shots = cut_into_shots(records, start.device, options.segment, least);
   const Eigen::VectorXd towards = best->fit.x;
   std::optional<ShotFit> whole = fit_shots(model, shots, best->noise, {towards, model.recorded_states(shots)}, towards,
-                                           {.most_iterations = 20, .tolerance = 1e-6});
+                                           {.most_iterations = 20, .tolerance = 1e-4});
   std::optional<ShotCovariance> known;
   std::optional<FittedShots> fitted;
   constexpr int most_rounds = 5;
+  bool is_at_rest = false;
   if (whole) take_short_lag_for_delay(model, *whole);
   for (int round = 0; whole && round < most_rounds; ++round) {
     const Eigen::VectorXd before = whole->x;
     known.reset();  // of the round before: without this one's there is none
     fitted =
-        search.with_noise(*whole, shots, towards, {.most_iterations = 12, .tolerance = 2e-7, .holds_bounds = true});
+        search.with_noise(*whole, shots, towards, {.most_iterations = 12, .tolerance = 2e-6, .holds_bounds = true});
     if (!fitted) break;
     whole = fitted->fit;
     const auto slopes = shot_slopes(model, shots, fitted->noise, fitted->fit.x, fitted->fit.states);
@@ -267,8 +260,8 @@ TimeDomainIdentification identify_in_time(std::span<const Recording> recordings,
     known = shot_covariance(*slopes, fitted->fit.held);
     add_open_scale(model, fitted->fit, *known);
     done(0.5 + 0.1 * (round + 1));
-    const bool is_still = stands_still(before, fitted->fit.x, known->covariance);
-    if (!release(*whole, *slopes) && is_still) break;
+    is_at_rest = !release(*whole, *known) && stands_still(before, fitted->fit.x, known->covariance);
+    if (is_at_rest) break;
   }
   if (!known) {
     throw Error(ErrorCode::did_not_converge,
@@ -278,7 +271,7 @@ TimeDomainIdentification identify_in_time(std::span<const Recording> recordings,
   TimeDomainIdentification result{.device = structure};
   result.lowest = start.lowest;
   result.highest = start.highest;
-  result.settled = fitted->fit.settled;
+  result.settled = fitted->fit.settled || is_at_rest;
   result.remarks = start.remarks;
   describe_parameters(result, model, fitted->fit, *known);
   describe_motions(result, recordings, model, shots, *fitted, known->covariance);

@@ -152,7 +152,7 @@ std::vector<DeviceParameters> starting_frictions(const TimeDomainStart& start, s
   }
   if (rubbing.empty()) return {parameters};
   std::vector<DeviceParameters> starts;
-  for (const double share : {0.03, 0.2}) {  // of the force
+  for (const double share : {0.03, 0.2, 0.6}) {  // of the force
     DeviceParameters each = parameters;
     const double friction = share * sizes.force / static_cast<double>(rubbing.size());
     for (const std::size_t body : rubbing) {

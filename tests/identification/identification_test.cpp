@@ -220,6 +220,19 @@ TEST(Identification, AStructureWithTooFewBodiesIsNeverSound) {
   }
 }
 
+// Three bodies, the second of whose modes a search once passed over: one link of 0.09 N/m, and a body too few for a reason.
+TEST(Identification, AModeThatTheFitLacksIsLookedForInTheStructure) {
+  const auto made = test::random_recording(3108);
+  ASSERT_TRUE(made && made->right_structure);
+  IdentifyOptions options;
+  options.structure_values = IdentifyOptions::StructureValues::placeholders;
+  const Identification found = identify(made->recording, Device(made->structure), options);
+  EXPECT_TRUE(found.trust.sound());
+  EXPECT_NEAR(found.analysis.critical.stiffness, made->stiffness, 0.003 * made->stiffness);
+  EXPECT_LE(found.analysis.interval->lower, made->stiffness);
+  EXPECT_GE(found.analysis.interval->upper, made->stiffness);
+}
+
 TEST(Identification, CountsInsteadOfMetresAreSaid) {
   Recording recording = recorded(late_rotor(), multisine(0.5, 60.0, 500.0), {0.01, 1e-5, 1});
   for (double& value : recording.channels[1].samples) value = std::round(value / 1e-5);

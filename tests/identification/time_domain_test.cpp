@@ -89,6 +89,20 @@ TEST(TimeDomainProperty, TwoRecordingsShareTheDevice) {
   EXPECT_NEAR(found.device.bodies()[0].damping, 1.3, 0.03);
 }
 
+// Friction in the place of damping once drew masses and links after it: of the first device both bodies came out as one,
+// of the second a link of 0.4 N/m and a limit eight times too high.
+TEST(TimeDomainProperty, FrictionIsFoundBeforeMassesAndLinksFollow) {
+  for (const std::uint64_t seed : {900001U, 900012U}) {
+    SCOPED_TRACE(seed);
+    const test::FrictionRecordings made = test::friction_recordings(seed);
+    const TimeDomainIdentification found = identify_in_time(made.recordings, Device(made.structure), placeholders());
+    EXPECT_TRUE(found.trust.sound());
+    EXPECT_NEAR(found.analysis.critical.stiffness, made.stiffness, 0.005 * made.stiffness);
+    EXPECT_LE(found.analysis.interval->lower, made.stiffness);
+    EXPECT_GE(found.analysis.interval->upper, made.stiffness);
+  }
+}
+
 TEST(TimeDomainProperty, RefusesATurnedPosition) {
   const DeviceParameters truth = rubbing_body();
   Recording recording = record_of(truth, 5.0, 7);
