@@ -65,7 +65,8 @@ std::string recommendation(Device device, test::RandomDevices& random) {
 std::string target(const Device& device, StiffnessGoal goal, double share) {
   const Analysis analysis = analyze(device, {.any_user = goal == StiffnessGoal::any_user_limit, .draws = 0});
   double now = analysis.critical.stiffness;
-  if (goal == StiffnessGoal::any_user_limit) now = std::min(now, analysis.any_user ? analysis.any_user->stiffness : 0.0);
+  if (goal == StiffnessGoal::any_user_limit)
+    now = std::min(now, analysis.any_user ? analysis.any_user->stiffness : 0.0);
   if (analysis.critical.trust.refused() || !(now > 0.0) || !std::isfinite(now)) return "not asked";
   std::string text;
   for (const DesignTarget& each : design_targets(device, {.stiffness = share * now, .goal = goal}).targets) {

@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t most_angles = 4;
 constexpr std::array beside{1.0, 0.9, 1.1};  // times an angle at which users have set the limit
 constexpr double low_angle = 1e-2;           // where the limit is reached towards zero frequency
-constexpr double bound_certain = 1e-6;             // relative, of a bound
+constexpr double bound_certain = 1e-6;       // relative, of a bound
 
 }  // namespace
 
