@@ -7,12 +7,13 @@
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 
 #include "design/design_parameter.hpp"
+#include "design/moved_limit.hpp"
 #include "infinity.hpp"
 #include "require_valid.hpp"
 #include "staged_progress.hpp"
-#include "zwidth/error.hpp"
 #include "zwidth/model/parameter.hpp"
 #include "zwidth/quantity.hpp"
 #include "zwidth/stability/analysis.hpp"
@@ -66,6 +67,7 @@ class Search {
 
   [[nodiscard]] DesignTarget target_of(const DesignParameter& parameter) const {
     DesignTarget target{parameter.key, parameter.value, std::nullopt, {}};
+    MovedLimit moved(device_, parameter, options_.goal);
     const Point now{parameter.value, limit_now_};
     std::vector<Walk> walks;
     if (parameter.value > 0.0) {
@@ -75,9 +77,10 @@ class Search {
       const double size = natural_size(device_, parameter, options_.stiffness);
       walks.push_back({now, first_share * size, options_.factor * size, 0});
     }
-    Extremes extremes{limit_now_, limit_now_};
-    target.value_needed = first_crossing(parameter, std::move(walks), extremes);
+    Extremes extremes{limit_now_, limit_now_, {}};
+    target.value_needed = first_crossing(parameter, moved, std::move(walks), extremes);
     if (!target.value_needed) {
+      find_most(moved, extremes);
       target.why = reason_of_none(parameter, extremes);
       return target;
     }
@@ -86,27 +89,9 @@ class Search {
       target.value_needed.reset();
       target.why = "the limit at the value found is refused: " + there.trust.reasons.front();
     } else {
-      target.why = reason_there(there, limit_at(parameter, *target.value_needed).value_or(0.0));
+      target.why = reason_there(there, limit_at(moved, *target.value_needed).value_or(0.0));
     }
     return target;
-  }
-
-  [[nodiscard]] std::optional<double> limit_at(const DesignParameter& parameter, double value) const {
-    progress_.go_on();
-    DeviceParameters moved = device_.parameters();
-    moved.uncertainty.reset();
-    set_parameter(moved, parameter.key, value);
-    if (find_problem(moved)) return std::nullopt;
-    const VirtualDamper damper{moved.wall.damping, moved.wall.velocity_filter_hz};
-    const Device device(std::move(moved));
-    try {
-      const double limit = critical_stiffness(filtered_plant(device), damper).stiffness;
-      if (options_.goal == StiffnessGoal::critical_stiffness) return limit;
-      return std::min(limit, any_user_limit(device, damper).stiffness);
-    } catch (const Error& error) {
-      if (error.code() == ErrorCode::did_not_converge) return std::nullopt;
-      throw;
-    }
   }
 
  private:
@@ -115,7 +100,27 @@ class Search {
   struct Extremes {
     double least = 0.0;
     double most = 0.0;
+    std::vector<Point> bounds;  // below the target, of limits that were not asked for
   };
+
+  [[nodiscard]] std::optional<double> limit_at(MovedLimit& moved, double value) const {
+    const auto limit = look_at(moved, value, 0.0);
+    return limit ? std::optional(limit->stiffness) : std::nullopt;
+  }
+
+  [[nodiscard]] std::optional<MovedLimit::Limit> look_at(MovedLimit& moved, double value, double enough) const {
+    progress_.go_on();
+    return moved.at(value, enough);
+  }
+
+  // Asks for those limits that may be the highest.
+  void find_most(MovedLimit& moved, Extremes& extremes) const {
+    std::ranges::sort(extremes.bounds, std::greater{}, &Point::limit);
+    for (const Point& bound : extremes.bounds) {
+      if (bound.limit <= extremes.most) return;
+      extremes.most = std::max(extremes.most, limit_at(moved, bound.value).value_or(0.0));
+    }
+  }
 
   [[nodiscard]] double excess(double limit) const { return limit - options_.stiffness; }
 
@@ -129,8 +134,8 @@ class Search {
 
   // The value nearest to today's at which the limit passes the target: the walks go side by side, so that the first to
   // get there has it.
-  [[nodiscard]] std::optional<double> first_crossing(const DesignParameter& parameter, std::vector<Walk> walks,
-                                                     Extremes& extremes) const {
+  [[nodiscard]] std::optional<double> first_crossing(const DesignParameter& parameter, MovedLimit& moved,
+                                                     std::vector<Walk> walks, Extremes& extremes) const {
     const double density =
         options_.goal == StiffnessGoal::any_user_limit ? steps_per_decade_any_user : steps_per_decade;
     std::optional<double> nearest;
@@ -138,13 +143,18 @@ class Search {
       for (Walk& walk : walks) {
         const int steps = static_cast<int>(std::ceil(density * std::abs(std::log10(walk.end / walk.start))));
         const double value = walk.start * std::pow(walk.end / walk.start, static_cast<double>(walk.step) / steps);
-        const std::optional<double> limit = walk.step <= steps ? limit_at(parameter, value) : std::nullopt;
+        const auto limit = walk.step <= steps ? look_at(moved, value, options_.stiffness) : std::nullopt;
         walk.step = limit ? walk.step + 1 : ended;
         if (!limit) continue;
-        extremes = {std::min(extremes.least, *limit), std::max(extremes.most, *limit)};
-        const Point next{value, *limit};
+        const Point next{value, limit->stiffness};
+        if (limit->is_bound) {
+          extremes.bounds.push_back(next);
+        } else {
+          extremes.least = std::min(extremes.least, limit->stiffness);
+          extremes.most = std::max(extremes.most, limit->stiffness);
+        }
         if ((excess(walk.last.limit) >= 0.0) != (excess(next.limit) >= 0.0)) {
-          const std::optional<double> there = refined(parameter, walk.last, next);
+          const std::optional<double> there = refined(moved, walk.last, next);
           if (there && (!nearest || distance(parameter, *there) < distance(parameter, *nearest))) nearest = there;
           if (!there) walk.step = ended;
         }
@@ -160,11 +170,12 @@ class Search {
   }
 
   // Between two values on either side of the target: where the limit is the target; at a jump the side that has it.
-  [[nodiscard]] std::optional<double> refined(const DesignParameter& parameter, Point a, Point b) const {
+  // A bound in place of a limit is on the same side.
+  [[nodiscard]] std::optional<double> refined(MovedLimit& moved, Point a, Point b) const {
     bool lost = false;
     double nearest = 1.0;  // of the limits found to the target, relative
     const auto difference = [&](double value) {
-      const std::optional<double> limit = limit_at(parameter, value);
+      const std::optional<double> limit = limit_at(moved, value);
       if (!limit) lost = true;
       const double apart = limit ? std::clamp(excess(*limit) / options_.stiffness, -1.0, 1.0) : 0.0;
       nearest = std::min(nearest, std::abs(apart));

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <utility>
 
 #include "infinity.hpp"
 #include "stability/damper_response.hpp"
@@ -37,21 +38,38 @@ constexpr std::uintmax_t most_evaluations = 60;
 constexpr int bisections_on_grid = 8;
 constexpr double resolved = 1e-9;  // relative, of the stiffest wall
 constexpr double rounding = 1e-9;  // of margins that stand exactly at what is required
+constexpr double certain = 1e-7;   // relative, by which margins seen on a grid fall short where they certainly do
 
 bool loop_keeps(const LoopsOfStiffness& loops, double stiffness, const RequiredMargins& margins) {
   return loops.slack(stiffness, margins.gain, margins.phase) >= -rounding;
 }
 
 // Between a stiffness that keeps the margins and one that does not.
-double last_that_keeps(const LoopsOfStiffness& loops, const RequiredMargins& margins, double keeps, double fails,
-                       const Progress& progress) {
-  const auto slack = [&](double stiffness) {
-    tell(progress, 0.0);
-    return std::min(loops.slack(stiffness, margins.gain, margins.phase) + rounding, 1.0);
-  };
+template <typename Slack>
+std::pair<double, double> last_between(const Slack& slack, double keeps, double fails) {
   std::uintmax_t evaluations = most_evaluations;
   const auto resolved_enough = [](double a, double b) { return std::abs(b - a) <= resolved * std::abs(b); };
-  const auto [low, high] = boost::math::tools::toms748_solve(slack, keeps, fails, resolved_enough, evaluations);
+  return boost::math::tools::toms748_solve(slack, keeps, fails, resolved_enough, evaluations);
+}
+
+double last_that_keeps(const LoopsOfStiffness& loops, const SeenCrossings* seen, const RequiredMargins& margins,
+                       double keeps, double fails, const Progress& progress) {
+  const auto slack_of = [&](const auto& loop) {
+    return [&](double stiffness) {
+      tell(progress, 0.0);
+      return std::min(loop.slack(stiffness, margins.gain, margins.phase) + rounding, 1.0);
+    };
+  };
+  if (seen != nullptr) {  // mostly the same place: then one look at every crossing is enough
+    const auto slack = slack_of(*seen);
+    if (slack(keeps) >= 0.0 && slack(fails) < 0.0) {
+      const double softer = last_between(slack, keeps, fails).first;
+      if (loop_keeps(loops, softer, margins)) return softer;
+      if (softer > keeps) fails = softer;
+    }
+  }
+  const auto slack = slack_of(loops);
+  const auto [low, high] = last_between(slack, keeps, fails);
   return slack(high) >= 0.0 ? high : slack(low) >= 0.0 ? low : keeps;
 }
 
@@ -152,7 +170,14 @@ double stiffest_wall(const Device& device, const RequiredMargins& margins) {
 }
 
 double stiffest_wall(const FilteredPlant& plant, VirtualDamper damper, const RequiredMargins& margins,
-                     const StiffnessRange& range, const Progress& progress) {
+                     const StiffnessRange& range, const Progress& progress, const SeenCrossings* seen) {
+  const auto seen_to_fail = [&](double stiffness) {
+    return seen != nullptr && seen->slack(stiffness, margins.gain, margins.phase) < -certain;
+  };
+  if (range.at_least > 0.0 && seen != nullptr &&
+      (seen_to_fail(range.at_least) || seen->limit() * (1.0 + certain) <= margins.gain * range.at_least)) {
+    return 0.0;
+  }
   const LoopsOfStiffness loops(plant, damper);
   const double limit = critical_stiffness_of(plant, loops.crossings()).stiffness;
   const double top = std::min(limit / margins.gain, range.at_most);
@@ -160,16 +185,20 @@ double stiffest_wall(const FilteredPlant& plant, VirtualDamper damper, const Req
   if (!std::isfinite(top)) return margins.phase == 0.0 ? infinity : 0.0;  // no stiffness to begin the walk at
   // Nothing more is asked: the boundary itself.
   if (margins.phase == 0.0 && (damper.damping == 0.0 || margins.gain == 1.0)) return top;
+  const auto keeps = [&](double stiffness) {
+    return !seen_to_fail(stiffness) && loop_keeps(loops, stiffness, margins);
+  };
   double high = top * (1.0 - rounding);
-  if (loop_keeps(loops, high, margins)) return high;
+  if (keeps(high)) return high;
   if (range.at_least > 0.0) {
-    return loop_keeps(loops, range.at_least, margins) ? last_that_keeps(loops, margins, range.at_least, high, progress)
-                                                      : 0.0;
+    return loop_keeps(loops, range.at_least, margins)
+               ? last_that_keeps(loops, seen, margins, range.at_least, high, progress)
+               : 0.0;
   }
   for (int i = 0; i < most_steps; ++i) {
     tell(progress, 0.0);
     const double low = step_down * high;
-    if (loop_keeps(loops, low, margins)) return last_that_keeps(loops, margins, low, high, progress);
+    if (keeps(low)) return last_that_keeps(loops, seen, margins, low, high, progress);
     high = low;
   }
   return 0.0;
@@ -197,6 +226,7 @@ LoopGrid::LoopGrid(const Device& device, bool with_users, const Progress& progre
     const double frequency = angle / period_;
     plant_.push_back(response(plant, frequency));
     damper_.push_back(damper_response(virtual_damper(device), period_, frequency));
+    clear_.push_back(SeenCrossings::is_clear_of_rounding(plant, angle));
     if (!users) continue;
     // The discs are those behind the wall's own filters (UserDiscs closes them).
     discs_.push_back(users->at(frequency));
@@ -209,6 +239,14 @@ LoopGrid::Response LoopGrid::filter(const WallFilter& filter) const {
   factor.reserve(angles_.size());
   for (const double angle : angles_) factor.push_back(response(section, angle));
   return factor;
+}
+
+SeenCrossings LoopGrid::seen(const FilteredPlant& plant, VirtualDamper damper, const Response& factor) const {
+  std::vector<SeenCrossings::Point> points(angles_.size());
+  for (std::size_t i = 0; i < angles_.size(); ++i) {
+    points[i] = {angles_[i], plant_[i] * factor[i], damper_[i], clear_[i]};
+  }
+  return {plant, damper, std::move(points)};
 }
 
 LoopGrid::Response LoopGrid::damper(VirtualDamper damper) const {

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "design/seen_crossings.hpp"
 #include "stability/user_discs.hpp"
 #include "zwidth/model/device.hpp"
 #include "zwidth/option_problem.hpp"
@@ -39,9 +40,11 @@ struct StiffnessRange {
   double at_most = std::numeric_limits<double>::infinity();  ///< the walk begins no higher
 };
 
-/// The same within a range, behind the plant's own filters; whoever holds the device is left out.
+/// The same within a range, behind the plant's own filters; whoever holds the device is left out. `seen`: what a grid
+/// shows of this plant with this damper; each crossing is isolated only where that does not decide.
 [[nodiscard]] double stiffest_wall(const FilteredPlant& plant, VirtualDamper damper, const RequiredMargins& margins,
-                                   const StiffnessRange& range, const Progress& progress = {});
+                                   const StiffnessRange& range, const Progress& progress = {},
+                                   const SeenCrossings* seen = nullptr);
 
 /// Whether that wall keeps the margins; stable, strictly.
 [[nodiscard]] bool keeps_margins(const Device& device, double stiffness, const RequiredMargins& margins);
@@ -61,6 +64,9 @@ class LoopGrid {
 
   /// B v of that damper at the grid's frequencies.
   [[nodiscard]] Response damper(VirtualDamper damper) const;
+
+  /// The crossings that the grid shows behind this factor more; `plant`: the device's with the factor in it.
+  [[nodiscard]] SeenCrossings seen(const FilteredPlant& plant, VirtualDamper damper, const Response& factor) const;
 
   /// Of the wall's force behind this factor more: stiffest_wall(), as far as the grid tells; with the device's own
   /// damper, or with this one.
@@ -86,6 +92,7 @@ class LoopGrid {
   std::vector<double> angles_;
   Response plant_;                      // seen through the wall's own filters
   Response damper_;                     // B v
+  std::vector<bool> clear_;             // of rounding, the plant
   std::vector<UserDiscs::Disc> discs_;  // behind the wall's own filters
 };
 

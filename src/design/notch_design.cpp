@@ -251,10 +251,8 @@ NotchDesign design_notch(const Device& device, const NotchOptions& given) {
     bool settled = false;
     for (int round = 0; round < rounds && !candidates.empty() && !settled; ++round) {
       stages.next(0.5 + 0.5 * (round + 1) / rounds);
-      std::vector<std::pair<double, NotchSearch::Point>> found;
-      for (const NotchSearch::Point& start : candidates) {
-        for (const auto& each : search.refine(start)) found.push_back(each);
-      }
+      std::vector<std::pair<double, NotchSearch::Point>> found =
+          search.refine(candidates, design.without * (1.0 + worth_having));
       std::ranges::sort(found, std::greater{});
       double worst_drift = 0.0;  // of the best proposal
       for (std::size_t i = 0; i < found.size() && !settled; ++i) {

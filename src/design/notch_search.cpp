@@ -34,6 +34,7 @@ constexpr double finest = 1e-3;
 constexpr double coarsest_exact = 0.02;
 constexpr std::array weight{1.0, 4.0, 4.0};  // width and depth matter less than the centre
 constexpr int most_moves = 100;
+constexpr double worth_a_move = 1e-6;  // relative, of an exact value where nothing is gained: there is a plateau
 
 // Indices, of the least value first: where a search ends soonest.
 std::vector<std::size_t> by_value(const std::vector<double>& values) {
@@ -86,9 +87,8 @@ void NotchSearch::add(const Device& device) {
 // Over the scenarios; some value not above `enough` as soon as it is seen to be that. The crossovers between the grid's
 // points are looked at last: they matter to the few that would become the best.
 double NotchSearch::least_on_grid(const WallFilter& notch, double enough, Route route,
-                                  std::vector<double>& of_scenarios) const {
+                                  std::vector<double>& of_scenarios, std::vector<LoopGrid::Response>& factors) const {
   double result = infinity;
-  std::vector<LoopGrid::Response> factors;
   for (const Scenario& scenario : scenarios_) {
     const LoopGrid::Response& factor = factors.emplace_back(scenario.grid.filter(notch));
     of_scenarios.push_back(scenario.grid.stiffest(factor, margins_));
@@ -108,13 +108,16 @@ double NotchSearch::least(const Point& at, double enough, Route route) const {
   tell(options_.progress, 0.0);
   const WallFilter notch = notch_at(at);
   std::vector<double> of_scenarios;
-  const double on_grid = least_on_grid(notch, enough, route, of_scenarios);
+  std::vector<LoopGrid::Response> factors;
+  const double on_grid = least_on_grid(notch, enough, route, of_scenarios, factors);
   if (route != Route::exact || on_grid <= enough) return on_grid;
   double result = margins_.any_user ? on_grid : on_grid_at_most * on_grid;
   for (const std::size_t i : by_value(of_scenarios)) {
     const Scenario& scenario = scenarios_[i];
-    result = std::min(result, stiffest_wall(filtered_plant(scenario.plant, {notch}), scenario.damper, margins_,
-                                            {.at_least = enough, .at_most = result}, options_.progress));
+    const FilteredPlant plant = filtered_plant(scenario.plant, {notch});
+    const SeenCrossings seen = scenario.grid.seen(plant, scenario.damper, factors[i]);
+    result = std::min(result, stiffest_wall(plant, scenario.damper, margins_, {.at_least = enough, .at_most = result},
+                                            options_.progress, &seen));
     if (result <= enough) return result;
   }
   return result;
@@ -158,13 +161,14 @@ std::pair<double, NotchSearch::Point> NotchSearch::climb(Point at, double first_
   for (double step = first_step; step > last_step && moves < most_moves;) {
     Point best = at;
     double best_value = value;
+    const double worth = route == Route::exact && value <= nothing_gained_ ? 1.0 + worth_a_move : 1.0;
     for (int i = 0; i < 27; ++i) {
       const Point neighbour =
           inside({at[0] + step * weight[0] * offset(i % 3), at[1] + step * weight[1] * offset(i / 3 % 3),
                   at[2] + step * weight[2] * offset(i / 9)});
       if (neighbour == at || !is_near(neighbour)) continue;
-      const double there = least(neighbour, best_value, route);
-      if (there > best_value) best_value = there, best = neighbour;
+      const double there = least(neighbour, worth * best_value, route);
+      if (there > worth * best_value) best_value = there, best = neighbour;
     }
     if (best_value > value) {
       value = best_value, at = best;
@@ -176,13 +180,20 @@ std::pair<double, NotchSearch::Point> NotchSearch::climb(Point at, double first_
   return {value, at};
 }
 
-std::vector<std::pair<double, NotchSearch::Point>> NotchSearch::refine(Point at) const {
-  const auto exactly = [this](const Point& near) { return climb(near, coarsest_exact, finest, Route::exact); };
-  const Point start = refine_on_grid(at).second;
-  std::vector<std::pair<double, Point>> found{exactly(start)};
-  if (margins_.phase == 0.0) return found;
-  const Point other = climb(at, coarsest, finest, Route::on_points).second;
-  if (other != start) found.push_back(exactly(other));
+std::vector<std::pair<double, NotchSearch::Point>> NotchSearch::refine(const std::vector<Point>& candidates,
+                                                                       double nothing_gained) {
+  nothing_gained_ = nothing_gained;
+  std::vector<Point> starts;
+  const auto add = [&starts](const Point& start) {
+    if (std::ranges::find(starts, start) == starts.end()) starts.push_back(start);
+  };
+  for (const Point& at : candidates) {
+    add(refine_on_grid(at).second);
+    if (margins_.phase > 0.0) add(climb(at, coarsest, finest, Route::on_points).second);
+  }
+  std::vector<std::pair<double, Point>> found;
+  found.reserve(starts.size());
+  for (const Point& start : starts) found.push_back(climb(start, coarsest_exact, finest, Route::exact));
   return found;
 }
 

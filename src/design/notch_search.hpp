@@ -33,10 +33,11 @@ class NotchSearch {
   /// The best of a grid around each mode, with and without a look between the frequencies.
   [[nodiscard]] std::vector<Point> candidates(const Progress& progress) const;
 
-  /// Pattern search: the best of the 26 neighbours of a cube, halved where none is better; at first on the grids, then
-  /// exactly, since a grid may miss a narrow dip. With their stiffest walls; two where the look between the frequencies
-  /// leads elsewhere.
-  [[nodiscard]] std::vector<std::pair<double, Point>> refine(Point at) const;
+  /// Pattern search from each: the best of the 26 neighbours of a cube, halved where none is better; at first on the
+  /// grids, then exactly, since a grid may miss a narrow dip. With their stiffest walls; one more where the look between
+  /// the frequencies leads elsewhere. Up to `nothing_gained` only a move that is seen to gain something is made.
+  [[nodiscard]] std::vector<std::pair<double, Point>> refine(const std::vector<Point>& candidates,
+                                                             double nothing_gained);
   /// On the grids alone.
   [[nodiscard]] std::pair<double, Point> refine_on_grid(Point at) const;
 
@@ -50,7 +51,7 @@ class NotchSearch {
   enum class Route { on_points, on_grid, exact };  // of the grid alone; crossovers between them too
   [[nodiscard]] double least(const Point& at, double enough, Route route) const;
   [[nodiscard]] double least_on_grid(const WallFilter& notch, double enough, Route route,
-                                     std::vector<double>& of_scenarios) const;
+                                     std::vector<double>& of_scenarios, std::vector<LoopGrid::Response>& factors) const;
   [[nodiscard]] std::pair<double, Point> climb(Point at, double first_step, double last_step, Route route) const;
   [[nodiscard]] bool is_near(const Point& at) const;
   [[nodiscard]] Point inside(const Point& at) const;
@@ -60,6 +61,7 @@ class NotchSearch {
   std::vector<double> modes_;
   double nyquist_;
   bool keep_any_user_;
+  double nothing_gained_ = 0.0;
   std::vector<Scenario> scenarios_;
 };
 

@@ -26,7 +26,7 @@ using std::numbers::pi;
 
 constexpr double near = 0.15;                   // |ln| of two frequencies of one linear oscillation
 constexpr double near_harmonic = 0.4;           // of one that first harmonics tell
-constexpr double counts_of_quantisation = 3.0;  // largest amplitude, in encoder steps
+constexpr double counts_of_quantisation = 3.0;  // an amplitude that needs no resonance, in encoder steps
 // Of a predicted amplitude. A body that hardly slips swings less than its first harmonic says.
 constexpr double most_of_amplitude = 3.0;
 constexpr double least_of_amplitude = 0.1;
@@ -70,6 +70,13 @@ WallFilter controller(const Wall& wall, double period) {
   filter.numerator = {*wall.stiffness + gain, -(*wall.stiffness * a + gain)};
   filter.denominator = {1.0, -a};
   return filter;
+}
+
+/// The largest swing that an encoder's error, within half a step, keeps up in this stable loop: the first harmonic of what
+/// lies within +-q/2 is that of a square wave at most, 2 q/pi, and the loop answers it by C P/(1 + C P).
+double largest_swing_of_steps(const FilteredPlant& open, double frequency, double step) {
+  const std::complex<double> loop = response(open, std::min(frequency, pi / open.period));
+  return 2.0 * step / pi * std::abs(loop / (1.0 + loop));
 }
 
 /// Of the sensed position, where the bodies that rub move at V = 4/(pi share): by the ratio of the responses to the
@@ -254,15 +261,21 @@ std::optional<OscillationCandidate> quantisation_candidate(const ObservedLoop& l
                                 quantity(friction, units.force), quantity(relay, units.force));
     return candidate;
   }
-  if (loop.amplitude && *loop.amplitude > counts_of_quantisation * step) {
-    candidate.why = fmt::format("it swings by {}, far more than a step of {}", quantity(*loop.amplitude, units.length),
-                                quantity(step, units.length));
+  const double largest = std::max(counts_of_quantisation * step, largest_swing_of_steps(open, loop.frequency, step));
+  if (loop.amplitude && *loop.amplitude > largest) {
+    candidate.why = fmt::format("it swings by {}, more than steps of {} keep up at this frequency, {}",
+                                quantity(*loop.amplitude, units.length), quantity(step, units.length),
+                                quantity(largest, units.length));
     return candidate;
   }
   // Steps far from a sine swing far from the crossover, but not by more than a step or two.
   candidate.fits = loop.amplitude || apart(nearest->frequency, loop.frequency) <= near_harmonic;
   candidate.why = fmt::format("at rest between two steps the encoder is a relay: a cycle at the phase crossover {}",
                               hertz_text(nearest->frequency));
+  if (loop.amplitude && *loop.amplitude > counts_of_quantisation * step) {
+    candidate.why = fmt::format("the loop resonates: an error within half a step keeps up swings of up to {} there",
+                                quantity(largest, units.length));
+  }
   return candidate;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "simulation/straight_line.hpp"
+#include "zwidth/signal/dominant_oscillation.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -19,6 +20,8 @@ constexpr double still_share = 1e-3;       // of the run's range: a range of the
 constexpr double decayed_share = 0.05;     // of the run's range: a range of the last quarter that has died out
 constexpr double steady_change = 0.01;     // of the logarithm of the effective swing over the second half
 constexpr double significance = 4.0;       // standard errors of a trend, beyond which it is one
+constexpr double ripples = 1.5;            // times the frequency of the swing: lowest points that are not its own
+constexpr double of_the_swing = 0.5;       // of the amplitude, of a sine that is the swing
 constexpr double unsteady_change = 0.2;    // a scatter that could hide so much leaves the verdict open
 
 double range_of(std::span<const double> y) {
@@ -126,8 +129,14 @@ LoopJudgement judge_loop(std::span<const double> position, double sampling_perio
     judgement.growth_rate = trend.slope / (window_length * sampling_period);
     // Samples show no oscillation above Nyquist's frequency, whatever the interpolation at the ends says.
     const double samples = std::max(2.0, (points.back() - points.front()) / static_cast<double>(cycles));
-    const double period = samples * sampling_period;
-    judgement.oscillation = Oscillation{2.0 * std::numbers::pi / period, last_swing};
+    double frequency = 2.0 * std::numbers::pi / (samples * sampling_period);
+    // A force that chatters ripples a steady swing, and each ripple has a lowest point.
+    const auto swing =
+        judgement.verdict == LoopVerdict::limit_cycle ? dominant_oscillation(position, sampling_period) : std::nullopt;
+    if (swing && swing->amplitude >= of_the_swing * last_swing && frequency > ripples * swing->frequency) {
+      frequency = swing->frequency;
+    }
+    judgement.oscillation = Oscillation{frequency, last_swing};
   }
   return judgement;
 }

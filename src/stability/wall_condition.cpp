@@ -10,12 +10,14 @@ namespace zwidth::internal {
 namespace {
 
 constexpr int most_halvings = 14;
+constexpr double rounding_of_terms = 16.0 * std::numeric_limits<double>::epsilon();  // of p, q and A each
 
 struct Bernstein {
   InterpolationValues constant;  // f(0)
   InterpolationValues middle;    // p + q K1
   InterpolationValues last;      // f(K1)
   InterpolationValues quadratic;
+  InterpolationValues discriminant;  // p A - q²
 };
 
 struct Errors {
@@ -23,6 +25,7 @@ struct Errors {
   double middle;
   double last;
   double quadratic;
+  double discriminant;
 };
 
 struct Range {
@@ -42,12 +45,15 @@ double uncertainty(const InterpolationValues& values) {
 }
 
 /// f > 0 at 0 <= K <= K1 for all values in these ranges.
-bool is_positive(const Range& constant, const Range& middle, const Range& last, const Range& quadratic,
-                 const Errors& errors) {
+bool is_positive(const Bernstein& b, const Errors& errors) {
+  const Range constant = range_of(b.constant);
+  const Range middle = range_of(b.middle);
+  const Range last = range_of(b.last);
   const double constant_least = constant.least - errors.constant;
   const double last_least = last.least - errors.last;
   if (!(constant_least > 0.0 || (errors.constant == 0.0 && constant_least == 0.0)) || !(last_least > 0.0)) return false;
-  if (quadratic.greatest + errors.quadratic < 0.0 || middle.least - errors.middle > 0.0) return true;
+  if (range_of(b.quadratic).greatest + errors.quadratic < 0.0 || middle.least - errors.middle > 0.0) return true;
+  if (range_of(b.discriminant).least - errors.discriminant > 0.0) return true;
   const double steepest = std::min(middle.least - errors.middle, 0.0);
   return steepest * steepest < constant_least * last_least;
 }
@@ -60,9 +66,7 @@ bool is_broken(double constant, double middle, double last, const Errors& errors
 
 WallCondition::Answer judge(const Bernstein& b, const Errors& errors, double begin, double end, int halvings) {
   using enum WallCondition::Verdict;
-  if (is_positive(range_of(b.constant), range_of(b.middle), range_of(b.last), range_of(b.quadratic), errors)) {
-    return {holds, 0.0};
-  }
+  if (is_positive(b, errors)) return {holds, 0.0};
   if (is_broken(b.constant.front(), b.middle.front(), b.last.front(), errors)) return {broken, begin};
   if (is_broken(b.constant.back(), b.middle.back(), b.last.back(), errors)) return {broken, end};
   if (halvings == 0) return {undecided, 0.5 * (begin + end)};
@@ -70,10 +74,13 @@ WallCondition::Answer judge(const Bernstein& b, const Errors& errors, double beg
   const Halves middle = halves_of(b.middle);
   const Halves last = halves_of(b.last);
   const Halves quadratic = halves_of(b.quadratic);
+  const Halves discriminant = halves_of(b.discriminant);
   const double half = 0.5 * (begin + end);
-  const auto left = judge({constant.left, middle.left, last.left, quadratic.left}, errors, begin, half, halvings - 1);
+  const auto left = judge({constant.left, middle.left, last.left, quadratic.left, discriminant.left}, errors, begin,
+                          half, halvings - 1);
   if (left.verdict != holds) return left;
-  return judge({constant.right, middle.right, last.right, quadratic.right}, errors, half, end, halvings - 1);
+  return judge({constant.right, middle.right, last.right, quadratic.right, discriminant.right}, errors, half, end,
+               halvings - 1);
 }
 
 }  // namespace
@@ -193,7 +200,7 @@ double WallCondition::last_at(std::size_t node, double stiffness) const {
 WallCondition::Answer WallCondition::up_to(double stiffness) const {
   if (holds_for_all_k_) return {Verdict::holds, 0.0};
   Bernstein values{};
-  Errors errors{0.0, 0.0, 0.0, 0.0};
+  Errors errors{0.0, 0.0, 0.0, 0.0, 0.0};
   for (std::size_t i = 0; i < interpolation_points; ++i) {
     const DiscPieces::Node& node = nodes_[i];
     const Terms& at = terms_[i];
@@ -212,15 +219,26 @@ WallCondition::Answer WallCondition::up_to(double stiffness) const {
     errors.middle = std::max(errors.middle, of_constant + stiffness * error * (1.0 + 2.0 * damper * size));
     errors.last = std::max(errors.last, 2.0 * error * std::abs(wall) * apart);
     errors.quadratic = std::max(errors.quadratic, 2.0 * error * size);
+    values.discriminant[i] = node.factor * node.factor * (at.constant * at.quadratic - at.half * at.half);
+    const double of_p = of_constant + rounding_of_terms * node.factor * (1.0 + damper * size) * (1.0 + damper * size);
+    const double of_q =
+        error * (1.0 + 2.0 * damper * size) + rounding_of_terms * node.factor * size * (1.0 + damper * size);
+    const double of_a = 2.0 * error * size + rounding_of_terms * node.factor * size * size;
+    errors.discriminant = std::max(
+        errors.discriminant,
+        node.factor * (std::abs(at.constant) * of_a + std::abs(at.quadratic) * of_p + 2.0 * std::abs(at.half) * of_q) +
+            of_p * of_a + of_q * of_q);
   }
   errors.constant += uncertainty(values.constant);
   errors.middle += uncertainty(values.middle);
   errors.last += uncertainty(values.last);
   errors.quadratic += uncertainty(values.quadratic);
+  errors.discriminant += uncertainty(values.discriminant);
   values.constant = bernstein_coefficients(values.constant);
   values.middle = bernstein_coefficients(values.middle);
   values.last = bernstein_coefficients(values.last);
   values.quadratic = bernstein_coefficients(values.quadratic);
+  values.discriminant = bernstein_coefficients(values.discriminant);
   if (is_undamped_) {  // positive as it stands, its interpolant or not
     for (double& each : values.constant) each = std::max(each, 0.0);
     errors.constant = 0.0;

@@ -177,6 +177,25 @@ TEST(DiagnosisProperty, NamesTheMechanismOfSimulatedOscillations) {
   EXPECT_GE(static_cast<double>(named), 0.95 * static_cast<double>(all)) << named << " of " << all;
 }
 
+// A resonance makes many steps of the encoder's error; where the force chatters besides, the swing's own frequency is
+// the one that is seen.
+TEST(DiagnosisProperty, ManyStepsOfAResonantLoopAreTheEncoders) {
+  for (const std::uint64_t each_seed : {20261583U, 20262317U, 20262531U}) {
+    SCOPED_TRACE("seed " + std::to_string(each_seed));
+    RandomDevices random(each_seed);
+    const std::optional<Case> each = of_quantisation(random);
+    ASSERT_TRUE(each && is_possible(*each));
+    const Simulation run = simulate(Device(each->runs), each->simulation);
+    ASSERT_TRUE(run.oscillation);
+    EXPECT_GT(run.oscillation->amplitude, 3.0 * each->known.sensor.resolution);
+    const DiagnosisOptions seen{.frequency = run.oscillation->frequency, .amplitude = run.oscillation->amplitude};
+    EXPECT_EQ(diagnose(Device(each->known), seen).cause, OscillationCause::quantisation);
+    DiagnosisOptions larger = seen;
+    *larger.amplitude *= 100.0;
+    EXPECT_NE(diagnose(Device(each->known), larger).cause, OscillationCause::quantisation);
+  }
+}
+
 // A change that is said to end it does so in the simulation.
 TEST(DiagnosisProperty, AChangeThatEndsItDoesSoInSimulation) {
   std::size_t tried = 0;

@@ -262,6 +262,18 @@ TEST(Judgement, OfKnownSignals) {
   }
 }
 
+// A force that chatters ripples a steady swing: the frequency is that of the swing, whose amplitude stands beside it.
+TEST(Judgement, RipplesOnASwingAreNotItsFrequency) {
+  std::vector<double> rippled;
+  for (int i = 0; i < 8000; ++i) {
+    const double t = 1e-3 * i;
+    rippled.push_back(3.0 * std::sin(2.0 * pi * 3.3 * t) + 0.3 * std::sin(2.0 * pi * 121.0 * t));
+  }
+  const LoopJudgement judgement = judge_loop(rippled, 1e-3, 1e-3);
+  ASSERT_TRUE(judgement.oscillation);
+  EXPECT_NEAR(judgement.oscillation->frequency / (2.0 * pi), 3.3, 0.05);
+}
+
 TEST(Judgement, MeasuresGrowthFrequencyAndAmplitude) {
   const LoopJudgement judgement = judge_loop(signal(-0.25, 23.7, 0.5, 0.0), 1e-3, 0.0);
   EXPECT_NEAR(*judgement.growth_rate, -0.25, 0.005);

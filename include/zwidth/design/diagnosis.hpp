@@ -88,9 +88,9 @@ struct Diagnosis {
 ///     friction                the loop is stable while bodies slide, and unstable with the first harmonic of their
 ///                             Coulomb friction, a damping 4 F_c/(pi V): V where it is just critical
 ///
-/// The last two are first harmonics, approximate. A swing of up to three steps of the encoder of a loop that is stable
-/// without them is theirs whatever its frequency: steps that are far from a sine swing far from the crossover. Where the
-/// amplitude is not given the frequency alone tells; two causes that fit nearly as well make the answer doubtful.
+/// The last two are first harmonics, approximate. A swing of a loop that is stable without the encoder's steps is theirs
+/// whatever its frequency (steps that are far from a sine swing far from the crossover, and a resonance swings by many)
+/// up to what an error within half a step keeps up there, |C P/(1 + C P)| 2 q/pi, or three steps. Where the amplitude is not given the frequency alone tells; two causes that fit nearly as well make the answer doubtful.
 /// Throws Error (invalid_argument) where find_problem() finds one, (did_not_converge) as its parts do.
 [[nodiscard]] Diagnosis diagnose(const Device& device, const DiagnosisOptions& options);
 

@@ -1,0 +1,66 @@
+#include "design/moved_limit.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "stability/damper_response.hpp"
+#include "stability/disc_stiffness.hpp"
+#include "zwidth/error.hpp"
+#include "zwidth/model/parameter.hpp"
+
+namespace zwidth::internal {
+namespace {
+
+constexpr std::size_t most_angles = 4;
+constexpr std::array beside{1.0, 0.9, 1.1};  // times an angle at which users have set the limit
+constexpr double low_angle = 1e-2;           // where the limit is reached towards zero frequency
+constexpr double bound_certain = 1e-6;       // relative, of a bound
+
+}  // namespace
+
+std::optional<MovedLimit::Limit> MovedLimit::at(double value, double enough) {
+  DeviceParameters moved = device_.parameters();
+  moved.uncertainty.reset();
+  set_parameter(moved, parameter_.key, value);
+  if (find_problem(moved)) return std::nullopt;
+  const Device device(std::move(moved));
+  try {
+    Limit limit{critical_stiffness(filtered_plant(device), virtual_damper(device)).stiffness, false};
+    if (goal_ == StiffnessGoal::critical_stiffness) return limit;
+    limit.is_bound = limit.stiffness < enough * (1.0 - bound_certain);
+    if (!limit.is_bound) limit.stiffness = std::min(limit.stiffness, of_any_user(device, enough, limit));
+    return limit;
+  } catch (const Error& error) {
+    if (error.code() == ErrorCode::did_not_converge) return std::nullopt;
+    throw;
+  }
+}
+
+double MovedLimit::of_any_user(const Device& device, double enough, Limit& limit) {
+  const VirtualDamper damper = virtual_damper(device);
+  const double period = device.loop().sampling_period;
+  const bool is_of_damper = parameter_.kind == DesignParameter::Kind::wall_damping ||
+                            parameter_.kind == DesignParameter::Kind::velocity_filter_hz;
+  if (!is_of_damper && enough > 0.0 && !angles_.empty()) {
+    const UserDiscs discs(device);
+    for (auto angle = angles_.rbegin(); angle != angles_.rend(); ++angle) {
+      for (const double factor : beside) {
+        const double frequency = std::min(*angle * factor, std::numbers::pi) / period;
+        const double bound = least_stiffness(discs.at(frequency), damper_response(damper, period, frequency));
+        limit.is_bound = bound < enough * (1.0 - bound_certain);
+        if (limit.is_bound) return bound;
+      }
+    }
+  }
+  if (!users_ || !is_of_damper) users_ = std::make_unique<AnyUserSearch>(device);
+  const AnyUserLimit found = users_->limit(damper);
+  const double angle = found.frequency > 0.0 ? found.frequency * period : low_angle;
+  if (std::ranges::find(angles_, angle) == angles_.end()) angles_.push_back(angle);
+  if (angles_.size() > most_angles) angles_.erase(angles_.begin());
+  return found.stiffness;
+}
+
+}  // namespace zwidth::internal

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "design/design_parameter.hpp"
+#include "stability/any_user_search.hpp"
+#include "zwidth/design/design_target.hpp"
+#include "zwidth/model/device.hpp"
+
+namespace zwidth::internal {
+
+// The limit of a device with one number moved, for many values of it.
+class MovedLimit {
+ public:
+  // All must outlive this.
+  MovedLimit(const Device& device, const DesignParameter& parameter, StiffnessGoal goal)
+      : device_(device), parameter_(parameter), goal_(goal) {}
+
+  struct Limit {
+    double stiffness = 0.0;
+    bool is_bound = false;  // the limit is no higher; what it is was not asked
+  };
+  // The limit, or a bound of it as soon as one is seen that lies below `enough`: that of the device that nobody holds, or
+  // what some user does at a frequency where users have set the limit at other values. Absent where the value makes no
+  // device, or its limit is not found.
+  [[nodiscard]] std::optional<Limit> at(double value, double enough = 0.0);
+
+ private:
+  [[nodiscard]] double of_any_user(const Device& device, double enough, Limit& limit);
+
+  const Device& device_;
+  const DesignParameter& parameter_;
+  StiffnessGoal goal_;
+  std::vector<double> angles_;            // where users have set the limit, rad per sample, the latest last
+  std::unique_ptr<AnyUserSearch> users_;  // of a number of the wall's damper, which the users' discs do not depend on
+};
+
+}  // namespace zwidth::internal
