@@ -32,14 +32,16 @@ class Sampler {
   [[nodiscard]] AnyUserPoint at(double damping) {
     tell(progress_, 0.0);
     const AnyUserLimit limit = search_.limit({damping, velocity_filter_hz_}, progress_);
-    if (!limit.trust.sound() && limit.truncation >= most_taken_off_) {
-      most_taken_off_ = limit.truncation;
+    const double taken_off = limit.stiffness > 0.0 ? limit.stiffness / (1.0 - limit.truncation) - limit.stiffness : 0.0;
+    if (!limit.trust.sound() && taken_off > most_taken_off_) {
+      most_taken_off_ = taken_off;
       trust_ = limit.trust;
     }
     return {damping, limit.stiffness, limit.frequency};
   }
 
-  [[nodiscard]] const Trust& trust() const { return trust_; }
+  // Sound where what is taken off lies within the deviation; a limit that is taken off altogether lies outside.
+  [[nodiscard]] Trust trust() const { return most_taken_off_ > deviation_ * stiffness_extent ? trust_ : Trust{}; }
 
   // The end of the limit between a B where it is above 0 and one where it is 0.
   [[nodiscard]] AnyUserPoint end_between(const AnyUserPoint& inside, const AnyUserPoint& outside) {
@@ -76,8 +78,8 @@ class Sampler {
   double velocity_filter_hz_;
   double deviation_;
   const Progress& progress_;
-  double most_taken_off_ = 0.0;
-  Trust trust_;  // of that limit
+  double most_taken_off_ = 0.0;  // of a limit, N/m
+  Trust trust_;                  // of that limit
 };
 
 std::vector<AnyUserPoint> scan(Sampler& sampler, double largest) {

@@ -22,7 +22,7 @@ struct AnyUserRegion {
   std::optional<AnyUserPoint> stiffest;           ///< among the points
   std::optional<AnyUserPoint> most_damped;        ///< end of the last range
   double area = 0.0;                              ///< in (K, B), of the polygons
-  Trust trust = {};                               ///< of the limit of which most was taken off (see AnyUserLimit)
+  Trust trust = {};  ///< of the limit of which most was taken off (see AnyUserLimit), where that is above the deviation
 };
 
 /// How finely the region for any passive user is traced.
