@@ -10,6 +10,7 @@
 
 #include "identification/synthetic_response.hpp"
 #include "lhifam.hpp"
+#include "property/random_recordings.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
 
