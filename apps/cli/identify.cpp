@@ -158,12 +158,12 @@ RigidBodyIdentification fitted_rigid_body(const IdentifyArguments& arguments) {
                 [&](const Progress& progress) { return identify_rigid_body(motion.recording, options, progress); });
 }
 
-/// The device file, its warnings as comments at the top: whoever reads it later is told as well.
+/// The device file, its remarks as comments at the top: whoever reads it later is told as well.
 std::string device_text(const Device& device, const std::vector<Remark>& remarks) {
   std::string text;
   for (const Remark& remark : remarks) {
-    if (remark.severity != Remark::Severity::warning) continue;
-    std::string line = "WARNING: " + report::remark_line(remark);
+    const bool is_warning = remark.severity == Remark::Severity::warning;
+    std::string line = (is_warning ? "WARNING: " : "note: ") + report::remark_line(remark);
     std::replace_if(
         line.begin(), line.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
     text += "# " + line + "\n";
@@ -203,7 +203,7 @@ void print(const IdentifyArguments& arguments, const Identified& identified, con
 /// `identify --method inverse-dynamics`.
 void run_inverse_dynamics(const IdentifyArguments& arguments, Outputs& outputs) {
   const RigidBodyIdentification identified = fitted_rigid_body(arguments);
-  const std::string device = write_device(identified.device.parameters());
+  const std::string device = device_text(identified.device, identified.remarks);
   put(outputs, identified, device);
   print(arguments, identified, device, [&] { return results::identification_json(identified); });
 }

@@ -181,8 +181,8 @@ Solution searched_near(const std::vector<double>& modes, const FitModel& model,
     if (shows_a_mode) some.push_back(point);
   }
   std::ranges::sort(some, {}, &ResponsePoint::frequency);
-  const auto [first, last] = std::ranges::unique(some, {}, &ResponsePoint::frequency);
-  some.erase(first, last);
+  const auto is_same = [](const ResponsePoint& a, const ResponsePoint& b) { return a.frequency == b.frequency; };
+  some.erase(std::unique(some.begin(), some.end(), is_same), some.end());
   return searched_from(features, some, model, points, std::move(found), robust_threshold);
 }
 

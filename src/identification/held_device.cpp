@@ -27,6 +27,14 @@ std::optional<Remark> remark_of_operator(const Device& structure) {
                 "leave the operator out where nobody held the device"};
 }
 
+Remark remark_of_unseen_hand() {
+  return {
+      Remark::Severity::note, "nobody is taken to have held the device while it was recorded",
+      "a hand's mass and damping would count as the device's own, and its critical stiffness come out 2 to 20 times "
+      "too high",
+      "record it alone"};
+}
+
 std::optional<std::string> doubt_of_hand(const Device& structure, const std::vector<ParameterEstimate>& estimates,
                                          const std::vector<std::string>& locked) {
   if (!structure.has_bodies() || !locked.empty()) return std::nullopt;

@@ -15,6 +15,9 @@ namespace zwidth::internal {
 /// What the structure's operator means in a fit; nothing where it has none.
 [[nodiscard]] std::optional<Remark> remark_of_operator(const Device& structure);
 
+/// Of a structure whose numbers are unknown nothing tells a hand's mass and damping from the device's: what is assumed, said.
+[[nodiscard]] Remark remark_of_unseen_hand();
+
 /// Why a known structure's held body looks held: heavier than it is, and damped several times as much.
 [[nodiscard]] std::optional<std::string> doubt_of_hand(const Device& structure,
                                                        const std::vector<ParameterEstimate>& estimates,

@@ -173,8 +173,13 @@ class Judge {
   }
 
   void judge_hand() {
-    if (auto remark = remark_of_operator(judged_.structure)) fit_.remarks.push_back(*std::move(remark));
-    if (judged_.options.structure_values != IdentifyOptions::StructureValues::known) return;
+    const bool is_known = judged_.options.structure_values == IdentifyOptions::StructureValues::known;
+    if (auto remark = remark_of_operator(judged_.structure)) {
+      fit_.remarks.push_back(*std::move(remark));
+    } else if (!is_known && judged_.options.locked.empty()) {
+      fit_.remarks.push_back(remark_of_unseen_hand());
+    }
+    if (!is_known) return;
     if (auto doubt = doubt_of_hand(judged_.structure, fit_.estimates, judged_.options.locked)) {
       trust_.doubt(*std::move(doubt));
     }

@@ -10,6 +10,7 @@
 
 #include "identification/synthetic_response.hpp"
 #include "lhifam.hpp"
+#include "property/random_recordings.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
 
@@ -285,6 +286,14 @@ Recording held_recording(const Operator& hand, std::uint64_t seed) {
 }
 
 // The device with the hand bears walls 2.5 times as stiff, and was sound as the device alone.
+TEST(Identification, OfANamedStructureItSaysThatNobodyHeldTheDevice) {
+  const Device lhifam(test::lhifam_parameters());
+  const Recording recording = recorded(lhifam, multisine(1.0, 200.0, 1000.0), {0.01, 1e-7, 1});
+  const auto says_so = Contains(Field(&Remark::consequence, HasSubstr("a hand's mass and damping would count")));
+  EXPECT_THAT(identify(recording, chain(2, 1e-3), of_a_named_structure()).remarks, says_so);
+  EXPECT_THAT(identify(recording, lhifam).remarks, testing::Not(says_so));  // its numbers tell
+}
+
 TEST(Identification, AHandOnTheDeviceIsDoubtfulWhereItTells) {
   DeviceParameters known;
   known.bodies = {{"motor", 0.4, 0.5, 0.0, 0.0}, {"handle", 0.2, 0.3, 0.0, 0.0}};
