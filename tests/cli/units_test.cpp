@@ -84,10 +84,12 @@ TEST_F(UnitsOnTheCommandLine, WholeNumbersAreThoseThatAreWritten) {
   const std::string device = " devices/lhifam.toml --json ";
   expect_refusal("zwidth bode" + device + "--points -5", "--points: is -5; a whole number, 0 or more");
   expect_refusal("zwidth bode" + device + "--points 1", "--points: is 1; 2 to 100000");
-  for (const char* text : {"abc", "0x20", "1e3", "4.5", "99999999999999999999"}) {
+  for (const char* text : {"abc", "0x20", "1e3", "4.5"}) {
     expect_refusal("zwidth bode" + device + "--points " + text,
                    std::string("--points: is ") + text + "; a whole number, 0 or more");
   }
+  expect_refusal("zwidth bode" + device + "--points 99999999999999999999",
+                 "--points: is 99999999999999999999; a whole number from 0 to 18446744073709551615");
   EXPECT_EQ(run("zwidth bode" + device + "--points 010").output, run("zwidth bode" + device + "--points 10").output);
   expect_refusal("zwidth relay" + device + "--amplitude 5 --seed -1", "--seed: is -1; a whole number, 0 or more");
   expect_refusal("zwidth relay" + device + "--amplitude 5 --trials 0", "--trials: is 0; a whole number from 1 to 1000");

@@ -51,6 +51,15 @@ def test_what_is_no_device_file_is_not_taken_for_a_path(source, type_name):
     assert error.where == "device" and error.what == f"is of type {type_name}" and "decode" in error.allowed
 
 
+def test_no_part_of_a_number_is_dropped(lhifam):
+    assert refusal(lambda: zwidth.Recording({"f": np.array([1j, 2.0])})).what == "is complex"
+    assert refusal(lambda: zwidth.critical_stiffness_many(lhifam, {"link.stiffness": np.array([8e4 + 1j])})).what == "is complex"
+    assert refusal(lambda: zwidth.critical_stiffness_many(lhifam, None)).where == "changes"
+    assert refusal(lambda: zwidth.plot.bode(3)).where == "source"
+    bodies = [{"name": "a", "mass": 1.0}, {"name": "b", "mass": float("nan")}]
+    assert refusal(lambda: zwidth.Device(body=bodies, loop={})).where == "device.body.1.mass"
+
+
 def test_none_is_no_value(lhifam):
     for key in ("name", "wall.stiffness", "x"):
         error = refusal(lambda: lhifam.with_({key: None}))

@@ -20,6 +20,19 @@ Progress = Optional[Callable[[float], object]]
 """Called with the fraction done, 0 to 1; what it raises ends the work."""
 
 
+def _real_numbers(where: str, values: npt.ArrayLike, allowed: str) -> npt.NDArray[np.float64]:
+    """One column; a cast to float would drop imaginary parts."""
+    if np.iscomplexobj(values):
+        raise InputError(where, "is complex", allowed)
+    try:
+        array = np.array(values, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise InputError(where, f"is no column of numbers: {error}", allowed) from None
+    if array.ndim != 1:
+        raise InputError(where, f"has {array.ndim} dimensions", "one")
+    return array
+
+
 class Recording:
     """Signals that were recorded together: columns of equal length in memory.
 
@@ -34,13 +47,7 @@ class Recording:
             raise InputError("recording", f"{name!r} is no name", "a text that begins with no '-'")
         held: List[Tuple[str, npt.NDArray[np.float64]]] = []
         for key in columns:
-            try:
-                samples = np.array(columns[key], dtype=np.float64)
-            except (TypeError, ValueError) as error:
-                raise InputError(f"{name}: {key}", f"is no column of numbers: {error}", "numbers") from None
-            if samples.ndim != 1:
-                raise InputError(f"{name}: {key}", f"has {samples.ndim} dimensions", "one")
-            held.append((str(key), samples))
+            held.append((str(key), _real_numbers(f"{name}: {key}", columns[key], "numbers")))
         if not held:
             raise InputError(name, "has no columns", "arrays by name")
         self.name = name
@@ -332,15 +339,9 @@ def critical_stiffness_many(
 
     `changes`: arrays of numbers in SI units by key ({"link.stiffness": ...}), all of one length.
     """
-    arrays: Dict[str, npt.NDArray[np.float64]] = {}
-    for key, values in changes.items():
-        try:
-            array = np.ascontiguousarray(values, dtype=np.float64)
-        except (TypeError, ValueError) as error:
-            raise InputError(f"device.{key}", f"is no array of numbers: {error}", "numbers in SI units") from None
-        if np.ndim(values) != 1:
-            raise InputError(f"device.{key}", f"has {np.ndim(values)} dimensions", "one")
-        arrays[str(key)] = array
+    if not hasattr(changes, "items"):
+        raise InputError("changes", f"is of type {type(changes).__name__}", "arrays by key")
+    arrays = {str(key): _real_numbers(f"device.{key}", values, "numbers in SI units") for key, values in changes.items()}
     return CriticalStiffnessMany(_core.critical_stiffness_many(device, arrays, progress))
 
 

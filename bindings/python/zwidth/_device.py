@@ -42,7 +42,7 @@ def _plain(where: str, value: Any) -> Any:
     if hasattr(value, "tolist"):
         return _plain(where, value.tolist())
     if isinstance(value, (list, tuple)):
-        return [_plain(where, each) for each in value]
+        return [_plain(f"{where}.{i}", each) for i, each in enumerate(value)]
     raise InputError(where, f"is of type {type(value).__name__}", "a number, text, list or dict")
 
 

@@ -25,6 +25,8 @@ def _result_of(source: Union[Device, R], call: Callable[..., R], options: Any) -
         return call(source, **options)
     if options:
         raise InputError("options", "are given with a result", "options with a device")
+    if not isinstance(source, Result):
+        raise InputError("source", f"is of type {type(source).__name__}", "a device, or a result")
     return source
 
 

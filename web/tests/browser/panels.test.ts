@@ -69,7 +69,7 @@ it('writes the wall of a doubtful device in C only when told to, and says so in 
   await replaceText(page, (toml) => `${toml}\n[uncertainty]\nverdict = "doubtful"\nwarning = "measured by a guess"\n`)
   await page.waitForFunction(() => /doubtful/.test(document.querySelector('[data-answer="trust"]')?.textContent ?? ''))
   await page.getByRole('button', { name: 'Save the wall as C' }).click()
-  await page.locator('#body-file .problem', { hasText: '--accept-doubt' }).waitFor()
+  await page.locator('#body-file .problem', { hasText: 'the box above writes the wall all the same' }).waitFor()
   await page.getByLabel(/doubtful device all the same/).check()
   const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name: 'Save the wall as C' }).click()])
   expect(readFileSync(await download.path(), 'utf8')).toContain('measured by a guess')
