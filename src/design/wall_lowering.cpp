@@ -20,8 +20,8 @@ LowerEnd& WallLowering::drifts(const std::optional<WallFilter>& notch) {
   return *end;
 }
 
-WallLowering::Kept WallLowering::lowered(double stiffness, VirtualDamper damper,
-                                         const std::optional<WallFilter>& notch, WallGoal goal) {
+WallLowering::Kept WallLowering::lowered(double stiffness, VirtualDamper damper, const std::optional<WallFilter>& notch,
+                                         WallGoal goal) {
   const auto& uncertainty = device_.parameters().uncertainty;
   const bool uncertain = uncertainty && !uncertainty->parameters.empty();
   const bool drifting = options_.drift > 0.0;
