@@ -9,7 +9,7 @@
 
 namespace zwidth::cli {
 
-/// What `design --notch` asks for; goal, margins and `write` are of --recommend too.
+/// What `design --notch` asks for; goal, drift, margins and `write` are of --recommend too.
 struct NotchArguments {
   bool wanted = false;
   std::optional<std::string> goal;

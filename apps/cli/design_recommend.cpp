@@ -36,6 +36,7 @@ RecommendationOptions recommendation_options(const RecommendArguments& arguments
   }
   if (shared.gain_margin_db) options.gain_margin = ratio_of_decibels(*shared.gain_margin_db);
   if (shared.phase_margin_deg) options.phase_margin = radians(*shared.phase_margin_deg);
+  if (shared.drift_percent) options.drift = *shared.drift_percent / 100.0;
   options.ripple = arguments.ripple;
   return options;
 }
@@ -44,6 +45,7 @@ constexpr std::pair<std::string_view, std::string_view> options_of_recommendatio
     {"gain_margin", "--gain-margin-db"},
     {"phase_margin", "--phase-margin-deg"},
     {"ripple", "--ripple"},
+    {"drift", "--drift-percent"},
     {"goal", "--goal"}};
 
 WallRecommendation recommended(const Device& device, const RecommendationOptions& options, const std::string& file) {
@@ -71,7 +73,7 @@ void run_recommend(const CLI::App& command, const DeviceArguments& devices, cons
   for (const char* option : {"--notch", "--sweep", "--compare", "--target", "--output", "--any-user"}) {
     if (command.count(option) > 0) throw BadInput(fmt::format("--recommend: excludes {}", option));
   }
-  for (const char* option : {"--drift-percent", "--far-from-modes", "--lower-any-user"}) {
+  for (const char* option : {"--far-from-modes", "--lower-any-user"}) {
     if (command.count(option) > 0) throw BadInput(fmt::format("{}: is for a notch; add --notch", option));
   }
   const RecommendationOptions options = recommendation_options(arguments, shared);

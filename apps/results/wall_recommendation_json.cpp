@@ -44,7 +44,9 @@ Json wall_recommendation_json(const Device& device, const RecommendationOptions&
   json["goal"] = options.goal;
   json["asked"] = {{"gain_margin_db", decibels(options.gain_margin)},
                    {"phase_margin_rad", options.phase_margin},
-                   {"ripple", options.ripple}};
+                   {"ripple", options.ripple},
+                   {"drift", options.drift}};
+  json["drifts_checked"] = recommendation.drifts_checked;
   json["status"] = recommendation.status;
   json["reason"] = recommendation.reason.empty() ? Json(nullptr) : Json(recommendation.reason);
   if (recommendation.wall) {

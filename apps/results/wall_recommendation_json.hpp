@@ -14,7 +14,8 @@ NLOHMANN_JSON_SERIALIZE_ENUM(WallBound, {{WallBound::none, "none"},
                                          {WallBound::phase_margin, "phase_margin"},
                                          {WallBound::ripple, "ripple"},
                                          {WallBound::contact_damping, "contact_damping"},
-                                         {WallBound::uncertainty, "uncertainty"}})
+                                         {WallBound::uncertainty, "uncertainty"},
+                                         {WallBound::drift, "drift"}})
 NLOHMANN_JSON_SERIALIZE_ENUM(WallRecommendation::Status, {{WallRecommendation::Status::found, "found"},
                                                           {WallRecommendation::Status::none, "none"},
                                                           {WallRecommendation::Status::unbounded, "unbounded"},

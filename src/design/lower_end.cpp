@@ -6,43 +6,69 @@
 
 #include "stability/device_draws.hpp"
 #include "staged_progress.hpp"
+#include "zwidth/design/notch_design.hpp"
 
 namespace zwidth::internal {
 namespace {
 
 constexpr std::uint64_t seed = 1;
-constexpr double tail = 0.025;
+constexpr double same_limit = 1e-9;  // relative, of two any-user limits
 constexpr int shares_of_damping = 10;
 constexpr double softer = 0.97;
 constexpr int most_softer = 40;
 
 }  // namespace
 
-LowerEnd::LowerEnd(const Device& device, const std::optional<WallFilter>& notch, const RecommendationOptions& options) {
-  DeviceDraws drawn(device, seed);
+std::vector<Device> drawn(const Device& device, const RecommendationOptions& options) {
+  DeviceDraws draws(device, seed);
+  std::vector<Device> devices;
   for (std::size_t i = 0; i < options.draws; ++i) {
-    tell(options.progress, static_cast<double>(i) / static_cast<double>(options.draws));
-    const Device each = drawn.next();
-    Draw draw{std::make_unique<WallLimits>(notch ? with_filter(each, *notch) : each, options), nullptr};
-    draw.search = std::make_unique<WallSearch>(*draw.limits, options);
-    draws_.push_back(std::move(draw));
+    tell(options.progress, 0.0);
+    devices.push_back(draws.next());
+  }
+  return devices;
+}
+
+std::vector<Device> with_drifts(const Device& device, double drift) {
+  std::vector<Device> devices;
+  for (std::size_t i = 0; i < drifts_held; ++i) {
+    devices.push_back(drifted(device, drift * (2.0 * static_cast<double>(i) / (drifts_held - 1) - 1.0)));
+  }
+  return devices;
+}
+
+LowerEnd::LowerEnd(const std::vector<Device>& devices, const std::optional<WallFilter>& notch, double may_fail,
+                   const RecommendationOptions& options)
+    : options_(options), may_fail_(static_cast<std::size_t>(may_fail * static_cast<double>(devices.size()))) {
+  for (const Device& each : devices) {
+    tell(options.progress, static_cast<double>(devices_.size()) / static_cast<double>(devices.size()));
+    devices_.push_back({std::make_unique<WallLimits>(notch ? with_filter(each, *notch) : each, options), nullptr});
   }
 }
 
 /// On the grids.
-double LowerEnd::lower_limit(VirtualDamper damper, WallGoal goal) const {
+double LowerEnd::lower_limit(VirtualDamper damper, WallGoal goal) {
   std::vector<double> stiffnesses;
-  for (const Draw& each : draws_) stiffnesses.push_back(each.search->stiffest(damper, goal));
-  const auto at = stiffnesses.begin() + static_cast<std::ptrdiff_t>(tail * static_cast<double>(stiffnesses.size()));
+  for (Each& each : devices_) {
+    if (!each.search) each.search = std::make_unique<WallSearch>(*each.limits, options_);
+    stiffnesses.push_back(each.search->stiffest(damper, goal));
+  }
+  const auto at = stiffnesses.begin() + static_cast<std::ptrdiff_t>(may_fail_);
   std::nth_element(stiffnesses.begin(), at, stiffnesses.end());
   return *at;
 }
 
 bool LowerEnd::most_keep(double stiffness, VirtualDamper damper) const {
-  const auto may_fail = static_cast<std::size_t>(tail * static_cast<double>(draws_.size()));
   std::size_t failed = 0;
-  for (const Draw& each : draws_) {
-    if (!each.limits->keeps(stiffness, damper) && ++failed > may_fail) return false;
+  for (const Each& each : devices_) {
+    if (!each.limits->keeps(stiffness, damper) && ++failed > may_fail_) return false;
+  }
+  return true;
+}
+
+bool LowerEnd::has_no_lower_limit_than(const LowerEnd& others, VirtualDamper damper) const {
+  for (std::size_t i = 0; i < devices_.size(); ++i) {
+    if (devices_[i].limits->limit(damper) < others.devices_[i].limits->limit(damper) * (1.0 - same_limit)) return false;
   }
   return true;
 }

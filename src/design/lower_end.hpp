@@ -10,30 +10,43 @@
 
 namespace zwidth::internal {
 
-// What an uncertain device leaves of a wall: devices drawn from the uncertainty, each with its own limits.
+// `options.draws` devices drawn from the uncertainty of one that has uncertain parameters.
+[[nodiscard]] std::vector<Device> drawn(const Device& device, const RecommendationOptions& options);
+
+// The device with its modes at every drift that a wall is held against, see drifted().
+inline constexpr std::size_t drifts_held = 41;
+[[nodiscard]] std::vector<Device> with_drifts(const Device& device, double drift);
+
+// What a device leaves of a wall that may be any of several: each with its own limits.
 class LowerEnd {
  public:
-  // With `notch` behind the filters of the device's wall. The device must have uncertain parameters; `options` must
-  // outlive this.
-  LowerEnd(const Device& device, const std::optional<WallFilter>& notch, const RecommendationOptions& options);
+  // With `notch` behind the filters of each wall; all but this share of them keep what is asked. `options` must outlive
+  // this.
+  LowerEnd(const std::vector<Device>& devices, const std::optional<WallFilter>& notch, double may_fail,
+           const RecommendationOptions& options);
 
   struct Kept {
     double stiffness = 0.0;  // 0: none
     VirtualDamper damper;
   };
-  // The best wall for the goal, no stiffer and no more damped than this one, for which all but 2.5 % of the draws keep
-  // what is asked: found on grids of frequencies, confirmed exactly.
+  // The best wall for the goal, no stiffer and no more damped than this one, for which enough of the devices keep what is
+  // asked: found on grids of frequencies, confirmed exactly.
   [[nodiscard]] Kept lowered(double stiffness, VirtualDamper damper, WallGoal goal);
 
+  // Whether no device's limit with any user is lower than that of the same one of the others.
+  [[nodiscard]] bool has_no_lower_limit_than(const LowerEnd& others, VirtualDamper damper) const;
+
  private:
-  struct Draw {
+  struct Each {
     std::unique_ptr<WallLimits> limits;
-    std::unique_ptr<WallSearch> search;
+    std::unique_ptr<WallSearch> search;  // once it is needed
   };
   [[nodiscard]] bool most_keep(double stiffness, VirtualDamper damper) const;
-  [[nodiscard]] double lower_limit(VirtualDamper damper, WallGoal goal) const;
+  [[nodiscard]] double lower_limit(VirtualDamper damper, WallGoal goal);
 
-  std::vector<Draw> draws_;
+  const RecommendationOptions& options_;
+  std::size_t may_fail_ = 0;
+  std::vector<Each> devices_;
 };
 
 }  // namespace zwidth::internal

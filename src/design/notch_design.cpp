@@ -187,14 +187,8 @@ void remark_on(const NotchOptions& options, NotchDesign& design) {
 }  // namespace
 
 std::optional<OptionProblem> find_problem(const NotchOptions& options, const Device& device) {
-  if (!(options.drift >= 0.0 && options.drift <= 0.9)) {
-    return OptionProblem{"drift", fmt::format("is {} %", 100.0 * options.drift), "must be from 0 to 90 %"};
-  }
+  if (auto problem = find_drift_problem(options.drift, device)) return problem;
   if (auto problem = find_problem(RequiredMargins{options.gain_margin, options.phase_margin})) return problem;
-  if (options.drift > 0.0 && device.links().empty()) {
-    return OptionProblem{"drift", fmt::format("is {} %", 100.0 * options.drift),
-                         "must be 0: there is no link whose modes drift"};
-  }
   if (options.goal == StiffnessGoal::any_user_limit && !can_be_held(device)) {
     return OptionProblem{"goal", "is the limit with any user",
                          fmt::format("needs a device of at most {} bodies", most_bodies_for_any_user)};

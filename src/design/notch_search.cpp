@@ -1,10 +1,13 @@
 #include "design/notch_search.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
 #include <optional>
+#include <string>
 
 #include "infinity.hpp"
 #include "staged_progress.hpp"
@@ -48,6 +51,13 @@ std::vector<std::size_t> by_value(const std::vector<double>& values) {
 
 RequiredMargins required(const NotchOptions& options) {
   return {options.gain_margin, options.phase_margin, options.goal == StiffnessGoal::any_user_limit};
+}
+
+std::optional<OptionProblem> find_drift_problem(double drift, const Device& device) {
+  const std::string asked = fmt::format("is {} %", 100.0 * drift);
+  if (!(drift >= 0.0 && drift <= 0.9)) return OptionProblem{"drift", asked, "must be from 0 to 90 %"};
+  if (drift == 0.0 || !device.links().empty()) return std::nullopt;
+  return OptionProblem{"drift", asked, "must be 0: there is no link whose modes drift"};
 }
 
 std::vector<double> seen_modes(const Device& device) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -11,6 +12,9 @@ namespace zwidth::internal {
 
 /// The margins that a notch is designed for.
 [[nodiscard]] RequiredMargins required(const NotchOptions& options);
+
+/// What is wrong with a drift of the modes of this device: from 0 to 0.9, and links that have modes.
+[[nodiscard]] std::optional<OptionProblem> find_drift_problem(double drift, const Device& device);
 
 /// Where the wall sees the device's vibration modes, rad/s: themselves, or their aliases below Nyquist.
 [[nodiscard]] std::vector<double> seen_modes(const Device& device);

@@ -7,10 +7,10 @@
 #include <limits>
 #include <utility>
 
-#include "design/lower_end.hpp"
 #include "design/notch_search.hpp"
 #include "design/wall_check.hpp"
 #include "design/wall_limits.hpp"
+#include "design/wall_lowering.hpp"
 #include "design/wall_search.hpp"
 #include "require_valid.hpp"
 #include "staged_progress.hpp"
@@ -44,11 +44,6 @@ Device without_wall(const Device& device) {
   return Device(std::move(parameters));
 }
 
-bool is_uncertain(const Device& device) {
-  const auto& uncertainty = device.parameters().uncertainty;
-  return uncertainty && !uncertainty->parameters.empty();
-}
-
 /// One wall on its way: with the filters of its limits closed.
 struct Candidate {
   VirtualDamper damper;
@@ -64,7 +59,8 @@ class Recommendation {
         device_(without_wall(device)),
         options_(told(options, stages_)),
         limits_(device_, options_),
-        search_(limits_, options_) {}
+        search_(limits_, options_),
+        lowering_(device_, options_) {}
 
   [[nodiscard]] WallRecommendation answer() {
     WallRecommendation result;
@@ -80,7 +76,8 @@ class Recommendation {
     stages_.next(0.6);
     if (options_.notch) best = with_notch(best);
     stages_.next(0.7);
-    if (best && is_uncertain(device_)) best = lowered(*best, options_.goal, result);
+    if (options_.drift > 0.0) result.drifts_checked = drifts_held;
+    if (best) best = kept(*best, *plain, result);
     if (!best) {
       result.reason = result.reason.empty() ? why_none() : result.reason;
       return result;
@@ -160,6 +157,9 @@ class Recommendation {
         .progress = options_.progress};
     NotchSearch search(notch_options, modes, device_.loop().sampling_period, limits_.has_users());
     search.add(with_wall(device_, best->stiffest.stiffness, best->damper));
+    for (const double drift : {-options_.drift, options_.drift}) {
+      if (drift != 0.0) search.add(with_wall(drifted(device_, drift), best->stiffest.stiffness, best->damper));
+    }
     std::pair<double, NotchSearch::Point> found{0.0, {}};
     for (const NotchSearch::Point& start : search.candidates(options_.progress)) {
       found = std::max(found, search.refine_on_grid(start));
@@ -175,27 +175,36 @@ class Recommendation {
     return candidate;
   }
 
-  /// What the uncertainty leaves of it.
-  [[nodiscard]] std::optional<Candidate> lowered(Candidate candidate, WallGoal goal, WallRecommendation& result) {
-    auto& draws = candidate.notch ? notched_draws_ : draws_;
-    if (!draws) draws = std::make_unique<LowerEnd>(device_, candidate.notch, options_);
-    const LowerEnd::Kept kept = draws->lowered(candidate.stiffest.stiffness, candidate.damper, goal);
+  /// What uncertainty and drift leave of it.
+  [[nodiscard]] std::optional<Candidate> lowered(Candidate candidate, WallRecommendation& result) {
+    const WallLowering::Kept kept =
+        lowering_.lowered(candidate.stiffest.stiffness, candidate.damper, candidate.notch, options_.goal);
     if (!(kept.stiffness > 0.0)) {
-      result.reason =
-          "the uncertainty of the device leaves no wall: in more than 2.5 % of the devices drawn from it none keeps "
-          "what is asked; identify the device from more or longer recordings";
+      result.reason = kept.why_none;
       return std::nullopt;
     }
-    if (kept.stiffness < candidate.stiffest.stiffness) {
-      candidate.stiffest = {kept.stiffness, WallBound::uncertainty};
-      candidate.damper = kept.damper;
-      // Softer at the same margins or less damped: the device as it is must still keep them.
-      if (!limits_of(candidate.notch).keeps(kept.stiffness, kept.damper)) {
-        result.reason = "at the lower end of the uncertainty no wall keeps the margins asked";
-        return std::nullopt;
-      }
+    if (!kept.by) return candidate;
+    candidate.stiffest = {kept.stiffness, *kept.by};
+    candidate.damper = kept.damper;
+    candidate.value = WallSearch::value_of(options_.goal, kept.stiffness, kept.damper.damping);
+    // Softer at the same margins or less damped: the device as it is must still keep them.
+    if (!limits_of(candidate.notch).keeps(kept.stiffness, kept.damper)) {
+      result.reason = "at the lower end of the uncertainty no wall keeps the margins asked";
+      return std::nullopt;
     }
     return candidate;
+  }
+
+  /// The same of the best; where the modes drift a notch must be worth it there too.
+  [[nodiscard]] std::optional<Candidate> kept(const Candidate& best, const Candidate& plain,
+                                              WallRecommendation& result) {
+    const std::optional<Candidate> notched = lowered(best, result);
+    if (!best.notch || !(options_.drift > 0.0)) return notched;
+    WallRecommendation without;
+    const std::optional<Candidate> unnotched = lowered(plain, without);
+    if (!unnotched || (notched && notched->value > unnotched->value * (1.0 + worth_a_notch))) return notched;
+    result.reason.clear();
+    return unnotched;
   }
 
   [[nodiscard]] WallBound bound_with(const Candidate& candidate, VirtualDamper damper) {
@@ -250,11 +259,10 @@ class Recommendation {
   }
 
   void add(std::string what, std::optional<Candidate> candidate, WallRecommendation& result) {
-    if (candidate && is_uncertain(device_)) {
-      WallRecommendation ignored;
-      candidate = lowered(*candidate, options_.goal, ignored);
-    }
     if (!candidate || !(candidate->stiffest.stiffness > 0.0) || !std::isfinite(candidate->stiffest.stiffness)) return;
+    WallRecommendation ignored;
+    candidate = lowered(*candidate, ignored);
+    if (!candidate) return;
     const auto is_like = [&](const RecommendedWall& other) {
       const auto near = [](double a, double b) { return std::abs(a - b) <= to_be_distinct * std::max(a, b); };
       return near(*other.wall.stiffness, candidate->stiffest.stiffness) &&
@@ -344,8 +352,7 @@ class Recommendation {
   WallLimits limits_;
   WallSearch search_;
   std::unique_ptr<WallLimits> notched_;
-  std::unique_ptr<LowerEnd> draws_;
-  std::unique_ptr<LowerEnd> notched_draws_;
+  WallLowering lowering_;
   std::vector<WallSearch::Found> found_;
   std::optional<Candidate> unfiltered_;
 };
@@ -364,6 +371,7 @@ std::optional<OptionProblem> find_problem(const RecommendationOptions& options, 
   if (options.ripple && !(*options.ripple > 0.0 && std::isfinite(*options.ripple))) {
     return OptionProblem{"ripple", fmt::format("is {}", *options.ripple), "must be a force > 0"};
   }
+  if (auto problem = find_drift_problem(options.drift, device)) return problem;
   if (options.draws == 0) return OptionProblem{"draws", "is 0", "must be at least 1"};
   if (options.goal == WallGoal::critical_damping && !device.has_bodies()) {
     return OptionProblem{"goal", "is critical damping", "needs a device of bodies: a transfer function has no mass"};

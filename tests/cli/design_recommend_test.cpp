@@ -84,7 +84,8 @@ TEST_F(DesignRecommend, RefusesWhatItCannotMean) {
   expect_refusal("zwidth design devices/lhifam.toml --recommend --notch", "--recommend: excludes --notch");
   expect_refusal("zwidth design devices/lhifam.toml --recommend --ripple 0", "--ripple: devices/lhifam.toml: is 0");
   expect_refusal("zwidth design devices/lhifam.toml --ripple 0.1", "add --recommend");
-  expect_refusal("zwidth design devices/lhifam.toml --recommend --drift-percent 3", "--drift-percent: is for a notch");
+  expect_refusal("zwidth design devices/lhifam.toml --recommend --drift-percent 95", "--drift-percent");
+  expect_refusal("zwidth design devices/emps.toml --recommend --drift-percent 3", "there is no link");
 }
 
 }  // namespace

@@ -4,11 +4,13 @@
 #include <array>
 #include <cmath>
 #include <complex>
+#include <cstdio>
 #include <cstdlib>
 #include <numbers>
 #include <string>
 
 #include "property/random_devices.hpp"
+#include "zwidth/design/notch_design.hpp"
 #include "zwidth/design/wall_recommendation.hpp"
 #include "zwidth/model/state_space.hpp"
 #include "zwidth/stability/any_user.hpp"
@@ -63,6 +65,55 @@ double scanned_phase_margin(const Device& device, const Wall& wall) {
 std::size_t cases() {
   const char* asked = std::getenv("ZWIDTH_PROPERTY_CASES");
   return asked ? std::clamp<std::size_t>(std::strtoul(asked, nullptr, 10), 1, 300) : 300;
+}
+
+// ZWIDTH_CAMPAIGN_DEVICES=300 is the campaign: some minutes.
+std::size_t drifting_cases() {
+  if (const char* campaign = std::getenv("ZWIDTH_CAMPAIGN_DEVICES")) return std::strtoul(campaign, nullptr, 10);
+  return std::min<std::size_t>(cases(), 8);
+}
+
+TEST(WallRecommendationProperty, RandomDevicesKeepTheMarginsAtEveryDrift) {
+  constexpr int drifts = 41;
+  std::size_t found = 0;
+  std::size_t notches = 0;
+  std::size_t asked = 0;
+  for (std::size_t i = 0; i < drifting_cases(); ++i) {
+    RandomDevices random(seed + i);
+    const char* kind = kinds[i % kinds.size()];
+    const Device device(random.device(kind));
+    const RecommendationOptions options{.drift = std::array{0.02, 0.05, 0.1, 0.2}[random.index(4)]};
+    SCOPED_TRACE(testing::Message() << kind << ", seed " << seed + i << ", drift " << options.drift);
+    if (find_problem(options, device)) continue;
+    const WallRecommendation answer = recommend_wall(device, options);
+    EXPECT_EQ(answer.drifts_checked, static_cast<std::size_t>(drifts));
+    ++asked;
+    if (!answer.wall) continue;
+    ++found;
+    const Wall& wall = answer.wall->wall;
+    const double gain = options.gain_margin * (1.0 - 1e-5);
+    for (int k = 0; k < drifts; ++k) {
+      const Device moved = drifted(device, options.drift * (2.0 * k / (drifts - 1) - 1.0));
+      SCOPED_TRACE(testing::Message() << "drift " << k);
+      const Operator own = device.parameters().user;
+      EXPECT_LT(excess(moved, wall, 1.0, 1.0, own), 0.0);
+      EXPECT_LT(excess(moved, wall, gain, 1.0, own), 0.0);
+      EXPECT_LT(excess(moved, wall, gain, gain, own), 0.0);
+      EXPECT_GE(scanned_phase_margin(moved, wall), options.phase_margin - 0.02);
+      const Operator user{random.log_uniform(1e-3, 1e3), 0.0, *wall.stiffness * random.log_uniform(1e-3, 1e4)};
+      EXPECT_LT(excess(moved, wall, gain, gain, user), 1e-11) << user.mass << " " << user.stiffness;
+      if (!answer.wall->notch) continue;
+      ++notches;
+      DeviceParameters notched = moved.parameters();
+      notched.wall = wall;
+      DeviceParameters plain = notched;
+      plain.wall.filters.pop_back();
+      const double with = any_user_limit(Device(notched), virtual_damper(Device(notched))).stiffness;
+      EXPECT_GE(with, any_user_limit(Device(plain), virtual_damper(Device(plain))).stiffness * (1.0 - 1e-8));
+    }
+  }
+  EXPECT_GE(found, asked / 3);
+  std::printf("%zu devices, %zu walls, %zu with a notch\n", asked, found, notches / drifts);
 }
 
 TEST(WallRecommendationProperty, RandomDevicesKeepWhatWasAsked) {

@@ -265,8 +265,7 @@ TEST(Judgement, OfKnownSignals) {
 // A force that chatters ripples a steady swing: the frequency is that of the swing, whose amplitude stands beside it.
 TEST(Judgement, RipplesOnASwingAreNotItsFrequency) {
   std::vector<double> rippled;
-  for (int i = 0; i < 8000; ++i) {
-    const double t = 1e-3 * i;
+  for (double t = 0.0; t < 8.0; t += 1e-3) {
     rippled.push_back(3.0 * std::sin(2.0 * pi * 3.3 * t) + 0.3 * std::sin(2.0 * pi * 121.0 * t));
   }
   const LoopJudgement judgement = judge_loop(rippled, 1e-3, 1e-3);

@@ -31,6 +31,8 @@ std::string bound_text(WallBound bound) {
       return "the contact would swing";
     case WallBound::uncertainty:
       return "the device is not known better";
+    case WallBound::drift:
+      return "the drift of its modes";
   }
   return "";
 }
@@ -51,6 +53,8 @@ std::string short_text(WallBound bound) {
       return "contact";
     case WallBound::uncertainty:
       return "uncertainty";
+    case WallBound::drift:
+      return "drift";
   }
   return "";
 }
@@ -103,6 +107,10 @@ class RecommendationWriter {
         goal_text(options_.goal), decibels(options_.gain_margin), degrees(options_.phase_margin));
     if (options_.ripple)
       text += fmt::format(", at most {} per encoder count", quantity(*options_.ripple, units_.force));
+    if (options_.drift > 0.0) {
+      text +=
+          fmt::format(", at {} drifts of the modes by up to {:.3g} %", answer_.drifts_checked, 100.0 * options_.drift);
+    }
     return text;
   }
 

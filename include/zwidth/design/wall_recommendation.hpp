@@ -32,12 +32,15 @@ struct RecommendationOptions {
   double phase_margin = std::numbers::pi / 6.0;  ///< least, of the device as it is (with its [operator]); 0 to pi/2 rad
   /// Greatest force per encoder count, N or N m (force_per_count()); > 0. Absent: not bounded.
   std::optional<double> ripple = {};
+  /// The vibration modes may lie anywhere from (1 - drift) to (1 + drift) times their frequency, see drifted(); from 0 to
+  /// 0.9; above 0 the device needs a link.
+  double drift = 0.0;
   bool notch = true;        ///< a notch near a mode may be added to the wall's filters
   std::size_t draws = 100;  ///< of the device's uncertainty, where it has one
   Progress progress = {};   ///< told how far the work is; ends it by throwing
 };
 
-/// Checks every member's range; of the device: critical damping needs bodies.
+/// Checks every member's range; of the device: critical damping needs bodies, a drift links.
 [[nodiscard]] std::optional<OptionProblem> find_problem(const RecommendationOptions& options, const Device& device);
 
 /// What keeps a number of a wall from being better.
@@ -49,6 +52,7 @@ enum class WallBound {
   ripple,           ///< the force per encoder count
   contact_damping,  ///< the contact would swing
   uncertainty,      ///< the device is not known better
+  drift,            ///< its modes may drift
 };
 
 /// What keeps each number of the wall from being larger.
@@ -87,8 +91,11 @@ struct WallRecommendation {
   std::optional<RecommendedWall> wall;        ///< only where found
   std::string reason;                         ///< why there is none; empty where found
   std::vector<RecommendedWall> alternatives;  ///< the trade-off: other goals, dampers, filters
-  Trust trust;                                ///< of the whole answer
-  std::vector<Remark> remarks;                ///< what is worth knowing beside it
+  /// At how many drifts of the modes, evenly over the range asked, each wall was held against its margins; 1: at none but
+  /// their own frequencies.
+  std::size_t drifts_checked = 1;
+  Trust trust;                  ///< of the whole answer
+  std::vector<Remark> remarks;  ///< what is worth knowing beside it
 };
 
 /// The damping ratio of a device on its wall: the least of the closed-loop poles z = e^{sT} up to twice the natural
@@ -107,6 +114,8 @@ struct WallRecommendation {
 /// hundredth of the sampling rate: a local optimum. What is proposed is computed exactly, and then checked by a second route that shares nothing with
 /// it: closed-loop poles by matrix exponential of the loop, of the loop grown by the gain margin and of that held by
 /// passive users, and the phase margin from the state space; where the two contradict, the answer is `refused`.
+/// With a drift of the modes the wall keeps the margins, every user's too, at 41 drifts evenly over the range, and a
+/// notch lowers no any-user limit at any of them; the contact's damping is that without drift.
 /// Of an uncertain device the wall keeps all of this in 97.5 % of `draws` devices drawn from its uncertainty. Where
 /// any_user_limit() is not available the device as it is decides, and a remark says so.
 /// Throws Error (invalid_argument) where find_problem() finds one.

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "design/lower_end.hpp"
+
+namespace zwidth::internal {
+
+// What is left of a wall where the device may be another than the one that it was found for: by its uncertainty, and by
+// the drift of its modes that was asked for.
+class WallLowering {
+ public:
+  // `device`: without its wall; both must outlive this.
+  WallLowering(const Device& device, const RecommendationOptions& options) : device_(device), options_(options) {}
+
+  struct Kept {
+    double stiffness = 0.0;  // 0: none
+    VirtualDamper damper;
+    std::optional<WallBound> by;  // what has lowered it
+    std::string why_none;
+  };
+  // No stiffer and no more damped than this one, with `notch` behind its filters. None where the notch lowers the limit
+  // with any user at a drift.
+  [[nodiscard]] Kept lowered(double stiffness, VirtualDamper damper, const std::optional<WallFilter>& notch,
+                             WallGoal goal);
+
+ private:
+  [[nodiscard]] LowerEnd& draws(const std::optional<WallFilter>& notch);
+  [[nodiscard]] LowerEnd& drifts(const std::optional<WallFilter>& notch);
+
+  const Device& device_;
+  const RecommendationOptions& options_;
+  std::array<std::unique_ptr<LowerEnd>, 2> draws_;  // without and with the notch
+  std::array<std::unique_ptr<LowerEnd>, 2> drifts_;
+};
+
+}  // namespace zwidth::internal
