@@ -44,8 +44,8 @@ void SolvedMotions::responses(double frequency, std::complex<double>* values) co
   std::vector<long double> more(2 * n > few ? 2 * n : 0);
   long double* const positions = more.empty() ? room.data() : more.data();
   const auto forced = static_cast<Eigen::Index>(forced_);
-  more.empty() ? solve<few>(matrices_, forced, frequency, positions)
-               : solve<Eigen::Dynamic>(matrices_, forced, frequency, positions);
+  const auto w = static_cast<long double>(frequency);
+  more.empty() ? solve<few>(matrices_, forced, w, positions) : solve<Eigen::Dynamic>(matrices_, forced, w, positions);
   for (std::size_t i = 0; i < motions_.size(); ++i) {
     const auto [body, past] = motions_[i];
     long double real = positions[body];
