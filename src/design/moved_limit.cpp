@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <ranges>
 #include <utility>
 
 #include "stability/damper_response.hpp"
@@ -46,9 +47,9 @@ double MovedLimit::of_any_user(const Device& device, double enough, Limit& limit
                             parameter_.kind == DesignParameter::Kind::velocity_filter_hz;
   if (!is_of_damper && enough > 0.0 && !angles_.empty()) {
     const UserDiscs discs(device);
-    for (auto angle = angles_.rbegin(); angle != angles_.rend(); ++angle) {
+    for (const double angle : std::views::reverse(angles_)) {
       for (const double factor : beside) {
-        const double frequency = std::min(*angle * factor, std::numbers::pi) / period;
+        const double frequency = std::min(angle * factor, std::numbers::pi) / period;
         const double bound = least_stiffness(discs.at(frequency), damper_response(damper, period, frequency));
         limit.is_bound = bound < enough * (1.0 - bound_certain);
         if (limit.is_bound) return bound;

@@ -219,29 +219,29 @@ double stiffest_wall(const Device& device, const NotchOptions& options) {
   return internal::stiffest_wall(device, required(options));
 }
 
-NotchDesign design_notch(const Device& device, const NotchOptions& given) {
-  require_valid(find_problem(given, device));
-  StagedProgress stages(given.progress);
-  NotchOptions options = given;
-  options.progress = stages.stage();
+NotchDesign design_notch(const Device& device, const NotchOptions& options) {
+  require_valid(find_problem(options, device));
+  StagedProgress stages(options.progress);
+  NotchOptions staged = options;
+  staged.progress = stages.stage();
   NotchDesign design;
   design.trust = critical_stiffness(device).trust;
   if (design.trust.refused()) return design;
   const std::vector<double> modes = seen_modes(device);
   stages.next(0.2);
-  const bool keep_any_user = !options.lower_any_user && can_be_held(device);
-  const Verification verification(device, options, keep_any_user);
+  const bool keep_any_user = !staged.lower_any_user && can_be_held(device);
+  const Verification verification(device, staged, keep_any_user);
   design.over_drift = verification.without();
   design.without = design.with = verification.least(design.over_drift, &NotchAtDrift::without, nullptr).stiffness;
   stages.next(0.5);
   if (std::isfinite(design.without)) {
-    NotchSearch search(options, modes, device.loop().sampling_period, keep_any_user);
+    NotchSearch search(staged, modes, device.loop().sampling_period, keep_any_user);
     search.add(device);
     if (verification.size() > 1) {
       search.add(verification.at(0));
       search.add(verification.at(verification.size() - 1));
     }
-    std::vector<NotchSearch::Point> candidates = search.candidates(options.progress);
+    std::vector<NotchSearch::Point> candidates = search.candidates(staged.progress);
     bool settled = false;
     for (int round = 0; round < rounds && !candidates.empty() && !settled; ++round) {
       stages.next(0.5 + 0.5 * (round + 1) / rounds);
@@ -273,7 +273,7 @@ NotchDesign design_notch(const Device& device, const NotchOptions& given) {
     }
   }
   add_states(device, design);
-  remark_on(options, design);
+  remark_on(staged, design);
   stages.done();
   return design;
 }

@@ -198,10 +198,10 @@ class Recommendation {
   /// The same of the best; where the modes drift a notch must be worth it there too.
   [[nodiscard]] std::optional<Candidate> kept(const Candidate& best, const Candidate& plain,
                                               WallRecommendation& result) {
-    const std::optional<Candidate> notched = lowered(best, result);
+    std::optional<Candidate> notched = lowered(best, result);
     if (!best.notch || !(options_.drift > 0.0)) return notched;
     WallRecommendation without;
-    const std::optional<Candidate> unnotched = lowered(plain, without);
+    std::optional<Candidate> unnotched = lowered(plain, without);
     if (!unnotched || (notched && notched->value > unnotched->value * (1.0 + worth_a_notch))) return notched;
     result.reason.clear();
     return unnotched;

@@ -254,8 +254,8 @@ struct Judged {
 std::vector<Judged> judged_candidates(const FitModel& model, const std::vector<ResponsePoint>& points,
                                       const ResponseFeatures& features) {
   const Candidates candidates(model, points, features);
-  std::vector<double> frequencies;
-  for (const ResponsePoint& point : points) frequencies.push_back(point.frequency);
+  std::vector<double> frequencies(points.size());
+  std::ranges::transform(points, frequencies.begin(), &ResponsePoint::frequency);
   std::vector<Judged> judged;
   const auto judge_position = [&](const Eigen::VectorXd& x, std::vector<std::size_t> kind) {
     try {

@@ -150,8 +150,8 @@ Solution with_missing_mode(const FitModel& model, const std::vector<ResponsePoin
     const bool is_in_band = mode.frequency < points.back().frequency && mode.frequency > points.front().frequency;
     if (is_in_band && mode.damping_ratio < overdamped) modes.push_back(mode.frequency);
   }
-  std::vector<double> frequencies;
-  for (const ResponsePoint& point : points) frequencies.push_back(point.frequency);
+  std::vector<double> frequencies(points.size());
+  std::ranges::transform(points, frequencies.begin(), &ResponsePoint::frequency);
   const Eigen::VectorXcd fitted = model.response_at(found.x, frequencies);
   std::vector<std::complex<double>> residuals;
   for (std::size_t i = 0; i < points.size(); ++i) {

@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <array>
+#include <span>
 #include <vector>
 
 namespace zwidth::internal {
@@ -10,7 +11,8 @@ namespace {
 // As real equations of twice as many unknowns, the real parts above the imaginary ones: Eigen's search for a complex pivot
 // takes a hypot of every entry, longer than all else here. `most`: unknowns, for which there is room without the heap.
 template <int most>
-void solve(const DeviceMatrices<long double>& matrices, Eigen::Index forced, long double w, long double* positions) {
+void solve(const DeviceMatrices<long double>& matrices, Eigen::Index forced, long double w,
+           std::span<long double> positions) {
   using Real = long double;
   using Matrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, most, most>;
   using Vector = Eigen::Matrix<Real, Eigen::Dynamic, 1, Eigen::ColMajor, most, 1>;
@@ -29,7 +31,7 @@ void solve(const DeviceMatrices<long double>& matrices, Eigen::Index forced, lon
   Vector force = Vector::Zero(2 * n);
   force(forced) = Real(1.0);
   const Eigen::PartialPivLU<Eigen::Ref<Matrix>> elimination(impedance);
-  Eigen::Map<Vector>(positions, 2 * n) = elimination.solve(force);
+  Eigen::Map<Vector>(positions.data(), 2 * n) = elimination.solve(force);
 }
 
 }  // namespace
@@ -42,7 +44,7 @@ void SolvedMotions::responses(double frequency, std::complex<double>* values) co
   const std::size_t n = matrices_.mass.size();
   std::array<long double, few> room{};
   std::vector<long double> more(2 * n > few ? 2 * n : 0);
-  long double* const positions = more.empty() ? room.data() : more.data();
+  const std::span<long double> positions = more.empty() ? std::span<long double>(room) : std::span<long double>(more);
   const auto forced = static_cast<Eigen::Index>(forced_);
   const auto w = static_cast<long double>(frequency);
   more.empty() ? solve<few>(matrices_, forced, w, positions) : solve<Eigen::Dynamic>(matrices_, forced, w, positions);

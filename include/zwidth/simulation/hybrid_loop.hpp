@@ -71,6 +71,10 @@ class HybridLoop {
   HybridLoop(HybridLoop&&) noexcept;
   /// Leaves the other without a loop.
   HybridLoop& operator=(HybridLoop&&) noexcept;
+  /// A loop is one: it is moved, not copied.
+  HybridLoop(const HybridLoop&) = delete;
+  /// A loop is one: it is moved, not copied.
+  HybridLoop& operator=(const HybridLoop&) = delete;
   ~HybridLoop();
 
   /// Measures at t = k T, updates the controller, and moves the device to (k + 1) T.
