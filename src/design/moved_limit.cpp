@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
-#include <ranges>
 #include <utility>
 
 #include "stability/damper_response.hpp"
@@ -47,9 +47,9 @@ double MovedLimit::of_any_user(const Device& device, double enough, Limit& limit
                             parameter_.kind == DesignParameter::Kind::velocity_filter_hz;
   if (!is_of_damper && enough > 0.0 && !angles_.empty()) {
     const UserDiscs discs(device);
-    for (const double angle : std::views::reverse(angles_)) {
+    for (std::size_t i = angles_.size(); i-- > 0;) {
       for (const double factor : beside) {
-        const double frequency = std::min(angle * factor, std::numbers::pi) / period;
+        const double frequency = std::min(angles_[i] * factor, std::numbers::pi) / period;
         const double bound = least_stiffness(discs.at(frequency), damper_response(damper, period, frequency));
         limit.is_bound = bound < enough * (1.0 - bound_certain);
         if (limit.is_bound) return bound;
