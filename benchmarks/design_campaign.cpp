@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "property/random_devices.hpp"
+#include "property/random_notch_options.hpp"
 #include "zwidth/zwidth.hpp"
 
 namespace {
@@ -29,13 +30,7 @@ constexpr std::array kinds = {"two_mass",   "three_mass",   "light_damping",    
                               "everything", "fast_sampling"};
 
 std::string notch(const Device& device, test::RandomDevices& random) {
-  NotchOptions options;
-  if (random.chance(0.7)) options.drift = std::array{0.02, 0.05, 0.1, 0.2}[random.index(4)];
-  if (random.chance(0.3)) options.gain_margin = random.uniform(1.0, 4.0);
-  if (random.chance(0.4)) options.phase_margin = random.chance(0.5) ? 0.0 : random.uniform(0.0, 1.0);
-  if (random.chance(0.2)) options.goal = StiffnessGoal::any_user_limit;
-  options.far_from_modes = random.chance(0.2);
-  options.lower_any_user = random.chance(0.1);
+  const NotchOptions options = test::random_notch_options(random);
   if (find_problem(options, device)) return "not asked";
   const NotchDesign design = design_notch(device, options);
   const WallFilter filter = design.notch.value_or(WallFilter{});

@@ -13,6 +13,7 @@
 #include <string>
 
 #include "property/random_devices.hpp"
+#include "property/random_notch_options.hpp"
 #include "zwidth/design/notch_design.hpp"
 #include "zwidth/model/state_space.hpp"
 #include "zwidth/sampling/discrete_state_space.hpp"
@@ -167,17 +168,6 @@ void expect_no_user_worse_off(const Device& plain, const Device& with_notch, Ran
   }
 }
 
-NotchOptions random_options(RandomDevices& random) {
-  NotchOptions options;
-  if (random.chance(0.7)) options.drift = std::array{0.02, 0.05, 0.1, 0.2}[random.index(4)];
-  if (random.chance(0.3)) options.gain_margin = random.uniform(1.0, 4.0);
-  if (random.chance(0.4)) options.phase_margin = random.chance(0.5) ? 0.0 : random.uniform(0.0, 1.0);
-  if (random.chance(0.2)) options.goal = StiffnessGoal::any_user_limit;
-  options.far_from_modes = random.chance(0.2);
-  options.lower_any_user = random.chance(0.1);
-  return options;
-}
-
 TEST(NotchDesignProperty, RandomDevicesKeepTheMarginsAtEveryDrift) {
   std::size_t designed = 0;
   std::size_t found = 0;
@@ -186,7 +176,7 @@ TEST(NotchDesignProperty, RandomDevicesKeepTheMarginsAtEveryDrift) {
     RandomDevices random(seed + i);
     const char* kind = kinds[i % kinds.size()];
     const Device device(random.device(kind));
-    const NotchOptions options = random_options(random);
+    const NotchOptions options = random_notch_options(random);
     SCOPED_TRACE(testing::Message() << kind << ", seed " << seed + i << ", drift " << options.drift << ", gain margin "
                                     << options.gain_margin << ", phase margin " << options.phase_margin);
     if (find_problem(options, device)) continue;
@@ -222,7 +212,7 @@ TEST(NotchDesignProperty, FourBodiesMayHaveNoWall) {
   RandomDevices random(seed + 967);
   const Device device(random.device("everything"));
   ASSERT_EQ(device.bodies().size(), 4U);
-  const NotchDesign design = design_notch(device, random_options(random));
+  const NotchDesign design = design_notch(device, random_notch_options(random));
   EXPECT_EQ(design.with, 0.0);
 }
 
