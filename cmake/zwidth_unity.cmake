@@ -1,15 +1,22 @@
-# zwidth_unity(TARGET SOURCE...): compiles those files of a room together whose first letters are near each other, so that
-# a new file moves no other one. Names in anonymous namespaces must be distinct within a group: the compiler says so.
+# zwidth_unity(TARGET SOURCE...): compiles those files of a room, or of its tests, together whose first letters are near
+# each other, so that a new file moves no other one. Names in anonymous namespaces must be distinct within a group: the
+# compiler says so, and what follows is compiled alone.
 function(zwidth_unity target)
   # Long by themselves and with little in common: alone, they spread over the cores.
   set(alone plant_slopes identifiability pole_count_in_digits)
   list(APPEND alone wall_recommendation mat5_matrix)  # some names of theirs are others in wall_search, mat73_file
   list(APPEND alone stiffness_kernel)  # includes itself, once per instruction set
+  # tests that name their seed, cases or period as their neighbours do
+  list(APPEND alone any_user_zero_test critical_stiffness_property_test critical_stiffness_test crowded_poles_property_test
+    diagnosis_property_test drive_gains_test export_test hybrid_loop_linear_test hybrid_loop_property_test
+    identify_in_time_test inverse_dynamics_test nonlinearity_test
+    pooled_response_test record_fit_test relay_trials_test same_answer_on_recordings_test simulate_test study_test
+    time_axis_test uff_recording_test velocity_filter_test wall_filter_file_test)
   foreach(source IN LISTS ARGN)
     cmake_path(GET source STEM name)
     foreach(letters a-d e-l m-r s-z)
-      if(NOT name IN_LIST alone AND source MATCHES "/src/([a-z]+)/[${letters}][^/]*$")
-        set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${CMAKE_MATCH_1}_${letters})
+      if(NOT name IN_LIST alone AND source MATCHES "/(src|tests)/([a-z]+)/[${letters}][^/]*$")
+        set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${CMAKE_MATCH_2}_${letters})
       endif()
     endforeach()
   endforeach()
