@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "rig/measured_as_predicted.hpp"
 #include "rig/rig_devices.hpp"
 #include "rig/simulated_driver.hpp"
 
@@ -19,16 +20,7 @@ class OnDevice : public testing::TestWithParam<std::uint64_t> {
   SimulatedDriver driver{device, 0.0, false};
 };
 
-TEST_P(OnDevice, TheLimitIsMeasuredWhereItIsPredicted) {
-  const RigLimit limit = measure_limit(device, driver, {}, default_limit(device), {});
-  ASSERT_EQ(limit.predicted.status, StiffnessStatus::finite);
-  ASSERT_TRUE(limit.measured.stiffness) << limit.measured.trust.reasons.front();
-  EXPECT_NEAR(*limit.measured.stiffness / limit.predicted.stiffness, 1.0, 0.02);
-  EXPECT_NEAR(limit.measured.frequency / limit.predicted.limit->frequency, 1.0, 0.02);
-  EXPECT_LE(limit.measured.lower, *limit.measured.stiffness);
-  EXPECT_GE(limit.measured.upper, *limit.measured.stiffness);
-  EXPECT_EQ(limit.session.stop, StopReason::none);
-}
+TEST_P(OnDevice, TheLimitIsMeasuredWhereItIsPredicted) { expect_limit(device, driver); }
 
 // A step of 0.001 to 0.3 of the swing that the force makes: the coarsest hide a growth that is not there or is.
 TEST(OnDeviceWithAnEncoder, TheLimitLiesWithinItsInterval) {
@@ -53,12 +45,7 @@ TEST(OnDeviceWithAnEncoder, TheLimitLiesWithinItsInterval) {
   EXPECT_GT(sound, 30);
 }
 
-TEST_P(OnDevice, IdentifyingItClosesTheCircle) {
-  const RigIdentification found = identify_on_rig(device, driver, {}, default_measurement(device), {});
-  ASSERT_TRUE(found.identification);
-  const double expected = critical_stiffness(device).stiffness;
-  EXPECT_NEAR(found.identification->analysis.critical.stiffness / expected, 1.0, 0.03);
-}
+TEST_P(OnDevice, IdentifyingItClosesTheCircle) { expect_identified(device, driver); }
 
 TEST_P(OnDevice, TheRelayReadsWhatItReadsInSimulation) {
   RelayTrialsOptions trials;

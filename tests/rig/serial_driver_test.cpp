@@ -10,6 +10,7 @@
 #include <string>
 
 #include "rig/drive_kinds.hpp"
+#include "rig/measured_as_predicted.hpp"
 #include "rig/open_driver.hpp"
 #include "rig/pty_emulator.hpp"
 #include "rig/rig_actions.hpp"
@@ -46,20 +47,27 @@ class OnDrive : public testing::TestWithParam<DriveKind> {
 };
 
 // Over the line the same numbers as without it: the drive moves one period with each force, at a rate that its line
-// carries at the speed that it has by default.
+// carries at the speed that it has by default. A machine that pauses would make a watchdog bite.
 TEST_P(OnDrive, TheLimitOverTheLine) {
-  const double expected = critical_stiffness(device).stiffness;
   PtyEmulator emulator(GetParam().firmware(), device);
-  emulator.set_fault(Fault::no_watchdog);  // a machine that pauses would make it bite
+  emulator.set_fault(Fault::no_watchdog);
   const auto driver = GetParam().driver(link(emulator, device, true));
   const DriverFacts& facts = driver->facts();
   ASSERT_FALSE(find_problem(SerialLoad{facts.bytes_per_cycle, 10.0 * *facts.byte_rate, device.loop().sampling_period}));
-  const RigLimit limit = measure_limit(device, *driver, {}, default_limit(device), {});
-  ASSERT_TRUE(limit.measured.stiffness) << explanation(limit.session.stop);
-  EXPECT_NEAR(*limit.measured.stiffness / expected, 1.0, 0.02);
-  EXPECT_NEAR(limit.measured.frequency / limit.predicted.limit->frequency, 1.0, 0.02);
-  EXPECT_EQ(limit.session.stop, StopReason::none);
+  expect_limit(device, *driver);
   EXPECT_TRUE(test::within(std::chrono::seconds(5), [&] { return emulator.motor().force() == 0.0; }));
+}
+
+TEST_P(OnDrive, IdentificationOverTheLine) {
+  PtyEmulator emulator(GetParam().firmware(), device);
+  emulator.set_fault(Fault::no_watchdog);
+  expect_identified(device, *GetParam().driver(link(emulator, device, true)));
+}
+
+TEST_P(OnDrive, TheRelayOverTheLine) {
+  PtyEmulator emulator(GetParam().firmware(), device);
+  emulator.set_fault(Fault::no_watchdog);
+  expect_relay(device, *GetParam().driver(link(emulator, device, true)));
 }
 
 TEST_P(OnDrive, TheWatchdogIsProvedBySilence) {

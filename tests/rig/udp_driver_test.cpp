@@ -2,12 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <limits>
 #include <string>
 #include <vector>
 
-#include "rig/rig_actions.hpp"
+#include "rig/measured_as_predicted.hpp"
 #include "rig/rig_devices.hpp"
 #include "rig/udp_emulator.hpp"
 #include "rig/udp_frame.hpp"
@@ -88,14 +87,9 @@ TEST(UdpDriver, TellsWhatCannotBeReached) {
 // Over the link the same numbers as without it: the drive moves one period with each force.
 TEST(UdpDriver, TheLimitOverTheLink) {
   const Device device = test::bench_device(2);
-  const double expected = critical_stiffness(device).stiffness;
   UdpEmulator emulator(device);
   UdpDriver driver(emulator.address(), device.loop().sampling_period, true);
-  const RigLimit limit = measure_limit(device, driver, {}, default_limit(device), {});
-  ASSERT_TRUE(limit.measured.stiffness);
-  EXPECT_NEAR(*limit.measured.stiffness / expected, 1.0, 0.02);
-  EXPECT_NEAR(limit.measured.frequency / limit.predicted.limit->frequency, 1.0, 0.02);
-  EXPECT_EQ(limit.session.stop, StopReason::none);
+  expect_limit(device, driver);
   EXPECT_EQ(emulator.force(), 0.0);
 }
 
@@ -103,31 +97,14 @@ TEST(UdpDriver, IdentificationOverTheLink) {
   const Device device = test::bench_device(1);
   UdpEmulator emulator(device);
   UdpDriver driver(emulator.address(), device.loop().sampling_period, true);
-  const RigIdentification found = identify_on_rig(device, driver, {}, default_measurement(device), {});
-  ASSERT_TRUE(found.identification);
-  EXPECT_NEAR(found.identification->analysis.critical.stiffness / critical_stiffness(device).stiffness, 1.0, 0.03);
+  expect_identified(device, driver);
 }
 
 TEST(UdpDriver, TheRelayOverTheLink) {
   const Device device = test::bench_device(1);
   UdpEmulator emulator(device);
   UdpDriver driver(emulator.address(), device.loop().sampling_period, true);
-  RigOptions at_once;
-  at_once.limits.ramp = 0.0;
-  RelayTrialsOptions trials;
-  trials.relay.amplitude = default_force(device);
-  trials.trials = 1;
-  trials.duration = 10.0;
-  const RigRelay measured = relay_on_rig(device, driver, at_once, trials, {});
-  RelayOptions options;
-  options.relay = trials.relay;
-  options.trials = 1;
-  options.duration = 10.0;
-  options.variation = 0.0;
-  const RelayResult simulated = relay(device, options);
-  ASSERT_TRUE(measured.relay && measured.relay->mean && simulated.mean);
-  EXPECT_NEAR(measured.relay->mean->frequency / simulated.mean->frequency, 1.0, 0.05);
-  EXPECT_NEAR(measured.relay->mean->stiffness / simulated.mean->stiffness, 1.0, 0.05);
+  expect_relay(device, driver);
 }
 
 }  // namespace
