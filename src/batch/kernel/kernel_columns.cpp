@@ -1,4 +1,4 @@
-#include "batch/kernel_columns.hpp"
+#include "batch/kernel/kernel_columns.hpp"
 
 #include <algorithm>
 #include <string>

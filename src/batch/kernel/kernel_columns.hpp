@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "batch/stiffness_kernel.hpp"
-#include "zwidth/batch/parameter_values.hpp"
+#include "batch/kernel/stiffness_kernel.hpp"
 #include "zwidth/model/device.hpp"
+#include "zwidth/model/parameter_values.hpp"
 
 namespace zwidth::internal {
 
