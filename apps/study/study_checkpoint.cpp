@@ -131,7 +131,8 @@ std::string description(const StudyRun& run) {
 }
 
 void StudyCheckpoint::require_none(const std::string& output) {
-  if (fs::is_directory(output)) throw CheckpointProblem(output + ": is a folder; name a file");
+  std::error_code unknown;  // what cannot be asked for cannot be written either, which is said then
+  if (fs::is_directory(output, unknown)) throw CheckpointProblem(output + ": is a folder; name a file");
   const auto there = checkpoints_of(output);
   if (there.empty()) return;
   const int first = ::open(there.front().c_str(), O_RDONLY | O_CLOEXEC);

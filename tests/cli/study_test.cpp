@@ -137,14 +137,20 @@ TEST_F(Study, RefusesBadInputWithItsPlace) {
   expect_refusal("zwidth study devices/lhifam.toml --study none.toml", "none.toml: ");
   expect_refusal(lhifam + " --samples 0", "--samples: is 0; must be 1 to ");
   expect_refusal(lhifam + " --resume", "--resume: goes on with a result that was begun; add --output FILE.h5");
-  expect_refusal(lhifam + " --output devices/studies/lhifam.toml", "would overwrite the study file");
-  expect_refusal(lhifam + " --output devices/lhifam.toml", "would overwrite the device file");
+  expect_refusal(lhifam + " --output units.csv", "--output: units.csv: unknown extension of a result; .h5");
+  expect_refusal("ln -s devices/studies/lhifam.toml study.h5; " + lhifam + " --output study.h5",
+                 "would overwrite the study file");
+  expect_refusal("ln -s devices/lhifam.toml device.h5; " + lhifam + " --output device.h5",
+                 "would overwrite the device file");
 }
 
 TEST_F(Study, ADiskThatFailsKeepsWhatThereIs) {
   const Outcome missing = run(lhifam + " --samples 100 --output nowhere/units.h5");
   EXPECT_EQ(missing.status, 1);
   EXPECT_THAT(missing.errors, HasSubstr("cannot write: No such file or directory; make the folder first"));
+  const Outcome long_name = run(lhifam + " --samples 100 --output " + std::string(300, 'u') + ".h5");
+  EXPECT_EQ(long_name.status, 1);
+  EXPECT_THAT(long_name.errors, HasSubstr("uuu.h5.partial.0: cannot write: File name too long"));
   // A disk of 200 kB: the checkpoint does not fit, what does is kept, and the study goes on elsewhere.
   const Outcome mounted =
       run("mkdir small && unshare -m bash -c 'mount -t tmpfs -o size=200k none small && " + lhifam +
