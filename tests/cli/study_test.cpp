@@ -181,6 +181,34 @@ TEST_F(Study, ADiskThatIsFullAtTheEndKeepsWhatThereIs) {
   EXPECT_EQ(contents("units.h5"), contents("whole.h5"));
 }
 
+TEST_F(Study, AFolderThatMayNotBeWrittenToIsNamed) {
+  const Outcome mounted =
+      run("mkdir fixed && unshare -m bash -c 'mount -t tmpfs none fixed && mount -o remount,ro fixed && " + lhifam +
+          " --samples 100 --output fixed/units.h5; echo $? > status'");
+  if (contents("status").empty()) GTEST_SKIP() << "no right to mount";
+  EXPECT_EQ(contents("status"), "1\n");
+  EXPECT_THAT(mounted.errors, StartsWith("zwidth: fixed/units.h5.partial.0: cannot write: Read-only file system; "
+                                         "name a file in a folder that you may write to"));
+}
+
+// A disk that lies: what follows a damaged record is computed again.
+TEST_F(Study, ComputesAgainWhatIsDamaged) {
+  const std::string many = lhifam + " --samples 400000 --index-samples 0 --json --threads 1 --output ";
+  const Outcome whole = run(many + "whole.h5");
+  ASSERT_EQ(whole.status, 0) << whole.errors;
+  (void)run("(" + many +
+            "units.h5 > /dev/null 2>&1 & for i in $(seq 2000); do [ \"$(stat -c %s units.h5.partial.0 "
+            "2> /dev/null || echo 0)\" -gt 500000 ] && break; sleep 0.005; done; kill -9 $!)");
+  std::string checkpoint = contents("units.h5.partial.0");
+  ASSERT_GT(checkpoint.size(), 500000U);
+  checkpoint[checkpoint.size() / 2] = static_cast<char>(checkpoint[checkpoint.size() / 2] ^ 4);
+  write("units.h5.partial.0", checkpoint);
+  const Outcome resumed = run(many + "units.h5 --resume");
+  ASSERT_EQ(resumed.status, 0) << resumed.errors;
+  EXPECT_EQ(resumed.output, whole.output);
+  EXPECT_EQ(contents("units.h5"), contents("whole.h5"));
+}
+
 TEST_F(Study, LeavesAStudyAloneThatAnotherProcessIsAt) {
   const std::string many = lhifam + " --samples 3000000 --index-samples 0 --output units.h5";
   const Outcome second = run("(timeout 20 " + many +
