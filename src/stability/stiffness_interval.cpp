@@ -1,7 +1,8 @@
 #include "zwidth/stability/stiffness_interval.hpp"
 
 #include <algorithm>
-#include <utility>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "batch/kernel/kernel_columns.hpp"

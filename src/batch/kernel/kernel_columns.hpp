@@ -17,6 +17,7 @@ struct BlockScratch {
   KernelDevices devices;
   KernelAnswers answers;
   KernelScratch kernel;
+  std::vector<std::array<double, kernel_inputs>> rows;  // by device
   std::vector<std::vector<std::size_t>> groups;
 };
 
