@@ -126,6 +126,11 @@ TEST_F(Study, KeepsACheckpointOfAnotherStudy) {
   other.replace(other.find("version: ") + 9, 1, "9");
   write("units.h5.partial.0", other);
   expect_refusal(lhifam + " --samples 2000000 --output units.h5 --resume", "it has \"version: 9");
+  const std::string resumed = lhifam + " --samples 2000000 --output units.h5 --resume";
+  write("units.h5.partial.0", before.substr(0, before.find("seed: ")) + "seed: 17\n");  // killed at its first bytes
+  expect_refusal(resumed, "is of another study: it has \"seed: 17\", this one \"seed: 1\"");
+  write("units.h5.partial.0", "zwidth study checkpoint 1" + before.substr(before.find('\n')));
+  expect_refusal(resumed, "is of another study: it has \"zwidth study checkpoint 1\"");
   write("units.h5.partial.0", "something else entirely, of nobody's");
   expect_refusal(lhifam + " --samples 2000000 --output units.h5 --resume", "is no checkpoint of this program");
 }
@@ -223,6 +228,17 @@ TEST_F(Study, LeavesAStudyAloneThatAnotherProcessIsAt) {
 TEST_F(Study, AFolderIsNoResult) {
   expect_refusal("mkdir units && " + lhifam + " --samples 100 --output units",
                  "--output: units: is a folder; name a file");
+  EXPECT_EQ(partial_files(), 0);
+}
+
+// HDF5 has no slash in a name.
+TEST_F(Study, TakesBodiesOfAnyName) {
+  write("named.toml", "[[body]]\nname = \"a/b %\"\nmass = 1\ndamping = 2\n[loop]\nsampling_period = 1e-3\n");
+  write("spread.toml",
+        "[[parameter]]\nkey = \"body.a/b %.mass\"\ndistribution = \"uniform\"\nrelative_tolerance = 0.1\n");
+  const Outcome outcome = run("zwidth study named.toml --study spread.toml --samples 100 --output units.h5");
+  EXPECT_EQ(outcome.status, 0) << outcome.errors;
+  EXPECT_THAT(contents("units.h5"), HasSubstr("body.a%2Fb %25.mass"));
   EXPECT_EQ(partial_files(), 0);
 }
 
