@@ -1,7 +1,8 @@
 // How often a study is right, on random two-mass devices of which five numbers vary.
 //
-//   study_campaign [worst|rare [FIRST_SEED [COUNT [UNITS]]]]
+//   study_campaign [worst|rare [FIRST_SEED [COUNT [UNITS [KIND]]]]]
 //
+// KIND: as in tests/property/random_devices.hpp, two_mass where none is given.
 // worst: the worst unit found from 10 000 samples, beside the worst of UNITS others.
 // rare:  one device and one specification, of which about one unit in 10 000 fails among UNITS; COUNT seeds of importance
 //        sampling with 5000 units each: how many intervals hold that share.
@@ -11,6 +12,7 @@
 #include <cstdlib>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "study/random_studies.hpp"
@@ -22,11 +24,11 @@ using namespace zwidth;
 
 constexpr std::uint64_t others = 1'000'000;  // seed of the units that are counted
 
-StudyRun counted_run(std::uint64_t seed, std::uint64_t units) {
+StudyRun counted_run(std::uint64_t seed, std::uint64_t units, std::string_view kind) {
   StudyOptions options;
   options.samples = units;
   options.seed = others + seed;
-  return test::random_study(seed, options);
+  return test::random_study(seed, options, kind);
 }
 
 /// K_CR of all units of a run, in no order; what has none is left out.
@@ -42,7 +44,7 @@ void for_each_limit(const StudyRun& run, const Take& take) {
       });
 }
 
-void worst_units(std::uint64_t first, std::uint64_t count, std::uint64_t units) {
+void worst_units(std::uint64_t first, std::uint64_t count, std::uint64_t units, std::string_view kind) {
   std::uint64_t beaten = 0;
   std::uint64_t sound = 0;
   std::uint64_t sound_wrong = 0;
@@ -50,10 +52,10 @@ void worst_units(std::uint64_t first, std::uint64_t count, std::uint64_t units) 
     StudyOptions options;
     options.seed = seed;
     options.index_samples = options.tightening_samples = 0;
-    const StudyRun run = test::random_study(seed, options);
+    const StudyRun run = test::random_study(seed, options, kind);
     const Study found = study(run.device(), run.distributions(), run.options());
     double least = std::numeric_limits<double>::infinity();
-    for_each_limit(counted_run(seed, units), [&](double stiffness) { least = std::min(least, stiffness); });
+    for_each_limit(counted_run(seed, units, kind), [&](double stiffness) { least = std::min(least, stiffness); });
     const WorstDevice& worst = *found.worst;
     const bool is_lower = worst.critical.stiffness <= least;
     beaten += is_lower ? 1U : 0U;
@@ -72,14 +74,16 @@ void worst_units(std::uint64_t first, std::uint64_t count, std::uint64_t units) 
       static_cast<unsigned long long>(sound_wrong));
 }
 
-void rare_shares(std::uint64_t device, std::uint64_t count, std::uint64_t units) {
+void rare_shares(std::uint64_t device, std::uint64_t count, std::uint64_t units, std::string_view kind) {
   std::vector<double> limits;
-  for_each_limit(counted_run(device, 200'000), [&](double stiffness) { limits.push_back(stiffness); });
+  for_each_limit(counted_run(device, 200'000, kind), [&](double stiffness) { limits.push_back(stiffness); });
   std::ranges::nth_element(limits, limits.begin() + 20);
   const double specified = limits[20];
   std::uint64_t failing = 0;
-  const StudyRun many = counted_run(device + 1'000'000, units);
-  for_each_limit(StudyRun(counted_run(device, 1).device(), counted_run(device, 1).distributions(), many.options()),
+  StudyOptions many;
+  many.samples = units;
+  many.seed = 2 * others + device;
+  for_each_limit(test::random_study(device, many, kind),
                  [&](double stiffness) { failing += stiffness < specified ? 1U : 0U; });
   const Proportion truth = proportion(failing, units);
   std::uint64_t held = 0;
@@ -88,14 +92,14 @@ void rare_shares(std::uint64_t device, std::uint64_t count, std::uint64_t units)
     StudyOptions options;
     options.seed = seed;
     options.specification.critical_stiffness = specified;
-    const RareFailures rare = rare_failures(test::random_study(device, options), {.samples = 5000});
+    const RareFailures rare = rare_failures(test::random_study(device, options, kind), {.samples = 5000});
     held += rare.lower <= truth.value && truth.value <= rare.upper ? 1U : 0U;
     sound += rare.trust.sound() ? 1U : 0U;
   }
-  std::printf("device %llu: %.4g fail among %llu (%.4g to %.4g); %llu of %llu seeds hold it, %llu sound\n",
-              static_cast<unsigned long long>(device), truth.value, static_cast<unsigned long long>(units), truth.lower,
-              truth.upper, static_cast<unsigned long long>(held), static_cast<unsigned long long>(count),
-              static_cast<unsigned long long>(sound));
+  std::printf("%.*s device %llu: %.4g fail among %llu (%.4g to %.4g); %llu of %llu seeds hold it, %llu sound\n",
+              static_cast<int>(kind.size()), kind.data(), static_cast<unsigned long long>(device), truth.value,
+              static_cast<unsigned long long>(units), truth.lower, truth.upper, static_cast<unsigned long long>(held),
+              static_cast<unsigned long long>(count), static_cast<unsigned long long>(sound));
 }
 
 }  // namespace
@@ -105,12 +109,13 @@ int main(int argc, char** argv) {
     return argc > i ? static_cast<std::uint64_t>(std::atoll(argv[i])) : otherwise;
   };
   const std::string what = argc > 1 ? argv[1] : "worst";
+  const std::string_view kind = argc > 5 ? argv[5] : "two_mass";
   if (what == "rare") {
-    rare_shares(number(2, 1), number(3, 100), number(4, 10'000'000));
+    rare_shares(number(2, 1), number(3, 100), number(4, 10'000'000), kind);
   } else if (what == "worst") {
-    worst_units(number(2, 1), number(3, 100), number(4, 1'000'000));
+    worst_units(number(2, 1), number(3, 100), number(4, 1'000'000), kind);
   } else {
-    std::fputs("usage: study_campaign [worst|rare [FIRST_SEED [COUNT [UNITS]]]]\n", stderr);
+    std::fputs("usage: study_campaign [worst|rare [FIRST_SEED [COUNT [UNITS [KIND]]]]]\n", stderr);
     return 2;
   }
   return 0;

@@ -68,6 +68,9 @@ void Outputs::add(const std::string& option, const std::string& path, Ending end
   if (ending == Ending::hdf5 && is_special(path)) {
     throw BadInput(fmt::format("{}: {}: is a device or a pipe; name a file", option, path));
   }
+  if (ending == Ending::hdf5 && !given.empty() && given != ".h5" && given != ".hdf5") {
+    throw BadInput(fmt::format("{}: {}: unknown extension of a result; .h5", option, path));
+  }
   for (const Output& other : outputs_) {
     if (same_file(path, other.path)) {
       throw BadInput(fmt::format("{}: {}: is the same file as that of {}; name another", option, path, other.option));

@@ -26,7 +26,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view first_line = "zwidth study checkpoint 2\n";
+constexpr std::string_view first_words = "zwidth study checkpoint ";
+constexpr std::string_view first_line = "zwidth study checkpoint 2\n";  // the number is that of the format
 constexpr std::string_view last_line = "end of description\n";
 constexpr std::uint64_t record_mark = 0x6b6e756863646577;
 constexpr std::uint64_t most_record_bytes = std::uint64_t{1} << 32U;
@@ -131,7 +132,8 @@ std::string description(const StudyRun& run) {
 }
 
 void StudyCheckpoint::require_none(const std::string& output) {
-  if (fs::is_directory(output)) throw CheckpointProblem(output + ": is a folder; name a file");
+  std::error_code unknown;  // what cannot be asked for cannot be written either, which is said then
+  if (fs::is_directory(output, unknown)) throw CheckpointProblem(output + ": is a folder; name a file");
   const auto there = checkpoints_of(output);
   if (there.empty()) return;
   const int first = ::open(there.front().c_str(), O_RDONLY | O_CLOEXEC);
@@ -209,14 +211,13 @@ std::uint64_t StudyCheckpoint::scan(std::size_t file) {
   head.resize(read_at(files_[file], head.data(), head.size(), 0));
   if (!head.starts_with(own)) {
     if (own.starts_with(head)) return 0;  // killed while it wrote its first bytes
-    const std::size_t end = head.find(last_line);
-    if (!head.starts_with(first_line) || end == std::string::npos) {
+    if (!head.starts_with(first_words)) {
       throw CheckpointProblem(paths_[file] + ": is no checkpoint of this program; remove it, or name another output");
     }
-    const std::string its = head.substr(first_line.size(), end - first_line.size());
+    const std::string its = head.substr(0, head.find(last_line));
     throw CheckpointProblem(
         fmt::format("{}: is of another study: {}; give what it was begun with, or name another output", paths_[file],
-                    difference(description(run_), its)));
+                    difference(own, its)));
   }
   std::uint64_t at = own.size();
   RecordHead record;

@@ -165,13 +165,21 @@ class Exceptions {
   std::uint64_t unlisted_ = 0;
 };
 
+/// No name in HDF5 has a slash, names of bodies may: percent signs as in addresses.
+std::string link_name(const std::string& key) {
+  std::string name;
+  for (const char letter : key) name += letter == '/' ? "%2F" : letter == '%' ? "%25" : std::string(1, letter);
+  return name;
+}
+
 std::vector<std::unique_ptr<Column>> create_columns(hid_t file, hid_t folder, const StudyRun& run) {
   const std::uint64_t samples = run.options().samples;
   std::vector<std::unique_ptr<Column>> columns;
   const auto create = [&](hid_t in, const std::string& name, hid_t type) {
     columns.push_back(std::make_unique<Column>(in, name, type, samples));
   };
-  for (const StudyParameter& each : run.distributions().parameters) create(folder, each.key, H5T_NATIVE_DOUBLE);
+  for (const StudyParameter& each : run.distributions().parameters)
+    create(folder, link_name(each.key), H5T_NATIVE_DOUBLE);
   create(file, "critical_stiffness", H5T_NATIVE_DOUBLE);
   create(file, "frequency_rad_s", H5T_NATIVE_DOUBLE);
   create(file, "mode", H5T_NATIVE_INT16);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "zwidth/batch/batch_stiffness.hpp"
-#include "zwidth/batch/parameter_values.hpp"
 #include "zwidth/control/running_filter.hpp"
 #include "zwidth/control/sampled_controller.hpp"
 #include "zwidth/control/velocity_filter.hpp"
@@ -47,6 +46,7 @@
 #include "zwidth/model/modal_form.hpp"
 #include "zwidth/model/motor_drive.hpp"
 #include "zwidth/model/parameter.hpp"
+#include "zwidth/model/parameter_values.hpp"
 #include "zwidth/model/state_space.hpp"
 #include "zwidth/model/two_mass.hpp"
 #include "zwidth/model/uncertainty.hpp"

@@ -14,7 +14,7 @@
 #include <optional>
 #include <utility>
 
-#include "batch/kernel_columns.hpp"
+#include "batch/kernel/kernel_columns.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/device_trust.hpp"

@@ -189,6 +189,7 @@ StiffnessHistogram histogram_of(const StudyRun& run, const ChunkSource& chunks, 
   histogram.edges.back() = largest;
   histogram.counts.assign(count, 0);
   std::uint64_t unbounded = 0;
+  std::uint64_t stiffest = 0;
   for (std::uint64_t chunk = 0; chunk < run.chunk_count(); ++chunk) {
     const BatchStiffness& answers = chunks(chunk);
     for (std::size_t i = 0; i < answers.size(); ++i) {
@@ -197,12 +198,13 @@ StiffnessHistogram histogram_of(const StudyRun& run, const ChunkSource& chunks, 
       // The last edge at or below, by the edges themselves: a share at an edge is exact.
       const auto above = std::ranges::upper_bound(histogram.edges, answers.stiffness[i]) - histogram.edges.begin();
       ++histogram.counts[std::min(static_cast<std::size_t>(std::max<std::ptrdiff_t>(above, 1)) - 1, count - 1)];
+      stiffest += answers.stiffness[i] == largest ? 1U : 0U;
     }
   }
   std::uint64_t reaching = unbounded;
   histogram.yields.assign(count + 1, 0.0);
   const auto all = static_cast<double>(run.options().samples);
-  histogram.yields[count] = static_cast<double>(reaching) / all;  // beyond the last edge
+  histogram.yields[count] = static_cast<double>(reaching + stiffest) / all;
   for (std::size_t i = count; i-- > 0;) {
     reaching += histogram.counts[i];
     histogram.yields[i] = static_cast<double>(reaching) / all;

@@ -1,6 +1,6 @@
 // What holds of the kernel whatever the machine: threads, neighbours and instruction sets.
 
-#include "batch/stiffness_kernel.hpp"
+#include "batch/kernel/stiffness_kernel.hpp"
 
 #include <gtest/gtest.h>
 #include <hwy/targets.h>

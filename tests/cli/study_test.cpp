@@ -126,6 +126,11 @@ TEST_F(Study, KeepsACheckpointOfAnotherStudy) {
   other.replace(other.find("version: ") + 9, 1, "9");
   write("units.h5.partial.0", other);
   expect_refusal(lhifam + " --samples 2000000 --output units.h5 --resume", "it has \"version: 9");
+  const std::string resumed = lhifam + " --samples 2000000 --output units.h5 --resume";
+  write("units.h5.partial.0", before.substr(0, before.find("seed: ")) + "seed: 17\n");  // killed at its first bytes
+  expect_refusal(resumed, "is of another study: it has \"seed: 17\", this one \"seed: 1\"");
+  write("units.h5.partial.0", "zwidth study checkpoint 1" + before.substr(before.find('\n')));
+  expect_refusal(resumed, "is of another study: it has \"zwidth study checkpoint 1\"");
   write("units.h5.partial.0", "something else entirely, of nobody's");
   expect_refusal(lhifam + " --samples 2000000 --output units.h5 --resume", "is no checkpoint of this program");
 }
@@ -137,14 +142,20 @@ TEST_F(Study, RefusesBadInputWithItsPlace) {
   expect_refusal("zwidth study devices/lhifam.toml --study none.toml", "none.toml: ");
   expect_refusal(lhifam + " --samples 0", "--samples: is 0; must be 1 to ");
   expect_refusal(lhifam + " --resume", "--resume: goes on with a result that was begun; add --output FILE.h5");
-  expect_refusal(lhifam + " --output devices/studies/lhifam.toml", "would overwrite the study file");
-  expect_refusal(lhifam + " --output devices/lhifam.toml", "would overwrite the device file");
+  expect_refusal(lhifam + " --output units.csv", "--output: units.csv: unknown extension of a result; .h5");
+  expect_refusal("ln -s devices/studies/lhifam.toml study.h5; " + lhifam + " --output study.h5",
+                 "would overwrite the study file");
+  expect_refusal("ln -s devices/lhifam.toml device.h5; " + lhifam + " --output device.h5",
+                 "would overwrite the device file");
 }
 
 TEST_F(Study, ADiskThatFailsKeepsWhatThereIs) {
   const Outcome missing = run(lhifam + " --samples 100 --output nowhere/units.h5");
   EXPECT_EQ(missing.status, 1);
   EXPECT_THAT(missing.errors, HasSubstr("cannot write: No such file or directory; make the folder first"));
+  const Outcome long_name = run(lhifam + " --samples 100 --output " + std::string(300, 'u') + ".h5");
+  EXPECT_EQ(long_name.status, 1);
+  EXPECT_THAT(long_name.errors, HasSubstr("uuu.h5.partial.0: cannot write: File name too long"));
   // A disk of 200 kB: the checkpoint does not fit, what does is kept, and the study goes on elsewhere.
   const Outcome mounted =
       run("mkdir small && unshare -m bash -c 'mount -t tmpfs -o size=200k none small && " + lhifam +
@@ -175,6 +186,34 @@ TEST_F(Study, ADiskThatIsFullAtTheEndKeepsWhatThereIs) {
   EXPECT_EQ(contents("units.h5"), contents("whole.h5"));
 }
 
+TEST_F(Study, AFolderThatMayNotBeWrittenToIsNamed) {
+  const Outcome mounted =
+      run("mkdir fixed && unshare -m bash -c 'mount -t tmpfs none fixed && mount -o remount,ro fixed && " + lhifam +
+          " --samples 100 --output fixed/units.h5; echo $? > status'");
+  if (contents("status").empty()) GTEST_SKIP() << "no right to mount";
+  EXPECT_EQ(contents("status"), "1\n");
+  EXPECT_THAT(mounted.errors, StartsWith("zwidth: fixed/units.h5.partial.0: cannot write: Read-only file system; "
+                                         "name a file in a folder that you may write to"));
+}
+
+// A disk that lies: what follows a damaged record is computed again.
+TEST_F(Study, ComputesAgainWhatIsDamaged) {
+  const std::string many = lhifam + " --samples 400000 --index-samples 0 --json --threads 1 --output ";
+  const Outcome whole = run(many + "whole.h5");
+  ASSERT_EQ(whole.status, 0) << whole.errors;
+  (void)run("(" + many +
+            "units.h5 > /dev/null 2>&1 & for i in $(seq 2000); do [ \"$(stat -c %s units.h5.partial.0 "
+            "2> /dev/null || echo 0)\" -gt 500000 ] && break; sleep 0.005; done; kill -9 $!)");
+  std::string checkpoint = contents("units.h5.partial.0");
+  ASSERT_GT(checkpoint.size(), 500000U);
+  checkpoint[checkpoint.size() / 2] = static_cast<char>(checkpoint[checkpoint.size() / 2] ^ 4);
+  write("units.h5.partial.0", checkpoint);
+  const Outcome resumed = run(many + "units.h5 --resume");
+  ASSERT_EQ(resumed.status, 0) << resumed.errors;
+  EXPECT_EQ(resumed.output, whole.output);
+  EXPECT_EQ(contents("units.h5"), contents("whole.h5"));
+}
+
 TEST_F(Study, LeavesAStudyAloneThatAnotherProcessIsAt) {
   const std::string many = lhifam + " --samples 3000000 --index-samples 0 --output units.h5";
   const Outcome second = run("(timeout 20 " + many +
@@ -189,6 +228,17 @@ TEST_F(Study, LeavesAStudyAloneThatAnotherProcessIsAt) {
 TEST_F(Study, AFolderIsNoResult) {
   expect_refusal("mkdir units && " + lhifam + " --samples 100 --output units",
                  "--output: units: is a folder; name a file");
+  EXPECT_EQ(partial_files(), 0);
+}
+
+// HDF5 has no slash in a name.
+TEST_F(Study, TakesBodiesOfAnyName) {
+  write("named.toml", "[[body]]\nname = \"a/b %\"\nmass = 1\ndamping = 2\n[loop]\nsampling_period = 1e-3\n");
+  write("spread.toml",
+        "[[parameter]]\nkey = \"body.a/b %.mass\"\ndistribution = \"uniform\"\nrelative_tolerance = 0.1\n");
+  const Outcome outcome = run("zwidth study named.toml --study spread.toml --samples 100 --output units.h5");
+  EXPECT_EQ(outcome.status, 0) << outcome.errors;
+  EXPECT_THAT(contents("units.h5"), HasSubstr("body.a%2Fb %25.mass"));
   EXPECT_EQ(partial_files(), 0);
 }
 

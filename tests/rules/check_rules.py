@@ -15,11 +15,12 @@ LIBRARY = {
     "signal": [],
     "sampling": ["model"],
     "control": ["model", "sampling"],
-    "stability": ["model", "sampling"],
+    "batch/kernel": ["model", "sampling"],
+    "stability": ["model", "sampling", "batch/kernel"],
     "io": ["model", "signal", "study"],
     "simulation": ["model", "signal", "sampling", "control", "stability"],
     "identification": ["model", "signal", "sampling", "stability", "simulation"],
-    "batch": ["model", "sampling", "stability"],
+    "batch": ["model", "sampling", "stability", "batch/kernel"],
     "design": ["model", "signal", "sampling", "stability", "batch"],
     "study": ["model", "sampling", "stability", "batch", "design"],
     "rig": ["model", "signal", "sampling", "control", "stability", "simulation", "identification"],
@@ -55,9 +56,9 @@ def includes(path):
 
 
 def room_of_library(path):
-    """"zwidth/model/device.hpp" and "model/balance.hpp" -> "model"; nothing for a header in no room."""
-    parts = path.removeprefix("zwidth/").split("/")
-    return parts[0] if len(parts) > 1 else None
+    """"zwidth/model/device.hpp" and "model/balance.hpp" -> "model"; a folder of a room may be one; nothing for a header in none."""
+    folder = path.removeprefix("zwidth/").rpartition("/")[0]
+    return folder if folder in LIBRARY else folder.split("/")[0] or None
 
 
 def flow(root):

@@ -2,12 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <string>
 #include <vector>
 
 #include "lhifam.hpp"
+#include "property/random_devices.hpp"
+#include "stability/device_draws.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/parameter.hpp"
 #include "zwidth/stability/analysis.hpp"
@@ -124,8 +128,46 @@ TEST(StiffnessInterval, TakesASemidefiniteCovariance) {
 TEST(StiffnessInterval, WithoutSpreadItIsAPoint) {
   const DeviceParameters device = with_uncertainty(test::lhifam_parameters(), {"link.0.damping"}, {{0.0}});
   const StiffnessInterval interval = stiffness_interval(Device(device), 50);
-  EXPECT_EQ(interval.lower, critical(device));
-  EXPECT_EQ(interval.upper, critical(device));
+  EXPECT_DOUBLE_EQ(interval.lower, critical(device));
+  EXPECT_DOUBLE_EQ(interval.upper, critical(device));
+}
+
+// Draws that the kernel of many devices takes, and others: the quantiles are those of every draw by itself.
+TEST(StiffnessInterval, IsThatOfEveryDrawAlone) {
+  constexpr std::size_t draws = 600;
+  const std::uint64_t seed = 20261123;
+  test::RandomDevices random(seed);
+  for (const char* kind : {"rigid", "two_mass", "user_side", "fractional_delay", "light_damping", "filtered_damper",
+                           "actuator_lag", "grounded", "three_mass", "wall_filter"}) {
+    DeviceParameters parameters = random.device(kind);
+    std::vector<std::string> keys;
+    std::vector<std::vector<double>> covariance;
+    for (const Body& body : parameters.bodies) keys.push_back("body." + body.name + ".damping");
+    keys.emplace_back("loop.delay");
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+      covariance.emplace_back(keys.size(), 0.0);
+      covariance[i][i] = std::pow(0.1 * *parameter(parameters, keys[i]), 2);
+    }
+    const Device device(with_uncertainty(parameters, keys, covariance));
+    const StiffnessInterval interval = stiffness_interval(device, draws, seed);
+    internal::DeviceDraws drawn(device, seed);
+    const CriticalStiffness own = critical_stiffness(device);
+    std::vector<double> stiffness;
+    std::size_t others = 0;
+    for (std::size_t i = 0; i < draws; ++i) {
+      const CriticalStiffness one = critical_stiffness(drawn.next());
+      stiffness.push_back(one.stiffness);
+      const bool is_same = one.status == own.status && one.limit.has_value() == own.limit.has_value() &&
+                           (!own.limit || one.limit->limited_by.mode == own.limit->limited_by.mode);
+      others += is_same ? 0U : 1U;
+    }
+    std::ranges::sort(stiffness);
+    const double lower = std::min(stiffness[draws / 40], own.stiffness);
+    const double upper = std::max(stiffness[draws - 1 - draws / 40], own.stiffness);
+    EXPECT_NEAR(interval.lower, lower, 1e-12 * lower) << kind;
+    EXPECT_NEAR(interval.upper, upper, 1e-12 * upper) << kind;
+    EXPECT_EQ(interval.other_mechanism, static_cast<double>(others) / draws) << kind;
+  }
 }
 
 // Of two bodies on a stiff link the response shows the sum of the dampings, not how they share it: where one would

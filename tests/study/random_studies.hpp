@@ -1,6 +1,6 @@
 #pragma once
 
-#include <string>
+#include <string_view>
 
 #include "property/random_devices.hpp"
 #include "zwidth/model/parameter.hpp"
@@ -8,13 +8,15 @@
 
 namespace zwidth::test {
 
-/// A random two-mass device of which four numbers vary, each in its own way, by 1 to 15 %, delay included.
-inline StudyRun random_study(std::uint64_t seed, StudyOptions options) {
+/// A random device of which five numbers vary, each in its own way, by 1 to 15 %, delay included; of a rigid one the two
+/// that it has of them.
+inline StudyRun random_study(std::uint64_t seed, StudyOptions options, std::string_view kind = "two_mass") {
   RandomDevices random(seed);
-  const Device device(random.device("two_mass"));
+  const Device device(random.device(kind));
   StudyDistributions distributions;
   for (const char* key : {"body.motor.mass", "body.handle.damping", "link.0.stiffness", "link.0.damping"}) {
-    const double own = parameter(device.parameters(), key).value_or(1.0);
+    if (!parameter(device.parameters(), key)) continue;
+    const double own = *parameter(device.parameters(), key);
     const double spread = own * random.log_uniform(0.01, 0.15);
     Distribution one{.kind = Distribution::Kind::normal, .centre = own, .deviation = spread};
     if (random.chance(0.5)) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -66,6 +67,25 @@ TEST(Study, IsTheSameForAnyNumberOfThreads) {
     for (const std::size_t threads : {2U, 7U}) {
       options.threads = threads;
       EXPECT_EQ(numbers_of(study(two_masses(), tolerances(), options)), one) << threads;
+    }
+  }
+}
+
+// At the last edge too, which the stiffest units reach; where all are alike all of them do.
+TEST(Study, HistogramSaysWhatShareReachesEachEdge) {
+  StudyDistributions alike{{{"loop.delay", {.kind = Kind::discrete, .values = {1e-4}, .weights = {1.0}}}}};
+  for (const StudyDistributions& distributions : {tolerances(), alike}) {
+    StudyOptions options;
+    options.samples = 500;
+    options.index_samples = 0;
+    options.worst = false;
+    const StudyRun run(two_masses(), distributions, options);
+    const std::vector<double> limits = run.answers(0).stiffness;
+    const StiffnessHistogram histogram = study(two_masses(), distributions, options).histogram;
+    ASSERT_EQ(histogram.yields.size(), histogram.edges.size());
+    for (std::size_t i = 0; i < histogram.edges.size(); ++i) {
+      const auto reaching = std::ranges::count_if(limits, [&](double limit) { return limit >= histogram.edges[i]; });
+      EXPECT_EQ(histogram.yields[i], static_cast<double>(reaching) / 500.0) << i;
     }
   }
 }

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "zwidth/batch/parameter_values.hpp"
 #include "zwidth/model/device.hpp"
+#include "zwidth/model/parameter_values.hpp"
 #include "zwidth/option_problem.hpp"
 #include "zwidth/progress.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"

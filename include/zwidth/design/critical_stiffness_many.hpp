@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "zwidth/batch/parameter_values.hpp"
 #include "zwidth/model/device.hpp"
+#include "zwidth/model/parameter_values.hpp"
 #include "zwidth/progress.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
 

@@ -13,7 +13,7 @@
 #define ZWIDTH_BATCH_CROSSING_POLYNOMIAL_INL_HPP
 #endif
 
-#include "batch/kernel_terms-inl.hpp"
+#include "batch/kernel/kernel_terms-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace zwidth::internal::HWY_NAMESPACE {

@@ -9,7 +9,7 @@
 #include <hwy/contrib/math/math-inl.h>
 #include <hwy/highway.h>
 
-#include "batch/stiffness_kernel.hpp"
+#include "batch/kernel/stiffness_kernel.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace zwidth::internal::HWY_NAMESPACE {

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "batch/stiffness_kernel.hpp"
-#include "zwidth/batch/parameter_values.hpp"
+#include "batch/kernel/stiffness_kernel.hpp"
 #include "zwidth/model/device.hpp"
+#include "zwidth/model/parameter_values.hpp"
 
 namespace zwidth::internal {
 
@@ -17,6 +17,7 @@ struct BlockScratch {
   KernelDevices devices;
   KernelAnswers answers;
   KernelScratch kernel;
+  std::vector<std::array<double, kernel_inputs>> rows;  // by device
   std::vector<std::vector<std::size_t>> groups;
 };
 

@@ -1,4 +1,4 @@
-#include "zwidth/batch/parameter_values.hpp"
+#include "zwidth/model/parameter_values.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -7,7 +7,7 @@
 #define ZWIDTH_BATCH_ROOT_ISOLATION_INL_HPP
 #endif
 
-#include "batch/crossing_polynomial-inl.hpp"
+#include "batch/kernel/crossing_polynomial-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace zwidth::internal::HWY_NAMESPACE {

@@ -1,4 +1,4 @@
-#include "batch/kernel_columns.hpp"
+#include "batch/kernel/kernel_columns.hpp"
 
 #include <algorithm>
 #include <string>
@@ -131,6 +131,7 @@ void KernelColumns::solve(std::size_t begin, std::size_t end, KernelAnswers& ans
   scratch.answers.mode.resize(length);
   scratch.answers.poles_leaving.resize(length);
   scratch.answers.certain.resize(length);
+  scratch.rows.resize(count);
   scratch.groups.resize(GroupOf::count);
   for (std::vector<std::size_t>& group : scratch.groups) group.clear();
   Numbers values;
@@ -140,6 +141,19 @@ void KernelColumns::solve(std::size_t begin, std::size_t end, KernelAnswers& ans
     const bool fractional = instants.with_old > 0.0;
     const std::size_t samples = instants.whole_samples + (fractional ? 1 : 0);
     if (samples > most_kernel_delay) continue;
+    scratch.rows[i] = {values[actuated_mass],
+                       values[actuated_damping],
+                       values[actuated_stiffness],
+                       values[other_mass],
+                       values[other_damping],
+                       values[link_stiffness],
+                       values[link_damping],
+                       values[period],
+                       instants.with_new,
+                       instants.with_old,
+                       values[lag],
+                       values[damper],
+                       values[velocity_filter]};
     const bool damped = values[damper] > 0.0;
     scratch.groups[GroupOf::id(fractional, values[lag] > 0.0, damped, damped && values[velocity_filter] > 0.0, samples)]
         .push_back(i);
@@ -148,21 +162,7 @@ void KernelColumns::solve(std::size_t begin, std::size_t end, KernelAnswers& ans
     const std::vector<std::size_t>& members = scratch.groups[id];
     if (members.empty()) continue;
     for (std::size_t at = 0; at < members.size(); ++at) {
-      (void)take(begin + members[at], values);
-      const SamplingInstants instants = sampling_instants({values[period], values[delay]});
-      const std::array<double, kernel_inputs> row{values[actuated_mass],
-                                                  values[actuated_damping],
-                                                  values[actuated_stiffness],
-                                                  values[other_mass],
-                                                  values[other_damping],
-                                                  values[link_stiffness],
-                                                  values[link_damping],
-                                                  values[period],
-                                                  instants.with_new,
-                                                  instants.with_old,
-                                                  values[lag],
-                                                  values[damper],
-                                                  values[velocity_filter]};
+      const std::array<double, kernel_inputs>& row = scratch.rows[members[at]];
       for (std::size_t k = 0; k < kernel_inputs; ++k) inputs[k][at] = row[k];
     }
     for (std::size_t at = members.size(); at < padded(members.size()); ++at) {  // idle lanes

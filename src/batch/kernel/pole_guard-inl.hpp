@@ -7,7 +7,7 @@
 #define ZWIDTH_BATCH_POLE_GUARD_INL_HPP
 #endif
 
-#include "batch/kernel_terms-inl.hpp"
+#include "batch/kernel/kernel_terms-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace zwidth::internal::HWY_NAMESPACE {

@@ -1,4 +1,4 @@
-#include "batch/stiffness_kernel.hpp"
+#include "batch/kernel/stiffness_kernel.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,15 +7,15 @@
 // cannot stand in arrays.
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "batch/stiffness_kernel.cpp"
+#define HWY_TARGET_INCLUDE "batch/kernel/stiffness_kernel.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "batch/crossing_polynomial-inl.hpp"
-#include "batch/crossover-inl.hpp"
-#include "batch/kernel_terms-inl.hpp"
-#include "batch/pole_guard-inl.hpp"
-#include "batch/root_isolation-inl.hpp"
+#include "batch/kernel/crossing_polynomial-inl.hpp"
+#include "batch/kernel/crossover-inl.hpp"
+#include "batch/kernel/kernel_terms-inl.hpp"
+#include "batch/kernel/pole_guard-inl.hpp"
+#include "batch/kernel/root_isolation-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace zwidth::internal::HWY_NAMESPACE {
