@@ -16,12 +16,12 @@
 #include "cli/option_units.hpp"
 #include "cli/outputs.hpp"
 #include "cli/progress_line.hpp"
+#include "cli/refused_answer.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
 #include "report/figure/design_sweep_figure.hpp"
 #include "report/text/design_text.hpp"
 #include "report/text/text_medium.hpp"
-#include "report/text/trust_text.hpp"
 #include "results/design_json.hpp"
 #include "results/design_target_json.hpp"
 #include "zwidth/design/design_comparison.hpp"
@@ -130,8 +130,9 @@ void run_sweep(const DesignArguments& arguments) {
   const ParameterSweep sweep =
       worked(arguments.devices.files.front(), [&] { return parameter_sweep(device, axes, options, line.progress()); });
   if (sweep.trust.refused()) {
-    if (arguments.output.json) write_standard_output(results::line(results::sweep_json(device, sweep)));
-    throw WorkFailed(arguments.devices.files.front() + ": " + report::verdict_text(sweep.trust));
+    return print_refused(sweep.trust, device.name(),
+                         arguments.output.json ? results::line(results::sweep_json(device, sweep)) : "",
+                         {arguments.output.figure});
   }
   outputs.put("--output", [&] { return results::sweep_csv(sweep); });
   outputs.draw("--output", [&](report::FigureFormat format) { return report::draw_sweep(device, sweep, format); });

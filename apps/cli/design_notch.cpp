@@ -9,6 +9,7 @@
 #include "cli/option_refusal.hpp"
 #include "cli/outputs.hpp"
 #include "cli/progress_line.hpp"
+#include "cli/refused_answer.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
 #include "report/figure/notch_figure.hpp"
@@ -103,6 +104,11 @@ void run_notch(const DeviceArguments& devices, const NotchArguments& arguments, 
   const Device device = read_devices(devices).front();
   const NotchOptions options = notch_options(arguments);
   const NotchDesign notch = designed(device, options, devices.files.front());
+  if (notch.trust.refused()) {
+    return print_refused(notch.trust, device.name(),
+                         output.json ? results::line(results::notch_json(device, options, notch)) : "",
+                         {arguments.write, output.figure});
+  }
   if (!arguments.write.empty() && !notch.state_with) {
     throw WorkFailed("no notch makes the wall stiffer: " + arguments.write + " is not written");
   }

@@ -10,11 +10,11 @@
 #include "cli/option_refusal.hpp"
 #include "cli/outputs.hpp"
 #include "cli/progress_line.hpp"
+#include "cli/refused_answer.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
 #include "report/text/design_text.hpp"
 #include "report/text/text_medium.hpp"
-#include "report/text/trust_text.hpp"
 #include "results/wall_recommendation_json.hpp"
 #include "zwidth/io/device_file.hpp"
 #include "zwidth/quantity.hpp"
@@ -84,8 +84,9 @@ void run_recommend(const CLI::App& command, const DeviceArguments& devices, cons
   const Device device = read_devices(devices).front();
   const WallRecommendation recommendation = recommended(device, options, file);
   if (recommendation.status == WallRecommendation::Status::refused) {
-    if (json) write_standard_output(results::line(results::wall_recommendation_json(device, options, recommendation)));
-    throw WorkFailed(file + ": " + report::verdict_text(recommendation.trust));
+    return print_refused(recommendation.trust, device.name(),
+                         json ? results::line(results::wall_recommendation_json(device, options, recommendation)) : "",
+                         {shared.write});
   }
   if (!shared.write.empty() && !recommendation.wall) {
     throw WorkFailed(fmt::format("{}: {} is not written: {}", file, shared.write, recommendation.reason));

@@ -12,11 +12,11 @@
 #include "cli/outputs.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/recording_arguments.hpp"
+#include "cli/refused_answer.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
 #include "cli/surroundings.hpp"
 #include "report/text/diagnosis_text.hpp"
-#include "report/text/trust_text.hpp"
 #include "results/diagnosis_json.hpp"
 #include "zwidth/design/diagnosis.hpp"
 #include "zwidth/quantity.hpp"
@@ -83,9 +83,10 @@ void run_diagnose(const CLI::App& command, DiagnoseArguments arguments) {
   const auto problem = recording ? find_problem(options, device, *recording) : find_problem(options, device);
   if (problem) refuse(*problem, options_of_diagnosis, file);
   const Diagnosis diagnosis = diagnosed(device, recording, options, file);
-  if (arguments.output.json) write_standard_output(results::line(results::diagnosis_json(device, diagnosis)));
-  if (diagnosis.trust.refused()) throw WorkFailed(file + ": " + report::verdict_text(diagnosis.trust));
-  if (!arguments.output.json) write_text(report::diagnosis_text(device, diagnosis));
+  const std::string document = arguments.output.json ? results::line(results::diagnosis_json(device, diagnosis)) : "";
+  if (diagnosis.trust.refused()) return print_refused(diagnosis.trust, device.name(), document, {});
+  if (arguments.output.json) return write_standard_output(document);
+  write_text(report::diagnosis_text(device, diagnosis));
 }
 
 }  // namespace

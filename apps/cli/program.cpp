@@ -57,7 +57,8 @@ int run(int argument_count, char** arguments) {
       "  zwidth analyze devices/lhifam.toml --set loop.delay=0.25e-3\n"
       "\n"
       "'zwidth COMMAND --help' explains a command.\n"
-      "Exit status: 0 done, 1 the work failed, 2 wrong usage or bad input.");
+      "Exit status: 0 done, 1 the work failed, 2 wrong usage or bad input. An answer that is refused\n"
+      "(no number is given) is an answer, 0; a file that it would have filled is work that failed, 1.");
   add_analyze(app);
   add_bode(app);
   add_design(app);

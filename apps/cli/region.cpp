@@ -10,12 +10,12 @@
 #include "cli/device_arguments.hpp"
 #include "cli/outputs.hpp"
 #include "cli/progress_line.hpp"
+#include "cli/refused_answer.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
 #include "report/figure/region_figure.hpp"
 #include "report/text/region_text.hpp"
 #include "report/text/text_medium.hpp"
-#include "report/text/trust_text.hpp"
 #include "results/region_json.hpp"
 
 namespace zwidth::cli {
@@ -40,12 +40,13 @@ void run_region(const RegionArguments& arguments) {
   const Device device = std::move(read_devices(arguments.devices).front());
   const WallRegion walls = found_region(device, arguments.devices.files.front());
   if (walls.trust.refused()) {
-    if (arguments.output.json) write_standard_output(results::line(results::region_json(device, walls)));
-    throw WorkFailed(arguments.devices.files.front() + ": " + report::verdict_text(walls.trust));
+    return print_refused(walls.trust, device.name(),
+                         arguments.output.json ? results::line(results::region_json(device, walls)) : "",
+                         {arguments.output.csv, arguments.output.figure});
   }
   outputs.put("--csv", [&] {
-    return arguments.raster ? results::region_raster_csv(wall_raster(walls, *arguments.raster))
-                            : results::region_csv(walls.region);
+    return arguments.raster ? results::region_raster_csv(wall_raster(walls, *arguments.raster), walls.trust)
+                            : results::region_csv(walls);
   });
   outputs.draw("--output", [&](report::FigureFormat format) { return report::draw_region(device, walls, format); });
   outputs.commit();

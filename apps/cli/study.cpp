@@ -12,13 +12,13 @@
 #include "cli/option_refusal.hpp"
 #include "cli/outputs.hpp"
 #include "cli/progress_line.hpp"
+#include "cli/refused_answer.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
 #include "cli/surroundings.hpp"
 #include "report/page/study_page.hpp"
 #include "report/text/study_text.hpp"
 #include "report/text/text_medium.hpp"
-#include "report/text/trust_text.hpp"
 #include "results/study_json.hpp"
 #include "study/study_engine.hpp"
 #include "zwidth/error.hpp"
@@ -146,8 +146,9 @@ void run_study(const StudyArguments& arguments) {
   const std::optional<Study> study = studied(run, arguments);
   if (!study) return;  // the first rank tells
   if (study->trust.refused()) {
-    if (arguments.output.json) write_standard_output(results::line(results::study_json(run, *study)));
-    throw WorkFailed(arguments.devices.files.front() + ": " + report::verdict_text(study->trust));
+    return print_refused(study->trust, run.device().name(),
+                         arguments.output.json ? results::line(results::study_json(run, *study)) : "",
+                         {arguments.report, arguments.worst});
   }
   if (!arguments.worst.empty() && !study->worst)
     throw WorkFailed("--output-device: no unit has a limit: there is no worst one");

@@ -143,6 +143,7 @@ std::string sweep_csv(const ParameterSweep& sweep) {
   for (const SweepAxis& axis : sweep.axes) csv.cell(axis.key);
   for (const char* name : {"critical_stiffness", "frequency_rad_s", "mode"}) csv.cell(name);
   if (sweep.has_any_user) csv.cell("any_user_stiffness");
+  csv.cell("trust");
   csv.end_row();
   const std::size_t columns = sweep.axes.size() == 2 ? sweep.values[1].size() : 1;
   for (std::size_t i = 0; i < sweep.points.size(); ++i) {
@@ -153,6 +154,7 @@ std::string sweep_csv(const ParameterSweep& sweep) {
     csv.cell(frequency_of(point.limit));
     csv.cell(point.limit ? std::optional(point.limit->limited_by.mode) : std::nullopt);
     if (sweep.has_any_user) csv.cell(point.any_user ? std::optional(point.any_user->stiffness) : std::nullopt);
+    csv.cell(name_of(point.trust.verdict));
     csv.end_row();
   }
   return csv.text();

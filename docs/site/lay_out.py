@@ -41,7 +41,8 @@ def command_pages(tree, program):
         (folder / f"{command}.md").write_text(f"# zwidth {command}\n\nWhat `zwidth {command} --help` prints.\n\n```text\n{text.rstrip()}\n```\n")
     listed = "\n".join(commands)
     (folder / "index.md").write_text(
-        "# Commands\n\nGenerated from the options themselves. Exit status: 0 done; 1 the work failed; 2 wrong usage or bad input.\n\n"
+        "# Commands\n\nGenerated from the options themselves. Exit status: 0 done; 1 the work failed; 2 wrong usage or bad input. An answer that is refused is an answer, 0; "
+        "a file that it would have filled is work that failed, 1.\n\n"
         f"```{{toctree}}\n{listed}\n```\n"
     )
 

@@ -68,15 +68,21 @@ std::vector<Singularity> poles_of(const std::vector<FilterSection>& filters, dou
 
 }  // namespace
 
-AliasSums::AliasSums(const UserDiscs& discs, double period, const std::vector<Singularity>& images) {
-  const double nyquist = pi / period;
+AliasSums::AliasSums(const UserDiscs& discs, double period, const std::vector<Singularity>& images)
+    : near_(interpolated_sums([&](double w) { return discs.near_aliases(w); }, pi / period, images)),
+      far_(interpolated_sums([&](double w) { return discs.far_aliases(w); }, pi / period, {})) {}
+
+template <typename Sums>
+AliasSums::Pieces AliasSums::interpolated_sums(const Sums& sums_at, double nyquist,
+                                               const std::vector<Singularity>& images) {
   struct Range {
     double begin;
     double end;
     double error;  // of twice the range, relative
   };
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  std::vector<Range> ranges{{0.5 * nyquist, nyquist, infinity}, {0.0, 0.5 * nyquist, infinity}};
+  Pieces pieces;
+  std::vector<Range> ranges{{0.0, nyquist, infinity}};
   std::size_t left = most_sum_pieces;
   while (!ranges.empty()) {
     const Range range = ranges.back();
@@ -89,7 +95,7 @@ AliasSums::AliasSums(const UserDiscs& discs, double period, const std::vector<Si
       Piece piece{range.begin, range.end, {}, {}, {}, 0.0};
       double largest = 0.0;
       for (std::size_t i = 0; i < interpolation_points; ++i) {
-        const auto sums = discs.other_aliases(middle + 0.5 * (range.end - range.begin) * interpolation_nodes()[i]);
+        const auto sums = sums_at(middle + 0.5 * (range.end - range.begin) * interpolation_nodes()[i]);
         piece.real[i] = sums.centre.real();
         piece.imaginary[i] = sums.centre.imag();
         piece.radius[i] = sums.radius;
@@ -100,22 +106,34 @@ AliasSums::AliasSums(const UserDiscs& discs, double period, const std::vector<Si
       relative = piece.error / largest;
       const bool is_rounding = relative <= rounding_of_sums && relative > still_converging * range.error;
       if (is_last || relative <= sums_accuracy || is_rounding) {
-        pieces_.push_back(piece);
+        pieces.push_back(piece);
         continue;
       }
     }
     ranges.push_back({middle, range.end, relative});
     ranges.push_back({range.begin, middle, relative});
   }
+  return pieces;
+}
+
+const AliasSums::Piece& AliasSums::piece_at(const Pieces& pieces, double frequency) {
+  const auto piece = std::lower_bound(pieces.begin(), pieces.end(), frequency,
+                                      [](const Piece& each, double at) { return each.end < at; });
+  return piece == pieces.end() ? pieces.back() : *piece;
+}
+
+void AliasSums::add(const Piece& piece, double frequency, Value& value) {
+  const double x = std::clamp((2.0 * frequency - piece.begin - piece.end) / (piece.end - piece.begin), -1.0, 1.0);
+  value.sums.centre += std::complex<double>(interpolated(piece.real, x), interpolated(piece.imaginary, x));
+  value.sums.radius += interpolated(piece.radius, x);
+  value.error += piece.error;
 }
 
 AliasSums::Value AliasSums::at(double frequency) const {
-  auto piece = std::lower_bound(pieces_.begin(), pieces_.end(), frequency,
-                                [](const Piece& each, double at) { return each.end < at; });
-  if (piece == pieces_.end()) --piece;
-  const double x = std::clamp((2.0 * frequency - piece->begin - piece->end) / (piece->end - piece->begin), -1.0, 1.0);
-  return {{{interpolated(piece->real, x), interpolated(piece->imaginary, x)}, interpolated(piece->radius, x)},
-          piece->error};
+  Value value;
+  add(piece_at(near_, frequency), frequency, value);
+  add(piece_at(far_, frequency), frequency, value);
+  return value;
 }
 
 double DiscPieces::Piece::frequency_at(double x) const {

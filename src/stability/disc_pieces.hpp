@@ -1,7 +1,8 @@
 #pragma once
 
 // The discs of passive users on intervals of frequency, by values at interpolation points. The sums over aliases are
-// smooth between the images of modes above Nyquist and cost most: they are interpolated first.
+// smooth between the images of modes above Nyquist and cost most: they are interpolated first, the many that lie far
+// above all modes apart from the few that do not.
 
 #include <array>
 #include <cstddef>
@@ -38,7 +39,15 @@ class AliasSums {
     InterpolationValues radius{};
     double error = 0.0;
   };
-  std::vector<Piece> pieces_;  // by rising frequency
+  using Pieces = std::vector<Piece>;  // by rising frequency
+
+  template <typename Sums>
+  static Pieces interpolated_sums(const Sums& sums, double nyquist, const std::vector<Singularity>& images);
+  static const Piece& piece_at(const Pieces& pieces, double frequency);
+  static void add(const Piece& piece, double frequency, Value& value);
+
+  Pieces near_;  // UserDiscs::near_aliases()
+  Pieces far_;   // UserDiscs::far_aliases()
 };
 
 /// The discs on pieces of (0, pi/T], made when they are first asked for and kept: they do not depend on the damper.

@@ -10,13 +10,28 @@
 namespace zwidth::internal {
 namespace {
 
-// A root of the phase condition this close, relative, to an undamped pole is that pole, at kappa = 0.
+// A root of the phase condition this close, relative, to an undamped pole may be that pole, at kappa = 0.
 constexpr double same_angle = 1e-6;
 
-bool is_undamped_pole(const SampledPlant& plant, double angle) {
-  return std::any_of(plant.terms.begin(), plant.terms.end(), [angle](const SampledTerm& term) {
-    return term.undamped_pairs > 0 && std::abs(angle - term.undamped_angle) <= same_angle * angle;
-  });
+// Of each root whether it is an undamped pole of kappa = 0: the nearest to it. A mode that the loop hardly sees has a
+// crossover of its own beside its pole. Poles that coincide share all the roots that are near.
+std::vector<bool> undamped_poles(const FilteredPlant& plant, const GainLocus& locus,
+                                 const std::vector<CircleRoot>& roots) {
+  std::vector<bool> is_pole(roots.size(), false);
+  if (!locus.begins_at_plant_poles()) return is_pole;
+  for (const SampledTerm& term : plant.terms) {
+    const auto distance = [&term](const CircleRoot& root) { return std::abs(root.angle - term.undamped_angle); };
+    const auto is_near = [&](const CircleRoot& root) { return distance(root) <= same_angle * root.angle; };
+    if (term.undamped_pairs == 1) {
+      const auto nearest = std::min_element(roots.begin(), roots.end(),
+                                            [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
+      if (nearest != roots.end() && is_near(*nearest))
+        is_pole[static_cast<std::size_t>(nearest - roots.begin())] = true;
+    } else if (term.undamped_pairs > 1) {
+      for (std::size_t i = 0; i < roots.size(); ++i) is_pole[i] = is_pole[i] || is_near(roots[i]);
+    }
+  }
+  return is_pole;
 }
 
 // P is zero to rounding (an undamped antiresonance, a numerator with a factor s): no gain, however large, has a pole
@@ -30,10 +45,12 @@ GainCrossings gain_crossings(const FilteredPlant& plant, const GainLocus& locus)
   const std::vector<CircleRoot> roots = roots_on_circle(locus, std::max<std::size_t>(1, plant.delay_samples));
   result.initially_unstable = locus.initially_unstable(locus.value(roots.empty() ? 1.0 : 0.5 * roots.front().angle));
   result.crossings.reserve(roots.size() + 1);
-  for (const CircleRoot& root : roots) {
+  const std::vector<bool> is_pole = undamped_poles(plant, locus, roots);
+  for (std::size_t i = 0; i < roots.size(); ++i) {
+    const CircleRoot& root = roots[i];
     // f falling through zero: a pole leaves (Im of -den/num rises with the angle).
     const int poles_leaving = -2 * root.direction;
-    if (is_undamped_pole(plant, root.angle)) {
+    if (is_pole[i]) {
       if (poles_leaving > 0) result.initially_unstable += poles_leaving;
       continue;
     }

@@ -204,7 +204,9 @@ int GainLocus::initially_unstable(double phase_near_zero) const {
   int unstable = 0;
   for (const SampledTerm& term : plant_.terms) unstable += term.unstable_poles;
   // Of poles that coincide on the circle, half leave it outwards.
-  for (const SampledTerm& term : plant_.terms) unstable += 2 * (term.undamped_pairs / 2);
+  if (begins_at_plant_poles()) {
+    for (const SampledTerm& term : plant_.terms) unstable += 2 * (term.undamped_pairs / 2);
+  }
   if (integrators_kept_ == 0) return unstable;
   // Near z = 1, delta^n r + kappa s = 0: the poles leave at the angles of (-kappa s / r)^(1/n).
   const int n = damper_closed() ? 1 : integrators_kept_;

@@ -31,6 +31,9 @@ class GainLocus {
   // `stiffness` matters for Gain::wall alone. The plant must outlive the locus.
   GainLocus(const FilteredPlant& plant, Gain gain, double stiffness, VirtualDamper damper);
 
+  // Whether the closed loop has the plant's own poles at kappa = 0: undamped ones are roots of f then.
+  [[nodiscard]] bool begins_at_plant_poles() const { return !damper_closed(); }
+
   // f at an angle in [0, pi], and its first-order Taylor model on an interval of x = |z - 1|², 0 <= begin < end <= 4.
   [[nodiscard]] double value(double angle) const;
   template <typename Scalar>

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "stability/gain_crossings.hpp"
 #include "zwidth/model/device_trust.hpp"
 
 namespace zwidth::internal {
@@ -56,6 +57,28 @@ std::vector<Claim> claims_of(const CriticalStiffness& critical, const FilteredPl
   return claims;
 }
 
+// A crossing whose K rounding of the plant's terms may move by more than this, relative, is found again with more digits.
+constexpr double closest = 1e-10;
+
+// Beside the pole of a mode that hardly anything damps, the response keeps few digits, and K = -1/P - B v fewer.
+void polish(const FilteredPlant& plant, VirtualDamper damper, const PoleCount& poles, GainCrossings& found) {
+  const GainLocus locus(plant, GainLocus::Gain::stiffness, 0.0, damper);
+  std::vector<GainCrossing*> unsure;
+  std::vector<PoleOnCircle> again;
+  for (GainCrossing& crossing : found.crossings) {
+    if (!(crossing.angle > 0.0 && crossing.angle < std::numbers::pi)) continue;
+    const GainLocus::TermSum response = locus.by_terms(crossing.angle);
+    if (response.noise <= closest * crossing.gain * response.size * response.size) continue;
+    unsure.push_back(&crossing);
+    again.push_back({crossing.angle, crossing.gain});
+  }
+  poles.polish_in_digits(again);
+  for (std::size_t i = 0; i < unsure.size(); ++i) {
+    unsure[i]->angle = again[i].angle;
+    unsure[i]->gain = again[i].stiffness;
+  }
+}
+
 }  // namespace
 
 Agreement agreement(const PoleCount& poles, double stiffness, bool stable) {
@@ -89,7 +112,10 @@ void withdraw(CriticalStiffness& critical) {
 }
 
 CriticalStiffness guarded_stiffness(const Device& device, const FilteredPlant& plant, const PoleCount& poles) {
-  CriticalStiffness critical = critical_stiffness(plant, virtual_damper(device));
+  const VirtualDamper damper = virtual_damper(device);
+  GainCrossings crossings = stiffness_crossings(plant, damper);
+  polish(plant, damper, poles, crossings);
+  CriticalStiffness critical = critical_stiffness_of(plant, crossings);
   critical.trust = trust_of(device);
   for (const Claim& claim : claims_of(critical, plant)) {
     if (critical.trust.refused()) break;

@@ -109,6 +109,10 @@ std::optional<int> PoleCount::in_digits(double stiffness) const {
   return states_ <= most_states_for_digits ? unstable_poles_in_digits(device_, stiffness) : std::nullopt;
 }
 
+void PoleCount::polish_in_digits(std::vector<PoleOnCircle>& poles) const {
+  if (states_ <= most_states_for_digits && !poles.empty()) polish_poles_in_digits(device_, poles);
+}
+
 std::optional<int> PoleCount::by_eigenvalues(double stiffness) const {
   Wall wall = device_.parameters().wall;
   wall.stiffness = stiffness;

@@ -2,12 +2,19 @@
 
 #include <cstddef>
 #include <optional>
+#include <vector>
 
 #include "stability/routh_count.hpp"
 #include "zwidth/model/device.hpp"
 #include "zwidth/sampling/discrete_state_space.hpp"
 
 namespace zwidth::internal {
+
+// A pole of the closed loop on the unit circle, at e^{j angle}.
+struct PoleOnCircle {
+  double angle = 0.0;
+  double stiffness = 0.0;  // of the wall, K
+};
 
 // How many poles of the closed loop lie outside the unit circle, at any stiffness of the device's wall: the routes that
 // check critical_stiffness(). They share nothing with it: no modal form, no partial fractions, no frequency response
@@ -28,6 +35,10 @@ class PoleCount {
   // to most_states_for_digits states, delays included; nothing beyond.
   [[nodiscard]] std::optional<int> in_digits(double stiffness) const;
 
+  // Poles that were found on the circle at 0 < angle < pi, again with a hundred digits: where the terms of the response
+  // keep fewer than K needs. Those that do not settle beside where they were stay, and all of larger loops.
+  void polish_in_digits(std::vector<PoleOnCircle>& poles) const;
+
   static constexpr std::size_t most_states_for_digits = 40;
 
  private:
@@ -40,7 +51,8 @@ class PoleCount {
   std::optional<RouthCount> routh_;
 };
 
-// in_digits() without the class: the device at this stiffness.
+// The same two without the class.
 [[nodiscard]] std::optional<int> unstable_poles_in_digits(const Device& device, double stiffness);
+void polish_poles_in_digits(const Device& device, std::vector<PoleOnCircle>& poles);
 
 }  // namespace zwidth::internal

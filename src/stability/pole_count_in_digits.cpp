@@ -1,11 +1,11 @@
-// The closed loop's characteristic polynomial with a hundred digits, and Routh's count of its roots outside the unit
-// circle: decides where double precision cannot.
+// The closed loop's characteristic polynomial with a hundred digits, Routh's count of its roots outside the unit circle
+// and those on it: decides where double precision cannot.
 
 #include <algorithm>
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -164,17 +164,82 @@ PlantPolynomials<Digits> sampled(const Device& device, const SamplingInstants& i
   return plant_polynomials<Digits>(phi, gamma1, gamma2, system.output);
 }
 
+// The loop's polynomial on the circle of radius 1 + beside.
+CirclePolynomials<Digits> loop_in_digits(const Device& device, const Digits& beside) {
+  const double period = device.loop().sampling_period;
+  const SamplingInstants instants = sampling_instants({period, device.loop().delay});
+  return {sampled(device, instants),
+          instants.whole_samples,
+          instants.with_old > 0.0,
+          device.parameters().wall,
+          period,
+          beside};
+}
+
+// p(jy) and d p(jy) / dy
+struct OnAxis {
+  Digits re = 0.0;
+  Digits im = 0.0;
+  Digits slope_re = 0.0;
+  Digits slope_im = 0.0;
+};
+
+OnAxis on_axis(const Polynomial<Digits>& p, const Digits& y) {
+  OnAxis at;  // Horner's rule for p and p' in w = jy
+  for (std::size_t i = p.size(); i-- > 0;) {
+    const Digits slope_re = at.re - y * at.slope_im;
+    at.slope_im = at.im + y * at.slope_re;
+    at.slope_re = slope_re;
+    const Digits re = p[i] - y * at.im;
+    at.im = y * at.re;
+    at.re = re;
+  }
+  return {at.re, at.im, -at.slope_im, at.slope_re};
+}
+
+// Newton's method for (y, K) in open(jy) + K of_stiffness(jy) = 0, with z = (1 + jy)/(1 - jy): y = tan(angle/2).
+std::optional<PoleOnCircle> settled(const Polynomial<Digits>& open, const Polynomial<Digits>& of_stiffness,
+                                    const PoleOnCircle& start) {
+  constexpr int most_steps = 30;
+  constexpr double close_enough = 1e-20;  // relative
+  constexpr double beside = 1e-9;         // of the start's angle, relative
+  const Digits first = tan(Digits(0.5 * start.angle));
+  Digits y = first;
+  Digits stiffness = start.stiffness;
+  for (int i = 0; i < most_steps; ++i) {
+    const OnAxis a = on_axis(open, y);
+    const OnAxis b = on_axis(of_stiffness, y);
+    const Digits re = a.re + stiffness * b.re;
+    const Digits im = a.im + stiffness * b.im;
+    const Digits slope_re = a.slope_re + stiffness * b.slope_re;
+    const Digits slope_im = a.slope_im + stiffness * b.slope_im;
+    const Digits determinant = slope_re * b.im - slope_im * b.re;
+    if (determinant.is_zero()) return std::nullopt;
+    const Digits by_y = (re * b.im - im * b.re) / determinant;
+    const Digits by_stiffness = (slope_re * im - slope_im * re) / determinant;
+    y -= by_y;
+    stiffness -= by_stiffness;
+    if (!(abs(y - first) < beside * first)) return std::nullopt;
+    if (abs(by_y) <= close_enough * y && abs(by_stiffness) <= close_enough * abs(stiffness)) {
+      if (!(stiffness > 0.0)) return std::nullopt;
+      return PoleOnCircle{Digits(2.0 * atan(y)).convert_to<double>(), stiffness.convert_to<double>()};
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<int> unstable_poles_in_digits(const Device& device, double stiffness) {
-  const Wall& wall = device.parameters().wall;
-  const double period = device.loop().sampling_period;
-  const SamplingInstants instants = sampling_instants({period, device.loop().delay});
   // Just outside the circle, so that a mode that nothing damps and nothing moves lies inside.
   const Digits beside = ldexp(Digits(1.0), -80);
-  return CirclePolynomials<Digits>(sampled(device, instants), instants.whole_samples, instants.with_old > 0.0, wall,
-                                   period, beside)
-      .outside(stiffness, wall.damping, sure_sign);
+  return loop_in_digits(device, beside).outside(stiffness, device.parameters().wall.damping, sure_sign);
+}
+
+void polish_poles_in_digits(const Device& device, std::vector<PoleOnCircle>& poles) {
+  const CirclePolynomials<Digits> loop = loop_in_digits(device, Digits(0.0));
+  const Polynomial<Digits> open = loop.without_spring(device.parameters().wall.damping);
+  for (PoleOnCircle& pole : poles) pole = settled(open, loop.of_stiffness(), pole).value_or(pole);
 }
 
 }  // namespace zwidth::internal

@@ -146,11 +146,18 @@ class CirclePolynomials {
   // array, 0 where rounding may have made it.
   template <typename SureSign>
   [[nodiscard]] std::optional<int> outside(double stiffness, double damping, SureSign sure_sign) const {
-    Polynomial<Number> closed = open_;
+    Polynomial<Number> closed = without_spring(damping);
     for (std::size_t i = 0; i < stiffness_.size(); ++i) closed[i] += stiffness_[i] * Number(stiffness);
-    for (std::size_t i = 0; i < damping_.size(); ++i) closed[i] += damping_[i] * Number(damping);
     return roots_on_the_right(closed, sure_sign);
   }
+
+  // The polynomial of w at K = 0, and what each unit of K adds to it.
+  [[nodiscard]] Polynomial<Number> without_spring(double damping) const {
+    Polynomial<Number> closed = open_;
+    for (std::size_t i = 0; i < damping_.size(); ++i) closed[i] += damping_[i] * Number(damping);
+    return closed;
+  }
+  [[nodiscard]] const Polynomial<Number>& of_stiffness() const { return stiffness_; }
 
  private:
   // Of n + 1 coefficients in delta, times (1 - w)^n. Horner: sum_k p_k up^k down^(n-k)

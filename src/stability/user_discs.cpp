@@ -112,6 +112,9 @@ UserDiscs::UserDiscs(const Device& device, const Progress& progress)
   const double spacing = 2.0 * pi / period_;
   exact_aliases_ = least_exact_aliases + static_cast<std::size_t>(std::min(
                                              std::ceil(clear_of_modes * highest_mode / spacing), most_exact_aliases));
+  // The next one is at least 1.5 times 2 pi/T from every mode.
+  near_aliases_ = std::min(
+      exact_aliases_, 2 + static_cast<std::size_t>(std::min(std::ceil(highest_mode / spacing), most_exact_aliases)));
   steady_alias_ = clear_of_corners * highest_corner / spacing;
   rule_ = alias_rule(exact_aliases_, steady_alias_, spacing * delay_);
   const AliasRule finer = alias_rule(2 * exact_aliases_, 4.0 * steady_alias_, spacing * delay_);
@@ -164,10 +167,23 @@ std::complex<double> UserDiscs::shared_factor(double frequency) const {
 }
 
 UserDiscs::OtherAliases UserDiscs::other_aliases(double frequency) const {
+  return sum_of_aliases(frequency, 1, rule_.nodes.size());
+}
+
+UserDiscs::OtherAliases UserDiscs::near_aliases(double frequency) const {
+  return sum_of_aliases(frequency, 1, near_aliases_);
+}
+
+UserDiscs::OtherAliases UserDiscs::far_aliases(double frequency) const {
+  return sum_of_aliases(frequency, near_aliases_, rule_.nodes.size());
+}
+
+/// Of the rule's nodes from `first` on; the node 0 is w itself.
+UserDiscs::OtherAliases UserDiscs::sum_of_aliases(double frequency, std::size_t first, std::size_t end) const {
   const double spacing = 2.0 * pi / period_;
   OtherAliases others;
-  for (const AliasRule::Node& node : rule_.nodes) {
-    if (node.number == 0.0) continue;
+  for (std::size_t i = first; i < end; ++i) {
+    const AliasRule::Node& node = rule_.nodes[i];
     for (const double side : {1.0, -1.0}) {
       const double at_alias = node.number * spacing + side * frequency;
       const std::complex<double> disc = disc_density(at_alias);

@@ -37,6 +37,9 @@ class UserDiscs {
     double radius = 0.0;          // sum of |D/w_k|
   };
   [[nodiscard]] OtherAliases other_aliases(double frequency) const;
+  /// Parts of it: the aliases next to which a mode may lie, and all beyond, the poles of which are far from (0, pi/T].
+  [[nodiscard]] OtherAliases near_aliases(double frequency) const;
+  [[nodiscard]] OtherAliases far_aliases(double frequency) const;
 
   /// The same disc as at() from its own term and a sum of the other aliases, and a positive factor that makes own terms
   /// polynomials in the frequency, of twice the order of the device at most: 2 w² q^H Dmp q times |det(Z)|², over
@@ -77,6 +80,7 @@ class UserDiscs {
   /// g(w) = D(jw) / (jw) = q_s q_a lag / (2 w² q^H Dmp q).
   [[nodiscard]] Density density(double frequency) const;
   [[nodiscard]] std::complex<double> disc_density(double frequency) const { return density(frequency).value; }
+  [[nodiscard]] OtherAliases sum_of_aliases(double frequency, std::size_t first, std::size_t end) const;
   [[nodiscard]] Disc summed(const AliasRule& rule, double frequency) const;
   [[nodiscard]] Disc near_zero(double frequency, const Density& own, const OtherAliases& others) const;
   [[nodiscard]] std::complex<double> shared_factor(double frequency) const;
@@ -101,6 +105,7 @@ class UserDiscs {
   bool undamped_ = false;
   AliasRule rule_;
   std::size_t exact_aliases_ = 0;  // of the rule
+  std::size_t near_aliases_ = 0;   // of these, w itself among them
   double steady_alias_ = 0.0;
   double truncation_ = 0.0;
 };

@@ -118,14 +118,13 @@ double heard_hz(const Device& device) { return 1.0 / (6.0 * device.loop().sampli
 Answer diagnosed(const Device& device) {
   const DiagnosisOptions options{.frequency = 2.0 * std::numbers::pi * heard_hz(device)};
   const Diagnosis diagnosis = diagnose(device, options);
-  return {results::line(results::diagnosis_json(device, diagnosis)), diagnosis.trust.refused() ? 1 : 0};
+  return {results::line(results::diagnosis_json(device, diagnosis))};
 }
 
 Answer recommended(const Device& device) {
   const RecommendationOptions options{.phase_margin = 0.0, .ripple = 0.2};
   const WallRecommendation wall = recommend_wall(device, options);
-  return {results::line(results::wall_recommendation_json(device, options, wall)),
-          wall.status == WallRecommendation::Status::refused ? 1 : 0};
+  return {results::line(results::wall_recommendation_json(device, options, wall))};
 }
 
 /// Three delays, from none to two periods.
@@ -178,7 +177,7 @@ Answer studied(const Device& device) {
   const StudyRun run(device, file->distributions,
                      {.samples = *file->samples, .specification = file->specification, .index_samples = 16});
   const Study answer = study(run.device(), run.distributions(), run.options());
-  return {results::line(results::study_json(run, answer)), answer.trust.refused() ? 1 : 0};
+  return {results::line(results::study_json(run, answer))};
 }
 
 const std::array commands = {
@@ -192,8 +191,9 @@ const std::array commands = {
     Command{"Region", [](const Device&) -> std::string { return "region FILE --json --csv FILE.csv"; },
             [](const Device& device) {
               const WallRegion walls = region(device);
-              if (walls.trust.refused()) return Answer{results::line(results::region_json(device, walls)), 1};
-              return json_line(results::region_json(device, walls), results::region_csv(walls.region));
+              if (walls.trust.refused())
+                return Answer{results::line(results::region_json(device, walls)), 1};  // its file is not written
+              return json_line(results::region_json(device, walls), results::region_csv(walls));
             },
             quick_kinds},
     Command{"Design", [](const Device&) -> std::string { return "design FILE --json"; },

@@ -360,6 +360,23 @@ TEST(Region, ComputesWhatIsAskedFor) {
   EXPECT_EQ(alone.region.area, all.region.area);
 }
 
+TEST(Region, OfADoubtfulDeviceIsDoubtfulWithTheSameNumbers) {
+  DeviceParameters parameters = test::lhifam_parameters();
+  const WallRegion sound = region(Device(parameters));
+  parameters.uncertainty.emplace();
+  parameters.uncertainty->reasons = {"weighed by hand"};
+  const WallRegion doubtful = region(Device(parameters));
+  EXPECT_EQ(doubtful.trust.verdict, Trust::Verdict::doubtful);
+  EXPECT_THAT(doubtful.trust.reasons, testing::Contains("weighed by hand"));
+  EXPECT_EQ(doubtful.region.area, sound.region.area);
+  EXPECT_EQ(doubtful.any_user->area, sound.any_user->area);
+  parameters.uncertainty->verdict = Trust::Verdict::refused;
+  const WallRegion refused = region(Device(parameters));
+  EXPECT_EQ(refused.status, WallRegion::Status::refused);
+  EXPECT_FALSE(refused.walls || refused.region.stiffest || refused.any_user);
+  EXPECT_TRUE(refused.approximations.empty());
+}
+
 TEST(RegionOptions, NameTheMember) {
   for (const double deviation : {0.0, 1.0, -1.0, std::nan("")}) {
     const auto problem = find_problem(RegionOptions{.outline = {deviation}});

@@ -82,7 +82,7 @@ TEST(DesignText, WithoutALimitSaysSo) {
 TEST(SweepReports, HoldEveryPoint) {
   const ParameterSweep sweep = delay_sweep({.any_user = true});
   const std::string csv = results::sweep_csv(sweep);
-  EXPECT_THAT(csv, StartsWith("loop.delay,critical_stiffness,frequency_rad_s,mode,any_user_stiffness\n"));
+  EXPECT_THAT(csv, StartsWith("loop.delay,critical_stiffness,frequency_rad_s,mode,any_user_stiffness,trust\n"));
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 82);
   const Json json = results::sweep_json(lhifam(), sweep);
   EXPECT_EQ(json["points"].size(), 81U);

@@ -135,22 +135,22 @@ TEST(RegionCsv, HasALinePerPoint) {
   const StableRegion& region = lhifam_region().walls.region;
   std::size_t points = 0;
   for (const BoundaryArc& arc : region.components[0].outline.arcs) points += arc.points.size();
-  const std::string csv = results::region_csv(region);
-  EXPECT_THAT(csv, StartsWith("component,boundary,stiffness,damping,frequency_rad_s,mode\n1,oscillation,"));
+  const std::string csv = results::region_csv(lhifam_region().walls);
+  EXPECT_THAT(csv, StartsWith("component,boundary,stiffness,damping,frequency_rad_s,mode,trust\n1,oscillation,"));
   EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')), points + 1);
 }
 
 TEST(RegionCsv, OfARasterIsTheGrid) {
-  const std::string csv = results::region_raster_csv(wall_raster(lhifam_region().walls, 20));
+  const std::string csv = results::region_raster_csv(wall_raster(lhifam_region().walls, 20), Trust{});
   std::istringstream lines(csv);
   std::string line;
   std::getline(lines, line);
-  EXPECT_EQ(line, "stiffness,damping,stable");
+  EXPECT_EQ(line, "stiffness,damping,stable,trust");
   std::size_t rows = 0;
   std::size_t stable = 0;
   while (std::getline(lines, line)) {
     ++rows;
-    stable += line.ends_with(",1") ? 1U : 0U;
+    stable += line.ends_with(",1,sound") ? 1U : 0U;
   }
   EXPECT_EQ(rows, 400U);
   // The area of the region in a box a tenth larger than its extent, by 400 cells.
