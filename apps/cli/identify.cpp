@@ -191,7 +191,9 @@ template <typename Identified, typename Document>
 void print(const IdentifyArguments& arguments, const Identified& identified, const std::string& device,
            const Document& document) {
   if (arguments.output.json) {
-    write_standard_output(results::line(document()));
+    results::Json json = document();
+    json["device_toml"] = device;
+    write_standard_output(results::line(json));
   } else if (arguments.output_device == "-") {
     write_warnings(identified.remarks);
     write_standard_output(device);

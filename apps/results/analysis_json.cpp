@@ -80,6 +80,7 @@ Json analysis_json(const Device& analysed, const Analysis& analysis) {
   json["critical_stiffness_interval"] = analysis.interval;
   json["other_mechanism_share"] = analysis.interval ? Json(analysis.interval->other_mechanism) : Json(nullptr);
   json["uncertainty_warning"] = uncertainty_warning(device);
+  json["assumed"] = device.uncertainty ? device.uncertainty->assumed : std::vector<std::string>{};
   json["trust"] = analysis.trust;
   json["remarks"] = analysis.remarks;
   return json;

@@ -65,6 +65,7 @@ std::shared_ptr<RecordedColumns> recorded(const std::string& source,
                                           std::optional<double> sampling_period) {
   auto made = std::make_shared<RecordedColumns>(RecordedColumns{source, {}, sampling_period});
   for (const auto& [name, samples] : columns) made->columns.push_back({name, samples});
+  if (const auto problem = find_problem(*made)) raise_input_error(*problem);
   return made;
 }
 

@@ -39,7 +39,8 @@ Device changed(const Device& device, const Overrides& overrides) {
 }
 
 /// A file's path, or a text: that has more than one line, which no path has.
-Device from_toml(const py::object& source, const Overrides& overrides) {
+Device from_toml(const py::object& source, const py::object& set) {
+  const auto overrides = py::module_::import("zwidth._device").attr("assignments")(set).cast<Overrides>();
   if (py::isinstance<py::str>(source)) {
     const auto text = py::module_::import("zwidth._device").attr("text_of")("device", source).cast<std::string>();
     if (text.find('\n') != std::string::npos) return device_of(parse_device(text, "device", overrides));
@@ -86,7 +87,7 @@ void bind_device(py::module_& module) {
            "Numbers "
            "in SI units, or texts with a unit. Raises InputError with the key.")
       .def_static(
-          "from_toml", &from_toml, py::arg("source"), py::arg("set") = Overrides{},
+          "from_toml", &from_toml, py::arg("source"), py::arg("set") = py::tuple(),
           "Reads a device file: its path, or the text itself (more than one line). `set`: \"KEY=VALUE\" as --set "
           "of the command line. Raises InputError with file, line and column.")
       .def("with_", &with, py::arg("changes") = py::dict(),

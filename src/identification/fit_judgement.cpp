@@ -13,6 +13,7 @@
 #include "identification/nonlinearity_test.hpp"
 #include "identification/percent.hpp"
 #include "identification/plausibility.hpp"
+#include "model/uncertainty_problem.hpp"
 #include "zwidth/model/parameter.hpp"
 #include "zwidth/model/state_space.hpp"
 #include "zwidth/quantity.hpp"
@@ -322,6 +323,23 @@ void judge_nonlinearity(Identification& result, std::span<const Recording> recor
 }
 
 CriticalStiffness limit_of(const Device& device) { return critical_stiffness(device); }
+
+void keep_assumed(const Device& structure, std::span<const ParameterEstimate> estimates, Device& fitted,
+                  std::initializer_list<Trust*> trusts) {
+  if (!structure.parameters().uncertainty) return;
+  std::vector<std::string> assumed = structure.parameters().uncertainty->assumed;
+  std::erase_if(assumed, [&](const std::string& key) {
+    return std::ranges::any_of(estimates, [&](const ParameterEstimate& each) {
+      return each.identifiable && each.key == full_parameter_key(structure.parameters(), key);
+    });
+  });
+  if (assumed.empty()) return;
+  for (Trust* trust : trusts) trust->doubt(assumed_reason(assumed));
+  DeviceParameters parameters = fitted.parameters();
+  if (!parameters.uncertainty) parameters.uncertainty.emplace();
+  parameters.uncertainty->assumed = std::move(assumed);
+  fitted = Device(std::move(parameters));
+}
 
 Device with_trust(const Device& device, const Trust& trust) {
   if (trust.sound()) return device;

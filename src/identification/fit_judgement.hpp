@@ -1,5 +1,6 @@
 #pragma once
 
+#include <initializer_list>
 #include <optional>
 #include <span>
 #include <string>
@@ -43,6 +44,11 @@ void judge_nonlinearity(Identification& result, std::span<const Recording> recor
 /// Keys of the numbers that stand as they stood in the structure: those that the data leave open and, where the
 /// structure's values are placeholders, those that were not fitted.
 [[nodiscard]] std::vector<std::string> undetermined(const ParameterFit& fit, const IdentifyOptions& options);
+
+/// What the structure only assumes (Uncertainty::assumed) and the data do not determine stays assumed in the fitted
+/// device, for which all these are doubtful.
+void keep_assumed(const Device& structure, std::span<const ParameterEstimate> estimates, Device& fitted,
+                  std::initializer_list<Trust*> trusts);
 
 /// The verdict into the fitted device's [uncertainty], so that its file keeps it.
 [[nodiscard]] Device with_trust(const Device& device, const Trust& trust);

@@ -221,9 +221,15 @@ class DeviceReader {
     uncertainty.warning = reader.text("warning").value_or("");
     if (reader.has("reasons")) uncertainty.reasons = reader.required_texts("reasons", "an array of texts");
     uncertainty.verdict = read_verdict(reader);
-    const bool only_says_why = !reader.has("parameters") && !reader.has("covariance") &&
-                               (reader.has("warning") || reader.has("reasons") || reader.has("verdict"));
-    if (only_says_why) return;
+    const bool is_of_parameters = reader.has("parameters") || reader.has("covariance");
+    const bool says_why = reader.has("warning") || reader.has("reasons") || reader.has("verdict");
+    if (reader.has("assumed")) {
+      uncertainty.assumed = reader.required_texts("assumed", "an array of keys such as \"body.motor.mass\"");
+      // An empty list is that of a device whose numbers have all been given.
+      if (!is_of_parameters && !says_why && uncertainty.assumed.empty()) device_.uncertainty.reset();
+      if (!is_of_parameters) return;
+    }
+    if (!is_of_parameters && says_why) return;
     uncertainty.parameters = reader.required_texts("parameters", "an array of keys such as \"link.0.stiffness\"");
     uncertainty.covariance = reader.required_rows("covariance");
   }

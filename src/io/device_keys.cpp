@@ -33,7 +33,7 @@ const std::array<TableKeys, 12>& all_tables() {
       {"filter", {"type", "frequency_hz", "order", "damping_ratio", "depth", "ratio", "numerator", "denominator"}},
       {"operator", {"mass", "inertia", "damping", "stiffness"}},
       {"transfer_function", {"numerator", "denominator"}},
-      {"uncertainty", {"parameters", "covariance", "verdict", "warning", "reasons"}},
+      {"uncertainty", {"parameters", "covariance", "verdict", "warning", "reasons", "assumed"}},
       {"driver", {"travel", "gear", "sign", "torque_constant", "torque_per_volt", "id", "command", "baud"}},
   }};
   return tables;

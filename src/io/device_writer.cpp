@@ -162,6 +162,7 @@ std::string write_device(const DeviceParameters& parameters) {
     }
     if (!uncertainty.warning.empty()) out.value("warning", text_value(uncertainty.warning));
     if (!uncertainty.reasons.empty()) out.value("reasons", text_array_value(uncertainty.reasons));
+    if (!uncertainty.assumed.empty()) out.value("assumed", text_array_value(uncertainty.assumed));
   }
   return std::move(out).text();
 }

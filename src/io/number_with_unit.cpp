@@ -156,6 +156,10 @@ tl::expected<double, UnitProblem> number_with_unit(std::string_view text, Measur
   const auto parts = parts_of(text, allowed);
   if (!parts) return tl::unexpected(parts.error());
   if (parts->unit.empty()) return tl::unexpected(UnitProblem{fmt::format("{} has no unit", in_quotes(text)), allowed});
+  if (parts->unit.front() == ',') {  // 0,01 or 1,000
+    return tl::unexpected(UnitProblem{fmt::format("{} has a comma", in_quotes(text)),
+                                      "the decimal mark is a point, and nothing stands between thousands"});
+  }
   // A second number would multiply the first: "1 000 N/m" is refused.
   const bool begins_as_unit = std::string_view(".+-0123456789").find(parts->unit.front()) == std::string_view::npos;
   auto unit = begins_as_unit ? ascii_unit(parts->unit) : std::nullopt;

@@ -39,7 +39,18 @@ tl::expected<const RecordedColumn*, InputError> find_times(const RecordedColumns
   return nullptr;
 }
 
-std::optional<InputError> find_size_problem(const RecordedColumns& recorded) {
+RawColumn raw(const RecordedColumns& recorded, const RecordedColumn& column) {
+  return {recorded.source, column.name, column.samples, {}};
+}
+
+}  // namespace
+
+std::optional<InputError> find_problem(const RecordedColumns& recorded) {
+  const auto& period = recorded.sampling_period;
+  if (period && !(std::isfinite(*period) && *period > 0.0)) {
+    return refused(recorded, "sampling_period", fmt::format("is {} s", *period), "must be above 0");
+  }
+  if (recorded.columns.empty()) return refused(recorded, "", "has no columns", "must have one at least");
   const RecordedColumn& first = recorded.columns.front();
   for (const RecordedColumn& each : recorded.columns) {
     if (each.samples.size() == first.samples.size()) continue;
@@ -53,22 +64,13 @@ std::optional<InputError> find_size_problem(const RecordedColumns& recorded) {
                  "must have two at least");
 }
 
-RawColumn raw(const RecordedColumns& recorded, const RecordedColumn& column) {
-  return {recorded.source, column.name, column.samples, {}};
-}
-
-}  // namespace
-
 tl::expected<Recording, InputError> read_recording(const RecordedColumns& recorded, const RecordingOptions& options) {
   check_recording_options(options);
   if (options.rate && options.time_column) {
     return tl::unexpected(refused(recorded, shortened(*options.time_column),
                                   "a column of times is asked for beside a rate", "must be one of the two"));
   }
-  const auto& period = recorded.sampling_period;
-  if (period && !(std::isfinite(*period) && *period > 0.0)) {
-    return tl::unexpected(refused(recorded, "sampling_period", fmt::format("is {} s", *period), "must be above 0"));
-  }
+  if (auto problem = find_problem(recorded)) return tl::unexpected(*std::move(problem));
   std::vector<RawColumn> columns;
   for (const ColumnRequest& request : options.columns) {
     const auto found = find_column(names_of(recorded), request.name, recorded.source);
@@ -78,12 +80,12 @@ tl::expected<Recording, InputError> read_recording(const RecordedColumns& record
   const auto found_times = find_times(recorded, options);
   if (!found_times) return tl::unexpected(found_times.error());
   const RecordedColumn* times = *found_times;
-  if (auto problem = find_size_problem(recorded)) return tl::unexpected(*std::move(problem));
   std::optional<Remark> contradicting;
   if (options.rate && times != nullptr) {
     contradicting = contradiction(
         *options.rate, {times->name, times->samples.front(), times->samples.back(), times->samples.size()}, options);
   }
+  const auto& period = recorded.sampling_period;
   const bool uses_times = times != nullptr && !options.rate && (options.time_column || !period);
   auto recording = make_recording(std::move(columns), uses_times ? std::optional(raw(recorded, *times)) : std::nullopt,
                                   options, period);

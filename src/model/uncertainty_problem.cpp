@@ -20,9 +20,8 @@ constexpr double largest_variance = 1e60;
 // What rounding of the file's digits may do, relative to the standard deviations.
 constexpr double rounding = 1e-9;
 
-DeviceProblem parameters_problem(std::string what, std::string allowed) {
-  return {"uncertainty.parameters", std::move(what), std::move(allowed)};
-}
+constexpr const char* parameters_key = "uncertainty.parameters";
+constexpr const char* assumed_key = "uncertainty.assumed";
 
 DeviceProblem covariance_problem(std::string what, std::string allowed) {
   return {"uncertainty.covariance", std::move(what), std::move(allowed)};
@@ -30,32 +29,27 @@ DeviceProblem covariance_problem(std::string what, std::string allowed) {
 
 // Beside the parameters: without them, why the table is there at all.
 bool says_anything(const Uncertainty& uncertainty) {
-  return !uncertainty.warning.empty() || !uncertainty.reasons.empty() || uncertainty.verdict != Trust::Verdict::sound;
+  return !uncertainty.warning.empty() || !uncertainty.reasons.empty() || !uncertainty.assumed.empty() ||
+         uncertainty.verdict != Trust::Verdict::sound;
 }
 
-std::optional<DeviceProblem> find_key_problem(const DeviceParameters& parameters) {
-  const std::vector<std::string>& uncertain = parameters.uncertainty->parameters;
-  if (uncertain.empty() && !says_anything(*parameters.uncertainty)) {
-    return parameters_problem("is empty", "must be one or more keys; or leave out [uncertainty]");
-  }
-  if (uncertain.size() > max_uncertain_parameters) {
-    return parameters_problem(fmt::format("has {} keys", uncertain.size()),
-                              fmt::format("must be at most {} keys", max_uncertain_parameters));
-  }
+/// Of `keys`, which stand at `place`: each must be of a number that the device has, once.
+std::optional<DeviceProblem> find_key_problem(const DeviceParameters& parameters, const char* place,
+                                              const std::vector<std::string>& keys) {
   const std::vector<std::string> known = parameter_keys(parameters);
   std::set<std::string> seen;
-  for (const std::string& key : uncertain) {
+  for (const std::string& key : keys) {
     const std::string full = full_parameter_key(parameters, key);
     if (std::ranges::count(known, full) == 0) {
-      return parameters_problem(fmt::format("\"{}\" is no parameter of the device", key),
-                                "must be keys such as body.NAME.mass, link.0.stiffness or loop.delay");
+      return DeviceProblem{place, fmt::format("\"{}\" is no parameter of the device", key),
+                           "must be keys such as body.NAME.mass, link.0.stiffness or loop.delay"};
     }
     if (!parameter(parameters, full)) {
-      return parameters_problem(fmt::format("\"{}\" has no value in the device", key),
-                                "give it one, or leave it out here");
+      return DeviceProblem{place, fmt::format("\"{}\" has no value in the device", key),
+                           "give it one, or leave it out here"};
     }
     if (!seen.insert(full).second) {
-      return parameters_problem(fmt::format("\"{}\" stands twice", key), "must be different keys");
+      return DeviceProblem{place, fmt::format("\"{}\" stands twice", key), "must be different keys"};
     }
   }
   return std::nullopt;
@@ -66,8 +60,16 @@ bool is_variance(double value) { return value == 0.0 || (value >= smallest_varia
 }  // namespace
 
 std::optional<DeviceProblem> find_uncertainty_problem(const DeviceParameters& parameters) {
-  if (auto problem = find_key_problem(parameters)) return problem;
   const std::vector<std::string>& keys = parameters.uncertainty->parameters;
+  if (keys.empty() && !says_anything(*parameters.uncertainty)) {
+    return DeviceProblem{parameters_key, "is empty", "must be one or more keys; or leave out [uncertainty]"};
+  }
+  if (keys.size() > max_uncertain_parameters) {
+    return DeviceProblem{parameters_key, fmt::format("has {} keys", keys.size()),
+                         fmt::format("must be at most {} keys", max_uncertain_parameters)};
+  }
+  if (auto problem = find_key_problem(parameters, parameters_key, keys)) return problem;
+  if (auto problem = find_key_problem(parameters, assumed_key, parameters.uncertainty->assumed)) return problem;
   const std::vector<std::vector<double>>& covariance = parameters.uncertainty->covariance;
   const std::size_t n = keys.size();
   if (covariance.size() != n) {
@@ -111,6 +113,10 @@ std::optional<DeviceProblem> find_uncertainty_problem(const DeviceParameters& pa
                               "must be positive semidefinite");
   }
   return std::nullopt;
+}
+
+std::string assumed_reason(const std::vector<std::string>& keys) {
+  return fmt::format("assumed, not measured: {}; give the device's own", fmt::join(keys, ", "));
 }
 
 Uncertainty without_rounding(Uncertainty uncertainty) {

@@ -48,7 +48,9 @@ TEST(DeviceUncertainty, AVerdictSurvivesTheFile) {
        {Uncertainty{{}, {}, "nothing is determined", Trust::Verdict::refused, reasons},
         Uncertainty{{"link.stiffness"}, {{4e4}}, "", Trust::Verdict::doubtful, reasons},
         Uncertainty{{"link.stiffness"}, {{4e4}}, "misfit", Trust::Verdict::sound, {}},
-        Uncertainty{{}, {}, "", Trust::Verdict::refused, {}}}) {
+        Uncertainty{{}, {}, "", Trust::Verdict::refused, {}},
+        Uncertainty{{}, {}, "", Trust::Verdict::sound, {}, {"body.motor.mass", "loop.sampling_period"}},
+        Uncertainty{{"link.stiffness"}, {{4e4}}, "", Trust::Verdict::doubtful, reasons, {"link.damping"}}}) {
     DeviceParameters device = original->parameters();
     device.uncertainty = uncertainty;
     const auto again = parse_device(write_device(device), "f.toml");
@@ -58,6 +60,7 @@ TEST(DeviceUncertainty, AVerdictSurvivesTheFile) {
     EXPECT_EQ(again->parameters().uncertainty->warning, uncertainty.warning);
     EXPECT_EQ(again->parameters().uncertainty->verdict, uncertainty.verdict);
     EXPECT_EQ(again->parameters().uncertainty->reasons, uncertainty.reasons);
+    EXPECT_EQ(again->parameters().uncertainty->assumed, uncertainty.assumed);
   }
 }
 
@@ -170,6 +173,22 @@ TEST(DeviceUncertainty, MissingAndUnknownKeysAreNamed) {
             "\"link.0.stiffness\"");
   EXPECT_EQ(message_of(two_body_text + "[uncertainty]\nparameter = 3\n"),
             "f.toml:13:1: uncertainty.parameter: unknown key \"parameter\"; did you mean \"parameters\"?");
+}
+
+TEST(DeviceUncertainty, AssumedNumbersAreOfTheDeviceEachOnce) {
+  const auto message = [](const std::string& assumed) {
+    return message_of(two_body_text + "[uncertainty]\nassumed = " + assumed + "\n");
+  };
+  EXPECT_EQ(message("[]"), "no error");
+  EXPECT_FALSE(parse_device(two_body_text + "[uncertainty]\nassumed = []\n", "f.toml")->parameters().uncertainty);
+  EXPECT_EQ(message("[\"body.motor.mas\"]"),
+            "f.toml:13:11: uncertainty.assumed: \"body.motor.mas\" is no parameter of the device; must be keys such as "
+            "body.NAME.mass, link.0.stiffness or loop.delay");
+  EXPECT_EQ(message("[\"link.stiffness\", \"link.0.stiffness\"]"),
+            "f.toml:13:11: uncertainty.assumed: \"link.0.stiffness\" stands twice; must be different keys");
+  EXPECT_EQ(message("\"body.motor.mass\""),
+            "f.toml:13:11: uncertainty.assumed: is the text \"body.motor.mass\"; must be an array of keys such as "
+            "\"body.motor.mass\"");
 }
 
 TEST(DeviceUncertainty, HasAtMostAHundredParameters) {

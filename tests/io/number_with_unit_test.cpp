@@ -321,6 +321,15 @@ stiffness = 9
   EXPECT_EQ(write_device(units->parameters()).find("kg"), std::string::npos);
 }
 
+TEST(NumberWithUnit, ACommaIsToldToBeAPoint) {
+  for (const char* text : {"0,01", "0,01 kg", "1,000 kg"}) {
+    const auto number = number_with_unit(text, mass, linear);
+    ASSERT_FALSE(number.has_value()) << text;
+    EXPECT_EQ(number.error().what, fmt::format("\"{}\" has a comma", text));
+    EXPECT_EQ(number.error().allowed, "the decimal mark is a point, and nothing stands between thousands");
+  }
+}
+
 TEST(NumberWithUnit, EveryNumberOfADeviceMeasuresSomething) {
   const auto device = parse_device(
       "[[body]]\nname = \"a b.c\"\nmass = 1\n[loop]\nsampling_period = 1e-3\n[actuator]\nforce_limit = 1\n[wall]\n"

@@ -46,7 +46,9 @@ TEST(RecordedColumns, RefusesWhatIsNoRecording) {
   EXPECT_NE(refusal(recorded, columns_named({"g"})).find("bench: g"), std::string::npos);
   recorded.sampling_period = missing;
   EXPECT_EQ(refusal(recorded, options), "bench: sampling_period: is nan s; must be above 0");
+  EXPECT_EQ(find_problem(recorded)->str(), "bench: sampling_period: is nan s; must be above 0");
   recorded.sampling_period.reset();
+  EXPECT_FALSE(find_problem(recorded));
   EXPECT_NE(refusal(recorded, options).find("`rate`"), std::string::npos);
   recorded = two_columns();
   recorded.columns[1].samples.pop_back();

@@ -33,6 +33,18 @@ TEST(DeviceTrust, ARefusedFitStaysRefused) {
   EXPECT_EQ(trust_with({{}, {}, "", Trust::Verdict::refused, {}}).reasons.size(), 1U);
 }
 
+// A number to begin with carries no answer, whatever else is known.
+TEST(DeviceTrust, AssumedNumbersAreDoubtful) {
+  Uncertainty uncertainty;
+  uncertainty.assumed = {"body.motor.mass", "loop.sampling_period"};
+  const Trust assumed = trust_with(uncertainty);
+  EXPECT_EQ(assumed.verdict, Trust::Verdict::doubtful);
+  EXPECT_EQ(assumed.reasons, std::vector<std::string>{"assumed, not measured: body.motor.mass, loop.sampling_period; "
+                                                      "give the device's own"});
+  uncertainty.warning = "misfit";
+  EXPECT_EQ(trust_with(uncertainty).reasons.size(), 2U);
+}
+
 TEST(DeviceTrust, AnEmptyTableIsNoUncertainty) {
   DeviceParameters device = test::lhifam_parameters();
   device.uncertainty = Uncertainty{};

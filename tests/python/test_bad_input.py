@@ -51,6 +51,19 @@ def test_what_is_no_device_file_is_not_taken_for_a_path(source, type_name):
     assert error.where == "device" and error.what == f"is of type {type_name}" and "decode" in error.allowed
 
 
+@pytest.mark.parametrize("given, where", [("loop.delay=1e-3", "set"), (b"x", "set"), (7, "set"), (None, "set"), ([1], "set[0]"), (["\ud800=1"], "set[0]")])
+def test_overrides_are_a_list_of_texts(lhifam, given, where):
+    assert refusal(lambda: zwidth.Device.from_toml(lhifam.to_toml(), set=given)).where == where
+
+
+@pytest.mark.parametrize("period", [-1, 0, float("nan"), float("inf")])
+def test_a_recording_is_refused_where_it_is_made(period):
+    columns = {"f": [1.0, 2.0], "x": [0.0, 0.0]}
+    assert refusal(lambda: zwidth.Recording(columns, sampling_period=period, name="bench")).where == "bench: sampling_period"
+    assert "equally many" in refusal(lambda: zwidth.Recording({"f": [1.0, 2.0], "x": [0.0]})).allowed
+    assert "two at least" in refusal(lambda: zwidth.Recording({"f": [1.0]})).allowed
+
+
 def test_no_part_of_a_number_is_dropped(lhifam):
     assert refusal(lambda: zwidth.Recording({"f": np.array([1j, 2.0])})).what == "is complex"
     assert refusal(lambda: zwidth.critical_stiffness_many(lhifam, {"link.stiffness": np.array([8e4 + 1j])})).what == "is complex"
@@ -221,6 +234,7 @@ def test_the_callers_own_error_ends_the_work(lhifam):
 
 
 def test_interrupt_ends_long_work(lhifam):
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # whoever started the tests in the background had it ignored
     begun = time.monotonic()
     threading.Timer(0.3, signal.raise_signal, [signal.SIGINT]).start()
     with pytest.raises(KeyboardInterrupt):

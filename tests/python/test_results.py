@@ -193,3 +193,18 @@ def test_notebooks_show_a_table(lhifam):
 def test_texts_are_exported(lhifam):
     assert "zwidth" in zwidth.export(lhifam, "octave")
     assert zwidth.model(lhifam).schema == json.loads(zwidth.model(lhifam).to_json())["schema"]
+
+
+@pytest.mark.filterwarnings("ignore::zwidth.ResultWarning")
+def test_what_a_structure_assumes_and_the_record_does_not_show_stays_assumed(lhifam):
+    text = lhifam.to_toml() + "\n[uncertainty]\nassumed = ['link.stiffness', 'body.handle.mass', 'loop.sampling_period']\n"
+    assumed = zwidth.Device.from_toml(text)
+    with pytest.warns(zwidth.DoubtfulResult, match="assumed, not measured: link.stiffness, body.handle.mass"):
+        assert zwidth.analyze(assumed).assumed == ["link.stiffness", "body.handle.mass", "loop.sampling_period"]
+    columns = {"force": "force", "position": "position", "free": "link.stiffness,link.damping", "locked": "handle"}
+    for more in ({}, {"method": "time-domain"}):
+        found = zwidth.identify("recordings/locked_chirp.csv", structure=assumed, **columns, **more)
+        assert found.trust.verdict == "doubtful"
+        assert "assumed, not measured: body.handle.mass, loop.sampling_period; give the device's own" in found.trust.reasons
+        assert found.to_device().to_dict()["uncertainty"]["assumed"] == ["body.handle.mass", "loop.sampling_period"]
+        assert zwidth.Device.from_toml(found.device_toml) == found.to_device()

@@ -81,7 +81,7 @@ DEVICES = {
     "[actuator]\ntime_constant = 1e-4\nforce_limit = 10\n[sensor]\nresolution = 1e-6\n[operator]\nmass = 1\ndamping = 2\nstiffness = 3\n"
     "[driver]\ntravel = 0.01\ngear = 2\nsign = -1\ntorque_constant = 0.1\ntorque_per_volt = 0.2\nid = 1\ncommand = 'M'\nbaud = 115200\n"
     "[wall]\nstiffness = 100\ndamping = 1\nvelocity_filter_hz = 50\n"
-    "[uncertainty]\nparameters = ['body.a.mass']\ncovariance = [[1e-4]]\nverdict = 'doubtful'\nwarning = 'guessed'\nreasons = ['one']\n",
+    "[uncertainty]\nparameters = ['body.a.mass']\ncovariance = [[1e-4]]\nverdict = 'doubtful'\nwarning = 'guessed'\nreasons = ['one']\nassumed = ['loop.delay']\n",
     "filters": BODY + LOOP + "[wall]\nstiffness = 10\n" + FILTERS,
     "low_pass": BODY + LOOP + FILTERS.split("[[wall.filter]]\ntype = \"notch")[0].replace("order = 2", "order = 1"),
     "uncertain": BODY + LOOP + "[uncertainty]\nparameters = ['body.a.mass']\ncovariance = [[1e-4]]\n",

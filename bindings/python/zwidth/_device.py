@@ -6,7 +6,7 @@ import json
 import math
 import numbers
 import sys
-from typing import Any, Dict, List, Mapping
+from typing import Any, Dict, Iterable, List, Mapping
 
 from ._errors import InputError
 
@@ -68,6 +68,18 @@ def overrides(changes: Mapping[str, Any], keywords: Mapping[str, Any]) -> List[s
             raise InputError(f"device.{key}", "is None", "a value; no key can be taken out")
         plain = _plain(f"device.{key}", value)
         texts.append(f"{key}={plain if isinstance(plain, str) else json.dumps(plain)}")
+    return texts
+
+
+def assignments(given: Any) -> List[str]:
+    """Overrides as the caller has them: "KEY=VALUE", each a text."""
+    if isinstance(given, (str, bytes)) or not isinstance(given, Iterable):
+        raise InputError("set", f"is of type {type(given).__name__}", 'a list of texts such as ["loop.delay=1e-3"]')
+    texts = list(given)
+    for i, each in enumerate(texts):
+        if not isinstance(each, str):
+            raise InputError(f"set[{i}]", f"is of type {type(each).__name__}", 'a text such as "loop.delay=1e-3"')
+        text_of(f"set[{i}]", each)
     return texts
 
 

@@ -36,6 +36,7 @@ class Analysis(_Limited):
     quantisation_passivity = maybe_one(Record, "Up to where friction dissipates what the encoder generates.")
     critical_stiffness_interval = interval("95 % interval that the device's uncertainty makes of critical_stiffness.")
     other_mechanism_share = maybe("Share of the drawn devices that another mechanism limits.")
+    assumed = texts("Keys of the device's numbers that nobody has measured or stated, only assumed to begin with.")
     uncertainty_warning = maybe_text("Why the device's numbers are not to be trusted.")
 
 

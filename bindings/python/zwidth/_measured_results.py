@@ -46,6 +46,7 @@ class Identification(_Limited):
     modes = many(Mode, "Of the fitted device.")
     basis = one(Record, "What is closed around the device in K_CR.")
     points = one(_Points, "With points=True: measured and fitted response.")
+    device_toml = text("The device file.")
 
     @property
     def unidentifiable(self) -> List[List[str]]:
@@ -66,6 +67,7 @@ class RigidBodyIdentification(_Limited):
     cutoff_hz = number("Of the low-pass, Hz.")
     decimation = count("Every so many samples.")
     equations = count("How many.")
+    device_toml = text("The device file.")
 
     def to_device(self) -> _core.Device:
         """The rigid device with what was found, as identify --output-device writes it."""

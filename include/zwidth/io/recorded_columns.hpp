@@ -23,10 +23,14 @@ struct RecordedColumns {
   std::optional<double> sampling_period;  ///< s; what the recording itself states, where it does
 };
 
+/// The first impossible thing about them, with its column or "sampling_period": a period that is not finite and > 0, no
+/// column, columns of fewer than two samples or of different sizes.
+[[nodiscard]] std::optional<InputError> find_problem(const RecordedColumns& recorded);
+
 /// Reads the asked-for columns as read_recording() reads those of a file: the same choice of columns and of the time
 /// axis, the same checks, scales, fillings and remarks.
 ///
-/// Refused, besides: a sampling period that is not finite and > 0, and columns of different sizes.
+/// Refused, besides: what find_problem() says.
 [[nodiscard]] tl::expected<Recording, InputError> read_recording(const RecordedColumns& recorded,
                                                                  const RecordingOptions& options);
 

@@ -47,6 +47,7 @@ export interface Analysis extends Judged {
   wall: (Margins & { stiffness: number; damping: number }) | null
   force_per_count: { largest: number | null } | null
   critical_stiffness_interval: [number, number] | null
+  assumed: string[]
 }
 export interface Curve {
   frequency_rad_s: number[]
@@ -216,7 +217,7 @@ export interface Identification extends Judged {
   critical_stiffness_interval: [number, number] | null
   critical_frequency_hz: number | null
   points?: { frequency_hz: number[]; measured: [number, number][]; fitted: [number, number][] }
-  device_toml?: string
+  device_toml: string
 }
 export interface Example {
   file: string

@@ -78,7 +78,7 @@ export const percent = (share: number, digits = Math.abs(share) < 0.01 ? 2 : 3):
 
 const number = String.raw`[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?`
 const plain = new RegExp(`^${number}$`)
-const measured = new RegExp(`^(${number})\\s*(\\S.*)$`)
+const measured = new RegExp(`^(${number})\\s*([^\\s,].*)$`)
 
 /** A value of a device file: a plain number is SI, a text has its own unit, which only the server reads. */
 export interface Written {

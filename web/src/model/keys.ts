@@ -161,6 +161,6 @@ export function deviceKey(toml = ''): string {
   return key
 }
 
-/** link.stiffness and link.0.stiffness are one. */
-export const fullKey = (key: string): string => key.replace(/^link\.(?=[a-z])/, 'link.0.')
+/** link.stiffness and link.0.stiffness are one, as are mass and inertia. */
+export const fullKey = (key: string): string => key.replace(/^link\.(?=[a-z])/, 'link.0.').replace(/\.inertia$/, '.mass')
 export const sameKey = (a: string, b: string): boolean => a === b || fullKey(a) === fullKey(b)

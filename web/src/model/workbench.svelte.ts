@@ -92,10 +92,16 @@ class Workbench {
     let toml = this.state.toml
     for (const [key, raw] of Object.entries(values)) {
       const row = this.row(key)
-      if (row && !this.isLocked(key)) toml = confirm(set(toml, row.path, raw), row.path)
+      if (row && !this.isLocked(key)) toml = confirm(set(toml, row.path, raw), row.key)
     }
     if (more) toml = `${toml.replace(/\n*$/, '\n')}\n${more}`
     if (toml !== this.state.toml) this.change({ toml }, gesture)
+  }
+
+  /** That number is right as it stands. */
+  confirm(key: string): void {
+    const toml = confirm(this.state.toml, key)
+    if (toml !== this.state.toml) this.change({ toml })
   }
 
   /** The plain SI number of the file or its default of 0; null where it has a unit of its own or is none. */

@@ -3,7 +3,7 @@ import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs'
 import { tmpdir } from 'node:os'
 import { afterAll, expect, it } from 'vitest'
 import { say } from '../../src/model/decimal'
-import { documentOf, openPage, place, project, row, runPalette, settled, type } from './program'
+import { documentOf, openPage, place, project, row, runPalette, settled, type, withWall } from './program'
 
 const folder = mkdtempSync(`${tmpdir()}/zwidth-`)
 const here = place()
@@ -98,6 +98,7 @@ it('takes a file that is dropped anywhere', async () => {
   await drop('wheel.csv', 'time_s,torque_N_m,angle\n0,0,0\n0.001,1,0\n0.002,0,1e-6\n')
   await page.getByRole('button', { name: 'Fit', exact: true }).waitFor()
   expect(await page.locator('#body-recording').innerText()).toContain('wheel.csv: text, 3 columns of 3 samples')
+  await expect.poll(() => page.getByRole('button', { name: 'Fit', exact: true }).evaluate((each) => each.getBoundingClientRect().bottom < innerHeight)).toBe(true)
   expect([await page.getByLabel('Force (commanded)').inputValue(), await page.getByLabel('Position', { exact: true }).inputValue(), await page.getByLabel('Motion').inputValue()]).toEqual(['torque_N_m', 'angle', 'rotary'])
   await drop('mine.TOML', 'name = "dropped"\n[[body]]\nname = "a"\nmass = 1\n[loop]\nsampling_period = 1e-3\n')
   await page.getByRole('heading', { name: 'dropped' }).waitFor()
@@ -105,17 +106,37 @@ it('takes a file that is dropped anywhere', async () => {
   await page.context().close()
 })
 
-it('does not call a device sure whose numbers are the first ones', async () => {
+it('says that what it begins with is an example, and where one’s own begins', async () => {
+  const { page, complaints } = await openPage(here, 390)
+  await page.locator('[data-answer="example"]').getByRole('button', { name: 'begin a new one' }).click()
+  await page.getByRole('button', { name: 'New motor and wheel, rotary' }).click()
+  await page.locator('[data-answer="assumed"]').waitFor()
+  expect(await page.locator('[data-answer="example"]').count()).toBe(0)
+  expect(complaints).toEqual([])
+  await page.context().close()
+})
+
+it('does not call a device sure whose numbers are assumed, in a link neither', async () => {
   const { page, complaints } = await openPage(here, 390)
   const trust = (): Promise<string> => page.locator('[data-answer="trust"]').innerText()
   await runPalette(page, 'new motor and wheel, rotary')
-  const told = page.locator('[data-answer="first-values"]')
+  const told = page.locator('[data-answer="assumed"]')
   await told.waitFor()
   await type(page, 'body.wheel.mass', '0.04 kg m^2')
   await settled(page)
   expect(await told.innerText()).toContain('Body “motor”: inertia, damping; Link motor – wheel: stiffness, damping; Loop: sampling period.')
-  expect(await trust()).toBe('sound, of first values')
+  expect(await trust()).toBe('! doubtful')
   expect(await row(page, 'loop.sampling_period').locator('input[type="text"]').inputValue()).toBe('1 ms')
+  await type(page, 'loop.sampling_period', '1 ms') // the same, but said
+  await expect.poll(() => told.innerText()).not.toContain('sampling period')
+  await withWall(page)
+  await settled(page)
+  expect(await page.locator('[data-answer="wall"]').innerText()).toMatch(/^!/)
+  await page.evaluate(() => new Promise((done) => setTimeout(done, 300))) // the address is written behind a change
+  const shared = await openPage(here, 390, new URL(page.url()).hash)
+  await shared.page.locator('[data-answer="assumed"]').waitFor()
+  expect(await shared.page.locator('[data-answer="trust"]').innerText()).toBe('! doubtful')
+  await shared.context.close()
   await page.getByRole('button', { name: 'They are right' }).click()
   await told.waitFor({ state: 'detached' })
   await settled(page)

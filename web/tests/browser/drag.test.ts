@@ -1,3 +1,4 @@
+// What is timed, and so runs by itself: see tests/run.
 import type { Page } from 'playwright-core'
 import { expect, it } from 'vitest'
 import { alone, documentOf, openAll, openPage, place, row, settled, withWall } from './program'
@@ -20,6 +21,15 @@ const opened = async (): Promise<{ page: Page; end: () => Promise<void> }> => {
     },
   }
 }
+
+it.each([1280, 390])('prints how soon the first answer is there, %i pixels wide', async (width) => {
+  const started = Date.now()
+  const { page, context } = await openPage(here, width)
+  const took = Date.now() - started
+  console.log(`first answer at most ${(await page.evaluate(() => performance.now())).toFixed(0)} ms after the start of the page, ${took} ms with opening the tab`)
+  expect(took).toBeLessThan(3000)
+  await context.close()
+})
 
 it('prints how fast a drag is drawn, all panels open', async () => {
   const { page, end } = await opened()

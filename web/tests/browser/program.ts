@@ -42,7 +42,7 @@ export async function serveAt(port: number, ...files: string[]): Promise<Served>
 export const openBrowser = (): Promise<Browser> => {
   const found = [process.env.CHROMIUM, '/usr/bin/chromium', '/usr/bin/chromium-browser'].find((path) => path && existsSync(path))
   if (!found) throw new Error('no Chromium; install Debian’s package chromium or name it in CHROMIUM')
-  return chromium.launch({ executablePath: found, args: process.getuid?.() === 0 ? ['--no-sandbox'] : [] })
+  return chromium.launch({ executablePath: found, args: process.getuid?.() === 0 ? ['--no-sandbox', '--disable-gpu', '--disable-software-rasterizer'] : [] })
 }
 
 /** A server with these devices and a browser, for all tests of a file. */

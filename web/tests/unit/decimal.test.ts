@@ -56,6 +56,7 @@ describe('decimal', () => {
     expect(written('1.5 ms')).toEqual({ number: 1.5, unit: 'ms' })
     expect(written('1 turn/4096')).toEqual({ number: 1, unit: 'turn/4096' })
     expect(written(0.3)).toEqual({ number: 0.3, unit: null })
+    expect(written('0,01')).toBeNull() // a comma is no unit
     expect(tomlOfNumber(1e21)).toBe('1e21')
   })
 })

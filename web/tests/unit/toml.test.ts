@@ -1,7 +1,7 @@
 import { readFileSync, readdirSync } from 'node:fs'
 import { describe, expect, it } from 'vitest'
 import { groupsOf, shapeOf } from '../../src/model/keys'
-import { addBody, choose, confirm, connect, firstValues, freeName, newDevice, newLinkedDevice, removeBody, removeLink } from '../../src/model/parts'
+import { addBody, assumedKeys, choose, confirm, connect, freeName, newDevice, newLinkedDevice, removeBody, removeLink } from '../../src/model/parts'
 import { find, scan, set, withoutComments } from '../../src/model/toml'
 
 const devices = new URL('../../../devices/', import.meta.url)
@@ -85,22 +85,27 @@ describe('toml', () => {
   })
 })
 
-describe('first values', () => {
+describe('assumed numbers', () => {
   it('are told until they are changed or said to be right', () => {
     const wheel = newLinkedDevice('rotary')
-    const all = firstValues(wheel).map((path) => path.join('.'))
-    expect(all).toEqual(['body.0.inertia', 'body.0.damping', 'body.1.inertia', 'link.0.stiffness', 'link.0.damping', 'loop.sampling_period'])
-    const one = confirm(set(wheel, ['body', '1', 'inertia'], '"0.04 kg m^2"'), ['body', '1', 'inertia'])
-    expect(one).toContain('inertia = "0.04 kg m^2"\n')
-    expect(firstValues(one)).toHaveLength(5)
-    expect(firstValues(confirm(one))).toEqual([])
-    expect(confirm(one)).not.toContain('#')
+    expect(assumedKeys(wheel)).toEqual(['body.motor.mass', 'body.motor.damping', 'loop.sampling_period', 'body.wheel.mass', 'link.0.stiffness', 'link.0.damping'])
+    expect(assumedKeys(withoutComments(wheel))).toEqual(assumedKeys(wheel))
+    const one = confirm(wheel, 'body.wheel.mass')
+    expect(assumedKeys(one)).toHaveLength(5)
+    expect(assumedKeys(confirm(one, 'body.motor.inertia'))).toHaveLength(4)
+    expect(confirm(one)).not.toContain('uncertainty')
+    expect(confirm(one, 'wall.stiffness')).toBe(one)
   })
-  it('are those of what is added to a device too, and no other comment', () => {
-    const device = newDevice('linear')
-    expect(firstValues(addBody(confirm(device), 'handle', 'body 1')).map((path) => path.join('.'))).toEqual(['body.1.mass', 'link.0.stiffness', 'link.0.damping'])
-    const other = '[[body]]\nmass = 1 # measured\n# a first value\n'
-    expect(firstValues(other)).toEqual([])
-    expect(confirm(other)).toBe(other)
+  it('are those of what is added to a device too, and go with what is removed', () => {
+    const device = addBody(confirm(newDevice('linear')), 'handle', 'body 1')
+    expect(assumedKeys(device)).toEqual(['body.handle.mass', 'link.0.stiffness', 'link.0.damping'])
+    const three = addBody(device, 'knob', 'handle')
+    expect(assumedKeys(removeLink(confirm(three, 'link.1.damping'), 0))).toEqual(['body.handle.mass', 'body.knob.mass', 'link.0.stiffness'])
+    expect(assumedKeys(removeBody(three, 'handle'))).toEqual(['body.knob.mass'])
+    expect(removeBody(removeBody(three, 'handle'), 'knob')).not.toContain('uncertainty')
+  })
+  it('leave what else is said of the uncertainty', () => {
+    const doubted = '[[body]]\nname = "a"\nmass = 1\n\n[uncertainty]\nwarning = "w" # why\nassumed = ["body.a.mass"]\n'
+    expect(confirm(doubted)).toBe(doubted.replace('["body.a.mass"]', '[]'))
   })
 })

@@ -1,0 +1,3 @@
+import { everythingAt } from './widths'
+
+everythingAt(390)
