@@ -23,17 +23,22 @@ constexpr std::uint64_t most_samples = std::uint64_t{1} << 24U;
 constexpr std::uint32_t explore_stream = 0x40000;
 constexpr std::uint32_t draw_stream = 0x50000;
 constexpr std::uint32_t choice_stream = 0x60000;
+constexpr std::uint32_t pilot_stream = 0x70000;
+constexpr std::uint32_t pilot_choice_stream = 0x80000;
 constexpr std::size_t explored = 2048;  // units of each spread
 constexpr double spreads[] = {1.0, 2.0, 3.0};
 constexpr std::size_t most_points = 8;
 constexpr std::size_t starts = 12;
 constexpr int most_iterations = 25;
-constexpr double farthest = 8.0;      // standard deviations: beyond, nothing is drawn
-constexpr double apart = 1.0;         // two design points
-constexpr double much_farther = 2.5;  // than the nearest: its failures do not count
-constexpr double on_border = 1e-3;    // relative to the specified stiffness
-constexpr double difference = 1e-4;   // of a score, for the slope
-constexpr double defensive = 0.1;     // share of the units that are drawn as they are
+constexpr double farthest = 8.0;        // standard deviations: beyond, nothing is drawn
+constexpr double apart = 1.0;           // two design points
+constexpr double much_farther = 2.5;    // than the nearest: its failures do not count
+constexpr double on_border = 1e-3;      // relative to the specified stiffness
+constexpr double difference = 1e-4;     // of a score, for the slope
+constexpr double defensive = 0.1;       // share of the units that are drawn as they are
+constexpr std::uint64_t pilots = 2048;  // units of each round that looks for where the failures are
+constexpr std::uint64_t pilot_rounds = 2;
+constexpr std::size_t pilot_centres = 64;
 constexpr double normal_95 = 1.959963984540054;
 
 using Points = std::vector<Eigen::VectorXd>;
@@ -169,6 +174,91 @@ Points design_points(RareSearch& search) {
   return distinct;
 }
 
+/// Where the units are drawn: unit normal ones about centres, and as they are.
+///
+///     q(y) = d phi(y) + (1 - d) sum of w_k phi(y - c_k)
+class Mixture {
+ public:
+  /// About design points: half by what lies beyond them, half the same for each.
+  explicit Mixture(const Points& design) {
+    double sum = 0.0;
+    for (const Eigen::VectorXd& each : design) sum += standard_normal_probability(-each.norm());
+    for (const Eigen::VectorXd& each : design) {
+      add(each, 0.5 * standard_normal_probability(-each.norm()) / sum + 0.5 / static_cast<double>(design.size()));
+    }
+  }
+
+  /// These as likely, together, as those that there are.
+  void add_half(const Points& centres) {
+    for (double& weight : weights_) weight *= 0.5;
+    for (const Eigen::VectorXd& each : centres) add(each, 0.5 / static_cast<double>(centres.size()));
+  }
+
+  /// `choice` is uniform; a unit normal one becomes one of these.
+  [[nodiscard]] Eigen::VectorXd moved(Eigen::VectorXd unit, double choice) const {
+    if (choice < defensive) return unit;
+    choice = (choice - defensive) / (1.0 - defensive);
+    std::size_t k = 0;
+    while (k + 1 < weights_.size() && choice >= weights_[k]) choice -= weights_[k++];
+    return unit + centres_[k];
+  }
+
+  /// phi(y) / q(y)
+  [[nodiscard]] double ratio(const Eigen::VectorXd& unit) const {
+    double density = defensive;  // relative to phi: exp(y c_k - |c_k|²/2)
+    for (std::size_t k = 0; k < weights_.size(); ++k) {
+      density += (1.0 - defensive) * weights_[k] * std::exp(unit.dot(centres_[k]) - 0.5 * squares_[k]);
+    }
+    return 1.0 / density;
+  }
+
+ private:
+  void add(const Eigen::VectorXd& centre, double weight) {
+    centres_.push_back(centre);
+    squares_.push_back(centre.squaredNorm());
+    weights_.push_back(weight);
+  }
+
+  Points centres_;
+  std::vector<double> squares_;
+  std::vector<double> weights_;
+};
+
+/// Units of the mixture.
+struct Drawn {
+  Points units;
+  std::vector<double> ratios;
+};
+
+Drawn drawn(const RareSearch& search, const Mixture& mixture, std::uint64_t seed, std::uint32_t stream,
+            std::uint32_t of_choice, std::uint64_t first, std::uint64_t count) {
+  Drawn result;
+  for (std::uint64_t i = first; i < first + count; ++i) {
+    result.units.push_back(mixture.moved(search.drawn(stream, i), uniform_of(random_bits(seed, of_choice, i))));
+    result.ratios.push_back(mixture.ratio(result.units.back()));
+  }
+  return result;
+}
+
+/// Failures as they are distributed, by systematic resampling of what pilot units found: a way to fail that is wider
+/// than one design point tells is drawn as wide as it is. None where none failed.
+Points failing_centres(RareSearch& search, const Drawn& pilot) {
+  const std::vector<double> above = search.margins(pilot.units).above;
+  double whole = 0.0;
+  for (std::size_t i = 0; i < above.size(); ++i) whole += above[i] < 0.0 ? pilot.ratios[i] : 0.0;
+  Points centres;
+  double passed = 0.0;
+  for (std::size_t i = 0; i < above.size(); ++i) {
+    if (!(above[i] < 0.0)) continue;
+    passed += pilot.ratios[i];
+    while (centres.size() < pilot_centres &&
+           passed * static_cast<double>(pilot_centres) >= (static_cast<double>(centres.size()) + 0.5) * whole) {
+      centres.push_back(pilot.units[i]);
+    }
+  }
+  return centres;
+}
+
 void require(const StudyRun& run, const RareFailureOptions& options) {
   const Specification& wanted = run.options().specification;
   if (!wanted.critical_stiffness && !wanted.any_user) {
@@ -198,32 +288,16 @@ RareFailures rare_failures(const StudyRun& run, const RareFailureOptions& option
     result.error = std::sqrt(known.value * (1.0 - known.value) / explored);
     return result;
   }
-  std::vector<double> weights;  // of the points: half by what lies beyond them, half the same for each
-  double sum = 0.0;
-  for (const Eigen::VectorXd& each : points) {
-    result.points.push_back({{each.begin(), each.end()}, each.norm()});
-    weights.push_back(standard_normal_probability(-each.norm()));
-    sum += weights.back();
+  for (const Eigen::VectorXd& each : points) result.points.push_back({{each.begin(), each.end()}, each.norm()});
+  const std::uint64_t seed = run.options().seed;
+  Mixture mixture(points);
+  for (std::uint64_t round = 0; round < pilot_rounds; ++round) {
+    const Points centres = failing_centres(
+        search, drawn(search, mixture, seed, pilot_stream, pilot_choice_stream, round * pilots, pilots));
+    mixture = Mixture(points);
+    if (!centres.empty()) mixture.add_half(centres);
   }
-  for (double& weight : weights) weight = 0.5 * weight / sum + 0.5 / static_cast<double>(points.size());
-  Points units;
-  std::vector<double> ratios;  // phi(y) / q(y)
-  for (std::uint64_t i = 0; i < options.samples; ++i) {
-    Eigen::VectorXd unit = search.drawn(draw_stream, i);
-    double choice = uniform_of(random_bits(run.options().seed, choice_stream, i));
-    if (choice >= defensive) {
-      choice = (choice - defensive) / (1.0 - defensive);
-      std::size_t k = 0;
-      while (k + 1 < points.size() && choice >= weights[k]) choice -= weights[k++];
-      unit += points[k];
-    }
-    double density = defensive;  // relative to phi: exp(y y_k - |y_k|²/2)
-    for (std::size_t k = 0; k < points.size(); ++k) {
-      density += (1.0 - defensive) * weights[k] * std::exp(unit.dot(points[k]) - 0.5 * points[k].squaredNorm());
-    }
-    units.push_back(std::move(unit));
-    ratios.push_back(1.0 / density);
-  }
+  const auto [units, ratios] = drawn(search, mixture, seed, draw_stream, choice_stream, 0, options.samples);
   const Margins margins = search.margins(units);
   const std::vector<double>& above = margins.above;
   double mean = 0.0;
@@ -240,8 +314,13 @@ RareFailures rare_failures(const StudyRun& run, const RareFailureOptions& option
   const double heaviest = mean > 0.0 ? largest / mean : 1.0;
   result.share = mean / n;
   result.error = std::sqrt(std::max(0.0, square / n - result.share * result.share) / n);
-  result.lower = std::max(0.0, result.share - normal_95 * result.error);
-  result.upper = std::min(1.0, result.share + normal_95 * result.error);
+  if (mean > 0.0) {  // of the logarithm: the share's own distribution has its tail above
+    const double factor = std::exp(normal_95 * result.error / result.share);
+    result.lower = result.share / factor;
+    result.upper = std::min(1.0, result.share * factor);
+  } else {
+    result.upper = search.first_share().upper;
+  }
   result.evaluations = search.evaluations();
   constexpr double few = 100.0;
   constexpr double heavy = 0.1;

@@ -25,7 +25,7 @@ struct DesignPoint {
 struct RareFailures {
   double share = 0.0;  ///< 0 where no failure was found: trust is doubtful then
   double error = 0.0;  ///< its standard error
-  double lower = 0.0;  ///< 95 % interval, of the normal approximation
+  double lower = 0.0;  ///< 95 % interval, by the normal approximation of the share's logarithm
   /// Of that interval; where no failure was found, what 2048 units as they are leave possible.
   double upper = 0.0;
   std::uint64_t evaluations = 0;    ///< devices computed
@@ -40,7 +40,9 @@ struct RareFailures {
 ///
 ///     y <- (g' y - g) g / |g|²,    g = grad K_CR
 ///
-/// Then y is drawn from q = 0.1 N(0, 1) + 0.9 sum w_k N(y_k, 1), and the share is the mean of 1{fails} phi(y)/q(y).
+/// Then y is drawn from q = 0.1 N(0, 1) + 0.9 sum w_k N(y_k, 1), and the share is the mean of 1{fails} phi(y)/q(y). Half
+/// of the centres' weight has the border's places, half 64 failures that two rounds of 2048 pilot units found, resampled by
+/// phi/q: where failures lie wider than places of a border tell, they are drawn as wide.
 /// Doubtful where failures that were not found could matter: few effective samples, or one that weighs much; and where
 /// units have no answer or a doubtful one.
 /// Every unit without an answer fails. The same for any number of threads.
