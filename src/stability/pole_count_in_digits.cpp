@@ -221,7 +221,6 @@ std::optional<PoleOnCircle> settled(const Polynomial<Digits>& open, const Polyno
     stiffness -= by_stiffness;
     if (!(abs(y - first) < beside * first)) return std::nullopt;
     if (abs(by_y) <= close_enough * y && abs(by_stiffness) <= close_enough * abs(stiffness)) {
-      if (!(stiffness > 0.0)) return std::nullopt;
       return PoleOnCircle{Digits(2.0 * atan(y)).convert_to<double>(), stiffness.convert_to<double>()};
     }
   }
