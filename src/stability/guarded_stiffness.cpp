@@ -77,6 +77,7 @@ void polish(const FilteredPlant& plant, VirtualDamper damper, const PoleCount& p
     unsure[i]->angle = again[i].angle;
     unsure[i]->gain = again[i].stiffness;
   }
+  std::erase_if(found.crossings, [](const GainCrossing& each) { return !(each.gain > 0.0); });
 }
 
 }  // namespace

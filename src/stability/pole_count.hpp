@@ -36,7 +36,8 @@ class PoleCount {
   [[nodiscard]] std::optional<int> in_digits(double stiffness) const;
 
   // Poles that were found on the circle at 0 < angle < pi, again with a hundred digits: where the terms of the response
-  // keep fewer than K needs. Those that do not settle beside where they were stay, and all of larger loops.
+  // keep fewer than K needs, which may turn out to be negative. Those that do not settle beside where they were stay, and
+  // all of larger loops.
   void polish_in_digits(std::vector<PoleOnCircle>& poles) const;
 
   static constexpr std::size_t most_states_for_digits = 40;

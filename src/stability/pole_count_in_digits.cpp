@@ -202,7 +202,7 @@ std::optional<PoleOnCircle> settled(const Polynomial<Digits>& open, const Polyno
                                     const PoleOnCircle& start) {
   constexpr int most_steps = 30;
   constexpr double close_enough = 1e-20;  // relative
-  constexpr double beside = 1e-9;         // of the start's angle, relative
+  constexpr double beside = 1e-6;         // of the start's angle, relative
   const Digits first = tan(Digits(0.5 * start.angle));
   Digits y = first;
   Digits stiffness = start.stiffness;
@@ -221,7 +221,6 @@ std::optional<PoleOnCircle> settled(const Polynomial<Digits>& open, const Polyno
     stiffness -= by_stiffness;
     if (!(abs(y - first) < beside * first)) return std::nullopt;
     if (abs(by_y) <= close_enough * y && abs(by_stiffness) <= close_enough * abs(stiffness)) {
-      if (!(stiffness > 0.0)) return std::nullopt;
       return PoleOnCircle{Digits(2.0 * atan(y)).convert_to<double>(), stiffness.convert_to<double>()};
     }
   }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "stability/damper_response.hpp"
+#include "stability/pole_count.hpp"
 #include "stability/user_discs.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
@@ -136,7 +137,8 @@ class Search {
         if (!(critical.real() > 0.0) || (count > 0 && !is_unstable(held, critical.real() * (1.0 + beyond)))) {
           return std::nullopt;
         }
-        return WorstUser{*std::move(user), critical.real(), frequency_};
+        const PoleOnCircle pole = polished(held, {frequency_ * device_.loop().sampling_period, critical.real()});
+        return WorstUser{*std::move(user), pole.stiffness, pole.angle / device_.loop().sampling_period};
       }
       const std::complex<double> slope =
           std::polar(aliases.front().radius, direction_ + turn) * std::complex<double>(0.0, 1.0) / (plant * plant);
@@ -146,6 +148,18 @@ class Search {
   }
 
  private:
+  /// With a hundred digits: at low frequencies a heavy user's springs and masses cancel in the response, and K keeps six.
+  [[nodiscard]] PoleOnCircle polished(const Device& held, PoleOnCircle found) const {
+    if (is_nyquist_) return found;
+    DeviceParameters parameters = held.parameters();
+    parameters.wall.damping = virtual_damper_.damping;
+    parameters.wall.velocity_filter_hz = virtual_damper_.velocity_filter_hz;
+    const Device walled(std::move(parameters));
+    std::vector<PoleOnCircle> poles{found};
+    PoleCount(walled).polish_in_digits(poles);
+    return poles.front();
+  }
+
   /// By closed-loop eigenvalues. Absorbers may resonate so sharply that rounding hides what they do: those are no
   /// proof.
   [[nodiscard]] bool is_unstable(const Device& held, double stiffness) const {

@@ -52,5 +52,30 @@ TEST(UndampedModes, AreLeftByTheirOwnCrossoversNotByTheirPoles) {
   }
 }
 
+// mpmath with 90 digits: of the two roots beside the mode of 1685.7 rad/s one has K = 9.08e9, the other a negative K. In
+// double precision that was 5.7 > 0.
+TEST(UndampedModes, HaveNoCrossoverWhereKIsNegative) {
+  DeviceParameters parameters;
+  parameters.name = "undamped chain";
+  parameters.bodies = {
+      {"b0", 0.18618, 0, 0, 0}, {"b1", 0.597235, 0, 0, 0}, {"b2", 1.34494, 0, 0, 0}, {"b3", 0.0660233, 0, 0, 0}};
+  parameters.links = {{0, 1, 6677.43, 0}, {1, 2, 32422.0, 0}, {2, 3, 178759.0, 0}};
+  parameters.loop.held = 3;
+  parameters.loop.sampling_period = 5e-4;
+  parameters.loop.delay = 5.81451e-4;
+  parameters.wall.damping = 0.0150647;
+  WallFilter filter;
+  filter.kind = WallFilter::Kind::low_pass;
+  filter.frequency_hz = 30.2912;
+  filter.order = 2;
+  filter.damping_ratio = 0.600832;
+  parameters.wall.filters = {filter};
+  const CriticalStiffness answer = critical_stiffness(Device(parameters));
+  ASSERT_EQ(answer.crossovers.size(), 3U);
+  EXPECT_NEAR(answer.crossovers[0].stiffness, 2.10971234737, 1e-10);
+  EXPECT_NEAR(answer.crossovers[1].stiffness, 9083389377.35, 0.1);
+  EXPECT_NEAR(answer.crossovers[2].stiffness, 2471993442.0, 0.1);
+}
+
 }  // namespace
 }  // namespace zwidth
