@@ -48,6 +48,7 @@ TEST(AnalysisJson, KeysStandInTheirDocumentedOrder) {
                                              "critical_stiffness_interval",
                                              "other_mechanism_share",
                                              "uncertainty_warning",
+                                             "assumed",
                                              "trust",
                                              "remarks"};
   for (const auto& analysed : {lhifam(), lhifam_with_wall(), undamped_paddle(), unlimited_transfer_function()}) {
