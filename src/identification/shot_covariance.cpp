@@ -64,7 +64,8 @@ ShotCovariance shot_covariance(const ShotSlopes& slopes, const std::vector<bool>
     residuals.segment(row, count) = slopes.residuals[i];
     row += count;
   }
-  ShotCovariance result{.known = {}, .covariance = Eigen::MatrixXd::Zero(size, size), .pull = {}};
+  ShotCovariance result{
+      .known = {}, .covariance = Eigen::MatrixXd::Zero(size, size), .pull = {}, .step = Eigen::VectorXd::Zero(size)};
   std::vector<Eigen::Index> varied;
   for (Eigen::Index i = 0; i < size; ++i) {
     if (!held[static_cast<std::size_t>(i)]) varied.push_back(i);
@@ -103,6 +104,7 @@ ShotCovariance shot_covariance(const ShotSlopes& slopes, const std::vector<bool>
   Eigen::MatrixXd estimated = regressors(Eigen::all, kept);
   const Eigen::VectorXd scale = estimated.colwise().norm().cwiseInverse();
   estimated = estimated * scale.asDiagonal();
+  result.step(kept) = -scale.cwiseProduct(inverse_of_squares(estimated) * (estimated.transpose() * residuals));
   Eigen::MatrixXd covariance = covariance_with_correlated_residuals(estimated, residuals);
   widen(covariance, covariance_of_stretches(estimated, residuals));
   covariance *= calibration * calibration;

@@ -14,6 +14,9 @@ struct ShotCovariance {
   Eigen::MatrixXd covariance;  ///< of x; 0 for what is not determined
   /// Of what is held: how clearly the residuals ask for more of it, all others free to follow, in standard deviations.
   Eigen::VectorXd pull;
+  /// Of what varies: how far Newton's step would still go from here. Nothing where a search ended for its slopes; a misfit
+  /// with kinks ends it elsewhere.
+  Eigen::VectorXd step;
 };
 
 /// With the states eliminated: x's slopes less what the shots' own states explain of them; then

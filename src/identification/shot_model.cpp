@@ -292,6 +292,13 @@ std::vector<Eigen::VectorXd> ShotModel::recorded_states(const std::vector<Shot>&
   return states;
 }
 
+ShotModel ShotModel::at(const Eigen::VectorXd& x) const {
+  ShotModel fixed = *this;
+  fixed.structure_ = Device(parameters_at(x));
+  fixed.coordinates_.clear();
+  return fixed;
+}
+
 bool ShotModel::is_bounded(Eigen::Index i) const {
   const auto k = static_cast<std::size_t>(i);
   return k < coordinates_.size() && coordinates_[k].kind == Coordinate::Kind::not_negative;

@@ -75,6 +75,9 @@ class ShotModel {
   /// A state for each shot from the recorded position alone: no link stretched, all bodies at the sensed one's velocity.
   [[nodiscard]] std::vector<Eigen::VectorXd> recorded_states(const std::vector<Shot>& shots) const;
 
+  /// The same, with these parameters as the structure's and none of them free: x is the constant forces alone.
+  [[nodiscard]] ShotModel at(const Eigen::VectorXd& x) const;
+
   enum class Slopes { none, exact };
   /// Nothing where the parameters make no device that can be followed in time. With slopes a free friction of 0 is
   /// taken as one too small to matter, so that its own slope shows.

@@ -72,6 +72,26 @@ std::optional<FittedShots> ShotSearch::with_noise(const ShotFit& start, const st
   return FittedShots{*std::move(fit), std::move(noise)};
 }
 
+double ShotSearch::restart_states(ShotFit& fit, const std::vector<Shot>& shots,
+                                  const std::vector<ShotNoise>& noise) const {
+  const Eigen::VectorXd constants = fit.x.tail(static_cast<Eigen::Index>(model_.records().size()));
+  const auto again = fit_shots(model_.at(fit.x), shots, noise, {constants, model_.recorded_states(shots)}, constants,
+                               {.most_iterations = 20, .tolerance = 1e-4});
+  if (!again) return 0.0;
+  const auto before = shot_residuals(model_, shots, fit.x, fit.states);
+  const auto after = shot_residuals(model_, shots, fit.x, again->states);
+  if (!before || !after) return 0.0;
+  double gain = 0.0;
+  for (std::size_t i = 0; i < shots.size(); ++i) {
+    const auto misfit = [&](const ShotPositions& of) { return whitened(noise[shots[i].record], of[i]).squaredNorm(); };
+    const double fall = misfit(*before) - misfit(*after);
+    if (!(fall > 0.0)) continue;
+    gain += 0.5 * fall;
+    fit.states[i] = again->states[i];
+  }
+  return gain;
+}
+
 double ShotSearch::badness(const FittedShots& fitted, const std::vector<Shot>& shots) const {
   const auto residuals = shot_residuals(model_, shots, fitted.fit.x, fitted.fit.states);
   if (!residuals) return std::numeric_limits<double>::infinity();

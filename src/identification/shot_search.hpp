@@ -42,6 +42,10 @@ class ShotSearch {
                                                       const Eigen::VectorXd& towards,
                                                       const ShotFitOptions& options) const;
 
+  /// For each shot its states, or those found from the record again while the parameters stay: the better ones. By how
+  /// much the log-likelihood grows.
+  double restart_states(ShotFit& fit, const std::vector<Shot>& shots, const std::vector<ShotNoise>& noise) const;
+
   /// Log of the innovations' size, over all samples: what maximum likelihood makes small.
   [[nodiscard]] double badness(const FittedShots& fitted, const std::vector<Shot>& shots) const;
 

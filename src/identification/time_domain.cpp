@@ -97,6 +97,47 @@ void add_open_scale(const ShotModel& model, const ShotFit& fit, ShotCovariance& 
   known.covariance += open_scale * open_scale * scale * scale.transpose();
 }
 
+/// A fit under the noise of its own residuals.
+struct Round {
+  FittedShots fitted;
+  ShotCovariance known;
+  double badness = 0.0;
+  bool is_at_rest = false;
+};
+
+std::optional<Round> next_round(const ShotSearch& search, const ShotModel& model, const std::vector<Shot>& shots,
+                                const ShotFit& start, const Eigen::VectorXd& towards) {
+  auto fitted =
+      search.with_noise(start, shots, towards, {.most_iterations = 12, .tolerance = 2e-6, .holds_bounds = true});
+  if (!fitted) return std::nullopt;
+  const auto slopes = shot_slopes(model, shots, fitted->noise, fitted->fit.x, fitted->fit.states);
+  if (!slopes) return std::nullopt;
+  ShotCovariance known = shot_covariance(*slopes, fitted->fit.held);
+  add_open_scale(model, fitted->fit, known);
+  const double badness = search.badness(*fitted, shots);
+  return Round{*std::move(fitted), std::move(known), badness};
+}
+
+/// Whether the slopes promise a better fit where the search ended: as the instants of sticking and slipping change, the
+/// misfit has kinks, and side minima between them.
+bool asks_for_more(const Round& round) {
+  constexpr double notable = 0.2;  // of a standard deviation
+  return (round.known.step.array().abs() > notable * round.known.covariance.diagonal().array().sqrt()).any();
+}
+
+/// Where the slopes point to, past the kinks.
+ShotFit beyond(const ShotModel& model, const Round& round) {
+  ShotFit fit = round.fitted.fit;
+  fit.x += round.known.step;
+  for (Eigen::Index i = 0; i < fit.x.size(); ++i) {
+    if (model.is_bounded(i)) fit.x(i) = std::max(0.0, fit.x(i));
+  }
+  return fit;
+}
+
+/// What the search left open counts among what is not known.
+void widen_by_step(ShotCovariance& known) { known.covariance += known.step * known.step.transpose(); }
+
 /// Known to a factor of e only: nothing that a number could be given for.
 bool is_open(const Coordinate& coordinate, double variance) {
   constexpr double open = 1.0;
@@ -243,38 +284,45 @@ TimeDomainIdentification identify_in_time(std::span<const Recording> recordings,
   const Eigen::VectorXd towards = best->fit.x;
   std::optional<ShotFit> whole = fit_shots(model, shots, best->noise, {towards, model.recorded_states(shots)}, towards,
                                            {.most_iterations = 20, .tolerance = 1e-4});
-  std::optional<ShotCovariance> known;
-  std::optional<FittedShots> fitted;
+  std::optional<Round> found;  // the best
   constexpr int most_rounds = 5;
+  constexpr int most_leaps = 2;
+  constexpr double notable = 2.0;  // of the log-likelihood
+  int leaps = 0;
   bool is_at_rest = false;
   if (whole) take_short_lag_for_delay(model, *whole);
-  for (int round = 0; whole && round < most_rounds; ++round) {
+  for (int round = 0; whole && round < most_rounds + leaps; ++round) {
+    if (is_at_rest) {
+      const bool leaps_on = asks_for_more(*found);
+      if (leaps_on) whole = beyond(model, *found);
+      const double gain = search.restart_states(*whole, shots, found->fitted.noise);
+      if ((!leaps_on && gain < notable) || leaps++ == most_leaps) break;
+    }
     const Eigen::VectorXd before = whole->x;
-    known.reset();  // of the round before: without this one's there is none
-    fitted =
-        search.with_noise(*whole, shots, towards, {.most_iterations = 12, .tolerance = 2e-6, .holds_bounds = true});
-    if (!fitted) break;
-    whole = fitted->fit;
-    const auto slopes = shot_slopes(model, shots, fitted->noise, fitted->fit.x, fitted->fit.states);
-    if (!slopes) break;
-    known = shot_covariance(*slopes, fitted->fit.held);
-    add_open_scale(model, fitted->fit, *known);
-    done(0.5 + 0.1 * (round + 1));
-    is_at_rest = !release(*whole, *known) && stands_still(before, fitted->fit.x, known->covariance);
-    if (is_at_rest) break;
+    std::optional<Round> now = next_round(search, model, shots, *whole, towards);
+    if (!now && leaps > 0) break;
+    if (!now) found.reset();
+    if (!now) break;
+    done(0.5 + 0.1 * (std::min(round, most_rounds - 1) + 1));
+    whole = now->fitted.fit;
+    is_at_rest = !release(*whole, now->known) && stands_still(before, whole->x, now->known.covariance);
+    now->is_at_rest = is_at_rest;
+    const double allowed = found && is_at_rest && !found->is_at_rest ? notable : 0.0;
+    if (!found || now->badness < found->badness + allowed) found = std::move(now);
   }
-  if (!known) {
+  if (!found) {
     throw Error(ErrorCode::did_not_converge,
                 "the fit lost itself where no device can be played; is the structure right?");
   }
+  widen_by_step(found->known);
 
   TimeDomainIdentification result{.device = structure};
   result.lowest = start.lowest;
   result.highest = start.highest;
-  result.settled = fitted->fit.settled || is_at_rest;
+  result.settled = found->fitted.fit.settled || found->is_at_rest;
   result.remarks = start.remarks;
-  describe_parameters(result, model, fitted->fit, *known);
-  describe_motions(result, recordings, model, shots, *fitted, known->covariance);
+  describe_parameters(result, model, found->fitted.fit, found->known);
+  describe_motions(result, recordings, model, shots, found->fitted, found->known.covariance);
   judge_in_time(result, {recordings, structure, options, shots, start.is_turned});
   done(1.0);
   return result;

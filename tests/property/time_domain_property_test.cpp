@@ -36,5 +36,18 @@ TEST(TimeDomainProperty, FrictionDoesNotMoveTheCriticalStiffness) {
   EXPECT_GE(held, answered - 1);
 }
 
+// As the instants of sticking and slipping change, the misfit has kinks, and side minima between them. A search that ended
+// at one came to 12.3 % too high, in an interval that begins 7.1 % above the truth. What is left is
+// the disturbance: without it this device comes out right, with others of the same size on either side.
+TEST(TimeDomainProperty, ASearchPassesTheKinksOfItsMisfit) {
+  const test::FrictionRecordings made = test::friction_recordings(900007);
+  TimeDomainOptions options;
+  options.structure_values = IdentifyOptions::StructureValues::placeholders;
+  const TimeDomainIdentification found = identify_in_time(made.recordings, Device(made.structure), options);
+  ASSERT_TRUE(found.analysis.interval) << "seed 900007: " << made.what;
+  EXPECT_LE(found.analysis.critical.stiffness, 1.1 * made.stiffness);
+  EXPECT_LE(found.analysis.interval->lower, 1.05 * made.stiffness);
+}
+
 }  // namespace
 }  // namespace zwidth
