@@ -15,8 +15,8 @@
 #include "cli/surroundings.hpp"
 #include "report/figure/excitation_figure.hpp"
 #include "report/text/excitation_text.hpp"
-#include "report/text/remark_line.hpp"
 #include "results/excitation_json.hpp"
+#include "zwidth/remark.hpp"
 
 namespace zwidth::cli {
 namespace {
@@ -56,7 +56,7 @@ void check_limits(const ExciteArguments& arguments, const Excitation& excitation
   if (!excitation.check || excitation.check->exceeded.empty()) return;
   if (arguments.beyond_limits) return write_warnings(excitation.check->exceeded);
   std::string problems;
-  for (const Remark& remark : excitation.check->exceeded) problems += report::remark_line(remark) + "\n";
+  for (const Remark& remark : excitation.check->exceeded) problems += remark_line(remark) + "\n";
   throw WorkFailed(problems + "nothing is written; --beyond-limits writes it all the same");
 }
 

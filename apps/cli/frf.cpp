@@ -14,6 +14,7 @@
 #include "report/figure/frf_figure.hpp"
 #include "report/text/frf_text.hpp"
 #include "results/frf_json.hpp"
+#include "zwidth/remark.hpp"
 
 namespace zwidth::cli {
 namespace {

@@ -22,12 +22,12 @@
 #include "report/figure/identification_figure.hpp"
 #include "report/text/identification_text.hpp"
 #include "report/text/quantity.hpp"
-#include "report/text/remark_line.hpp"
 #include "results/identification_json.hpp"
 #include "zwidth/identification/identification.hpp"
 #include "zwidth/identification/rigid_body_identification.hpp"
 #include "zwidth/identification/time_domain.hpp"
 #include "zwidth/io/device_file.hpp"
+#include "zwidth/remark.hpp"
 
 namespace zwidth::cli {
 namespace {
@@ -158,19 +158,6 @@ RigidBodyIdentification fitted_rigid_body(const IdentifyArguments& arguments) {
                 [&](const Progress& progress) { return identify_rigid_body(motion.recording, options, progress); });
 }
 
-/// The device file, its remarks as comments at the top: whoever reads it later is told as well.
-std::string device_text(const Device& device, const std::vector<Remark>& remarks) {
-  std::string text;
-  for (const Remark& remark : remarks) {
-    const bool is_warning = remark.severity == Remark::Severity::warning;
-    std::string line = (is_warning ? "WARNING: " : "note: ") + report::remark_line(remark);
-    std::replace_if(
-        line.begin(), line.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
-    text += "# " + line + "\n";
-  }
-  return text + write_device(device.parameters());
-}
-
 std::string device_hint(const IdentifyArguments& arguments) {
   return arguments.output_device.empty() ? "\nThe device as a file: add --output-device FILE.toml\n"
                                          : "\nThe device is in " + arguments.output_device + "\n";
@@ -191,9 +178,7 @@ template <typename Identified, typename Document>
 void print(const IdentifyArguments& arguments, const Identified& identified, const std::string& device,
            const Document& document) {
   if (arguments.output.json) {
-    results::Json json = document();
-    json["device_toml"] = device;
-    write_standard_output(results::line(json));
+    write_standard_output(results::line(document()));
   } else if (arguments.output_device == "-") {
     write_warnings(identified.remarks);
     write_standard_output(device);
@@ -205,7 +190,7 @@ void print(const IdentifyArguments& arguments, const Identified& identified, con
 /// `identify --method inverse-dynamics`.
 void run_inverse_dynamics(const IdentifyArguments& arguments, Outputs& outputs) {
   const RigidBodyIdentification identified = fitted_rigid_body(arguments);
-  const std::string device = device_text(identified.device, identified.remarks);
+  const std::string device = write_device(identified.device.parameters(), identified.remarks);
   put(outputs, identified, device);
   print(arguments, identified, device, [&] { return results::identification_json(identified); });
 }
@@ -213,7 +198,7 @@ void run_inverse_dynamics(const IdentifyArguments& arguments, Outputs& outputs) 
 /// `identify --method time-domain`.
 void run_in_time(const IdentifyArguments& arguments, Outputs& outputs) {
   const TimeDomainIdentification identified = device_fitted_in_time(arguments);
-  const std::string device = device_text(identified.device, identified.remarks);
+  const std::string device = write_device(identified.device.parameters(), identified.remarks);
   put(outputs, identified, device);
   print(arguments, identified, device, [&] { return results::identification_json(identified); });
 }
@@ -228,7 +213,7 @@ void run_identify(const IdentifyArguments& arguments) {
   if (arguments.method == "inverse-dynamics") return run_inverse_dynamics(arguments, outputs);
   if (arguments.method == "time-domain") return run_in_time(arguments, outputs);
   const Identification identified = identified_device(arguments);
-  const std::string device = device_text(identified.fit.device, identified.remarks);
+  const std::string device = write_device(identified.fit.device.parameters(), identified.remarks);
   put(outputs, identified, device);
   const auto points = arguments.points ? results::PointsInJson::included : results::PointsInJson::left_out;
   print(arguments, identified, device, [&] { return results::identification_json(identified, points); });

@@ -12,8 +12,8 @@
 #include "cli/progress_line.hpp"
 #include "cli/subcommand.hpp"
 #include "cli/surroundings.hpp"
-#include "report/text/remark_line.hpp"
 #include "report/text/text_table.hpp"
+#include "zwidth/remark.hpp"
 
 namespace zwidth::cli {
 namespace {
@@ -207,7 +207,7 @@ std::string contents_text(const RecordingArguments& arguments) {
   }
   std::string text = report::layout(table);
   for (const Remark& remark : contents->remarks) {
-    text += report::remark_line(remark) + "\n";
+    text += remark_line(remark) + "\n";
   }
   return text;
 }

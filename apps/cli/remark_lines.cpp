@@ -3,14 +3,14 @@
 #include <string>
 
 #include "cli/standard_output.hpp"
-#include "report/text/remark_line.hpp"
+#include "zwidth/remark.hpp"
 
 namespace zwidth::cli {
 
 void write_warnings(std::span<const Remark> remarks) {
   for (const Remark& remark : remarks) {
     if (remark.severity != Remark::Severity::warning) continue;
-    write_standard_error("zwidth: " + report::remark_line(remark) + "\n");
+    write_standard_error("zwidth: " + remark_line(remark) + "\n");
   }
 }
 

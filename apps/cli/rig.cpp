@@ -26,6 +26,7 @@
 #include "rig/rig_actions.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/io/device_file.hpp"
+#include "zwidth/remark.hpp"
 #include "zwidth/simulation/simulate.hpp"
 #include "zwidth/stability/analysis.hpp"
 
@@ -184,7 +185,9 @@ void run_identify(const Rig& rig) {
   const RigIdentification result = rig::identify_on_rig(rig.device, *rig.driver, rig.options, options, line.progress());
   if (result.identification) {
     rig.outputs.put("--recording", [&] { return recording_csv(result.measurement.recording); });
-    rig.outputs.put("--output-device", [&] { return write_device(result.identification->fit.device.parameters()); });
+    rig.outputs.put("--output-device", [&] {
+      return write_device(result.identification->fit.device.parameters(), result.identification->remarks);
+    });
   }
   answer(rig, result, result.measurement.session);
 }

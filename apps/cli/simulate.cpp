@@ -23,6 +23,7 @@
 #include "report/figure/simulation_figure.hpp"
 #include "report/text/simulation_text.hpp"
 #include "results/simulation_json.hpp"
+#include "zwidth/remark.hpp"
 
 namespace zwidth::cli {
 namespace {

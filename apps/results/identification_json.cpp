@@ -5,6 +5,7 @@
 
 #include "results/analysis_json.hpp"
 #include "results/units.hpp"
+#include "zwidth/io/device_file.hpp"
 
 namespace zwidth::results {
 
@@ -83,6 +84,7 @@ Json identification_json(const Identification& identified, PointsInJson points) 
   json["critical_stiffness_without_hold"] = fit.stiffness_without_hold;
   put_limit(json, identified, analysis);
   if (points == PointsInJson::included) json["points"] = points_json(fit);
+  json["device_toml"] = write_device(fit.device.parameters(), identified.remarks);
   return json;
 }
 
@@ -115,6 +117,7 @@ Json identification_json(const TimeDomainIdentification& identified) {
   json["model_error"] = identified.model_error;
   json["held_to_measured_critical_point"] = false;
   put_limit(json, identified, analysis);
+  json["device_toml"] = write_device(identified.device.parameters(), identified.remarks);
   return json;
 }
 
@@ -129,6 +132,7 @@ Json identification_json(const RigidBodyIdentification& identified) {
   json["equations"] = fit.equations;
   json["trust"] = identified.trust;
   json["remarks"] = identified.remarks;
+  json["device_toml"] = write_device(identified.device.parameters(), identified.remarks);
   return json;
 }
 

@@ -17,4 +17,7 @@ struct Remark {
   std::string remedy = {};             ///< what to do about it; may be empty
 };
 
+/// "what; consequence; remedy", without those that are empty.
+[[nodiscard]] std::string remark_line(const Remark& remark);
+
 }  // namespace zwidth

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -165,6 +166,17 @@ std::string write_device(const DeviceParameters& parameters) {
     if (!uncertainty.assumed.empty()) out.value("assumed", text_array_value(uncertainty.assumed));
   }
   return std::move(out).text();
+}
+
+std::string write_device(const DeviceParameters& parameters, std::span<const Remark> remarks) {
+  std::string text;
+  for (const Remark& remark : remarks) {
+    std::string line = (remark.severity == Remark::Severity::warning ? "WARNING: " : "note: ") + remark_line(remark);
+    std::ranges::replace_if(
+        line, [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
+    text += "# " + line + "\n";
+  }
+  return text + write_device(parameters);
 }
 
 }  // namespace zwidth

@@ -10,8 +10,8 @@
 
 #include "report/figure/plot.hpp"
 #include "report/text/quantity.hpp"
-#include "report/text/remark_line.hpp"
 #include "report/text/text_table.hpp"
+#include "zwidth/remark.hpp"
 
 namespace zwidth::report {
 namespace {

@@ -8,10 +8,10 @@
 #include "report/page/html_page.hpp"
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
-#include "report/text/remark_line.hpp"
 #include "report/text/study_text.hpp"
 #include "report/text/trust_text.hpp"
 #include "zwidth/io/device_file.hpp"
+#include "zwidth/remark.hpp"
 
 namespace zwidth::report {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "report/text/quantity.hpp"
-#include "report/text/remark_line.hpp"
+#include "zwidth/remark.hpp"
 
 namespace zwidth::report {
 namespace {

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include "report/text/quantity.hpp"
-#include "report/text/remark_line.hpp"
 #include "report/text/text_table.hpp"
 #include "report/text/trust_text.hpp"
+#include "zwidth/remark.hpp"
 
 namespace zwidth::report {
 namespace {

@@ -7,9 +7,9 @@
 #include "report/text/design_text.hpp"
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
-#include "report/text/remark_line.hpp"
 #include "report/text/text_table.hpp"
 #include "report/text/trust_text.hpp"
+#include "zwidth/remark.hpp"
 
 namespace zwidth::report {
 namespace {

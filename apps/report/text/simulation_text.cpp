@@ -11,10 +11,10 @@
 
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
-#include "report/text/remark_line.hpp"
 #include "report/text/text_table.hpp"
 #include "report/text/trust_text.hpp"
 #include "report/text/wall_filter_text.hpp"
+#include "zwidth/remark.hpp"
 
 namespace zwidth::report {
 namespace {

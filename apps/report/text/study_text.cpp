@@ -8,8 +8,8 @@
 
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
-#include "report/text/remark_line.hpp"
 #include "report/text/trust_text.hpp"
+#include "zwidth/remark.hpp"
 
 namespace zwidth::report {
 namespace {

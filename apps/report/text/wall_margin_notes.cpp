@@ -6,7 +6,7 @@
 
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
-#include "report/text/remark_line.hpp"
+#include "zwidth/remark.hpp"
 
 namespace zwidth::report {
 namespace {

@@ -8,6 +8,7 @@
 
 #include "zwidth/io/input_error.hpp"
 #include "zwidth/model/device.hpp"
+#include "zwidth/remark.hpp"
 
 namespace zwidth {
 
@@ -33,6 +34,9 @@ namespace zwidth {
 /// Numbers have as many digits as that takes (at most 17). Throws Error (invalid_argument) where find_problem() finds
 /// one.
 [[nodiscard]] std::string write_device(const DeviceParameters& parameters);
+
+/// The same with what its user should know as comments at the head, a line each: whoever reads the file later is told too.
+[[nodiscard]] std::string write_device(const DeviceParameters& parameters, std::span<const Remark> remarks);
 
 inline constexpr std::size_t device_file_size_limit = std::size_t{1} << 20;  ///< bytes; larger ones are refused
 

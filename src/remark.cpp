@@ -1,6 +1,6 @@
-#include "report/text/remark_line.hpp"
+#include "zwidth/remark.hpp"
 
-namespace zwidth::report {
+namespace zwidth {
 
 std::string remark_line(const Remark& remark) {
   std::string line = remark.what;
@@ -10,4 +10,4 @@ std::string remark_line(const Remark& remark) {
   return line;
 }
 
-}  // namespace zwidth::report
+}  // namespace zwidth
