@@ -100,6 +100,60 @@ TEST_F(Rig, AnUnstableWallIsRefusedAndIfAcceptedTakenAwayAtOnce) {
   EXPECT_LT(stable["oscillation"]["growth_rate_per_s"], 0.0);
 }
 
+// An oscillation may grow too slowly to be taken away, or an end without alarm look like success.
+TEST_F(Rig, AnUnstableWallThatWasNotTakenAwayNeverLooksSure) {
+  for (const std::string stiffness : {"8900", "9500"}) {
+    const std::string wall = "wall " + lhifam + "--accept-unstable --stiffness " + stiffness;
+    const Outcome outcome = run("zwidth rig --json " + wall);
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_THAT(outcome.errors, HasSubstr("the wall is UNSTABLE: its oscillation grows"));
+    const auto document = nlohmann::json::parse(outcome.output, nullptr, false);
+    EXPECT_EQ(document["oscillates"], false);
+    EXPECT_EQ(document["trust"]["verdict"], "doubtful");
+    EXPECT_THAT(document["trust"]["reasons"].dump(), HasSubstr("grew too slowly to be taken away"));
+    EXPECT_THAT(run("zwidth rig " + wall).output, HasSubstr("do not carry the wall, because"));
+  }
+  const auto quiet = json("wall " + lhifam + "--accept-unstable --stiffness 8900 --duration 0.6");
+  EXPECT_EQ(quiet["trust"]["verdict"], "doubtful");
+  EXPECT_THAT(quiet["trust"]["reasons"].dump(), HasSubstr("UNSTABLE by linear analysis: that no oscillation"));
+  EXPECT_EQ(json("wall " + lhifam + "--stiffness 8800")["trust"]["verdict"], "sound");
+}
+
+// 23 % too little and 16 % too much were read from walls whose force was cut off, 32 % too much under a long ramp.
+TEST_F(Rig, NoLimitIsReadFromForceThatWasCutOff) {
+  for (const std::string force : {"9", "10", "12", "13"}) {
+    const auto limit = json("limit " + lhifam + "--amplitude 8.8 --force-limit " + force);
+    EXPECT_EQ(limit["trust"]["verdict"], "refused") << force;
+    EXPECT_TRUE(limit["measured"]["critical_stiffness"].is_null()) << force;
+    EXPECT_TRUE(limit["measured"]["stiffest_stable"].is_null()) << force;
+    EXPECT_THAT(limit["trust"]["reasons"].dump(), HasSubstr("the force was cut off")) << force;
+  }
+  for (const std::string allowed : {"--force-limit 12", "--ramp 10"}) {
+    const auto limit = json("limit " + lhifam + allowed);
+    EXPECT_EQ(limit["trust"]["verdict"], "sound") << allowed;
+    EXPECT_NEAR(limit["measured"]["critical_stiffness"].get<double>() / 8848.70869499712, 1.0, 0.02) << allowed;
+  }
+  expect_refused("limit " + lhifam + "--ramp 150", 2, "--ramp: is 150; a time in s, 0 to 10");
+  const auto wall = json("wall " + lhifam + "--stiffness 4000 --amplitude 8.8 --force-limit 9 --saturation 9");
+  EXPECT_THAT(wall["trust"]["reasons"].dump(), HasSubstr("force was kept back"));
+  const auto ramp = json("wall " + lhifam + "--stiffness 4000 --duration 1 --ramp 10");
+  EXPECT_THAT(ramp["trust"]["reasons"].dump(), HasSubstr("force was kept back"));
+}
+
+TEST_F(Rig, ALimitWithoutATrialSaysSo) {
+  const Outcome outcome = run("zwidth rig limit " + lhifam + "--position-limit 1e-9 --json");
+  const auto limit = nlohmann::json::parse(outcome.output, nullptr, false);
+  EXPECT_EQ(limit["trust"]["reasons"][0], "no trial came to its end");
+}
+
+TEST_F(Rig, TheKnockFitsTheForceLimit) {
+  for (const std::string action : {"measure ", "identify ", "relay --trials 1 ", "wall --stiffness 4000 ", "limit "}) {
+    const Outcome outcome = run("zwidth rig " + action + lhifam + "--force-limit 6");
+    EXPECT_EQ(outcome.status, 0) << action << outcome.errors;
+  }
+  EXPECT_DOUBLE_EQ(json("limit " + lhifam + "--force-limit 6")["knock"].get<double>(), 2.0);
+}
+
 TEST_F(Rig, LimitsEndTheSessionAndTheRecordIsThere) {
   const Outcome outcome = run("zwidth rig wall " + lhifam +
                               "--stiffness 4000 --amplitude 50 --position-limit 1e-3 --flight-record f.csv --json");

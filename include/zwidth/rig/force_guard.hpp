@@ -29,7 +29,7 @@ struct SafetyLimits {
   std::optional<double> velocity;     ///< m/s or rad/s. Absent: none
   double saturation_duration = 0.25;  ///< s, of a force that is cut off
   unsigned missed_cycles = 3;         ///< in a row: late by a period or more, or without a position
-  double ramp = 0.1;                  ///< s, over which the force grows to its full size; 0: at once
+  double ramp = 0.1;                  ///< s, over which the force grows to its full size; 0: at once; <= 10
 };
 
 /// The first member outside its domain.
