@@ -158,7 +158,13 @@ LimitOptions default_limit(const Device& device) {
     any_user = any_user_limit(device, virtual_damper(device)).stiffness;
   }
   LimitOptions options;
-  if (auto search = limit_search_options(device, predicted, any_user)) options.search = *std::move(search);
+  if (auto search = limit_search_options(device, predicted, any_user)) {
+    options.search = *std::move(search);
+  } else {  // an oscillation is looked for all the same
+    options.search.frequencies.push_back(frequency_of(predicted));
+    for (const Crossover& each : predicted.crossovers) options.search.frequencies.push_back(each.frequency);
+    options.search.floor = device.parameters().sensor.resolution;
+  }
   options.dwell = std::max(shortest_dwell, dwell_cycles * 2.0 * std::numbers::pi / frequency_of(predicted));
   options.knock = default_force(device);
   return options;
@@ -309,8 +315,11 @@ RigLimit measure_limit(const Device& device, Driver& driver, const RigOptions& o
   holding.controller = wall_of(device, limit.search.start);
   holding.cycles = cycles_of(std::max(0.5 * limit.dwell, options.limits.ramp), device);
   holding.ramps = true;
+  holding.watched = limit.search.frequencies;
+  holding.watch_floor = 2.0 * limit.search.floor;
   std::size_t trials = 0;
   while (const auto stiffness = search.next()) {
+    if (*stiffness < holding.controller.stiffness) holding.controller.stiffness = *stiffness;  // the start was unstable
     (void)run.play(holding);
     holding.ramps = false;
     holding.cycles = cycles_of(0.5 * limit.dwell, device);

@@ -194,8 +194,11 @@ LimitMeasurement LimitSearch::measurement(const Device& device) const {
   if (zero) {
     const double share = (*zero - low->stiffness) / (high->stiffness - low->stiffness);
     result.frequency = low->ring->frequency + share * (high->ring->frequency - low->ring->frequency);
-  } else if (high->ring) {
-    result.frequency = high->ring->frequency;
+  } else {
+    if (high->ring) result.frequency = high->ring->frequency;
+    result.trust.doubt(
+        "no oscillation was read that decays below the limit and grows above it: softer walls may grow unseen; let the "
+        "trials last longer, or knock harder");
   }
   const double swing = low->ring && high->ring ? std::min(low->ring->amplitude, high->ring->amplitude) : 0.0;
   const double of_encoder = options_.floor > 0.0 ? std::min(encoder_error(options_.floor, swing), 1.0) : 0.0;

@@ -146,6 +146,26 @@ TEST_F(Rig, ALimitWithoutATrialSaysSo) {
   EXPECT_EQ(limit["trust"]["reasons"][0], "no trial came to its end");
 }
 
+// Without damping no wall is stable; trials too short to see that made 797 N/m a sure limit.
+TEST_F(Rig, NoLimitIsSureWhereSofterWallsWereNotRead) {
+  write("free.toml",
+        "name = 'free'\nmotion = 'linear'\n[[body]]\nname = 'm'\nmass = 1.0\n[loop]\nactuated = 'm'\nsensed = 'm'\n"
+        "held = 'm'\nsampling_period = 1e-3\n");
+  const auto limit = json("limit free.toml --from 100 --ceiling 1000");
+  EXPECT_EQ(limit["trust"]["verdict"], "doubtful");
+  EXPECT_THAT(limit["trust"]["reasons"].dump(), HasSubstr("softer walls may grow unseen"));
+  const auto watched = json("limit free.toml --from 3000 --ceiling 3000 --duration 20");
+  EXPECT_EQ(watched["trials"][0]["stopped"], true) << "where nothing is predicted, nothing was watched";
+}
+
+// The wall that holds the device between trials was that of the start, unwatched, after the start had been found unstable.
+TEST_F(Rig, AStartThatIsUnstableDoesNotHoldTheDevice) {
+  const auto limit = json("limit " + lhifam + "--from 12000 --duration 60 --position-limit 0.02");
+  EXPECT_EQ(limit["trials"][0]["grows"], true);
+  EXPECT_TRUE(limit["session"]["stop"].is_null());
+  EXPECT_NEAR(limit["measured"]["critical_stiffness"].get<double>() / 8848.70869499712, 1.0, 0.02);
+}
+
 TEST_F(Rig, TheKnockFitsTheForceLimit) {
   for (const std::string action : {"measure ", "identify ", "relay --trials 1 ", "wall --stiffness 4000 ", "limit "}) {
     const Outcome outcome = run("zwidth rig " + action + lhifam + "--force-limit 6");
@@ -232,6 +252,7 @@ TEST_F(Rig, RelayGivesARowOfTable2) {
   EXPECT_EQ(relay["table_2_row"]["trials"], 1);
   EXPECT_GT(relay["table_2_row"]["frequency_hz"], 0.0);
   EXPECT_THAT(contents("relay.html"), HasSubstr("Relay experiment on the rig"));
+  EXPECT_THAT(contents("relay.html"), HasSubstr("white-space: pre-wrap")) << "sentences longer than the page";
 }
 
 TEST_F(Rig, TellsWhatItCannotDo) {
@@ -255,6 +276,9 @@ TEST_F(Rig, TellsWhatItCannotDo) {
   expect_refused("check " + lhifam + "--driver udp:127.0.0.1:9 --force-limit 1 --position-limit 1", 1,
                  "does not answer");
   const std::string limits = "--force-limit 1 --position-limit 1 ";
+  for (const std::string port : {"0", "-1", "99999", "4711x"}) {
+    expect_refused("check " + lhifam + "--driver udp:127.0.0.1:" + port + " " + limits, 1, "is none; 1 to 65535");
+  }
   expect_refused("check " + lhifam + "--driver odrive:/dev/null " + limits, 2, "driver: is missing");
   expect_refused("check " + lhifam + "--driver odrive:/dev/null --set driver.gear=2 " + limits, 2,
                  "driver.travel: is missing");
