@@ -79,7 +79,7 @@ double ForceGuard::update(double position, double wanted) noexcept {
     force = std::copysign(*limits_.force, force);
     if (++saturated_ > saturated_most_) stop(StopReason::saturation);
   } else {
-    saturated_ = 0.0;
+    saturated_ = std::max(0.0, saturated_ - 1.0);
   }
   return last_ = reason_ == StopReason::none ? force : 0.0;
 }

@@ -166,6 +166,20 @@ TEST_F(Rig, AStartThatIsUnstableDoesNotHoldTheDevice) {
   EXPECT_NEAR(limit["measured"]["critical_stiffness"].get<double>() / 8848.70869499712, 1.0, 0.02);
 }
 
+// Swung from force limit to force limit for 17 of 20 s, with status 0.
+TEST_F(Rig, ASwingBetweenTheForceLimitsEndsTheWall) {
+  write("belt.toml",
+        "name = 'belt'\nmotion = 'linear'\n[[body]]\nname = 'm'\nmass = 0.3\ndamping = 2\n[loop]\nactuated = 'm'\n"
+        "sensed = 'm'\nheld = 'm'\nsampling_period = 0.01\n");
+  const Outcome outcome =
+      run("zwidth rig wall belt.toml --stiffness 1000 --force-limit 5 --amplitude 0.5 --accept-unstable --duration 20 "
+          "--json");
+  EXPECT_EQ(outcome.status, 1);
+  const auto wall = nlohmann::json::parse(outcome.output, nullptr, false);
+  EXPECT_EQ(wall["session"]["stop"], "saturation");
+  EXPECT_LT(wall["session"]["stopped_at_s"].get<double>(), 3.0);
+}
+
 TEST_F(Rig, TheKnockFitsTheForceLimit) {
   for (const std::string action : {"measure ", "identify ", "relay --trials 1 ", "wall --stiffness 4000 ", "limit "}) {
     const Outcome outcome = run("zwidth rig " + action + lhifam + "--force-limit 6");
