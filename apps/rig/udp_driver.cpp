@@ -38,7 +38,7 @@ int connected_socket(const std::string& address) {
   int number = 0;  // getaddrinfo() takes 99999 for 34463
   const auto [end, error] = std::from_chars(port.data(), port.data() + port.size(), number);
   if (error != std::errc{} || end != port.data() + port.size() || number < 1 || number > most_port) {
-    throw DriverFailed(fmt::format("port {} is none; 1 to {}", port, most_port));
+    throw DriverFailed(fmt::format("no such address: port {} is none; 1 to {}", port, most_port));
   }
   addrinfo wanted{};
   wanted.ai_family = AF_UNSPEC;

@@ -122,7 +122,7 @@ TEST_F(Rig, AnUnstableWallThatWasNotTakenAwayNeverLooksSure) {
 // 23 % too little and 16 % too much were read from walls whose force was cut off, 32 % too much under a long ramp.
 TEST_F(Rig, NoLimitIsReadFromForceThatWasCutOff) {
   for (const std::string force : {"9", "10", "12", "13"}) {
-    const auto limit = json("limit " + lhifam + "--amplitude 8.8 --force-limit " + force);
+    const auto limit = json("limit " + lhifam + "--amplitude 8.8 --saturation 100 --force-limit " + force);
     EXPECT_EQ(limit["trust"]["verdict"], "refused") << force;
     EXPECT_TRUE(limit["measured"]["critical_stiffness"].is_null()) << force;
     EXPECT_TRUE(limit["measured"]["stiffest_stable"].is_null()) << force;
