@@ -98,7 +98,7 @@ rig::RigOptions rig_options(const RigArguments& arguments, const Device& device)
 }
 
 double amplitude_of(const Rig& rig) {
-  const double amplitude = rig.arguments.amplitude.value_or(rig::default_force(rig.device));
+  const double amplitude = rig.arguments.amplitude.value_or(rig::default_force(rig.device, rig.options.limits.force));
   if (!(std::isfinite(amplitude) && amplitude > 0.0)) {
     throw BadInput(fmt::format("--amplitude: is {}; a force in N or N m above 0", amplitude));
   }
@@ -227,6 +227,9 @@ void run_wall(const Rig& rig) {
       watched(rig, [&](const rig::RigOptions& own) { return rig::render_wall(rig.device, *rig.driver, own, options); });
   answer(rig, result, result.session);
   if (result.oscillates) throw WorkFailed("an oscillation grew: the wall was taken away");
+  if (result.grows && result.predicted_stable == false) {
+    throw WorkFailed("the wall is UNSTABLE: its oscillation grows, too slowly to be taken away");
+  }
 }
 
 void run_limit(const Rig& rig) {

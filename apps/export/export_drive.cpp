@@ -23,6 +23,14 @@ std::string any_user_text(const std::optional<AnyUserLimit>& limit, Units units)
   return fmt::format(", {} with any passive user", quantity(limit->stiffness, units.stiffness));
 }
 
+/// Where the wall stands among the limits.
+std::string wall_text(const DriveGains& gains) {
+  if (!gains.on_drive.wall->stable) return "UNSTABLE";
+  const auto& held = gains.on_drive.any_user;
+  const bool is_beyond = held && !(gains.stiffness < held->stiffness);
+  return is_beyond ? "stable by itself, but UNSTABLE in some passive user's hand" : "below that";
+}
+
 /// A line that no text of a device file can end early.
 std::string comment(std::string text) {
   for (char& character : text) {
@@ -40,8 +48,7 @@ std::string export_drive(const Device& device, const DriveGains& gains, const st
                               quantity(device.parameters().wall.damping, units.damping)));
   text += comment(fmt::format("Closed on the drive at {}, at the most: {}{}; this wall is {}",
                               quantity(1.0 / gains.sampling_period, "Hz"), limit_text(gains.on_drive.critical, units),
-                              any_user_text(gains.on_drive.any_user, units),
-                              gains.on_drive.wall->stable ? "below that" : "UNSTABLE"));
+                              any_user_text(gains.on_drive.any_user, units), wall_text(gains)));
   for (const Remark& each : gains.remarks) text += comment(each.what);
   if (const auto note = trust_note(gains.on_drive.trust)) text += comment(*note);
   for (const DriveNumber& each : gains.numbers) {

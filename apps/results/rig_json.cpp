@@ -158,11 +158,12 @@ Json rig_json(const Device& device, const RigWall& wall) {
 Json rig_json(const Device& device, const RigLimit& limit) {
   Json json = begun("limit", device, limit.session);
   const LimitMeasurement& measured = limit.measured;
+  const bool has_frequency = measured.stiffness && measured.frequency > 0.0;
   json["measured"] = {{"critical_stiffness", measured.stiffness},
                       {"critical_stiffness_db", decibels(measured.stiffness)},
                       {"critical_stiffness_interval", measured.interval},
-                      {"frequency_rad_s", measured.stiffness ? Json(measured.frequency) : Json(nullptr)},
-                      {"frequency_hz", measured.stiffness ? Json(hertz(measured.frequency)) : Json(nullptr)},
+                      {"frequency_rad_s", has_frequency ? Json(measured.frequency) : Json(nullptr)},
+                      {"frequency_hz", has_frequency ? Json(hertz(measured.frequency)) : Json(nullptr)},
                       {"stiffest_stable", measured.lower > 0.0 ? Json(measured.lower) : Json(nullptr)},
                       {"softest_unstable", measured.upper > 0.0 ? Json(measured.upper) : Json(nullptr)}};
   json["predicted"] = predicted_json(limit.predicted);

@@ -8,6 +8,7 @@
 #include "zwidth/error.hpp"
 #include "zwidth/model/device_trust.hpp"
 #include "zwidth/quantity.hpp"
+#include "zwidth/rig/wall_verdict.hpp"
 #include "zwidth/stability/any_user.hpp"
 
 namespace zwidth::rig {
@@ -124,9 +125,9 @@ void bring_to_rest(RigRun& run, const Segment& holding, double swung) {
 
 }  // namespace
 
-double default_force(const Device& device) {
+double default_force(const Device& device, std::optional<double> force_limit) {
   const CriticalStiffness predicted = critical_stiffness(device);
-  const auto limit = device.parameters().actuator.force_limit;
+  const auto limit = force_limit ? force_limit : device.parameters().actuator.force_limit;
   double force = limit ? share_of_force * *limit : 1.0;
   if (predicted.status == StiffnessStatus::finite) {
     const double moved = swing * predicted.stiffness;
@@ -157,7 +158,13 @@ LimitOptions default_limit(const Device& device) {
     any_user = any_user_limit(device, virtual_damper(device)).stiffness;
   }
   LimitOptions options;
-  if (auto search = limit_search_options(device, predicted, any_user)) options.search = *std::move(search);
+  if (auto search = limit_search_options(device, predicted, any_user)) {
+    options.search = *std::move(search);
+  } else {  // an oscillation is looked for all the same
+    options.search.frequencies.push_back(frequency_of(predicted));
+    for (const Crossover& each : predicted.crossovers) options.search.frequencies.push_back(each.frequency);
+    options.search.floor = device.parameters().sensor.resolution;
+  }
   options.dwell = std::max(shortest_dwell, dwell_cycles * 2.0 * std::numbers::pi / frequency_of(predicted));
   options.knock = default_force(device);
   return options;
@@ -268,13 +275,14 @@ RigWall render_wall(const Device& device, Driver& driver, const RigOptions& opti
   segment.watched.push_back(frequency);
   for (const Crossover& each : result.predicted.crossovers) segment.watched.push_back(each.frequency);
   segment.watch_floor = 2.0 * device.parameters().sensor.resolution;
+  const std::size_t ramped = std::min(segment.cycles, cycles_of(options.limits.ramp, device));
+  segment.cut_from = ramped;
   std::size_t after = 0;
   if (wall.knock != 0.0) {
-    const std::size_t ramped = cycles_of(options.limits.ramp, device);
     segment.force.assign(ramped, 0.0);
     const std::vector<double> knock = knock_at(frequency, wall.knock, period);
     segment.force.insert(segment.force.end(), knock.begin(), knock.end());
-    after = segment.watch_from = std::min(segment.cycles, segment.force.size());
+    after = segment.cut_from = segment.watch_from = std::min(segment.cycles, segment.force.size());
   }
   RigRun run(driver, options.limits, period, options.watcher);
   const Played played = run.play(segment);
@@ -286,6 +294,8 @@ RigWall render_wall(const Device& device, Driver& driver, const RigOptions& opti
     const std::span<const double> rest = std::span(played.position).subspan(after);
     result.ring = least_damped_oscillation(rest, period, segment.watched, device.parameters().sensor.resolution);
   }
+  result.cut_duration = static_cast<double>(ramped < segment.cycles ? played.cut : segment.cycles) * period;
+  judge(result);
   return result;
 }
 
@@ -303,23 +313,27 @@ RigLimit measure_limit(const Device& device, Driver& driver, const RigOptions& o
   RigRun run(driver, options.limits, period, options.watcher);
   Segment holding;
   holding.controller = wall_of(device, limit.search.start);
-  holding.cycles = cycles_of(0.5 * limit.dwell, device);
+  holding.cycles = cycles_of(std::max(0.5 * limit.dwell, options.limits.ramp), device);
   holding.ramps = true;
+  holding.watched = limit.search.frequencies;
+  holding.watch_floor = 2.0 * limit.search.floor;
   std::size_t trials = 0;
   while (const auto stiffness = search.next()) {
+    if (*stiffness < holding.controller.stiffness) holding.controller.stiffness = *stiffness;  // the start was unstable
     (void)run.play(holding);
     holding.ramps = false;
+    holding.cycles = cycles_of(0.5 * limit.dwell, device);
     Segment segment;
     segment.controller = wall_of(device, *stiffness);
     segment.force = knock;
     segment.cycles = knock.size() + cycles_of(limit.dwell, device);
     segment.watched = limit.search.frequencies;
     segment.watch_floor = 2.0 * limit.search.floor;
-    segment.watch_from = knock.size();
+    segment.cut_from = segment.watch_from = knock.size();
     const Played played = run.play(segment);
     if (run.is_stopped()) break;
     search.add(*stiffness, std::span(played.position).subspan(std::min(knock.size(), played.position.size())), period,
-               played.stop == StopReason::oscillation);
+               played.stop == StopReason::oscillation, played.cut > 0);
     report(progress, part(++trials, LimitSearch::most_trials));
   }
   result.session = ended(run, options);

@@ -21,18 +21,23 @@ RunningSegment::RunningSegment(const Segment& segment, double sampling_period)
       force_(segment.cycles),
       position_(segment.cycles),
       watch_from_(segment.watch_from),
+      cut_from_(segment.cut_from),
       ramps_(segment.ramps),
       stiffness_(segment.controller.kind == ControllerOptions::Kind::wall ? segment.controller.stiffness : 0.0),
       damping_(segment.controller.kind == ControllerOptions::Kind::wall ? segment.controller.damping : 0.0) {
   added_.resize(segment.cycles, 0.0);
 }
 
-double RunningSegment::update(double position) noexcept { return controller_.update(position) + added_[cycle_]; }
+double RunningSegment::update(double position) noexcept {
+  return wanted_ = controller_.update(position) + added_[cycle_];
+}
 
 bool RunningSegment::sent(double force, std::optional<double> position) noexcept {
   if (position && std::isfinite(*position)) last_position_ = *position;
   force_[cycle_] = force;
   position_[cycle_] = last_position_;
+  const bool is_cut = position && stop_ == StopReason::none && std::abs(force) < std::abs(wanted_);
+  if (is_cut && cycle_ >= cut_from_) ++cut_;
   if (cycle_ >= watch_from_ && watch_.update(last_position_)) stop_ = StopReason::oscillation;
   ++cycle_;
   return cycle_ == force_.size() || stop_ != StopReason::none;
@@ -47,7 +52,7 @@ void RunningSegment::show(LiveState& state) const noexcept {
 Played RunningSegment::played() {
   force_.resize(cycle_);
   position_.resize(cycle_);
-  return {std::move(force_), std::move(position_), stop_};
+  return {std::move(force_), std::move(position_), stop_, cut_};
 }
 
 RigLoop::RigLoop(Driver& driver, const SafetyLimits& limits, double sampling_period)

@@ -24,6 +24,7 @@ struct Segment {
   std::vector<double> watched = {};  ///< rad/s, where an oscillation that grows ends it; empty: none is looked for
   double watch_floor = 0.0;          ///< m or rad
   std::size_t watch_from = 0;        ///< cycle
+  std::size_t cut_from = 0;          ///< cycle from which force that is kept back counts
   bool ramps = false;                ///< the force grows from zero at its start
 };
 
@@ -32,6 +33,7 @@ struct Played {
   std::vector<double> force;           ///< sent, N or N m
   std::vector<double> position;        ///< m or rad
   StopReason stop = StopReason::none;  ///< oscillation: this segment alone ended early
+  std::size_t cut = 0;                 ///< cycles from `cut_from` on in which less force was sent than wanted
 };
 
 /// A segment ready to run: all that it needs is there.
@@ -59,11 +61,14 @@ class RunningSegment {
   std::vector<double> force_;
   std::vector<double> position_;
   std::size_t watch_from_;
+  std::size_t cut_from_;
   bool ramps_;
   double stiffness_;
   double damping_;
   std::size_t cycle_ = 0;
   double last_position_ = 0.0;
+  double wanted_ = 0.0;
+  std::size_t cut_ = 0;
   StopReason stop_ = StopReason::none;
 };
 

@@ -7,10 +7,12 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <ctime>
 #include <limits>
+#include <system_error>
 
 #include "rig/real_time.hpp"
 
@@ -23,6 +25,7 @@ constexpr double watchdog = 0.1;                        // s, of the protocol
 constexpr std::int64_t silence = 250'000'000;           // ns, after which it must have let go
 constexpr double share_of_period = 0.5;                 // for a position
 constexpr std::int64_t lock_step_patience = 500'000'000;
+constexpr int most_port = 65535;
 constexpr int idle_frames = 3;  // one may be lost
 constexpr double question = std::numeric_limits<double>::quiet_NaN();
 
@@ -31,15 +34,19 @@ int connected_socket(const std::string& address) {
   if (colon == std::string::npos || colon == 0 || colon + 1 == address.size()) {
     throw DriverFailed("is no address; udp:HOST:PORT");
   }
+  const std::string port = address.substr(colon + 1);
+  int number = 0;  // getaddrinfo() takes 99999 for 34463
+  const auto [end, error] = std::from_chars(port.data(), port.data() + port.size(), number);
+  if (error != std::errc{} || end != port.data() + port.size() || number < 1 || number > most_port) {
+    throw DriverFailed(fmt::format("no such address: port {} is none; 1 to {}", port, most_port));
+  }
   addrinfo wanted{};
   wanted.ai_family = AF_UNSPEC;
   wanted.ai_socktype = SOCK_DGRAM;
   wanted.ai_flags = AI_NUMERICSERV;
   addrinfo* found = nullptr;
-  if (const int error =
-          getaddrinfo(address.substr(0, colon).c_str(), address.substr(colon + 1).c_str(), &wanted, &found);
-      error != 0) {
-    throw DriverFailed(fmt::format("no such address: {}", gai_strerror(error)));
+  if (const int failure = getaddrinfo(address.substr(0, colon).c_str(), port.c_str(), &wanted, &found); failure != 0) {
+    throw DriverFailed(fmt::format("no such address: {}", gai_strerror(failure)));
   }
   int connected = -1;
   for (const addrinfo* each = found; each != nullptr && connected < 0; each = each->ai_next) {

@@ -61,6 +61,7 @@
 #include "zwidth/rig/results.hpp"
 #include "zwidth/rig/serial_rate.hpp"
 #include "zwidth/rig/session.hpp"
+#include "zwidth/rig/wall_verdict.hpp"
 #include "zwidth/sampling/discrete_state_space.hpp"
 #include "zwidth/sampling/filter_section.hpp"
 #include "zwidth/sampling/forced_response.hpp"

@@ -12,6 +12,7 @@ namespace zwidth {
 namespace {
 
 constexpr double velocity_bandwidth = 0.05;  // of the sampling rate
+constexpr double longest_ramp = 10.0;        // s
 
 const SafetyLimits& checked(const SafetyLimits& limits) {
   internal::require_valid(find_problem(limits));
@@ -34,8 +35,7 @@ std::optional<OptionProblem> find_problem(const SafetyLimits& limits) {
   if (limits.missed_cycles == 0 || limits.missed_cycles > 1000) {
     return problem("missed_cycles", limits.missed_cycles, "a whole number from 1 to 1000");
   }
-  if (!(std::isfinite(limits.ramp) && limits.ramp >= 0.0))
-    return problem("ramp", limits.ramp, "a time in s, 0 or more");
+  if (!(limits.ramp >= 0.0 && limits.ramp <= longest_ramp)) return problem("ramp", limits.ramp, "a time in s, 0 to 10");
   return std::nullopt;
 }
 
@@ -79,7 +79,7 @@ double ForceGuard::update(double position, double wanted) noexcept {
     force = std::copysign(*limits_.force, force);
     if (++saturated_ > saturated_most_) stop(StopReason::saturation);
   } else {
-    saturated_ = 0.0;
+    saturated_ = std::max(0.0, saturated_ - 1.0);
   }
   return last_ = reason_ == StopReason::none ? force : 0.0;
 }

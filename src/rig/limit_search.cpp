@@ -151,9 +151,11 @@ std::optional<double> LimitSearch::next() const {
   return next > low->stiffness && next < high->stiffness ? next : middle;
 }
 
-void LimitSearch::add(double stiffness, std::span<const double> position, double sampling_period, bool stopped) {
-  trials_.push_back(
-      {stiffness, least_damped_oscillation(position, sampling_period, options_.frequencies, options_.floor), stopped});
+void LimitSearch::add(double stiffness, std::span<const double> position, double sampling_period, bool stopped,
+                      bool cut) {
+  trials_.push_back({stiffness,
+                     least_damped_oscillation(position, sampling_period, options_.frequencies, options_.floor), stopped,
+                     cut});
 }
 
 LimitMeasurement LimitSearch::measurement(const Device& device) const {
@@ -164,8 +166,18 @@ LimitMeasurement LimitSearch::measurement(const Device& device) const {
   for (const std::string& reason : trust_of(device).reasons) result.trust.doubt(reason);
   const LimitTrial* low = stable();
   const LimitTrial* high = unstable();
+  if ((low != nullptr && low->cut) || (high != nullptr && high->cut)) {
+    result.trust.refuse(
+        "the force was cut off after the knock, so that the walls that were felt are not those that were tried: allow "
+        "more force, or knock softer");
+    return result;
+  }
   if (low != nullptr) result.lower = low->stiffness;
   if (high != nullptr) result.upper = high->stiffness;
+  if (trials_.empty()) {
+    result.trust.refuse("no trial came to its end");
+    return result;
+  }
   if (high == nullptr) {
     result.trust.refuse(fmt::format("no oscillation grew up to {}: raise the ceiling, or knock harder",
                                     quantity(result.lower, units.stiffness)));
@@ -182,8 +194,11 @@ LimitMeasurement LimitSearch::measurement(const Device& device) const {
   if (zero) {
     const double share = (*zero - low->stiffness) / (high->stiffness - low->stiffness);
     result.frequency = low->ring->frequency + share * (high->ring->frequency - low->ring->frequency);
-  } else if (high->ring) {
-    result.frequency = high->ring->frequency;
+  } else {
+    if (high->ring) result.frequency = high->ring->frequency;
+    result.trust.doubt(
+        "no oscillation was read that decays below the limit and grows above it: softer walls may grow unseen; let the "
+        "trials last longer, or knock harder");
   }
   const double swing = low->ring && high->ring ? std::min(low->ring->amplitude, high->ring->amplitude) : 0.0;
   const double of_encoder = options_.floor > 0.0 ? std::min(encoder_error(options_.floor, swing), 1.0) : 0.0;

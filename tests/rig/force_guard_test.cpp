@@ -48,6 +48,23 @@ TEST(ForceGuard, TheForceGrowsFromZero) {
   EXPECT_NEAR(guard.update(0.0, 1.0), 0.01, 1e-12);
 }
 
+// Each stretch of a swing at the limit is short; to and fro it shook the device without end.
+TEST(ForceGuard, ASwingBetweenTheLimitsIsSaturationToo) {
+  const auto cycles_until_stopped = [](double amplitude) {
+    ForceGuard guard(limits(), period);  // cuts off at 5, for 10 cycles
+    for (int k = 0; k < 1000; ++k) {
+      (void)guard.update(0.0, amplitude * std::sin(0.5 * k));
+      if (guard.stopped() != StopReason::none) return k;
+    }
+    return -1;
+  };
+  EXPECT_EQ(cycles_until_stopped(4.9), -1);
+  EXPECT_EQ(cycles_until_stopped(6.0), -1) << "cut off for a third of the time";
+  const int swinging = cycles_until_stopped(20.0);
+  EXPECT_GT(swinging, 10);
+  EXPECT_LT(swinging, 40);
+}
+
 struct Fault {
   const char* name;
   StopReason reason;
@@ -113,8 +130,8 @@ TEST(ForceGuard, WhatIsBeyondTheLimitIsCutOff) {
   ForceGuard guard(limits(), period);
   EXPECT_EQ(guard.update(0.0, 50.0), 5.0);
   EXPECT_EQ(guard.update(0.0, -50.0), -5.0);
-  for (int k = 0; k < 100; ++k) {  // not for long: that is allowed
-    EXPECT_EQ(guard.update(0.0, k % 5 == 0 ? 1.0 : 50.0), k % 5 == 0 ? 1.0 : 5.0);
+  for (int k = 0; k < 100; ++k) {  // within it for as long as beyond: that is allowed
+    EXPECT_EQ(guard.update(0.0, k % 2 == 0 ? 1.0 : 50.0), k % 2 == 0 ? 1.0 : 5.0);
   }
   EXPECT_EQ(guard.stopped(), StopReason::none);
 }

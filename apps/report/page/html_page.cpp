@@ -19,6 +19,7 @@ h2 { font-size: 1.25rem; margin: 2rem 0 .5rem; }
 h3 { font-size: 1.05rem; margin: 1.5rem 0 .5rem; }
 sub { line-height: 0; }
 p, ul { margin: .5rem 0; }
+pre { font-size: .93rem; white-space: pre-wrap; }
 .answer { border: 1px solid var(--line); border-left: 6px solid var(--mark); border-radius: 4px; padding: .8rem 1.2rem;
   margin: 1rem 0; }
 .answer .value { font-size: 1.6rem; font-weight: 600; margin: 0; }
@@ -39,7 +40,7 @@ figure svg { width: 100%; min-width: 620px; height: auto; display: block; backgr
 figcaption { font-size: .9rem; color: var(--quiet); margin-top: .3rem; }
 .device { border-top: 1px solid var(--line); margin-top: 2.5rem; padding-top: 1rem; }
 footer { margin-top: 2.5rem; padding-top: .6rem; border-top: 1px solid var(--line); font-size: .85rem; color: var(--quiet); }
-@media (max-width: 480px) { body { padding: 1rem .7rem 2rem; } h1 { font-size: 1.4rem; } th, td { padding: .3rem .45rem; }
+@media (max-width: 480px) { body { padding: 1rem .7rem 2rem; } h1 { font-size: 1.4rem; } pre { font-size: .62rem; } th, td { padding: .3rem .45rem; }
   .answer { padding: .6rem .8rem; } .answer .value { font-size: 1.3rem; } }
 @media print { :root { color-scheme: light; --ink: #1a1a1a; --paper: #fff; --quiet: #555; --line: #d4d4d4; }
   figure { overflow: visible; } figure svg { min-width: 0; } body { max-width: none; padding: 0; font-size: 11pt; } figure, table, .answer { break-inside: avoid; }

@@ -75,6 +75,7 @@ std::string trial_rows(const LimitMeasurement& measured, const Units& units) {
     table.rows.push_back({number(trial.stiffness), trial.ring ? number(hertz(trial.ring->frequency)) : "-",
                           trial.ring ? number(trial.ring->growth_rate) : "-",
                           trial.stopped   ? "grew: taken away at once"
+                          : trial.cut     ? "force was cut off"
                           : trial.grows() ? "grew"
                                           : ""});
   }
@@ -131,7 +132,8 @@ std::string rig_text(const Device& device, const RigWall& wall) {
   text += labelled("  wall", fmt::format("K = {}, B = {}", quantity(wall.controller.stiffness, units.stiffness),
                                          quantity(wall.controller.damping, units.damping)));
   text += labelled("  predicted limit", limit_of(wall.predicted, units));
-  text += trust_lines(wall.trust);
+  text += trust_lines(wall.trust, "wall");
+  if (wall.predicted_stable == false) text += labelled("  UNSTABLE", "by linear analysis");
   if (wall.oscillates) {
     text += labelled("  OSCILLATES", "it grew, and the wall was taken away at once");
   }
@@ -150,8 +152,10 @@ std::string rig_text(const Device& device, const RigLimit& limit) {
   const LimitMeasurement& measured = limit.measured;
   std::string text = rig_heading(device, "Limit on the rig", limit.session);
   if (measured.stiffness) {
-    text += labelled("  K_CR measured", fmt::format("{} at {}", quantity(*measured.stiffness, units.stiffness),
-                                                    crossover_frequency_text(measured.frequency)));
+    text += labelled("  K_CR measured",
+                     quantity(*measured.stiffness, units.stiffness) +
+                         (measured.frequency > 0.0 ? " at " + crossover_frequency_text(measured.frequency)
+                                                   : std::string(", its frequency was not read")));
     text += labelled("  between", fmt::format("{} and {}", quantity(measured.interval->lower, units.stiffness),
                                               quantity(measured.interval->upper, units.stiffness)));
   } else {

@@ -17,11 +17,11 @@ std::optional<std::string> trust_note(const Trust& trust) {
   return trust.sound() ? std::nullopt : std::optional(verdict_text(trust));
 }
 
-std::string trust_lines(const Trust& trust) {
+std::string trust_lines(const Trust& trust, std::string_view what) {
   constexpr std::size_t bullet = 4;
   if (trust.sound()) return "";
-  std::string text = trust.refused() ? "REFUSED: no critical stiffness is given, because\n"
-                                     : "DOUBTFUL: data and model do not carry the critical stiffness, because\n";
+  std::string text = trust.refused() ? fmt::format("REFUSED: no {} is given, because\n", what)
+                                     : fmt::format("DOUBTFUL: data and model do not carry the {}, because\n", what);
   for (const std::string& reason : trust.reasons) text += wrap(reason, line_width, bullet).replace(0, bullet, "  ! ");
   return text;
 }

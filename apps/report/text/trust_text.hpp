@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "zwidth/trust.hpp"
 
@@ -13,7 +14,7 @@ namespace zwidth::report {
 /// verdict_text() where there is something to say.
 [[nodiscard]] std::optional<std::string> trust_note(const Trust& trust);
 
-/// A heading and a line per reason; empty where the answer is sound.
-[[nodiscard]] std::string trust_lines(const Trust& trust);
+/// A heading, which says of what, and a line per reason; empty where the answer is sound.
+[[nodiscard]] std::string trust_lines(const Trust& trust, std::string_view what = "critical stiffness");
 
 }  // namespace zwidth::report

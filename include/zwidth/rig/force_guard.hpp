@@ -27,9 +27,9 @@ struct SafetyLimits {
   std::optional<double> force;        ///< N or N m; what is wanted beyond is cut off. Absent: none
   std::optional<double> position;     ///< m or rad, from where it started, either way. Absent: none
   std::optional<double> velocity;     ///< m/s or rad/s. Absent: none
-  double saturation_duration = 0.25;  ///< s, of a force that is cut off
+  double saturation_duration = 0.25;  ///< s, of a force that is cut off; time within the limit is counted off it
   unsigned missed_cycles = 3;         ///< in a row: late by a period or more, or without a position
-  double ramp = 0.1;                  ///< s, over which the force grows to its full size; 0: at once
+  double ramp = 0.1;                  ///< s, over which the force grows to its full size; 0: at once; <= 10
 };
 
 /// The first member outside its domain.
@@ -72,7 +72,7 @@ class ForceGuard {
   double velocity_ = 0.0;
   double share_ = 0.0;  // of the force, while it grows
   double last_ = 0.0;
-  double saturated_ = 0.0;  // cycles in a row
+  double saturated_ = 0.0;  // cycles beyond the limit, less those within it since
   unsigned without_position_ = 0;
   unsigned late_ = 0;
 };

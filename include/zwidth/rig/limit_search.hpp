@@ -39,6 +39,7 @@ struct LimitTrial {
   double stiffness = 0.0;        ///< N/m or N m/rad
   std::optional<RingDown> ring;  ///< the oscillation that decays least; absent where none was read
   bool stopped = false;          ///< it grew so much that the run was ended early
+  bool cut = false;              ///< a limit or a ramp kept force back: the wall was softer than its stiffness
   [[nodiscard]] bool grows() const { return stopped || (ring && ring->growth_rate > 0.0); }  ///< the wall is unstable
 };
 
@@ -70,9 +71,10 @@ class LimitSearch {
 
   /// The stiffness to try next; absent: done.
   [[nodiscard]] std::optional<double> next() const;
-  /// The positions after the knock, at this stiffness. `stopped`: the run was ended because an oscillation grew.
+  /// The positions after the knock, at this stiffness. `stopped`: the run was ended because an oscillation grew. `cut`:
+  /// force was kept back meanwhile; a limit between such trials is refused.
   /// Throws Error (invalid_argument) for a period that is not > 0 and positions that are not finite.
-  void add(double stiffness, std::span<const double> position, double sampling_period, bool stopped);
+  void add(double stiffness, std::span<const double> position, double sampling_period, bool stopped, bool cut = false);
 
   /// What has been found so far on this device.
   [[nodiscard]] LimitMeasurement measurement(const Device& device) const;

@@ -53,10 +53,12 @@ struct RigWall {
   RigSession session;                    ///< what ran
   ControllerOptions controller;          ///< the wall as it ran
   CriticalStiffness predicted;           ///< with the wall's damper and filters
-  Trust trust;                           ///< of the prediction
+  Trust trust;                           ///< of the wall: of the prediction, and whether what ran bears it out
   std::optional<bool> predicted_stable;  ///< absent where theory has no sure answer
   bool oscillates = false;               ///< it grew, and the wall was taken away
   std::optional<RingDown> ring;          ///< the oscillation at the end, where one is left
+  bool grows = false;                    ///< that one grows for sure
+  double cut_duration = 0.0;             ///< s, for which force was kept back by its limit or by the ramp
   double peak_force = 0.0;               ///< N or N m
   double peak_position = 0.0;            ///< m or rad, from the start
 };

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "zwidth/rig/results.hpp"
+
+namespace zwidth {
+
+/// Whether a wall that ran is what was predicted of it: sets `grows`, and doubts in `trust`
+///
+/// - a wall that is unstable by linear analysis and was not taken away: an end without alarm does not make it stable;
+/// - one that is stable by linear analysis and oscillated or grew all the same;
+/// - one under whose force the position never changed;
+/// - one that was felt softer than it is, for force was kept back.
+///
+/// An oscillation grows where its rate lies three standard errors above zero.
+void judge(RigWall& wall);
+
+}  // namespace zwidth
