@@ -34,9 +34,25 @@ export function showPanel(id: string): void {
   panels[id] = true
   setTimeout(() => {
     const panel = document.getElementById(`panel-${id}`)
-    panel?.scrollIntoView({ block: 'start' })
-    panel?.querySelector<HTMLElement>('h2 button')?.focus()
+    if (!panel) return
+    keepAtTop(panel)
+    panel.querySelector<HTMLElement>('h2 button')?.focus()
   })
+}
+
+let shown = new AbortController()
+
+/** Brings it to the top, and again as answers above it arrive, until somebody moves the page; for 5 s at most. */
+function keepAtTop(panel: HTMLElement): void {
+  shown.abort()
+  const until = (shown = new AbortController())
+  const grown = new ResizeObserver(() => panel.scrollIntoView({ block: 'start' }))
+  grown.observe(document.body) // it is told at once, too
+  until.signal.addEventListener('abort', () => grown.disconnect())
+  for (const moved of ['wheel', 'touchstart', 'pointerdown', 'keydown']) {
+    addEventListener(moved, () => until.abort(), { once: true, signal: until.signal })
+  }
+  setTimeout(() => until.abort(), 5_000)
 }
 
 /** The answer of another device, on top; the keyboard goes on from there, to its numbers. */
