@@ -85,17 +85,6 @@ RelayResult recorded(const RelayArguments& arguments, std::optional<Device> devi
   return relay(std::move(motion.recording), options, line.progress());
 }
 
-std::string drawn(const RelayResult& result, report::FigureFormat format) {
-  const auto oscillates = [](const RelayTrial& trial) { return trial.result.has_value(); };
-  auto shown = std::find_if(result.trials.begin(), result.trials.end(), oscillates);
-  if (shown == result.trials.end()) shown = result.trials.begin();
-  const std::string name = result.device ? result.device->name() : result.recording;
-  const std::string title = result.trials.size() == 1 ? fmt::format("Relay experiment: {}", name)
-                                                      : fmt::format("Relay experiment, trial {}: {}",
-                                                                    shown - result.trials.begin() + 1, name);
-  return draw_relay_record(title, *shown, result.sampling_period, result.motion, format);
-}
-
 void run_relay(const RelayArguments& arguments) {
   Outputs outputs(arguments.output);
   outputs.keep(arguments.devices.files, "device file");
@@ -104,7 +93,7 @@ void run_relay(const RelayArguments& arguments) {
   const RelayResult result =
       arguments.recording.file.empty() ? simulated(arguments, *device) : recorded(arguments, std::move(device));
   outputs.put("--csv", [&] { return results::relay_csv(result); });
-  outputs.draw("--figure", [&](report::FigureFormat format) { return drawn(result, format); });
+  outputs.draw("--figure", [&](report::FigureFormat format) { return report::draw_relay(result, format); });
   outputs.commit();
   for (std::size_t i = 0; i < result.trials.size(); ++i) {
     hand_over_series(fmt::format("force_{}", i + 1), result.trials[i].force);

@@ -16,7 +16,7 @@
 #include "cli/rig_arguments.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
-#include "report/page/html_page.hpp"
+#include "report/page/rig_page.hpp"
 #include "report/text/rig_text.hpp"
 #include "report/text/text_medium.hpp"
 #include "report/text/trust_text.hpp"
@@ -112,17 +112,13 @@ double amplitude_of(const Rig& rig) {
 /// Writes what was asked for, and prints the answer; a rig that stopped has failed.
 template <typename Result>
 void answer(const Rig& rig, const Result& result, const RigSession& session) {
-  const auto text = [&] { return report::rig_text(rig.device, result); };
-  rig.outputs.put("--report", [&] {
-    const std::string title = fmt::format("Rig {}: {}", rig.arguments.action, rig.device.name());
-    return report::html_page(title, report::element("h1", title) + report::element("pre", text()));
-  });
+  rig.outputs.put("--report", [&] { return report::rig_page(rig.device, result); });
   rig.outputs.commit();
   if (rig.arguments.output.json) {
     write_warnings(session.remarks);
     write_standard_output(results::line(results::rig_json(rig.device, result)));
   } else {
-    write_text(text());
+    write_text(report::rig_text(rig.device, result));
   }
   if (session.stop != StopReason::none) throw WorkFailed("the rig stopped: " + explanation(session.stop));
 }

@@ -26,6 +26,11 @@ std::optional<double> in_degrees(std::optional<double> angle) {
 
 }  // namespace
 
+FrfUnits frf_units(const Device& device) {
+  const Units units = units_of(device.parameters().motion);
+  return {std::string(units.force), std::string(units.length)};
+}
+
 static void to_json(Json& json, const MeasuredCrossover& crossover) {
   json = {{"frequency_rad_s", crossover.frequency},
           {"stiffness", crossover.stiffness},

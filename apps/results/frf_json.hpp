@@ -4,6 +4,7 @@
 
 #include "results/json.hpp"
 #include "zwidth/identification/measured_response.hpp"
+#include "zwidth/model/device.hpp"
 
 namespace zwidth::results {
 
@@ -21,6 +22,9 @@ struct FrfUnits {
   [[nodiscard]] std::string stiffness() const;   ///< "N/m", "N m/rad"
   [[nodiscard]] std::string compliance() const;  ///< "m/N", "rad/(N m)"
 };
+
+/// Those of what is recorded of a device.
+[[nodiscard]] FrfUnits frf_units(const Device& device);
 
 enum class FrfContent {
   summary,     ///< all but the lines

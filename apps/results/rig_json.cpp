@@ -83,11 +83,6 @@ Json predicted_json(const CriticalStiffness& predicted) {
   return json;
 }
 
-FrfUnits frf_units(const Device& device) {
-  const Units units = units_of(device.parameters().motion);
-  return {std::string(units.force), std::string(units.length)};
-}
-
 void add_measurement(Json& json, const Device& device, const RigMeasurement& measurement) {
   json["excitation"] = excitation_json(measurement.excitation);
   json["frf"] = measurement.response ? frf_json(*measurement.response, frf_units(device)) : Json(nullptr);

@@ -260,6 +260,23 @@ TEST_F(Rig, IdentifyWritesTheDevice) {
   EXPECT_NEAR(nlohmann::json::parse(outcome.output)["critical_stiffness"].get<double>() / 8848.7, 1.0, 0.03);
 }
 
+TEST_F(Rig, TheReportShowsWhatWasMeasured) {
+  struct Page {
+    std::string action;
+    std::size_t figures;
+  };
+  for (const auto& [action, figures] : {Page{"check", 0}, Page{"measure", 1}, Page{"identify", 2}, Page{"relay", 1},
+                                        Page{"wall --stiffness 3000", 0}, Page{"limit", 1}}) {
+    SCOPED_TRACE(action);
+    EXPECT_EQ(run("zwidth rig " + action + " " + lhifam + "--report page.html").status, 0);
+    const std::string page = contents("page.html");
+    std::size_t drawn = 0;
+    for (std::size_t at = page.find("<svg"); at != std::string::npos; at = page.find("<svg", at + 1)) ++drawn;
+    EXPECT_EQ(drawn, figures);
+    EXPECT_THAT(page, HasSubstr("<h1>Rig " + action.substr(0, action.find(' '))));
+  }
+}
+
 TEST_F(Rig, RelayGivesARowOfTable2) {
   const auto relay = json("relay " + lhifam + "--amplitude 5 --trials 1 --report relay.html");
   EXPECT_EQ(relay["relay"]["trials"].size(), 1U);

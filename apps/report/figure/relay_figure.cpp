@@ -68,4 +68,15 @@ std::string draw_relay_record(const std::string& title, const RelayTrial& trial,
   return canvas.draw(format);
 }
 
+std::string draw_relay(const RelayResult& result, FigureFormat format) {
+  const auto oscillates = [](const RelayTrial& trial) { return trial.result.has_value(); };
+  auto shown = std::find_if(result.trials.begin(), result.trials.end(), oscillates);
+  if (shown == result.trials.end()) shown = result.trials.begin();
+  const std::string name = result.device ? result.device->name() : result.recording;
+  const std::string title = result.trials.size() == 1 ? fmt::format("Relay experiment: {}", name)
+                                                      : fmt::format("Relay experiment, trial {}: {}",
+                                                                    shown - result.trials.begin() + 1, name);
+  return draw_relay_record(title, *shown, result.sampling_period, result.motion, format);
+}
+
 }  // namespace zwidth::report

@@ -63,11 +63,6 @@ std::string limit_of(const CriticalStiffness& predicted, const Units& units) {
   return "refused";
 }
 
-results::FrfUnits units_of_response(const Device& device) {
-  const Units units = units_of(device.parameters().motion);
-  return {std::string(units.force), std::string(units.length)};
-}
-
 std::string trial_rows(const LimitMeasurement& measured, const Units& units) {
   TextTable table{{Align::right, Align::right, Align::right, Align::left},
                   {{fmt::format("K ({})", units.stiffness), "Hz", "grows by (1/s)", ""}}};
@@ -109,7 +104,7 @@ std::string rig_text(const Device& device, const RigCheck& check) {
 std::string rig_text(const Device& device, const RigMeasurement& measurement) {
   std::string text = rig_heading(device, "Rig measurement", measurement.session);
   text += trust_lines(measurement.trust);
-  if (measurement.response) text += frf_text(*measurement.response, units_of_response(device));
+  if (measurement.response) text += frf_text(*measurement.response, results::frf_units(device));
   return text + session_text(measurement.session);
 }
 

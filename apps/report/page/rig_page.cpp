@@ -1,0 +1,67 @@
+#include "report/page/rig_page.hpp"
+
+#include <fmt/format.h>
+
+#include <string_view>
+
+#include "report/figure/frf_figure.hpp"
+#include "report/figure/identification_figure.hpp"
+#include "report/figure/relay_figure.hpp"
+#include "report/figure/rig_limit_figure.hpp"
+#include "report/page/html_page.hpp"
+#include "report/text/rig_text.hpp"
+
+namespace zwidth::report {
+namespace {
+
+template <typename Result>
+std::string page(std::string_view action, const Device& device, const Result& result, const std::string& figures = "") {
+  const std::string title = fmt::format("Rig {}: {}", action, device.name());
+  return html_page(title, element("h1", title) + element("pre", rig_text(device, result)) + figures);
+}
+
+std::string response_figure(const Device& device, const RigMeasurement& measurement) {
+  if (!measurement.response) return "";
+  return html_figure(draw_frf(*measurement.response, results::frf_units(device), FigureFormat::svg), "response",
+                     "Measured from the commanded force to the position, with 95 % bands.");
+}
+
+}  // namespace
+
+std::string rig_page(const Device& device, const RigCheck& check) { return page("check", device, check); }
+
+std::string rig_page(const Device& device, const RigMeasurement& measurement) {
+  return page("measure", device, measurement, response_figure(device, measurement));
+}
+
+std::string rig_page(const Device& device, const RigIdentification& found) {
+  std::string figures = response_figure(device, found.measurement);
+  if (found.identification) {
+    figures += html_figure(draw_identification(*found.identification, FigureFormat::svg), "fit",
+                           "The fitted device over what was measured.");
+  }
+  return page("identify", device, found, figures);
+}
+
+std::string rig_page(const Device& device, const RigRelay& found) {
+  std::string figures;
+  if (found.relay) {
+    figures = html_figure(draw_relay(*found.relay, FigureFormat::svg), "relay",
+                          "The end of the first trial that oscillates: force of the relay, and position.");
+  }
+  return page("relay", device, found, figures);
+}
+
+std::string rig_page(const Device& device, const RigWall& wall) { return page("wall", device, wall); }
+
+std::string rig_page(const Device& device, const RigLimit& limit) {
+  std::string figures;
+  if (!limit.measured.trials.empty()) {
+    figures = html_figure(draw_limit_trials(device, limit, FigureFormat::svg), "limit",
+                          "Below the grey line the oscillation after a knock decays: the wall is stable. Where the "
+                          "growth passes through zero is the critical stiffness of the device on the rig.");
+  }
+  return page("limit", device, limit, figures);
+}
+
+}  // namespace zwidth::report
