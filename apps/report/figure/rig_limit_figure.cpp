@@ -55,8 +55,9 @@ std::string draw_limit_trials(const Device& device, const RigLimit& limit, Figur
   if (measured.stiffness) canvas.commands(upright(*measured.stiffness / unit.size, measured_style));
   if (predicted) canvas.commands(upright(limit.predicted.stiffness / unit.size, predicted_style));
   x_label(canvas, frame, fmt::format("Stiffness of the wall ({}{})", unit.prefix, units.stiffness));
-  canvas.plot(frame, fmt::format("0 with lines {} notitle, $trials using 1:2:3 with yerrorbars {} notitle",
-                                 gnuplot_line({grey, 1.0, "1"}), ring));
+  canvas.commands(
+      fmt::format("set arrow from graph 0, first 0 to graph 1, first 0 nohead {}", gnuplot_line({grey, 1.0, "1"})));
+  canvas.plot(frame, fmt::format("$trials using 1:2:3 with yerrorbars {} notitle", ring));
   return canvas.draw(format);
 }
 

@@ -166,8 +166,8 @@ std::string remarks(const RelayResult& result) {
     text +=
         bulleted(is_of_all ? remark.text : fmt::format("trial {}: {}", fmt::join(remark.trials, ", "), remark.text));
   }
-  if (result.trials.size() > 1 && result.friction_level.value_or(0.0) == 0.0 &&
-      result.trials.front().start_offset == 0.0) {
+  const auto is_first = [&](const RelayTrial& each) { return each.position == result.trials.front().position; };
+  if (result.trials.size() > 1 && std::ranges::all_of(result.trials, is_first)) {
     text += bulleted("all trials are alike: without a start offset and friction nothing varies");
   }
   return text.empty() ? "" : "\nTo know\n" + text;
