@@ -125,8 +125,7 @@ Matrix exponential_minus_one(Matrix m, const Digits& time) {
     for (std::size_t j = 0; j < m.size(); ++j) row += abs(m(i, j));
     norm = std::max(norm, row);
   }
-  const int halvings =
-      norm > scaled_norm ? static_cast<int>(std::ceil(log2(norm / scaled_norm).convert_to<double>())) : 0;
+  const int halvings = norm > scaled_norm ? 1 + static_cast<int>(ilogb(Digits(norm / scaled_norm))) : 0;
   m *= ldexp(Digits(1.0), -halvings);
   Matrix sum = m;
   Matrix power = m;

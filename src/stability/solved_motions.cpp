@@ -81,7 +81,7 @@ void SolvedMotions::responses(double frequency, std::complex<double>* values) co
   constexpr std::size_t few = 6;  // bodies, for which there is room without the heap
   const std::size_t n = matrices_.mass.size();
   const std::size_t width = n + 1;
-  std::array<Number, few*(few + 1)> room;
+  std::array<Number, few*(few + 1)> room;  // NOLINT(cppcoreguidelines-pro-type-member-init): solve() fills it
   std::vector<Number> more(n > few ? n * width : 0);
   Number* rows = more.empty() ? room.data() : more.data();
   solve(matrices_, forced_, static_cast<long double>(frequency), rows);

@@ -97,7 +97,7 @@ std::optional<UserNetwork> network(const std::vector<Alias>& aliases, double mas
 std::optional<UserNetwork> heaviest_network(const std::vector<Alias>& aliases) {
   if (aliases.size() == 1) return network(aliases, 0.0);
   for (double share = most_mass_share; share > least_mass_share; share *= 0.5) {
-    if (const auto user = network(aliases, share)) return user;
+    if (auto user = network(aliases, share)) return user;
   }
   return std::nullopt;
 }
