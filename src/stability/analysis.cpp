@@ -254,4 +254,10 @@ Analysis analyze(const Device& device, const AnalysisOptions& options) {
   return analysis;
 }
 
+WallVerdict verdict_on_wall(const Analysis& analysis) {
+  if (!analysis.trust.sound()) return WallVerdict::unsure;
+  if (!analysis.wall) return WallVerdict::no_wall;
+  return analysis.wall->stable ? WallVerdict::stable : WallVerdict::unstable;
+}
+
 }  // namespace zwidth

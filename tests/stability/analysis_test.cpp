@@ -52,6 +52,18 @@ TEST(Analysis, AWallOfNearlyNothingIsJudged) {
   }
 }
 
+TEST(Analysis, AWallIsReliedOnOnlyWhereTheAnswerIsSound) {
+  DeviceParameters device = test::lhifam_parameters();
+  EXPECT_EQ(verdict_on_wall(analyze(Device(device))), WallVerdict::no_wall);
+  device.wall.stiffness = 8000.0;
+  Analysis analysis = analyze(Device(device));
+  EXPECT_EQ(verdict_on_wall(analysis), WallVerdict::stable);
+  analysis.trust.doubt("so");
+  EXPECT_EQ(verdict_on_wall(analysis), WallVerdict::unsure);
+  device.wall.stiffness = 9000.0;
+  EXPECT_EQ(verdict_on_wall(analyze(Device(device))), WallVerdict::unstable);
+}
+
 TEST(Analysis, WithoutAWallNothingIsJudged) {
   EXPECT_FALSE(analyze(Device(test::lhifam_parameters())).wall.has_value());
 }

@@ -88,4 +88,14 @@ struct Analysis {
 /// Throws Error (invalid_argument) where find_problem(options, device) finds one, (did_not_converge) as its parts do.
 [[nodiscard]] Analysis analyze(const Device& device, const AnalysisOptions& options = {});
 
+/// Whether the wall given may be relied on, for who must decide by that alone.
+enum class WallVerdict {
+  stable,    ///< strictly, and the answer is sound
+  unstable,  ///< the answer is sound
+  unsure,    ///< doubtful or refused (Analysis::trust says why), whatever was computed
+  no_wall    ///< wall.stiffness is missing
+};
+
+[[nodiscard]] WallVerdict verdict_on_wall(const Analysis& analysis);
+
 }  // namespace zwidth
