@@ -128,10 +128,14 @@ void require_stable(const AnalyzeOptions& options, const std::vector<report::Ana
     const Analysis& analysis = analysed[i].analysis;
     const std::string place = "--require-stable: " + options.devices.files[i] + ": ";
     switch (verdict_on_wall(analysis)) {
-      case WallVerdict::stable: break;
-      case WallVerdict::unstable: throw WorkFailed(place + "the wall is unstable");
-      case WallVerdict::unsure: throw WorkFailed(place + "the answer is " + report::verdict_text(analysis.trust));
-      case WallVerdict::no_wall: throw BadInput(place + "wall.stiffness: is missing: there is no wall to judge; set it");
+      case WallVerdict::stable:
+        break;
+      case WallVerdict::unstable:
+        throw WorkFailed(place + "the wall is unstable");
+      case WallVerdict::unsure:
+        throw WorkFailed(place + "the answer is " + report::verdict_text(analysis.trust));
+      case WallVerdict::no_wall:
+        throw BadInput(place + "wall.stiffness: is missing: there is no wall to judge; set it");
     }
   }
 }
