@@ -93,6 +93,16 @@ void Outputs::keep(const std::vector<std::string>& inputs, std::string_view name
   for (const std::string& input : inputs) keep(input, name);
 }
 
+void Outputs::require_writable() const {
+  for (const Output& output : outputs_) {
+    try {
+      report::OutputFiles::require_writable(output.path);
+    } catch (const report::OutputFailed& failure) {
+      throw report::OutputFailed(fmt::format("{}: {}", output.option, failure.what()));
+    }
+  }
+}
+
 const Outputs::Output* Outputs::find(std::string_view option) const {
   const auto found = std::ranges::find(outputs_, option, &Output::option);
   return found == outputs_.end() ? nullptr : &*found;

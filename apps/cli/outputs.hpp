@@ -50,6 +50,9 @@ class Outputs {
   void keep(const std::string& input, std::string_view name) const;
   void keep(const std::vector<std::string>& inputs, std::string_view name) const;
 
+  /// Throws OutputFailed where one could not be written now: before work that cannot be done again.
+  void require_writable() const;
+
   /// The format of a figure that was asked for with this option.
   [[nodiscard]] std::optional<report::FigureFormat> figure(std::string_view option) const;
 

@@ -122,8 +122,8 @@ void check_rig_arguments(const CLI::App& command, const RigArguments& arguments)
     }
     return;
   }
-  if (!rig::is_driver_name(arguments.driver)) {
-    throw BadInput(fmt::format("--driver: {} is none; {}", arguments.driver, rig::driver_names));
+  if (const auto problem = rig::find_driver_name_problem(arguments.driver)) {
+    throw BadInput(fmt::format("--driver: {}: {}", arguments.driver, *problem));
   }
   for (const char* option : {"--real-time", "--start"}) {
     if (command.count(option) > 0) throw BadInput(fmt::format("{}: is for a simulated device", option));

@@ -143,6 +143,23 @@ OutputFiles::~OutputFiles() {
   }
 }
 
+void OutputFiles::require_writable(const std::string& path) {
+  if (path.empty()) throw OutputFailed("output: the file name is empty");
+  try {
+    const Target target = target_of(path);
+    if (target.existing && !S_ISREG(target.existing->st_mode)) {
+      if (::access(path.c_str(), W_OK) != 0) throw SystemError{errno};
+      return;
+    }
+    const fs::path temporary = target.path.parent_path() / fmt::format(".zwidth-{}-probe.part", ::getpid());
+    ::unlink(temporary.c_str());  // left by a killed process that had our number
+    const Descriptor unnamed(write_temporary(temporary, [](const Sink&) {}, nullptr));
+    if (unnamed.get() < 0) ::unlink(temporary.c_str());
+  } catch (const SystemError& error) {
+    fail(path, error.number);
+  }
+}
+
 void OutputFiles::write(const std::string& path, std::string_view contents) {
   write(path, [contents](const Sink& sink) { sink(contents); });
 }

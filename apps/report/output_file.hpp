@@ -36,6 +36,10 @@ class OutputFiles {
   void write(const std::string& path, const std::function<void(const Sink&)>& produce);
   void commit();
 
+  /// What write() would fail for now, before there is anything to write: nothing is left behind. A full disk is found
+  /// only by writing. What is not a regular file is not opened.
+  static void require_writable(const std::string& path);
+
  private:
   struct Pending {
     std::string path;  ///< as given, for messages

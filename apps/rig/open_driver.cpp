@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
+#include <string>
+#include <string_view>
 
 #include "rig/moteus_driver.hpp"
 #include "rig/odrive_driver.hpp"
@@ -32,14 +35,27 @@ std::unique_ptr<Driver> open_udp(const std::string& address, const Device& devic
   return std::make_unique<UdpDriver>(address, device.loop().sampling_period);
 }
 
+std::optional<std::string> find_port_problem(std::string_view port) {
+  if (!port.empty()) return std::nullopt;
+  return "names no port; a serial port, such as /dev/ttyUSB0";
+}
+
+std::optional<std::string> find_udp_problem(std::string_view address) {
+  const auto found = udp_address(address);
+  return found ? std::nullopt : std::optional(found.error());
+}
+
 struct Kind {
   std::string_view prefix;
+  std::optional<std::string> (*find_problem)(std::string_view where);
   std::unique_ptr<Driver> (*open)(const std::string& where, const Device& device);
 };
 
-constexpr std::array kinds{Kind{"odrive:", open_serial<OdriveDriver>}, Kind{"simplefoc:", open_serial<SimplefocDriver>},
-                           Kind{"moteus:", open_serial<MoteusDriver>}, Kind{"vesc:", open_serial<VescDriver>},
-                           Kind{"udp:", open_udp}};
+constexpr std::array kinds{Kind{"odrive:", find_port_problem, open_serial<OdriveDriver>},
+                           Kind{"simplefoc:", find_port_problem, open_serial<SimplefocDriver>},
+                           Kind{"moteus:", find_port_problem, open_serial<MoteusDriver>},
+                           Kind{"vesc:", find_port_problem, open_serial<VescDriver>},
+                           Kind{"udp:", find_udp_problem, open_udp}};
 
 const Kind* kind_of(std::string_view name) {
   const auto* const found =
@@ -49,13 +65,18 @@ const Kind* kind_of(std::string_view name) {
 
 }  // namespace
 
-bool is_driver_name(std::string_view name) { return name == "simulated" || kind_of(name) != nullptr; }
+std::optional<std::string> find_driver_name_problem(std::string_view name) {
+  if (name == "simulated") return std::nullopt;
+  const Kind* kind = kind_of(name);
+  if (kind == nullptr) return fmt::format("is none; {}", driver_names);
+  return kind->find_problem(name.substr(kind->prefix.size()));
+}
 
 std::unique_ptr<Driver> open_driver(const std::string& name, const Device& device,
                                     const SimulatedDriverOptions& simulated) {
   if (name == "simulated") return std::make_unique<SimulatedDriver>(device, simulated.start, simulated.real_time);
   if (const Kind* kind = kind_of(name)) return kind->open(name.substr(kind->prefix.size()), device);
-  throw DriverFailed(fmt::format("is no driver; {}", driver_names));
+  throw DriverFailed(fmt::format("is none; {}", driver_names));
 }
 
 }  // namespace zwidth::rig

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -19,8 +20,8 @@ struct SimulatedDriverOptions {
 inline constexpr std::string_view driver_names =
     "simulated, odrive:PORT, simplefoc:PORT, moteus:PORT, vesc:PORT, udp:HOST:PORT";
 
-/// Whether it is one of them.
-[[nodiscard]] bool is_driver_name(std::string_view name);
+/// What is wrong with a name for a driver, and what is allowed, as far as the name alone tells.
+[[nodiscard]] std::optional<std::string> find_driver_name_problem(std::string_view name);
 
 /// The driver of that name. Throws DriverFailed for another, and where it is not reached; Error (invalid_argument) where
 /// the device does not tell what its drive needs to be told.

@@ -205,7 +205,7 @@ RigMeasurement measure(const Device& device, Driver& driver, const RigOptions& o
   response.skip_periods = skipped_periods;
   result.response = frequency_response(result.recording, response);
   if (driver.facts().is_simulated) result.response->trust.inherit(result.trust);
-  result.trust.inherit(result.response->trust);
+  judge(result, device);
   report(progress, 1.0);
   return result;
 }
@@ -235,8 +235,12 @@ RigRelay relay_on_rig(const Device& device, Driver& driver, const RigOptions& op
   segment.controller.kind = ControllerOptions::Kind::relay;
   segment.controller.amplitude = trials.relay.amplitude;
   segment.controller.hysteresis = trials.relay.hysteresis;
-  segment.cycles = cycles_of(trials.duration, device);
   std::vector<Recording> recordings;
+  if (options.limits.ramp > 0.0) {  // no trial while the relay has not its full force
+    segment.cycles = cycles_of(options.limits.ramp, device);
+    (void)run.play(segment);
+  }
+  segment.cycles = cycles_of(trials.duration, device);
   for (std::size_t i = 0; i < trials.trials && !run.is_stopped(); ++i) {
     Played played = run.play(segment);
     if (run.is_stopped()) break;

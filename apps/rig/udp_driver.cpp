@@ -29,23 +29,15 @@ constexpr int most_port = 65535;
 constexpr int idle_frames = 3;  // one may be lost
 constexpr double question = std::numeric_limits<double>::quiet_NaN();
 
-int connected_socket(const std::string& address) {
-  const std::size_t colon = address.rfind(':');
-  if (colon == std::string::npos || colon == 0 || colon + 1 == address.size()) {
-    throw DriverFailed("is no address; udp:HOST:PORT");
-  }
-  const std::string port = address.substr(colon + 1);
-  int number = 0;  // getaddrinfo() takes 99999 for 34463
-  const auto [end, error] = std::from_chars(port.data(), port.data() + port.size(), number);
-  if (error != std::errc{} || end != port.data() + port.size() || number < 1 || number > most_port) {
-    throw DriverFailed(fmt::format("no such address: port {} is none; 1 to {}", port, most_port));
-  }
+int connected_socket(const std::string& text) {
+  const auto address = udp_address(text);
+  if (!address) throw DriverFailed(address.error());
   addrinfo wanted{};
   wanted.ai_family = AF_UNSPEC;
   wanted.ai_socktype = SOCK_DGRAM;
   wanted.ai_flags = AI_NUMERICSERV;
   addrinfo* found = nullptr;
-  if (const int failure = getaddrinfo(address.substr(0, colon).c_str(), port.c_str(), &wanted, &found); failure != 0) {
+  if (const int failure = getaddrinfo(address->host.c_str(), address->port.c_str(), &wanted, &found); failure != 0) {
     throw DriverFailed(fmt::format("no such address: {}", gai_strerror(failure)));
   }
   int connected = -1;
@@ -64,6 +56,29 @@ int connected_socket(const std::string& address) {
 }
 
 }  // namespace
+
+tl::expected<UdpAddress, std::string> udp_address(std::string_view text) {
+  const auto wrong = [](std::string_view what) {
+    return tl::unexpected(fmt::format("{}; udp:HOST:PORT, of IPv6 udp:[HOST]:PORT", what));
+  };
+  const std::size_t colon = text.rfind(':');
+  if (colon == std::string_view::npos || text.ends_with(']')) return wrong("has no port");
+  std::string_view host = text.substr(0, colon);
+  const std::string_view port = text.substr(colon + 1);
+  if (host.starts_with('[') && host.ends_with(']')) {
+    host = host.substr(1, host.size() - 2);
+  } else if (host.find_first_of(":[]") != std::string_view::npos) {
+    return wrong("an address of IPv6 stands in brackets");
+  }
+  if (host.empty()) return wrong("has no host");
+  if (port.empty()) return wrong("has no port");
+  int number = 0;  // getaddrinfo() takes 99999 for 34463
+  const auto [end, error] = std::from_chars(port.data(), port.data() + port.size(), number);
+  if (error != std::errc{} || end != port.data() + port.size() || number < 1 || number > most_port) {
+    return tl::unexpected(fmt::format("port {} is none; 1 to {}", port, most_port));
+  }
+  return UdpAddress{std::string(host), std::string(port)};
+}
 
 UdpDriver::UdpDriver(const std::string& address, double sampling_period, bool lock_step)
     : facts_{.name = "udp:" + address, .lock_step = lock_step, .watchdog = watchdog},

@@ -3,16 +3,27 @@
 #include <atomic>
 #include <cstdint>
 #include <string>
+#include <string_view>
+#include <tl/expected.hpp>
 
 #include "rig/driver.hpp"
 #include "rig/udp_frame.hpp"
 
 namespace zwidth::rig {
 
+/// Where a drive listens.
+struct UdpAddress {
+  std::string host;  ///< a name, or an address of IPv4 or IPv6, without brackets
+  std::string port;
+};
+
+/// "HOST:PORT", "[::1]:PORT" for an address of IPv6; or what is wrong with it, and what is allowed.
+[[nodiscard]] tl::expected<UdpAddress, std::string> udp_address(std::string_view text);
+
 /// A drive that speaks UdpFrame: one question and one force per cycle. Its watchdog lets go after 100 ms without a force.
 class UdpDriver : public Driver {
  public:
-  /// `address` is "HOST:PORT". `lock_step`: the drive is a simulation whose time moves with the forces it gets.
+  /// `address` as of udp_address(). `lock_step`: the drive is a simulation whose time moves with the forces it gets.
   /// Throws DriverFailed for an address that is none, and where the drive does not answer within a second.
   UdpDriver(const std::string& address, double sampling_period, bool lock_step = false);
   ~UdpDriver() override;

@@ -26,14 +26,47 @@ constexpr double ceiling_share = 1.5;       // of the predicted limit
 constexpr double least_swing_share = 0.01;  // of the swing at the end: what is smaller leaks from another oscillation
 constexpr double same_frequency = 0.2;      // relative: growth rates of one oscillation
 constexpr double sure_deviations = 3.0;     // of a growth rate; its windows overlap
+constexpr double far_below = 0.95;          // of a stiffness
 constexpr double most_error = 0.02;         // relative: what a measured limit may be off by
+
+bool swing_alike(const LimitTrial& low, const LimitTrial& high) {
+  return low.ring && high.ring && std::abs(high.ring->frequency / low.ring->frequency - 1.0) <= same_frequency;
+}
 
 /// Where the line through two growth rates passes zero; absent where they are not of one oscillation that grows with K.
 std::optional<double> zero_of_growth(const LimitTrial& low, const LimitTrial& high) {
-  if (!low.ring || !high.ring) return std::nullopt;
+  if (!swing_alike(low, high)) return std::nullopt;
   const double rise = high.ring->growth_rate - low.ring->growth_rate;
-  if (!(rise > 0.0) || std::abs(high.ring->frequency / low.ring->frequency - 1.0) > same_frequency) return std::nullopt;
+  if (!(rise > 0.0)) return std::nullopt;
   return low.stiffness - low.ring->growth_rate * (high.stiffness - low.stiffness) / rise;
+}
+
+/// How an oscillation's pole s + jw moves with the stiffness, 1/s per N/m or N m/rad.
+struct PoleMotion {
+  double growth = 0.0;
+  double frequency = 0.0;  ///< size
+};
+
+PoleMotion motion_between(const LimitTrial& low, const LimitTrial& high) {
+  const double apart = high.stiffness - low.stiffness;
+  return {(high.ring->growth_rate - low.ring->growth_rate) / apart,
+          std::abs(high.ring->frequency - low.ring->frequency) / apart};
+}
+
+/// At the limit, between two trials with a zero of growth. Where they are close, a growth rate that is misread makes the
+/// rise look steep, and a steep rise the limit look sure: then that from a trial further below counts, if it is less.
+PoleMotion motion_at_limit(const std::vector<LimitTrial>& trials, const LimitTrial& low, const LimitTrial& high) {
+  PoleMotion motion = motion_between(low, high);
+  const LimitTrial* below = nullptr;
+  for (const LimitTrial& each : trials) {
+    if (each.grows() || each.stiffness > far_below * low.stiffness || !swing_alike(each, high)) continue;
+    if (below == nullptr || each.stiffness > below->stiffness) below = &each;
+  }
+  if (below == nullptr) return motion;
+  const PoleMotion wide = motion_between(*below, high);
+  if (wide.growth > 0.0) motion.growth = std::min(motion.growth, wide.growth);
+  motion.frequency = wide.frequency;
+  return motion;
 }
 
 /// Relative error of a stiffness that an encoder of this step makes at this swing.
@@ -43,6 +76,14 @@ std::optional<double> zero_of_growth(const LimitTrial& low, const LimitTrial& hi
 /// Describing Functions and Nonlinear System Design", 1968, appendix B). Three times that is allowed for; the wall that
 /// is felt is N K.
 double encoder_error(double step, double swing) { return 1.5 * std::pow(step / swing, 1.5); }
+
+/// Relative error of a limit by the angle that the rounding of n samples per cycle turns the position's first harmonic:
+/// q/(A sqrt(6 n)) in the mean over where the samples lie, where they lie alike in each cycle. A gain of the wall that
+/// turns by an angle e moves the pole by K |ds/dK + j dw/dK| e, which a change of K makes good by ds/dK.
+double turning_error(double step, double swing, double samples_per_cycle, const PoleMotion& motion) {
+  return step / swing / std::sqrt(6.0 * samples_per_cycle) * std::hypot(motion.growth, motion.frequency) /
+         motion.growth;
+}
 
 }  // namespace
 
@@ -156,6 +197,7 @@ void LimitSearch::add(double stiffness, std::span<const double> position, double
   trials_.push_back({stiffness,
                      least_damped_oscillation(position, sampling_period, options_.frequencies, options_.floor), stopped,
                      cut});
+  period_ = sampling_period;
 }
 
 LimitMeasurement LimitSearch::measurement(const Device& device) const {
@@ -204,11 +246,15 @@ LimitMeasurement LimitSearch::measurement(const Device& device) const {
   const double of_encoder = options_.floor > 0.0 ? std::min(encoder_error(options_.floor, swing), 1.0) : 0.0;
   double of_growth = 0.0;  // N/m or N m/rad
   if (zero) {
-    const double rise = (high->ring->growth_rate - low->ring->growth_rate) / (high->stiffness - low->stiffness);
-    of_growth = sure_deviations * std::max(low->ring->growth_deviation, high->ring->growth_deviation) / rise;
+    const PoleMotion motion = motion_at_limit(trials_, *low, *high);
+    of_growth = sure_deviations * std::max(low->ring->growth_deviation, high->ring->growth_deviation) / motion.growth;
+    const double samples_per_cycle = 2.0 * std::numbers::pi / (result.frequency * period_);
+    const double of_turning = turning_error(options_.floor, swing, samples_per_cycle, motion);
+    const double widening = std::min(of_encoder + of_turning, 1.0);
+    result.interval =
+        Interval{.lower = std::max(0.0, std::min(low->stiffness, *result.stiffness - of_growth) * (1.0 - widening)),
+                 .upper = std::max(high->stiffness, *result.stiffness + of_growth) * (1.0 + widening)};
   }
-  result.interval = Interval{.lower = std::min(low->stiffness, *result.stiffness - of_growth) * (1.0 - of_encoder),
-                             .upper = std::max(high->stiffness, *result.stiffness + of_growth) * (1.0 + of_encoder)};
   if (of_encoder > most_error) {
     result.trust.doubt(fmt::format(
         "the encoder's step of {} is coarse for a swing of {}: the limit may be off by {:.0f} %; knock harder",

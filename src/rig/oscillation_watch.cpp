@@ -40,6 +40,10 @@ OscillationWatch::OscillationWatch(std::span<const double> frequencies, double s
     band.turn = std::polar(1.0, -step);
     band.window_turn = std::polar(1.0, 2.0 * pi / static_cast<double>(band.length));
     band.scale = 4.0 / static_cast<double>(band.length);
+    for (std::size_t n = 0; n < band.length; ++n) {
+      const auto index = static_cast<double>(n);
+      band.leakage += (0.5 - 0.5 * std::cos(index * std::arg(band.window_turn))) * std::polar(1.0, -step * index);
+    }
     sweep_.length = std::max(sweep_.length, band.length);
   }
 }
@@ -63,9 +67,10 @@ bool OscillationWatch::advance(Band& band, double position) const noexcept {
   band.carrier *= band.turn;
   band.hann *= band.window_turn;
   if (++band.sample < band.length) return false;
-  const double amplitude = band.scale * std::abs(band.sum);
   const auto length = static_cast<double>(band.length);
-  const double variance = band.square_sum / length - std::pow(band.position_sum / length, 2);
+  const double mean = band.position_sum / length;
+  const double amplitude = band.scale * std::abs(band.sum - mean * band.leakage);
+  const double variance = band.square_sum / length - mean * mean;
   const bool moves_it = amplitude * amplitude > 2.0 * least_share * least_share * variance;
   band.sample = 0;
   band.position_sum = band.square_sum = 0.0;

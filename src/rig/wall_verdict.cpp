@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "zwidth/quantity.hpp"
 
 namespace zwidth {
@@ -34,6 +36,16 @@ void judge(RigWall& wall) {
         "an oscillation grew in a wall that is stable by linear analysis: the device is not that of its file; identify "
         "it, and render softer until then");
   }
+}
+
+void judge(RigMeasurement& measurement, const Device& device) {
+  if (!measurement.response) return;
+  if (std::ranges::any_of(device.bodies(), [](const Body& body) { return body.coulomb > 0.0; })) {
+    measurement.response->trust.doubt(
+        "the device has dry friction, which a response shows as damping: large motion has less of it, and a lower limit; "
+        "excite more strongly and see whether the limit falls");
+  }
+  measurement.trust.inherit(measurement.response->trust);
 }
 
 }  // namespace zwidth

@@ -36,6 +36,13 @@ Trust trust_of_reading(const RelayResult& result) {
                          : result.device   ? trust_of(*result.device)
                                            : Trust{};
   for (const std::string& reason : expected.reasons) trust.doubt(reason);
+  if (const auto over_all = relay_mean(result.trials); over_all && !result.mean) {
+    trust.refuse(fmt::format(
+        "the trials settle at different oscillations, from {} to {} Hz, of which there is no mean: compare each with "
+        "the predictions",
+        number(hertz(over_all->lowest_frequency)), number(hertz(over_all->highest_frequency))));
+    return trust;
+  }
   if (!result.mean) {
     trust.refuse("no trial oscillates: start further out, push harder or record for longer");
     return trust;
@@ -44,8 +51,6 @@ Trust trust_of_reading(const RelayResult& result) {
     trust.doubt(
         "what a relay reads is a limit for walls only where friction is small and it oscillates at the limit's "
         "frequency: compare it with a device file");
-  } else if (!agree(*result.mean)) {
-    trust.doubt("the trials settle at different oscillations: compare each with the predictions");
   } else if (result.limit_reading == LimitReading::unsafe) {
     trust.doubt(
         fmt::format("the relay reads {:.2f} dB more than the limit of linear theory: build on that limit instead",
@@ -56,17 +61,16 @@ Trust trust_of_reading(const RelayResult& result) {
 
 /// What follows from the trials and the device.
 void conclude(RelayResult& result, const Progress& progress) {
-  result.mean = relay_mean(result.trials);
+  const std::optional<RelayMean> over_all = relay_mean(result.trials);
+  if (over_all && agree(*over_all)) result.mean = over_all;
   if (result.device && result.relay.amplitude > 0.0) {
     result.friction_level = friction_level(*result.device, result.relay.amplitude);
     if (!trust_of(*result.device).refused()) {
       result.prediction = relay_prediction(*result.device, result.relay, progress);
     }
   }
-  if (result.mean && result.prediction) {
-    result.limit_reading = limit_reading(*result.mean, result.prediction->linear);
-    result.explanation = relay_explanation(result);
-  }
+  if (result.mean && result.prediction) result.limit_reading = limit_reading(*result.mean, result.prediction->linear);
+  if (over_all && result.prediction) result.explanation = relay_explanation(result, *over_all);
   result.trust = trust_of_reading(result);
   if (!result.device) return;
   const Wall& wall = result.device->parameters().wall;

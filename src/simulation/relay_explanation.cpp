@@ -154,7 +154,7 @@ std::string sampled_sentence(const RelayResult& result, const RelayMean& mean) {
 bool agree(const RelayMean& mean) { return is_near(mean.lowest_frequency, mean.highest_frequency); }
 
 LimitReading limit_reading(const RelayMean& mean, const CriticalStiffness& linear) {
-  if (!agree(mean) || !linear.limit || linear.limit->frequency <= 0.0) return LimitReading::none;
+  if (!linear.limit || linear.limit->frequency <= 0.0) return LimitReading::none;
   const double difference = decibels(mean.stiffness / linear.stiffness);
   if (std::abs(difference) <= agrees_db) {
     return is_near(mean.frequency, linear.limit->frequency) ? LimitReading::confirms : LimitReading::coincides;
@@ -162,14 +162,14 @@ LimitReading limit_reading(const RelayMean& mean, const CriticalStiffness& linea
   return difference > 0.0 ? LimitReading::unsafe : LimitReading::too_cautious;
 }
 
-std::vector<std::string> relay_explanation(const RelayResult& result) {
-  const RelayMean& mean = *result.mean;
-  if (!agree(mean)) {
+std::vector<std::string> relay_explanation(const RelayResult& result, const RelayMean& over_all) {
+  if (!result.mean) {
     return {
         fmt::format("The trials settle at different oscillations, from {} to {} Hz: several exist side by side, and "
                     "the start decides. Compare each with the predictions above.",
-                    number(hertz(mean.lowest_frequency)), number(hertz(mean.highest_frequency)))};
+                    number(hertz(over_all.lowest_frequency)), number(hertz(over_all.highest_frequency)))};
   }
+  const RelayMean& mean = *result.mean;
   std::vector<std::string> sentences{crossover_sentence(mean, result.prediction->linear), limit_sentence(result)};
   if (std::string friction = friction_sentence(result, mean); !friction.empty()) sentences.push_back(friction);
   sentences.push_back(sampled_sentence(result, mean));

@@ -56,6 +56,19 @@ TEST(OscillationWatch, SeesNoneInWhatAUserDoes) {
   EXPECT_EQ(cycles_until_detected(below, 4000, [](double t) { return 1e-6 * std::exp(t) * std::sin(40.0 * t); }), -1);
 }
 
+// Where a slow swing turns round, in the few samples of a window of a fast one, it is nearly constant: what a constant
+// leaks into the window rose with the swing, was more than all that varied, and took stable walls away.
+TEST(OscillationWatch, SeesNoFastOneInASlowOne) {
+  const std::vector<double> slow_and_fast{9.4, 2256.0};
+  for (const double rate : {0.0, -0.02, -0.3}) {
+    for (const double offset : {0.0, 5e-3, 1.0}) {
+      OscillationWatch watch(slow_and_fast, period, 0.0);
+      const auto rings = [&](double t) { return offset * t + 5e-3 * std::exp(rate * t) * std::sin(9.4 * t); };
+      EXPECT_EQ(cycles_until_detected(watch, 20000, rings), -1) << rate << ", " << offset;
+    }
+  }
+}
+
 TEST(OscillationWatch, TellsWhatSwingsMostAndHowItGrows) {
   constexpr double rate = 0.7;  // 1/s
   const std::vector<double> frequencies{60.0, 200.0};

@@ -1,9 +1,15 @@
 #include "rig/udp_driver.hpp"
 
 #include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
+#include <array>
 #include <limits>
 #include <string>
+#include <thread>
+#include <utility>
 #include <vector>
 
 #include "rig/measured_as_predicted.hpp"
@@ -80,8 +86,59 @@ TEST(UdpDriver, TellsWhatCannotBeReached) {
   };
   EXPECT_NE(message("localhost").find("udp:HOST:PORT"), std::string::npos);
   EXPECT_NE(message("127.0.0.1:").find("udp:HOST:PORT"), std::string::npos);
-  EXPECT_NE(message("127.0.0.1:http").find("no such address"), std::string::npos);
+  EXPECT_NE(message("127.0.0.1:http").find("port http is none; 1 to 65535"), std::string::npos);
   EXPECT_NE(message("127.0.0.1:1").find("does not answer"), std::string::npos);
+}
+
+TEST(UdpDriver, AddressesOfBothKinds) {
+  for (const auto& [text, host] : {std::pair("[::1]:7", "::1"), std::pair("[fe80::1%eth0]:7", "fe80::1%eth0"),
+                                   std::pair("127.0.0.1:7", "127.0.0.1"), std::pair("bench.local:7", "bench.local")}) {
+    const auto address = udp_address(text);
+    ASSERT_TRUE(address) << text << address.error();
+    EXPECT_EQ(address->host, host);
+    EXPECT_EQ(address->port, "7");
+  }
+  for (const auto& [text, what] :
+       {std::pair("::1:7", "brackets; udp:HOST:PORT, of IPv6 udp:[HOST]:PORT"), std::pair("[::1]", "has no port"),
+        std::pair("[]:7", "has no host"), std::pair(":7", "has no host"), std::pair("", "has no port"),
+        std::pair("[::1]:", "has no port"), std::pair("[::1]7", "brackets"), std::pair("[::1]:0", "port 0 is none"),
+        std::pair("[::1:7", "brackets"), std::pair("h:+7", "port +7 is none"), std::pair("h:7 ", "is none")}) {
+    const auto address = udp_address(text);
+    ASSERT_FALSE(address) << text;
+    EXPECT_NE(address.error().find(what), std::string::npos) << text << ": " << address.error();
+  }
+}
+
+// What repeats every frame is a drive at 0 that never lets go.
+TEST(UdpDriver, ReachesADriveOnIPv6) {
+  const int drive = socket(AF_INET6, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  sockaddr_in6 own{};
+  own.sin6_family = AF_INET6;
+  own.sin6_addr = in6addr_loopback;
+  socklen_t size = sizeof own;
+  auto* const name = reinterpret_cast<sockaddr*>(&own);  // NOLINT(*-reinterpret-cast): as sockets want it
+  ASSERT_EQ(bind(drive, name, size), 0) << "no IPv6 on this machine";
+  ASSERT_EQ(getsockname(drive, name, &size), 0);
+  std::thread repeats([&] {
+    std::array<std::byte, 64> frame{};
+    for (;;) {
+      sockaddr_in6 from{};
+      socklen_t length = sizeof from;
+      auto* const sender = reinterpret_cast<sockaddr*>(&from);  // NOLINT(*-reinterpret-cast)
+      const ssize_t got = recvfrom(drive, frame.data(), frame.size(), 0, sender, &length);
+      if (got <= 1) return;
+      sendto(drive, frame.data(), static_cast<std::size_t>(got), 0, sender, length);
+    }
+  });
+  {
+    UdpDriver driver("[::1]:" + std::to_string(ntohs(own.sin6_port)), 0.1);
+    EXPECT_EQ(driver.measure(), 0.0);
+  }
+  const int end = socket(AF_INET6, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  sendto(end, "", 1, 0, name, size);
+  repeats.join();
+  close(end);
+  close(drive);
 }
 
 // Over the link the same numbers as without it: the drive moves one period with each force.

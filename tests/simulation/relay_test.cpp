@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -63,6 +64,38 @@ TEST(Relay, MeanIsThatOfTheDecibels) {
   EXPECT_DOUBLE_EQ(mean->highest_frequency, 14.0);
   trials.erase(trials.begin(), trials.begin() + 2);
   EXPECT_FALSE(relay_mean(trials));
+}
+
+Recording swinging_at(double frequency_hz, double amplitude) {
+  Recording recording;
+  recording.sampling_period = 1e-3;
+  recording.channels = {{"force", {}}, {"position", {}}};
+  for (int k = 0; k < 20000; ++k) {
+    const double swing = std::sin(2.0 * std::numbers::pi * frequency_hz * 1e-3 * k);
+    recording.channels[0].samples.push_back(swing > 0.0 ? -5.0 : 5.0);
+    recording.channels[1].samples.push_back(amplitude * swing);
+  }
+  return recording;
+}
+
+// 6 Hz and 24 Hz made a mean of 15 Hz, at which nothing ever swung.
+TEST(Relay, TrialsAtDifferentOscillationsHaveNoMean) {
+  RelayRecordOptions options;
+  for (const bool with_device : {false, true}) {
+    if (with_device) options.device = Device(test::rigid_parameters());
+    const RelayResult differ = relay(std::vector{swinging_at(6.0, 1e-3), swinging_at(24.0, 1e-4)}, options);
+    ASSERT_TRUE(differ.trials[0].result && differ.trials[1].result);
+    EXPECT_FALSE(differ.mean);
+    EXPECT_TRUE(differ.trust.refused());
+    EXPECT_THAT(differ.trust.reasons, Contains(AllOf(HasSubstr("settle at different oscillations, from 5.9"),
+                                                     HasSubstr("of which there is no mean"))));
+    EXPECT_EQ(differ.limit_reading, LimitReading::none);
+    EXPECT_EQ(differ.explanation.size(), with_device ? 1U : 0U);
+    const RelayResult alike = relay(std::vector{swinging_at(6.0, 1e-3), swinging_at(6.2, 1e-3)}, options);
+    ASSERT_TRUE(alike.mean);
+    EXPECT_EQ(alike.mean->trials, 2U);
+    EXPECT_FALSE(alike.trust.refused());
+  }
 }
 
 TEST(Relay, NeighbouringCyclesAreOneBand) {

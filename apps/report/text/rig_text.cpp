@@ -151,8 +151,10 @@ std::string rig_text(const Device& device, const RigLimit& limit) {
                      quantity(*measured.stiffness, units.stiffness) +
                          (measured.frequency > 0.0 ? " at " + crossover_frequency_text(measured.frequency)
                                                    : std::string(", its frequency was not read")));
-    text += labelled("  between", fmt::format("{} and {}", quantity(measured.interval->lower, units.stiffness),
-                                              quantity(measured.interval->upper, units.stiffness)));
+    if (measured.interval) {
+      text += labelled("  between", fmt::format("{} and {}", quantity(measured.interval->lower, units.stiffness),
+                                                quantity(measured.interval->upper, units.stiffness)));
+    }
   } else {
     text += labelled("  K_CR measured", "none");
   }

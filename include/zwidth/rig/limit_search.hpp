@@ -47,7 +47,8 @@ struct LimitTrial {
 struct LimitMeasurement {
   std::optional<double> stiffness;  ///< K_CR where the growth rate passes through zero; absent unless trust allows one
   /// Holds the limit of large motion, N/m or N m/rad: from the last that rang down to the first that grew, widened by
-  /// three deviations of the growth rates and by what the encoder's step makes of the swing. Beside the stiffness, always.
+  /// three deviations of the growth rates and by what the encoder's step makes of the swing. Absent, too, where no
+  /// oscillation was read that decays below the limit and grows above it.
   std::optional<Interval> interval;
   double frequency = 0.0;          ///< rad/s, of the oscillation there; 0 where it was not read
   double lower = 0.0;              ///< stiffest wall that rang down; 0: none did
@@ -84,6 +85,7 @@ class LimitSearch {
   [[nodiscard]] const LimitTrial* unstable() const;  // the softest
 
   LimitSearchOptions options_;
+  double period_ = 0.0;  // s, of the last trial
   std::vector<LimitTrial> trials_;
 };
 

@@ -17,7 +17,9 @@ struct WatchedSwing {
 
 /// Notices an oscillation that grows while it runs: the power near the predicted frequencies, window by window.
 ///
-///     A_j = 2 |sum_n h[n] x[n] e^{-jwnT}| / sum_n h[n]      Hann windows h of six cycles of each w, one after the other
+///     A_j = 2 |sum_n h[n] (x[n] - mean x) e^{-jwnT}| / sum_n h[n]
+///
+/// with Hann windows h of six cycles of each w, one after the other.
 ///
 /// Detected where A has risen over four windows in a row, by half in all, lies above the floor, and is what moves the
 /// device: at least a tenth of all that varies in the window, by amplitude.
@@ -57,6 +59,7 @@ class OscillationWatch {
     std::complex<double> turn{1.0, 0.0};
     std::complex<double> window_turn{1.0, 0.0};
     double scale = 0.0;
+    std::complex<double> leakage{};  // sum of a window of ones
     std::size_t sample = 0;
     std::complex<double> carrier{1.0, 0.0};
     std::complex<double> hann{1.0, 0.0};

@@ -14,4 +14,8 @@ namespace zwidth {
 /// An oscillation grows where its rate lies three standard errors above zero.
 void judge(RigWall& wall);
 
+/// Doubts a measured response whose limit is taken for a device with dry friction, by its file: to a linear estimate
+/// friction is damping, which a wall at its limit has less of the larger the motion.
+void judge(RigMeasurement& measurement, const Device& device);
+
 }  // namespace zwidth

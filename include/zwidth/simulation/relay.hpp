@@ -41,7 +41,8 @@ struct RelayMean {
   double highest_frequency = 0.0;  ///< rad/s
 };
 
-/// Nothing where no trial oscillates.
+/// Nothing where no trial oscillates. Of trials at different oscillations it is no number of the device: RelayResult has
+/// none of those.
 [[nodiscard]] std::optional<RelayMean> relay_mean(const std::vector<RelayTrial>& trials);
 
 /// What the mean says of the stiffest stable wall of linear theory.
@@ -63,7 +64,9 @@ struct RelayResult {
   double sampling_period = 0.0;                     ///< s
   Relay relay;                                      ///< of a recording: half of the force's peak to peak
   std::vector<RelayTrial> trials;                   ///< a recording is one
-  std::optional<RelayMean> mean;                    ///< absent where no trial oscillates
+  /// Absent where no trial oscillates, and where they settle at different oscillations: of frequencies that differ by more
+  /// than 15 %.
+  std::optional<RelayMean> mean;
   std::optional<Device> device;                     ///< absent for a recording
   std::optional<double> friction_level;             ///< largest friction of the device over the relay's force
   std::optional<RelayPrediction> prediction;        ///< with a device
@@ -71,8 +74,8 @@ struct RelayResult {
   /// What the experiment says about the wall's limit, a sentence or two each: whether it agrees with linear theory, what
   /// friction does to it, which other oscillations exist. Empty where no trial oscillates or without a device.
   std::vector<std::string> explanation;
-  /// Of the mean as a limit for walls: the device's own, and doubtful where it is above the limit of linear theory,
-  /// where trials differ and where no device says what to expect; refused where nothing oscillates.
+  /// Of the mean as a limit for walls: the device's own, and doubtful where it is above the limit of linear theory
+  /// and where no device says what to expect; refused where there is no mean.
   Trust trust;
   std::vector<Remark> remarks;  ///< of the recording, and that the device's [wall] is left out
 };
