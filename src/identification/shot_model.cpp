@@ -400,10 +400,9 @@ PlayedShots::Motions ShotModel::play(const Eigen::VectorXd& x, const std::vector
   return motions;
 }
 
-std::optional<std::vector<ShotMotion>> ShotModel::play_anew(const Eigen::VectorXd& x,
-                                                            const std::vector<Shot>& shots,
-                                                            const std::vector<Eigen::VectorXd>& states,
-                                                       Slopes slopes, const PlayOn& play_on) const {
+std::optional<std::vector<ShotMotion>> ShotModel::play_anew(const Eigen::VectorXd& x, const std::vector<Shot>& shots,
+                                                            const std::vector<Eigen::VectorXd>& states, Slopes slopes,
+                                                            const PlayOn& play_on) const {
   std::vector<ShotMotion> motions(shots.size());
   const std::vector<std::size_t> starts = batches(shots);
   std::vector<char> is_played(starts.size(), 0);

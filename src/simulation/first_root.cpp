@@ -16,7 +16,7 @@ constexpr double none = 2.0;
 using Coefficients = std::array<double, max_coefficients>;
 
 /// Of b_i = sum_k C(i, k) / C(n, k) a_k by n + 1, the number of coefficients: for each i those of k <= i.
-using Weights = std::array<double, max_coefficients * (max_coefficients + 1) / 2>;
+using Weights = std::array<double, max_coefficients*(max_coefficients + 1) / 2>;
 constexpr std::array<Weights, max_coefficients + 1> make_bernstein_weights() noexcept {
   std::array<Weights, max_coefficients + 1> weights{};
   for (std::size_t count = 1; count <= max_coefficients; ++count) {
