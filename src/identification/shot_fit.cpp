@@ -5,7 +5,9 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <utility>
 
@@ -26,12 +28,56 @@ Eigen::Map<const Eigen::VectorXd> recorded(const ShotModel& model, const Shot& s
   return {model.records()[shot.record].position.data() + shot.first, static_cast<Eigen::Index>(shot.count)};
 }
 
+/// How strongly the element of x is pulled to its value beforehand.
+double pull_of(const ShotModel& model, Eigen::Index i) {
+  // A constant force is at most about as large as the recorded one.
+  const bool is_bias = i >= static_cast<Eigen::Index>(model.coordinates().size());
+  return is_logarithmic(model, i) || is_bias ? pull_strength : 0.0;
+}
+
+/// Follows the squares of the filtered residuals as shots are played, until they are more than `most`.
+class GrowingMisfit {
+ public:
+  GrowingMisfit(const ShotModel& model, const std::vector<Shot>& shots, const std::vector<ShotNoise>& noise,
+                double most)
+      : model_(model), shots_(shots), noise_(noise), most_(most), seen_(shots.size(), 0) {}
+
+  bool operator()(std::size_t shot, const Eigen::Ref<const Eigen::VectorXd>& positions) {
+    const ShotNoise& filter = noise_[shots_[shot].record];
+    const auto order = static_cast<Eigen::Index>(filter.filter.size()) - 1;
+    const Eigen::Index begin = std::max<Eigen::Index>(0, seen_[shot] - order);
+    const Eigen::Index count = positions.size() - begin;
+    if (count <= order) return true;
+    seen_[shot] = positions.size();
+    const Eigen::VectorXd residuals = positions.tail(count) - recorded(model_, shots_[shot]).segment(begin, count);
+    const double own = whitened(filter, residuals).squaredNorm();
+    return squares_.fetch_add(own, std::memory_order_relaxed) + own <= most_;
+  }
+
+ private:
+  const ShotModel& model_;
+  const std::vector<Shot>& shots_;
+  const std::vector<ShotNoise>& noise_;
+  double most_;
+  std::vector<Eigen::Index> seen_;  // samples, by shot
+  std::atomic<double> squares_ = 0.0;
+};
+
 /// What Ceres varies, and the residuals and slopes there: one playing of the records gives those of all shots.
+///
+/// Ceres asks for slopes where it has come to. Whatever exceeds the cost there by more than twice the function's
+/// tolerance it rejects, as what cannot be played: such a point is not played to its end, nor twice.
 class SharedShots : public ceres::EvaluationCallback {
  public:
   SharedShots(const ShotModel& model, const std::vector<Shot>& shots, const std::vector<ShotNoise>& noise,
-              const ShotFit& start)
-      : x(start.x), states(start.states), model_(model), shots_(shots), noise_(noise) {}
+              const ShotFit& start, const Eigen::VectorXd& towards, double tolerance)
+      : x(start.x),
+        states(start.states),
+        model_(model),
+        shots_(shots),
+        noise_(noise),
+        towards_(towards),
+        tolerance_(tolerance) {}
 
   void PrepareForEvaluation(bool with_slopes, bool) override {
     const bool is_known = is_evaluated_ && x == evaluated_x_ && states == evaluated_states_;
@@ -40,19 +86,7 @@ class SharedShots : public ceres::EvaluationCallback {
     has_slopes_ = with_slopes;
     evaluated_x_ = x;
     evaluated_states_ = states;
-    if (with_slopes) {
-      std::optional<ShotSlopes> slopes = shot_slopes(model_, shots_, noise_, x, states);
-      is_valid_ = slopes.has_value();
-      if (is_valid_) now_ = *std::move(slopes);
-      return;
-    }
-    std::optional<ShotPositions> residuals = shot_residuals(model_, shots_, x, states);
-    is_valid_ = residuals.has_value();
-    if (!is_valid_) return;
-    now_.residuals.resize(shots_.size());
-    for (std::size_t i = 0; i < shots_.size(); ++i) {
-      now_.residuals[i] = whitened(noise_[shots_[i].record], (*residuals)[i]);
-    }
+    is_valid_ = with_slopes ? evaluate_slopes() : evaluate_trial();
   }
 
   [[nodiscard]] bool is_valid() const { return is_valid_; }
@@ -62,9 +96,47 @@ class SharedShots : public ceres::EvaluationCallback {
   std::vector<Eigen::VectorXd> states;
 
  private:
+  struct Point {
+    Eigen::VectorXd x;
+    std::vector<Eigen::VectorXd> states;
+  };
+
+  [[nodiscard]] bool evaluate_slopes() {
+    rejected_.clear();
+    most_squares_ = std::numeric_limits<double>::infinity();
+    std::optional<ShotSlopes> slopes = shot_slopes(model_, shots_, noise_, x, states);
+    if (!slopes) return false;
+    now_ = *std::move(slopes);
+    double squares = 0.0;
+    for (const Eigen::VectorXd& each : now_.residuals) squares += each.squaredNorm();
+    for (Eigen::Index i = 0; i < x.size(); ++i) squares += std::pow(pull_of(model_, i) * (x(i) - towards_(i)), 2);
+    most_squares_ = (1.0 + 2.0 * tolerance_) * squares;
+    return true;
+  }
+
+  [[nodiscard]] bool evaluate_trial() {
+    const auto is_here = [&](const Point& each) { return each.x == x && each.states == states; };
+    if (std::ranges::any_of(rejected_, is_here)) return false;
+    GrowingMisfit misfit(model_, shots_, noise_, most_squares_);
+    const std::optional<ShotPositions> residuals = shot_residuals(model_, shots_, x, states, std::ref(misfit));
+    if (!residuals) {
+      rejected_.push_back({x, states});
+      return false;
+    }
+    now_.residuals.resize(shots_.size());
+    for (std::size_t i = 0; i < shots_.size(); ++i) {
+      now_.residuals[i] = whitened(noise_[shots_[i].record], (*residuals)[i]);
+    }
+    return true;
+  }
+
   const ShotModel& model_;
   const std::vector<Shot>& shots_;
   const std::vector<ShotNoise>& noise_;
+  const Eigen::VectorXd& towards_;
+  double tolerance_;  // of the function
+  double most_squares_ = std::numeric_limits<double>::infinity();
+  std::vector<Point> rejected_;  // since the last slopes
   ShotSlopes now_;
   Eigen::VectorXd evaluated_x_;
   std::vector<Eigen::VectorXd> evaluated_states_;
@@ -105,11 +177,7 @@ class ShotMisfit : public ceres::CostFunction {
 class PriorMisfit : public ceres::CostFunction {
  public:
   PriorMisfit(const ShotModel& model, Eigen::VectorXd towards) : towards_(std::move(towards)) {
-    for (Eigen::Index i = 0; i < towards_.size(); ++i) {
-      // A constant force is at most about as large as the recorded one.
-      const bool is_bias = i >= static_cast<Eigen::Index>(model.coordinates().size());
-      strength_.push_back(is_logarithmic(model, i) || is_bias ? pull_strength : 0.0);
-    }
+    for (Eigen::Index i = 0; i < towards_.size(); ++i) strength_.push_back(pull_of(model, i));
     set_num_residuals(static_cast<int>(towards_.size()));
     mutable_parameter_block_sizes()->push_back(num_residuals());
   }
@@ -164,7 +232,7 @@ class StopAtBound : public ceres::IterationCallback {
 /// bound.
 bool search(const ShotModel& model, const std::vector<Shot>& shots, const std::vector<ShotNoise>& noise, ShotFit& fit,
             const Eigen::VectorXd& towards, const ShotFitOptions& options, int& iterations) {
-  SharedShots shared(model, shots, noise, fit);
+  SharedShots shared(model, shots, noise, fit, towards, options.tolerance);
   // Ceres takes the blocks of a group by their addresses: here in the order of the shots, so that equal records give
   // equal fits to the last digit.
   const std::vector<Eigen::VectorXd> states = shared.states;
@@ -272,8 +340,9 @@ std::vector<ShotNoise> shot_noise(const std::vector<Shot>& shots, const ShotPosi
 }
 
 std::optional<ShotPositions> shot_residuals(const ShotModel& model, const std::vector<Shot>& shots,
-                                            const Eigen::VectorXd& x, const std::vector<Eigen::VectorXd>& states) {
-  std::optional<std::vector<ShotMotion>> played = model.play(x, shots, states, ShotModel::Slopes::none);
+                                            const Eigen::VectorXd& x, const std::vector<Eigen::VectorXd>& states,
+                                            const PlayOn& play_on) {
+  const auto played = model.play(x, shots, states, ShotModel::Slopes::none, play_on);
   if (!played) return std::nullopt;
   ShotPositions residuals;
   for (std::size_t i = 0; i < shots.size(); ++i)
@@ -284,20 +353,9 @@ std::optional<ShotPositions> shot_residuals(const ShotModel& model, const std::v
 std::optional<ShotSlopes> shot_slopes(const ShotModel& model, const std::vector<Shot>& shots,
                                       const std::vector<ShotNoise>& noise, const Eigen::VectorXd& x,
                                       const std::vector<Eigen::VectorXd>& states) {
-  std::optional<std::vector<ShotMotion>> played = model.play(x, shots, states, ShotModel::Slopes::exact);
+  const auto played = model.play(x, shots, states, ShotModel::Slopes::exact);
   if (!played) return std::nullopt;
   const auto coordinates = static_cast<Eigen::Index>(model.coordinates().size());
-  for (Eigen::Index i = 0; i < coordinates; ++i) {
-    if (!model.is_short_lag(i, x(i))) continue;
-    constexpr double step = 0.1;  // sampling periods: what is left beside a delay is of the second order
-    Eigen::VectorXd at = x;
-    at(i) += step;
-    const auto moved = model.play(at, shots, states, ShotModel::Slopes::none);
-    if (!moved) return std::nullopt;
-    for (std::size_t k = 0; k < shots.size(); ++k) {
-      (*played)[k].slopes.row(i) = ((*moved)[k].positions - (*played)[k].positions).transpose() / step;
-    }
-  }
   ShotSlopes slopes;
   slopes.residuals.resize(shots.size());
   slopes.of_parameters.resize(shots.size());

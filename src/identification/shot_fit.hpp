@@ -32,7 +32,7 @@ struct ShotSlopes {
   std::vector<Eigen::MatrixXd> of_states;      ///< a column per element of the shot's own state
 };
 
-/// Exact along the motion (MotionTangent), of a short lag by a difference; nothing where the model cannot be played.
+/// As the model plays them; nothing where it cannot be played.
 [[nodiscard]] std::optional<ShotSlopes> shot_slopes(const ShotModel& model, const std::vector<Shot>& shots,
                                                     const std::vector<ShotNoise>& noise, const Eigen::VectorXd& x,
                                                     const std::vector<Eigen::VectorXd>& states);
@@ -46,7 +46,8 @@ struct ShotFit {
 
 /// min over x and the states  sum e^2 + a weak pull of masses and link stiffnesses (known to a factor of 28 beforehand)
 /// towards `towards`, by Levenberg and Marquardt's method, the states eliminated (Ceres). Nothing where the model cannot
-/// be played at the start.
+/// be played at the start. A trial is played until its misfit is above that of the point it starts from, which rejects
+/// it whatever it would come to.
 struct ShotFitOptions {
   int most_iterations = 30;
   double tolerance = 1e-6;
@@ -59,6 +60,7 @@ struct ShotFitOptions {
 /// Played less recorded, not filtered.
 [[nodiscard]] std::optional<ShotPositions> shot_residuals(const ShotModel& model, const std::vector<Shot>& shots,
                                                           const Eigen::VectorXd& x,
-                                                          const std::vector<Eigen::VectorXd>& states);
+                                                          const std::vector<Eigen::VectorXd>& states,
+                                                          const PlayOn& play_on = {});
 
 }  // namespace zwidth::internal

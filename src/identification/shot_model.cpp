@@ -118,8 +118,9 @@ class Player {
     motion_.set_tangent(&*tangent_);
   }
 
-  /// False where stick-slip instants were cut off.
-  bool play(const Shot& shot, const Eigen::VectorXd& state, ShotMotion& out) {
+  /// False where stick-slip instants were cut off, or where it is not played on.
+  bool play(const Shot& shot, const Eigen::VectorXd& state, ShotMotion& out,
+            const std::function<bool(Eigen::Ref<const Eigen::VectorXd>)>& play_on) {
     start(shot, state);
     out.positions.resize(static_cast<Eigen::Index>(shot.count));
     if (tangent_) out.slopes.resize(tangent_->columns(), out.positions.size());
@@ -127,6 +128,8 @@ class Player {
     for (std::size_t i = 0; i < shot.count; ++i) {
       const auto column = static_cast<Eigen::Index>(i);
       out.positions(column) = motion_.sensed();
+      constexpr Eigen::Index stretch = 256;
+      if (play_on && (column + 1) % stretch == 0 && !play_on(out.positions.head(column + 1))) return false;
       if (tangent_) {
         const auto slopes_of = [&](Eigen::Index row) {
           return tangent_->slopes().row(row).head(tangent_->columns()).transpose();
@@ -309,12 +312,15 @@ bool ShotModel::is_short_lag(Eigen::Index i, double x) const {
   return k < coordinates_.size() && coordinates_[k].key == lag_key && x < 2.0 * shortest_lag;
 }
 
-void ShotModel::free_friction(DeviceParameters& parameters) const {
+bool ShotModel::free_friction(DeviceParameters& parameters) const {
   constexpr double least = 1e-9;
+  bool any = false;
   for (const Coordinate& each : coordinates_) {
-    if (!each.key.ends_with(".coulomb")) continue;
-    set_parameter(parameters, each.key, std::max(*parameter(parameters, each.key), least * each.unit));
+    if (!each.key.ends_with(".coulomb") || *parameter(parameters, each.key) >= least * each.unit) continue;
+    set_parameter(parameters, each.key, least * each.unit);
+    any = true;
   }
+  return any;
 }
 
 Device ShotModel::device_in(std::size_t record, const DeviceParameters& parameters) const {
@@ -350,9 +356,53 @@ PlayedParameter ShotModel::played(std::size_t i, double x, std::size_t record, c
   return played;
 }
 
-std::optional<std::vector<ShotMotion>> ShotModel::play(const Eigen::VectorXd& x, const std::vector<Shot>& shots,
-                                                       const std::vector<Eigen::VectorXd>& states,
-                                                       Slopes slopes) const {
+PlayedShots::Motions PlayedShots::find(const Eigen::VectorXd& x, const std::vector<Shot>& shots,
+                                       const std::vector<Eigen::VectorXd>& states) const {
+  const std::lock_guard lock(mutex_);
+  return motions_ && x == x_ && shots == shots_ && states == states_ ? motions_ : nullptr;
+}
+
+void PlayedShots::keep(const Eigen::VectorXd& x, const std::vector<Shot>& shots,
+                       const std::vector<Eigen::VectorXd>& states, Motions motions) {
+  const std::lock_guard lock(mutex_);
+  x_ = x;
+  shots_ = shots;
+  states_ = states;
+  motions_ = std::move(motions);
+}
+
+PlayedShots::Motions ShotModel::play(const Eigen::VectorXd& x, const std::vector<Shot>& shots,
+                                     const std::vector<Eigen::VectorXd>& states, Slopes slopes,
+                                     const PlayOn& play_on) const {
+  PlayedShots& last = slopes == Slopes::exact ? last_with_slopes_ : last_plain_;
+  if (PlayedShots::Motions motions = last.find(x, shots, states)) return motions;
+  if (slopes == Slopes::none) {
+    PlayedShots::Motions motions = last_with_slopes_.find(x, shots, states);
+    DeviceParameters parameters = parameters_at(x);
+    if (motions && !free_friction(parameters)) return motions;
+  }
+  std::optional<std::vector<ShotMotion>> played = play_anew(x, shots, states, slopes, play_on);
+  for (std::size_t k = 0; played && slopes == Slopes::exact && k < coordinates_.size(); ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    if (!is_short_lag(i, x(i))) continue;
+    constexpr double step = 0.1;  // sampling periods: what is left beside a delay is of the second order
+    Eigen::VectorXd at = x;
+    at(i) += step;
+    const auto moved = play_anew(at, shots, states, Slopes::none, play_on);
+    if (!moved) return nullptr;
+    for (std::size_t shot = 0; shot < shots.size(); ++shot) {
+      (*played)[shot].slopes.row(i) = ((*moved)[shot].positions - (*played)[shot].positions).transpose() / step;
+    }
+  }
+  if (!played) return nullptr;
+  auto motions = std::make_shared<const std::vector<ShotMotion>>(*std::move(played));
+  last.keep(x, shots, states, motions);
+  return motions;
+}
+
+std::optional<std::vector<ShotMotion>> ShotModel::play_anew(const Eigen::VectorXd& x, const std::vector<Shot>& shots,
+                                                            const std::vector<Eigen::VectorXd>& states, Slopes slopes,
+                                                            const PlayOn& play_on) const {
   std::vector<ShotMotion> motions(shots.size());
   const std::vector<std::size_t> starts = batches(shots);
   std::vector<char> is_played(starts.size(), 0);
@@ -373,7 +423,9 @@ std::optional<std::vector<ShotMotion>> ShotModel::play(const Eigen::VectorXd& x,
         player.follow_slopes(std::move(all));
       }
       for (std::size_t i = starts[batch]; i < starts[batch + 1]; ++i) {
-        if (!player.play(shots[i], states[i], motions[i]) || !motions[i].positions.allFinite()) return;
+        std::function<bool(Eigen::Ref<const Eigen::VectorXd>)> goes_on;
+        if (play_on) goes_on = [&](Eigen::Ref<const Eigen::VectorXd> positions) { return play_on(i, positions); };
+        if (!player.play(shots[i], states[i], motions[i], goes_on) || !motions[i].positions.allFinite()) return;
         if (!motions[i].slopes.allFinite()) return;
       }
       is_played[batch] = 1;

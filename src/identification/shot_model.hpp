@@ -2,6 +2,9 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <functional>
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <string>
@@ -24,6 +27,8 @@ struct Shot {
   std::size_t record = 0;
   std::size_t first = 0;  ///< sample
   std::size_t count = 0;
+
+  bool operator==(const Shot&) const = default;
 };
 
 /// Positions of the sensed body, one vector per shot.
@@ -43,7 +48,36 @@ struct ShotMotion {
   Eigen::MatrixXd slopes;
 };
 
+/// Whether to play on: told the positions of a shot, by its index, as far as it is played. From several threads at
+/// once, for each shot from one.
+using PlayOn = std::function<bool(std::size_t shot, Eigen::Ref<const Eigen::VectorXd> positions)>;
+
 struct PlayedParameter;
+
+/// The last motions of a model, and where they were played. A copy begins without any.
+class PlayedShots {
+ public:
+  using Motions = std::shared_ptr<const std::vector<ShotMotion>>;
+
+  PlayedShots() = default;
+  PlayedShots(const PlayedShots&) {}
+  PlayedShots& operator=(const PlayedShots&) = delete;
+  PlayedShots(PlayedShots&&) = delete;
+  PlayedShots& operator=(PlayedShots&&) = delete;
+  ~PlayedShots() = default;
+
+  [[nodiscard]] Motions find(const Eigen::VectorXd& x, const std::vector<Shot>& shots,
+                             const std::vector<Eigen::VectorXd>& states) const;
+  void keep(const Eigen::VectorXd& x, const std::vector<Shot>& shots, const std::vector<Eigen::VectorXd>& states,
+            Motions motions);
+
+ private:
+  mutable std::mutex mutex_;
+  Eigen::VectorXd x_;
+  std::vector<Shot> shots_;
+  std::vector<Eigen::VectorXd> states_;
+  Motions motions_;
+};
 
 /// The structure moved exactly under the recorded forces, friction included.
 ///
@@ -61,9 +95,6 @@ class ShotModel {
     return static_cast<Eigen::Index>(coordinates_.size() + records_.size());
   }
   [[nodiscard]] Eigen::Index states() const noexcept { return 2 * static_cast<Eigen::Index>(bodies_); }
-  /// Whether the element of x is a lag so short that it differs from a delay in the second order only: by play()'s slopes
-  /// it is one.
-  [[nodiscard]] bool is_short_lag(Eigen::Index i, double x) const;
   /// Whether the element of x may not be negative.
   [[nodiscard]] bool is_bounded(Eigen::Index i) const;
   /// N or N m per unit of a constant force in x.
@@ -79,15 +110,26 @@ class ShotModel {
   [[nodiscard]] ShotModel at(const Eigen::VectorXd& x) const;
 
   enum class Slopes { none, exact };
-  /// Nothing where the parameters make no device that can be followed in time. With slopes a free friction of 0 is
-  /// taken as one too small to matter, so that its own slope shows.
-  [[nodiscard]] std::optional<std::vector<ShotMotion>> play(const Eigen::VectorXd& x, const std::vector<Shot>& shots,
-                                                            const std::vector<Eigen::VectorXd>& states,
-                                                            Slopes slopes) const;
+  /// Null where the parameters make no device that can be followed in time. With slopes a free friction of 0 is
+  /// taken as one too small to matter, so that its own slope shows; they are exact along the motion, of a short lag by a
+  /// difference. Null too where `play_on`, asked in between, says no. The last motions are kept: a fit comes back to
+  /// where a search ended.
+  [[nodiscard]] std::shared_ptr<const std::vector<ShotMotion>> play(const Eigen::VectorXd& x,
+                                                                    const std::vector<Shot>& shots,
+                                                                    const std::vector<Eigen::VectorXd>& states,
+                                                                    Slopes slopes, const PlayOn& play_on = {}) const;
 
  private:
   [[nodiscard]] Device device_in(std::size_t record, const DeviceParameters& parameters) const;
-  void free_friction(DeviceParameters& parameters) const;
+  /// Whether any is free that was 0.
+  bool free_friction(DeviceParameters& parameters) const;
+  /// Whether the element of x is a lag so short that it differs from a delay in the second order only: by the motion's
+  /// own slopes it is one.
+  [[nodiscard]] bool is_short_lag(Eigen::Index i, double x) const;
+  [[nodiscard]] std::optional<std::vector<ShotMotion>> play_anew(const Eigen::VectorXd& x,
+                                                                 const std::vector<Shot>& shots,
+                                                                 const std::vector<Eigen::VectorXd>& states,
+                                                                 Slopes slopes, const PlayOn& play_on) const;
   [[nodiscard]] PlayedParameter played(std::size_t i, double x, std::size_t record, const DeviceParameters& parameters,
                                        const Device& device) const;
 
@@ -98,6 +140,8 @@ class ShotModel {
   double most_parts_;             ///< per sampling period
   std::vector<ShotUnits> units_;  ///< by record
   std::size_t bodies_ = 0;
+  mutable PlayedShots last_plain_;
+  mutable PlayedShots last_with_slopes_;
 };
 
 }  // namespace zwidth::internal

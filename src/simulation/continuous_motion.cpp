@@ -52,6 +52,8 @@ ContinuousMotion::ContinuousMotion(const Device& device, OutsideForce outside, s
   next_ = Eigen::VectorXd::Zero(n);
   series_ = Eigen::MatrixXd::Zero(n, degree + 1);
   multiply_ = matrix_vector(size_);
+  moving_ = outside.acts ? size_ : command_;
+  multiply_moving_ = matrix_part_vector(moving_);
 
   const Eigen::MatrixXd free = matrix_of(device, outside, 0);
   for (FrictionBody& each : friction_) {
@@ -193,10 +195,11 @@ void ContinuousMotion::expand(double length) noexcept {
   terms_ = degree + 1;
   for (int k = 1; k <= degree; ++k) {
     double* column = series_.data() + static_cast<std::size_t>(k) * size_;
-    multiply_(now.matrix.data(), column - size_, column, size_);
+    // The derivatives of constant states, whose columns of the series stay 0, move nothing.
+    multiply_moving_(now.matrix.data(), column - size_, column, moving_, k == 1 ? size_ : moving_, size_);
     const double factor = length / k;
     bool is_negligible = true;
-    for (std::size_t i = 0; i < size_; ++i) {
+    for (std::size_t i = 0; i < moving_; ++i) {
       column[i] *= factor;
       is_negligible = is_negligible && std::abs(column[i]) <= negligible * std::abs(state_.data()[i]);
     }

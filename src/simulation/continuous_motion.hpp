@@ -137,6 +137,7 @@ class ContinuousMotion {
   std::size_t lag_ = no_state;
   std::size_t outside_ = no_state;
   std::size_t size_ = 0;
+  std::size_t moving_ = 0;  // of the state, those before the constant ones
   std::vector<FrictionBody> friction_;
   std::vector<double> lengths_;
   std::vector<Pattern> patterns_;  // by the bits of the stuck friction bodies
@@ -146,6 +147,7 @@ class ContinuousMotion {
   Eigen::MatrixXd series_;  // column k: A^k x h^k / k!
   std::size_t terms_ = 0;   // columns of series_ in use
   MatrixVector multiply_ = nullptr;
+  MatrixPartVector multiply_moving_ = nullptr;
   MotionTangent* tangent_ = nullptr;
   std::size_t events_ = 0;
   std::size_t overloaded_ = 0;

@@ -15,6 +15,25 @@ constexpr double none = 2.0;
 
 using Coefficients = std::array<double, max_coefficients>;
 
+/// Of b_i = sum_k C(i, k) / C(n, k) a_k by n + 1, the number of coefficients: for each i those of k <= i.
+using Weights = std::array<double, max_coefficients*(max_coefficients + 1) / 2>;
+constexpr std::array<Weights, max_coefficients + 1> make_bernstein_weights() noexcept {
+  std::array<Weights, max_coefficients + 1> weights{};
+  for (std::size_t count = 1; count <= max_coefficients; ++count) {
+    const std::size_t n = count - 1;
+    std::size_t at = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      double weight = 1.0;
+      for (std::size_t k = 0; k <= i; ++k) {
+        weights[count][at++] = weight;
+        if (k < n) weight *= static_cast<double>(i - k) / static_cast<double>(n - k);
+      }
+    }
+  }
+  return weights;
+}
+constexpr std::array<Weights, max_coefficients + 1> bernstein_weights = make_bernstein_weights();
+
 /// The one root in [lower, upper], where the polynomial falls from >= 0 to negative: Newton, kept in its bracket.
 double polish(std::span<const double> power, double lower, double upper) noexcept {
   double s = 0.5 * (lower + upper);
@@ -80,15 +99,10 @@ double first_turn_negative(std::span<const double> coefficients) noexcept {
   if (count > 1 && std::abs(coefficients[1]) > slopes) {
     return coefficients[0] + sum >= 0.0 ? none : polish(coefficients, 0.0, 1.0);
   }
-  // b_i = sum_k C(i, k) / C(n, k) a_k
   Coefficients bernstein{};
-  const std::size_t n = count - 1;
+  const double* weight = bernstein_weights[count].data();
   for (std::size_t i = 0; i < count; ++i) {
-    double weight = 1.0;  // C(i, k) / C(n, k)
-    for (std::size_t k = 0; k <= i; ++k) {
-      bernstein[i] += weight * coefficients[k];
-      if (k < n) weight *= static_cast<double>(i - k) / static_cast<double>(n - k);
-    }
+    for (std::size_t k = 0; k <= i; ++k) bernstein[i] += *weight++ * coefficients[k];
   }
   return search(coefficients, bernstein, 0.0, 1.0, 0);
 }
