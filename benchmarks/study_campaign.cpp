@@ -1,16 +1,18 @@
 // How often a study is right, on random two-mass devices of which five numbers vary.
 //
-//   study_campaign [worst|rare [FIRST_SEED [COUNT [UNITS [KIND]]]]]
+//   study_campaign [worst|rare [FIRST_SEED [COUNT [UNITS [KIND [FAILING]]]]]]
 //
 // KIND: as in tests/property/random_devices.hpp, two_mass where none is given.
 // worst: the worst unit found from 10 000 samples, beside the worst of UNITS others.
 // rare:  one device and one specification, of which about one unit in 10 000 fails among UNITS; COUNT seeds of importance
-//        sampling with 5000 units each: how many intervals hold that share.
+//        sampling with 5000 units each: how many intervals hold that share. FAILING: how many of the UNITS fail, where an
+//        earlier run has counted them.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -74,32 +76,52 @@ void worst_units(std::uint64_t first, std::uint64_t count, std::uint64_t units, 
       static_cast<unsigned long long>(sound_wrong));
 }
 
-void rare_shares(std::uint64_t device, std::uint64_t count, std::uint64_t units, std::string_view kind) {
+void rare_shares(std::uint64_t device, std::uint64_t count, std::uint64_t units, std::string_view kind,
+                 std::optional<std::uint64_t> counted) {
   std::vector<double> limits;
   for_each_limit(counted_run(device, 200'000, kind), [&](double stiffness) { limits.push_back(stiffness); });
   std::ranges::nth_element(limits, limits.begin() + 20);
   const double specified = limits[20];
-  std::uint64_t failing = 0;
+  std::uint64_t failing = counted.value_or(0);
   StudyOptions many;
   many.samples = units;
   many.seed = 2 * others + device;
-  for_each_limit(test::random_study(device, many, kind),
-                 [&](double stiffness) { failing += stiffness < specified ? 1U : 0U; });
+  if (!counted) {
+    for_each_limit(test::random_study(device, many, kind),
+                   [&](double stiffness) { failing += stiffness < specified ? 1U : 0U; });
+  }
   const Proportion truth = proportion(failing, units);
   std::uint64_t held = 0;
+  std::uint64_t below = 0;
   std::uint64_t sound = 0;
+  std::uint64_t sound_wrong = 0;
+  double sum = 0.0;
+  double square = 0.0;
+  double error = 0.0;
   for (std::uint64_t seed = 1; seed <= count; ++seed) {
     StudyOptions options;
     options.seed = seed;
     options.specification.critical_stiffness = specified;
     const RareFailures rare = rare_failures(test::random_study(device, options, kind), {.samples = 5000});
-    held += rare.lower <= truth.value && truth.value <= rare.upper ? 1U : 0U;
+    const bool holds = rare.lower <= truth.value && truth.value <= rare.upper;
+    held += holds ? 1U : 0U;
+    below += rare.upper < truth.value ? 1U : 0U;
     sound += rare.trust.sound() ? 1U : 0U;
+    sound_wrong += rare.trust.sound() && !holds ? 1U : 0U;
+    sum += rare.share / truth.value;
+    square += std::pow((rare.share - truth.value) / truth.value, 2);
+    error += std::pow(rare.error / truth.value, 2);
   }
-  std::printf("%.*s device %llu: %.4g fail among %llu (%.4g to %.4g); %llu of %llu seeds hold it, %llu sound\n",
-              static_cast<int>(kind.size()), kind.data(), static_cast<unsigned long long>(device), truth.value,
-              static_cast<unsigned long long>(units), truth.lower, truth.upper, static_cast<unsigned long long>(held),
-              static_cast<unsigned long long>(count), static_cast<unsigned long long>(sound));
+  const auto whole = [](std::uint64_t number) { return static_cast<unsigned long long>(number); };
+  const auto seeds = static_cast<double>(count);
+  std::printf(
+      "%.*s device %llu: %llu of %llu fail (%.4g to %.4g) below %.17g; %llu of %llu seeds hold it, %llu are below, "
+      "%llu "
+      "sound, of these %llu miss it; mean share %.4f of it, rms error %.4f, as stated %.4f\n",
+      static_cast<int>(kind.size()), kind.data(), whole(device), whole(failing), whole(units), truth.lower, truth.upper,
+      specified, whole(held), whole(count), whole(below), whole(sound), whole(sound_wrong), sum / seeds,
+      std::sqrt(square / seeds), std::sqrt(error / seeds));
+  (void)std::fflush(stdout);
 }
 
 }  // namespace
@@ -111,11 +133,12 @@ int main(int argc, char** argv) {
   const std::string what = argc > 1 ? argv[1] : "worst";
   const std::string_view kind = argc > 5 ? argv[5] : "two_mass";
   if (what == "rare") {
-    rare_shares(number(2, 1), number(3, 100), number(4, 10'000'000), kind);
+    rare_shares(number(2, 1), number(3, 100), number(4, 10'000'000), kind,
+                argc > 6 ? std::optional(number(6, 0)) : std::nullopt);
   } else if (what == "worst") {
     worst_units(number(2, 1), number(3, 100), number(4, 1'000'000), kind);
   } else {
-    std::fputs("usage: study_campaign [worst|rare [FIRST_SEED [COUNT [UNITS [KIND]]]]]\n", stderr);
+    std::fputs("usage: study_campaign [worst|rare [FIRST_SEED [COUNT [UNITS [KIND [FAILING]]]]]]\n", stderr);
     return 2;
   }
   return 0;

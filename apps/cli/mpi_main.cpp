@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <exception>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -82,7 +83,9 @@ int main(int argument_count, char** arguments) {
     zwidth::study_engine::set_team(team);
     std::string name = arguments[0];
     std::string command = "study";
-    std::vector<char*> all{name.data(), command.data()};
+    std::vector<char*> all{name.data()};
+    // The version is the program's, not the command's.
+    if (argument_count != 2 || std::string_view(arguments[1]) != "--version") all.push_back(command.data());
     all.insert(all.end(), arguments + 1, arguments + argument_count);
     status = zwidth::cli::run_program(static_cast<int>(all.size()), all.data());
     // Others may be waiting for this one: all end, and what they have computed is kept.

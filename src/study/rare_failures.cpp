@@ -39,7 +39,6 @@ constexpr double defensive = 0.1;       // share of the units that are drawn as 
 constexpr std::uint64_t pilots = 2048;  // units of each round that looks for where the failures are
 constexpr std::uint64_t pilot_rounds = 2;
 constexpr std::size_t pilot_centres = 64;
-constexpr double normal_95 = 1.959963984540054;
 
 using Points = std::vector<Eigen::VectorXd>;
 
@@ -300,24 +299,24 @@ RareFailures rare_failures(const StudyRun& run, const RareFailureOptions& option
   const auto [units, ratios] = drawn(search, mixture, seed, draw_stream, choice_stream, 0, options.samples);
   const Margins margins = search.margins(units);
   const std::vector<double>& above = margins.above;
-  double mean = 0.0;
-  double square = 0.0;
+  double sum = 0.0;
+  double squares = 0.0;
   double largest = 0.0;
   for (std::size_t i = 0; i < units.size(); ++i) {
     if (!(above[i] < 0.0)) continue;
-    mean += ratios[i];
-    square += ratios[i] * ratios[i];
+    sum += ratios[i];
+    squares += ratios[i] * ratios[i];
     largest = std::max(largest, ratios[i]);
   }
   const auto n = static_cast<double>(options.samples);
-  const double effective = square > 0.0 ? mean * mean / square : 0.0;
-  const double heaviest = mean > 0.0 ? largest / mean : 1.0;
-  result.share = mean / n;
-  result.error = std::sqrt(std::max(0.0, square / n - result.share * result.share) / n);
-  if (mean > 0.0) {  // of the logarithm: the share's own distribution has its tail above
-    const double factor = std::exp(normal_95 * result.error / result.share);
-    result.lower = result.share / factor;
-    result.upper = std::min(1.0, result.share * factor);
+  const double effective = squares > 0.0 ? sum * sum / squares : 0.0;
+  const double heaviest = sum > 0.0 ? largest / sum : 1.0;
+  result.share = sum / n;
+  result.error = std::sqrt(std::max(0.0, squares / n - result.share * result.share) / n);
+  if (sum > 0.0) {
+    const StatisticInterval interval = weighted_sum_interval(sum, squares, largest);
+    result.lower = interval.lower / n;
+    result.upper = std::min(1.0, interval.upper / n);
   } else {
     result.upper = search.first_share().upper;
   }

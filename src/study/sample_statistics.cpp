@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <boost/math/special_functions/beta.hpp>
+#include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -72,6 +73,19 @@ Proportion proportion(std::uint64_t count, std::uint64_t total, double confidenc
   if (count > 0) share.lower = boost::math::ibeta_inv(k, n - k + 1.0, tail);
   if (count < total) share.upper = boost::math::ibetac_inv(k + 1.0, n - k, tail);
   return share;
+}
+
+StatisticInterval weighted_sum_interval(double sum, double squares, double largest, double confidence) {
+  require_share(confidence, "confidence");
+  if (!(largest > 0.0 && largest <= sum && squares > 0.0 && std::isfinite(sum) && std::isfinite(squares))) {
+    throw Error(ErrorCode::invalid_argument,
+                fmt::format("weights of sum {}, squares {}, largest {} are none", sum, squares, largest));
+  }
+  const auto quantile = [](double mean, double variance, double share) {
+    return variance / mean * boost::math::gamma_p_inv(mean / variance * mean, share);
+  };
+  const double tail = 0.5 * (1.0 - confidence);
+  return {quantile(sum, squares, tail), quantile(sum + largest, squares + largest * largest, 1.0 - tail)};
 }
 
 QuantileRanks quantile_ranks(double p, std::uint64_t samples, double confidence) {

@@ -296,6 +296,16 @@ TEST_F(Study, IsTheSameForAnyNumberOfRanks) {
   EXPECT_EQ(partial_files(), 0);
 }
 
+TEST_F(Study, OfSeveralRanksTellsItsVersionAndItsOptions) {
+  if (run("command -v zwidth-study mpirun").status != 0) GTEST_SKIP() << "built without MPI";
+  const Outcome version = run("zwidth-study --version");
+  EXPECT_EQ(version.status, 0) << version.errors;
+  EXPECT_EQ(version.output, run("zwidth --version").output);
+  const Outcome help = run("zwidth-study --help");
+  EXPECT_EQ(help.status, 0) << help.errors;
+  EXPECT_EQ(help.output, run("zwidth study --help").output);
+}
+
 // A rank that is killed ends the run; what all of them had done is there for the next one, of any number of ranks.
 TEST_F(Study, GoesOnAfterALostRank) {
   if (run("command -v zwidth-study mpirun").status != 0) GTEST_SKIP() << "built without MPI";

@@ -83,6 +83,45 @@ TEST(QuantileRanks, LeaveHalfOfTheRestOnEachSide) {
   }
 }
 
+// Of equal weights: Garwood's interval of 10 that were counted, 4.795 to 18.390 (F. Garwood, Biometrika 28, 437, 1936).
+TEST(WeightedSumInterval, OfEqualWeightsIsThatOfACount) {
+  const StatisticInterval ten = weighted_sum_interval(10.0, 10.0, 1.0);
+  EXPECT_NEAR(ten.lower, 4.7954, 1e-4);
+  EXPECT_NEAR(ten.upper, 18.3904, 1e-4);
+  const StatisticInterval scaled = weighted_sum_interval(10e-9, 10e-18, 1e-9);
+  EXPECT_NEAR(scaled.lower, ten.lower * 1e-9, 1e-21);
+  EXPECT_NEAR(scaled.upper, ten.upper * 1e-9, 1e-21);
+  EXPECT_THROW((void)weighted_sum_interval(0.0, 0.0, 0.0), Error);
+  EXPECT_THROW((void)weighted_sum_interval(1.0, 1.0, 2.0), Error);
+  EXPECT_THROW((void)weighted_sum_interval(1.0, 1.0, 1.0, 1.0), Error);
+}
+
+// Of uneven ones, about 40 of them: no side misses more often than it says. The weights are exp(z) for normal z; the expectation
+// of their sum is 40 exp(1/2).
+TEST(WeightedSumInterval, OfUnevenWeightsHoldsAsOftenAsItSays) {
+  std::mt19937_64 random(11);
+  std::poisson_distribution<int> counts(40.0);
+  std::normal_distribution<double> normal;
+  const double truth = 40.0 * std::exp(0.5);
+  int above = 0;
+  int below = 0;
+  constexpr int trials = 4000;
+  for (int trial = 0; trial < trials; ++trial) {
+    double sum = 0.0;
+    double squares = 0.0;
+    double largest = 0.0;
+    for (int count = counts(random); count > 0; --count) {
+      const double weight = std::exp(normal(random));
+      sum += weight, squares += weight * weight, largest = std::max(largest, weight);
+    }
+    const StatisticInterval interval = weighted_sum_interval(sum, squares, largest);
+    above += interval.lower > truth ? 1 : 0;
+    below += interval.upper < truth ? 1 : 0;
+  }
+  EXPECT_LT(above, 0.025 * trials + 35.0);  // 3.5 standard deviations of what is allowed
+  EXPECT_LT(below, 0.025 * trials + 35.0);
+}
+
 TEST(OrderStatistics, AreThoseOfTheSortedNumbers) {
   std::mt19937_64 random(3);
   std::vector<double> numbers(5000);
