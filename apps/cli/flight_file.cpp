@@ -42,7 +42,7 @@ std::vector<fs::path> directories() {
   return found;
 }
 
-void keep(const rig::FlightRecorder& recorder, Motion motion) {
+void keep(const rig::FlightRecorder& recorder) {
   const std::string name =
       fmt::format("flight-{:%Y%m%d-%H%M%S}-{}.csv", fmt::gmtime(std::time(nullptr)), static_cast<long>(getpid()));
   std::string failures;
@@ -53,7 +53,7 @@ void keep(const rig::FlightRecorder& recorder, Motion motion) {
     try {
       Outputs file;
       file.add(flight_option, path);
-      file.put(flight_option, [&](const report::Sink& sink) { recorder.write(sink, motion); });
+      file.put(flight_option, [&](const report::Sink& sink) { recorder.write(sink); });
       file.commit();
       return write_standard_error(fmt::format("zwidth: flight record: {}\n", path));
     } catch (const report::OutputFailed& failure) {
@@ -65,9 +65,9 @@ void keep(const rig::FlightRecorder& recorder, Motion motion) {
 
 }  // namespace
 
-void keep_flight_record(const rig::FlightRecorder& recorder, Motion motion) noexcept {
+void keep_flight_record(const rig::FlightRecorder& recorder) noexcept {
   try {
-    keep(recorder, motion);
+    keep(recorder);
   } catch (const std::exception& failure) {
     write_standard_error("zwidth: flight record: is lost: ");
     write_standard_error(failure.what());

@@ -301,17 +301,16 @@ void run_rig(const RigArguments& arguments) {
   check_permission(arguments, analysis.trust);
   if (arguments.action == "wall") check_wall(arguments, device, analysis);
   all.require_writable();
-  const Motion motion = device.parameters().motion;
   options.record = [&](const rig::FlightRecorder& recorder, StopReason stop) {
     if (arguments.flight_record.empty()) {
-      if (stop != StopReason::none) keep_flight_record(recorder, motion);
+      if (stop != StopReason::none) keep_flight_record(recorder);
       return;
     }
     try {
-      flight.put("--flight-record", [&](const report::Sink& sink) { recorder.write(sink, motion); });
+      flight.put("--flight-record", [&](const report::Sink& sink) { recorder.write(sink); });
       flight.commit();
     } catch (const report::OutputFailed&) {
-      if (stop != StopReason::none) keep_flight_record(recorder, motion);  // it cannot be made again
+      if (stop != StopReason::none) keep_flight_record(recorder);  // it cannot be made again
       throw;
     }
     if (stop != StopReason::none) {

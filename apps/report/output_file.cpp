@@ -153,7 +153,8 @@ void OutputFiles::require_writable(const std::string& path) {
     }
     const fs::path temporary = target.path.parent_path() / fmt::format(".zwidth-{}-probe.part", ::getpid());
     ::unlink(temporary.c_str());  // left by a killed process that had our number
-    const Descriptor unnamed(write_temporary(temporary, [](const Sink&) {}, nullptr));
+    const Descriptor unnamed(write_temporary(
+        temporary, [](const Sink&) {}, nullptr));
     if (unnamed.get() < 0) ::unlink(temporary.c_str());
   } catch (const SystemError& error) {
     fail(path, error.number);

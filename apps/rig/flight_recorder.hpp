@@ -5,8 +5,6 @@
 #include <string_view>
 #include <vector>
 
-#include "zwidth/model/device.hpp"
-
 namespace zwidth::rig {
 
 /// Every signal of one cycle.
@@ -33,9 +31,8 @@ class FlightRecorder {
     if (count_ < rows_.size()) ++count_;
   }
   [[nodiscard]] std::size_t size() const noexcept { return count_; }
-  /// As CSV, the oldest cycle first: columns time_s, force [N], position [m], velocity [m/s], wanted_force [N], latency_s,
-  /// stop; of a rotary device [N m], [rad], [rad/s].
-  void write(const std::function<void(std::string_view)>& sink, Motion motion) const;
+  /// As CSV, the oldest cycle first: columns time_s, force, position, velocity, wanted_force, latency_s, stop.
+  void write(const std::function<void(std::string_view)>& sink) const;
 
  private:
   std::vector<FlightRow> rows_;

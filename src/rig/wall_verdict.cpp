@@ -42,7 +42,8 @@ void judge(RigMeasurement& measurement, const Device& device) {
   if (!measurement.response) return;
   if (std::ranges::any_of(device.bodies(), [](const Body& body) { return body.coulomb > 0.0; })) {
     measurement.response->trust.doubt(
-        "the device has dry friction, which a response shows as damping: large motion has less of it, and a lower limit; "
+        "the device has dry friction, which a response shows as damping: large motion has less of it, and a lower "
+        "limit; "
         "excite more strongly and see whether the limit falls");
   }
   measurement.trust.inherit(measurement.response->trust);

@@ -94,7 +94,7 @@ struct Run {
 bool is_whole_record(const fs::path& path) {
   std::ifstream file(path);
   std::string line;
-  if (!std::getline(file, line) || !line.starts_with("time_s,force [")) return false;
+  if (!std::getline(file, line) || line != "time_s,force,position,velocity,wanted_force,latency_s,stop") return false;
   double time = -1.0;
   double force = 1.0;
   double stop = 0.0;

@@ -76,7 +76,7 @@ TEST_P(OnDevice, TheRelayReadsWhatItReadsInSimulation) {
   EXPECT_NEAR(mean.stiffness / simulated.mean->stiffness, 1.0, 0.05);
 }
 
-// Trials that began before the force was there read an oscillation of less: 21 % of it at the end of one as long as the ramp.
+// Trials that began before the force was there read an oscillation of less.
 TEST(RigRelay, NoTrialIsReadWhileTheForceGrows) {
   const Device device = test::bench_device(1);
   RelayTrialsOptions trials;

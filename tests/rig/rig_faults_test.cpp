@@ -111,7 +111,7 @@ class RigFault : public testing::Test {
     std::ifstream file(folder / "record.csv");
     std::string line;
     ASSERT_TRUE(std::getline(file, line));
-    EXPECT_EQ(line, "time_s,force [N],position [m],velocity [m/s],wanted_force [N],latency_s,stop");
+    EXPECT_EQ(line, "time_s,force,position,velocity,wanted_force,latency_s,stop");
     std::string last;
     int rows = 0;
     while (std::getline(file, line)) {

@@ -116,7 +116,7 @@ TEST(RigRun, EachFaultIsToldAndRecorded) {
     const RigSession session = run.end();
     EXPECT_EQ(run.recorder().size(), 50 + played.force.size());
     std::string csv;
-    run.recorder().write([&](std::string_view piece) { csv += piece; }, Motion::linear);
+    run.recorder().write([&](std::string_view piece) { csv += piece; });
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + std::ptrdiff_t(run.recorder().size()));
     EXPECT_THAT(explanation(session.stop), testing::HasSubstr("force is zero"));
     return session.stop;

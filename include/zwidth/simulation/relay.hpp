@@ -58,12 +58,12 @@ enum class LimitReading {
 struct RelayResult {
   /// Where the motion comes from.
   enum class Source { simulation, recording };
-  Source source = Source::simulation;               ///< of this result
-  std::string recording;                            ///< its name; empty for a simulation
-  Motion motion = Motion::linear;                   ///< which units its numbers have
-  double sampling_period = 0.0;                     ///< s
-  Relay relay;                                      ///< of a recording: half of the force's peak to peak
-  std::vector<RelayTrial> trials;                   ///< a recording is one
+  Source source = Source::simulation;  ///< of this result
+  std::string recording;               ///< its name; empty for a simulation
+  Motion motion = Motion::linear;      ///< which units its numbers have
+  double sampling_period = 0.0;        ///< s
+  Relay relay;                         ///< of a recording: half of the force's peak to peak
+  std::vector<RelayTrial> trials;      ///< a recording is one
   /// Absent where no trial oscillates, and where they settle at different oscillations: of frequencies that differ by more
   /// than 15 %.
   std::optional<RelayMean> mean;
