@@ -96,32 +96,6 @@ TEST(WeightedSumInterval, OfEqualWeightsIsThatOfACount) {
   EXPECT_THROW((void)weighted_sum_interval(1.0, 1.0, 1.0, 1.0), Error);
 }
 
-// Of uneven ones, about 40 of them: no side misses more often than it says. The weights are exp(z) for normal z; the expectation
-// of their sum is 40 exp(1/2).
-TEST(WeightedSumInterval, OfUnevenWeightsHoldsAsOftenAsItSays) {
-  std::mt19937_64 random(11);
-  std::poisson_distribution<int> counts(40.0);
-  std::normal_distribution<double> normal;
-  const double truth = 40.0 * std::exp(0.5);
-  int above = 0;
-  int below = 0;
-  constexpr int trials = 4000;
-  for (int trial = 0; trial < trials; ++trial) {
-    double sum = 0.0;
-    double squares = 0.0;
-    double largest = 0.0;
-    for (int count = counts(random); count > 0; --count) {
-      const double weight = std::exp(normal(random));
-      sum += weight, squares += weight * weight, largest = std::max(largest, weight);
-    }
-    const StatisticInterval interval = weighted_sum_interval(sum, squares, largest);
-    above += interval.lower > truth ? 1 : 0;
-    below += interval.upper < truth ? 1 : 0;
-  }
-  EXPECT_LT(above, 0.025 * trials + 35.0);  // 3.5 standard deviations of what is allowed
-  EXPECT_LT(below, 0.025 * trials + 35.0);
-}
-
 TEST(OrderStatistics, AreThoseOfTheSortedNumbers) {
   std::mt19937_64 random(3);
   std::vector<double> numbers(5000);

@@ -36,8 +36,8 @@ struct StatisticInterval {
 ///     lower = squares/sum P^-1(sum²/squares, (1 - confidence)/2)
 ///     upper = v/s P^-1(s²/v, (1 + confidence)/2),    s = sum + largest, v = squares + largest²
 ///
-/// Of equal weights that is the exact interval of a Poisson number; of others it held at least as often as it says wherever
-/// it was tried. Requires 0 < largest <= sum, squares > 0, 0 < confidence < 1; throws Error (invalid_argument).
+/// Of equal weights that is the exact interval of a Poisson number. Of others it is approximate: of 40 log-normal weights
+/// (exp(z), about 15 effective ones) the upper end was too low in 138 of 4000 trials, where 100 are allowed. Requires 0 < largest <= sum, squares > 0, 0 < confidence < 1; throws Error (invalid_argument).
 /// Source: M. P. Fay, E. J. Feuer, Statist. Med. 16, 791 (1997).
 [[nodiscard]] StatisticInterval weighted_sum_interval(double sum, double squares, double largest,
                                                       double confidence = 0.95);
