@@ -180,6 +180,9 @@ RigCheck check(const Device& device, Driver& driver, const RigOptions& options, 
     result.session = ended(run, options);
   }
   result.trust = trust_of(device);
+  if (result.session.stop != StopReason::none) {
+    result.trust.refuse("the rig stopped before the check was over: " + explanation(result.session.stop));
+  }
   return result;
 }
 
@@ -197,7 +200,10 @@ RigMeasurement measure(const Device& device, Driver& driver, const RigOptions& o
   Played played = run.play(segment);
   result.session = ended(run, options);
   report(progress, 0.5);
-  if (result.session.stop != StopReason::none) return result;
+  if (result.session.stop != StopReason::none) {
+    judge(result, device);
+    return result;
+  }
   result.recording = recording_of(std::move(played), device, driver.facts().name);
   FrequencyResponseOptions response;
   response.excitation = FrequencyResponseOptions::Excitation::periodic;
@@ -213,7 +219,10 @@ RigMeasurement measure(const Device& device, Driver& driver, const RigOptions& o
 RigIdentification identify_on_rig(const Device& device, Driver& driver, const RigOptions& options,
                                   const MeasureOptions& measurement, const Progress& progress) {
   RigIdentification result{measure(device, driver, options, measurement, {}), {}, trust_of(device)};
-  if (!result.measurement.response) return result;
+  if (!result.measurement.response) {
+    result.trust.inherit(result.measurement.trust);
+    return result;
+  }
   IdentifyOptions identification;
   identification.response.excitation = FrequencyResponseOptions::Excitation::periodic;
   identification.response.period = result.measurement.excitation.period;
@@ -252,7 +261,10 @@ RigRelay relay_on_rig(const Device& device, Driver& driver, const RigOptions& op
     report(progress, part(i + 1, trials.trials));
   }
   result.session = ended(run, options);
-  if (recordings.empty()) return result;
+  if (recordings.empty()) {
+    result.trust.refuse("the rig stopped in the first trial: " + explanation(result.session.stop));
+    return result;
+  }
   RelayRecordOptions record;
   record.device = device;
   record.hysteresis = trials.relay.hysteresis;

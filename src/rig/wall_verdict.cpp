@@ -39,12 +39,14 @@ void judge(RigWall& wall) {
 }
 
 void judge(RigMeasurement& measurement, const Device& device) {
-  if (!measurement.response) return;
+  if (!measurement.response) {
+    measurement.trust.refuse("the rig stopped before its record was whole: " + explanation(measurement.session.stop));
+    return;
+  }
   if (std::ranges::any_of(device.bodies(), [](const Body& body) { return body.coulomb > 0.0; })) {
     measurement.response->trust.doubt(
         "the device has dry friction, which a response shows as damping: large motion has less of it, and a lower "
-        "limit; "
-        "excite more strongly and see whether the limit falls");
+        "limit; excite more strongly and see whether the limit falls");
   }
   measurement.trust.inherit(measurement.response->trust);
 }

@@ -233,6 +233,17 @@ TEST_F(Rig, TheKnockFitsTheForceLimit) {
   EXPECT_DOUBLE_EQ(json("limit " + lhifam + "--force-limit 6")["knock"].get<double>(), 2.0);
 }
 
+// Where there is no measurement its trust was the device file's: sound.
+TEST_F(Rig, WhatStoppedHasNoSoundAnswer) {
+  for (const std::string action : {"measure", "identify", "relay", "limit"}) {
+    const Outcome outcome = run("zwidth rig " + action + " " + lhifam + "--velocity-limit 1e-9 --json");
+    EXPECT_EQ(outcome.status, 1) << action;
+    const auto document = nlohmann::json::parse(outcome.output, nullptr, false);
+    EXPECT_EQ(document["trust"]["verdict"], "refused") << action;
+    EXPECT_THAT(document["trust"]["reasons"].dump(), HasSubstr("the velocity went beyond its limit")) << action;
+  }
+}
+
 TEST_F(Rig, LimitsEndTheSessionAndTheRecordIsThere) {
   const Outcome outcome = run("zwidth rig wall " + lhifam +
                               "--stiffness 4000 --amplitude 50 --position-limit 1e-3 --flight-record f.csv --json");

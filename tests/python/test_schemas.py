@@ -46,6 +46,7 @@ OTHERS = [
     ["rig", "wall", LHIFAM, "--set", "wall.stiffness=3000", "--duration", "1"],
     ["rig", "limit", LHIFAM],
     ["rig", "relay", LHIFAM],
+    ["rig", "relay", "devices/lhifam_rigid.toml"],
     ["rig", "identify", LHIFAM],
     *[["simulate", LHIFAM, "--duration", "0.2", "--user-force", force] for force in ("step:5@0.1", "ramp:5@0.1", "sine:1,5@0")],
     *[["rig", action, LHIFAM, "--velocity-limit", "1e-9"] for action in ("measure", "identify", "relay", "limit")],

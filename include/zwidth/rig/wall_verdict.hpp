@@ -14,7 +14,7 @@ namespace zwidth {
 /// An oscillation grows where its rate lies three standard errors above zero.
 void judge(RigWall& wall);
 
-/// Doubts a measured response whose limit is taken for a device with dry friction, by its file: to a linear estimate
+/// Refuses where the rig stopped and there is no response. Doubts a measured response whose limit is taken for a device with dry friction, by its file: to a linear estimate
 /// friction is damping, which a wall at its limit has less of the larger the motion.
 void judge(RigMeasurement& measurement, const Device& device);
 
