@@ -1,0 +1,82 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
+
+#include "cli/rig_workspace.hpp"
+
+namespace zwidth::cli {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+TEST_F(Rig, TellsWhatItCannotDo) {
+  expect_refused("wall " + lhifam, 2, "wall.stiffness: is missing");
+  expect_refused("limit " + lhifam + "--stiffness 3", 2, "--stiffness: is not for rig limit");
+  expect_refused("check " + lhifam + "--amplitude 3", 2, "--amplitude: is not for rig check");
+  expect_refused("check " + lhifam + "--duration 1e9", 2, "--duration: is 1000000000 s");
+  expect_refused("check " + lhifam + "--duration nan", 2, "--duration");
+  expect_refused("limit " + lhifam + "--amplitude 0", 2, "--amplitude: is 0");
+  expect_refused("limit " + lhifam + "--from 3 --ceiling 2", 2, "--ceiling: is 2");
+  expect_refused("limit " + lhifam + "--force-limit -1", 2, "--force-limit: is -1");
+  expect_refused("limit " + lhifam + "--ramp -1", 2, "--ramp: is -1");
+  expect_refused("limit " + lhifam + "--set actuator.force_limit=5 --force-limit 6", 2, "at most actuator.force_limit");
+  expect_refused("limit " + lhifam + "--set actuator.force_limit=5 --amplitude 6", 2, "at most the force limit");
+  expect_refused("limit " + lhifam + "--flight-record a.html --report a.html", 2, "is the same file");
+  expect_refused("limit " + lhifam + "--flight-record devices/lhifam.toml", 2, "would overwrite the device file");
+  expect_refused("check " + lhifam + "--output-device a.toml", 2, "--output-device: a simulated device");
+  expect_refused("check " + lhifam + "--driver serial", 2, "--driver: serial: is none; simulated, odrive:PORT");
+  expect_refused("check " + lhifam + "--driver udp:127.0.0.1:9", 2, "--force-limit: missing");
+  expect_refused("check " + lhifam + "--driver udp:127.0.0.1:9 --force-limit 1", 2, "--position-limit: missing");
+  expect_refused("check " + lhifam + "--driver udp:127.0.0.1:9 --force-limit 1 --position-limit 1", 1,
+                 "does not answer");
+  const std::string limits = "--force-limit 1 --position-limit 1 ";
+  for (const std::string port : {"0", "-1", "99999", "4711x"}) {
+    expect_refused("check " + lhifam + "--driver udp:127.0.0.1:" + port + " " + limits, 2, "is none; 1 to 65535");
+  }
+  for (const std::string address : {"", "9", "127.0.0.1", "127.0.0.1:", ":9", "::1:9", "[::1]", "[::1:9"}) {
+    expect_refused("check " + lhifam + "--driver udp:" + address + " " + limits, 2, "--driver: udp:" + address + ": ");
+    expect_refused("check " + lhifam + "--driver udp:" + address + " " + limits, 2, "udp:HOST:PORT");
+  }
+  for (const std::string kind : {"odrive", "simplefoc", "moteus", "vesc"}) {
+    expect_refused("check " + lhifam + "--driver " + kind + ": " + limits, 2,
+                   "--driver: " + kind + ":: names no port; a serial port, such as /dev/ttyUSB0");
+    expect_refused("check " + lhifam + "--driver " + kind + " " + limits, 2, "--driver: " + kind + ": is none; ");
+  }
+  expect_refused("check " + lhifam + "--driver odrive:/dev/null " + limits, 2, "driver: is missing");
+  expect_refused("check " + lhifam + "--driver odrive:/dev/null --set driver.gear=2 " + limits, 2,
+                 "driver.travel: is missing");
+  const std::string belt = "--set driver.travel='25 mm' --set loop.sampling_period=0.02 ";
+  expect_refused("check " + lhifam + "--driver odrive:/dev/null " + belt + limits, 1, "is no serial port");
+  expect_refused("check " + lhifam + "--driver odrive:/dev/null " + belt + "--set loop.sampling_period=0.001 " + limits,
+                 1, "the line is too slow");
+  expect_refused("check " + lhifam + "--driver udp:h:9 --start 1", 2, "--start: is for a simulated device");
+}
+
+// Found only after the rig had run, the record was lost or elsewhere.
+TEST_F(Rig, WhatCannotBeWrittenIsToldBeforeAnythingRuns) {
+  write("file", "");
+  for (const std::string option : {"--flight-record ", "--recording ", "--output-device ", "--report "}) {
+    for (const auto& [place, what] :
+         {std::pair("no/such/folder/x.html", "cannot write: No such file or directory; make the folder first"),
+          std::pair("file/x.html", "cannot write: Not a directory; make the folder first"),
+          std::pair("/proc/x.html", "cannot write: ")}) {
+      const Outcome outcome = run("zwidth rig identify " + lhifam + option + place);
+      EXPECT_EQ(outcome.status, 1) << option << place;
+      EXPECT_THAT(outcome.output, IsEmpty()) << option << place;
+      EXPECT_THAT(outcome.errors,
+                  ::testing::StartsWith("zwidth: " + option.substr(0, option.size() - 1) + ": " + place + ": " + what));
+    }
+  }
+  // Before the drive is asked for anything: this one is not there.
+  expect_refused("check " + lhifam + "--driver udp:127.0.0.1:9 --force-limit 1 --position-limit 1 --flight-record no/f",
+                 1, "make the folder first");
+  expect_refused("check " + lhifam + "--flight-record devices", 1, "is a directory; give a file");
+  expect_refused("check " + lhifam + "--flight-record f.csv --duration -1", 2, "--duration");
+  EXPECT_EQ(run("ls -A | grep -c -e part -e f.csv").output, "0\n") << "nothing is left behind";
+}
+
+}  // namespace
+}  // namespace zwidth::cli
