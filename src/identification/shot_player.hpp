@@ -68,7 +68,7 @@ class Player {
 
   /// False where stick-slip instants were cut off, or where it is not played on.
   bool play(const Shot& shot, const Eigen::VectorXd& state, ShotMotion& out,
-            const std::function<bool(Eigen::Ref<const Eigen::VectorXd>)>& play_on) {
+            const std::function<bool(const Eigen::Ref<const Eigen::VectorXd>&)>& play_on) {
     start(shot, state);
     out.positions.resize(static_cast<Eigen::Index>(shot.count));
     if (tangent_) out.slopes.resize(tangent_->columns(), out.positions.size());
