@@ -245,12 +245,12 @@ RigRelay relay_on_rig(const Device& device, Driver& driver, const RigOptions& op
   segment.controller.amplitude = trials.relay.amplitude;
   segment.controller.hysteresis = trials.relay.hysteresis;
   std::vector<Recording> recordings;
-  if (options.limits.ramp > 0.0) {  // no trial while the relay has not its full force
-    segment.cycles = cycles_of(options.limits.ramp, device);
-    (void)run.play(segment);
-  }
   segment.cycles = cycles_of(trials.duration, device);
+  Segment beginning = segment;  // nothing is read while the force grows, and all trials begin alike
+  beginning.ramps = true;
+  beginning.cycles = options.limits.ramp > 0.0 ? cycles_of(options.limits.ramp, device) : 0;
   for (std::size_t i = 0; i < trials.trials && !run.is_stopped(); ++i) {
+    if (beginning.cycles > 0) (void)run.play(beginning);
     Played played = run.play(segment);
     if (run.is_stopped()) break;
     recordings.push_back(recording_of(std::move(played), device, driver.facts().name));

@@ -247,7 +247,8 @@ std::optional<std::vector<ShotMotion>> ShotModel::play_anew(const Eigen::VectorX
       }
       for (std::size_t i = starts[batch]; i < starts[batch + 1]; ++i) {
         std::function<bool(const Eigen::Ref<const Eigen::VectorXd>&)> goes_on;
-        if (play_on) goes_on = [&](const Eigen::Ref<const Eigen::VectorXd>& positions) { return play_on(i, positions); };
+        if (play_on)
+          goes_on = [&](const Eigen::Ref<const Eigen::VectorXd>& positions) { return play_on(i, positions); };
         if (!player.play(shots[i], states[i], motions[i], goes_on) || !motions[i].positions.allFinite()) return;
         if (!motions[i].slopes.allFinite()) return;
       }
