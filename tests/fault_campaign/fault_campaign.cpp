@@ -206,6 +206,11 @@ Outcome run_once(const Run& run, const FaultCase& fault) {
     if (fault.name == "second_rig") {
       Host other = begun("other", run.folder / "other.csv");
       is_as_told = other.status() == 1 && other.errors().find("other rig") != std::string::npos;
+      if (!is_as_told && host.has_ended() && host.errors().find("came late") != std::string::npos) {
+        outcome.has_begun = false;  // the machine had stopped the first before the second asked
+        outcome.errors = host.errors();
+        return outcome;
+      }
       is_as_told = is_as_told && within(to_let_go, [&] { return drive.nonzero_forces() > before || host.has_ended(); });
       counted = std::chrono::steady_clock::now();
       before = drive.nonzero_forces();
