@@ -1,5 +1,7 @@
 #include "rig/rig_actions.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -63,9 +65,9 @@ Segment centring(const Device& device, double stiffness, double duration) {
   return segment;
 }
 
-Recording recording_of(Played played, const Device& device, const std::string& name) {
+Recording recording_of(Played played, const Device& device, const Driver& driver) {
   Recording recording;
-  recording.source = name;
+  recording.source = fmt::format("rig ({})", driver.facts().name);
   recording.sampling_period = device.loop().sampling_period;
   recording.channels.push_back({"force", std::move(played.force)});
   recording.channels.push_back({"position", std::move(played.position)});
@@ -204,7 +206,7 @@ RigMeasurement measure(const Device& device, Driver& driver, const RigOptions& o
     judge(result, device);
     return result;
   }
-  result.recording = recording_of(std::move(played), device, driver.facts().name);
+  result.recording = recording_of(std::move(played), device, driver);
   FrequencyResponseOptions response;
   response.excitation = FrequencyResponseOptions::Excitation::periodic;
   response.period = result.excitation.period;
@@ -253,7 +255,7 @@ RigRelay relay_on_rig(const Device& device, Driver& driver, const RigOptions& op
     if (beginning.cycles > 0) (void)run.play(beginning);
     Played played = run.play(segment);
     if (run.is_stopped()) break;
-    recordings.push_back(recording_of(std::move(played), device, driver.facts().name));
+    recordings.push_back(recording_of(std::move(played), device, driver));
     if (predicted.status == StiffnessStatus::finite && i + 1 < trials.trials) {
       bring_to_rest(run, centring(device, 0.5 * predicted.stiffness, pause),
                     largest(recordings.back().channels[1].samples));
@@ -301,7 +303,7 @@ RigWall render_wall(const Device& device, Driver& driver, const RigOptions& opti
     after = segment.cut_from = segment.watch_from = std::min(segment.cycles, segment.force.size());
   }
   RigRun run(driver, options.limits, period, options.watcher);
-  const Played played = run.play(segment);
+  Played played = run.play(segment);
   result.session = ended(run, options, played.stop);
   result.oscillates = played.stop == StopReason::oscillation;
   result.peak_force = largest(played.force);
@@ -311,6 +313,7 @@ RigWall render_wall(const Device& device, Driver& driver, const RigOptions& opti
     result.ring = least_damped_oscillation(rest, period, segment.watched, device.parameters().sensor.resolution);
   }
   result.cut_duration = static_cast<double>(ramped < segment.cycles ? played.cut : segment.cycles) * period;
+  result.recording = recording_of(std::move(played), device, driver);
   judge(result);
   return result;
 }

@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstddef>
+#include <string>
+
 #include "report/text/markup.hpp"
 
 namespace zwidth::report {
@@ -19,7 +23,7 @@ h2 { font-size: 1.25rem; margin: 2rem 0 .5rem; }
 h3 { font-size: 1.05rem; margin: 1.5rem 0 .5rem; }
 sub { line-height: 0; }
 p, ul { margin: .5rem 0; }
-pre { font-size: .93rem; white-space: pre-wrap; }
+pre { font-size: .93rem; overflow-x: auto; }
 .answer { border: 1px solid var(--line); border-left: 6px solid var(--mark); border-radius: 4px; padding: .8rem 1.2rem;
   margin: 1rem 0; }
 .answer .value { font-size: 1.6rem; font-weight: 600; margin: 0; }
@@ -40,13 +44,15 @@ figure svg { width: 100%; min-width: 620px; height: auto; display: block; backgr
 figcaption { font-size: .9rem; color: var(--quiet); margin-top: .3rem; }
 .device { border-top: 1px solid var(--line); margin-top: 2.5rem; padding-top: 1rem; }
 footer { margin-top: 2.5rem; padding-top: .6rem; border-top: 1px solid var(--line); font-size: .85rem; color: var(--quiet); }
-@media (max-width: 480px) { body { padding: 1rem .7rem 2rem; } h1 { font-size: 1.4rem; } pre { font-size: .62rem; } th, td { padding: .3rem .45rem; }
+@media (max-width: 480px) { body { padding: 1rem .7rem 2rem; } h1 { font-size: 1.4rem; } pre { font-size: .72rem; } th, td { padding: .3rem .45rem; }
   .answer { padding: .6rem .8rem; } .answer .value { font-size: 1.3rem; } }
 @media print { :root { color-scheme: light; --ink: #1a1a1a; --paper: #fff; --quiet: #555; --line: #d4d4d4; }
   figure { overflow: visible; } figure svg { min-width: 0; } body { max-width: none; padding: 0; font-size: 11pt; } figure, table, .answer { break-inside: avoid; }
   h2, h3 { break-after: avoid; } .device { break-before: page; border: 0; } .wide { overflow: visible; } }
 @page { margin: 18mm; }
 )";
+
+constexpr std::size_t longest_line_of_columns = 100;  // what is longer is prose
 
 }  // namespace
 
@@ -74,6 +80,28 @@ std::string html_table(const TextTable& table) {
 
 std::string element(std::string_view tag, std::string_view text) {
   return fmt::format("<{0}>{1}</{0}>\n", tag, html_text(text));
+}
+
+std::string html_lines(std::string_view text) {
+  std::string markup;
+  std::string columns;
+  const auto end_columns = [&] {
+    const std::size_t last = columns.find_last_not_of('\n');
+    if (last != std::string::npos) markup += fmt::format("<pre>{}</pre>\n", escape_markup(columns.substr(0, last + 1)));
+    columns.clear();
+  };
+  while (!text.empty()) {
+    const std::string_view line = text.substr(0, text.find('\n'));
+    text.remove_prefix(std::min(text.size(), line.size() + 1));
+    if (line.size() > longest_line_of_columns) {
+      end_columns();
+      markup += element("p", line.substr(line.find_first_not_of(' ')));
+    } else {
+      (columns += line) += '\n';
+    }
+  }
+  end_columns();
+  return markup;
 }
 
 std::string html_figure(std::string_view svg, std::string_view name, std::string_view caption) {

@@ -6,9 +6,11 @@
 
 #include "report/figure/frf_figure.hpp"
 #include "report/figure/identification_figure.hpp"
+#include "report/figure/record_figure.hpp"
 #include "report/figure/relay_figure.hpp"
 #include "report/figure/rig_limit_figure.hpp"
 #include "report/page/html_page.hpp"
+#include "report/text/quantity.hpp"
 #include "report/text/rig_text.hpp"
 
 namespace zwidth::report {
@@ -17,7 +19,7 @@ namespace {
 template <typename Result>
 std::string page(std::string_view action, const Device& device, const Result& result, const std::string& figures = "") {
   const std::string title = fmt::format("Rig {}: {}", action, device.name());
-  return html_page(title, element("h1", title) + element("pre", rig_text(device, result)) + figures);
+  return html_page(title, element("h1", title) + html_lines(rig_text(device, result)) + figures);
 }
 
 std::string response_figure(const Device& device, const RigMeasurement& measurement) {
@@ -52,7 +54,23 @@ std::string rig_page(const Device& device, const RigRelay& found) {
   return page("relay", device, found, figures);
 }
 
-std::string rig_page(const Device& device, const RigWall& wall) { return page("wall", device, wall); }
+std::string rig_page(const Device& device, const RigWall& wall) {
+  std::string figures;
+  if (!wall.recording.channels.empty() && !wall.recording.channels[0].samples.empty()) {
+    const Units units = units_of(device.parameters().motion);
+    figures =
+        html_figure(draw_record("Wall on the rig: " + device.name(),
+                                fmt::format("K = {}, B = {}", quantity(wall.controller.stiffness, units.stiffness),
+                                            quantity(wall.controller.damping, units.damping)),
+                                {.force = wall.recording.channels[0].samples,
+                                 .position = wall.recording.channels[1].samples,
+                                 .sampling_period = device.loop().sampling_period,
+                                 .motion = device.parameters().motion},
+                                FigureFormat::svg),
+                    "wall", "Force that was sent, and position as sensed, from the first cycle.");
+  }
+  return page("wall", device, wall, figures);
+}
 
 std::string rig_page(const Device& device, const RigLimit& limit) {
   std::string figures;

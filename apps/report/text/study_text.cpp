@@ -21,7 +21,7 @@ std::string stiffness_text(const StudyRun& run, double value) {
 }
 
 /// With as many digits as tell it from 0 % and from 100 %.
-std::string percent(double share) {
+std::string share_text(double share) {
   const double rest = std::min(share, 1.0 - share);
   const int digits = rest <= 0.0 ? 2 : std::clamp(static_cast<int>(std::ceil(1.0 - std::log10(rest * 100.0))), 2, 8);
   return fmt::format("{:.{}f} %", 100.0 * share, digits);
@@ -57,8 +57,8 @@ std::string mechanism_of(StiffnessStatus status, int mode) {
 std::string yield_sentence(const StudyRun& run, const Study& study) {
   if (!study.yield) return "Nothing is specified: there is no yield to state.";
   const Proportion& share = *study.yield;
-  return fmt::format("{} of the units reach a {} (95 % interval {} to {}; {} of {} miss it).", percent(share.value),
-                     wanted_text(run), percent(share.lower), percent(share.upper), share.total - share.count,
+  return fmt::format("{} of the units reach a {} (95 % interval {} to {}; {} of {} miss it).", share_text(share.value),
+                     wanted_text(run), share_text(share.lower), share_text(share.upper), share.total - share.count,
                      share.total);
 }
 
@@ -132,7 +132,7 @@ TextTable cluster_table(const Study& study) {
                                              quantity(hertz(*each.highest_frequency), "Hz"))
                                : std::string("-");
     table.rows.push_back({mechanism_of(each.status, each.limited_by ? each.limited_by->mode : -1),
-                          std::to_string(each.count), percent(each.share), at, common.empty() ? "nothing" : common});
+                          std::to_string(each.count), share_text(each.share), at, common.empty() ? "nothing" : common});
   }
   return table;
 }

@@ -61,6 +61,7 @@ struct RigWall {
   double cut_duration = 0.0;             ///< s, for which force was kept back by its limit or by the ramp
   double peak_force = 0.0;               ///< N or N m
   double peak_position = 0.0;            ///< m or rad, from the start
+  Recording recording;                   ///< force and position, from the first cycle
 };
 
 /// Where walls become unstable: measured, and predicted.
