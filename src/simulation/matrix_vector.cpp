@@ -8,25 +8,6 @@ namespace {
 
 constexpr std::size_t largest_unrolled = 12;
 
-template <std::size_t size>
-void multiply(const double* __restrict matrix, const double* __restrict x, double* __restrict y,
-              std::size_t /*size*/) noexcept {
-  double sum[size];
-  for (std::size_t i = 0; i < size; ++i) sum[i] = matrix[i] * x[0];
-  for (std::size_t j = 1; j < size; ++j) {
-    for (std::size_t i = 0; i < size; ++i) sum[i] += matrix[j * size + i] * x[j];
-  }
-  for (std::size_t i = 0; i < size; ++i) y[i] = sum[i];
-}
-
-void multiply_any(const double* __restrict matrix, const double* __restrict x, double* __restrict y,
-                  std::size_t size) noexcept {
-  for (std::size_t i = 0; i < size; ++i) y[i] = 0.0;
-  for (std::size_t j = 0; j < size; ++j) {
-    for (std::size_t i = 0; i < size; ++i) y[i] += matrix[j * size + i] * x[j];
-  }
-}
-
 template <std::size_t rows>
 void multiply_part(const double* __restrict matrix, const double* __restrict x, double* __restrict y,
                    std::size_t /*rows*/, std::size_t columns, std::size_t stride) noexcept {
@@ -44,6 +25,18 @@ void multiply_any_part(const double* __restrict matrix, const double* __restrict
   for (std::size_t j = 0; j < columns; ++j) {
     for (std::size_t i = 0; i < rows; ++i) y[i] += matrix[j * stride + i] * x[j];
   }
+}
+
+// The loops of a part, with all their ends known where it is compiled.
+template <std::size_t size>
+void multiply(const double* __restrict matrix, const double* __restrict x, double* __restrict y,
+              std::size_t /*size*/) noexcept {
+  multiply_part<size>(matrix, x, y, size, size, size);
+}
+
+void multiply_any(const double* __restrict matrix, const double* __restrict x, double* __restrict y,
+                  std::size_t size) noexcept {
+  multiply_any_part(matrix, x, y, size, size, size);
 }
 
 template <std::size_t... sizes>
