@@ -40,7 +40,8 @@ void add_estimate_options(CLI::App& command, ResponseArguments& arguments) {
   CLI::Option* period = command.add_option("--period", arguments.period, "Samples after which the force repeats");
   period->type_name("N")->check(CLI::PositiveNumber)->group(estimate_group);
   command
-      .add_option("--skip-periods", arguments.options.skip_periods, "Leading periods in which the transient dies out")
+      .add_option("--skip-periods", arguments.options.skip_periods,
+                  "Leading periods in which the transient dies out; else found")
       ->type_name("N")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str()

@@ -28,8 +28,8 @@ constexpr double band_above = 8.0;
 constexpr double highest_of_nyquist = 0.8;
 constexpr double cycles_of_lowest = 8.0;  // in each period of the multisine
 constexpr std::size_t measured_periods = 8;
-constexpr std::size_t skipped_periods = 2;
-constexpr double shortest_dwell = 0.5;  // s
+constexpr std::size_t transient_periods = 4;  // at most: those in which it dies out are skipped
+constexpr double shortest_dwell = 0.5;        // s
 
 std::size_t cycles_of(double duration, const Device& device) {
   return static_cast<std::size_t>(std::max(1.0, std::round(duration / device.loop().sampling_period)));
@@ -146,7 +146,7 @@ MeasureOptions default_measurement(const Device& device) {
   excitation.kind = ExcitationKind::multisine;
   excitation.highest_hz = std::min(band_above * centre, highest_of_nyquist * 0.5 * rate);
   excitation.lowest_hz = std::min(centre / band_below, 0.5 * excitation.highest_hz);
-  excitation.periods = measured_periods + skipped_periods;
+  excitation.periods = measured_periods + transient_periods;
   const double samples = std::ceil(cycles_of_lowest / excitation.lowest_hz * rate);  // of a period, whole
   excitation.duration = static_cast<double>(excitation.periods) * samples / rate;
   excitation.amplitude = default_force(device);
@@ -210,7 +210,6 @@ RigMeasurement measure(const Device& device, Driver& driver, const RigOptions& o
   FrequencyResponseOptions response;
   response.excitation = FrequencyResponseOptions::Excitation::periodic;
   response.period = result.excitation.period;
-  response.skip_periods = skipped_periods;
   result.response = frequency_response(result.recording, response);
   if (driver.facts().is_simulated) result.response->trust.inherit(result.trust);
   judge(result, device);
@@ -228,7 +227,6 @@ RigIdentification identify_on_rig(const Device& device, Driver& driver, const Ri
   IdentifyOptions identification;
   identification.response.excitation = FrequencyResponseOptions::Excitation::periodic;
   identification.response.period = result.measurement.excitation.period;
-  identification.response.skip_periods = skipped_periods;
   result.identification = identify(result.measurement.recording, device, identification, progress);
   if (driver.facts().is_simulated) inherit(result.trust, *result.identification);
   result.trust.inherit(result.identification->trust);

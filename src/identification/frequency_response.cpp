@@ -95,21 +95,20 @@ FrequencyResponse estimate(std::span<const double> force, std::span<const double
   if (options.excitation == Excited::aperiodic) {
     return welch_response(force, output, sampling_period, options, progress);
   }
+  const auto record_of = [&](std::size_t period) -> PeriodicRecord {
+    check_period(force.size(), period, options.skip_periods);
+    return {period, options.skip_periods,
+            options.skip_periods == 0 ? PeriodicRecord::Transient::skip : PeriodicRecord::Transient::remark};
+  };
   if (options.period && options.excitation == Excited::periodic) {
-    check_period(force.size(), *options.period, options.skip_periods);
-    return periodic_response(force, output, sampling_period,
-                             {*options.period, options.skip_periods, PeriodicRecord::Transient::remark}, options,
-                             progress);
+    return periodic_response(force, output, sampling_period, record_of(*options.period), options, progress);
   }
   if (const auto tone = options.excitation == Excited::detect ? only_tone(force) : std::nullopt) {
     return line_response(force, output, sampling_period, {*tone}, options, progress);
   }
   if (const auto period = detect_period(force)) {
-    check_period(force.size(), *period, options.skip_periods);
-    const auto transient =
-        options.skip_periods == 0 ? PeriodicRecord::Transient::skip : PeriodicRecord::Transient::remark;
-    FrequencyResponse response = periodic_response(force, output, sampling_period,
-                                                   {*period, options.skip_periods, transient}, options, progress);
+    FrequencyResponse response =
+        periodic_response(force, output, sampling_period, record_of(*period), options, progress);
     response.remarks.insert(response.remarks.begin(),
                             {Remark::Severity::note, fmt::format("the force repeats every {} samples", *period), ""});
     return response;

@@ -32,7 +32,7 @@ struct FrequencyResponseOptions {
   /// Periodic: the average over periods, with the noise measured from their scatter. See excitation_of().
   enum class Excitation { detect, periodic, aperiodic } excitation = Excitation::detect;  ///< detect: as recorded
   std::optional<std::size_t> period;  ///< samples; with Excitation::periodic, detected when absent
-  std::size_t skip_periods = 0;       ///< leading periods in which the transient dies out (with a given period)
+  std::size_t skip_periods = 0;       ///< leading periods in which the transient dies out; 0: those are found
   bool detrend = true;                ///< remove mean and drift before the transform
   std::optional<double> lowest;       ///< rad/s; points outside are left out
   std::optional<double> highest;      ///< rad/s; absent: as far as the excitation goes
