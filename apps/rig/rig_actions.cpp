@@ -16,15 +16,15 @@ namespace {
 
 constexpr double swing = 1e-3;  // m or rad, of a knock or a relay at the predicted limit
 constexpr double share_of_force = 1.0 / 3.0;
-constexpr int most_holds = 20;            // between trials of a relay
-constexpr double at_rest = 0.01;          // of the swing
-constexpr double settling_cycles = 20.0;  // of the predicted oscillation, between trials
+constexpr int most_holds = 20;                // between trials of a relay
+constexpr double at_rest = 0.01;              // of the swing
+constexpr double settling_cycles = 20.0;      // of the predicted oscillation, between trials
 constexpr double beginning_cycles = 10.0;     // of it, before a trial is read
 constexpr double beginning_hysteresis = 0.5;  // of the swing that a relay is expected to make
 constexpr double highest_of_other = 0.98;     // of Nyquist's frequency
-constexpr double dwell_cycles = 40.0;     // of it, after each knock
-constexpr double fallback_hz = 10.0;      // where theory has no frequency
-constexpr double band_below = 5.0;        // of the limiting crossover
+constexpr double dwell_cycles = 40.0;         // of it, after each knock
+constexpr double fallback_hz = 10.0;          // where theory has no frequency
+constexpr double band_below = 5.0;            // of the limiting crossover
 constexpr double band_above = 8.0;
 constexpr double highest_of_nyquist = 0.8;
 constexpr double cycles_of_lowest = 8.0;  // in each period of the multisine
