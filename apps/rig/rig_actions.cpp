@@ -18,12 +18,15 @@ namespace {
 
 constexpr double swing = 1e-3;  // m or rad, of a knock or a relay at the predicted limit
 constexpr double share_of_force = 1.0 / 3.0;
-constexpr int most_holds = 20;            // between trials of a relay
-constexpr double at_rest = 0.01;          // of the swing
-constexpr double settling_cycles = 20.0;  // of the predicted oscillation, between trials
-constexpr double dwell_cycles = 40.0;     // of it, after each knock
-constexpr double fallback_hz = 10.0;      // where theory has no frequency
-constexpr double band_below = 5.0;        // of the limiting crossover
+constexpr int most_holds = 20;                // between trials of a relay
+constexpr double at_rest = 0.01;              // of the swing
+constexpr double settling_cycles = 20.0;      // of the predicted oscillation, between trials
+constexpr double beginning_cycles = 10.0;     // of it, before a trial is read
+constexpr double beginning_hysteresis = 0.5;  // of the swing that a relay is expected to make
+constexpr double highest_of_other = 0.98;     // of Nyquist's frequency
+constexpr double dwell_cycles = 40.0;         // of it, after each knock
+constexpr double fallback_hz = 10.0;          // where theory has no frequency
+constexpr double band_below = 5.0;            // of the limiting crossover
 constexpr double band_above = 8.0;
 constexpr double highest_of_nyquist = 0.8;
 constexpr double cycles_of_lowest = 8.0;  // in each period of the multisine
@@ -112,6 +115,30 @@ void inherit(const Trust& trust, Identification& identified) {
   parameters.uncertainty->warning.clear();
   parameters.uncertainty->reasons = of_file.reasons;
   identified.fit.device = Device(std::move(parameters));
+}
+
+/// Whether a relay may find another, faster oscillation than that of the limit: at a crossover below Nyquist's frequency.
+bool has_faster_oscillations(const CriticalStiffness& predicted, double sampling_period) {
+  if (predicted.status != StiffnessStatus::finite || !predicted.limit) return false;
+  const double highest = highest_of_other * std::numbers::pi / sampling_period;
+  return std::ranges::any_of(predicted.crossovers, [&](const Crossover& each) {
+    return each.frequency > predicted.limit->frequency && each.frequency < highest;
+  });
+}
+
+/// How a trial of a relay begins, of which nothing is read: with a force that grows, at once where there is no ramp. Where
+/// a faster one may be found, it has a hysteresis of half the swing that is expected: what oscillates less, at
+/// crossovers of stiffer walls, does not pass it.
+Segment beginning_of(const Segment& trial, const Device& device, const CriticalStiffness& predicted, double ramp) {
+  Segment beginning = trial;
+  beginning.ramps = true;
+  beginning.cycles = ramp > 0.0 ? cycles_of(ramp, device) : 0;
+  if (ramp == 0.0 || !has_faster_oscillations(predicted, device.loop().sampling_period)) return beginning;
+  const double duration = std::max(ramp, beginning_cycles * 2.0 * std::numbers::pi / frequency_of(predicted));
+  beginning.cycles = cycles_of(duration, device);
+  const double expected = 4.0 * trial.controller.amplitude / (std::numbers::pi * predicted.stiffness);
+  beginning.controller.hysteresis = std::max(trial.controller.hysteresis, beginning_hysteresis * expected);
+  return beginning;
 }
 
 /// Holds the device until it swings a hundredth of what it did, or has been held long enough.
@@ -246,11 +273,9 @@ RigRelay relay_on_rig(const Device& device, Driver& driver, const RigOptions& op
   segment.controller.hysteresis = trials.relay.hysteresis;
   std::vector<Recording> recordings;
   segment.cycles = cycles_of(trials.duration, device);
-  Segment beginning = segment;  // nothing is read while the force grows, and all trials begin alike
-  beginning.ramps = true;
-  beginning.cycles = options.limits.ramp > 0.0 ? cycles_of(options.limits.ramp, device) : 0;
+  const Segment beginning = beginning_of(segment, device, predicted, options.limits.ramp);
   for (std::size_t i = 0; i < trials.trials && !run.is_stopped(); ++i) {
-    if (beginning.cycles > 0) (void)run.play(beginning);
+    (void)run.play(beginning);
     Played played = run.play(segment);
     if (run.is_stopped()) break;
     recordings.push_back(recording_of(std::move(played), device, driver));

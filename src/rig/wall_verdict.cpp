@@ -24,8 +24,14 @@ void judge(RigWall& wall) {
     wall.trust.doubt(
         "the position never changed under force: check encoder, [driver], and that the drive moves its motor");
   }
+  const bool has_stopped = wall.session.stop != StopReason::none;
+  if (has_stopped) {
+    wall.trust.doubt("the rig stopped before the wall's time was over: " + explanation(wall.session.stop));
+  }
   if (!wall.predicted_stable) return;
-  if (!*wall.predicted_stable && !wall.oscillates) {
+  if (!*wall.predicted_stable && has_stopped) {  // how far it grew until then does not matter
+    wall.trust.doubt("the wall is UNSTABLE by linear analysis: render softer");
+  } else if (!*wall.predicted_stable && !wall.oscillates) {
     wall.trust.doubt(
         fmt::format("the wall is UNSTABLE by linear analysis: that {} does not make it stable; render softer",
                     wall.grows ? "its oscillation grew too slowly to be taken away"

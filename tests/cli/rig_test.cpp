@@ -145,6 +145,24 @@ TEST_F(Rig, AnUnstableWallThatWasNotTakenAwayNeverLooksSure) {
   EXPECT_EQ(json("wall " + lhifam + "--stiffness 8800")["trust"]["verdict"], "sound");
 }
 
+// A stable wall that a limit ended was sure; of an unstable one that ran into it no oscillation was said to be seen.
+TEST_F(Rig, AWallThatDidNotRunToItsEndIsDoubtful) {
+  const auto wall_of = [&](const std::string& options) {
+    const Outcome outcome = run("zwidth rig wall --json " + lhifam + options);
+    EXPECT_EQ(outcome.status, 1);
+    return nlohmann::json::parse(outcome.output, nullptr, false);
+  };
+  const auto stable = wall_of("--stiffness 4000 --position-limit 1e-5");
+  EXPECT_EQ(stable["session"]["stop"], "position_limit");
+  EXPECT_EQ(stable["trust"]["verdict"], "doubtful");
+  EXPECT_THAT(stable["trust"]["reasons"].dump(), HasSubstr("the rig stopped before the wall's time was over"));
+  const auto unstable = wall_of("--stiffness 20000 --accept-unstable --position-limit 1e-3");
+  EXPECT_EQ(unstable["session"]["stop"], "position_limit");
+  EXPECT_EQ(unstable["trust"]["verdict"], "doubtful");
+  EXPECT_THAT(unstable["trust"]["reasons"].dump(), HasSubstr("UNSTABLE by linear analysis: render softer"));
+  EXPECT_THAT(unstable["trust"]["reasons"].dump(), Not(HasSubstr("was seen to grow")));
+}
+
 // 23 % too little and 16 % too much were read from walls whose force was cut off, 32 % too much under a long ramp.
 TEST_F(Rig, NoLimitIsReadFromForceThatWasCutOff) {
   for (const std::string force : {"9", "10", "12", "13"}) {

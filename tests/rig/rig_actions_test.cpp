@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "lhifam.hpp"
 #include "rig/measured_as_predicted.hpp"
 #include "rig/rig_devices.hpp"
 #include "rig/simulated_driver.hpp"
@@ -98,6 +99,30 @@ TEST(RigRelay, NoTrialIsReadWhileTheForceGrows) {
   }
   EXPECT_NEAR(slowly.relay->mean->stiffness / at_once.relay->mean->stiffness, 1.0, 0.02);
   EXPECT_NEAR(slowly.relay->mean->amplitude / at_once.relay->mean->amplitude, 1.0, 0.02);
+}
+
+// Of trials that began with the bare relay one in six found the oscillation of the cable, near 98 Hz.
+TEST(RigRelay, AllTrialsBeginAlike) {
+  DeviceParameters parameters = test::lhifam_parameters();
+  parameters.sensor.resolution = 3.14e-6;
+  const Device device(parameters);
+  RelayTrialsOptions trials;
+  for (const double amplitude : {5.0, 8.0, 10.0, 15.0, 20.0}) {
+    for (const double start : {0.0, 1e-4}) {
+      SCOPED_TRACE(testing::Message() << amplitude << " N from " << start << " m");
+      trials.relay.amplitude = amplitude;
+      SimulatedDriver driver{device, start, false};
+      const RigRelay measured = relay_on_rig(device, driver, {}, trials, {});
+      ASSERT_TRUE(measured.relay && measured.relay->mean);
+      ASSERT_EQ(measured.relay->trials.size(), trials.trials);
+      const RelayReading& first = *measured.relay->trials.front().result;
+      for (const RelayTrial& trial : measured.relay->trials) {
+        ASSERT_TRUE(trial.result);
+        EXPECT_NEAR(trial.result->frequency / first.frequency, 1.0, 0.15);
+        EXPECT_NEAR(trial.result->stiffness / first.stiffness, 1.0, 0.15);
+      }
+    }
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Bench, OnDevice, testing::Range(std::uint64_t{1}, devices + 1));

@@ -9,6 +9,7 @@ namespace zwidth {
 /// - a wall that is unstable by linear analysis and was not taken away: an end without alarm does not make it stable;
 /// - one that is stable by linear analysis and oscillated or grew all the same;
 /// - one under whose force the position never changed;
+/// - one that did not run to its end, for the rig stopped;
 /// - one that was felt softer than it is, for force was kept back.
 ///
 /// An oscillation grows where its rate lies three standard errors above zero.
