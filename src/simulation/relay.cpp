@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numbers>
 #include <tuple>
 #include <utility>
 
@@ -55,6 +56,13 @@ Trust trust_of_reading(const RelayResult& result) {
     trust.doubt(
         fmt::format("the relay reads {:.2f} dB more than the limit of linear theory: build on that limit instead",
                     decibels(result.mean->stiffness / result.prediction->linear.stiffness)));
+  } else if (result.limit_reading == LimitReading::too_cautious) {
+    trust.doubt(
+        fmt::format("the relay reads {:.2f} dB less than the limit of linear theory, with {:.3g} samples per "
+                    "oscillation: a wall as "
+                    "stiff as the reading is stable, the limit is not the reading",
+                    -decibels(result.mean->stiffness / result.prediction->linear.stiffness),
+                    2.0 * std::numbers::pi / (result.mean->frequency * result.sampling_period)));
   }
   return trust;
 }

@@ -129,7 +129,7 @@ TEST(Relay, FrictionMovesARigidDeviceAwayFromItsCrossover) {
   EXPECT_THAT(sentences, Contains(HasSubstr("moves the oscillation away from the crossover, to 2.")));
 }
 
-TEST(Relay, ReadingsAboveTheLimitAreDoubtful) {
+TEST(Relay, ReadingsThatAreNotTheLimitAreDoubtful) {
   const RelayResult above =
       simulated(with_friction(test::with_delay(test::reduced_pretension_parameters(), 4.25e-3), 0.4), 0.1e-3);
   EXPECT_EQ(above.limit_reading, LimitReading::unsafe);
@@ -137,7 +137,8 @@ TEST(Relay, ReadingsAboveTheLimitAreDoubtful) {
   EXPECT_THAT(above.trust.reasons, Contains(HasSubstr("more than the limit of linear theory")));
   const RelayResult below = simulated(test::with_delay(test::rigid_parameters(), 8e-3), 0.01, 60.0);
   EXPECT_EQ(below.limit_reading, LimitReading::too_cautious);
-  EXPECT_TRUE(below.trust.sound());
+  EXPECT_EQ(below.trust.verdict, Trust::Verdict::doubtful);
+  EXPECT_THAT(below.trust.reasons, Contains(HasSubstr("less than the limit of linear theory, with")));
 }
 
 TEST(Relay, TheDevicesDoubtIsTheReadings) {
