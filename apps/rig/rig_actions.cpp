@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -18,6 +19,7 @@ namespace {
 
 constexpr double swing = 1e-3;  // m or rad, of a knock or a relay at the predicted limit
 constexpr double share_of_force = 1.0 / 3.0;
+constexpr double above_friction = 3.0;
 constexpr int most_holds = 20;                // between trials of a relay
 constexpr double at_rest = 0.01;              // of the swing
 constexpr double settling_cycles = 20.0;      // of the predicted oscillation, between trials
@@ -152,17 +154,21 @@ void bring_to_rest(RigRun& run, const Segment& holding, double swung) {
   }
 }
 
+/// A force that moves the device against its dry friction.
+double moving_force(const Device& device) {
+  double friction = 0.0;
+  for (const Body& body : device.bodies()) friction += body.coulomb;
+  return above_friction * friction;
+}
+
 }  // namespace
 
 double default_force(const Device& device, std::optional<double> force_limit) {
   const CriticalStiffness predicted = critical_stiffness(device);
   const auto limit = force_limit ? force_limit : device.parameters().actuator.force_limit;
-  double force = limit ? share_of_force * *limit : 1.0;
-  if (predicted.status == StiffnessStatus::finite) {
-    const double moved = swing * predicted.stiffness;
-    force = limit ? std::min(force, moved) : moved;
-  }
-  return force;
+  const double most = limit ? share_of_force * *limit : std::numeric_limits<double>::infinity();
+  if (predicted.status != StiffnessStatus::finite) return limit ? most : std::max(1.0, moving_force(device));
+  return std::min(most, std::max(swing * predicted.stiffness, moving_force(device)));
 }
 
 MeasureOptions default_measurement(const Device& device) {

@@ -64,8 +64,8 @@ struct LimitOptions {
                                      const LimitOptions& limit, const Progress& progress);
 
 /// Defaults from what theory predicts of the device: the band about its limiting crossover, a force that moves it by about
-/// a millimetre (milliradian), at most a third of its force limit, or of a tighter one that is given. Throw Error where the critical stiffness is refused,
-/// or not finite and not given.
+/// a millimetre (milliradian) and is three times its dry friction, at most a third of its force limit, or of a tighter one
+/// that is given. Throw Error where the critical stiffness is refused, or not finite and not given.
 [[nodiscard]] MeasureOptions default_measurement(const Device& device);
 [[nodiscard]] double default_force(const Device& device, std::optional<double> force_limit = {});
 [[nodiscard]] LimitOptions default_limit(const Device& device);

@@ -33,6 +33,8 @@ constexpr double doubtful_model_error = 0.05;
 constexpr double clear_model_error = 0.01;
 // Half of that where the residuals are this many times the noise.
 constexpr double clear_misfit = 5.0;
+// Of the response: what is left of it below this is the arithmetic's, of a record without noise.
+constexpr double rounding_error = 1e-6;
 // Of a right structure the residuals are the noise, as far as so many lines tell: of 116 simulated records the fits that
 // found the device left at most 1.27 times it, friction 1.48 times with a limit 6 % too high. Of few averages the noise
 // is itself a guess, and the ratio's tails are long.
@@ -126,8 +128,9 @@ class Judge {
           fmt::format("the structure leaves {} of the response unexplained beyond the noise: friction, backlash, or "
                       "a body that it lacks",
                       percent(fit_.model_error)));
-    } else if (fit_.misfit && *fit_.misfit > doubtful_misfit(judged_.fit.response, fit_.frequencies.size()) *
-                                                 expected_misfit(judged_.fit.response)) {
+    } else if (fit_.misfit && *fit_.misfit * noise > rounding_error &&
+               *fit_.misfit > doubtful_misfit(judged_.fit.response, fit_.frequencies.size()) *
+                                  expected_misfit(judged_.fit.response)) {
       result_.trust.doubt(
           fmt::format("what the structure leaves of the response is {:.2g} times its noise: friction, backlash, or a "
                       "body that it lacks",

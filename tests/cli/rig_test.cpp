@@ -316,6 +316,21 @@ TEST_F(Rig, IdentifyWritesTheDevice) {
   EXPECT_NEAR(nlohmann::json::parse(outcome.output)["critical_stiffness"].get<double>() / 8848.7, 1.0, 0.03);
 }
 
+// Without noise what is left of the response is rounding, 83 times a noise that is rounding too.
+TEST_F(Rig, RoundingIsNoFriction) {
+  const Outcome outcome = run("zwidth rig identify devices/two_mass_drive.toml --json");
+  EXPECT_EQ(outcome.status, 0) << outcome.errors;
+  EXPECT_THAT(outcome.output, HasSubstr("\"verdict\""));
+  EXPECT_THAT(outcome.output, ::testing::Not(HasSubstr("times its noise")));
+}
+
+// The force of a millimetre's swing did not move it against its dry friction: "the motion is constant".
+TEST_F(Rig, TheDefaultForceMovesADeviceWithDryFriction) {
+  const Outcome outcome = run("zwidth rig identify devices/capstan_paddle.toml --json");
+  EXPECT_EQ(outcome.status, 0) << outcome.errors;
+  EXPECT_EQ(nlohmann::json::parse(outcome.output, nullptr, false)["trust"]["verdict"], "doubtful");
+}
+
 TEST_F(Rig, TheReportShowsWhatWasMeasured) {
   struct Page {
     std::string action;
