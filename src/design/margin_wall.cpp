@@ -233,6 +233,14 @@ LoopGrid::LoopGrid(const Device& device, bool with_users, const Progress& progre
   }
 }
 
+LoopGrid LoopGrid::with_damper(VirtualDamper damper) const {
+  LoopGrid other = *this;
+  for (std::size_t i = 0; i < angles_.size(); ++i) {
+    other.damper_[i] = damper_response(damper, period_, angles_[i] / period_);
+  }
+  return other;
+}
+
 LoopGrid::Response LoopGrid::filter(const WallFilter& filter) const {
   const FilterSection section = filter_section(filter, period_);
   Response factor;
@@ -256,11 +264,12 @@ LoopGrid::Response LoopGrid::damper(VirtualDamper damper) const {
   return response;
 }
 
-double LoopGrid::stiffest(const Response& factor, const RequiredMargins& margins) const {
-  return stiffest(factor, damper_, margins);
+double LoopGrid::stiffest(const Response& factor, const RequiredMargins& margins, double enough) const {
+  return stiffest(factor, damper_, margins, enough);
 }
 
-double LoopGrid::stiffest(const Response& factor, const Response& damper, const RequiredMargins& margins) const {
+double LoopGrid::stiffest(const Response& factor, const Response& damper, const RequiredMargins& margins,
+                          double enough) const {
   const double cosine = std::cos(margins.phase);
   LeastCrossover alone(1.0);
   LeastCrossover half(std::sqrt(margins.gain));
@@ -276,6 +285,7 @@ double LoopGrid::stiffest(const Response& factor, const Response& damper, const 
     if (margins.phase > 0.0) {
       if (const auto stiffness = short_of_phase(required, damper[i], cosine)) least = std::min(least, *stiffness);
     }
+    if (std::min({least, alone.value() / margins.gain, half.value(), whole.value()}) <= enough) return enough;
     if (i + 1 == angles_.size()) {
       alone.add_nyquist(required.real(), damper[i].real());
       half.add_nyquist(required.real(), damper[i].real());

@@ -113,6 +113,12 @@ class Recommendation {
     return *notched_;
   }
 
+  [[nodiscard]] const WallSearch& search_of(const std::optional<WallFilter>& notch) {
+    if (!notch) return search_;
+    if (!notched_search_) notched_search_.emplace(search_, limits_of(notch), *notch);
+    return *notched_search_;
+  }
+
   [[nodiscard]] Candidate exact(VirtualDamper damper, const std::optional<WallFilter>& notch, WallGoal goal) {
     Candidate candidate{damper, limits_of(notch).stiffest(damper), 0.0, notch};
     candidate.value = WallSearch::value_of(goal, candidate.stiffest.stiffness, damper.damping);
@@ -156,7 +162,7 @@ class Recommendation {
         .phase_margin = options_.phase_margin,
         .progress = options_.progress};
     NotchSearch search(notch_options, modes, device_.loop().sampling_period, limits_.has_users());
-    search.add(with_wall(device_, best->stiffest.stiffness, best->damper));
+    search.add(with_wall(device_, best->stiffest.stiffness, best->damper), search_.grid());
     for (const double drift : {-options_.drift, options_.drift}) {
       if (drift != 0.0) search.add(with_wall(drifted(device_, drift), best->stiffest.stiffness, best->damper));
     }
@@ -166,9 +172,8 @@ class Recommendation {
     }
     if (!(found.first > best->stiffest.stiffness * (1.0 + worth_a_notch))) return best;
     const WallFilter notch = NotchSearch::notch_at(found.second);
-    const WallSearch again(limits_of(notch), options_);
     const Candidate candidate =
-        exact(again.best(best->damper.velocity_filter_hz, options_.goal).damper, notch, options_.goal);
+        exact(search_of(notch).best(best->damper.velocity_filter_hz, options_.goal).damper, notch, options_.goal);
     const bool lower_any_user = limits_.has_users() && limits_of(notch).limit(candidate.damper) <
                                                            limits_.limit(candidate.damper) * (1.0 - same_limit);
     if (lower_any_user || !(candidate.value > best->value * (1.0 + worth_a_notch))) return best;
@@ -301,12 +306,8 @@ class Recommendation {
 
   /// Another goal behind the same filters.
   [[nodiscard]] std::optional<Candidate> other_goal(WallGoal goal, const Candidate& best) {
-    RecommendationOptions options = options_;
-    options.goal = goal;
-    WallLimits& limits = limits_of(best.notch);
-    WallSearch::Found found = WallSearch(limits, options).best(best.damper.velocity_filter_hz, goal);
-    Candidate candidate{found.damper, limits.stiffest(found.damper, goal), 0.0, best.notch};
-    return candidate;
+    const WallSearch::Found found = search_of(best.notch).best(best.damper.velocity_filter_hz, goal);
+    return Candidate{found.damper, limits_of(best.notch).stiffest(found.damper, goal), 0.0, best.notch};
   }
 
   [[nodiscard]] std::string why_none() {
@@ -352,6 +353,7 @@ class Recommendation {
   WallLimits limits_;
   WallSearch search_;
   std::unique_ptr<WallLimits> notched_;
+  std::optional<WallSearch> notched_search_;
   WallLowering lowering_;
   std::vector<WallSearch::Found> found_;
   std::optional<Candidate> unfiltered_;
