@@ -25,11 +25,11 @@ namespace {
 constexpr double steps_per_decade = 12.0;
 constexpr double steps_per_decade_any_user = 6.0;
 constexpr std::uintmax_t max_refinements = 200;
-constexpr double reached = 1e-10;     // relative difference of the limit to the target
-constexpr double jump_width = 1e-9;   // relative, of the bracket of a jump: closer by, a touch takes seconds to prove
-constexpr double least_jump = 1e-3;   // relative
+constexpr double reached = 1e-10;      // relative difference of the limit to the target
+constexpr double jump_width = 1e-9;    // relative, of the bracket of a jump: closer by, a touch takes seconds to prove
+constexpr double least_jump = 1e-3;    // relative
 constexpr double beyond = 1.0 + 1e-6;  // a limit that is not to be told from one further up
-constexpr double first_share = 1e-3;  // of a number that is 0 now: of the value at which its unit matters
+constexpr double first_share = 1e-3;   // of a number that is 0 now: of the value at which its unit matters
 
 // A value of the number with its limit.
 struct Point {

@@ -95,6 +95,7 @@ class LoopGrid {
 
   double period_ = 0.0;
   std::vector<double> angles_;
+  Response deltas_;                     // z - 1
   Response plant_;                      // seen through the wall's own filters
   Response damper_;                     // B v
   std::vector<bool> clear_;             // of rounding, the plant

@@ -25,8 +25,9 @@ class MovedLimit {
   };
   // What of the limit is worth knowing.
   struct Interest {
-    double enough = 0.0;  // a bound below this is as good: that of the device that nobody holds, or what some user does at
-                          // a frequency where users have set the limit at other values
+    double enough =
+        0.0;  // a bound below this is as good: that of the device that nobody holds, or what some user does at
+              // a frequency where users have set the limit at other values
     double most = std::numeric_limits<double>::infinity();  // stands for any limit that is higher
   };
   // The limit. Absent where the value makes no device, or its limit is not found.

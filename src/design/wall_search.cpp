@@ -114,7 +114,8 @@ double WallSearch::value(const Filtered& filtered, double damping, WallGoal goal
 
 double WallSearch::damped_contact(double at_most, const Filtered& filtered, double damping, double enough) const {
   const VirtualDamper damper{damping, filtered.cutoff_hz};
-  if (const std::optional<double> meeting = filtered.real_poles ? filtered.real_poles->meeting(damping) : std::nullopt) {
+  if (const std::optional<double> meeting =
+          filtered.real_poles ? filtered.real_poles->meeting(damping) : std::nullopt) {
     if (*meeting <= enough) return 0.0;
     const double softer = std::min(at_most, *meeting * (1.0 - before_meeting));
     if (limits_.contact_damping(softer, damper) >= critical_contact_ratio) return softer;

@@ -61,7 +61,7 @@ class WallSearch {
   double period_;
   FilteredPlant plant_;
   std::shared_ptr<const LoopGrid> grid_;
-  LoopGrid::Response factor_;  // of the filter that the grid's device has not
+  LoopGrid::Response factor_;        // of the filter that the grid's device has not
   double critical_frequency_ = 0.0;  // rad/s, without a damper; 0: it does not oscillate
   double critical_stiffness_ = 0.0;
 };
