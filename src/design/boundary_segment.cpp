@@ -25,7 +25,7 @@ constexpr std::size_t max_estimated_intervals = 200000;
 constexpr int even_divisions = 256;
 constexpr double nearest_division = 0.25;
 constexpr double narrowest_estimate = 1e-12;
-constexpr double estimate_margin = 2.0;  // on second differences
+constexpr double estimate_margin = 2.0;   // on second differences
 constexpr double finest_estimate = 1e-8;  // in place of finest_detail: second differences magnify rounding
 
 // 1/g; g keeps its sign by at least `least_size` > 0.
