@@ -31,9 +31,9 @@ TEST(RealPoles, MeetWhereTheContactOfARigidDeviceBeginsToSwing) {
     if (seed % 3 == 0) parameters.loop.delay = 2.4e-3;
     if (seed % 4 == 0) parameters.wall.velocity_filter_hz = 100.0;
     const Device device(parameters);
-    const double damping = random.log_uniform(0.01, 0.1) * parameters.bodies[0].mass / (parameters.loop.sampling_period + parameters.loop.delay);
-    const auto meeting =
-        RealPoles(filtered_plant(device), parameters.wall.velocity_filter_hz).meeting(damping);
+    const double damping = random.log_uniform(0.01, 0.1) * parameters.bodies[0].mass /
+                           (parameters.loop.sampling_period + parameters.loop.delay);
+    const auto meeting = RealPoles(filtered_plant(device), parameters.wall.velocity_filter_hz).meeting(damping);
     ASSERT_TRUE(meeting);
     EXPECT_FALSE(swings(device, *meeting * (1.0 - 2e-3), damping));
     EXPECT_TRUE(swings(device, *meeting * (1.0 + 2e-3), damping));

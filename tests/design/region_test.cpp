@@ -292,6 +292,36 @@ DeviceParameters long_chain(test::RandomDevices& random) {
   return device;
 }
 
+/// Alike or not, with dampings left at 0 here and there, actuated and sensed at any body, behind lags and delays.
+DeviceParameters hardly_damped_chain(test::RandomDevices& random) {
+  DeviceParameters device;
+  const std::size_t bodies = 7 + random.index(4);
+  const bool alike = random.chance(0.4);
+  const double zero = alike ? 0.0 : 0.4;
+  const auto damping = [&](double low, double high) {
+    return random.chance(zero) ? 0.0 : random.log_uniform(low, high);
+  };
+  const Body body{"", random.log_uniform(0.03, 1.0), random.log_uniform(0.01, 2.0), 0.0, 0.0};
+  const Link link{0, 1, random.log_uniform(1e3, 3e5), random.chance(0.3) ? 0.0 : random.log_uniform(0.05, 20.0)};
+  for (std::size_t i = 0; i < bodies; ++i) {
+    device.bodies.push_back(alike ? body : Body{"", random.log_uniform(0.02, 2.0), damping(0.01, 3.0), 0.0, 0.0});
+    device.bodies.back().name = "b" + std::to_string(i);
+  }
+  for (std::size_t i = 0; i + 1 < bodies; ++i) {
+    device.links.push_back(alike ? link : Link{0, 1, random.log_uniform(1e3, 1e6), damping(0.02, 30.0)});
+    device.links.back().first = i;
+    device.links.back().second = i + 1;
+  }
+  device.bodies.front().damping = std::max(device.bodies.front().damping, 0.01);
+  device.loop.held = bodies - 1;
+  device.loop.sensed = std::array{std::size_t{0}, bodies - 1, random.index(bodies)}[random.index(3)];
+  if (random.chance(0.3)) device.loop.actuated = random.index(bodies);
+  device.loop.sampling_period = random.log_uniform(1e-4, 5e-3);
+  if (random.chance(0.5)) device.loop.delay = random.log_uniform(0.01, 3.0) * device.loop.sampling_period;
+  if (random.chance(0.2)) device.actuator.time_constant = random.log_uniform(1e-4, 3e-3);
+  return device;
+}
+
 std::size_t cases() {
   const char* wish = std::getenv("ZWIDTH_REGION_CASES");
   return std::max<std::size_t>(1, (wish != nullptr ? std::strtoul(wish, nullptr, 10) : 200) / 4);
@@ -337,6 +367,26 @@ TEST(RegionProperty, OfEveryKindNoneIsRefused) {
 }
 
 TEST(RegionProperty, OfSevenToTenBodies) { expect_confirmed_family(1 + cases() / 5, 0, long_chain); }
+TEST(RegionProperty, OfSevenToTenHardlyDampedBodies) {
+  expect_confirmed_family(1 + cases() / 5, 0, hardly_damped_chain);
+}
+
+// Was refused: where B turns, far beyond every stable wall, rounding of second differences passed for a bend.
+TEST(Region, OfAChainOfTenBodiesAlikeIsFollowed) {
+  DeviceParameters parameters;
+  for (std::size_t i = 0; i < 10; ++i) {
+    parameters.bodies.push_back({"b" + std::to_string(i), 0.0522, 0.011, 0.0, 0.0});
+    if (i > 0) parameters.links.push_back({i - 1, i, 82500.0, 0.187});
+  }
+  parameters.loop = {5, 4, 9, 0.10074e-3, 0.0};
+  const Device device(parameters);
+  const WallRegion walls = region(device, walls_alone);
+  EXPECT_EQ(walls.trust.verdict, Trust::Verdict::sound);
+  ASSERT_TRUE(walls.region.stiffest);
+  EXPECT_NEAR(walls.region.critical_stiffness / critical_stiffness(device).stiffness, 1.0, 1e-9);
+  expect_closed(walls);
+  expect_confirmed(device, walls);
+}
 
 TEST(Region, IsTrustedNoMoreThanItsDevice) {
   DeviceParameters parameters = test::lhifam_parameters();

@@ -18,9 +18,9 @@ namespace zwidth::test {
 namespace {
 
 constexpr std::uint64_t first_seed = 20261125;
-constexpr std::array compared_kinds = {"rigid",   "two_mass",     "user_side", "three_mass",     "fractional_delay", "rotary",
-                              "chain",   "actuator_lag", "grounded",  "virtual_damper", "light_damping",    "slow_sampling",
-                              "operator"};
+constexpr std::array compared_kinds = {
+    "rigid",        "two_mass", "user_side",      "three_mass",    "fractional_delay", "rotary",  "chain",
+    "actuator_lag", "grounded", "virtual_damper", "light_damping", "slow_sampling",    "operator"};
 constexpr double close_to_limit = 1e-5;  // relative; the limits themselves are known better
 constexpr int users_tried = 4;
 constexpr std::size_t usual_cases = 26;
@@ -35,7 +35,8 @@ std::size_t devices_compared() {
 }
 
 // The design as its own device: what a variant changes is set here again.
-DeviceParameters alone(const DeviceParameters& device, const std::string& key, std::size_t index, const Operator& user) {
+DeviceParameters alone(const DeviceParameters& device, const std::string& key, std::size_t index,
+                       const Operator& user) {
   DeviceParameters parameters = device;
   if (key == "loop.sensed") parameters.loop.sensed = index;
   if (key == "loop.delay") parameters.loop.delay += 0.6 * static_cast<double>(index) * parameters.loop.sampling_period;
@@ -68,7 +69,8 @@ void expect_any_user_limit(const DeviceParameters& parameters, const AnyUserLimi
     for (int i = 0; i < users_tried; ++i) {
       DeviceParameters held = parameters;
       const double scale = parameters.motion == Motion::rotary ? 1e-4 : 1.0;
-      held.user = {scale * random.log_uniform(0.01, 10.0), random.chance(0.5) ? 0.0 : scale * random.log_uniform(0.1, 30.0),
+      held.user = {scale * random.log_uniform(0.01, 10.0),
+                   random.chance(0.5) ? 0.0 : scale * random.log_uniform(0.1, 30.0),
                    scale * random.log_uniform(10.0, 1e5)};
       EXPECT_EQ(ExactClosedLoop{Device(held)}.poles_outside(below), 0);
     }
@@ -80,7 +82,8 @@ void expect_any_user_limit(const DeviceParameters& parameters, const AnyUserLimi
 }
 
 // At a stiffness between the two the best is stable and the second is not.
-void expect_best(const std::vector<DeviceParameters>& designs, const BestDesigns& best, double of_best, double of_second) {
+void expect_best(const std::vector<DeviceParameters>& designs, const BestDesigns& best, double of_best,
+                 double of_second) {
   EXPECT_GE(of_best, of_second);
   if (best.as_good) return;
   const double between = 0.5 * (of_best + of_second);

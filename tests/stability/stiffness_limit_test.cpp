@@ -72,8 +72,8 @@ TEST(ResponseBound, IsNoLessThanTheResponseAndCloseOnNarrowIntervals) {
       const double angle = angle_of(begin);
       for (const SampledTerm& term : plant.terms) of_terms += std::abs(response(term, angle));
       of_terms *= std::abs(filter_response(plant, angle));
-      const bool pairs = std::all_of(plant.terms.begin(), plant.terms.end(),
-                                     [](const SampledTerm& term) { return term.degree <= 2; });
+      const bool pairs =
+          std::all_of(plant.terms.begin(), plant.terms.end(), [](const SampledTerm& term) { return term.degree <= 2; });
       if (pairs) {
         EXPECT_LE(bound.greatest(begin, begin * (1.0 + 1e-12)), of_terms * (1.0 + 1e-4));
       }
