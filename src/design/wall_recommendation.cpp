@@ -108,15 +108,13 @@ class Recommendation {
 
  private:
   [[nodiscard]] WallLimits& limits_of(const std::optional<WallFilter>& notch) {
-    if (!notch) return limits_;
-    if (!notched_) notched_ = std::make_unique<WallLimits>(with_filter(device_, *notch), options_);
-    return *notched_;
+    if (notch && !notched_) notched_ = std::make_unique<WallLimits>(with_filter(device_, *notch), options_);
+    return notch ? *notched_ : limits_;
   }
 
   [[nodiscard]] const WallSearch& search_of(const std::optional<WallFilter>& notch) {
     if (!notch) return search_;
-    if (!notched_search_) notched_search_.emplace(search_, limits_of(notch), *notch);
-    return *notched_search_;
+    return notched_search_ ? *notched_search_ : notched_search_.emplace(search_, limits_of(notch), *notch);
   }
 
   [[nodiscard]] Candidate exact(VirtualDamper damper, const std::optional<WallFilter>& notch, WallGoal goal) {
@@ -305,9 +303,9 @@ class Recommendation {
   }
 
   /// Another goal behind the same filters.
-  [[nodiscard]] std::optional<Candidate> other_goal(WallGoal goal, const Candidate& best) {
-    const WallSearch::Found found = search_of(best.notch).best(best.damper.velocity_filter_hz, goal);
-    return Candidate{found.damper, limits_of(best.notch).stiffest(found.damper, goal), 0.0, best.notch};
+  [[nodiscard]] Candidate other_goal(WallGoal goal, const Candidate& best) {
+    const VirtualDamper damper = search_of(best.notch).best(best.damper.velocity_filter_hz, goal).damper;
+    return {damper, limits_of(best.notch).stiffest(damper, goal), 0.0, best.notch};
   }
 
   [[nodiscard]] std::string why_none() {
