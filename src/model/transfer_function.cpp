@@ -193,7 +193,8 @@ TransferFunction transfer_function(const ContinuousStateSpace& system) {
     open_adjugate.next();
     closed_adjugate.next();
   }
-  std::fill(result.denominator.begin() + static_cast<std::ptrdiff_t>(denominator_end) + 1, result.denominator.end(), 0.0);
+  std::fill(result.denominator.begin() + static_cast<std::ptrdiff_t>(denominator_end) + 1, result.denominator.end(),
+            0.0);
   return result;
 }
 

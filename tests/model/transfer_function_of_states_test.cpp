@@ -46,7 +46,8 @@ TEST(TransferFunctionOfStates, GivesTheLimitOfTheDevice) {
   test::RandomDevices random(seed);
   int compared = 0;
   for (int i = 0; i < 60; ++i) {
-    for (const std::string_view kind : {"rigid", "two_mass", "user_side", "three_mass", "grounded", "fractional_delay"}) {
+    for (const std::string_view kind :
+         {"rigid", "two_mass", "user_side", "three_mass", "grounded", "fractional_delay"}) {
       DeviceParameters parameters = random.device(kind);
       parameters.wall = {};
       const Device device(parameters);
@@ -77,14 +78,15 @@ TEST(TransferFunctionOfStates, RefusesWhatIsNone) {
   bad.B.resize(3);
   EXPECT_THROW(static_cast<void>(transfer_function(bad)), Error);
   EXPECT_THROW(static_cast<void>(transfer_function({})), Error);
-  for (const double value : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e200, 1e-300}) {
+  for (const double value :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e200, 1e-300}) {
     bad = good;
     bad.A(2, 1) = value;
     EXPECT_THROW(static_cast<void>(transfer_function(bad)), Error) << value;
   }
   const Eigen::Index many = static_cast<Eigen::Index>(max_exact_states) + 1;
-  EXPECT_THROW(static_cast<void>(transfer_function({Eigen::MatrixXd::Zero(many, many), Eigen::VectorXd::Zero(many),
-                                                    Eigen::RowVectorXd::Zero(many)})),
+  EXPECT_THROW(static_cast<void>(transfer_function(
+                   {Eigen::MatrixXd::Zero(many, many), Eigen::VectorXd::Zero(many), Eigen::RowVectorXd::Zero(many)})),
                Error);
 }
 
@@ -92,7 +94,8 @@ TEST(TransferFunctionOfStates, ADeviceThatRoundingMadeUnstableIsDoubtful) {
   DeviceParameters parameters;
   parameters.loop.sampling_period = 1e-3;
   // a rigid body's pole at 0, moved by rounding as a conversion in double precision does it
-  parameters.transfer_function = {{17.97, 768.656457, 7.85597819e6}, {1.0, 708.053108, 7.14353096e6, 6.65446018e6, -2e-4}};
+  parameters.transfer_function = {{17.97, 768.656457, 7.85597819e6},
+                                  {1.0, 708.053108, 7.14353096e6, 6.65446018e6, -2e-4}};
   const CriticalStiffness moved = critical_stiffness(Device(parameters));
   EXPECT_EQ(moved.status, StiffnessStatus::none_stable);
   EXPECT_EQ(moved.trust.verdict, Trust::Verdict::doubtful);
