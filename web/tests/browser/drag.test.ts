@@ -22,13 +22,16 @@ const opened = async (): Promise<{ page: Page; end: () => Promise<void> }> => {
   }
 }
 
-it.each([1280, 390])('prints how soon the first answer is there, %i pixels wide', async (width) => {
-  const started = Date.now()
-  const { page, context } = await openPage(here, width)
-  const took = Date.now() - started
-  console.log(`first answer at most ${(await page.evaluate(() => performance.now())).toFixed(0)} ms after the start of the page, ${took} ms with opening the tab`)
-  expect(took).toBeLessThan(3000)
-  await context.close()
+it.each([1280, 390])('has its first answer on the screen within a second of the start of the page, %i pixels wide', async (width) => {
+  // The least of a few: what it takes where nothing else has the machine.
+  let least = Infinity
+  for (let i = 0; i < 5; ++i) {
+    const { page, context } = await openPage(here, width)
+    least = Math.min(least, await page.evaluate(() => performance.getEntriesByName('first answer')[0]!.startTime))
+    await context.close()
+  }
+  console.log(`first answer on the screen ${least.toFixed(0)} ms after the start of the page`)
+  expect(least).toBeLessThan(1000)
 })
 
 it('prints how fast a drag is drawn, all panels open', async () => {
@@ -72,6 +75,7 @@ it('prints how fast a drag is drawn, all panels open', async () => {
   const say = (values: number[]): string => `median ${at(values, 0.5)} ms, p95 ${at(values, 0.95)} ms, worst ${at(values, 1)} ms`
   console.log(`drag to picture: ${say(found.times)}\n  of these the request: ${say(found.requests)}\n  work of the page: ${((await work()) / steps - before / steps).toFixed(1)} ms a step`)
   expect(Math.max(...found.times)).toBeLessThan(2000)
+  expect((await work()) / steps - before / steps).toBeLessThan(33) // a step's own work, whatever else has the machine
   await end()
 })
 
