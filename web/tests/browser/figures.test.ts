@@ -49,6 +49,8 @@ it('saves every figure as SVG, PNG and CSV, with what they show', async () => {
     expect(lines.length, label).toBeGreaterThan(1)
     expect(lines.some((line) => /\d/.test(line)), label).toBe(true)
   }
+  // The closing of an area along an axis is told from the limit.
+  expect((await saved('Save the numbers of Stiff and damped walls as CSV')).toString('utf8')).toMatch(/^stable alone,oscillation,.*\n(.*\n)*stable alone,no damping,0,/m)
   expect(complaints).toEqual([])
   await context.close()
 })

@@ -119,3 +119,29 @@ it('fits a record with dry friction in time, and one of two bodies with the hand
   expect(complaints).toEqual([])
   await context.close()
 })
+
+it('shows the limits while one works further down, and with a user the limit that there is with nobody', async () => {
+  for (const width of [1280, 390]) {
+    const { page, context, complaints } = await openPage(here, width)
+    const short = page.locator('[data-answer="in-short"]')
+    expect(await short.count()).toBe(0)
+    await row(page, 'loop.delay').scrollIntoViewIfNeeded()
+    await page.evaluate(() => document.querySelector('[data-key="loop.delay"]')!.scrollIntoView({ block: 'start' }))
+    await short.waitFor()
+    expect(await short.innerText()).toMatch(/alone 8\.849 kN\/m, any user 5\.776 kN\/m/)
+    await type(page, 'loop.delay', '0.25 ms')
+    await settled(page)
+    const delayed = documentOf('analyze', 'devices/lhifam.toml', '--set', 'loop.delay=0.25 ms') as { critical_stiffness: number }
+    expect(await short.innerText()).toContain(`alone ${(delayed.critical_stiffness / 1000).toPrecision(4)} kN/m`)
+    await type(page, 'loop.delay', '0')
+    expect(await page.locator('[data-answer="nobody"]').count()).toBe(0)
+    await runPalette(page, 'go to user who holds it damping')
+    await type(page, 'operator.damping', '10')
+    await page.locator('[data-answer="nobody"]', { hasText: '8.849 kN/m' }).waitFor()
+    const held = documentOf('analyze', 'devices/lhifam.toml', '--set', 'operator.damping=10') as { critical_stiffness: number }
+    await settled(page)
+    expect(await page.locator('[data-answer="alone"]').innerText()).toBe(`${(held.critical_stiffness / 1000).toPrecision(4)} kN/m`)
+    expect(complaints).toEqual([])
+    await context.close()
+  }
+})
