@@ -30,8 +30,8 @@ class ServeBrowser : public Served {
     for (int i = 0; i < calls; ++i) {
       const auto begin = std::chrono::steady_clock::now();
       work();
-      least = std::min(least,
-                       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count());
+      least =
+          std::min(least, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count());
     }
     return least;
   }
