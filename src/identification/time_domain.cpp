@@ -282,8 +282,9 @@ TimeDomainIdentification identify_in_time(std::span<const Recording> recordings,
 
   const std::vector<Shot> shots = cut_into_shots(records, start.device, options.segment, least);
   const Eigen::VectorXd towards = best->fit.x;
+  // The noise of a few short shots is not yet that of the whole: what a longer search under it finds, the next undoes.
   std::optional<ShotFit> whole = fit_shots(model, shots, best->noise, {towards, model.recorded_states(shots)}, towards,
-                                           {.most_iterations = 20, .tolerance = 1e-4});
+                                           {.most_iterations = 6, .tolerance = 5e-4});
   std::optional<Round> found;  // the best
   constexpr int most_rounds = 5;
   constexpr int most_leaps = 2;
