@@ -14,6 +14,7 @@
 #include "identification/friction_test.hpp"
 #include "identification/interval_narrowing.hpp"
 #include "identification/response_choice.hpp"
+#include "identification/unseen_limit.hpp"
 #include "model/uncertainty_problem.hpp"
 #include "require_valid.hpp"
 #include "zwidth/error.hpp"
@@ -341,6 +342,7 @@ Identification identified(const MeasuredResponse& measured, std::span<const Reco
   }
   if (judgement.is_measured) narrow_interval(result);
   judge_interval(result, judgement.device_trust);
+  judge_unseen_limit(result, judgement.device_trust);
   judge_friction_in_time(result, recordings, options, judgement.device_trust);
   judge_nonlinearity(result, recordings, options, judgement.device_trust);
   keep_assumed(structure, result.fit.estimates, result.fit.device, {&result.trust, &result.analysis.trust});

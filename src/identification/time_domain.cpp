@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "identification/disturbed_motion.hpp"
 #include "identification/encoder_step.hpp"
 #include "identification/feedback_test.hpp"
 #include "identification/fit_judgement.hpp"
@@ -316,6 +317,12 @@ TimeDomainIdentification identify_in_time(std::span<const Recording> recordings,
                 "the fit lost itself where no device can be played; is the structure right?");
   }
   widen_by_step(found->known);
+  if (const auto slopes =
+          shot_slopes(model, shots, found->fitted.noise, found->fitted.fit.x, found->fitted.fit.states)) {
+    widen(found->known.covariance,
+          scatter_under_disturbance({model, shots, found->fitted.noise, found->fitted.fit, *slopes,
+                                     found->known.known.estimated, options.locked, start.lowest, start.highest}));
+  }
 
   TimeDomainIdentification result{.device = structure};
   result.lowest = start.lowest;
