@@ -304,9 +304,9 @@ void judge_delay(const Fitting& fitting, Judgement& judgement) {
   judgement.remarks.push_back({Remark::Severity::warning, what, "the critical stiffness depends on it", remedy});
 }
 
-/// An interval that spans more than this is an order of magnitude, not an answer.
+/// An interval that spans so much is an order of magnitude, not an answer; a narrow one may leave an unseen mode out.
 void judge_interval(Identification& result, Trust device_trust) {
-  if (!is_open(result)) return;
+  if (!is_open(result)) return judge_unseen_limit(result, std::move(device_trust));
   const auto& interval = result.analysis.interval;
   result.trust.doubt(fmt::format(
       "the data leave the critical stiffness open within a factor of {:.2g}; excite more strongly or for longer",
@@ -330,9 +330,8 @@ Identification identified(const MeasuredResponse& measured, std::span<const Reco
                         .friction = std::move(friction),
                         .trust = std::move(judgement.trust)};
   result.remarks = measured.remarks;
-  for (std::vector<Remark>* more : {&result.fit.remarks, &fitting.remarks(), &judgement.remarks}) {
+  for (std::vector<Remark>* more : {&result.fit.remarks, &fitting.remarks(), &judgement.remarks})
     result.remarks.insert(result.remarks.end(), more->begin(), more->end());
-  }
   const Wall& wall = result.fit.device.parameters().wall;
   result.basis = {wall.damping, wall.velocity_filter_hz, wall.filters.size()};
   result.fit.device = with_trust(result.fit.device, judgement.device_trust);
@@ -342,7 +341,6 @@ Identification identified(const MeasuredResponse& measured, std::span<const Reco
   }
   if (judgement.is_measured) narrow_interval(result);
   judge_interval(result, judgement.device_trust);
-  judge_unseen_limit(result, judgement.device_trust);
   judge_friction_in_time(result, recordings, options, judgement.device_trust);
   judge_nonlinearity(result, recordings, options, judgement.device_trust);
   keep_assumed(structure, result.fit.estimates, result.fit.device, {&result.trust, &result.analysis.trust});
