@@ -22,13 +22,18 @@ constexpr int fault_mode = 1;
 constexpr int position_mode = 10;
 constexpr int timeout_mode = 11;
 
+/// What the port alone would not tell, before it is opened.
+const std::string& checked_port(const SerialLink& link) {
+  if (link.drive.id && *link.drive.id < 1) throw DriverFailed("driver.id is 0; a moteus has 1 to 127");
+  return link.port;
+}
+
 }  // namespace
 
 MoteusDriver::MoteusDriver(const SerialLink& link)
-    : SerialDriver({.name = "moteus:" + link.port, .watchdog = watchdog, .bytes_per_cycle = bytes_per_cycle}, link,
-                   default_baud),
+    : SerialDriver({.name = "moteus:" + checked_port(link), .watchdog = watchdog, .bytes_per_cycle = bytes_per_cycle},
+                   link, default_baud),
       id_(link.drive.id.value_or(1)) {
-  if (id_ < 1) throw DriverFailed("driver.id is 0; a moteus has 1 to 127");
   // An fdcanusb takes the checksum for a flag that it does not know, and says so.
   const auto refused = ask(
       line(moteus_question(id_)).view(),

@@ -34,14 +34,21 @@ double watchdog_of(const SerialLink& link) {
   return std::clamp(watchdog_cycles * link.sampling_period, shortest_watchdog, longest_watchdog);
 }
 
+/// What the port alone would not tell, before it is opened.
+const std::string& checked_port(const SerialLink& link) {
+  const int axis = link.drive.id.value_or(0);
+  if (axis > 1) throw DriverFailed(fmt::format("driver.id is {}; an ODrive has the axes 0 and 1", axis));
+  return link.port;
+}
+
 }  // namespace
 
 OdriveDriver::OdriveDriver(const SerialLink& link)
-    : SerialDriver({.name = "odrive:" + link.port, .watchdog = watchdog_of(link), .bytes_per_cycle = bytes_per_cycle},
-                   link, default_baud),
+    : SerialDriver(
+          {.name = "odrive:" + checked_port(link), .watchdog = watchdog_of(link), .bytes_per_cycle = bytes_per_cycle},
+          link, default_baud),
       axis_(link.drive.id.value_or(0)),
       watchdog_(watchdog_of(link)) {
-  if (axis_ > 1) throw DriverFailed(fmt::format("driver.id is {}; an ODrive has the axes 0 and 1", axis_));
   if (const long found = error(); (found & ~watchdog_expired) != 0) {
     throw DriverFailed(
         fmt::format("axis {} stands on error {:#x}; find its cause with odrivetool (dump_errors), then "

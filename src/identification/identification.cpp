@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <span>
 #include <utility>
 
@@ -304,13 +303,10 @@ void judge_delay(const Fitting& fitting, Judgement& judgement) {
   judgement.remarks.push_back({Remark::Severity::warning, what, "the critical stiffness depends on it", remedy});
 }
 
-/// An interval that spans so much is an order of magnitude, not an answer; a narrow one may leave an unseen mode out.
 void judge_interval(Identification& result, Trust device_trust) {
-  if (!is_open(result)) return judge_unseen_limit(result, std::move(device_trust));
   const auto& interval = result.analysis.interval;
-  result.trust.doubt(fmt::format(
-      "the data leave the critical stiffness open within a factor of {:.2g}; excite more strongly or for longer",
-      interval->lower > 0.0 ? interval->upper / interval->lower : std::numeric_limits<double>::infinity()));
+  if (!interval || !is_open(*interval)) return judge_unseen_limit(result, std::move(device_trust));
+  result.trust.doubt(open_interval_reason(*interval));
   device_trust.inherit(result.trust);
   result.fit.device = with_trust(result.fit.device, device_trust);
 }

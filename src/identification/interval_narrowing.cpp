@@ -1,5 +1,7 @@
 #include "identification/interval_narrowing.hpp"
 
+#include <fmt/format.h>
+
 #include <string>
 #include <utility>
 #include <vector>
@@ -8,12 +10,10 @@
 #include "model/uncertainty_problem.hpp"
 #include "stability/device_draws.hpp"
 #include "zwidth/model/parameter.hpp"
+#include "zwidth/stability/stiffness_interval.hpp"
 
 namespace zwidth::internal {
 namespace {
-
-/// Times the lower end.
-constexpr double widest = 2.0;
 
 /// The device with its least known parameter i taken as known: C - c_i c_i' / c_ii of the others. Nothing where all are
 /// known well.
@@ -61,20 +61,21 @@ double share_limited_elsewhere(const Device& device, const std::vector<double>& 
 
 }  // namespace
 
-bool is_open(const Identification& result) {
-  const auto& interval = result.analysis.interval;
-  return interval && interval->upper > widest * interval->lower;
+std::string open_interval_reason(const StiffnessInterval& interval) {
+  return fmt::format("the data leave the critical stiffness open {}; excite more strongly or for longer",
+                     interval.lower > 0.0 ? fmt::format("within a factor of {:.2g}", interval.upper / interval.lower)
+                                          : std::string("down to 0, where not even the softest wall is stable"));
 }
 
 void narrow_interval(Identification& result) {
   Device device = result.fit.device;
-  while (is_open(result)) {
+  while (result.analysis.interval && is_open(*result.analysis.interval)) {
     std::optional<Device> narrower = without_least_known(device);
     if (!narrower) return;
     device = *std::move(narrower);
     const Analysis analysis = analyze(device, {.any_user = false});
     if (!analysis.interval) return;
-    if (analysis.interval->upper > widest * analysis.interval->lower) continue;
+    if (is_open(*analysis.interval)) continue;
     constexpr double safe = 0.9;
     constexpr double many = 0.25;
     if (share_limited_elsewhere(result.fit.device, result.fit.frequencies, safe * analysis.interval->lower) > many)

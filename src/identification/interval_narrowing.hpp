@@ -1,11 +1,13 @@
 #pragma once
 
+#include <string>
+
 #include "zwidth/identification/identification.hpp"
 
 namespace zwidth::internal {
 
-/// Whether the interval spans an order of magnitude rather than an answer.
-[[nodiscard]] bool is_open(const Identification& result);
+/// Why no critical stiffness is sound where its interval is open (zwidth::is_open()), with the remedy.
+[[nodiscard]] std::string open_interval_reason(const StiffnessInterval& interval);
 
 /// A normal distribution around a parameter that the data hardly show draws devices that contradict them. Where the
 /// response shows the critical stiffness by itself, which does not hang on such parameters, they are taken as known;

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -14,6 +13,7 @@
 #include "identification/fit_weights.hpp"
 #include "identification/friction_test.hpp"
 #include "identification/held_device.hpp"
+#include "identification/interval_narrowing.hpp"
 #include "identification/nonlinearity_test.hpp"
 #include "identification/percent.hpp"
 #include "identification/plausibility.hpp"
@@ -213,12 +213,8 @@ class Judge {
   }
 
   void judge_interval() {
-    constexpr double widest = 2.0;
     const auto& interval = fit_.analysis.interval;
-    if (!interval || !(interval->upper > widest * interval->lower)) return;
-    trust_.doubt(fmt::format(
-        "the data leave the critical stiffness open within a factor of {:.2g}; excite more strongly or for longer",
-        interval->lower > 0.0 ? interval->upper / interval->lower : std::numeric_limits<double>::infinity()));
+    if (interval && is_open(*interval)) trust_.doubt(open_interval_reason(*interval));
   }
 
   void describe() {

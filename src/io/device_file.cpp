@@ -209,7 +209,7 @@ class DeviceReader {
     if (!number || (std::abs(*number) <= largest && std::trunc(*number) == *number)) {
       return number ? std::optional(static_cast<int>(*number)) : std::nullopt;
     }
-    reader.refuse(key, fmt::format("is {}", *number), "must be a whole number");
+    reader.refuse(key, fmt::format("is {}", *number), "must be a whole number of at most 1e9");
     return std::nullopt;
   }
 

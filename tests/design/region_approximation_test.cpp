@@ -61,6 +61,8 @@ TEST(ApproximationError, OfTableI) {
   const AnyUserRegion any_user = any_user_region(device, 0.0, 600.0);
   const auto formulas = region_approximations(device, 0.0);
   EXPECT_NEAR(*approximation_error(formulas[0], any_user).ratio, 7000.0 / 5776.09, 1e-4);
+  EXPECT_TRUE(approximation_error(formulas[0], any_user).unsafe);
+  EXPECT_FALSE(approximation_error(formulas[1], walls, 556.9).unsafe);
   EXPECT_NEAR(*approximation_error(formulas[1], walls, 556.9).ratio, 7000.0 / 8848.70869499712, 1e-9);
   EXPECT_NEAR(*approximation_error(formulas[2], any_user).ratio, 7000.0 / 5776.09, 1e-4);
   EXPECT_FALSE(approximation_error(formulas[2], any_user).unsafe_share.has_value());

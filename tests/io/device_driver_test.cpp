@@ -71,10 +71,11 @@ TEST(DeviceDriver, IsRefusedWithItsPlace) {
   EXPECT_NE(refusal(rotary + "torque_constant = \"5 A\"\n").find("is no unit of a torque constant"), std::string::npos);
   EXPECT_EQ(refusal(rotary + "sign = 2\n"), "f.toml:8:8: driver.sign: is 2; must be 1 or -1");
   EXPECT_EQ(refusal(rotary + "gear = 0\n"), "f.toml:8:8: driver.gear: is 0; must be a finite number > 0");
-  EXPECT_EQ(refusal(rotary + "id = 1.5\n"), "f.toml:8:6: driver.id: is 1.5; must be a whole number");
+  EXPECT_EQ(refusal(rotary + "id = 1.5\n"), "f.toml:8:6: driver.id: is 1.5; must be a whole number of at most 1e9");
   EXPECT_EQ(refusal(rotary + "id = 128\n"), "f.toml:8:6: driver.id: is 128; must be a whole number from 0 to 127");
-  EXPECT_EQ(refusal(rotary + "baud = 1e30\n"), "f.toml:8:8: driver.baud: is 1e+30; must be a whole number");
-  EXPECT_EQ(refusal(rotary + "baud = nan\n"), "f.toml:8:8: driver.baud: is nan; must be a whole number");
+  EXPECT_EQ(refusal(rotary + "baud = 1e30\n"),
+            "f.toml:8:8: driver.baud: is 1e+30; must be a whole number of at most 1e9");
+  EXPECT_EQ(refusal(rotary + "baud = nan\n"), "f.toml:8:8: driver.baud: is nan; must be a whole number of at most 1e9");
   EXPECT_EQ(refusal(rotary + "command = \"MM\"\n"),
             "f.toml:8:11: driver.command: is no letter; must be one letter, such as \"M\"");
 }
