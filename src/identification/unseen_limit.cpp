@@ -49,6 +49,7 @@ void judge_unseen_limit(Identification& result, Trust device_trust) {
     const auto at = std::ranges::find(uncertainty->parameters, each.key);
     if (at == uncertainty->parameters.end() || !each.standard_deviation) continue;
     if (*each.standard_deviation <= well_known * each.value) continue;
+    if (*each.standard_deviation > each.value) continue;  // many of the draws have none of it: they show what it does
     for (const double deviations : {-1.96, 1.96}) {
       const auto i = static_cast<std::size_t>(at - uncertainty->parameters.begin());
       const std::optional<Device> device = moved(result.fit.device, i, deviations);
