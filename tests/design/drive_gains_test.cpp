@@ -194,7 +194,7 @@ TEST(DriveGains, TheLimitWithMoteusEstimatorIsWhereItsEquationsBeginToGrow) {
       const double natural = 2.0 * pi * corner_hz / 2.48;  // as motor_position.h
       double estimate = 0.01;
       double integral = 0.0;
-      return swing_after(parameters, 3.0, [&](double position) {
+      return swing_after(parameters, 10.0, [&](double position) {
         const double error = position - estimate;
         integral += period * natural * natural * error;
         estimate += period * (integral + 2.0 * natural * error);
