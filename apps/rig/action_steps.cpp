@@ -11,7 +11,7 @@
 namespace zwidth::rig {
 namespace {
 
-constexpr double fallback_hz = 10.0;          // where theory has no frequency
+constexpr double fallback_hz = 10.0;  // where theory has no frequency
 
 }  // namespace
 

@@ -101,8 +101,7 @@ TEST(Documents, TheirCommandsRunOnTheEmulatorThatTheyName) {
 class DocumentedDrive : public testing::TestWithParam<DriveKind> {};
 
 TEST_P(DocumentedDrive, CarriesWhatItsRowSays) {
-  const std::string row =
-      fmt::format("\\| `{}` \\| [^\\n]* \\| (\\d+) \\| (\\d+) \\| (\\d+) \\|\\n", GetParam().name);
+  const std::string row = fmt::format("\\| `{}` \\| [^\\n]* \\| (\\d+) \\| (\\d+) \\| (\\d+) \\|\\n", GetParam().name);
   std::smatch cells;
   const std::string text = document();
   ASSERT_TRUE(std::regex_search(text, cells, std::regex(row)));

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <string>
 
@@ -23,14 +24,20 @@ using test::PtyEmulator;
 using testing::Contains;
 using testing::HasSubstr;
 
-constexpr double rounding = 1e-3;  // relative, of a force in whole milliamperes
+constexpr double coulomb = 0.02;  // N
+
+/// N, of a force in whole milliamperes.
+double rounding(const Device& device) {
+  const MotorDrive& drive = *device.parameters().driver;
+  return 0.5e-3 * *drive.torque_constant / std::abs(drive.torque_per_force()) * (1.0 + 1e-6);
+}
 
 class LimitsOnDrive : public testing::TestWithParam<DriveKind> {
  protected:
-  explicit LimitsOnDrive(double coulomb = 0.0)
+  explicit LimitsOnDrive(double friction = 0.0)
       : device([&] {
           DeviceParameters parameters = belt_device().parameters();
-          parameters.bodies.front().coulomb = coulomb;
+          parameters.bodies.front().coulomb = friction;
           return Device(parameters);
         }()),
         emulator(GetParam().firmware(), device) {
@@ -49,17 +56,20 @@ class LimitsOnDrive : public testing::TestWithParam<DriveKind> {
 
 class FrictionOnDrive : public LimitsOnDrive {
  protected:
-  FrictionOnDrive() : LimitsOnDrive(0.2) {}
+  FrictionOnDrive() : LimitsOnDrive(coulomb) {}
 };
 
 // What friction does to the limit it does behind the line as well, and the answer says so.
 TEST_P(FrictionOnDrive, TheLimitIsThatOfTheSimulationAndDoubtful) {
-  const RigLimit limit = measure_limit(device, *driver, {}, default_limit(device), {});
+  LimitOptions knocked = default_limit(device);
+  knocked.knock = 5.0;
+  const RigLimit limit = measure_limit(device, *driver, {}, knocked, {});
   SimulatedDriver simulated{device, 0.0, false};
-  const RigLimit expected = measure_limit(device, simulated, {}, default_limit(device), {});
+  const RigLimit expected = measure_limit(device, simulated, {}, knocked, {});
   ASSERT_TRUE(limit.measured.stiffness && expected.measured.stiffness);
   EXPECT_NEAR(*limit.measured.stiffness / *expected.measured.stiffness, 1.0, 0.02);
   EXPECT_NEAR(limit.measured.frequency / expected.measured.frequency, 1.0, 0.02);
+  EXPECT_GT(*limit.measured.stiffness, 1.01 * limit.predicted.stiffness) << "friction damps";
   EXPECT_FALSE(limit.measured.trust.sound());
   EXPECT_THAT(limit.measured.trust.reasons, Contains(HasSubstr("friction")));
   expect_no_force();
@@ -70,7 +80,7 @@ TEST_P(FrictionOnDrive, TheRelayIsThatOfTheSimulation) { expect_relay(device, *d
 TEST_P(FrictionOnDrive, AMeasurementMovesTheDeviceAndIsDoubtful) {
   const RigMeasurement measured = measure(device, *driver, {}, default_measurement(device), {});
   ASSERT_TRUE(measured.response);
-  EXPECT_GT(emulator.motor().largest_force(), 0.2) << "else it sticks";
+  EXPECT_GT(emulator.motor().largest_force(), coulomb) << "else it sticks";
   EXPECT_FALSE(measured.trust.sound());
   EXPECT_THAT(measured.trust.reasons, Contains(HasSubstr("friction")));
   expect_no_force();
@@ -84,7 +94,7 @@ TEST_P(LimitsOnDrive, TheForceIsCutOffAndTheLimitRefused) {
   LimitOptions limit = default_limit(device);
   limit.knock = 8.0;
   const RigLimit measured = measure_limit(device, *driver, options, limit, {});
-  EXPECT_NEAR(emulator.motor().largest_force(), 1.0, rounding) << "what came out of the line, at the most";
+  EXPECT_NEAR(emulator.motor().largest_force(), 1.0, rounding(device)) << "what came out of the line, at the most";
   EXPECT_TRUE(measured.measured.trust.refused());
   EXPECT_FALSE(measured.measured.stiffness);
   expect_no_force();
@@ -100,7 +110,7 @@ TEST_P(LimitsOnDrive, ForceBeyondTheLimitForTooLongIsZeroForce) {
   wall.knock = 10.0;
   const RigWall rendered = render_wall(device, *driver, options, wall);
   EXPECT_EQ(rendered.session.stop, StopReason::saturation);
-  EXPECT_NEAR(emulator.motor().largest_force(), 1.0, rounding);
+  EXPECT_NEAR(emulator.motor().largest_force(), 1.0, rounding(device));
   EXPECT_LE(emulator.motor().nonzero_forces(), 6) << "0.05 s are five cycles, and one that was under way";
   expect_no_force();
 }
