@@ -55,7 +55,7 @@ void any_user(benchmark::State& state, double delay) {
 void any_user_boundary(benchmark::State& state) {
   const Device device = two_mass(0.0);
   for (auto _ : state) {
-    benchmark::DoNotOptimize(any_user_region(device, 0.0, 600.0));
+    benchmark::DoNotOptimize(any_user_region(device, StableWalls(filtered_plant(device)), 600.0));
   }
 }
 

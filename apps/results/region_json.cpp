@@ -52,6 +52,7 @@ static void to_json(Json& json, const ComparedApproximation& compared) {
           {"exact_stiffness_at_zero_damping", error.at_zero_damping},
           {"ratio_at_zero_damping", error.ratio},
           {"off_db", decibels(error.ratio)},
+          {"unsafe", error.unsafe},
           {"unsafe_share", error.unsafe_share},
           {"missed_share", error.missed_share}};
 }

@@ -30,13 +30,15 @@ void to_json(Json& json, const RigidApproximation& rigid) {
           {"damping", rigid.damping},
           {"critical_stiffness", rigid.critical.stiffness},
           {"stiffness", rigid.stiffness},
-          {"status", rigid.critical.status}};
+          {"status", rigid.critical.status},
+          {"error", rigid.error}};
 }
 
 void to_json(Json& json, const QCriterion& criterion) {
   json = {{"stiffness", criterion.stiffness},
           {"db", decibels(std::optional(criterion.stiffness))},
-          {"mode_matters", criterion.mode_matters}};
+          {"mode_matters", criterion.mode_matters},
+          {"is_similar", criterion.is_similar}};
 }
 
 void to_json(Json& json, const WallMargins& wall) {

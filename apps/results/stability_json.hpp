@@ -12,6 +12,9 @@ NLOHMANN_JSON_SERIALIZE_ENUM(StiffnessStatus, {{StiffnessStatus::finite, "finite
                                                {StiffnessStatus::none_stable, "none_stable"},
                                                {StiffnessStatus::unbounded, "unbounded"},
                                                {StiffnessStatus::refused, "refused"}})
+NLOHMANN_JSON_SERIALIZE_ENUM(RigidApproximation::Error, {{RigidApproximation::Error::none, "none"},
+                                                         {RigidApproximation::Error::safe, "safe"},
+                                                         {RigidApproximation::Error::unsafe, "unsafe"}})
 NLOHMANN_JSON_SERIALIZE_ENUM(Mechanism::Kind, {{Mechanism::Kind::rigid_body, "rigid_body"},
                                                {Mechanism::Kind::vibration_mode, "vibration_mode"}})
 

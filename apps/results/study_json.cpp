@@ -151,6 +151,7 @@ Json study_json(const StudyRun& run, const Study& study) {
   json["clusters"] = clusters_json(study);
   json["sobol_indices"] = indices_json(study);
   json["tightening"] = tightening_json(study);
+  json["tighten_first"] = study.tighten_first ? Json(study.keys[*study.tighten_first]) : Json(nullptr);
   json["rare_failures"] = rare_json(study);
   json["regions"] = regions_json(study);
   json["worst"] = worst_json(study, study.worst);

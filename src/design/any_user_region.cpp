@@ -20,24 +20,30 @@ constexpr double scan_ratio = 1.5;
 constexpr double scan_share = 0.25;  // of the progress
 constexpr int end_bisections = 24;
 constexpr int max_depth = 7;
+constexpr double rounding = 1e-6;  // relative, of limits
 
 class Sampler {
  public:
-  Sampler(const Device& device, double velocity_filter_hz, double deviation, const Progress& progress)
-      : search_(device, progress),
-        velocity_filter_hz_(velocity_filter_hz),
-        deviation_(deviation),
-        progress_(progress) {}
+  Sampler(const Device& device, const StableWalls& walls, double deviation, const Progress& progress)
+      : search_(device, progress), walls_(walls), deviation_(deviation), progress_(progress) {}
 
   [[nodiscard]] AnyUserPoint at(double damping) {
     tell(progress_, 0.0);
-    const AnyUserLimit limit = search_.limit({damping, velocity_filter_hz_}, progress_);
+    const AnyUserLimit limit = search_.limit({damping, walls_.velocity_filter_hz()}, progress_);
     const double taken_off = limit.stiffness > 0.0 ? limit.stiffness / (1.0 - limit.truncation) - limit.stiffness : 0.0;
     if (!limit.trust.sound() && taken_off > most_taken_off_) {
       most_taken_off_ = taken_off;
       trust_ = limit.trust;
     }
-    return {damping, limit.stiffness, limit.frequency};
+    // Nobody is a user too. At the end of the region a pole lies on the circle whatever K: no limit at that very B is sure.
+    const double nobody = limit_of_nobody(damping);
+    if (limit.stiffness <= nobody * (1.0 + rounding)) return {damping, limit.stiffness, limit.frequency};
+    if (nobody > 0.0 && limit.stiffness - nobody > most_taken_off_) {
+      most_taken_off_ = limit.stiffness - nobody;
+      trust_ = {};
+      trust_.doubt("a limit for any passive user is above that of nobody, which was taken: rounding hides the rest");
+    }
+    return {damping, nobody, nobody > 0.0 ? limit.frequency : 0.0};
   }
 
   // Sound where what is taken off lies within the deviation; a limit that is taken off altogether lies outside.
@@ -74,8 +80,13 @@ class Sampler {
   double largest = infinity;  // B of all ranges
 
  private:
+  [[nodiscard]] double limit_of_nobody(double damping) const {
+    const std::vector<StableInterval> intervals = walls_.stable_stiffnesses(damping);
+    return intervals.empty() || intervals.front().lower > 0.0 ? 0.0 : intervals.front().upper.value_or(infinity);
+  }
+
   AnyUserSearch search_;
-  double velocity_filter_hz_;
+  const StableWalls& walls_;
   double deviation_;
   const Progress& progress_;
   double most_taken_off_ = 0.0;  // of a limit, N/m
@@ -109,7 +120,7 @@ std::vector<std::vector<AnyUserPoint>> ranges_of(Sampler& sampler, const std::ve
 
 }  // namespace
 
-AnyUserRegion any_user_region(const Device& device, double velocity_filter_hz, double largest_damping,
+AnyUserRegion any_user_region(const Device& device, const StableWalls& walls, double largest_damping,
                               AnyUserRegionOptions options) {
   if (!(largest_damping > 0.0) || !std::isfinite(largest_damping)) {
     throw Error(ErrorCode::invalid_argument,
@@ -121,7 +132,7 @@ AnyUserRegion any_user_region(const Device& device, double velocity_filter_hz, d
   }
   StagedProgress stages(options.progress);
   stages.next(scan_share);
-  Sampler sampler(device, velocity_filter_hz, options.deviation, stages.stage());
+  Sampler sampler(device, walls, options.deviation, stages.stage());
   AnyUserRegion region;
   const auto coarse = ranges_of(sampler, scan(sampler, largest_damping));
   for (const auto& range : coarse) {

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 #include <utility>
+#include <vector>
 
 #include "design/diagnosis_changes.hpp"
 #include "design/oscillation_causes.hpp"
@@ -136,14 +137,42 @@ std::optional<OptionProblem> find_problem(const DiagnosisOptions& options) {
   return std::nullopt;
 }
 
-/// With what the recording shows; nothing where nothing oscillates.
-std::optional<DiagnosisOptions> with_recorded(DiagnosisOptions options, const Recording& recording) {
+/// The oscillation of a recording that dominant_oscillation() reads; nothing where nothing oscillates: the strongest line
+/// holds hardly anything of what moves, as in noise and in a sweep, or is rounding.
+std::optional<DominantOscillation> recorded_oscillation(const Recording& recording) {
   if (recording.channels.empty()) throw Error(ErrorCode::invalid_argument, "the recording has no channel");
-  const auto found = dominant_oscillation(recording.channels.front().samples, recording.sampling_period);
-  if (!found) return std::nullopt;
-  options.frequency = found->frequency;
-  if (!options.amplitude) options.amplitude = found->amplitude;
+  const std::vector<double>& position = recording.channels.front().samples;
+  const auto found = dominant_oscillation(position, recording.sampling_period);
+  constexpr double least_share = 0.1;
+  constexpr double rounding = 1e-9;  // of the position
+  if (!found || found->share < least_share) return std::nullopt;
+  const double most = std::abs(*std::ranges::max_element(position, {}, [](double value) { return std::abs(value); }));
+  if (found->amplitude < rounding * most) return std::nullopt;
+  return found;
+}
+
+/// With what the recording shows.
+DiagnosisOptions with_recorded(DiagnosisOptions options, const DominantOscillation& found) {
+  options.frequency = found.frequency;
+  if (!options.amplitude) options.amplitude = found.amplitude;
   return options;
+}
+
+/// What moves beside the oscillation, and one that nothing keeps up.
+void doubt_recorded(const DominantOscillation& found, Trust& trust) {
+  constexpr double clear_share = 0.5;
+  constexpr double kept = 0.7;
+  if (found.share < clear_share) {
+    trust.doubt(fmt::format(
+        "the oscillation is {:.0f} % of what moves in the last half of the recording; record while it oscillates alone",
+        100.0 * found.share));
+  }
+  if (found.change < kept) {
+    trust.doubt(fmt::format(
+        "the oscillation dies out, to {:.0f} % from one half of the stretch to the other: nothing keeps it up; "
+        "record it while it goes on",
+        100.0 * found.change));
+  }
 }
 
 }  // namespace
@@ -161,8 +190,8 @@ std::optional<OptionProblem> find_problem(const DiagnosisOptions& options, const
 
 std::optional<OptionProblem> find_problem(const DiagnosisOptions& options, const Device& device,
                                           const Recording& recording) {
-  const auto recorded = with_recorded(options, recording);
-  auto problem = recorded ? find_problem(*recorded, device) : find_problem(options);
+  const auto found = recorded_oscillation(recording);
+  auto problem = found ? find_problem(with_recorded(options, *found), device) : find_problem(options);
   if (problem && problem->member == "frequency") problem->member = "recording";
   return problem;
 }
@@ -198,8 +227,9 @@ Diagnosis diagnose(const Device& device, const DiagnosisOptions& options) {
 Diagnosis diagnose(const Device& device, const Recording& recording, const DiagnosisOptions& options) {
   require_valid(find_problem(options, device, recording));
   Diagnosis diagnosis;
-  if (const auto recorded = with_recorded(options, recording)) {
-    diagnosis = diagnose(device, *recorded);
+  if (const auto found = recorded_oscillation(recording)) {
+    diagnosis = diagnose(device, with_recorded(options, *found));
+    if (!diagnosis.trust.refused()) doubt_recorded(*found, diagnosis.trust);
   } else {
     diagnosis.amplitude = options.amplitude;
     diagnosis.trust.refuse("nothing oscillates in the last half of the recording; record while it does");

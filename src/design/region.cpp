@@ -121,8 +121,8 @@ WallRegion region(const Device& device, const RegionOptions& options) {
       result.region.most_damped->damping > 0.0) {
     if (device.bodies().size() <= most_bodies_for_any_user) {
       stages.next(0.95);
-      result.any_user = any_user_region(device, result.walls->velocity_filter_hz(), result.region.most_damped->damping,
-                                        {.progress = stages.stage()});
+      result.any_user =
+          any_user_region(device, *result.walls, result.region.most_damped->damping, {.progress = stages.stage()});
       result.trust.inherit(result.any_user->trust);
     } else {
       result.remarks.push_back({Remark::Severity::note,

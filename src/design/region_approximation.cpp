@@ -40,7 +40,9 @@ ApproximationError error_of(const RegionApproximation& approximation, double exa
                             const RowAt& row_at) {
   ApproximationError error;
   error.at_zero_damping = exact_at_zero;
+  constexpr double rounding = 1e-6;
   if (exact_at_zero > 0.0) error.ratio = approximation.at_zero_damping / exact_at_zero;
+  error.unsafe = approximation.at_zero_damping > exact_at_zero * (1.0 + rounding);
   if (approximation.largest_damping == 0.0) return error;
   const Row over_claimed = sum_of_strips(approximation.largest_damping.value_or(largest_exact), row_at);
   error.unsafe_share = over_claimed.claimed > 0.0 ? 1.0 - over_claimed.both / over_claimed.claimed : 0.0;

@@ -76,6 +76,7 @@ double boundary_damping(const StableWalls& walls, const StableRegion& region, do
 /// Least B at which the any-user limit is not above `stiffness`.
 double any_user_damping(const Device& device, const AnyUserRegion& region, double stiffness) {
   const double filter = device.parameters().wall.velocity_filter_hz;
+  if (region.ranges.empty()) return 0.0;
   const std::vector<AnyUserPoint>& limit = region.ranges.front();  // from B = 0, where the limit is above 0
   const auto first_below = std::ranges::find_if(limit, [&](const AnyUserPoint& p) { return p.stiffness <= stiffness; });
   if (first_below == limit.begin()) return 0.0;
@@ -177,7 +178,7 @@ void choose(const Device& device, const SafeWallOptions& options, SafeWall& wall
     }
     wall.damping_limit =
         wall.basis == SafeWall::Basis::any_user
-            ? any_user_damping(device, any_user_region(device, filter, region.most_damped->damping), wall.stiffness)
+            ? any_user_damping(device, any_user_region(device, walls, region.most_damped->damping), wall.stiffness)
             : boundary_damping(walls, region, wall.stiffness);
     wall.damping = share * *wall.damping_limit;
   }

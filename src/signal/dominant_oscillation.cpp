@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <cstddef>
 #include <numbers>
 #include <vector>
@@ -38,6 +39,18 @@ std::vector<double> detrended(std::span<const double> signal) {
   return result;
 }
 
+/// Of a sine of w T = step radians a sample: its amplitude, seen through a Hann window.
+double amplitude_at(std::span<const double> signal, double step) {
+  const std::vector<double> window = internal::window_function(Window::hann, signal.size());
+  std::complex<double> sum = 0.0;
+  double weight = 0.0;
+  for (std::size_t i = 0; i < signal.size(); ++i) {
+    sum += window[i] * signal[i] * std::polar(1.0, -step * static_cast<double>(i));
+    weight += window[i];
+  }
+  return 2.0 * std::abs(sum) / weight;
+}
+
 }  // namespace
 
 std::optional<DominantOscillation> dominant_oscillation(std::span<const double> signal, double period) {
@@ -47,7 +60,8 @@ std::optional<DominantOscillation> dominant_oscillation(std::span<const double> 
   }
   const std::size_t count = std::min(signal.size() / 2, most_samples);
   if (count < fewest_samples) return std::nullopt;
-  std::vector<double> windowed = detrended(signal.last(count));
+  const std::vector<double> moved = detrended(signal.last(count));
+  std::vector<double> windowed = moved;
   const std::vector<double> window = internal::window_function(Window::hann, count);
   for (std::size_t i = 0; i < count; ++i) windowed[i] *= window[i];
   const PowerDensity density = power_density(windowed, 1.0 / period);
@@ -72,6 +86,9 @@ std::optional<DominantOscillation> dominant_oscillation(std::span<const double> 
   result.amplitude = std::sqrt(2.0 * of_peak * density.step_hz / power_of_hann);
   result.share = of_peak / all;
   result.resolution = line;
+  const std::span<const double> stretch = moved;
+  const double step = result.frequency * period;
+  result.change = amplitude_at(stretch.last(count / 2), step) / amplitude_at(stretch.first(count / 2), step);
   return result;
 }
 

@@ -20,9 +20,9 @@ constexpr double still_share = 1e-3;       // of the run's range: a range of the
 constexpr double decayed_share = 0.05;     // of the run's range: a range of the last quarter that has died out
 constexpr double steady_change = 0.01;     // of the logarithm of the effective swing over the second half
 constexpr double significance = 4.0;       // standard errors of a trend, beyond which it is one
-constexpr double ripples = 1.5;            // times the frequency of the swing: lowest points that are not its own
-constexpr double of_the_swing = 0.5;       // of the amplitude, of a sine that is the swing
-constexpr double unsteady_change = 0.2;    // a scatter that could hide so much leaves the verdict open
+constexpr double of_the_swing = 0.5;       // of the power, of a sine that is the swing
+constexpr double apart = 0.3;            // lines of the spectrum, which tells the frequency of a sine to a tenth of one
+constexpr double unsteady_change = 0.2;  // a scatter that could hide so much leaves the verdict open
 
 double range_of(std::span<const double> y) {
   const auto [low, high] = std::minmax_element(y.begin(), y.end());
@@ -130,10 +130,9 @@ LoopJudgement judge_loop(std::span<const double> position, double sampling_perio
     // Samples show no oscillation above Nyquist's frequency, whatever the interpolation at the ends says.
     const double samples = std::max(2.0, (points.back() - points.front()) / static_cast<double>(cycles));
     double frequency = 2.0 * std::numbers::pi / (samples * sampling_period);
-    // A force that chatters ripples a steady swing, and each ripple has a lowest point.
-    const auto swing =
-        judgement.verdict == LoopVerdict::limit_cycle ? dominant_oscillation(position, sampling_period) : std::nullopt;
-    if (swing && swing->amplitude >= of_the_swing * last_swing && frequency > ripples * swing->frequency) {
+    // Ripples of a chattering force and of a faster mode have lowest points of their own.
+    const auto swing = dominant_oscillation(position, sampling_period);
+    if (swing && swing->share >= of_the_swing && std::abs(frequency - swing->frequency) > apart * swing->resolution) {
       frequency = swing->frequency;
     }
     judgement.oscillation = Oscillation{frequency, last_swing};

@@ -82,8 +82,9 @@ std::optional<OptionProblem> find_problem(const RelayOptions& options, const Dev
     wrong->member.insert(0, "analysis.");
     return wrong;
   }
-  if (!(std::isfinite(amplitude) && amplitude > 0.0)) {
-    return problem("relay.amplitude", amplitude, "a force in N or N m above 0");
+  constexpr double largest = 1e30;  // as of a device's numbers: squares of it are still numbers
+  if (!(amplitude > 0.0 && amplitude <= largest)) {
+    return problem("relay.amplitude", amplitude, "a force in N or N m above 0, at most 1e30");
   }
   const auto limit = device.parameters().actuator.force_limit;
   if (limit && amplitude > *limit) {

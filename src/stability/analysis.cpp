@@ -17,9 +17,16 @@ namespace zwidth {
 using namespace internal;
 namespace {
 
+/// Of the rigid model's limit beside the device's; 0 and infinity are limits like others, NaN (refused) is none.
+RigidApproximation::Error rigid_error(double rigid, double exact) {
+  constexpr double same = 5e-4;
+  if (rigid > exact * (1.0 + same)) return RigidApproximation::Error::unsafe;
+  return rigid < exact * (1.0 - same) ? RigidApproximation::Error::safe : RigidApproximation::Error::none;
+}
+
 RigidApproximation rigid_approximation(const Device& device, const CriticalStiffness& of_device) {
   const Operator& user = device.parameters().user;
-  RigidApproximation rigid{user.mass, user.damping, user.stiffness, {}};
+  RigidApproximation rigid{.mass = user.mass, .damping = user.damping, .stiffness = user.stiffness, .critical = {}};
   for (const Body& body : device.bodies()) {
     rigid.mass += body.mass;
     rigid.damping += body.damping;
@@ -41,6 +48,7 @@ RigidApproximation rigid_approximation(const Device& device, const CriticalStiff
   rigid.critical = critical_stiffness(Device(std::move(parameters)));
   rigid.critical.trust.inherit(of_device.trust);
   if (rigid.critical.trust.refused()) withdraw(rigid.critical);
+  rigid.error = rigid_error(rigid.critical.stiffness, of_device.stiffness);
   return rigid;
 }
 
@@ -49,10 +57,12 @@ std::optional<QCriterion> q_criterion(const Device& device, const RigidApproxima
   const Wall& wall = device.parameters().wall;
   if (!two || !wall.filters.empty()) return std::nullopt;
   const TwoMassFactors factors = two_mass_factors(*two);
-  QCriterion criterion{two->motor_mass * factors.z_n * factors.omega_n, std::nullopt};  // eq. 24
+  QCriterion criterion{.stiffness = two->motor_mass * factors.z_n * factors.omega_n};  // eq. 24
   if (wall.damping == 0.0 && device.loop().sensed == device.loop().actuated &&
       rigid.critical.status == StiffnessStatus::finite) {
+    constexpr double similar = 2.0;
     criterion.mode_matters = criterion.stiffness <= rigid.critical.stiffness;
+    criterion.is_similar = criterion.stiffness <= similar * rigid.critical.stiffness;
   }
   return criterion;
 }

@@ -55,6 +55,7 @@ DelayedResponse delayed_response(ModalForm form, double delay) {
 
 DelayedResponse delayed_response(FilteredPlant plant, VirtualDamper damper) {
   const double delay = static_cast<double>(plant.delay_samples) * plant.period;
+  if (plant.at_nyquist && plant.delay_samples % 2 != 0) *plant.at_nyquist *= -1.0;  // P(-1) has the delay's (-1)^l
   plant.delay_samples = 0;
   return {[plant = std::move(plant), damper, delay](double frequency) {
             const std::complex<double> undelayed = response(plant, frequency);

@@ -158,6 +158,11 @@ void internal::add_tightening(const StudyRun& run, Study& study, const Progress&
     const double mean = sum / n;
     study.tightening->push_back({mean, std::sqrt((std::max(0.0, square / n - mean * mean) + 1.0 / n) / n)});
   }
+  constexpr double sure = 2.0;  // standard errors
+  const auto best = std::ranges::max_element(*study.tightening, {}, &TighteningGain::yield_gain);
+  if (best != study.tightening->end() && best->yield_gain > sure * best->error) {
+    study.tighten_first = static_cast<std::size_t>(best - study.tightening->begin());
+  }
 }
 
 Study summary(const StudyRun& run, const ChunkSource& chunks, const Progress& progress) {

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "lhifam.hpp"
+#include "zwidth/design/region.hpp"
 #include "zwidth/design/region_approximation.hpp"
 #include "zwidth/error.hpp"
 
@@ -17,7 +18,7 @@ namespace {
 TEST(AnyUserRegion, OfARigidDeviceIsColgatesTriangle) {
   for (const double filter : {0.0, 100.0}) {
     const Device device(test::rigid_parameters());
-    const AnyUserRegion region = any_user_region(device, filter, 1000.0);
+    const AnyUserRegion region = any_user_region(device, StableWalls(filtered_plant(device), filter), 1000.0);
     const double factor = filter > 0.0 ? std::tanh(std::numbers::pi * filter * 1e-3) : 1.0;
     ASSERT_EQ(region.ranges.size(), 1U);
     for (const AnyUserPoint& point : region.ranges[0]) {
@@ -30,14 +31,15 @@ TEST(AnyUserRegion, OfARigidDeviceIsColgatesTriangle) {
 
 // Theory, section 5.
 TEST(AnyUserRegion, BeginsAtTheLimitWithoutADamper) {
-  const AnyUserRegion region = any_user_region(Device(test::lhifam_parameters()), 0.0, 600.0);
+  const Device device(test::lhifam_parameters());
+  const AnyUserRegion region = any_user_region(device, StableWalls(filtered_plant(device)), 600.0);
   EXPECT_NEAR(region.ranges.at(0).front().stiffness / 5776.09, 1.0, 1e-5);
 }
 
 TEST(AnyUserRegion, LiesWithinTheStableWalls) {
   const Device device(test::with_delay(test::lhifam_parameters(), 0.25e-3));
   const StableWalls walls(filtered_plant(device));
-  const AnyUserRegion region = any_user_region(device, 0.0, 400.0);
+  const AnyUserRegion region = any_user_region(device, StableWalls(filtered_plant(device)), 400.0);
   ASSERT_FALSE(region.ranges.empty());
   for (const auto& range : region.ranges) {
     for (const AnyUserPoint& point : range) {
@@ -51,11 +53,11 @@ TEST(AnyUserRegion, LiesWithinTheStableWalls) {
 TEST(AnyUserRegion, RefusesWhatHasNoRange) {
   const Device device(test::rigid_parameters());
   for (const double largest : {0.0, -1.0, std::numeric_limits<double>::infinity()}) {
-    EXPECT_THROW((void)any_user_region(device, 0.0, largest), Error);
+    EXPECT_THROW((void)any_user_region(device, StableWalls(filtered_plant(device)), largest), Error);
   }
-  EXPECT_THROW((void)any_user_region(device, 0.0, 1.0, {0.0}), Error);
+  EXPECT_THROW((void)any_user_region(device, StableWalls(filtered_plant(device)), 1.0, {0.0}), Error);
   const Device transfer(test::transfer_function_parameters({1.0}, {1.0, 1.0}, 1.0));
-  EXPECT_THROW((void)any_user_region(transfer, 0.0, 1.0), Error);
+  EXPECT_THROW((void)any_user_region(transfer, StableWalls(filtered_plant(transfer)), 1.0), Error);
 }
 
 // The held body is tied to the wall's by a weak damper only: no user moves the loop, and a limit of nobody that is not
@@ -67,10 +69,30 @@ TEST(AnyUserRegion, LiesWithinTheStableWallsOfAWeaklyTiedUser) {
                    {"b2", 0.07795901412675403, 1.5772366610712838, 0.0, 0.0}};
   device.links = {{0, 1, 0.0, 0.051315604819899586}, {1, 2, 378.64746905163133, 1.281660530301486}};
   device.loop = {0, 0, 2, 0.0031209502786166987, 0.0};
-  const AnyUserRegion region = any_user_region(Device(device), 0.0, 534.0389020487077);
+  const AnyUserRegion region =
+      any_user_region(Device(device), StableWalls(filtered_plant(Device(device))), 534.0389020487077);
   ASSERT_TRUE(region.stiffest);
   EXPECT_NEAR(region.stiffest->stiffness, 58822.0, 100.0);
   EXPECT_TRUE(region.trust.sound());
+}
+
+// Soft links: at the end of the region every wall has a pole on the circle, and a limit at that very B was 175 times
+// that of the stiffest stable wall.
+TEST(AnyUserRegion, IsNeverLargerThanThatOfNobody) {
+  DeviceParameters device;
+  device.bodies = {{"b0", 0.33749731851186165, 0.0, 0.0, 0.0},
+                   {"b1", 0.42213375107505585, 0.022688329379610496, 0.0, 0.0},
+                   {"b2", 2.937738044810607, 0.0, 0.0, 0.0},
+                   {"b3", 0.2149249768759708, 0.046686650336620006, 0.0, 0.0}};
+  device.links = {{0, 1, 0.3622017848412191, 0.004731977308795342},
+                  {1, 2, 1.8492917945690677, 0.2422143237335779},
+                  {2, 3, 1.4474502873108066, 0.0017194060637776472}};
+  device.loop = {0, 0, 3, 0.01, 0.02};
+  const WallRegion walls = region(Device(device));
+  ASSERT_TRUE(walls.any_user && walls.region.stiffest);
+  EXPECT_LE(walls.any_user->stiffest->stiffness, walls.region.stiffest->stiffness);
+  EXPECT_LE(walls.any_user->area, walls.region.area);
+  EXPECT_LE(walls.any_user->most_damped->damping, walls.region.most_damped->damping);
 }
 
 }  // namespace

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
+#include <random>
 
 #include "lhifam.hpp"
 #include "zwidth/error.hpp"
@@ -127,6 +129,40 @@ TEST(Diagnosis, OfARecordingIsThatOfWhatOscillatesInIt) {
   const Diagnosis still = diagnose(lhifam(), recording, options);
   EXPECT_TRUE(still.trust.refused());
   EXPECT_FALSE(still.frequency);
+}
+
+/// 4 s at 1 kHz.
+Diagnosis diagnosed(const std::function<double(double)>& position) {
+  Recording recording{"run", 1e-3, {{"position", std::vector<double>(4000)}}, {}};
+  std::vector<double>& samples = recording.channels.front().samples;
+  for (std::size_t k = 0; k < samples.size(); ++k) samples[k] = position(1e-3 * static_cast<double>(k));
+  return diagnose(lhifam(), recording, {.stiffness = 6500.0});
+}
+
+TEST(Diagnosis, OfWhatDoesNotOscillateIsRefused) {
+  std::mt19937 engine(3);
+  std::normal_distribution<double> noise(0.0, 1e-4);
+  EXPECT_TRUE(diagnosed([&](double) { return noise(engine); }).trust.refused());
+  // From 1 to 260 Hz.
+  EXPECT_TRUE(diagnosed([](double t) { return 1e-3 * std::sin(2.0 * pi * (1.0 + 32.4 * t) * t); }).trust.refused());
+  // All that is left of a ramp is rounding.
+  EXPECT_TRUE(diagnosed([](double t) { return 1e-3 * t; }).trust.refused());
+}
+
+TEST(Diagnosis, OfWhatDiesOutOrIsLostInOtherMotionIsDoubtful) {
+  const auto swing = [](double t) { return 1e-3 * std::sin(39.5 * t); };
+  EXPECT_TRUE(diagnosed(swing).trust.sound());
+  EXPECT_TRUE(diagnosed([&](double t) { return std::exp(0.5 * t) * swing(t); }).trust.sound());
+  const Diagnosis decaying = diagnosed([&](double t) { return std::exp(-t) * swing(t); });
+  EXPECT_EQ(decaying.trust.verdict, Trust::Verdict::doubtful);
+  EXPECT_EQ(decaying.trust.reasons.back(),
+            "the oscillation dies out, to 37 % from one half of the stretch to the other: nothing keeps it up; "
+            "record it while it goes on");
+  std::mt19937 engine(3);
+  std::normal_distribution<double> noise(0.0, 1.2e-3);
+  const Diagnosis hidden = diagnosed([&](double t) { return swing(t) + noise(engine); });
+  EXPECT_EQ(hidden.trust.verdict, Trust::Verdict::doubtful);
+  EXPECT_NEAR(*hidden.frequency, 39.5, 0.3);
 }
 
 }  // namespace

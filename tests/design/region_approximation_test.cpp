@@ -34,7 +34,7 @@ TEST(RegionApproximation, ThereAreNoneForATransferFunction) {
 // Where it holds, Colgate & Schenkel is exact.
 TEST(ApproximationError, IsNoneForARigidDeviceWithAnyUser) {
   const Device device(test::rigid_parameters());
-  const AnyUserRegion region = any_user_region(device, 50.0, 100.0);
+  const AnyUserRegion region = any_user_region(device, StableWalls(filtered_plant(device), 50.0), 100.0);
   const ApproximationError error = approximation_error(region_approximations(device, 50.0)[0], region);
   EXPECT_NEAR(*error.ratio, 1.0, 1e-5);
   EXPECT_NEAR(*error.unsafe_share, 0.0, 1e-4);
@@ -58,9 +58,11 @@ TEST(ApproximationError, SharesAreAreas) {
 TEST(ApproximationError, OfTableI) {
   const Device device(test::lhifam_parameters());
   const StableWalls walls(filtered_plant(device));
-  const AnyUserRegion any_user = any_user_region(device, 0.0, 600.0);
+  const AnyUserRegion any_user = any_user_region(device, StableWalls(filtered_plant(device)), 600.0);
   const auto formulas = region_approximations(device, 0.0);
   EXPECT_NEAR(*approximation_error(formulas[0], any_user).ratio, 7000.0 / 5776.09, 1e-4);
+  EXPECT_TRUE(approximation_error(formulas[0], any_user).unsafe);
+  EXPECT_FALSE(approximation_error(formulas[1], walls, 556.9).unsafe);
   EXPECT_NEAR(*approximation_error(formulas[1], walls, 556.9).ratio, 7000.0 / 8848.70869499712, 1e-9);
   EXPECT_NEAR(*approximation_error(formulas[2], any_user).ratio, 7000.0 / 5776.09, 1e-4);
   EXPECT_FALSE(approximation_error(formulas[2], any_user).unsafe_share.has_value());

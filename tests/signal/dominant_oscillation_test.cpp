@@ -28,6 +28,7 @@ TEST(DominantOscillation, OfASineOnALineWithNoise) {
     EXPECT_NEAR(found->frequency / (2.0 * std::numbers::pi), hertz, 0.1 * found->resolution / (2.0 * std::numbers::pi));
     EXPECT_NEAR(found->amplitude, 2e-4, 0.03 * 2e-4);
     EXPECT_GT(found->share, 0.95);
+    EXPECT_NEAR(found->change, 1.0, 0.01);
   }
 }
 

@@ -218,6 +218,9 @@ TEST(Relay, NamesTheMemberThatIsWrong) {
   EXPECT_FALSE(find_problem(options_of(0.01), device));
   EXPECT_EQ(member_of([](RelayOptions& options) { options.relay.amplitude = 0.0; }), "relay.amplitude");
   EXPECT_EQ(member_of([](RelayOptions& options) { options.relay.amplitude = 7.0; }), "relay.amplitude");
+  RelayOptions huge = options_of(0.01);
+  huge.relay.amplitude = 1e155;
+  EXPECT_EQ(find_problem(huge, Device(test::rigid_parameters()))->member, "relay.amplitude");
   EXPECT_EQ(member_of([nan](RelayOptions& options) { options.relay.hysteresis = nan; }), "relay.hysteresis");
   EXPECT_EQ(member_of([](RelayOptions& options) { options.analysis.segment_length = 2; }), "analysis.segment_length");
   EXPECT_EQ(member_of([nan](RelayOptions& options) { options.start_offset = nan; }), "start_offset");

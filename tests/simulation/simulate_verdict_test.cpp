@@ -273,6 +273,17 @@ TEST(Judgement, RipplesOnASwingAreNotItsFrequency) {
   EXPECT_NEAR(judgement.oscillation->frequency / (2.0 * pi), 3.3, 0.05);
 }
 
+// A second mode whose ripple adds a cycle here and there, on a swing that grows.
+TEST(Judgement, AFewMoreLowestPointsAreNotTheFrequency) {
+  std::vector<double> rippled;
+  for (double t = 0.0; t < 2.0; t += 5e-4) {
+    rippled.push_back(1e-3 * std::exp(0.09 * t) * (std::sin(67.88 * t) + 0.08 * std::sin(1055.0 * t)));
+  }
+  const LoopJudgement judgement = judge_loop(rippled, 5e-4, 0.0);
+  ASSERT_TRUE(judgement.oscillation);
+  EXPECT_NEAR(judgement.oscillation->frequency, 67.88, 1.0);
+}
+
 TEST(Judgement, MeasuresGrowthFrequencyAndAmplitude) {
   const LoopJudgement judgement = judge_loop(signal(-0.25, 23.7, 0.5, 0.0), 1e-3, 0.0);
   EXPECT_NEAR(*judgement.growth_rate, -0.25, 0.005);

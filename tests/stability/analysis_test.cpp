@@ -29,9 +29,11 @@ TEST(Analysis, OfLhifam) {
   EXPECT_NEAR(analysis.rigid->damping, 3.5, 1e-15);
   EXPECT_EQ(analysis.rigid->stiffness, 0.0);
   EXPECT_NEAR(analysis.rigid->critical.stiffness, 7000.75625452837, 1e-5);
+  EXPECT_EQ(analysis.rigid->error, RigidApproximation::Error::safe);  // 8848.7 with the cable
   ASSERT_TRUE(analysis.q_criterion.has_value());
   EXPECT_NEAR(analysis.q_criterion->stiffness, 8468.9, 0.05);
   EXPECT_EQ(analysis.q_criterion->mode_matters, false);
+  EXPECT_EQ(analysis.q_criterion->is_similar, true);  // 8468.9 beside 7000.8
   ASSERT_TRUE(analysis.wall.has_value());
   EXPECT_TRUE(analysis.wall->stable);
   EXPECT_NEAR(*analysis.wall->gain_margin, 8848.70869499712 / 3000.0, 1e-9);
@@ -78,6 +80,22 @@ TEST(Analysis, QCriterionSpeaksUpForASoftCable) {
   EXPECT_EQ(analysis.q_criterion->mode_matters, true);
 }
 
+TEST(Analysis, SaysOnWhichSideTheRigidModelIsOff) {
+  const auto error = [](auto change) {
+    DeviceParameters device = test::lhifam_parameters();
+    change(device);
+    return analyze(Device(device), limit_and_wall_only()).rigid->error;
+  };
+  using Error = RigidApproximation::Error;
+  EXPECT_EQ(error([](DeviceParameters& device) { device.loop.sensed = 1; }), Error::unsafe);  // 6939 for 7001
+  EXPECT_EQ(error([](DeviceParameters& device) { device.links[0].stiffness = 1e12; }), Error::none);
+  // Neither has a stable wall.
+  EXPECT_EQ(error([](DeviceParameters& device) {
+              for (Body& body : device.bodies) body.damping = 0.0;
+            }),
+            Error::none);
+}
+
 // Eq. 24 is about the motor's own resonance: no verdict where another body is sensed, or no rigid limit exists.
 TEST(Analysis, QCriterionWithoutAVerdict) {
   const Analysis handle = analyze(Device(test::handle_sensed(test::lhifam_parameters())));
@@ -89,6 +107,7 @@ TEST(Analysis, QCriterionWithoutAVerdict) {
   EXPECT_EQ(free.rigid->critical.status, StiffnessStatus::none_stable);
   ASSERT_TRUE(free.q_criterion.has_value());
   EXPECT_FALSE(free.q_criterion->mode_matters.has_value());
+  EXPECT_FALSE(free.q_criterion->is_similar.has_value());
 }
 
 // Q is of the bare device: nothing to compare with where the wall has a damper or filters.

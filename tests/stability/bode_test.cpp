@@ -81,6 +81,20 @@ TEST(Bode, SampledEndsAtNyquistContinuousGoesOn) {
   }
 }
 
+// P(-1) of a delay of whole samples is real and continues the curve; its sign was the other one where they are odd.
+TEST(Bode, PhaseGoesOnUpToNyquist) {
+  for (const double samples : {0.0, 1.0, 2.0, 3.0}) {
+    const Device device(test::with_delay(
+        test::transfer_function_parameters({94.896}, {1.0, 62.0, 1833.0, 94896.0}, 1e-3), 1e-3 * samples));
+    const Bode found = bode(device);
+    ASSERT_GE(found.sampled.size(), 2U);
+    const BodePoint& last = found.sampled.back();
+    EXPECT_NEAR(last.frequency, pi / 1e-3, 1e-6);
+    EXPECT_NEAR(last.phase_deg, found.sampled[found.sampled.size() - 2].phase_deg, 1.0) << samples;
+    EXPECT_NEAR(last.phase_deg, -360.0 - 180.0 * samples, 1e-6) << samples;
+  }
+}
+
 TEST(Bode, RangeHoldsEverythingThatMatters) {
   const Device device(test::lhifam_parameters());
   Analysis analysis = analyze(device, limit_and_wall_only());

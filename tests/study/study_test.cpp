@@ -121,6 +121,7 @@ TEST(Study, YieldOfARigidDeviceIsInClosedForm) {
     EXPECT_NEAR(result.sobol_indices->front().total, 1.0, 0.02);
     // Half the spread about 3.5: from 2.75 to 3.75, all above 2.5.
     EXPECT_NEAR(result.tightening->front().yield_gain, 1.0 - result.yield->value, 0.05);
+    EXPECT_EQ(result.tighten_first, std::optional<std::size_t>(0));
     ASSERT_EQ(result.clusters.size(), 1U);
     EXPECT_EQ(result.clusters[0].limited_by->mode, 0);
     // The normal score of the lowest quarter: mean -phi(q)/0.25 at q = -0.6745.
@@ -218,6 +219,7 @@ TEST(Study, StatesNoNumberThatTheSamplesDoNotCarry) {
       EXPECT_EQ(each.yield_gain, 0.0);
       EXPECT_GT(each.error, 0.0);
     }
+    EXPECT_FALSE(result.tighten_first);
     ASSERT_TRUE(result.worst);
     EXPECT_GE(result.worst->agreeing, 1U);
     EXPECT_LE(result.worst->agreeing, result.worst->descents);

@@ -14,9 +14,6 @@
 namespace zwidth::report {
 namespace {
 
-/// Above this ratio Q is far from the rigid critical stiffness; below, the two are similar (6 dB).
-constexpr double q_similar_ratio = 2.0;
-
 /// Growth in percent per sample that cannot be told from none.
 constexpr double growth_of_rounding = 1e-9;
 
@@ -256,8 +253,8 @@ std::optional<std::string> rigid_model_note(const AnalysedDevice& analysed) {
                                         number(rigid->mass), units.mass, number(rigid->damping), units.damping, ground);
   const CriticalStiffness& exact = analysed.analysis.critical;
   const double rigid_value = rigid->critical.stiffness;
+  const bool unsafe = rigid->error == RigidApproximation::Error::unsafe;
   if (rigid->critical.status != StiffnessStatus::finite || exact.status != StiffnessStatus::finite) {
-    const bool unsafe = rigid_value > exact.stiffness;
     const std::string value = rigid->critical.status == StiffnessStatus::finite ? stiffness_text(analysed, rigid_value)
                               : rigid_value == 0.0                              ? "zero"
                                                                                 : "unbounded";
@@ -266,9 +263,9 @@ std::optional<std::string> rigid_model_note(const AnalysedDevice& analysed) {
   const double excess = rigid_value / exact.stiffness - 1.0;
   const std::string off = fmt::format("{}{} ({:+.2f} dB), ", model, stiffness_text(analysed, rigid_value),
                                       decibels(rigid_value / exact.stiffness));
-  if (std::abs(excess) < 5e-4) return off + "the same within 0.05 %.";
-  if (excess < 0.0) return off + percent(-excess) + " too low: the safe side, but stiffness is given away.";
-  return off + percent(excess) + " too high: UNSAFE, a wall designed with the rigid model can oscillate.";
+  if (unsafe) return off + percent(excess) + " too high: UNSAFE, a wall designed with the rigid model can oscillate.";
+  if (rigid->error == RigidApproximation::Error::none) return off + "the same within 0.05 %.";
+  return off + percent(-excess) + " too low: the safe side, but stiffness is given away.";
 }
 
 std::optional<std::string> q_criterion_note(const AnalysedDevice& analysed) {
@@ -296,7 +293,7 @@ std::optional<std::string> q_criterion_note(const AnalysedDevice& analysed) {
     return text +
            fmt::format("It is not above the rigid critical stiffness of {}: the vibration mode matters.", rigid_value);
   }
-  if (criterion->stiffness < q_similar_ratio * rigid->critical.stiffness) {
+  if (criterion->is_similar.value_or(false)) {
     return text + fmt::format(
                       "It is above the rigid critical stiffness of {}, but similar: the rigid body limits, the "
                       "mode shifts the limit.",

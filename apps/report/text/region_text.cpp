@@ -123,9 +123,8 @@ class RegionWriter {
     for (const ComparedApproximation& each : walls_.approximations) {
       const RegionApproximation& formula = each.formula;
       const ApproximationError& error = each.error;
-      const std::string off = error.ratio ? fmt::format("{:+.2f} dB{}", decibels(*error.ratio),
-                                                        *error.ratio > 1.0 + negligible ? ", UNSAFE" : "")
-                                          : std::string("-");
+      const std::string off = (error.ratio ? fmt::format("{:+.2f} dB", decibels(*error.ratio)) : std::string("-")) +
+                              (error.unsafe ? ", UNSAFE" : "");
       const std::string shares = error.unsafe_share
                                      ? fmt::format("{:.3g} % of it unsafe, {:.3g} % missed",
                                                    100.0 * *error.unsafe_share, 100.0 * *error.missed_share)
@@ -141,8 +140,6 @@ class RegionWriter {
     }
     return "Formulas of the literature beside it, K at B = 0 (b: damping of all bodies)\n" + layout(table) + notes;
   }
-
-  static constexpr double negligible = 1e-6;
 
   const Device& device_;
   const WallRegion& walls_;

@@ -201,14 +201,9 @@ std::string worst_sentence(const StudyRun& run, const Study& study) {
 
 std::string tightening_sentence(const Study& study) {
   if (!study.tightening) return {};
-  const auto& gains = *study.tightening;
-  const auto best = std::ranges::max_element(gains, {}, &TighteningGain::yield_gain);
-  constexpr double sure = 2.0;  // standard errors
-  if (best == gains.end() || !(best->yield_gain > sure * best->error)) {
-    return "Half the spread of no single parameter raises the yield by more than chance.";
-  }
+  if (!study.tighten_first) return "Half the spread of no single parameter raises the yield by more than chance.";
   return fmt::format("Tighten {} first: half its spread raises the yield by {:.2f} %.",
-                     study.keys[static_cast<std::size_t>(best - gains.begin())], 100.0 * best->yield_gain);
+                     study.keys[*study.tighten_first], 100.0 * (*study.tightening)[*study.tighten_first].yield_gain);
 }
 
 std::string rare_sentence(const Study& study) {

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "zwidth/design/stable_walls.hpp"
 #include "zwidth/model/device.hpp"
 #include "zwidth/progress.hpp"
 #include "zwidth/trust.hpp"
@@ -31,11 +32,11 @@ struct AnyUserRegionOptions {
   Progress progress = {};   ///< told how far the work is; ends it by throwing
 };
 
-/// Samples any_user_limit() over 0 <= B <= largest_damping, more densely where it bends. A range of B narrower than a
-/// factor of 1.5 may be missed between samples.
+/// Samples any_user_limit() over 0 <= B <= largest_damping, more densely where it bends, and never above the stable walls
+/// of the device by itself, which `walls` are. A range of B narrower than a factor of 1.5 may be missed between samples.
 /// Throws Error (needs_bodies) for a transfer function, (invalid_argument) for a largest_damping <= 0 or infinite, a
-/// deviation outside (0, 1), or a filter as in any_user_limit().
-[[nodiscard]] AnyUserRegion any_user_region(const Device& device, double velocity_filter_hz, double largest_damping,
+/// deviation outside (0, 1).
+[[nodiscard]] AnyUserRegion any_user_region(const Device& device, const StableWalls& walls, double largest_damping,
                                             AnyUserRegionOptions options = {});
 
 }  // namespace zwidth

@@ -95,7 +95,8 @@ struct Diagnosis {
 [[nodiscard]] Diagnosis diagnose(const Device& device, const DiagnosisOptions& options);
 
 /// The same of the oscillation that a recording shows: dominant_oscillation() of its first channel, the sensed position
-/// in m or rad, gives the frequency, and the amplitude where the options have none. Refused where nothing oscillates.
+/// in m or rad, gives the frequency, and the amplitude where the options have none. Refused where nothing oscillates: its
+/// share of what moves is below 0.1. Doubtful below 0.5, and where its change is below 0.7: it dies out.
 [[nodiscard]] Diagnosis diagnose(const Device& device, const Recording& recording, const DiagnosisOptions& options);
 
 }  // namespace zwidth

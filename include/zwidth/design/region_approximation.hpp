@@ -55,7 +55,8 @@ struct FormulaFacts {
 /// has no largest B is taken as far as the exact region goes.
 struct ApproximationError {
   double at_zero_damping = 0.0;  ///< exact limit at B = 0, the upper end of the interval that starts at K = 0
-  std::optional<double> ratio;   ///< formula / exact at B = 0; above 1 it is unsafe; absent where exact is 0
+  std::optional<double> ratio;   ///< formula / exact at B = 0; absent where exact is 0
+  bool unsafe = false;           ///< at B = 0 the formula allows walls that are not stable
   // Absent of a formula for B = 0 alone.
   std::optional<double> unsafe_share;  ///< of the walls that the formula allows, those outside the exact region
   std::optional<double> missed_share;  ///< of the exact region, the walls that the formula does not allow

@@ -11,6 +11,7 @@ struct DominantOscillation {
   double amplitude = 0.0;   ///< half of peak to peak of that sine, in the signal's unit
   double share = 0.0;       ///< of the power that varies, 0..1: what else moves takes the rest
   double resolution = 0.0;  ///< rad/s, spacing of the spectrum's lines
+  double change = 1.0;      ///< its amplitude in the second half of the stretch / in the first: below 1 it dies out
 };
 
 /// The highest peak of the last half's spectrum (at most 2^17 samples), Hann-windowed, without its straight line; the

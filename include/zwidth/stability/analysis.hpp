@@ -23,10 +23,17 @@ namespace zwidth {
 
 /// The device with every link rigid: one mass, damper and spring (operator included).
 struct RigidApproximation {
+  /// Its critical stiffness beside the device's own.
+  enum class Error {
+    none,    ///< the same within 0.05 %, or both are zero or unbounded
+    safe,    ///< lower: stiffness is given away
+    unsafe,  ///< higher: a wall designed with it can oscillate
+  };
   double mass = 0.0;           ///< kg or kg m^2, of all bodies
   double damping = 0.0;        ///< N s/m or N m s/rad, of all bodies
   double stiffness = 0.0;      ///< to ground
   CriticalStiffness critical;  ///< of the same loop: period, delay, lag, virtual damper
+  Error error = Error::none;   ///< none where either is refused
 };
 
 /// Eq. 24 of Díaz & Gil: Q = m_m z_n w_n, the stiffness that the resonance peak of a two-body device sits at.
@@ -38,6 +45,8 @@ struct QCriterion {
   /// Q <= rigid critical stiffness; absent unless the actuated body is sensed, that stiffness is finite and the
   /// wall has no damper.
   std::optional<bool> mode_matters;
+  /// Q <= twice that stiffness (6 dB): below, the mode at least shifts the limit of the rigid body; absent as above.
+  std::optional<bool> is_similar;
 };
 
 /// Each body costs a modal form: beyond, the limit over all users would take longer than the rest by far.

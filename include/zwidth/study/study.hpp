@@ -133,11 +133,13 @@ struct Study {
   std::vector<FailureCluster> clusters;                   ///< largest first; empty without a specification
   std::optional<std::vector<SobolIndex>> sobol_indices;   ///< by parameter; absent where a remark says why
   std::optional<std::vector<TighteningGain>> tightening;  ///< by parameter; absent without a specification
-  std::optional<RareFailures> rare_failures;              ///< absent unless asked for
-  std::optional<RegionContours> regions;                  ///< absent unless asked for
-  std::optional<WorstDevice> worst;                       ///< absent where no unit has a limit
-  std::optional<WorstDevice> worst_any_user;              ///< by the limit of any user; absent unless asked for
-  std::vector<StudyPoint> points;                         ///< of at most 2000 samples, evenly apart
+  /// Which of them gains most, where that is more than two of its standard errors: the tolerance to tighten.
+  std::optional<std::size_t> tighten_first;
+  std::optional<RareFailures> rare_failures;  ///< absent unless asked for
+  std::optional<RegionContours> regions;      ///< absent unless asked for
+  std::optional<WorstDevice> worst;           ///< absent where no unit has a limit
+  std::optional<WorstDevice> worst_any_user;  ///< by the limit of any user; absent unless asked for
+  std::vector<StudyPoint> points;             ///< of at most 2000 samples, evenly apart
   std::uint64_t scalar_count = 0;  ///< samples that critical_stiffness(Device) answered, not the batch kernel
   Trust trust;                     ///< of the whole answer
   std::vector<Remark> remarks;     ///< what is worth knowing beside it
