@@ -38,6 +38,8 @@ class LimitsOnDrive : public testing::TestWithParam<DriveKind> {
       : device([&] {
           DeviceParameters parameters = belt_device().parameters();
           parameters.bodies.front().coulomb = friction;
+          if (friction > 0.0)
+            parameters.driver->torque_constant = 0.005;  // else a milliampere is more than the friction
           return Device(parameters);
         }()),
         emulator(GetParam().firmware(), device) {
