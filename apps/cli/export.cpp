@@ -226,7 +226,8 @@ void add_export(CLI::App& app) {
       ->type_name("S");
   command
       ->add_option("--estimator-bandwidth", arguments->drive_loop.estimator_bandwidth,
-                   "--units odrive: encoder.config.bandwidth; 1000 unless given")
+                   "--units odrive: encoder.config.bandwidth; 1000 unless given;\n"
+                   "moteus: 2 pi times pll_filter_hz; of 400 Hz unless given")
       ->type_name("RAD/S");
   command->add_option("-o,--output", arguments->output, "File to write; standard output unless given")
       ->type_name("FILE");

@@ -1,14 +1,12 @@
 #include "rig/rig_actions.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <utility>
 
-#include "zwidth/error.hpp"
+#include "rig/action_steps.hpp"
 #include "zwidth/model/device_trust.hpp"
 #include "zwidth/quantity.hpp"
 #include "zwidth/rig/wall_verdict.hpp"
@@ -20,25 +18,14 @@ namespace {
 constexpr double swing = 1e-3;  // m or rad, of a knock or a relay at the predicted limit
 constexpr double share_of_force = 1.0 / 3.0;
 constexpr double above_friction = 3.0;
-constexpr int most_holds = 20;                // between trials of a relay
-constexpr double at_rest = 0.01;              // of the swing
-constexpr double settling_cycles = 20.0;      // of the predicted oscillation, between trials
-constexpr double beginning_cycles = 10.0;     // of it, before a trial is read
-constexpr double beginning_hysteresis = 0.5;  // of the swing that a relay is expected to make
-constexpr double highest_of_other = 0.98;     // of Nyquist's frequency
-constexpr double dwell_cycles = 40.0;         // of it, after each knock
-constexpr double fallback_hz = 10.0;          // where theory has no frequency
-constexpr double band_below = 5.0;            // of the limiting crossover
+constexpr double dwell_cycles = 40.0;  // of it, after each knock
+constexpr double band_below = 5.0;     // of the limiting crossover
 constexpr double band_above = 8.0;
 constexpr double highest_of_nyquist = 0.8;
 constexpr double cycles_of_lowest = 8.0;  // in each period of the multisine
 constexpr std::size_t measured_periods = 8;
 constexpr std::size_t transient_periods = 4;  // at most: those in which it dies out are skipped
 constexpr double shortest_dwell = 0.5;        // s
-
-std::size_t cycles_of(double duration, const Device& device) {
-  return static_cast<std::size_t>(std::max(1.0, std::round(duration / device.loop().sampling_period)));
-}
 
 /// Half a period of a sine at the frequency of the limit.
 std::vector<double> knock_at(double frequency, double force, double period) {
@@ -50,58 +37,16 @@ std::vector<double> knock_at(double frequency, double force, double period) {
   return samples;
 }
 
-double frequency_of(const CriticalStiffness& predicted) {
-  return predicted.limit && predicted.limit->frequency > 0.0 ? predicted.limit->frequency
-                                                             : radians_per_second(fallback_hz);
-}
-
 ControllerOptions wall_of(const Device& device, double stiffness) {
   ControllerOptions controller = wall_controller(device.parameters().wall);
   controller.stiffness = stiffness;
   return controller;
 }
 
-/// The wall without damper and filters that a device comes back to its start with, where theory has one.
-Segment centring(const Device& device, double stiffness, double duration) {
-  Segment segment;
-  segment.controller.kind = ControllerOptions::Kind::wall;
-  segment.controller.stiffness = stiffness;
-  segment.cycles = cycles_of(duration, device);
-  return segment;
-}
-
-Recording recording_of(Played played, const Device& device, const Driver& driver) {
-  Recording recording;
-  recording.source = fmt::format("rig ({})", driver.facts().name);
-  recording.sampling_period = device.loop().sampling_period;
-  recording.channels.push_back({"force", std::move(played.force)});
-  recording.channels.push_back({"position", std::move(played.position)});
-  return recording;
-}
-
-/// Ends the session, and hands its record over.
-RigSession ended(RigRun& run, const RigOptions& options, StopReason otherwise = StopReason::none) {
-  RigSession session = run.end();
-  if (options.record) options.record(run.recorder(), session.stop != StopReason::none ? session.stop : otherwise);
-  return session;
-}
-
-double part(std::size_t done, std::size_t all) { return static_cast<double>(done) / static_cast<double>(all); }
-
-void report(const Progress& progress, double done) {
-  if (progress) progress(done);
-}
-
 bool is_stable(const CriticalStiffness& predicted, double stiffness) {
   return std::ranges::any_of(predicted.stable_intervals, [&](const StableInterval& interval) {
     return stiffness > interval.lower && (!interval.upper || stiffness < *interval.upper);
   });
-}
-
-double largest(const std::vector<double>& values) {
-  double most = 0.0;
-  for (const double value : values) most = std::max(most, std::abs(value));
-  return most;
 }
 
 /// What was identified on a simulated device is trusted no more than its file, and the file that it makes says so.
@@ -117,41 +62,6 @@ void inherit(const Trust& trust, Identification& identified) {
   parameters.uncertainty->warning.clear();
   parameters.uncertainty->reasons = of_file.reasons;
   identified.fit.device = Device(std::move(parameters));
-}
-
-/// Whether a relay may find another, faster oscillation than that of the limit: at a crossover below Nyquist's frequency.
-bool has_faster_oscillations(const CriticalStiffness& predicted, double sampling_period) {
-  if (predicted.status != StiffnessStatus::finite || !predicted.limit) return false;
-  const double highest = highest_of_other * std::numbers::pi / sampling_period;
-  return std::ranges::any_of(predicted.crossovers, [&](const Crossover& each) {
-    return each.frequency > predicted.limit->frequency && each.frequency < highest;
-  });
-}
-
-/// How a trial of a relay begins, of which nothing is read: with a force that grows, at once where there is no ramp. Where
-/// a faster one may be found, it has a hysteresis of half the swing that is expected: what oscillates less, at
-/// crossovers of stiffer walls, does not pass it.
-Segment beginning_of(const Segment& trial, const Device& device, const CriticalStiffness& predicted, double ramp) {
-  Segment beginning = trial;
-  beginning.ramps = true;
-  beginning.cycles = ramp > 0.0 ? cycles_of(ramp, device) : 0;
-  if (ramp == 0.0 || !has_faster_oscillations(predicted, device.loop().sampling_period)) return beginning;
-  const double duration = std::max(ramp, beginning_cycles * 2.0 * std::numbers::pi / frequency_of(predicted));
-  beginning.cycles = cycles_of(duration, device);
-  const double expected = 4.0 * trial.controller.amplitude / (std::numbers::pi * predicted.stiffness);
-  beginning.controller.hysteresis = std::max(trial.controller.hysteresis, beginning_hysteresis * expected);
-  return beginning;
-}
-
-/// Holds the device until it swings a hundredth of what it did, or has been held long enough.
-void bring_to_rest(RigRun& run, const Segment& holding, double swung) {
-  for (int i = 0; i < most_holds && !run.is_stopped(); ++i) {
-    const std::vector<double> position = run.play(holding).position;
-    if (largest({position.begin() + static_cast<std::ptrdiff_t>(position.size() / 2), position.end()}) <
-        at_rest * swung) {
-      return;
-    }
-  }
 }
 
 /// A force that moves the device against its dry friction.
@@ -263,45 +173,6 @@ RigIdentification identify_on_rig(const Device& device, Driver& driver, const Ri
   result.identification = identify(result.measurement.recording, device, identification, progress);
   if (driver.facts().is_simulated) inherit(result.trust, *result.identification);
   result.trust.inherit(result.identification->trust);
-  return result;
-}
-
-RigRelay relay_on_rig(const Device& device, Driver& driver, const RigOptions& options, const RelayTrialsOptions& trials,
-                      const Progress& progress) {
-  const CriticalStiffness predicted = critical_stiffness(device);
-  const double pause = settling_cycles * 2.0 * std::numbers::pi / frequency_of(predicted);
-  RigRelay result;
-  result.trust = trust_of(device);
-  RigRun run(driver, options.limits, device.loop().sampling_period);
-  Segment segment;
-  segment.controller.kind = ControllerOptions::Kind::relay;
-  segment.controller.amplitude = trials.relay.amplitude;
-  segment.controller.hysteresis = trials.relay.hysteresis;
-  std::vector<Recording> recordings;
-  segment.cycles = cycles_of(trials.duration, device);
-  const Segment beginning = beginning_of(segment, device, predicted, options.limits.ramp);
-  for (std::size_t i = 0; i < trials.trials && !run.is_stopped(); ++i) {
-    (void)run.play(beginning);
-    Played played = run.play(segment);
-    if (run.is_stopped()) break;
-    recordings.push_back(recording_of(std::move(played), device, driver));
-    if (predicted.status == StiffnessStatus::finite && i + 1 < trials.trials) {
-      bring_to_rest(run, centring(device, 0.5 * predicted.stiffness, pause),
-                    largest(recordings.back().channels[1].samples));
-    }
-    report(progress, part(i + 1, trials.trials));
-  }
-  result.session = ended(run, options);
-  if (recordings.empty()) {
-    result.trust.refuse("the rig stopped in the first trial: " + explanation(result.session.stop));
-    return result;
-  }
-  RelayRecordOptions record;
-  record.device = device;
-  record.hysteresis = trials.relay.hysteresis;
-  record.analysis = trials.analysis;
-  result.relay = relay(std::move(recordings), record);
-  result.trust.inherit(result.relay->trust);
   return result;
 }
 

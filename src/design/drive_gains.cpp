@@ -17,7 +17,7 @@ constexpr double degree = std::numbers::pi / 180.0;  // rad
 constexpr double endstop_gain = 25.0;                // of OpenFFBoard, counts of torque per degree and esgain
 constexpr double endstop_full_scale = 32767.0;       // counts of torque
 constexpr double most_endstop = 255.0;               // esgain
-constexpr double default_bandwidth = 1000.0;         // rad/s, of an ODrive's estimator
+constexpr double moteus_corner = 2.48;               // of moteus' estimator: its bandwidth over its natural frequency
 
 MotorDrive drive_of(const Device& device) { return device.parameters().driver.value_or(MotorDrive{}); }
 
@@ -80,7 +80,8 @@ std::vector<DriveNumber> numbers_of(DriveFirmware firmware, const Device& device
       return {
           {"axis.0.esgain",
            std::floor(wall.stiffness * degree * endstop_full_scale / (endstop_gain * wall.full_torque) * (1.0 + 1e-12)),
-           ""}};
+           ""},
+          {"axis.0.axisdamper", 0.0, ""}};
     case DriveFirmware::vesc:
       return {{"p_pid_kp", wall.stiffness * degree / wall.full_torque, "1/degree"},
               {"p_pid_ki", 0.0, ""},
@@ -91,17 +92,28 @@ std::vector<DriveNumber> numbers_of(DriveFirmware firmware, const Device& device
   return {};
 }
 
+bool has_loop(DriveFirmware firmware) { return firmware == DriveFirmware::odrive || firmware == DriveFirmware::moteus; }
+
+/// rad/s, of a phase-locked loop: as given, or the firmware's default.
+double bandwidth_of(DriveFirmware firmware, const DriveLoopOptions& options) {
+  return options.estimator_bandwidth.value_or(firmware == DriveFirmware::moteus ? turn * 400.0 : 1000.0);
+}
+
 /// The low-pass exp(-2 pi f T) whose pole is a.
 double cutoff_of(double pole, double period) { return -std::log(pole) / (turn * period); }
 
 /// The wall as the firmware computes it, estimator and all.
 Wall wall_on_drive(DriveFirmware firmware, Wall wall, double period, double bandwidth) {
-  if (firmware == DriveFirmware::odrive) {
-    const double step = bandwidth * period;
-    wall.filters.push_back({.kind = WallFilter::Kind::digital,
-                            .numerator = {2.0 * step, step * step - 2.0 * step, 0.0},
-                            .denominator = {1.0, 2.0 * step + step * step - 2.0, 1.0 - 2.0 * step}});
-    wall.velocity_filter_hz = cutoff_of(1.0 - 0.5 * step, period);
+  if (has_loop(firmware)) {
+    const bool predicts_after = firmware == DriveFirmware::moteus;
+    const double step = (predicts_after ? bandwidth / moteus_corner : bandwidth) * period;
+    const double damped = 2.0 * step;
+    const double square = step * step;
+    wall.filters.push_back(
+        {.kind = WallFilter::Kind::digital,
+         .numerator = {predicts_after ? damped + square : damped, predicts_after ? -damped : square - damped, 0.0},
+         .denominator = {1.0, damped + square - 2.0, 1.0 - damped}});
+    wall.velocity_filter_hz = cutoff_of(predicts_after ? 2.0 / (2.0 + step) : 1.0 - 0.5 * step, period);
   } else if (firmware == DriveFirmware::simplefoc && wall.velocity_filter_hz > 0.0) {
     const double time_constant = 1.0 / (turn * wall.velocity_filter_hz);
     wall.velocity_filter_hz = cutoff_of(time_constant / (time_constant + period), period);
@@ -110,16 +122,37 @@ Wall wall_on_drive(DriveFirmware firmware, Wall wall, double period, double band
 }
 
 /// What is not in the analysis, whatever it says.
-std::string doubt_of(DriveFirmware firmware) {
-  const bool has_estimator = firmware == DriveFirmware::odrive || firmware == DriveFirmware::simplefoc;
-  return fmt::format(
-      "the drive's current loop {} not modelled: the limit on the drive may be {} lower; begin with a tenth of it, and "
-      "raise K by half until it vibrates",
-      has_estimator ? "is" : "and its estimate of position and velocity are", has_estimator ? "well" : "several times");
+constexpr const char* doubt =
+    "the drive's current loop is not modelled: the limit on the drive may be well lower; begin with a tenth of it, and "
+    "raise K by half until it vibrates";
+
+/// Where the firmware has position and velocity from.
+std::string estimator_text(DriveFirmware firmware, const DriveLoopOptions& options) {
+  const double bandwidth = bandwidth_of(firmware, options);
+  const char* const by = options.estimator_bandwidth ? "as given" : "its default";
+  switch (firmware) {
+    case DriveFirmware::odrive:
+      return fmt::format("position and velocity are the estimator's: encoder.config.bandwidth {:g} rad/s, {}",
+                         bandwidth, by);
+    case DriveFirmware::moteus:
+      return fmt::format(
+          "position and velocity are the estimator's: motor_position.sources.N.pll_filter_hz {:g}, {}, in firmware "
+          "from July 2025 on",
+          bandwidth / turn, by);
+    case DriveFirmware::vesc:
+      return "the position is the encoder's, the velocity its difference: p_pid_gain_dec_angle 0, as by default; "
+             "without "
+             "an encoder it is an observer's, which is not modelled";
+    case DriveFirmware::openffboard:
+      return "the position is the encoder's; axis.0.axisfriction, axisinertia, maxspeed and maxtorquerate 0, as by "
+             "default";
+    case DriveFirmware::simplefoc:
+      break;
+  }
+  return {};
 }
 
-std::vector<Remark> remarks_of(DriveFirmware firmware, const DriveGains& gains, const DriveLoopOptions& options,
-                               double bandwidth) {
+std::vector<Remark> remarks_of(DriveFirmware firmware, const DriveGains& gains, const DriveLoopOptions& options) {
   const auto note = [](std::string what) { return Remark{.what = std::move(what), .consequence = ""}; };
   std::vector<Remark> remarks;
   if (firmware == DriveFirmware::simplefoc && !options.sampling_period) {
@@ -130,11 +163,7 @@ std::vector<Remark> remarks_of(DriveFirmware firmware, const DriveGains& gains, 
                          std::round(1.0 / gains.sampling_period), options.sampling_period ? "as given" : "its default",
                          options.delay ? quantity(gains.delay, "s") : "one period, as is taken")));
   }
-  if (firmware == DriveFirmware::odrive) {
-    remarks.push_back(
-        note(fmt::format("position and velocity are the estimator's: encoder.config.bandwidth {:g} rad/s, {}",
-                         bandwidth, options.estimator_bandwidth ? "as given" : "its default")));
-  }
+  if (std::string text = estimator_text(firmware, options); !text.empty()) remarks.push_back(note(std::move(text)));
   if (firmware == DriveFirmware::odrive || firmware == DriveFirmware::simplefoc) {
     remarks.push_back(
         note("the velocity limit of the drive bounds the spring: raise it above the first gain times the depth"));
@@ -194,15 +223,15 @@ std::optional<OptionProblem> find_problem(const DriveLoopOptions& options, Drive
     return OptionProblem{"delay", fmt::format("is {}", *options.delay),
                          fmt::format("must be 0 to {} of the drive's periods", max_delay_samples)};
   }
-  if (firmware != DriveFirmware::odrive) {
+  if (!has_loop(firmware)) {
     if (!options.estimator_bandwidth) return std::nullopt;
-    return OptionProblem{"estimator_bandwidth", "is given",
-                         "is for odrive: the law of this firmware's is not modelled"};
+    return OptionProblem{"estimator_bandwidth", "is given", "is for odrive and moteus: the others have no such loop"};
   }
-  const double bandwidth = options.estimator_bandwidth.value_or(default_bandwidth);
-  if (bandwidth > 0.0 && bandwidth < 0.5 / period) return std::nullopt;
-  return OptionProblem{"estimator_bandwidth", fmt::format("is {}", bandwidth),
-                       fmt::format("must be > 0 and below half of the drive's rate, {:g}", 0.5 / period)};
+  const double bandwidth = bandwidth_of(firmware, options);
+  const double most = firmware == DriveFirmware::moteus ? 0.25 * turn / period : 0.5 / period;
+  if (bandwidth > 0.0 && bandwidth < most) return std::nullopt;
+  return OptionProblem{"estimator_bandwidth", fmt::format("is {} rad/s", bandwidth),
+                       fmt::format("must be > 0 and below {:g} at the drive's rate", most)};
 }
 
 DriveGains drive_gains(const Device& device, DriveFirmware firmware, const DriveLoopOptions& options) {
@@ -219,13 +248,13 @@ DriveGains drive_gains(const Device& device, DriveFirmware firmware, const Drive
                                 wall.full_torque / (wall.stiffness * degree * endstop_full_scale);
   }
   gains.stiffness = *parameters.wall.stiffness;
-  const double bandwidth = options.estimator_bandwidth.value_or(default_bandwidth);
   parameters.loop.sampling_period = gains.sampling_period;
   parameters.loop.delay = gains.delay;
-  parameters.wall = wall_on_drive(firmware, std::move(parameters.wall), gains.sampling_period, bandwidth);
+  parameters.wall =
+      wall_on_drive(firmware, std::move(parameters.wall), gains.sampling_period, bandwidth_of(firmware, options));
   gains.on_drive = analyze(Device(std::move(parameters)));
-  gains.on_drive.trust.doubt(doubt_of(firmware));
-  gains.remarks = remarks_of(firmware, gains, options, bandwidth);
+  gains.on_drive.trust.doubt(doubt);
+  gains.remarks = remarks_of(firmware, gains, options);
   return gains;
 }
 

@@ -39,9 +39,8 @@ Trust trust_of_reading(const RelayResult& result) {
   for (const std::string& reason : expected.reasons) trust.doubt(reason);
   if (const auto over_all = relay_mean(result.trials); over_all && !result.mean) {
     trust.refuse(fmt::format(
-        "the trials settle at different oscillations, from {} to {} Hz, of which there is no mean: compare each with "
-        "the predictions",
-        number(hertz(over_all->lowest_frequency)), number(hertz(over_all->highest_frequency))));
+        "the trials settle at different oscillations, of which there is no mean: {}; compare each with the predictions",
+        oscillations_text(result)));
     return trust;
   }
   if (!result.mean) {
@@ -52,6 +51,12 @@ Trust trust_of_reading(const RelayResult& result) {
     trust.doubt(
         "what a relay reads is a limit for walls only where friction is small and it oscillates at the limit's "
         "frequency: compare it with a device file");
+  } else if (expected.refused()) {
+    // its reasons are there
+  } else if (result.prediction && result.prediction->linear.status != StiffnessStatus::finite) {
+    trust.doubt(
+        "linear theory gives this device no finite limit: what the relay reads is the device's response at that "
+        "oscillation, no limit for walls");
   } else if (result.limit_reading == LimitReading::unsafe) {
     trust.doubt(
         fmt::format("the relay reads {:.2f} dB more than the limit of linear theory: build on that limit instead",
@@ -78,7 +83,7 @@ void conclude(RelayResult& result, const Progress& progress) {
     }
   }
   if (result.mean && result.prediction) result.limit_reading = limit_reading(*result.mean, result.prediction->linear);
-  if (over_all && result.prediction) result.explanation = relay_explanation(result, *over_all);
+  if (over_all && result.prediction) result.explanation = relay_explanation(result);
   result.trust = trust_of_reading(result);
   if (!result.device) return;
   const Wall& wall = result.device->parameters().wall;

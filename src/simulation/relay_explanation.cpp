@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 #include <string_view>
 
 #include "zwidth/quantity.hpp"
@@ -153,6 +154,33 @@ std::string sampled_sentence(const RelayResult& result, const RelayMean& mean) {
 
 bool agree(const RelayMean& mean) { return is_near(mean.lowest_frequency, mean.highest_frequency); }
 
+std::string oscillations_text(const RelayResult& result) {
+  std::vector<const RelayReading*> readings;
+  for (const RelayTrial& trial : result.trials) {
+    if (trial.result) readings.push_back(&*trial.result);
+  }
+  std::ranges::sort(readings, {}, &RelayReading::frequency);
+  const auto range = [](double lowest, double highest, const auto& text) {
+    return text(lowest) == text(highest) ? text(lowest) : text(lowest) + " to " + text(highest);
+  };
+  const auto in_hertz = [](double frequency) { return number(hertz(frequency)); };
+  const auto in_units = [&](double stiffness) { return quantity(stiffness, units_of(result.motion).stiffness); };
+  std::string all;
+  for (auto first = readings.begin(); first != readings.end();) {
+    const auto end = std::find_if(first, readings.end(), [&](const RelayReading* each) {
+      return !is_near((*first)->frequency, each->frequency);
+    });
+    const auto [softest, stiffest] = std::ranges::minmax(
+        std::ranges::subrange(first, end) | std::views::transform([](const auto* each) { return each->stiffness; }));
+    const auto count = end - first;
+    all += all.empty() ? "" : end == readings.end() ? " and " : ", ";
+    all += fmt::format("{} Hz ({}, {} trial{})", range((*first)->frequency, (*(end - 1))->frequency, in_hertz),
+                       range(softest, stiffest, in_units), count, count == 1 ? "" : "s");
+    first = end;
+  }
+  return all;
+}
+
 LimitReading limit_reading(const RelayMean& mean, const CriticalStiffness& linear) {
   if (!linear.limit || linear.limit->frequency <= 0.0) return LimitReading::none;
   const double difference = decibels(mean.stiffness / linear.stiffness);
@@ -162,12 +190,12 @@ LimitReading limit_reading(const RelayMean& mean, const CriticalStiffness& linea
   return difference > 0.0 ? LimitReading::unsafe : LimitReading::too_cautious;
 }
 
-std::vector<std::string> relay_explanation(const RelayResult& result, const RelayMean& over_all) {
+std::vector<std::string> relay_explanation(const RelayResult& result) {
   if (!result.mean) {
-    return {
-        fmt::format("The trials settle at different oscillations, from {} to {} Hz: several exist side by side, and "
-                    "the start decides. Compare each with the predictions above.",
-                    number(hertz(over_all.lowest_frequency)), number(hertz(over_all.highest_frequency)))};
+    return {fmt::format(
+        "The trials settle at different oscillations, {}: several exist side by side, and the start decides. "
+        "Compare each with the predictions above.",
+        oscillations_text(result))};
   }
   const RelayMean& mean = *result.mean;
   std::vector<std::string> sentences{crossover_sentence(mean, result.prediction->linear), limit_sentence(result)};

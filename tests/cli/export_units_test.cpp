@@ -23,6 +23,10 @@ TEST_F(ExportUnits, TheDrivesOwnLoopMayBeGiven) {
   EXPECT_THAT(odrive.output, HasSubstr("DOUBTFUL: the drive's current loop is not modelled"));
   EXPECT_THAT(run(wall + "odrive").output, HasSubstr("1000 rad/s, its default"));
   expect_refusal(wall + "odrive --estimator-bandwidth 4000", "--estimator-bandwidth: is 4000");
+  EXPECT_THAT(run(wall + "moteus").output, HasSubstr("pll_filter_hz 400, its default"));
+  const Outcome vesc = run(wall + "vesc --set actuator.force_limit=9");
+  EXPECT_THAT(vesc.output, HasSubstr("the position is the encoder's"));
+  EXPECT_THAT(vesc.output, HasSubstr("DOUBTFUL: the drive's current loop is not modelled"));
   expect_refusal(wall + "vesc --estimator-bandwidth 900 --set actuator.force_limit=9", "is for odrive");
   expect_refusal(wall + "moteus --drive-rate 0", "--drive-rate: is 0 Hz");
   expect_refusal(wall + "moteus --drive-delay -1", "--drive-delay: is -1");

@@ -345,6 +345,7 @@ TEST_F(Rig, TheReportShowsWhatWasMeasured) {
     for (std::size_t at = page.find("<svg"); at != std::string::npos; at = page.find("<svg", at + 1)) ++drawn;
     EXPECT_EQ(drawn, figures);
     EXPECT_THAT(page, HasSubstr("<h1>Rig " + action.substr(0, action.find(' '))));
+    EXPECT_THAT(page, ::testing::Not(HasSubstr("\n  - "))) << "items of a list, short ones too, are no columns";
   }
 }
 

@@ -97,16 +97,16 @@ TEST(DriveGains, AnEndStopIsAWholeNumberRoundedDown) {
 
 TEST(DriveGains, TheLimitIsThatOfTheLoopOnTheDrive) {
   DeviceParameters parameters = knob();
-  const DriveGains gains = drive_gains(Device(parameters), DriveFirmware::moteus);
-  parameters.loop.sampling_period = parameters.loop.delay = 1.0 / 30000.0;
+  parameters.actuator.force_limit = 2.0;
+  const DriveGains gains = drive_gains(Device(parameters), DriveFirmware::vesc);
+  parameters.loop.delay = 1e-3;
   EXPECT_EQ(gains.on_drive.critical.stiffness, critical_stiffness(Device(parameters)).stiffness);
-  EXPECT_GT(gains.on_drive.critical.stiffness, critical_stiffness(Device(knob())).stiffness);
-  EXPECT_EQ(gains.sampling_period, 1.0 / 30000.0);
+  EXPECT_EQ(gains.sampling_period, 1e-3);
   EXPECT_FALSE(gains.on_drive.trust.sound());
   const DriveLoopOptions options{.sampling_period = 1e-4, .delay = 3e-4};
   parameters.loop.sampling_period = 1e-4;
   parameters.loop.delay = 3e-4;
-  const DriveGains slow = drive_gains(Device(knob()), DriveFirmware::moteus, options);
+  const DriveGains slow = drive_gains(Device(parameters), DriveFirmware::vesc, options);
   EXPECT_EQ(slow.on_drive.critical.stiffness, critical_stiffness(Device(parameters)).stiffness);
 }
 
@@ -180,6 +180,66 @@ TEST(DriveGains, TheLimitWithSimplefocsLowPassIsWhereItsEquationsBeginToGrow) {
   };
   EXPECT_LT(swing_at(0.98 * gains.on_drive.critical.stiffness), 0.01);
   EXPECT_GT(swing_at(1.02 * gains.on_drive.critical.stiffness), 0.01);
+}
+
+// Its loop predicts with the velocity as corrected, so that the bound is neither an ODrive's nor the bare encoder's.
+TEST(DriveGains, TheLimitWithMoteusEstimatorIsWhereItsEquationsBeginToGrow) {
+  for (const double corner_hz : {400.0, 50.0, 2000.0}) {
+    DeviceParameters parameters = knob();
+    const DriveLoopOptions options{.estimator_bandwidth = 2.0 * pi * corner_hz};
+    const double limit = drive_gains(Device(parameters), DriveFirmware::moteus, options).on_drive.critical.stiffness;
+    parameters.loop.sampling_period = parameters.loop.delay = 1.0 / 30000.0;
+    const auto swing_at = [&](double stiffness) {
+      const double period = parameters.loop.sampling_period;
+      const double natural = 2.0 * pi * corner_hz / 2.48;  // as motor_position.h
+      double estimate = 0.01;
+      double integral = 0.0;
+      return swing_after(parameters, 10.0, [&](double position) {
+        const double error = position - estimate;
+        integral += period * natural * natural * error;
+        estimate += period * (integral + 2.0 * natural * error);
+        return -(stiffness * estimate + parameters.wall.damping * integral);
+      });
+    };
+    EXPECT_LT(swing_at(0.98 * limit), 0.01) << corner_hz;
+    EXPECT_GT(swing_at(1.02 * limit), 0.01) << corner_hz;
+  }
+  const Device device(knob());
+  EXPECT_EQ(
+      drive_gains(device, DriveFirmware::moteus).on_drive.critical.stiffness,
+      drive_gains(device, DriveFirmware::moteus, {.estimator_bandwidth = 800.0 * pi}).on_drive.critical.stiffness);
+  EXPECT_EQ(find_problem(DriveLoopOptions{.estimator_bandwidth = 15000.0 * pi}, DriveFirmware::moteus, device)->member,
+            "estimator_bandwidth");
+}
+
+TEST(DriveGains, TheLimitOfAVescIsWhereItsEquationsBeginToGrow) {
+  DeviceParameters parameters = knob();
+  parameters.actuator.force_limit = 1e6;  // out of reach: the knob swings by 10 mrad
+  const DriveGains gains = drive_gains(Device(parameters), DriveFirmware::vesc);
+  parameters.loop.delay = parameters.loop.sampling_period;
+  const double to_torque = 1e6 * 180.0 / pi;  // of a share per degree
+  const auto swing_at = [&](double stiffness) {
+    const double period = parameters.loop.sampling_period;
+    const double constant = number(gains, "p_pid_kd_filter");
+    double last = 0.01;
+    double filtered = 0.0;
+    return swing_after(parameters, 6.0, [&](double position) {  // as foc_math.c
+      const double rate = -number(gains, "p_pid_kd_proc") * (position - last) / period;
+      filtered -= constant * (filtered - rate);
+      last = position;
+      return to_torque * (-number(gains, "p_pid_kp") * stiffness / gains.stiffness * position + filtered);
+    });
+  };
+  EXPECT_LT(swing_at(0.98 * gains.on_drive.critical.stiffness), 0.01);
+  EXPECT_GT(swing_at(1.02 * gains.on_drive.critical.stiffness), 0.01);
+}
+
+// 30 unless it is set: a damping through two filters that no number of the wall's accounts for.
+TEST(DriveGains, AnEndStopActsAlone) {
+  DeviceParameters parameters = knob();
+  parameters.wall.damping = 0.0;
+  parameters.actuator.force_limit = 2.0;
+  EXPECT_EQ(number(drive_gains(Device(parameters), DriveFirmware::openffboard), "axis.0.axisdamper"), 0.0);
 }
 
 TEST(DriveGains, WhatIsMissingIsNamed) {

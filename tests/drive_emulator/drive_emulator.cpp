@@ -57,7 +57,8 @@ int main(int count, char** arguments) {
     const test::UdpEmulator emulator(*device);
     serve_until_interrupted(emulator.address(), emulator);
   } else {
-    const test::PtyEmulator emulator(kind->firmware(), *device, {.is_paced = true});
+    const int baud = device->parameters().driver->baud.value_or(0);
+    const test::PtyEmulator emulator(kind->firmware(), *device, {.baud = baud, .is_paced = true});
     serve_until_interrupted(emulator.path(), emulator.motor());
   }
   return 0;

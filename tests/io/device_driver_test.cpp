@@ -1,6 +1,7 @@
 // The [driver] table of a device file: read, written, refused with its place.
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -43,6 +44,24 @@ TEST(DeviceDriver, EmptyTurnsWithTheDevice) {
   const std::vector<std::string> overrides{"driver.travel=1 turn", "driver.gear=3"};
   EXPECT_DOUBLE_EQ(parse_device(rotary, "f.toml", overrides)->parameters().driver->position_per_turn(),
                    2.0 * std::numbers::pi / 3.0);
+}
+
+// Every row of the table in docs/device_file.md is a key that is read, at the ends of what it allows.
+TEST(DeviceDriver, HasTheKeysOfItsDocument) {
+  std::ifstream file(ZWIDTH_SOURCE_DIR "/docs/device_file.md");
+  std::vector<std::string> keys;
+  bool is_inside = false;
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with("| **`")) is_inside = line.starts_with("| **`[driver]`**");
+    if (is_inside && line.starts_with("| `")) keys.push_back(line.substr(3, line.find('`', 3) - 3));
+  }
+  EXPECT_EQ(keys, (std::vector<std::string>{"travel", "gear", "sign", "torque_constant", "torque_per_volt", "id",
+                                            "command", "baud"}));
+  for (const std::string least :
+       {"travel = 1e-9\n", "gear = 0.001\n", "sign = -1\n", "torque_constant = 1e-6\n", "torque_per_volt = 1e-6\n",
+        "id = 0\n", "id = 127\n", "command = \"z\"\n", "baud = 1200\n", "baud = 4000000\n"}) {
+    EXPECT_EQ(refusal(rotary + least), "") << least;
+  }
 }
 
 TEST(DeviceDriver, IsWrittenAsItWasRead) {

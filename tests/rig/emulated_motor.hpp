@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -29,6 +30,7 @@ class EmulatedMotor {
     loop_.move(force);
     ++forces_;
     if (force != 0.0) ++nonzero_forces_;
+    largest_force_ = std::max(largest_force_.load(), std::abs(force));
   }
   void let_go() {
     force_ = 0.0;
@@ -41,6 +43,7 @@ class EmulatedMotor {
   [[nodiscard]] double force() const { return force_; }
   [[nodiscard]] int forces() const { return forces_; }
   [[nodiscard]] int nonzero_forces() const { return nonzero_forces_; }
+  [[nodiscard]] double largest_force() const { return largest_force_; }
   [[nodiscard]] int times_let_go() const { return times_let_go_; }
 
   std::atomic<bool> is_not_a_number = false;
@@ -51,6 +54,7 @@ class EmulatedMotor {
   std::atomic<double> force_ = 0.0;
   std::atomic<int> forces_ = 0;
   std::atomic<int> nonzero_forces_ = 0;
+  std::atomic<double> largest_force_ = 0.0;
   std::atomic<int> times_let_go_ = 0;
 };
 

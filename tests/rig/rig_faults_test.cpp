@@ -1,7 +1,6 @@
 // The program as a real process against a drive on a real socket, and what goes wrong between them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -14,11 +13,11 @@
 #include <fstream>
 #include <functional>
 #include <sstream>
-#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "rig/printing_process.hpp"
 #include "rig/rig_host.hpp"
 #include "rig/udp_emulator.hpp"
 #include "zwidth/io/device_file.hpp"
@@ -48,41 +47,6 @@ Device slow_device() {
   parameters.actuator.force_limit = 20.0;
   return Device(parameters);
 }
-
-/// The drive of examples/, and what it prints.
-class ExampleDrive {
- public:
-  explicit ExampleDrive(const std::string& program) {
-    std::array<int, 2> ends{};
-    if (pipe(ends.data()) != 0) throw std::runtime_error("no pipe");
-    process_ = fork();
-    if (process_ == 0) {
-      dup2(ends[1], 1);
-      close(ends[0]);
-      close(ends[1]);
-      execl(program.c_str(), program.c_str(), "0", nullptr);
-      _exit(127);
-    }
-    close(ends[1]);
-    output_ = fdopen(ends[0], "r");
-  }
-  ~ExampleDrive() {
-    kill(process_, SIGKILL);
-    waitpid(process_, nullptr, 0);
-    std::fclose(output_);
-  }
-  ExampleDrive(const ExampleDrive&) = delete;
-  ExampleDrive& operator=(const ExampleDrive&) = delete;
-
-  [[nodiscard]] std::string line() const {
-    std::array<char, 64> text{};
-    return std::fgets(text.data(), text.size(), output_) != nullptr ? text.data() : "";
-  }
-
- private:
-  pid_t process_ = -1;
-  FILE* output_ = nullptr;
-};
 
 class RigFault : public testing::Test {
  protected:
@@ -207,6 +171,9 @@ TEST_F(RigFault, APositionThatIsNoNumber) {
 TEST_F(RigFault, AnInterrupt) {
   expect_stop([](UdpEmulator&, Host& host) { host.send(SIGINT); }, stopped_by("interrupted"));
 }
+TEST_F(RigFault, ATermination) {
+  expect_stop([](UdpEmulator&, Host& host) { host.send(SIGTERM); }, stopped_by("interrupted"));
+}
 TEST_F(RigFault, ATerminalThatCloses) {
   expect_stop([](UdpEmulator&, Host& host) { host.send(SIGHUP); }, stopped_by("interrupted"));
 }
@@ -264,7 +231,7 @@ TEST_F(RigFault, TheExampleInCIsSuchADrive) {
                          " " ZWIDTH_SOURCE_DIR "/examples/udp_drive/udp_drive.c -lm")
                             .c_str()),
             0);
-  ExampleDrive example(drive);
+  const test::PrintingProcess example({drive, "0"});
   int port = 0;
   ASSERT_EQ(std::sscanf(example.line().c_str(), "port %d", &port), 1);
   Host host(folder, "udp:127.0.0.1:" + std::to_string(port), "host", folder / "record.csv");

@@ -186,6 +186,23 @@ TEST(SerialDriver, NeedsATorqueConstantBeforeItsPort) {
   }
 }
 
+TEST(SerialDriver, NeedsAnIdThatTheDriveHasBeforeItsPort) {
+  const auto refusal = [](const char* name, int id) -> std::string {
+    DeviceParameters parameters = belt_device().parameters();
+    parameters.driver->id = id;
+    try {
+      (void)open_driver(name, Device(parameters), {});
+    } catch (const DriverFailed& problem) {
+      return problem.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(refusal("odrive:/no/such/port", 2), HasSubstr("driver.id is 2; an ODrive has the axes 0 and 1"));
+  EXPECT_THAT(refusal("moteus:/no/such/port", 0), HasSubstr("driver.id is 0; a moteus has 1 to 127"));
+  EXPECT_THAT(refusal("odrive:/no/such/port", 1), HasSubstr("No such file"));
+  EXPECT_THAT(refusal("moteus:/no/such/port", 127), HasSubstr("No such file"));
+}
+
 // The unit of a target is the sketch's.
 TEST(SimplefocDriver, TakesTheUnitOfTheSketch) {
   const Device device = belt_device();

@@ -93,9 +93,10 @@ std::string html_lines(std::string_view text) {
   while (!text.empty()) {
     const std::string_view line = text.substr(0, text.find('\n'));
     text.remove_prefix(std::min(text.size(), line.size() + 1));
-    if (line.size() > longest_line_of_columns) {
+    const std::string_view words = line.substr(std::min(line.size(), line.find_first_not_of(' ')));
+    if (line.size() > longest_line_of_columns || words.starts_with("- ")) {
       end_columns();
-      markup += element("p", line.substr(line.find_first_not_of(' ')));
+      markup += element("p", words);
     } else {
       (columns += line) += '\n';
     }

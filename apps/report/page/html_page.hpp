@@ -16,8 +16,8 @@ namespace zwidth::report {
 /// "<TAG>text</TAG>", with the text escaped.
 [[nodiscard]] std::string element(std::string_view tag, std::string_view text);
 
-/// Text as a terminal shows it: columns stay aligned, and scroll sideways where a page is narrow; longer lines are
-/// paragraphs.
+/// Text as a terminal shows it: columns stay aligned, and scroll sideways where a page is narrow; longer lines, and
+/// items of a list, are paragraphs.
 [[nodiscard]] std::string html_lines(std::string_view text);
 
 /// A figure element around an SVG file, ids kept apart by `name`; `caption` is text.

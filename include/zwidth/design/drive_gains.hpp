@@ -29,18 +29,19 @@ struct DriveNumber {
 
 /// The loop as it closes on a drive, where it is not as the firmware has it by default.
 struct DriveLoopOptions {
-  std::optional<double> sampling_period = {};      ///< s; > 0
-  std::optional<double> delay = {};                ///< s; >= 0; absent: one sampling period
-  std::optional<double> estimator_bandwidth = {};  ///< rad/s, encoder.config.bandwidth of an odrive; absent: 1000
+  std::optional<double> sampling_period = {};  ///< s; > 0
+  std::optional<double> delay = {};            ///< s; >= 0; absent: one sampling period
+  /// rad/s: encoder.config.bandwidth of an odrive, 2 pi motor_position.sources.N.pll_filter_hz of a moteus; absent: 1000,
+  /// 2 pi 400
+  std::optional<double> estimator_bandwidth = {};
 };
 
 /// A wall in the numbers of a motor drive.
 struct DriveGains {
-  std::vector<DriveNumber> numbers;  ///< to be set; integral gains among them, as 0
+  std::vector<DriveNumber> numbers;  ///< to be set; integral gains and what else would act beside it among them, as 0
   double stiffness = 0.0;            ///< K that these numbers make: less than asked for where the firmware rounds
-  /// The device with this wall closed on the drive, with the estimator of position and velocity where its law is known:
-  /// odrive and simplefoc. Doubtful, always: the drive's current loop is not in it, nor the others' estimators, so that its
-  /// limits bound those of the drive from above.
+  /// The device with this wall closed on the drive, with the firmware's estimator of position and velocity. Doubtful,
+  /// always: the drive's current loop is not in it, so that its limits bound those of the drive from above.
   Analysis on_drive;
   double sampling_period = 0.0;  ///< s, of that loop
   double delay = 0.0;            ///< s, of that loop
@@ -55,8 +56,8 @@ struct DriveGains {
 /// in shares of it.
 [[nodiscard]] std::optional<OptionProblem> find_problem(DriveFirmware firmware, const Device& device);
 
-/// The first member outside its domain. An estimator's bandwidth is for odrive alone, and below 1/(2T), beyond which the
-/// firmware refuses it; for simplefoc it is that of wall.velocity_filter_hz.
+/// The first member outside its domain. An estimator's bandwidth is for odrive, below 1/(2T), beyond which the firmware
+/// refuses it, and for moteus, below 2 pi/(4T); for simplefoc it is that of wall.velocity_filter_hz.
 [[nodiscard]] std::optional<OptionProblem> find_problem(const DriveLoopOptions& options, DriveFirmware firmware,
                                                         const Device& device);
 
@@ -80,11 +81,18 @@ struct DriveGains {
 ///
 ///     d = x - P - T V,    P += T V + 2 w T d,    V += w² T d
 ///
-/// so that its wall is (K + B v) P(z)/x(z), v the difference low-passed by (1 - a)/(1 - a/z), a = 1 - w T/2. SimpleFOC
-/// low-passes its velocity with a = Tf/(Tf + T), Tf = 1/(2 pi wall.velocity_filter_hz).
+/// so that its wall is (K + B v) P(z)/x(z), v the difference low-passed by (1 - a)/(1 - a/z), a = 1 - w T/2. A moteus of
+/// firmware from July 2025 on has w = 2 pi pll_filter_hz/2.48 and, in this order,
+///
+///     d = x - P,    V += w² T d,    P += T (V + 2 w d)
+///
+/// which is the same with a = 2/(2 + w T). SimpleFOC low-passes its velocity with a = Tf/(Tf + T), Tf = 1/(2 pi
+/// wall.velocity_filter_hz). VESC (with an encoder) and OpenFFBoard take the encoder's position as it is, and VESC its
+/// difference for the velocity.
 /// Throws Error (invalid_argument) where find_problem() finds one, and as analyze() does.
-/// Sources: controller.cpp, encoder.cpp (ODrive 0.5.6), lowpass_filter.cpp (SimpleFOC 2.3), docs of moteus 0.3 (servo.pid_position), FOCMotor and BLDCMotor (SimpleFOC 2.3),
-/// Axis.cpp (OpenFFBoard 1.16), foc_math.c (VESC 6).
+/// Sources: controller.cpp, encoder.cpp (ODrive 0.5.6), lowpass_filter.cpp (SimpleFOC 2.3), motor_position.h,
+/// bldc_servo_control.h, pid.h (moteus db1a7623), FOCMotor and BLDCMotor (SimpleFOC 2.3), Axis.cpp (OpenFFBoard 160af910),
+/// foc_math.c, mcpwm_foc.c (VESC b9d287b3).
 [[nodiscard]] DriveGains drive_gains(const Device& device, DriveFirmware firmware,
                                      const DriveLoopOptions& options = {});
 

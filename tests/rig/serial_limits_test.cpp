@@ -1,0 +1,147 @@
+// Dry friction and limits of force with a serial line between the rig and the motor.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <string>
+
+#include "rig/drive_kinds.hpp"
+#include "rig/measured_as_predicted.hpp"
+#include "rig/pty_emulator.hpp"
+#include "rig/rig_actions.hpp"
+#include "rig/rig_host.hpp"
+#include "rig/serial_device.hpp"
+#include "rig/simulated_driver.hpp"
+
+namespace zwidth::rig {
+namespace {
+
+using test::belt_device;
+using test::DriveKind;
+using test::PtyEmulator;
+using testing::Contains;
+using testing::HasSubstr;
+
+constexpr double coulomb = 0.02;  // N
+
+/// N, of a force in whole milliamperes.
+double rounding(const Device& device) {
+  const MotorDrive& drive = *device.parameters().driver;
+  return 0.5e-3 * *drive.torque_constant / std::abs(drive.torque_per_force()) * (1.0 + 1e-6);
+}
+
+class LimitsOnDrive : public testing::TestWithParam<DriveKind> {
+ protected:
+  explicit LimitsOnDrive(double friction = 0.0)
+      : device([&] {
+          DeviceParameters parameters = belt_device().parameters();
+          parameters.bodies.front().coulomb = friction;
+          if (friction > 0.0)
+            parameters.driver->torque_constant = 0.005;  // else a milliampere is more than the friction
+          return Device(parameters);
+        }()),
+        emulator(GetParam().firmware(), device) {
+    emulator.set_fault(PtyEmulator::Fault::no_watchdog);
+    driver = GetParam().driver({emulator.path(), *device.parameters().driver, device.loop().sampling_period, true});
+  }
+  /// And for good: the drive has been told.
+  void expect_no_force() const {
+    EXPECT_TRUE(test::within(std::chrono::seconds(5), [&] { return emulator.motor().force() == 0.0; }));
+  }
+
+  const Device device;
+  PtyEmulator emulator;
+  std::unique_ptr<Driver> driver;
+};
+
+class FrictionOnDrive : public LimitsOnDrive {
+ protected:
+  FrictionOnDrive() : LimitsOnDrive(coulomb) {}
+};
+
+// What friction does to the limit it does behind the line as well, and the answer says so.
+TEST_P(FrictionOnDrive, TheLimitIsThatOfTheSimulationAndDoubtful) {
+  LimitOptions knocked = default_limit(device);
+  knocked.knock = 5.0;
+  const RigLimit limit = measure_limit(device, *driver, {}, knocked, {});
+  SimulatedDriver simulated{device, 0.0, false};
+  const RigLimit expected = measure_limit(device, simulated, {}, knocked, {});
+  ASSERT_TRUE(limit.measured.stiffness && expected.measured.stiffness);
+  EXPECT_NEAR(*limit.measured.stiffness / *expected.measured.stiffness, 1.0, 0.02);
+  EXPECT_NEAR(limit.measured.frequency / expected.measured.frequency, 1.0, 0.02);
+  EXPECT_GT(*limit.measured.stiffness, 1.01 * limit.predicted.stiffness) << "friction damps";
+  EXPECT_FALSE(limit.measured.trust.sound());
+  EXPECT_THAT(limit.measured.trust.reasons, Contains(HasSubstr("friction")));
+  expect_no_force();
+}
+
+TEST_P(FrictionOnDrive, TheRelayIsThatOfTheSimulation) { expect_relay(device, *driver); }
+
+TEST_P(FrictionOnDrive, AMeasurementMovesTheDeviceAndIsDoubtful) {
+  const RigMeasurement measured = measure(device, *driver, {}, default_measurement(device), {});
+  ASSERT_TRUE(measured.response);
+  EXPECT_GT(emulator.motor().largest_force(), coulomb) << "else it sticks";
+  EXPECT_FALSE(measured.trust.sound());
+  EXPECT_THAT(measured.trust.reasons, Contains(HasSubstr("friction")));
+  expect_no_force();
+}
+
+// A limit found with a force that was cut off is that of another wall.
+TEST_P(LimitsOnDrive, TheForceIsCutOffAndTheLimitRefused) {
+  RigOptions options;
+  options.limits.force = 1.0;
+  options.limits.saturation_duration = 100.0;
+  LimitOptions limit = default_limit(device);
+  limit.knock = 8.0;
+  const RigLimit measured = measure_limit(device, *driver, options, limit, {});
+  EXPECT_NEAR(emulator.motor().largest_force(), 1.0, rounding(device)) << "what came out of the line, at the most";
+  EXPECT_TRUE(measured.measured.trust.refused());
+  EXPECT_FALSE(measured.measured.stiffness);
+  expect_no_force();
+}
+
+TEST_P(LimitsOnDrive, ForceBeyondTheLimitForTooLongIsZeroForce) {
+  RigOptions options;
+  options.limits.force = 1.0;
+  options.limits.saturation_duration = 0.05;
+  options.limits.ramp = 0.0;
+  WallOptions wall;
+  wall.controller = wall_controller(device.parameters().wall);
+  wall.knock = 10.0;
+  const RigWall rendered = render_wall(device, *driver, options, wall);
+  EXPECT_EQ(rendered.session.stop, StopReason::saturation);
+  EXPECT_NEAR(emulator.motor().largest_force(), 1.0, rounding(device));
+  EXPECT_LE(emulator.motor().nonzero_forces(), 6) << "0.05 s are five cycles, and one that was under way";
+  expect_no_force();
+}
+
+TEST_P(LimitsOnDrive, APositionBeyondItsLimitIsZeroForce) {
+  RigOptions options;
+  options.limits.position = 2e-3;
+  WallOptions wall;
+  wall.controller = wall_controller(device.parameters().wall);
+  wall.knock = 8.0;
+  const RigWall rendered = render_wall(device, *driver, options, wall);
+  EXPECT_EQ(rendered.session.stop, StopReason::position_limit);
+  EXPECT_LT(rendered.peak_position, 2 * 2e-3);
+  expect_no_force();
+}
+
+TEST_P(LimitsOnDrive, AVelocityBeyondItsLimitIsZeroForce) {
+  RigOptions options;
+  options.limits.velocity = 0.02;
+  WallOptions wall;
+  wall.controller = wall_controller(device.parameters().wall);
+  wall.knock = 8.0;
+  EXPECT_EQ(render_wall(device, *driver, options, wall).session.stop, StopReason::velocity_limit);
+  expect_no_force();
+}
+
+const auto name_of = [](const auto& kind) { return std::string(kind.param.name); };
+INSTANTIATE_TEST_SUITE_P(Drive, LimitsOnDrive, testing::ValuesIn(test::drive_kinds), name_of);
+INSTANTIATE_TEST_SUITE_P(Drive, FrictionOnDrive, testing::ValuesIn(test::drive_kinds), name_of);
+
+}  // namespace
+}  // namespace zwidth::rig
