@@ -52,8 +52,8 @@ Signal velocity_of(const Lines& response, std::span<const double> force) {
   const Lines lines = spectrum(force);
   Lines all(n, 0.0);
   for (std::size_t k = 1; 2 * k < n; ++k) {
-    all[k] = std::complex(0.0, 2.0 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(n)) *
-             response[k] * lines[k];
+    all[k] = std::complex(0.0, 2.0 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(n)) * response[k] *
+             lines[k];
     all[n - k] = std::conj(all[k]);
   }
   Lines moved(n);
@@ -100,7 +100,8 @@ std::optional<FrictionBesideResponse> find_friction_beside(const FrequencyRespon
                                                            std::span<const double> force,
                                                            std::span<const double> position) {
   const std::size_t n = std::min(force.size(), most_examined_samples);
-  if (n < least_examined_samples || response.points.size() < fewest_points || !response.sampling_period) return std::nullopt;
+  if (n < least_examined_samples || response.points.size() < fewest_points || !response.sampling_period)
+    return std::nullopt;
   force = force.first(n);
   const double period = *response.sampling_period;
   const Lines plant = interpolated(response, n / 2 + 1, 2.0 * std::numbers::pi / (period * static_cast<double>(n)));

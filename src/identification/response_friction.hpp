@@ -9,7 +9,7 @@ namespace zwidth::internal {
 
 /// Dry friction that the recorded motion shows beside its measured response.
 struct FrictionBesideResponse {
-  double evidence = 0.0;            ///< chi-squared of two degrees of freedom
+  double evidence = 0.0;  ///< chi-squared of two degrees of freedom
   /// |c| <|v|> / <v^2>, N s/m: what the response makes of it at least, for G has the damping of friction already.
   double equivalent_damping = 0.0;
 };

@@ -40,10 +40,11 @@ Recording rubbed(double coulomb, ExcitationKind kind, std::uint64_t seed) {
 const auto says_friction = Contains(HasSubstr("dry friction, which the response takes for damping"));
 
 TEST(ResponseFriction, MakesTheMeasuredStiffnessDoubtful) {
-  for (const std::uint64_t seed : {1, 2, 3, 4}) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     const MeasuredResponse found = frequency_response(rubbed(0.3, ExcitationKind::noise, seed));
     EXPECT_FALSE(found.trust.sound()) << seed;
-    if (found.stiffness && found.stiffness->limit) EXPECT_THAT(found.trust.reasons, says_friction) << seed;
+    if (!found.stiffness || !found.stiffness->limit) continue;
+    EXPECT_THAT(found.trust.reasons, says_friction) << seed;
   }
 }
 
@@ -63,7 +64,8 @@ TEST(ResponseFriction, OfARecordThatIsTooShortOrDoesNotMoveIsNothing) {
   const std::vector<double>& position = recording.channels[1].samples;
   EXPECT_TRUE(internal::find_friction_beside(response, force, position));
   EXPECT_FALSE(internal::find_friction_beside(response, std::span(force).first(500), std::span(position).first(500)));
-  EXPECT_FALSE(internal::find_friction_beside(response, std::vector<double>(4000, 0.0), std::vector<double>(4000, 0.0)));
+  EXPECT_FALSE(
+      internal::find_friction_beside(response, std::vector<double>(4000, 0.0), std::vector<double>(4000, 0.0)));
 }
 
 }  // namespace

@@ -44,9 +44,9 @@ struct QCriterion {
   double stiffness = 0.0;  ///< Q
   /// Q <= rigid critical stiffness; absent unless the actuated body is sensed, that stiffness is finite and the
   /// wall has no damper.
-  std::optional<bool> mode_matters;
+  std::optional<bool> mode_matters = {};
   /// Q <= twice that stiffness (6 dB): below, the mode at least shifts the limit of the rigid body; absent as above.
-  std::optional<bool> is_similar;
+  std::optional<bool> is_similar = {};
 };
 
 /// Each body costs a modal form: beyond, the limit over all users would take longer than the rest by far.
