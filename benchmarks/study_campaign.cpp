@@ -1,12 +1,12 @@
 // How often a study is right, on random two-mass devices of which five numbers vary.
 //
-//   study_campaign [worst|rare [FIRST_SEED [COUNT [UNITS [KIND [FAILING]]]]]]
+//   study_campaign [worst|rare [FIRST_SEED [COUNT [UNITS [KIND [FAILING [FIRST]]]]]]]
 //
 // KIND: as in tests/property/random_devices.hpp, two_mass where none is given.
 // worst: the worst unit found from 10 000 samples, beside the worst of UNITS others.
 // rare:  one device and one specification, of which about one unit in 10 000 fails among UNITS; COUNT seeds of importance
-//        sampling with 5000 units each: how many intervals hold that share. FAILING: how many of the UNITS fail, where an
-//        earlier run has counted them.
+//        sampling from FIRST on (1) with 5000 units each: how many intervals hold that share. FAILING: how many of the
+//        UNITS fail, where an earlier run has counted them; 0: they are counted.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -77,16 +77,16 @@ void worst_units(std::uint64_t first, std::uint64_t count, std::uint64_t units, 
 }
 
 void rare_shares(std::uint64_t device, std::uint64_t count, std::uint64_t units, std::string_view kind,
-                 std::optional<std::uint64_t> counted) {
+                 std::uint64_t counted, std::uint64_t first) {
   std::vector<double> limits;
   for_each_limit(counted_run(device, 200'000, kind), [&](double stiffness) { limits.push_back(stiffness); });
   std::ranges::nth_element(limits, limits.begin() + 20);
   const double specified = limits[20];
-  std::uint64_t failing = counted.value_or(0);
+  std::uint64_t failing = counted;
   StudyOptions many;
   many.samples = units;
   many.seed = 2 * others + device;
-  if (!counted) {
+  if (counted == 0) {
     for_each_limit(test::random_study(device, many, kind),
                    [&](double stiffness) { failing += stiffness < specified ? 1U : 0U; });
   }
@@ -98,7 +98,7 @@ void rare_shares(std::uint64_t device, std::uint64_t count, std::uint64_t units,
   double sum = 0.0;
   double square = 0.0;
   double error = 0.0;
-  for (std::uint64_t seed = 1; seed <= count; ++seed) {
+  for (std::uint64_t seed = first; seed < first + count; ++seed) {
     StudyOptions options;
     options.seed = seed;
     options.specification.critical_stiffness = specified;
@@ -133,12 +133,11 @@ int main(int argc, char** argv) {
   const std::string what = argc > 1 ? argv[1] : "worst";
   const std::string_view kind = argc > 5 ? argv[5] : "two_mass";
   if (what == "rare") {
-    rare_shares(number(2, 1), number(3, 100), number(4, 10'000'000), kind,
-                argc > 6 ? std::optional(number(6, 0)) : std::nullopt);
+    rare_shares(number(2, 1), number(3, 100), number(4, 10'000'000), kind, number(6, 0), number(7, 1));
   } else if (what == "worst") {
     worst_units(number(2, 1), number(3, 100), number(4, 1'000'000), kind);
   } else {
-    std::fputs("usage: study_campaign [worst|rare [FIRST_SEED [COUNT [UNITS [KIND [FAILING]]]]]]\n", stderr);
+    std::fputs("usage: study_campaign [worst|rare [FIRST_SEED [COUNT [UNITS [KIND [FAILING [FIRST]]]]]]]\n", stderr);
     return 2;
   }
   return 0;

@@ -37,7 +37,7 @@ void run_frf(const FrfArguments& arguments) {
   for (const std::string& file : recording.more) outputs.keep(file, "recording");
 
   const MeasuredResponse frf = measured_response(response_source(arguments.response));
-  outputs.put("--csv", [&] { return results::frf_csv(frf.response); });
+  outputs.put("--csv", [&] { return results::frf_csv(frf); });
   outputs.draw("--output", [&](report::FigureFormat format) { return report::draw_frf(frf, arguments.units, format); });
   outputs.commit();
   if (arguments.output.json) {

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <regex>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "cli/number_text.hpp"
@@ -44,27 +46,44 @@ std::string unknown_argument(const CLI::App& app, const CLI::App& command, const
                      fmt::join(commands, ", "), help);
 }
 
+struct Parted {
+  std::string before;
+  std::string after;
+};
+
+// What stands around the last such phrase.
+std::optional<Parted> parted(const std::string& text, std::string_view phrase) {
+  const std::size_t at = text.rfind(phrase);
+  if (at == std::string::npos) return std::nullopt;
+  return Parted{text.substr(0, at), text.substr(at + phrase.size())};
+}
+
 }  // namespace
 
+// By searching: std::regex takes stack for every character, and a message holds what the user gave.
 std::string clear_problem(const std::string& message) {
-  using std::regex;
-  static const regex too_many("(.*): At Most (\\d+) required but received (\\d+)");
-  static const regex too_few("(.*): At least (\\d+) required but received (\\d+)");
-  static const regex none("(.*): (\\d+) required (.*) missing");
-  static const regex other("(.*): (.*) not in \\{(.*)\\}");
-  std::smatch part;
-  if (std::regex_match(message, part, too_many)) {
-    return fmt::format("{}: has {} values; at most {}", part.str(1), part.str(3), part.str(2));
+  const auto too_many = parted(message, ": At Most ");
+  const auto too_few = parted(message, ": At least ");
+  if (const auto& wrong = too_many ? too_many : too_few) {
+    if (const auto counts = parted(wrong->after, " required but received ")) {
+      return too_many
+                 ? fmt::format("{}: has {} values; at most {}", wrong->before, counts->after, counts->before)
+                 : fmt::format("{}: has {} of {} values; all of them", wrong->before, counts->after, counts->before);
+    }
   }
-  if (std::regex_match(message, part, too_few)) {
-    return fmt::format("{}: has {} of {} values; all of them", part.str(1), part.str(3), part.str(2));
+  const auto required = parted(message, " required ");
+  if (const auto kind = required ? parted(required->after, " missing") : std::nullopt; kind && kind->after.empty()) {
+    if (const auto count = parted(required->before, ": "))
+      return fmt::format("{}: has no value; {}", count->before, kind->before);
   }
-  if (std::regex_match(message, part, none)) return fmt::format("{}: has no value; {}", part.str(1), part.str(3));
-  if (!std::regex_match(message, part, other)) return message;
-  std::vector<std::string> words = parts_of(part.str(3), ',');
-  const std::string near = nearest_word(part.str(2), words);
+  const auto choice = parted(message, " not in {");
+  if (!choice || !choice->after.ends_with('}')) return message;
+  const auto given = parted(choice->before, ": ");
+  if (!given) return message;
+  std::vector<std::string> words = parts_of(choice->after.substr(0, choice->after.size() - 1), ',');
+  const std::string near = nearest_word(given->after, words);
   if (!near.empty()) words = {fmt::format("did you mean {}?", near)};
-  return fmt::format("{}: is {}; {}", part.str(1), part.str(2), fmt::join(words, ", "));
+  return fmt::format("{}: is {}; {}", given->before, given->after, fmt::join(words, ", "));
 }
 
 std::string usage_error(const CLI::App& app, const CLI::ParseError& error) {

@@ -39,13 +39,14 @@ Json bode_json(const Device& device, const Bode& bode) {
 
 std::string bode_csv(const Bode& bode) {
   Csv csv({"frequency_rad_s", "frequency_hz", "magnitude_db", "phase_deg", "continuous_magnitude_db",
-           "continuous_phase_deg"});
+           "continuous_phase_deg", "trust"});
   for (std::size_t i = 0; i < bode.continuous.size(); ++i) {
     const BodePoint& continuous = bode.continuous[i];
     const auto sampled = i < bode.sampled.size() ? std::optional(bode.sampled[i]) : std::nullopt;
     csv.row(continuous.frequency, hertz(continuous.frequency),
             sampled ? std::optional(sampled->magnitude_db) : std::nullopt,
-            sampled ? std::optional(sampled->phase_deg) : std::nullopt, continuous.magnitude_db, continuous.phase_deg);
+            sampled ? std::optional(sampled->phase_deg) : std::nullopt, continuous.magnitude_db, continuous.phase_deg,
+            bode.analysis.trust);
   }
   return csv.text();
 }

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "results/json.hpp"
+
 namespace zwidth::results {
 
 std::back_insert_iterator<fmt::memory_buffer> Csv::next() {
@@ -29,6 +31,8 @@ void Csv::cell(std::string_view text) {
   }
   rows_.push_back('"');
 }
+
+void Csv::cell(const Trust& trust) { cell(name_of(trust.verdict)); }
 
 void Csv::end_row() {
   constexpr std::size_t piece_size = std::size_t{1} << 16;

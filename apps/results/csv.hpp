@@ -11,6 +11,8 @@
 #include <string_view>
 #include <utility>
 
+#include "zwidth/trust.hpp"
+
 namespace zwidth::results {
 
 /// A number with fewer digits than it has, where a column is made by rounding: {0.1 + 0.2, 9}.
@@ -48,6 +50,8 @@ class Csv {
   void cell(std::string_view text);
   void cell(const char* text) { cell(std::string_view(text)); }
   void cell(const std::string& text) { cell(std::string_view(text)); }
+  /// Its verdict: the last column, `trust`, of whatever states a limit or follows from one.
+  void cell(const Trust& trust);
   template <typename T>
   void cell(const std::optional<T>& value) {
     if (value) {

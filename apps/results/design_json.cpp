@@ -154,7 +154,7 @@ std::string sweep_csv(const ParameterSweep& sweep) {
     csv.cell(frequency_of(point.limit));
     csv.cell(point.limit ? std::optional(point.limit->limited_by.mode) : std::nullopt);
     if (sweep.has_any_user) csv.cell(point.any_user ? std::optional(point.any_user->stiffness) : std::nullopt);
-    csv.cell(name_of(point.trust.verdict));
+    csv.cell(point.trust);
     csv.end_row();
   }
   return csv.text();

@@ -117,16 +117,17 @@ Json frf_json(const MeasuredResponse& measured, const FrfUnits& units, FrfConten
   return json;
 }
 
-std::string frf_csv(const FrequencyResponse& response) {
+std::string frf_csv(const MeasuredResponse& measured) {
+  const FrequencyResponse& response = measured.response;
   Csv csv({"frequency_rad_s", "frequency_hz", "magnitude", "magnitude_lower", "magnitude_upper", "phase_deg",
-           "phase_lower_deg", "phase_upper_deg", "coherence", "real", "imaginary"});
+           "phase_lower_deg", "phase_upper_deg", "coherence", "real", "imaginary", "trust"});
   const std::vector<ResponseLine> lines = response_lines(response);
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const ResponseLine& line = lines[i];
     const std::complex<double>& value = response.points[i].value;
     csv.row(line.frequency, hertz(line.frequency), line.magnitude, line.magnitude_lower, line.magnitude_upper,
             in_degrees(line.phase), in_degrees(line.phase_lower), in_degrees(line.phase_upper), line.coherence,
-            value.real(), value.imag());
+            value.real(), value.imag(), measured.trust);
   }
   return csv.text();
 }

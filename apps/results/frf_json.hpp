@@ -35,8 +35,8 @@ enum class FrfContent {
 [[nodiscard]] Json frf_json(const MeasuredResponse& measured, const FrfUnits& units = {},
                             FrfContent content = FrfContent::summary);
 
-/// The lines of the response as comma-separated values with a header; a bound that does not exist is empty.
+/// The lines of the response as comma-separated values with a header; a bound that does not exist is empty; the last is trust.
 /// `zwidth frf --table` reads it back.
-[[nodiscard]] std::string frf_csv(const FrequencyResponse& response);
+[[nodiscard]] std::string frf_csv(const MeasuredResponse& measured);
 
 }  // namespace zwidth::results

@@ -94,13 +94,12 @@ Json region_json(const Device& device, const WallRegion& walls) {
 
 std::string region_csv(const WallRegion& walls) {
   const StableRegion& region = walls.region;
-  const std::string verdict = name_of(walls.trust.verdict);
   Csv csv({"component", "boundary", "stiffness", "damping", "frequency_rad_s", "mode", "trust"});
   for (std::size_t i = 0; i < region.components.size(); ++i) {
     for (const BoundaryArc& arc : region.components[i].outline.arcs) {
       for (const BoundaryPoint& point : arc.points) {
         const std::string mode = point.limited_by ? std::to_string(point.limited_by->mode) : "";
-        csv.row(i + 1, name_of(arc.kind), point.stiffness, point.damping, point.frequency, mode, verdict);
+        csv.row(i + 1, name_of(arc.kind), point.stiffness, point.damping, point.frequency, mode, walls.trust);
       }
     }
   }
@@ -108,11 +107,10 @@ std::string region_csv(const WallRegion& walls) {
 }
 
 std::string region_raster_csv(const WallRaster& raster, const Trust& trust) {
-  const std::string verdict = name_of(trust.verdict);
   Csv csv({"stiffness", "damping", "stable", "trust"});
   const std::size_t columns = raster.stiffnesses.size();
   for (std::size_t i = 0; i < raster.stable.size(); ++i) {
-    csv.row(raster.stiffnesses[i % columns], raster.dampings[i / columns], raster.stable[i], verdict);
+    csv.row(raster.stiffnesses[i % columns], raster.dampings[i / columns], raster.stable[i], trust);
   }
   return csv.text();
 }

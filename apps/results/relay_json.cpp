@@ -96,6 +96,7 @@ std::string relay_csv(const RelayResult& result) {
     rows.cell(fmt::format("force_{}", i));
     rows.cell(fmt::format("position_{}", i));
   }
+  rows.cell("trust");
   rows.end_row();
   const std::size_t samples = result.trials.empty() ? 0 : result.trials.front().force.size();
   for (std::size_t k = 0; k < samples; ++k) {
@@ -104,6 +105,7 @@ std::string relay_csv(const RelayResult& result) {
       rows.cell(trial.force[k]);
       rows.cell(trial.position[k]);
     }
+    rows.cell(result.trust);
     rows.end_row();
   }
   return rows.text();

@@ -19,7 +19,7 @@ NLOHMANN_JSON_SERIALIZE_ENUM(RelayResult::Source, {{RelayResult::Source::simulat
 /// What does not exist is null.
 [[nodiscard]] Json relay_json(const RelayResult& result);
 
-/// "time_s,force_1,position_1,force_2,...": the records of all trials side by side, 17 significant digits.
+/// "time_s,force_1,position_1,force_2,...,trust": the records of all trials side by side, 17 significant digits.
 [[nodiscard]] std::string relay_csv(const RelayResult& result);
 
 }  // namespace zwidth::results

@@ -151,6 +151,7 @@ std::string simulation_csv(const Device& device, const Simulation& result) {
     rows.cell(body.name + ".velocity");
   }
   if (!device.has_bodies()) rows.cell("position");
+  rows.cell("trust");
   rows.end_row();
   for (std::size_t k = 0; k < kept.time.size(); ++k) {
     for (const auto* column : {&kept.time, &kept.measured, &kept.command, &kept.user_force}) rows.cell((*column)[k]);
@@ -158,6 +159,7 @@ std::string simulation_csv(const Device& device, const Simulation& result) {
       rows.cell(kept.position[i][k]);
       if (i < kept.velocity.size()) rows.cell(kept.velocity[i][k]);
     }
+    rows.cell(result.trust);
     rows.end_row();
   }
   return rows.text();

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <hdf5.h>
+#include <tbb/global_control.h>
 #include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
 #include <unistd.h>
@@ -217,7 +218,8 @@ void write_columns(hid_t file, const StudyRun& run, const ChunkSource& chunks) {
     exceptions.add(one->chunk, one->answers);
   };
   using Piece = std::shared_ptr<PreparedChunk>;
-  const std::size_t threads = run.options().threads;
+  using Control = tbb::global_control;  // more threads than there may be would be refused with a warning
+  const std::size_t threads = std::min(run.options().threads, Control::active_value(Control::max_allowed_parallelism));
   tbb::task_arena arena(threads == 0 ? tbb::task_arena::automatic : static_cast<int>(threads));
   arena.execute([&] {
     const auto in_work = 2 * static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()) + 2;

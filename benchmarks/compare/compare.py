@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""zwidth, GNU Octave's margin and a NumPy/SciPy gain margin on the same random devices in the same run."""
+"""zwidth, GNU Octave's margin, a NumPy/SciPy gain margin and, where it is installed, python-control's on the same random
+devices in the same run."""
 
 import argparse
 import math
@@ -9,6 +10,7 @@ import subprocess
 import sys
 import tempfile
 import time
+import warnings
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -60,31 +62,50 @@ def run_octave(devices, folder):
     ]
 
 
-def run_scipy(devices):
+def timed(gain_margin, devices):
+    """Answers of gain_margin(numerator, denominator), and the median seconds of each, of the processor as of all peers."""
     stiffness, seconds = [], []
     for device in devices:
         numerator, denominator = device.transfer_function()
         times = []
         for _ in range(5):
-            start = time.perf_counter()
-            answer = scipy_margin.gain_margin(numerator, denominator, SAMPLING_PERIOD)
-            times.append(time.perf_counter() - start)
+            start = time.thread_time()
+            answer = gain_margin(numerator, denominator)
+            times.append(time.thread_time() - start)
         stiffness.append(float(answer))
         seconds.append(statistics.median(times))
-    return [Peer("NumPy/SciPy", stiffness, seconds)]
+    return stiffness, seconds
+
+
+def run_scipy(devices):
+    margin = lambda numerator, denominator: scipy_margin.gain_margin(numerator, denominator, SAMPLING_PERIOD)
+    return [Peer("NumPy/SciPy", *timed(margin, devices))]
+
+
+def run_python_control(devices):
+    """Its defaults, as a user has them; `margin` is the least of its gain margins."""
+    try:
+        import control
+    except ImportError:
+        print("python-control is not installed: without it")
+        return []
+    margin = lambda *fraction: control.margin(control.c2d(control.tf(*fraction), SAMPLING_PERIOD, "zoh"))[0]
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # where it falls back from polynomials to interpolation
+        return [Peer(f"python-control {control.__version__}", *timed(margin, devices))]
 
 
 def print_table(peers, true_stiffness):
     count = len(true_stiffness)
     fastest = statistics.median(peers[0].seconds)
-    print(f"{'':<22}{'median':>12}{'ratio':>9}{'wrong':>12}{'unsafe':>12}")
+    print(f"{'':<30}{'median CPU':>12}{'ratio':>9}{'wrong':>12}{'unsafe':>12}")
     for peer in peers:
         errors = [(answer - true) / true for answer, true in zip(peer.stiffness, true_stiffness)]
         wrong = sum(not abs(error) <= WRONG for error in errors)
         unsafe = sum(error > WRONG for error in errors)
         median = statistics.median(peer.seconds)
         print(
-            f"{peer.name:<22}{median * 1e6:>9.1f} us{median / fastest:>9.1f}"
+            f"{peer.name:<30}{median * 1e6:>9.1f} us{median / fastest:>9.1f}"
             f"{f'{wrong} of {count}':>12}{f'{unsafe} of {count}':>12}"
         )
 
@@ -103,7 +124,7 @@ def main():
     true_stiffness = [truth.critical_stiffness(device) for device in devices]
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        peers = run_zwidth(arguments.zwidth, devices, folder) + run_octave(devices, folder) + run_scipy(devices)
+        peers = run_zwidth(arguments.zwidth, devices, folder) + run_octave(devices, folder) + run_scipy(devices) + run_python_control(devices)
     print_table(peers, true_stiffness)
     print(f"wrong: off by more than {WRONG:.1%} from the 80-digit answer; unsafe: too high by more than that")
 

@@ -1,3 +1,4 @@
+#include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
@@ -12,9 +13,11 @@
 #include "python_error.hpp"
 #include "results/device_json.hpp"
 #include "server/api/device_toml.hpp"
+#include "zwidth/error.hpp"
 #include "zwidth/io/device_file.hpp"
 #include "zwidth/model/device_trust.hpp"
 #include "zwidth/model/parameter.hpp"
+#include "zwidth/model/transfer_function.hpp"
 
 namespace zwidth::python {
 namespace py = pybind11;
@@ -76,6 +79,28 @@ py::dict numbers_of(const Device& device) {
   return numbers;
 }
 
+using Matrix = py::array_t<double, py::array::c_style>;
+
+Eigen::MatrixXd matrix_of(const Matrix& entries) {
+  if (entries.ndim() != 2) raise_input_error("system", "has a matrix of other than two dimensions", "A, B and C");
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  return Eigen::Map<const Rows>(entries.data(), entries.shape(0), entries.shape(1));
+}
+
+/// The keys of [transfer_function], of one force and one position.
+py::dict transfer_function_of(const Matrix& A, const Matrix& B, const Matrix& C) {
+  const ContinuousStateSpace system{matrix_of(A), matrix_of(B).reshaped(), matrix_of(C).reshaped().transpose()};
+  try {
+    const TransferFunction made = without_lock([&] { return transfer_function(system); });
+    py::dict keys;
+    keys["numerator"] = made.numerator;
+    keys["denominator"] = made.denominator;
+    return keys;
+  } catch (const Error& error) {
+    raise_input_error("system", error.what(), "");
+  }
+}
+
 }  // namespace
 
 void bind_device(py::module_& module) {
@@ -127,6 +152,7 @@ void bind_device(py::module_& module) {
       .def("__reduce__", [](const Device& device) {
         return py::make_tuple(py::module_::import("zwidth._device").attr("restored"), py::make_tuple(toml_of(device)));
       });
+  module.def("transfer_function_of", &transfer_function_of);
 }
 
 }  // namespace zwidth::python

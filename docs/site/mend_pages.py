@@ -15,6 +15,8 @@ MENDED = (
     (r'<label class="toc-overlay-icon toc-content-icon', '<label aria-hidden="true" class="toc-overlay-icon toc-content-icon'),
     (r'<aside class="sidebar-drawer">', '<aside class="sidebar-drawer" aria-label="Pages">'),
     (r'<aside class="toc-drawer', '<aside aria-label="On this page" class="toc-drawer'),
+    # its dark colours are there for code alone
+    (r"document\.body\.dataset\.theme = [^;]*;", 'document.body.dataset.theme = "light";'),
     (r"<pre>", '<pre tabindex="0">'),
     (r'<div class="table-wrapper', '<div tabindex="0" class="table-wrapper'),
     (r'<th class="head[^"]*">(<p></p>)?</th>', "<td></td>"),

@@ -48,6 +48,7 @@
 #include "zwidth/model/parameter.hpp"
 #include "zwidth/model/parameter_values.hpp"
 #include "zwidth/model/state_space.hpp"
+#include "zwidth/model/transfer_function.hpp"
 #include "zwidth/model/two_mass.hpp"
 #include "zwidth/model/uncertainty.hpp"
 #include "zwidth/model/wall_filter.hpp"

@@ -25,7 +25,8 @@ constexpr std::size_t max_estimated_intervals = 200000;
 constexpr int even_divisions = 256;
 constexpr double nearest_division = 0.25;
 constexpr double narrowest_estimate = 1e-12;
-constexpr double estimate_margin = 2.0;  // on second differences
+constexpr double estimate_margin = 2.0;   // on second differences
+constexpr double finest_estimate = 1e-8;  // in place of finest_detail: second differences magnify rounding
 
 // 1/g; g keeps its sign by at least `least_size` > 0.
 Jet reciprocal(const Jet& g, double least_size) {
@@ -59,8 +60,9 @@ std::optional<BoundarySegment> quotient(const BoundaryCurve::Model& model, doubl
 bool is_settled(const BoundarySegment& segment, double period) {
   if (std::abs(segment.damping.slope) >= 2.0 * segment.damping.bend) return true;
   const double damping = std::abs(segment.damping.value) + period * std::abs(segment.stiffness.value);
+  const double detail = segment.estimated ? finest_estimate : finest_detail;
   return std::abs(segment.stiffness.slope) >= 2.0 * segment.stiffness.bend &&
-         std::abs(segment.damping.slope) + segment.damping.bend <= finest_detail * damping;
+         std::abs(segment.damping.slope) + segment.damping.bend <= detail * damping;
 }
 
 }  // namespace

@@ -25,10 +25,11 @@ namespace {
 constexpr double steps_per_decade = 12.0;
 constexpr double steps_per_decade_any_user = 6.0;
 constexpr std::uintmax_t max_refinements = 200;
-constexpr double reached = 1e-10;     // relative difference of the limit to the target
-constexpr double jump_width = 1e-9;   // relative, of the bracket of a jump: closer by, a touch takes seconds to prove
-constexpr double least_jump = 1e-3;   // relative
-constexpr double first_share = 1e-3;  // of a number that is 0 now: of the value at which its unit matters
+constexpr double reached = 1e-10;      // relative difference of the limit to the target
+constexpr double jump_width = 1e-9;    // relative, of the bracket of a jump: closer by, a touch takes seconds to prove
+constexpr double least_jump = 1e-3;    // relative
+constexpr double beyond = 1.0 + 1e-6;  // a limit that is not to be told from one further up
+constexpr double first_share = 1e-3;   // of a number that is 0 now: of the value at which its unit matters
 
 // A value of the number with its limit.
 struct Point {
@@ -89,7 +90,7 @@ class Search {
       target.value_needed.reset();
       target.why = "the limit at the value found is refused: " + there.trust.reasons.front();
     } else {
-      target.why = reason_there(there, limit_at(moved, *target.value_needed).value_or(0.0));
+      target.why = reason_there(there, limit_at(moved, *target.value_needed, 2.0 * options_.stiffness).value_or(0.0));
     }
     return target;
   }
@@ -103,14 +104,15 @@ class Search {
     std::vector<Point> bounds;  // below the target, of limits that were not asked for
   };
 
-  [[nodiscard]] std::optional<double> limit_at(MovedLimit& moved, double value) const {
-    const auto limit = look_at(moved, value, 0.0);
+  [[nodiscard]] std::optional<double> limit_at(MovedLimit& moved, double value, double most) const {
+    const auto limit = look_at(moved, value, {.most = most});
     return limit ? std::optional(limit->stiffness) : std::nullopt;
   }
 
-  [[nodiscard]] std::optional<MovedLimit::Limit> look_at(MovedLimit& moved, double value, double enough) const {
+  [[nodiscard]] std::optional<MovedLimit::Limit> look_at(MovedLimit& moved, double value,
+                                                         const MovedLimit::Interest& interest) const {
     progress_.go_on();
-    return moved.at(value, enough);
+    return moved.at(value, interest);
   }
 
   // Asks for those limits that may be the highest.
@@ -118,7 +120,7 @@ class Search {
     std::ranges::sort(extremes.bounds, std::greater{}, &Point::limit);
     for (const Point& bound : extremes.bounds) {
       if (bound.limit <= extremes.most) return;
-      extremes.most = std::max(extremes.most, limit_at(moved, bound.value).value_or(0.0));
+      extremes.most = std::max(extremes.most, limit_at(moved, bound.value, options_.stiffness).value_or(0.0));
     }
   }
 
@@ -143,7 +145,9 @@ class Search {
       for (Walk& walk : walks) {
         const int steps = static_cast<int>(std::ceil(density * std::abs(std::log10(walk.end / walk.start))));
         const double value = walk.start * std::pow(walk.end / walk.start, static_cast<double>(walk.step) / steps);
-        const auto limit = walk.step <= steps ? look_at(moved, value, options_.stiffness) : std::nullopt;
+        // Of limits above the target the least counts.
+        const MovedLimit::Interest interest{options_.stiffness, beyond * std::max(options_.stiffness, extremes.least)};
+        const auto limit = walk.step <= steps ? look_at(moved, value, interest) : std::nullopt;
         walk.step = limit ? walk.step + 1 : ended;
         if (!limit) continue;
         const Point next{value, limit->stiffness};
@@ -175,7 +179,7 @@ class Search {
     bool lost = false;
     double nearest = 1.0;  // of the limits found to the target, relative
     const auto difference = [&](double value) {
-      const std::optional<double> limit = limit_at(moved, value);
+      const std::optional<double> limit = limit_at(moved, value, 2.0 * options_.stiffness);
       if (!limit) lost = true;
       const double apart = limit ? std::clamp(excess(*limit) / options_.stiffness, -1.0, 1.0) : 0.0;
       nearest = std::min(nearest, std::abs(apart));

@@ -40,6 +40,9 @@ constexpr double resolved = 1e-9;  // relative, of the stiffest wall
 constexpr double rounding = 1e-9;  // of margins that stand exactly at what is required
 constexpr double certain = 1e-7;   // relative, by which margins seen on a grid fall short where they certainly do
 
+// Without the care for infinities that a quotient of complex numbers takes.
+std::complex<double> reciprocal(std::complex<double> a) { return std::conj(a) / std::norm(a); }
+
 bool loop_keeps(const LoopsOfStiffness& loops, double stiffness, const RequiredMargins& margins) {
   return loops.slack(stiffness, margins.gain, margins.phase) >= -rounding;
 }
@@ -220,8 +223,11 @@ LoopGrid::LoopGrid(const Device& device, bool with_users, const Progress& progre
   if (with_users) users.emplace(device, progress);
   plant_.reserve(angles_.size());
   damper_.reserve(angles_.size());
+  deltas_.reserve(angles_.size());
   tell(progress, 0.0);
   for (const double angle : angles_) {
+    const double half = std::sin(0.5 * angle);
+    deltas_.emplace_back(-2.0 * half * half, std::sin(angle));
     if (plant_.size() % angles_per_report == 0) tell(progress, 0.0);
     const double frequency = angle / period_;
     plant_.push_back(response(plant, frequency));
@@ -233,11 +239,28 @@ LoopGrid::LoopGrid(const Device& device, bool with_users, const Progress& progre
   }
 }
 
+LoopGrid LoopGrid::with_damper(VirtualDamper damper) const {
+  LoopGrid other = *this;
+  for (std::size_t i = 0; i < angles_.size(); ++i) {
+    other.damper_[i] = damper_response(damper, period_, angles_[i] / period_);
+  }
+  return other;
+}
+
 LoopGrid::Response LoopGrid::filter(const WallFilter& filter) const {
   const FilterSection section = filter_section(filter, period_);
+  const auto [n0, n1, n2] = whole_numerator(section);
+  const bool pair = section.degree == 2;
+  const double d0 = section.denominator[0];
+  const double d1 = pair ? section.denominator[1] : 1.0;
+  const double d2 = pair ? 1.0 : 0.0;
   Response factor;
   factor.reserve(angles_.size());
-  for (const double angle : angles_) factor.push_back(response(section, angle));
+  for (const std::complex<double>& delta : deltas_) {
+    const std::complex<double> numerator = (n2 * delta + n1) * delta + n0;
+    const std::complex<double> denominator = (d2 * delta + d1) * delta + d0;
+    factor.push_back(numerator * reciprocal(denominator));
+  }
   return factor;
 }
 
@@ -256,11 +279,12 @@ LoopGrid::Response LoopGrid::damper(VirtualDamper damper) const {
   return response;
 }
 
-double LoopGrid::stiffest(const Response& factor, const RequiredMargins& margins) const {
-  return stiffest(factor, damper_, margins);
+double LoopGrid::stiffest(const Response& factor, const RequiredMargins& margins, double enough) const {
+  return stiffest(factor, damper_, margins, enough);
 }
 
-double LoopGrid::stiffest(const Response& factor, const Response& damper, const RequiredMargins& margins) const {
+double LoopGrid::stiffest(const Response& factor, const Response& damper, const RequiredMargins& margins,
+                          double enough) const {
   const double cosine = std::cos(margins.phase);
   LeastCrossover alone(1.0);
   LeastCrossover half(std::sqrt(margins.gain));
@@ -269,13 +293,14 @@ double LoopGrid::stiffest(const Response& factor, const Response& damper, const 
   for (std::size_t i = 0; i < angles_.size(); ++i) {
     const std::complex<double> seen = plant_[i] * factor[i];
     if (seen == 0.0) continue;
-    const std::complex<double> required = -1.0 / seen;
+    const std::complex<double> required = -reciprocal(seen);
     alone.add(required, damper[i]);
     half.add(required, damper[i]);
     whole.add(required, damper[i]);
     if (margins.phase > 0.0) {
       if (const auto stiffness = short_of_phase(required, damper[i], cosine)) least = std::min(least, *stiffness);
     }
+    if (std::min({least, alone.value() / margins.gain, half.value(), whole.value()}) <= enough) return enough;
     if (i + 1 == angles_.size()) {
       alone.add_nyquist(required.real(), damper[i].real());
       half.add_nyquist(required.real(), damper[i].real());

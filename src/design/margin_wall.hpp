@@ -59,6 +59,9 @@ class LoopGrid {
 
   [[nodiscard]] std::size_t size() const { return angles_.size(); }
 
+  /// The same with another virtual damper.
+  [[nodiscard]] LoopGrid with_damper(VirtualDamper damper) const;
+
   /// F at the grid's frequencies.
   [[nodiscard]] Response filter(const WallFilter& filter) const;
 
@@ -70,8 +73,10 @@ class LoopGrid {
 
   /// Of the wall's force behind this factor more: stiffest_wall(), as far as the grid tells; with the device's own
   /// damper, or with this one.
-  [[nodiscard]] double stiffest(const Response& factor, const RequiredMargins& margins) const;
-  [[nodiscard]] double stiffest(const Response& factor, const Response& damper, const RequiredMargins& margins) const;
+  /// Some value not above `enough` as soon as it is seen to be that.
+  [[nodiscard]] double stiffest(const Response& factor, const RequiredMargins& margins, double enough) const;
+  [[nodiscard]] double stiffest(const Response& factor, const Response& damper, const RequiredMargins& margins,
+                                double enough) const;
   /// The any-user limit behind this factor more; infinite where the grid has no users.
   [[nodiscard]] double any_user(const Response& factor) const;
   /// With `scale` times this damper.
@@ -90,6 +95,7 @@ class LoopGrid {
 
   double period_ = 0.0;
   std::vector<double> angles_;
+  Response deltas_;                     // z - 1
   Response plant_;                      // seen through the wall's own filters
   Response damper_;                     // B v
   std::vector<bool> clear_;             // of rounding, the plant

@@ -9,6 +9,7 @@
 
 #include "stability/damper_response.hpp"
 #include "stability/disc_stiffness.hpp"
+#include "stability/gain_crossings.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/parameter.hpp"
 
@@ -22,17 +23,17 @@ constexpr double bound_certain = 1e-6;       // relative, of a bound
 
 }  // namespace
 
-std::optional<MovedLimit::Limit> MovedLimit::at(double value, double enough) {
+std::optional<MovedLimit::Limit> MovedLimit::at(double value, const Interest& interest) {
   DeviceParameters moved = device_.parameters();
   moved.uncertainty.reset();
   set_parameter(moved, parameter_.key, value);
   if (find_problem(moved)) return std::nullopt;
   const Device device(std::move(moved));
   try {
-    Limit limit{critical_stiffness(filtered_plant(device), virtual_damper(device)).stiffness, false};
+    Limit limit{stiffness_limit(filtered_plant(device), virtual_damper(device), interest.most), false};
     if (goal_ == StiffnessGoal::critical_stiffness) return limit;
-    limit.is_bound = limit.stiffness < enough * (1.0 - bound_certain);
-    if (!limit.is_bound) limit.stiffness = std::min(limit.stiffness, of_any_user(device, enough, limit));
+    limit.is_bound = limit.stiffness < interest.enough * (1.0 - bound_certain);
+    if (!limit.is_bound) limit.stiffness = std::min(limit.stiffness, of_any_user(device, interest.enough, limit));
     return limit;
   } catch (const Error& error) {
     if (error.code() == ErrorCode::did_not_converge) return std::nullopt;

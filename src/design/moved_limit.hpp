@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -22,10 +23,15 @@ class MovedLimit {
     double stiffness = 0.0;
     bool is_bound = false;  // the limit is no higher; what it is was not asked
   };
-  // The limit, or a bound of it as soon as one is seen that lies below `enough`: that of the device that nobody holds, or
-  // what some user does at a frequency where users have set the limit at other values. Absent where the value makes no
-  // device, or its limit is not found.
-  [[nodiscard]] std::optional<Limit> at(double value, double enough = 0.0);
+  // What of the limit is worth knowing.
+  struct Interest {
+    double enough =
+        0.0;  // a bound below this is as good: that of the device that nobody holds, or what some user does at
+              // a frequency where users have set the limit at other values
+    double most = std::numeric_limits<double>::infinity();  // stands for any limit that is higher
+  };
+  // The limit. Absent where the value makes no device, or its limit is not found.
+  [[nodiscard]] std::optional<Limit> at(double value, const Interest& interest);
 
  private:
   [[nodiscard]] double of_any_user(const Device& device, double enough, Limit& limit);

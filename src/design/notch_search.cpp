@@ -88,7 +88,11 @@ NotchSearch::NotchSearch(const NotchOptions& options, std::vector<double> modes,
       keep_any_user_(keep_any_user) {}
 
 void NotchSearch::add(const Device& device) {
-  LoopGrid grid(device, keep_any_user_ || margins_.any_user, options_.progress);
+  add(device, LoopGrid(device, keep_any_user_ || margins_.any_user, options_.progress));
+}
+
+void NotchSearch::add(const Device& device, const LoopGrid& of_device) {
+  LoopGrid grid = of_device.with_damper(virtual_damper(device));
   const LoopGrid::Response none(grid.size(), 1.0);
   const double any_user = keep_any_user_ ? grid.any_user(none) * (1.0 - same_on_grid) : 0.0;
   scenarios_.push_back({filtered_plant(device), virtual_damper(device), std::move(grid), any_user});
@@ -101,7 +105,7 @@ double NotchSearch::least_on_grid(const WallFilter& notch, double enough, Route 
   double result = infinity;
   for (const Scenario& scenario : scenarios_) {
     const LoopGrid::Response& factor = factors.emplace_back(scenario.grid.filter(notch));
-    of_scenarios.push_back(scenario.grid.stiffest(factor, margins_));
+    of_scenarios.push_back(scenario.grid.stiffest(factor, margins_, enough));
     result = std::min(result, of_scenarios.back());
     if (result <= enough) return result;
     if (scenario.any_user > 0.0 && scenario.grid.any_user(factor) < scenario.any_user) return 0.0;

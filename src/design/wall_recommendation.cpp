@@ -108,9 +108,13 @@ class Recommendation {
 
  private:
   [[nodiscard]] WallLimits& limits_of(const std::optional<WallFilter>& notch) {
-    if (!notch) return limits_;
-    if (!notched_) notched_ = std::make_unique<WallLimits>(with_filter(device_, *notch), options_);
-    return *notched_;
+    if (notch && !notched_) notched_ = std::make_unique<WallLimits>(with_filter(device_, *notch), options_);
+    return notch ? *notched_ : limits_;
+  }
+
+  [[nodiscard]] const WallSearch& search_of(const std::optional<WallFilter>& notch) {
+    if (!notch) return search_;
+    return notched_search_ ? *notched_search_ : notched_search_.emplace(search_, limits_of(notch), *notch);
   }
 
   [[nodiscard]] Candidate exact(VirtualDamper damper, const std::optional<WallFilter>& notch, WallGoal goal) {
@@ -156,7 +160,7 @@ class Recommendation {
         .phase_margin = options_.phase_margin,
         .progress = options_.progress};
     NotchSearch search(notch_options, modes, device_.loop().sampling_period, limits_.has_users());
-    search.add(with_wall(device_, best->stiffest.stiffness, best->damper));
+    search.add(with_wall(device_, best->stiffest.stiffness, best->damper), search_.grid());
     for (const double drift : {-options_.drift, options_.drift}) {
       if (drift != 0.0) search.add(with_wall(drifted(device_, drift), best->stiffest.stiffness, best->damper));
     }
@@ -166,9 +170,8 @@ class Recommendation {
     }
     if (!(found.first > best->stiffest.stiffness * (1.0 + worth_a_notch))) return best;
     const WallFilter notch = NotchSearch::notch_at(found.second);
-    const WallSearch again(limits_of(notch), options_);
     const Candidate candidate =
-        exact(again.best(best->damper.velocity_filter_hz, options_.goal).damper, notch, options_.goal);
+        exact(search_of(notch).best(best->damper.velocity_filter_hz, options_.goal).damper, notch, options_.goal);
     const bool lower_any_user = limits_.has_users() && limits_of(notch).limit(candidate.damper) <
                                                            limits_.limit(candidate.damper) * (1.0 - same_limit);
     if (lower_any_user || !(candidate.value > best->value * (1.0 + worth_a_notch))) return best;
@@ -300,13 +303,9 @@ class Recommendation {
   }
 
   /// Another goal behind the same filters.
-  [[nodiscard]] std::optional<Candidate> other_goal(WallGoal goal, const Candidate& best) {
-    RecommendationOptions options = options_;
-    options.goal = goal;
-    WallLimits& limits = limits_of(best.notch);
-    WallSearch::Found found = WallSearch(limits, options).best(best.damper.velocity_filter_hz, goal);
-    Candidate candidate{found.damper, limits.stiffest(found.damper, goal), 0.0, best.notch};
-    return candidate;
+  [[nodiscard]] Candidate other_goal(WallGoal goal, const Candidate& best) {
+    const VirtualDamper damper = search_of(best.notch).best(best.damper.velocity_filter_hz, goal).damper;
+    return {damper, limits_of(best.notch).stiffest(damper, goal), 0.0, best.notch};
   }
 
   [[nodiscard]] std::string why_none() {
@@ -352,6 +351,7 @@ class Recommendation {
   WallLimits limits_;
   WallSearch search_;
   std::unique_ptr<WallLimits> notched_;
+  std::optional<WallSearch> notched_search_;
   WallLowering lowering_;
   std::vector<WallSearch::Found> found_;
   std::optional<Candidate> unfiltered_;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "infinity.hpp"
 #include "staged_progress.hpp"
@@ -26,6 +27,7 @@ constexpr double slow_filter = 0.01;    // of the sampling rate: as slow a one i
 constexpr double between_filters = 1.8;
 constexpr int filter_refinements = 4;
 constexpr int contact_bisections = 14;
+constexpr double before_meeting = 1e-4;  // relative, of the stiffness at which poles meet as a grid shows it
 constexpr double critical_contact_ratio = 1.0 - 1e-6;
 
 /// The softest crossover of the device without a damper.
@@ -41,12 +43,23 @@ std::optional<Crossover> softest_crossover(const FilteredPlant& plant) {
 }  // namespace
 
 WallSearch::WallSearch(const WallLimits& limits, const RecommendationOptions& options)
+    : WallSearch(limits, options,
+                 std::make_shared<const LoopGrid>(limits.device(), limits.has_users(), options.progress), {}) {
+  factor_.assign(grid_->size(), 1.0);
+}
+
+WallSearch::WallSearch(const WallSearch& without, const WallLimits& limits, const WallFilter& filter)
+    : WallSearch(limits, without.options_, without.grid_, without.grid_->filter(filter)) {}
+
+WallSearch::WallSearch(const WallLimits& limits, const RecommendationOptions& options,
+                       std::shared_ptr<const LoopGrid> grid, LoopGrid::Response factor)
     : limits_(limits),
       options_(options),
       period_(limits.device().loop().sampling_period),
-      grid_(limits.device(), limits.has_users(), options.progress),
-      one_(grid_.size(), 1.0) {
-  if (const auto softest = softest_crossover(filtered_plant(limits.device()))) {
+      plant_(filtered_plant(limits.device())),
+      grid_(std::move(grid)),
+      factor_(std::move(factor)) {
+  if (const auto softest = softest_crossover(plant_)) {
     critical_frequency_ = softest->frequency;
     critical_stiffness_ = softest->stiffness;
   }
@@ -68,7 +81,7 @@ std::vector<double> WallSearch::velocity_filters() const {
 }
 
 double WallSearch::most_damping(const Filtered& filtered) const {
-  const double critical = grid_.largest_damping(one_, filtered.unit_damper) / options_.gain_margin;
+  const double critical = grid_->largest_damping(factor_, filtered.unit_damper) / options_.gain_margin;
   if (std::isfinite(critical)) return critical;
   return critical_frequency_ > 0.0 ? damper_over_spring * critical_stiffness_ / critical_frequency_ : 0.0;
 }
@@ -84,22 +97,29 @@ double WallSearch::value(const Filtered& filtered, double damping, WallGoal goal
     stiffness = (*options_.ripple - damping * filtered.rates.per_damping) / filtered.rates.per_stiffness;
   }
   if (!(value_of(goal, stiffness, damping) > enough)) return 0.0;
-  stiffness = std::min(stiffness, grid_.stiffest(one_, damper, {gain, 0.0, limits_.has_users()}));
+  stiffness = std::min(stiffness, grid_->stiffest(factor_, damper, {gain, 0.0, limits_.has_users()}, 0.0));
   if (damping > 0.0 && limits_.has_users()) {
     for (const double factor : {std::sqrt(gain), gain}) {
       if (!(value_of(goal, stiffness, damping) > enough)) return 0.0;
-      stiffness = std::min(stiffness, grid_.any_user(one_, damper, factor) / factor);
+      stiffness = std::min(stiffness, grid_->any_user(factor_, damper, factor) / factor);
     }
   }
   if (!(value_of(goal, stiffness, damping) > enough)) return 0.0;
-  stiffness = grid_.stiffest_in_phase(one_, damper, {.at_most = stiffness}, options_.phase_margin);
+  stiffness = grid_->stiffest_in_phase(factor_, damper, {.at_most = stiffness}, options_.phase_margin);
   if (goal == WallGoal::critical_damping && std::isfinite(stiffness) && stiffness > enough) {
-    stiffness = damped_contact(stiffness, {damping, filtered.cutoff_hz}, enough);
+    stiffness = damped_contact(stiffness, filtered, damping, enough);
   }
   return std::max(0.0, value_of(goal, stiffness, damping));
 }
 
-double WallSearch::damped_contact(double at_most, VirtualDamper damper, double enough) const {
+double WallSearch::damped_contact(double at_most, const Filtered& filtered, double damping, double enough) const {
+  const VirtualDamper damper{damping, filtered.cutoff_hz};
+  if (const std::optional<double> meeting =
+          filtered.real_poles ? filtered.real_poles->meeting(damping) : std::nullopt) {
+    if (*meeting <= enough) return 0.0;
+    const double softer = std::min(at_most, *meeting * (1.0 - before_meeting));
+    if (limits_.contact_damping(softer, damper) >= critical_contact_ratio) return softer;
+  }
   if (limits_.contact_damping(at_most, damper) >= critical_contact_ratio) return at_most;
   double low = std::max(enough, 1e-9 * at_most);
   double high = at_most;
@@ -127,8 +147,9 @@ WallSearch::Found WallSearch::best_near(const Found& start, WallGoal goal) const
   return found;
 }
 
-WallSearch::Filtered WallSearch::filtered(double velocity_filter_hz) const {
-  Filtered filtered{velocity_filter_hz, grid_.damper({1.0, velocity_filter_hz}), {}};
+WallSearch::Filtered WallSearch::filtered(double velocity_filter_hz, WallGoal goal) const {
+  Filtered filtered{velocity_filter_hz, grid_->damper({1.0, velocity_filter_hz}), {}, {}};
+  if (goal == WallGoal::critical_damping) filtered.real_poles.emplace(plant_, velocity_filter_hz);
   if (const double resolution = limits_.device().parameters().sensor.resolution; resolution > 0.0) {
     Wall wall = limits_.device().parameters().wall;
     wall.velocity_filter_hz = velocity_filter_hz;
@@ -139,13 +160,13 @@ WallSearch::Filtered WallSearch::filtered(double velocity_filter_hz) const {
 
 double WallSearch::stiffest(VirtualDamper damper, WallGoal goal) const {
   const WallGoal of_stiffness = goal == WallGoal::width ? WallGoal::stiffness : goal;
-  const Filtered filtered = this->filtered(damper.velocity_filter_hz);
+  const Filtered filtered = this->filtered(damper.velocity_filter_hz, goal);
   if (damper.damping > 0.0 && damper.damping >= most_damping(filtered)) return 0.0;
   return value(filtered, damper.damping, of_stiffness, 0.0);
 }
 
 WallSearch::Found WallSearch::best(double velocity_filter_hz, WallGoal goal) const {
-  const Filtered filtered = this->filtered(velocity_filter_hz);
+  const Filtered filtered = this->filtered(velocity_filter_hz, goal);
   const double most = most_damping(filtered);
   Found found{{0.0, velocity_filter_hz}, 0.0};
   std::size_t at = 0;

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "design/margin_wall.hpp"
+#include "design/real_poles.hpp"
 #include "design/wall_limits.hpp"
 #include "zwidth/design/wall_recommendation.hpp"
 
@@ -14,6 +16,10 @@ class WallSearch {
  public:
   // `limits` and `options` must outlive the search.
   WallSearch(const WallLimits& limits, const RecommendationOptions& options);
+  // The same device with one more filter in its wall, which `limits` have too.
+  WallSearch(const WallSearch& without, const WallLimits& limits, const WallFilter& filter);
+
+  [[nodiscard]] const LoopGrid& grid() const { return *grid_; }
 
   struct Found {
     VirtualDamper damper;
@@ -40,17 +46,22 @@ class WallSearch {
     double cutoff_hz = 0.0;
     LoopGrid::Response unit_damper;
     ForcePerCountRates rates;
+    std::optional<RealPoles> real_poles;  // where the contact is not to swing
   };
-  [[nodiscard]] Filtered filtered(double velocity_filter_hz) const;
+  WallSearch(const WallLimits& limits, const RecommendationOptions& options, std::shared_ptr<const LoopGrid> grid,
+             LoopGrid::Response factor);
+
+  [[nodiscard]] Filtered filtered(double velocity_filter_hz, WallGoal goal) const;
   [[nodiscard]] double value(const Filtered& filtered, double damping, WallGoal goal, double enough) const;
   [[nodiscard]] double most_damping(const Filtered& filtered) const;
-  [[nodiscard]] double damped_contact(double at_most, VirtualDamper damper, double enough) const;
+  [[nodiscard]] double damped_contact(double at_most, const Filtered& filtered, double damping, double enough) const;
 
   const WallLimits& limits_;
   const RecommendationOptions& options_;
   double period_;
-  LoopGrid grid_;
-  LoopGrid::Response one_;
+  FilteredPlant plant_;
+  std::shared_ptr<const LoopGrid> grid_;
+  LoopGrid::Response factor_;        // of the filter that the grid's device has not
   double critical_frequency_ = 0.0;  // rad/s, without a damper; 0: it does not oscillate
   double critical_stiffness_ = 0.0;
 };

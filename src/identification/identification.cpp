@@ -13,6 +13,7 @@
 #include "identification/friction_test.hpp"
 #include "identification/interval_narrowing.hpp"
 #include "identification/response_choice.hpp"
+#include "identification/unseen_limit.hpp"
 #include "model/uncertainty_problem.hpp"
 #include "require_valid.hpp"
 #include "zwidth/error.hpp"
@@ -304,7 +305,7 @@ void judge_delay(const Fitting& fitting, Judgement& judgement) {
 
 void judge_interval(Identification& result, Trust device_trust) {
   const auto& interval = result.analysis.interval;
-  if (!interval || !is_open(*interval)) return;
+  if (!interval || !is_open(*interval)) return judge_unseen_limit(result, std::move(device_trust));
   result.trust.doubt(open_interval_reason(*interval));
   device_trust.inherit(result.trust);
   result.fit.device = with_trust(result.fit.device, device_trust);
@@ -325,9 +326,8 @@ Identification identified(const MeasuredResponse& measured, std::span<const Reco
                         .friction = std::move(friction),
                         .trust = std::move(judgement.trust)};
   result.remarks = measured.remarks;
-  for (std::vector<Remark>* more : {&result.fit.remarks, &fitting.remarks(), &judgement.remarks}) {
+  for (std::vector<Remark>* more : {&result.fit.remarks, &fitting.remarks(), &judgement.remarks})
     result.remarks.insert(result.remarks.end(), more->begin(), more->end());
-  }
   const Wall& wall = result.fit.device.parameters().wall;
   result.basis = {wall.damping, wall.velocity_filter_hz, wall.filters.size()};
   result.fit.device = with_trust(result.fit.device, judgement.device_trust);

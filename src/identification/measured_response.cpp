@@ -12,6 +12,7 @@
 
 #include "identification/plausibility.hpp"
 #include "identification/pooled_response.hpp"
+#include "identification/response_friction.hpp"
 #include "identification/welch.hpp"
 #include "signal/clipping.hpp"
 #include "zwidth/error.hpp"
@@ -169,6 +170,25 @@ void judge_dependence(MeasuredResponse& measured, std::span<const Recording> rec
   }
 }
 
+/// The critical stiffness of a record that shows dry friction is that of small motions.
+void judge_friction(MeasuredResponse& measured, const FrequencyResponse& response, const Recording& recording,
+                    const std::string& name) {
+  if (!measured.stiffness || !measured.stiffness->limit || !response.sampling_period) return;
+  const auto found = find_friction_beside(response, recording.channels[0].samples, recording.channels[1].samples);
+  constexpr double significant = 25.0;  // chi-squared: once in 3e5 records without friction
+  // Of the limit: a rigid body's is b/(T/2) at most, where nothing but the hold delays the force.
+  constexpr double negligible = 0.01;
+  if (!found || found->evidence < significant) return;
+  const double share =
+      found->equivalent_damping / (0.5 * *response.sampling_period * measured.stiffness->limit->stiffness);
+  if (share < negligible) return;
+  measured.trust.doubt(
+      name +
+      "the motion shows dry friction, which the response takes for damping: larger motions have less of it, and a "
+      "lower "
+      "critical stiffness; repeat it with several times the force, or fit the device with its friction in time");
+}
+
 /// The response and what it shows of the critical stiffness.
 MeasuredResponse judged(std::string source, FrequencyResponse response, std::vector<Remark> remarks) {
   MeasuredResponse measured{std::move(source), std::move(response), std::nullopt, std::move(remarks), {}};
@@ -301,7 +321,9 @@ MeasuredResponse frequency_response(std::span<const Recording> recordings, const
   }
   MeasuredResponse measured;
   if (recordings.size() == 1) {
+    const FrequencyResponse response = each[0];
     measured = judged_response(recordings[0].source, std::move(each[0]), std::move(remarks));
+    if (options.output == OutputQuantity::position) judge_friction(measured, response, recordings[0], "");
   } else {
     PooledResponse pooled = pooled_response(each);
     measured = judged(fmt::format("{} and {} more", recordings[0].source, recordings.size() - 1),

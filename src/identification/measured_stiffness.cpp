@@ -7,6 +7,7 @@
 #include <numbers>
 #include <string>
 
+#include "identification/band_beginning.hpp"
 #include "identification/crossing_fit.hpp"
 #include "identification/phase_lines.hpp"
 #include "identification/phase_runs.hpp"
@@ -261,15 +262,31 @@ void remark_sparse_lines(MeasuredStiffness& result, const Findings& findings) {
 
 /// Where the band begins the response is that of a spring: of one to ground, or of the link between two free bodies,
 /// which acts so from their antiresonance to their resonance. A decade below the crossover the former is sure: the
-/// latter would need bodies of a hundredfold mass.
-void remark_springlike_start(MeasuredStiffness& result, const PhaseLine& first) {
+/// latter would need bodies of a hundredfold mass. The phase tells where no delay turns it, else that the response does
+/// not fall. One that falls more steeply than a rigid body's, or turns by more than half a turn per decade's logarithm,
+/// as a delay of several samples makes it, may have come round once already.
+void remark_beginning(MeasuredStiffness& result, std::span<const PhaseLine> lines) {
   constexpr double springlike = std::numbers::pi / 3.0;
   constexpr double surely_below = 0.1;
-  if (!result.limit || std::abs(std::arg(first.value)) > springlike) return;
-  if (first.frequency <= surely_below * result.limit->frequency) return;
-  warn(result, fmt::format("the device looks like a spring where the band begins, {:.4g} Hz", hertz(first.frequency)),
-       "right for one that is locked or tied to ground; a free one has a softer crossover below the band: excite lower "
-       "frequencies");
+  constexpr double falling = -0.7;
+  constexpr double steepest = -3.0;
+  constexpr double most_turning = -2.4;
+  if (!result.limit) return;
+  const PhaseLine& first = lines.front();
+  const std::optional<Beginning> beginning = beginning_of(lines);
+  const bool is_springlike =
+      std::abs(std::arg(first.value)) <= springlike || (beginning && beginning->steepness > falling);
+  if (is_springlike && first.frequency > surely_below * result.limit->frequency) {
+    warn(result, fmt::format("the device looks like a spring where the band begins, {:.4g} Hz", hertz(first.frequency)),
+         "right for one that is locked or tied to ground; a free one has a softer crossover below the band: excite "
+         "lower "
+         "frequencies");
+  } else if (!is_springlike && beginning && (beginning->steepness < steepest || beginning->turning < most_turning)) {
+    warn(result,
+         fmt::format("the response is not that of a rigid body where the band begins, {:.4g} Hz",
+                     hertz(first.frequency)),
+         "there may be a softer crossover below the band: excite lower frequencies");
+  }
 }
 
 /// Wide holes between excited lines, in which nothing is known either.
@@ -318,7 +335,7 @@ MeasuredStiffness measured_stiffness(const FrequencyResponse& response) {
   if (start && may_cross(std::span(all_lines).first(1))) findings.doubts.push_back(*start);
   if (const auto drowned = drowned_start(all_lines)) findings.doubts.push_back(*drowned);
   judge(result, findings);
-  remark_springlike_start(result, lines.front());
+  remark_beginning(result, lines);
   remark_gaps(result, lines);
   remark_sparse_lines(result, findings);
   const bool noise_known =

@@ -39,17 +39,16 @@ Eigen::MatrixXd covariance_of_stretches(const Eigen::MatrixXd& regressors, const
   return stretches / (stretches - static_cast<double>(p)) * inverse * middle * inverse;
 }
 
-/// Each variance at least that of the other; correlations stay.
+}  // namespace
+
 void widen(Eigen::MatrixXd& covariance, const Eigen::MatrixXd& least) {
   for (Eigen::Index j = 0; j < covariance.cols(); ++j) {
-    const double ratio = least(j, j) / covariance(j, j);
+    const double ratio = covariance(j, j) > 0.0 ? least(j, j) / covariance(j, j) : 0.0;
     if (!(ratio > 1.0)) continue;
     covariance.row(j) *= std::sqrt(ratio);
     covariance.col(j) *= std::sqrt(ratio);
   }
 }
-
-}  // namespace
 
 ShotCovariance shot_covariance(const ShotSlopes& slopes, const std::vector<bool>& held) {
   Eigen::Index rows = 0;

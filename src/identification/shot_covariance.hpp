@@ -26,4 +26,7 @@ struct ShotCovariance {
 /// What is held (at 0, its bound) counts as known beside the others; its own variance is that with the others known.
 [[nodiscard]] ShotCovariance shot_covariance(const ShotSlopes& slopes, const std::vector<bool>& held);
 
+/// Each variance at least that of the other; correlations stay.
+void widen(Eigen::MatrixXd& covariance, const Eigen::MatrixXd& least);
+
 }  // namespace zwidth::internal

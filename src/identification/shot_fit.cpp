@@ -228,6 +228,24 @@ class StopAtBound : public ceres::IterationCallback {
   const std::vector<bool>& held_;
 };
 
+/// Ends the search where it creeps along a kink of the misfit: as the instants of sticking and slipping change, the
+/// slopes promise far more than a step gains, and what it gains is nothing that the noise would show.
+class StopCreeping : public ceres::IterationCallback {
+ public:
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
+    constexpr double kept = 0.2;     // of what the slopes promise
+    constexpr double notable = 2.0;  // of the log-likelihood
+    constexpr int many = 2;
+    if (summary.iteration == 0 || !summary.step_is_successful) return ceres::SOLVER_CONTINUE;
+    const bool creeps = summary.relative_decrease < kept && summary.cost_change < notable;
+    creeping_ = creeps ? creeping_ + 1 : 0;
+    return creeping_ >= many ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
+  }
+
+ private:
+  int creeping_ = 0;
+};
+
 /// Until the search rests, the iterations run out, or, where asked for, an element of x has come to its
 /// bound.
 bool search(const ShotModel& model, const std::vector<Shot>& shots, const std::vector<ShotNoise>& noise, ShotFit& fit,
@@ -265,6 +283,8 @@ bool search(const ShotModel& model, const std::vector<Shot>& shots, const std::v
     if (model.is_bounded(i)) problem.SetParameterLowerBound(shared.x.data(), static_cast<int>(i), 0.0);
   }
   ceres::Solver::Options solver;
+  StopCreeping creeping;
+  solver.callbacks.push_back(&creeping);
   if (options.holds_bounds) {
     solver.callbacks.push_back(&stop);
     solver.update_state_every_iteration = true;

@@ -125,6 +125,12 @@ ShotModel ShotModel::at(const Eigen::VectorXd& x) const {
   return fixed;
 }
 
+ShotModel ShotModel::with_forces(const std::vector<std::span<const double>>& forces) const {
+  ShotModel other = *this;
+  for (std::size_t r = 0; r < forces.size(); ++r) other.records_[r].force = forces[r];
+  return other;
+}
+
 bool ShotModel::is_bounded(Eigen::Index i) const {
   const auto k = static_cast<std::size_t>(i);
   return k < coordinates_.size() && coordinates_[k].kind == Coordinate::Kind::not_negative;

@@ -109,6 +109,9 @@ class ShotModel {
   /// The same, with these parameters as the structure's and none of them free: x is the constant forces alone.
   [[nodiscard]] ShotModel at(const Eigen::VectorXd& x) const;
 
+  /// The same under other forces, as long as the recorded ones and by their units; the caller keeps them alive.
+  [[nodiscard]] ShotModel with_forces(const std::vector<std::span<const double>>& forces) const;
+
   enum class Slopes { none, exact };
   /// Null where the parameters make no device that can be followed in time. With slopes a free friction of 0 is
   /// taken as one too small to matter, so that its own slope shows; they are exact along the motion, of a short lag by a

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "identification/disturbed_motion.hpp"
 #include "identification/encoder_step.hpp"
 #include "identification/feedback_test.hpp"
 #include "identification/fit_judgement.hpp"
@@ -282,8 +283,9 @@ TimeDomainIdentification identify_in_time(std::span<const Recording> recordings,
 
   const std::vector<Shot> shots = cut_into_shots(records, start.device, options.segment, least);
   const Eigen::VectorXd towards = best->fit.x;
+  // The noise of a few short shots is not yet that of the whole: what a longer search under it finds, the next undoes.
   std::optional<ShotFit> whole = fit_shots(model, shots, best->noise, {towards, model.recorded_states(shots)}, towards,
-                                           {.most_iterations = 20, .tolerance = 1e-4});
+                                           {.most_iterations = 6, .tolerance = 5e-4});
   std::optional<Round> found;  // the best
   constexpr int most_rounds = 5;
   constexpr int most_leaps = 2;
@@ -315,6 +317,12 @@ TimeDomainIdentification identify_in_time(std::span<const Recording> recordings,
                 "the fit lost itself where no device can be played; is the structure right?");
   }
   widen_by_step(found->known);
+  if (const auto slopes =
+          shot_slopes(model, shots, found->fitted.noise, found->fitted.fit.x, found->fitted.fit.states)) {
+    widen(found->known.covariance,
+          scatter_under_disturbance({model, shots, found->fitted.noise, found->fitted.fit, *slopes,
+                                     found->known.known.estimated, options.locked, start.lowest, start.highest}));
+  }
 
   TimeDomainIdentification result{.device = structure};
   result.lowest = start.lowest;

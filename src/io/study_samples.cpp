@@ -20,7 +20,7 @@ using namespace internal;
 namespace {
 
 constexpr std::size_t most_samples = 10'000'000;
-constexpr std::string_view blanks = " \t\r,;";
+constexpr std::string_view blanks = " \t\r;";
 constexpr std::string_view unit_header = "# unit:";
 
 std::optional<double> number_of(std::string_view word) {
@@ -35,6 +35,7 @@ std::vector<std::string_view> words_of(std::string_view line) {
   for (std::size_t begin = line.find_first_not_of(blanks); begin != std::string_view::npos;) {
     const std::size_t end = std::min(line.find_first_of(blanks, begin), line.size());
     words.push_back(line.substr(begin, end - begin));
+    if (words.size() == 1 && words[0].size() > 1 && words[0].back() == ',') words[0].remove_suffix(1);
     begin = line.find_first_not_of(blanks, end);
   }
   return words;
@@ -88,7 +89,7 @@ tl::expected<Distribution, InputError> internal::read_study_samples(const std::s
     const auto weight = words.size() > 1 ? number_of(words[1]) : 1.0;
     if (!value || !weight || *weight < 0.0 || words.size() > 2) {
       return refusal(fmt::format("{} is no sample", in_quotes(text)),
-                     "must be a number, or a number and how often it was seen");
+                     "must be a number, or a number, a blank and how often it was seen; decimals have a point");
     }
     if (values.size() == most_samples)
       return refusal("has too many samples", fmt::format("must be at most {}", most_samples));

@@ -124,8 +124,9 @@ const AliasSums::Piece& AliasSums::piece_at(const Pieces& pieces, double frequen
 
 void AliasSums::add(const Piece& piece, double frequency, Value& value) {
   const double x = std::clamp((2.0 * frequency - piece.begin - piece.end) / (piece.end - piece.begin), -1.0, 1.0);
-  value.sums.centre += std::complex<double>(interpolated(piece.real, x), interpolated(piece.imaginary, x));
-  value.sums.radius += interpolated(piece.radius, x);
+  const InterpolatedAt interpolated(x);
+  value.sums.centre += std::complex<double>(interpolated(piece.real), interpolated(piece.imaginary));
+  value.sums.radius += interpolated(piece.radius);
   value.error += piece.error;
 }
 

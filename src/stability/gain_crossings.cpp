@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "sampling/cancellation.hpp"
+#include "stability/response_bound.hpp"
 #include "stability/root_isolation.hpp"
 
 namespace zwidth::internal {
@@ -38,12 +40,34 @@ std::vector<bool> undamped_poles(const FilteredPlant& plant, const GainLocus& lo
 // there.
 bool vanishes(const SampledPlant& plant, double angle) { return cancellation(plant, angle) >= 1e13; }
 
-}  // namespace
+// Where the controller of a gain, K + B v or B v, is too small for |P C| = 1: every crossing there has a greater gain.
+class SmallerGains {
+ public:
+  SmallerGains(const FilteredPlant& plant, const GainLocus& locus, double stiffness, double damping)
+      : bound_(plant), locus_(locus), stiffness_(stiffness), damping_(damping) {}
 
-GainCrossings gain_crossings(const FilteredPlant& plant, const GainLocus& locus) {
+  bool leaves_out(double begin, double end) {
+    const double controller = stiffness_ + damping_ * locus_.velocity_size(end);  // greatest there
+    const bool out = controller * bound_.greatest(begin, end) < certainly_less;
+    if (out && !first_) first_ = begin;
+    return out;
+  }
+  // Where what is left out begins, x.
+  [[nodiscard]] std::optional<double> first() const { return first_; }
+
+ private:
+  static constexpr double certainly_less = 1.0 - 1e-9;
+  ResponseBound bound_;
+  const GainLocus& locus_;
+  double stiffness_;
+  double damping_;
+  std::optional<double> first_;
+};
+
+GainCrossings crossings_of(const FilteredPlant& plant, const GainLocus& locus, const std::vector<CircleRoot>& roots,
+                           double before_first) {
   GainCrossings result;
-  const std::vector<CircleRoot> roots = roots_on_circle(locus, std::max<std::size_t>(1, plant.delay_samples));
-  result.initially_unstable = locus.initially_unstable(locus.value(roots.empty() ? 1.0 : 0.5 * roots.front().angle));
+  result.initially_unstable = locus.initially_unstable(locus.value(before_first));
   result.crossings.reserve(roots.size() + 1);
   const std::vector<bool> is_pole = undamped_poles(plant, locus, roots);
   for (std::size_t i = 0; i < roots.size(); ++i) {
@@ -73,6 +97,29 @@ GainCrossings gain_crossings(const FilteredPlant& plant, const GainLocus& locus)
   return result;
 }
 
+// Poles outside at K = 0 beside the plant's own: the locus of B. The one that the damper leaves at z = 1 is counted by the
+// locus of K.
+int left_by_damper(const FilteredPlant& plant, const VirtualDamper& damper, const GainCrossings& by_damping) {
+  int open_loop = 0;
+  for (const SampledTerm& term : plant.terms) open_loop += term.unstable_poles;
+  return unstable_poles(by_damping, damper.damping) - open_loop;
+}
+
+// Those with a gain of at most the region's.
+GainCrossings smaller_crossings(const FilteredPlant& plant, const GainLocus& locus, SmallerGains region) {
+  const std::vector<CircleRoot> roots = roots_on_circle(locus, std::max<std::size_t>(1, plant.delay_samples), region);
+  double before_first = roots.empty() ? 1.0 : 0.5 * roots.front().angle;
+  if (region.first()) before_first = std::min(before_first, 0.5 * angle_of(*region.first()));
+  return crossings_of(plant, locus, roots, before_first);
+}
+
+}  // namespace
+
+GainCrossings gain_crossings(const FilteredPlant& plant, const GainLocus& locus) {
+  const std::vector<CircleRoot> roots = roots_on_circle(locus, std::max<std::size_t>(1, plant.delay_samples));
+  return crossings_of(plant, locus, roots, roots.empty() ? 1.0 : 0.5 * roots.front().angle);
+}
+
 int unstable_poles(const GainCrossings& crossings, double gain) {
   int unstable = crossings.initially_unstable;
   for (const GainCrossing& crossing : crossings.crossings) {
@@ -92,14 +139,22 @@ GainCrossings stiffness_crossings(const FilteredPlant& plant, const VirtualDampe
 GainCrossings stiffness_crossings(const FilteredPlant& plant, const VirtualDamper& damper,
                                   const GainCrossings& by_damping) {
   GainCrossings result = gain_crossings(plant, GainLocus(plant, GainLocus::Gain::stiffness, 0.0, damper));
-  if (damper.damping > 0.0) {
-    // The poles at K = 0 are those of the damper alone: the locus of B. The one that the damper leaves at z = 1 is
-    // counted by the locus of K.
-    int open_loop = 0;
-    for (const SampledTerm& term : plant.terms) open_loop += term.unstable_poles;
-    result.initially_unstable += unstable_poles(by_damping, damper.damping) - open_loop;
-  }
+  if (damper.damping > 0.0) result.initially_unstable += left_by_damper(plant, damper, by_damping);
   return result;
+}
+
+double stiffness_limit(const FilteredPlant& plant, const VirtualDamper& damper, double most) {
+  int unstable = 0;
+  if (damper.damping > 0.0) {
+    const GainLocus locus(plant, GainLocus::Gain::damping, 0.0, damper);
+    unstable = left_by_damper(plant, damper, smaller_crossings(plant, locus, {plant, locus, 0.0, damper.damping}));
+  }
+  const GainLocus locus(plant, GainLocus::Gain::stiffness, 0.0, damper);
+  const GainCrossings found = smaller_crossings(plant, locus, {plant, locus, most, damper.damping});
+  if (unstable + found.initially_unstable > 0) return 0.0;
+  double least = most;
+  for (const GainCrossing& crossing : found.crossings) least = std::min(least, crossing.gain);
+  return least;
 }
 
 }  // namespace zwidth::internal

@@ -33,6 +33,10 @@ GainCrossings stiffness_crossings(const FilteredPlant& plant, const VirtualDampe
 // The critical stiffness that these stiffness crossings say.
 CriticalStiffness critical_stiffness_of(const FilteredPlant& plant, const GainCrossings& by_stiffness);
 
+// The end of the stable stiffnesses from 0 on where it is at most `most` > 0, else `most`; infinite where nothing bounds it
+// and `most` is. Only the frequencies are isolated at which so soft a wall can be critical.
+[[nodiscard]] double stiffness_limit(const FilteredPlant& plant, const VirtualDamper& damper, double most);
+
 // Poles outside the circle at kappa = gain.
 int unstable_poles(const GainCrossings& crossings, double gain);
 

@@ -171,6 +171,11 @@ std::vector<double> GainLocus::pole_angles() const {
   return angles;
 }
 
+// v = (c/T) delta / (delta + c)
+double GainLocus::velocity_size(double chord_squared) const {
+  return c_ / plant_.period * std::sqrt(chord_squared / (c_ * c_ + (1.0 - c_) * chord_squared));
+}
+
 double GainLocus::gain(double angle) const {
   // The damper's zero at z = 1 and an integrator cancel: the limit.
   if (angle == 0.0 && gain_ == Gain::damping && integrators_ > 0) {

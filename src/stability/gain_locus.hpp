@@ -51,6 +51,9 @@ class GainLocus {
   // Angles of the plant's oscillating poles.
   [[nodiscard]] std::vector<double> pole_angles() const;
 
+  // |v| of the unit damper at x = |z - 1|²; it grows with x.
+  [[nodiscard]] double velocity_size(double chord_squared) const;
+
   // kappa = -den/num where it is real; infinite or NaN where num vanishes.
   [[nodiscard]] double gain(double angle) const;
 

@@ -80,6 +80,19 @@ void polish(const FilteredPlant& plant, VirtualDamper damper, const PoleCount& p
   std::erase_if(found.crossings, [](const GainCrossing& each) { return !(each.gain > 0.0); });
 }
 
+// A free device that leaves so slowly that a wall of a millionth of the limit holds it: rounded coefficients.
+void doubt_slow_instability(CriticalStiffness& critical) {
+  constexpr double negligible = 1e-6;
+  if (critical.status != StiffnessStatus::none_stable || critical.stable_intervals.empty()) return;
+  const StableInterval& first = critical.stable_intervals.front();
+  if (!first.upper || first.lower > negligible * *first.upper) return;
+  critical.trust.doubt(fmt::format(
+      "the device by itself is unstable, but so slowly that a wall of {:.3g} holds it, and walls up to {:.6g} are "
+      "stable: if its numbers were computed, rounding moved a pole that belongs at s = 0; write the coefficient that "
+      "makes it as 0",
+      first.lower, *first.upper));
+}
+
 }  // namespace
 
 Agreement agreement(const PoleCount& poles, double stiffness, bool stable) {
@@ -123,6 +136,7 @@ CriticalStiffness guarded_stiffness(const Device& device, const FilteredPlant& p
     distrust(agreement(poles, claim.stiffness, claim.stable), claim.stiffness, critical.trust);
   }
   if (critical.trust.refused()) withdraw(critical);
+  doubt_slow_instability(critical);
   return critical;
 }
 

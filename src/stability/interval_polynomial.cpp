@@ -68,18 +68,19 @@ double interpolation_error(const InterpolationValues& values) {
   return 2.0 * last;
 }
 
-// Barycentric, with the weights (-1)^i sin(angle_i) of these nodes.
-double interpolated(const InterpolationValues& values, double x) {
-  double numerator = 0.0;
-  double denominator = 0.0;
+// With the weights (-1)^i sin(angle_i) of these nodes.
+InterpolatedAt::InterpolatedAt(double x) {
+  for (std::size_t i = 0; i < interpolation_points; ++i) weights_[i] = tables().weights[i] / (x - tables().nodes[i]);
   for (std::size_t i = 0; i < interpolation_points; ++i) {
-    const double distance = x - tables().nodes[i];
-    if (distance == 0.0) return values[i];
-    const double weight = tables().weights[i] / distance;
-    numerator += weight * values[i];
-    denominator += weight;
+    if (x == tables().nodes[i]) weights_.fill(0.0), weights_[i] = 1.0;
   }
-  return numerator / denominator;
+  for (const double weight : weights_) sum_ += weight;
+}
+
+double InterpolatedAt::operator()(const InterpolationValues& values) const {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < interpolation_points; ++i) sum += weights_[i] * values[i];
+  return sum / sum_;
 }
 
 Halves halves_of(const InterpolationValues& coefficients) {

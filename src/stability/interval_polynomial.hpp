@@ -27,8 +27,17 @@ using InterpolationValues = std::array<double, interpolation_points>;
 /// Rounding of the Bernstein coefficients, in units of the largest of the values: measured, 2e3 units at this degree.
 inline constexpr double bernstein_rounding = 4e3 * std::numeric_limits<double>::epsilon();
 
-/// The polynomial through the values, -1 <= x <= 1.
-[[nodiscard]] double interpolated(const InterpolationValues& values, double x);
+/// Polynomials through values at the interpolation nodes, all at one place: -1 <= x <= 1.
+class InterpolatedAt {
+ public:
+  explicit InterpolatedAt(double x);
+  /// The polynomial through these values.
+  [[nodiscard]] double operator()(const InterpolationValues& values) const;
+
+ private:
+  InterpolationValues weights_{};  // barycentric; of a node itself 1, of all others 0
+  double sum_ = 0.0;
+};
 
 struct Halves {
   InterpolationValues left{};

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
+#include <type_traits>
 #include <vector>
 
 #include "stability/bounded_jet.hpp"
@@ -163,23 +164,34 @@ inline double division(double begin, double end) {
 
 }  // namespace root_isolation
 
+// Leaves nothing out.
+struct WholeCircle {
+  [[nodiscard]] static bool leaves_out(double, double) { return false; }
+};
+
 // Function: double value(double angle) const; BoundedJet<Scalar> model<Scalar>(double begin, double end) const on an
 // interval of x = |z - 1|², in double and Extended. `pieces` intervals, equal in angle, to start with: about one per
-// half turn of the function's fastest oscillation. Throws Error (did_not_converge) past a cap on the number of
-// intervals.
-template <typename Function>
-std::vector<CircleRoot> roots_on_circle(const Function& f, std::size_t pieces) {
+// half turn of the function's fastest oscillation. Region: what of the circle is of no interest, asked before anything
+// else. Throws Error (did_not_converge) past a cap on the number of intervals.
+template <typename Function, typename Region = WholeCircle>
+std::vector<CircleRoot> roots_on_circle(const Function& f, std::size_t pieces, Region&& region = {}) {
   using namespace root_isolation;
+  constexpr bool is_whole = std::is_same_v<std::remove_cvref_t<Region>, WholeCircle>;
   std::vector<CircleRoot> roots;
   std::vector<Interval> stack;
-  stack.reserve(64 + pieces);
-  double right = 4.0;
-  for (std::size_t i = pieces; i-- > 0;) {  // leftmost on top
-    const double half_sine = std::sin(0.5 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(pieces));
-    const double left = 4.0 * half_sine * half_sine;
-    stack.push_back({left, right, false});
-    right = left;
+  stack.reserve(64 + (is_whole ? pieces : 0));
+  if constexpr (is_whole) {
+    double right = 4.0;
+    for (std::size_t i = pieces; i-- > 0;) {  // leftmost on top
+      const double half_sine = std::sin(0.5 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(pieces));
+      const double left = 4.0 * half_sine * half_sine;
+      stack.push_back({left, right, false});
+      right = left;
+    }
+  } else {
+    stack.push_back({0.0, 4.0, false});
   }
+  const double widest = 1.5 * std::numbers::pi / static_cast<double>(pieces);  // angle, that f is asked on
   std::size_t intervals_left = max_intervals_per_piece * pieces;
   double zero_begin = -1.0;  // a run of neighbouring intervals in which f is zero to rounding
   double zero_end = -1.0;
@@ -210,6 +222,18 @@ std::vector<CircleRoot> roots_on_circle(const Function& f, std::size_t pieces) {
     const Interval interval = stack.back();
     const auto [begin, end, extended] = interval;
     stack.pop_back();
+    if constexpr (!is_whole) {
+      if (!extended && region.leaves_out(begin, end)) {
+        end_of_run();
+        continue;
+      }
+      if (pieces > 1 && angle_of(end) - angle_of(begin) > widest) {
+        const double middle = division(begin, end);
+        stack.push_back({middle, end, false});
+        stack.push_back({begin, middle, false});
+        continue;
+      }
+    }
     Content found =
         extended ? content(f.template model<Extended>(begin, end)) : content(f.template model<double>(begin, end));
     const bool narrow = end - begin <= narrowest * end;

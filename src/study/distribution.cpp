@@ -62,6 +62,8 @@ std::optional<OptionProblem> find_problem(const Distribution& distribution) {
   if (!has_deviation(kind) && !(std::isfinite(distribution.lower) && std::isfinite(distribution.upper))) {
     return OptionProblem{std::isfinite(distribution.lower) ? "upper" : "lower", "is not finite", "must be finite"};
   }
+  if (std::isnan(distribution.lower)) return OptionProblem{"lower", "is nan", "must be a number"};
+  if (std::isnan(distribution.upper)) return OptionProblem{"upper", "is nan", "must be a number"};
   if (!(distribution.lower < distribution.upper)) {
     return OptionProblem{"upper", is(distribution.upper),
                          fmt::format("must be above the lower end, {}", distribution.lower)};

@@ -63,12 +63,14 @@ std::optional<DeviceProblem> find_reach_problem(const Device& device, const Stud
     set_parameter(parameters, one.key, value);
     const auto problem = find_problem(parameters);
     if (!problem) continue;
-    const bool is_low = value == quantile.least();
+    const bool is_discrete = one.distribution.kind == Distribution::Kind::discrete;
+    const char* end = value == quantile.least() ? "lower" : "upper";
     return DeviceProblem{
         place,
         fmt::format("{}: reaches {:.6g}, which is no device: {} {}", one.key, value, problem->key, problem->what),
-        fmt::format("{} {}; cut it off with `{}`, or lessen its width", problem->key, problem->allowed,
-                    is_low ? "lower" : "upper")};
+        fmt::format(
+            "{} {}; {}", problem->key, problem->allowed,
+            is_discrete ? "leave that value out" : fmt::format("cut it off with `{}`, or lessen its width", end))};
   }
   return std::nullopt;
 }

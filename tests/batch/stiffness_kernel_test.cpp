@@ -21,6 +21,7 @@ namespace {
 
 constexpr unsigned seed = 7;
 const Device device{test::lhifam_parameters()};
+const Device rigid{test::rigid_parameters()};
 
 // Delays, dampers and lags of all kinds side by side: every group of the kernel.
 std::vector<ParameterValues> mixed(std::size_t count) {
@@ -38,6 +39,28 @@ std::vector<ParameterValues> mixed(std::size_t count) {
     changes[3].values.push_back(kind(engine) == 0 ? 3e-4 * share(engine) : 0.0);
     changes[4].values.push_back(kind(engine) == 0 ? 3.0 * share(engine) : 0.0);
     changes[5].values.push_back(kind(engine) == 0 ? 100.0 * share(engine) : 0.0);
+  }
+  return changes;
+}
+
+// Their polynomial is of degree 1: free and tied ones, with and without a damper, from slow sampling to fast.
+std::vector<ParameterValues> rigid_without_delay(std::size_t count) {
+  std::mt19937_64 engine(seed);
+  const auto log_uniform = [&engine](double low, double high) {
+    return std::exp(std::uniform_real_distribution<double>(std::log(low), std::log(high))(engine));
+  };
+  std::uniform_int_distribution<int> kind(0, 3);
+  std::vector<ParameterValues> changes{{"body.body.mass", {}},
+                                       {"body.body.damping", {}},
+                                       {"body.body.stiffness", {}},
+                                       {"loop.sampling_period", {}},
+                                       {"wall.damping", {}}};
+  for (std::size_t i = 0; i < count; ++i) {
+    changes[0].values.push_back(log_uniform(0.05, 20.0));
+    changes[1].values.push_back(log_uniform(1e-3, 50.0));
+    changes[2].values.push_back(kind(engine) == 0 ? log_uniform(1.0, 1e5) : 0.0);
+    changes[3].values.push_back(log_uniform(5e-5, 0.5));  // e^{-bT/m} from 1 - 1e-8 to 0
+    changes[4].values.push_back(kind(engine) == 0 ? log_uniform(1e-2, 20.0) : 0.0);
   }
   return changes;
 }
@@ -87,15 +110,14 @@ std::size_t cases() {
 }
 
 // Each instruction set of this machine by itself, SSE4 to AVX-512 (Highway's test targets).
-TEST(StiffnessKernel, InstructionSetsAgree) {
-  const std::vector<ParameterValues> changes = mixed(cases());
-  const BatchStiffness best = batch_stiffness(device, changes);
+void expect_that_instruction_sets_agree(const Device& base, const std::vector<ParameterValues>& changes) {
+  const BatchStiffness best = batch_stiffness(base, changes);
   std::size_t sets = 0;
   for (std::int64_t targets = hwy::SupportedTargets(), one = 0; targets != 0; targets -= one) {
     one = targets & -targets;
     hwy::SetSupportedTargetsForTest(one);
     hwy::GetChosenTarget().Update(one);
-    const BatchStiffness other = batch_stiffness(device, changes);
+    const BatchStiffness other = batch_stiffness(base, changes);
     ++sets;
     EXPECT_LT(other.scalar_count, other.size() / 2) << hwy::TargetName(one);
     for (std::size_t i = 0; i < best.size(); ++i) {
@@ -110,6 +132,27 @@ TEST(StiffnessKernel, InstructionSetsAgree) {
   hwy::SetSupportedTargetsForTest(0);
   hwy::GetChosenTarget().DeInit();
   EXPECT_GE(sets, 1U);
+}
+
+TEST(StiffnessKernel, InstructionSetsAgree) {
+  expect_that_instruction_sets_agree(device, mixed(cases()));
+  expect_that_instruction_sets_agree(rigid, rigid_without_delay(cases()));
+}
+
+TEST(StiffnessKernel, RigidDevicesWithoutDelayAreAnsweredAsAlone) {
+  const std::vector<ParameterValues> changes = rigid_without_delay(cases());
+  const BatchStiffness found = batch_stiffness(rigid, changes);
+  const BatchStiffness alone = batch_stiffness(rigid, changes, {.vectorised = false});
+  EXPECT_LT(found.scalar_count, found.size() / 5);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    EXPECT_EQ(found.status[i], alone.status[i]) << i;
+    EXPECT_EQ(found.mode[i], alone.mode[i]) << i;
+    EXPECT_EQ(found.poles_leaving[i], alone.poles_leaving[i]) << i;
+    EXPECT_EQ(found.verdict[i], alone.verdict[i]) << i;
+    if (alone.status[i] != StiffnessStatus::finite) continue;
+    EXPECT_LE(std::abs(found.stiffness[i] - alone.stiffness[i]), 1e-12 * alone.stiffness[i]) << i;
+    EXPECT_LE(std::abs(found.frequency[i] - alone.frequency[i]), 1e-12 * alone.frequency[i]) << i;
+  }
 }
 
 // Values at every edge of what a device may be: none may crash, hang or pass for certain where the library refuses.

@@ -171,6 +171,8 @@ TEST_F(BadInput, ValuesOfOptionsThatCannotBe) {
                  "study: --seed: is 1000 ms; a whole number, 0 or more;");
   expect_refused("zwidth simulate" + lhifam + "--seed 18446744073709551616",
                  "simulate: --seed: is 18446744073709551616; a whole number from 0 to 18446744073709551615;");
+  const std::string long_text(100'000, 'x');
+  expect_refused("zwidth simulate" + lhifam + "--seed " + long_text, "simulate: --seed: is " + long_text + "; a whole");
 }
 
 }  // namespace

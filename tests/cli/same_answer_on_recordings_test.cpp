@@ -49,7 +49,7 @@ void PrintTo(const Command& command, std::ostream* stream) { *stream << command.
 
 Answer frf(const Recorded& recorded) {
   const MeasuredResponse answer = frequency_response(recorded.recording);
-  return {results::line(results::frf_json(answer)) + results::frf_csv(answer.response)};
+  return {results::line(results::frf_json(answer)) + results::frf_csv(answer)};
 }
 
 Answer inverse_dynamics(const Recorded& recorded) {

@@ -22,7 +22,8 @@ struct HttpAnswer {
 /// A connection to the server, as bytes.
 class Client {
  public:
-  explicit Client(int port);
+  /// `from`: one of the addresses of loopback, all of which are this machine's.
+  explicit Client(int port, const char* from = "127.0.0.1");
   ~Client();
   Client(const Client&) = delete;
   Client& operator=(const Client&) = delete;

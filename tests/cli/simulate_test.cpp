@@ -15,6 +15,7 @@
 namespace zwidth::cli {
 namespace {
 
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
@@ -35,13 +36,14 @@ class Simulate : public Workspace {
 
 const std::string lhifam = "devices/lhifam.toml --set wall.stiffness=5000 ";
 
+// Without the last column, `trust`.
 std::vector<std::vector<double>> rows_of(const std::string& csv) {
   std::istringstream lines(csv);
   std::string line;
   std::getline(lines, line);
   std::vector<std::vector<double>> rows;
   while (std::getline(lines, line)) {
-    std::istringstream cells(line);
+    std::istringstream cells(line.substr(0, line.rfind(',')));
     rows.emplace_back();
     for (std::string cell; std::getline(cells, cell, ',');) rows.back().push_back(std::stod(cell));
   }
@@ -94,7 +96,7 @@ TEST_F(Simulate, CsvIsTheLibrarysMotion) {
                 .status,
             0);
   EXPECT_THAT(contents("a.csv"), StartsWith("time_s,measured,command,user_force,motor.position,motor.velocity,"
-                                            "handle.position,handle.velocity\n"));
+                                            "handle.position,handle.velocity,trust\n"));
   const auto rows = rows_of(contents("a.csv"));
   ASSERT_EQ(rows.size(), 500U);
   const Device device = *read_device_file((directory() / "devices/lhifam.toml").string(), {});
@@ -114,6 +116,23 @@ TEST_F(Simulate, CsvIsTheLibrarysMotion) {
     loop.step();
     EXPECT_EQ(row[1], loop.measured());
     EXPECT_EQ(row[2], loop.command());
+  }
+}
+
+TEST_F(Simulate, TheCsvOfADoubtfulDeviceSaysSoInEveryRow) {
+  write("doubtful.toml", contents("devices/lhifam.toml") + "\n[uncertainty]\nwarning = \"a reason\"\n");
+  ASSERT_EQ(run("zwidth simulate doubtful.toml --set wall.stiffness=5000 --duration 0.01 --csv a.csv && "
+                "zwidth bode doubtful.toml --output b.csv")
+                .status,
+            0);
+  for (const char* file : {"a.csv", "b.csv"}) {
+    std::istringstream lines(contents(file));
+    std::string line;
+    std::getline(lines, line);
+    EXPECT_THAT(line, EndsWith(",trust")) << file;
+    int rows = 0;
+    for (; std::getline(lines, line); ++rows) EXPECT_THAT(line, EndsWith(",doubtful")) << file;
+    EXPECT_GE(rows, 10) << file;
   }
 }
 

@@ -72,6 +72,7 @@ TEST_F(Study, ResultFileIsTheSameForAnyThreadsAndInMemory) {
   const Outcome one = run(many + " --threads 1 --output one.h5");
   ASSERT_EQ(one.status, 0) << one.errors;
   const Outcome three = run(many + " --threads 3 --output three.h5");
+  EXPECT_THAT(three.errors, IsEmpty());
   EXPECT_EQ(one.output, three.output);
   EXPECT_EQ(contents("one.h5"), contents("three.h5"));
   EXPECT_FALSE(contents("one.h5").empty());

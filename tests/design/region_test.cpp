@@ -13,6 +13,7 @@
 #include <string>
 #include <string_view>
 
+#include "design/random_chains.hpp"
 #include "lhifam.hpp"
 #include "property/random_devices.hpp"
 #include "zwidth/error.hpp"
@@ -239,59 +240,6 @@ TEST(Region, OfExtremeCoefficientsEndsOneWayOrTheOther) {
   }
 }
 
-/// 1 to 4 bodies; most dampings are the default 0.
-DeviceParameters hardly_damped(test::RandomDevices& random) {
-  DeviceParameters device;
-  const std::size_t bodies = 1 + random.index(4);
-  const auto damping = [&](double none, double low, double high) {
-    return random.chance(none) ? 0.0 : random.log_uniform(low, high);
-  };
-  for (std::size_t i = 0; i < bodies; ++i) {
-    const bool last = i + 1 == bodies;
-    device.bodies.push_back(
-        {"b" + std::to_string(i), random.log_uniform(0.02, 5.0), damping(last ? 0.2 : 0.8, 0.01, 10.0), 0.0, 0.0});
-  }
-  for (std::size_t i = 0; i + 1 < bodies; ++i) {
-    device.links.push_back({i, i + 1, random.log_uniform(1e2, 3e7), damping(0.6, 1e-3, 30.0)});
-  }
-  device.loop.actuated = random.index(bodies);
-  device.loop.sensed = random.chance(0.7) ? device.loop.actuated : random.index(bodies);
-  device.loop.held = random.index(bodies);
-  device.loop.sampling_period = std::array{1e-4, 5e-4, 1e-3, 2e-3}[random.index(4)];
-  if (random.chance(0.5)) device.loop.delay = random.log_uniform(0.01, 3.0) * device.loop.sampling_period;
-  return device;
-}
-
-/// The same with dampings down to 1e-8, springs to ground, lags, and delays of several samples.
-DeviceParameters barely_damped(test::RandomDevices& random) {
-  DeviceParameters device = hardly_damped(random);
-  for (Body& body : device.bodies) {
-    if (random.chance(0.5)) body.damping = random.log_uniform(1e-8, 1e-2);
-    if (random.chance(0.1)) body.stiffness = random.log_uniform(1.0, 2000.0);
-  }
-  for (Link& link : device.links) {
-    if (random.chance(0.3)) link.damping = random.log_uniform(1e-8, 1e-3);
-  }
-  if (random.chance(0.5)) device.loop.delay = random.uniform(0.0, 6.0) * device.loop.sampling_period;
-  if (random.chance(0.15)) device.actuator.time_constant = random.log_uniform(0.05, 3.0) * device.loop.sampling_period;
-  return device;
-}
-
-DeviceParameters long_chain(test::RandomDevices& random) {
-  DeviceParameters device;
-  const std::size_t bodies = 7 + random.index(4);
-  for (std::size_t i = 0; i < bodies; ++i) {
-    device.bodies.push_back(
-        {"b" + std::to_string(i), random.log_uniform(0.02, 5.0), random.log_uniform(0.01, 10.0), 0.0, 0.0});
-  }
-  for (std::size_t i = 0; i + 1 < bodies; ++i) {
-    device.links.push_back({i, i + 1, random.log_uniform(1e3, 3e5), random.log_uniform(0.1, 30.0)});
-  }
-  device.loop.held = bodies - 1;
-  device.loop.sampling_period = std::array{5e-4, 1e-3, 2e-3}[random.index(3)];
-  return device;
-}
-
 std::size_t cases() {
   const char* wish = std::getenv("ZWIDTH_REGION_CASES");
   return std::max<std::size_t>(1, (wish != nullptr ? std::strtoul(wish, nullptr, 10) : 200) / 4);
@@ -317,8 +265,8 @@ void expect_confirmed_family(std::size_t count, std::size_t most_refused, const 
   EXPECT_LE(refused, most_refused) << "of " << count;
 }
 
-TEST(RegionProperty, OfHardlyDampedDevices) { expect_confirmed_family(cases(), 1 + cases() / 60, hardly_damped); }
-TEST(RegionProperty, OfBarelyDampedDevices) { expect_confirmed_family(cases(), 1 + cases() / 60, barely_damped); }
+TEST(RegionProperty, OfHardlyDampedDevices) { expect_confirmed_family(cases(), 1 + cases() / 60, test::hardly_damped); }
+TEST(RegionProperty, OfBarelyDampedDevices) { expect_confirmed_family(cases(), 1 + cases() / 60, test::barely_damped); }
 
 // The Nyquist line bounds many of these.
 TEST(RegionProperty, OfEveryKindNoneIsRefused) {
@@ -336,7 +284,27 @@ TEST(RegionProperty, OfEveryKindNoneIsRefused) {
   }
 }
 
-TEST(RegionProperty, OfSevenToTenBodies) { expect_confirmed_family(1 + cases() / 5, 0, long_chain); }
+TEST(RegionProperty, OfSevenToTenBodies) { expect_confirmed_family(1 + cases() / 5, 0, test::long_chain); }
+TEST(RegionProperty, OfSevenToTenHardlyDampedBodies) {
+  expect_confirmed_family(1 + cases() / 5, 0, test::hardly_damped_chain);
+}
+
+// Was refused: where B turns, far beyond every stable wall, rounding of second differences passed for a bend.
+TEST(Region, OfAChainOfTenBodiesAlikeIsFollowed) {
+  DeviceParameters parameters;
+  for (std::size_t i = 0; i < 10; ++i) {
+    parameters.bodies.push_back({"b" + std::to_string(i), 0.0522, 0.011, 0.0, 0.0});
+    if (i > 0) parameters.links.push_back({i - 1, i, 82500.0, 0.187});
+  }
+  parameters.loop = {5, 4, 9, 0.10074e-3, 0.0};
+  const Device device(parameters);
+  const WallRegion walls = region(device, walls_alone);
+  EXPECT_EQ(walls.trust.verdict, Trust::Verdict::sound);
+  ASSERT_TRUE(walls.region.stiffest);
+  EXPECT_NEAR(walls.region.critical_stiffness / critical_stiffness(device).stiffness, 1.0, 1e-9);
+  expect_closed(walls);
+  expect_confirmed(device, walls);
+}
 
 TEST(Region, IsTrustedNoMoreThanItsDevice) {
   DeviceParameters parameters = test::lhifam_parameters();

@@ -1,5 +1,6 @@
 #include "zwidth/io/study_file.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -111,6 +112,10 @@ TEST(StudyFile, RefusesWithThePlace) {
   const std::string normal = "key = \"link.stiffness\"\ndistribution = \"normal\"\n";
   begins(parameter_with(normal + "mean = nan\nstandard_deviation = 1\n"),
          "study.toml:4:8: parameter.0.mean: is nan; must be finite");
+  begins(parameter_with(normal + "standard_deviation = 1\nlower = nan\n"),
+         "study.toml:5:9: parameter.0.lower: is nan; must be a number");
+  begins(parameter_with(normal + "standard_deviation = 1\nupper = nan\n"),
+         "study.toml:5:9: parameter.0.upper: is nan; must be a number");
   begins(parameter_with(normal + "standard_deviation = inf\n"),
          "study.toml:4:22: parameter.0.standard_deviation: is inf; must be finite and > 0");
   begins(parameter_with(normal + "relative_deviation = -0.1\n"),
@@ -124,6 +129,8 @@ TEST(StudyFile, RefusesWithThePlace) {
   const std::string discrete = "key = \"body.motor.mass\"\ndistribution = \"discrete\"\n";
   begins(parameter_with(discrete + "values = [1, 2]\nweights = [0, 0]\n"),
          "study.toml:5:11: parameter.0.weights: are all 0; must be > 0 for one value");
+  EXPECT_THAT(refusal(parameter_with(discrete + "values = [-1, 2]\n")),
+              ::testing::EndsWith("body.motor.mass must be a finite number > 0; leave that value out"));
   begins(parameter_with(discrete + "values = [1, \"2 m\"]\n"), "study.toml:4:14: parameter.0.values: \"m\" is no unit");
 }
 
@@ -159,6 +166,20 @@ TEST(StudyFile, TakesMeasuredSamples) {
   ASSERT_EQ(delay.values.size(), 2U);
   EXPECT_NEAR(delay.values[0], 250e-6, 1e-18);
   EXPECT_EQ(delay.weights, (std::vector<double>{4.0, 1.0}));
+}
+
+// A comma may be a decimal one: 0,25 must not become 0, seen 25 times.
+TEST(StudyFile, TakesNoCommaBetweenDigitsForASeparator) {
+  const std::string folder = ::testing::TempDir();
+  const std::string text = "[[parameter]]\nkey = \"loop.delay\"\ndistribution = \"file\"\nfile = \"commas.txt\"\n";
+  std::ofstream(folder + "/commas.txt") << "# unit: ms\n0,25\n0,5\n";
+  const auto refused = parse_study(text, "study.toml", device, folder);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().str(), ::testing::HasSubstr("commas.txt:2: \"0,25\" is no sample; must be a number"));
+  std::ofstream(folder + "/commas.txt") << "250e-6, 3\n400e-6; 1\n";
+  const auto study = parse_study(text, "study.toml", device, folder);
+  ASSERT_TRUE(study) << study.error().str();
+  EXPECT_EQ(study->distributions.parameters[0].distribution.weights, (std::vector<double>{3.0, 1.0}));
 }
 
 TEST(StudyFile, NeverThrowsOnAnyPrefix) {

@@ -37,16 +37,19 @@ TEST(TimeDomainProperty, FrictionDoesNotMoveTheCriticalStiffness) {
 }
 
 // As the instants of sticking and slipping change, the misfit has kinks, and side minima between them. A search that ended
-// at one came to 12.3 % too high, in an interval that begins 7.1 % above the truth. What is left is
-// the disturbance: without it this device comes out right, with others of the same size on either side.
+// at one came to 12.3 % too high. What is left is the disturbance: without it this device comes out right, with
+// twelve others of the same size between 8.4 % too low and 9 % too high. The sums over its own residuals promise 2.6 % (one
+// deviation), and an interval that begins 4.2 % above the truth.
 TEST(TimeDomainProperty, ASearchPassesTheKinksOfItsMisfit) {
   const test::FrictionRecordings made = test::friction_recordings(900007);
   TimeDomainOptions options;
   options.structure_values = IdentifyOptions::StructureValues::placeholders;
   const TimeDomainIdentification found = identify_in_time(made.recordings, Device(made.structure), options);
   ASSERT_TRUE(found.analysis.interval) << "seed 900007: " << made.what;
-  EXPECT_LE(found.analysis.critical.stiffness, 1.1 * made.stiffness);
-  EXPECT_LE(found.analysis.interval->lower, 1.05 * made.stiffness);
+  EXPECT_NEAR(found.analysis.critical.stiffness, made.stiffness, 0.11 * made.stiffness);
+  EXPECT_LE(found.analysis.interval->lower, made.stiffness);
+  EXPECT_GE(found.analysis.interval->upper, made.stiffness);
+  EXPECT_LE(found.analysis.interval->upper, 1.25 * made.stiffness);
 }
 
 }  // namespace

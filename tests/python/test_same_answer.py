@@ -118,6 +118,30 @@ def test_random_devices(call, random_devices, tmp_path):
     assert same > asked / 3
 
 
+EXPORTS = {"octave": {}, "python": {}, "json": {}, "c": {"safety_factor": 0.5}, "chai3d": {"safety_factor": 0.5}}
+
+
+def test_exported_texts(device_files, random_devices, tmp_path):
+    files = [*device_files, *random_devices[: int(os.environ.get("ZWIDTH_PYTHON_DEVICES", 63))]]
+    asked = [(file, form, options) for form, options in EXPORTS.items() for file in files]
+    words = [
+        ["export", file, "--format", form, *(w for key, value in options.items() for w in (f"--{key.replace('_', '-')}", value))]
+        for file, form, options in asked
+    ]
+    same = dict.fromkeys(EXPORTS, 0)
+    for (file, form, options), (text, status) in zip(asked, answers(words, tmp_path)):
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            try:
+                mine = zwidth.export(zwidth.Device.from_toml(file), form, **options)
+            except zwidth.Error:
+                mine = ""
+        assert mine == text, f"{file} as {form}: exit status {status}"
+        same[form] += text != ""
+    print(f"{len(files)} devices, exported alike: {same}")
+    assert all(count > len(files) / 3 for count in same.values())
+
+
 STUDY = {
     "samples": 60,
     "sampling": "latin-hypercube",

@@ -111,14 +111,15 @@ TEST(FrfText, SaysTheAnswerWithItsIntervalAndEveryRemark) {
 }
 
 TEST(FrfCsv, HasOneRowPerLineWithAllDigits) {
-  const FrequencyResponse response = falling_phase(1e-3);
-  std::istringstream rows(frf_csv(response));
+  MeasuredResponse measured = example();
+  const FrequencyResponse& response = measured.response;
+  std::istringstream rows(frf_csv(measured));
   std::string row;
   std::getline(rows, row);
   EXPECT_THAT(row, HasSubstr("frequency_hz,magnitude"));
   std::size_t count = 0;
   for (; std::getline(rows, row); ++count) {
-    EXPECT_EQ(std::count(row.begin(), row.end(), ','), 10);
+    EXPECT_EQ(std::count(row.begin(), row.end(), ','), 11);
     EXPECT_EQ(std::stod(row), response.points[count].frequency);
   }
   EXPECT_EQ(count, response.points.size());

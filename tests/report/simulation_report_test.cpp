@@ -167,7 +167,7 @@ TEST(SimulationCsv, QuotesNamesThatNeedIt) {
   run.device = Device(parameters);
   EXPECT_THAT(simulation_csv(run.device, run.result),
               StartsWith("time_s,measured,command,user_force,\"motor, \"\"old\"\".position\","
-                         "\"motor, \"\"old\"\".velocity\",handle.position,handle.velocity\n0,"));
+                         "\"motor, \"\"old\"\".velocity\",handle.position,handle.velocity,trust\n0,"));
 }
 
 TEST(SimulationFigure, DrawsNamesThatCouldBeMistakenForMarkup) {

@@ -38,7 +38,7 @@ TEST(IntervalPolynomial, TheErrorStatedCoversTheErrorMade) {
     const InterpolationValues values = values_of(function);
     double error = 0.0;
     for (double x = -1.0; x <= 1.0; x += 0.003) {
-      error = std::max(error, std::abs(interpolated(values, x) - function(x)));
+      error = std::max(error, std::abs(InterpolatedAt(x)(values) - function(x)));
     }
     EXPECT_LE(error, interpolation_error(values) + 1e-14) << depth;
     EXPECT_GE(error, 1e-3 * interpolation_error(values)) << depth;

@@ -90,6 +90,21 @@ std::optional<Refusal> find_refusal(const RequestHead& head, const Site& site, c
   return refusal_of_body(head, asked);
 }
 
+std::span<const std::pair<const char*, const char*>> security_headers() {
+  static constexpr std::pair<const char*, const char*> headers[] = {
+      {"Content-Security-Policy",
+       "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; img-src 'self' data: blob:; "
+       "font-src 'self'; media-src 'self' blob:; worker-src 'self' blob:; manifest-src 'self'; base-uri 'none'; "
+       "form-action 'none'; frame-ancestors 'none'"},
+      {"X-Content-Type-Options", "nosniff"},
+      {"X-Frame-Options", "DENY"},
+      {"Referrer-Policy", "no-referrer"},
+      {"Cross-Origin-Opener-Policy", "same-origin"},
+      {"Cross-Origin-Resource-Policy", "same-origin"},
+  };
+  return headers;
+}
+
 std::string random_token() {
   unsigned char bytes[32];
   std::size_t filled = 0;

@@ -2,8 +2,10 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "server/api/api.hpp"
@@ -43,6 +45,9 @@ struct Refusal {
 /// 415 by the route, 400 for what is malformed. `route`: of the API; `is_file`: the path is one of the front end's.
 [[nodiscard]] std::optional<Refusal> find_refusal(const RequestHead& head, const Site& site, const Route* route,
                                                   bool is_file);
+
+/// Names and values that stand in every answer: nothing foreign is loaded, no frame, no guessed types, no referrer.
+[[nodiscard]] std::span<const std::pair<const char*, const char*>> security_headers();
 
 /// 32 random bytes in hexadecimal.
 [[nodiscard]] std::string random_token();

@@ -5,6 +5,7 @@
 #include <sys/socket.h>
 
 #include <algorithm>
+#include <boost/asio/ip/network_v6.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/write.hpp>
 #include <boost/beast/http/error.hpp>
@@ -28,19 +29,9 @@ constexpr std::size_t largest_body = std::size_t{1} << 40;  // each route has it
 constexpr std::size_t most_drained = std::size_t{16} << 20;
 constexpr const char* stream_type = "application/x-ndjson";
 
-constexpr const char* content_security_policy =
-    "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; img-src 'self' data: blob:; "
-    "font-src 'self'; media-src 'self' blob:; worker-src 'self' blob:; manifest-src 'self'; base-uri 'none'; "
-    "form-action 'none'; frame-ancestors 'none'";
-
 template <typename Message>
 void put_security_headers(Message& response) {
-  response.set("Content-Security-Policy", content_security_policy);
-  response.set("X-Content-Type-Options", "nosniff");
-  response.set("X-Frame-Options", "DENY");
-  response.set("Referrer-Policy", "no-referrer");
-  response.set("Cross-Origin-Opener-Policy", "same-origin");
-  response.set("Cross-Origin-Resource-Policy", "same-origin");
+  for (const auto& [name, value] : security_headers()) response.set(name, value);
 }
 
 std::string_view view(boost::string_view text) { return {text.data(), text.size()}; }
@@ -51,6 +42,14 @@ std::string host_and_port(const tcp::endpoint& endpoint) {
     address = net::ip::make_address_v4(net::ip::v4_mapped, address.to_v6());
   const std::string host = address.is_v6() ? "[" + address.to_string() + "]" : address.to_string();
   return fmt::format("{}:{}", host, endpoint.port());
+}
+
+/// Who calls: the address; of IPv6 its network of 64 bits, all of which one host may have.
+std::string client_of(const tcp::socket& socket) {
+  beast::error_code ignored;
+  const net::ip::address address = socket.remote_endpoint(ignored).address();
+  if (!address.is_v6() || address.to_v6().is_v4_mapped()) return address.to_string();
+  return net::ip::make_network_v6(address.to_v6(), 64).canonical().to_string();
 }
 
 /// Of 80, browsers leave the port out.
@@ -70,7 +69,8 @@ std::string chunk(const std::string& text) { return fmt::format("{:x}\r\n{}\r\n"
 
 }  // namespace
 
-Connection::Connection(tcp::socket socket, Shared& shared) : stream_(std::move(socket)), shared_(shared) {
+Connection::Connection(tcp::socket socket, Shared& shared)
+    : stream_(std::move(socket)), shared_(shared), client_(client_of(stream_.socket())) {
   shared_.connections.insert(this);
 }
 
@@ -253,11 +253,14 @@ void Connection::dispatch_work(const Route& route) {
     const auto sockets = self->stream_.get_executor();
     net::post(sockets, [self = std::move(self), answer = std::move(answer)] { self->on_answer(answer); });
   };
-  if (!shared_.work.add(std::move(work))) {
+  const bool is_over_share = shared_.tells_clients() && shared_.work_of(client_) > shared_.limits.waiting / 2;
+  if (is_over_share || !shared_.work.add(std::move(work))) {
     works_ = streams_ = false;
-    Response busy(http::status::service_unavailable, 11);
+    Response busy(is_over_share ? http::status::too_many_requests : http::status::service_unavailable, 11);
     busy.set(http::field::retry_after, "1");
-    busy.body() = error_document({"", "busy: too many requests wait", "the same later"});
+    busy.body() = is_over_share
+                      ? error_document({"", "too many requests of yours wait", "the same when they are answered"})
+                      : error_document({"", "busy: too many requests wait", "the same later"});
     return send(std::move(busy));
   }
   if (streams_) begin_stream();

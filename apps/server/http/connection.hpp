@@ -40,6 +40,12 @@ struct Shared {
   bool stops = false;
   std::function<void()> all_gone = {};   ///< called when it stops and the last connection has ended
   std::function<void()> work_runs = {};  ///< called when some begins: from now on who leaves is looked for
+
+  /// By their addresses: on loopback all have that of this machine.
+  [[nodiscard]] bool tells_clients() const { return !token.empty(); }
+  [[nodiscard]] std::size_t connections_of(const std::string& client) const;
+  /// Requests of theirs that are at work or wait.
+  [[nodiscard]] std::size_t work_of(const std::string& client) const;
 };
 
 /// One client: reads a request, has it answered, writes the answer, and so on. Lives as long as something of it waits.
@@ -58,6 +64,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void close();
   /// Whether work runs; that of a client that has left is ended.
   bool look();
+  [[nodiscard]] const std::string& client() const { return client_; }
+  [[nodiscard]] bool works() const { return works_; }
 
  private:
   using Error = boost::beast::error_code;
@@ -91,6 +99,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
   boost::beast::tcp_stream stream_;
   Shared& shared_;
+  const std::string client_;
   boost::beast::flat_buffer buffer_;
   std::optional<boost::beast::http::request_parser<boost::beast::http::string_body>> parser_;
   std::size_t body_ = 0;  // bytes announced

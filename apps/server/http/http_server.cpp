@@ -58,10 +58,13 @@ class Listener {
     acceptor_.async_accept([this](beast::error_code error, tcp::socket socket) {
       if (shared_.stops) return;
       if (error) return accept_later();  // no descriptor is left, for one
-      if (shared_.connections.size() < shared_.limits.connections) {
-        std::make_shared<Connection>(std::move(socket), shared_)->start();
+      if (shared_.connections.size() >= shared_.limits.connections) {
+        turn_away(socket, "503 Service Unavailable", {"", "busy: too many connections", "the same later"});
+      } else if (shared_.tells_clients() &&
+                 shared_.connections_of(client_of(socket)) >= shared_.limits.connections / 2) {
+        turn_away(socket, "429 Too Many Requests", {"", "too many connections of yours", "the same on one of them"});
       } else {
-        turn_away(socket);
+        std::make_shared<Connection>(std::move(socket), shared_)->start();
       }
       accept();
     });
@@ -75,12 +78,14 @@ class Listener {
   }
 
   /// Without waiting for a client that may never read.
-  static void turn_away(tcp::socket& socket) {
-    const std::string document = error_document({"", "busy: too many connections", "the same later"});
-    const std::string answer = fmt::format(
-        "HTTP/1.1 503 Service Unavailable\r\nContent-Type: application/json\r\nContent-Length: {}\r\n"
-        "Retry-After: 1\r\nConnection: close\r\n\r\n{}",
-        document.size(), document);
+  static void turn_away(tcp::socket& socket, std::string_view status, const Problem& problem) {
+    const std::string document = error_document(problem);
+    std::string answer = fmt::format(
+        "HTTP/1.1 {}\r\nContent-Type: application/json\r\nContent-Length: {}\r\nRetry-After: 1\r\n"
+        "Connection: close\r\n",
+        status, document.size());
+    for (const auto& [name, value] : security_headers()) answer += fmt::format("{}: {}\r\n", name, value);
+    answer += "\r\n" + document;
     (void)!::send(socket.native_handle(), answer.data(), answer.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
   }
 
@@ -193,6 +198,16 @@ net::ip::address address_of(const std::string& host, beast::error_code& error) {
 }
 
 }  // namespace
+
+std::size_t Shared::connections_of(const std::string& client) const {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(connections, [&](const Connection* each) { return each->client() == client; }));
+}
+
+std::size_t Shared::work_of(const std::string& client) const {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      connections, [&](const Connection* each) { return each->works() && each->client() == client; }));
+}
 
 bool is_address(const std::string& host) {
   beast::error_code error;

@@ -10,6 +10,7 @@
 
 namespace zwidth::server {
 
+/// Of connections and of requests that wait one client may hold half, where clients are told apart.
 struct HttpLimits {
   std::size_t head = 16 << 10;                  ///< bytes
   std::size_t bodies = std::size_t{256} << 20;  ///< bytes of all requests together

@@ -45,6 +45,8 @@ class Recording:
     ) -> None:
         if not name or name.startswith("-"):
             raise InputError("recording", f"{name!r} is no name", "a text that begins with no '-'")
+        if not hasattr(columns, "keys"):
+            raise InputError(name, f"is of type {type(columns).__name__}", "arrays by name")
         held: List[Tuple[str, npt.NDArray[np.float64]]] = []
         for key in columns:
             held.append((str(key), _real_numbers(f"{name}: {key}", columns[key], "numbers")))

@@ -29,6 +29,10 @@ class Device:
     def __eq__(self, other: object) -> bool: ...
     def __hash__(self) -> int: ...
 
+def transfer_function_of(
+    A: npt.NDArray[np.float64], B: npt.NDArray[np.float64], C: npt.NDArray[np.float64]
+) -> Dict[str, List[float]]: ...
+
 class CriticalStiffness:
     """The stiffest stable virtual wall, with everything that decides it."""
     @property

@@ -234,6 +234,7 @@ class Study(Result):
     regions = maybe_one(Record, "With region_units=...: the walls (K, B) that 99, 50 and 1 % of the units render.")
     worst = maybe_one(Record, "The worst unit found.")
     worst_any_user = maybe_one(Record, "The one with the lowest any-user limit, where it is asked for.")
+    tighten_first = maybe_text("The parameter whose halved spread gains most, where that is more than chance; else None.")
     trust = one(Trust, "How far the numbers may be relied on.")
     remarks = many(Remark, "What was left out or noticed.")
 

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from . import _commands
+from . import _commands, _core
 from ._core import Device
 from ._errors import Error, InputError
 from ._record import Array
@@ -52,17 +52,24 @@ def to_control(device: Device) -> Any:
 
 
 def from_control(system: Any, *, sampling_period: float, **loop: Any) -> Device:
-    """A device from a continuous system of one force and one position; `loop` are further keys of [loop].
+    """A device from a continuous control.TransferFunction or control.StateSpace of one force and one position.
 
-    Raises InputError for another number of inputs or outputs, and for a discrete system: the hold is zwidth's.
+    `loop`: further keys of [loop]. A state space is converted without rounding: a conversion in double precision moves a
+    rigid body's pole away from s = 0, where it grows. Coefficients of a transfer function are taken as they are.
+    Raises InputError for other systems, other numbers of inputs or outputs, force that passes straight to the position,
+    and a discrete system: the hold is zwidth's.
     """
     control = _module()
+    if not isinstance(system, (control.TransferFunction, control.StateSpace)):
+        raise InputError("system", f"is of type {type(system).__name__}", "a control.TransferFunction or control.StateSpace")
     if system.ninputs != 1 or system.noutputs != 1:
         raise InputError("system", f"has {system.ninputs} inputs, {system.noutputs} outputs", "one of each")
     if not system.isctime():
         raise InputError("system", "is discrete", "a continuous one: the hold is exact here")
-    fraction = control.tf(system)
-    return Device(
-        transfer_function={"numerator": fraction.num[0][0], "denominator": fraction.den[0][0]},
-        loop={"sampling_period": sampling_period, **loop},
-    )
+    if isinstance(system, control.StateSpace):
+        if np.any(system.D):
+            raise InputError("system", "passes force straight to the position", "D = 0")
+        fraction = _core.transfer_function_of(system.A, system.B, system.C)
+    else:
+        fraction = {"numerator": system.num[0][0], "denominator": system.den[0][0]}
+    return Device(transfer_function=fraction, loop={"sampling_period": sampling_period, **loop})

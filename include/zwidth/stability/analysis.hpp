@@ -105,6 +105,6 @@ enum class WallVerdict {
   no_wall    ///< wall.stiffness is missing
 };
 
-[[nodiscard]] WallVerdict verdict_on_wall(const Analysis& analysis);
+[[nodiscard]] WallVerdict verdict_on_wall(const Analysis& analysis);  ///< of the wall given
 
 }  // namespace zwidth

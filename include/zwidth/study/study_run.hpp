@@ -37,7 +37,7 @@ class StudyRun {
   void scores(std::uint64_t sample, std::span<double> scores) const;
   /// Columns of values, one per parameter: of `count` samples from the first of them on, or of a chunk.
   [[nodiscard]] std::vector<ParameterValues> columns(std::uint64_t first, std::size_t count) const;
-  [[nodiscard]] std::vector<ParameterValues> columns(std::uint64_t chunk) const;
+  [[nodiscard]] std::vector<ParameterValues> columns(std::uint64_t chunk) const;  ///< of all its samples
 
   /// The answers of a chunk, on one thread.
   [[nodiscard]] BatchStiffness answers(std::uint64_t chunk, const Progress& progress = {}) const;

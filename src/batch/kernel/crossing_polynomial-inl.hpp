@@ -13,6 +13,8 @@
 #define ZWIDTH_BATCH_CROSSING_POLYNOMIAL_INL_HPP
 #endif
 
+#include <algorithm>
+
 #include "batch/kernel/kernel_terms-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -55,6 +57,7 @@ HWY_INLINE SizedPolynomial product(const SizedPolynomial& a, const SizedPolynomi
 
 // Plain numbers, the same for every device: even + j sin odd of a power, as polynomials in x.
 struct PowerOnCircle {
+  std::size_t count = 1;  // of coefficients of both
   double even[most_coefficients] = {1.0};
   double odd[most_coefficients] = {};
 };
@@ -62,7 +65,8 @@ struct PowerOnCircle {
 // times factor, whose even part is c0 + c1 x and whose odd part is 1: sin² = x - x²/4
 HWY_INLINE PowerOnCircle times(const PowerOnCircle& p, double c0, double c1) {
   PowerOnCircle result;
-  for (std::size_t i = 0; i < most_coefficients; ++i) {
+  result.count = std::min(p.count + 1, most_coefficients);
+  for (std::size_t i = 0; i < result.count; ++i) {
     result.even[i] =
         c0 * p.even[i] + (i > 0 ? c1 * p.even[i - 1] - p.odd[i - 1] : 0.0) + (i > 1 ? 0.25 * p.odd[i - 2] : 0.0);
     result.odd[i] = p.even[i] + c0 * p.odd[i] + (i > 0 ? c1 * p.odd[i - 1] : 0.0);
@@ -70,8 +74,24 @@ HWY_INLINE PowerOnCircle times(const PowerOnCircle& p, double c0, double c1) {
   return result;
 }
 
-HWY_INLINE void add_scaled(const double* factors, const SizedPolynomial& p, SizedPolynomial& sum) {
-  for (std::size_t i = 0; i < most_coefficients; ++i) {
+// Of the powers that the polynomial of a group is made of.
+struct GroupPowers {
+  static constexpr std::size_t most_order = 5;  // of the plant's denominator
+  PowerOnCircle of_delta[most_order + 1];
+  PowerOnCircle of_delay;  // z^L
+};
+
+HWY_INLINE GroupPowers powers_of(const KernelGroup& group) {
+  GroupPowers powers;
+  for (std::size_t m = 1; m <= GroupPowers::most_order; ++m) {
+    powers.of_delta[m] = times(powers.of_delta[m - 1], 0.0, -0.5);
+  }
+  for (std::size_t i = 0; i < group.delay_samples; ++i) powers.of_delay = times(powers.of_delay, 1.0, -0.5);
+  return powers;
+}
+
+HWY_INLINE void add_scaled(const double* factors, std::size_t count, const SizedPolynomial& p, SizedPolynomial& sum) {
+  for (std::size_t i = 0; i < count; ++i) {
     if (factors[i] == 0.0) continue;
     const V factor = number(factors[i]);
     const V size = hn::Abs(factor);
@@ -120,28 +140,23 @@ HWY_INLINE PlantPolynomials plant_of(const KernelGroup& group, const Terms& term
   return plant;
 }
 
-HWY_INLINE SizedPolynomial crossing_polynomial(const KernelGroup& group, const Terms& terms) {
+HWY_INLINE SizedPolynomial crossing_polynomial(const KernelGroup& group, const GroupPowers& powers,
+                                               const Terms& terms) {
   const PlantPolynomials plant = plant_of(group, terms);
   SizedPolynomial even;
   SizedPolynomial odd;
   SizedPolynomial seen;  // |S|²
-  PowerOnCircle power;   // delta^m
   for (std::size_t m = 0; m < plant.d.count; ++m) {
-    if (m > 0) {
-      power = times(power, 0.0, -0.5);
-      add_scaled(power.odd, correlation(plant.d, plant.s, m, -1.0), odd);
+    const PowerOnCircle& power = powers.of_delta[m];
+    if (m > 0) add_scaled(power.odd, power.count, correlation(plant.d, plant.s, m, -1.0), odd);
+    if (group.delay_samples > 0) add_scaled(power.even, power.count, correlation(plant.d, plant.s, m, 1.0), even);
+    if (group.damper && m < plant.s.count) {
+      add_scaled(power.even, power.count, correlation(plant.s, plant.s, m, 1.0), seen);
     }
-    if (group.delay_samples > 0) add_scaled(power.even, correlation(plant.d, plant.s, m, 1.0), even);
-    if (group.damper && m < plant.s.count) add_scaled(power.even, correlation(plant.s, plant.s, m, 1.0), seen);
   }
-  SizedPolynomial f = odd;
-  if (group.delay_samples > 0) {
-    PowerOnCircle delay;  // z^L
-    for (std::size_t i = 0; i < group.delay_samples; ++i) delay = times(delay, 1.0, -0.5);
-    f = SizedPolynomial();
-    add_scaled(delay.even, odd, f);
-    add_scaled(delay.odd, even, f);
-  }
+  SizedPolynomial f;
+  add_scaled(powers.of_delay.even, powers.of_delay.count, odd, f);
+  add_scaled(powers.of_delay.odd, powers.of_delay.count, even, f);
   if (group.damper) {
     const V c = terms.row[damper_c];
     if (group.filter) {

@@ -12,16 +12,16 @@
 HWY_BEFORE_NAMESPACE();
 namespace zwidth::internal::HWY_NAMESPACE {
 
-inline constexpr std::size_t most_states = 5;
 inline constexpr std::size_t most_degree = 22;  // of the closed loop
 
+template <std::size_t n>
 struct Matrix {
-  V at[most_states][most_states];
+  V at[n][n];
 };
 
 template <std::size_t n>
-HWY_INLINE Matrix times(const Matrix& a, const Matrix& b) {
-  Matrix c;
+HWY_INLINE Matrix<n> times(const Matrix<n>& a, const Matrix<n>& b) {
+  Matrix<n> c;
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j < n; ++j) {
       V sum = a.at[i][0] * b.at[0][j];
@@ -33,8 +33,9 @@ HWY_INLINE Matrix times(const Matrix& a, const Matrix& b) {
 }
 
 // x' = A x + B u: B is zero but for one entry.
+template <std::size_t n>
 struct StateSpace {
-  Matrix a;
+  Matrix<n> a;
   std::size_t force = 0;  // the row of B that is not zero
   V gain;                 // and what it is
   std::size_t output = 0;
@@ -42,11 +43,11 @@ struct StateSpace {
 
 // Positions, velocities over `scale`, and the lagged force.
 template <std::size_t n>
-HWY_INLINE StateSpace state_space_of(const KernelGroup& group, const V* in) {
+HWY_INLINE StateSpace<n> state_space_of(const KernelGroup& group, const V* in) {
   const V zero = number(0.0);
   const V one = number(1.0);
   const auto input = [in](KernelInput which) HWY_ATTR { return in[static_cast<std::size_t>(which)]; };
-  StateSpace system;
+  StateSpace<n> system;
   for (auto& row : system.a.at) {
     for (V& entry : row) entry = zero;
   }
@@ -86,7 +87,7 @@ HWY_INLINE StateSpace state_space_of(const KernelGroup& group, const V* in) {
 }
 
 template <std::size_t n>
-HWY_INLINE V norm_of(const Matrix& m) {
+HWY_INLINE V norm_of(const Matrix<n>& m) {
   V norm = number(0.0);
   for (std::size_t i = 0; i < n; ++i) {
     V row = number(0.0);
@@ -96,18 +97,19 @@ HWY_INLINE V norm_of(const Matrix& m) {
   return norm;
 }
 
+template <std::size_t n>
 struct Exponential {
-  Matrix e;              // e^{A t} - I
-  V gamma[most_states];  // integral of e^{A s} B over 0..t
+  Matrix<n> e;  // e^{A t} - I
+  V gamma[n];   // integral of e^{A s} B over 0..t
 };
 
 // By Taylor's series of A t / 2^s and E <- 2 E + E².
 template <std::size_t n>
-HWY_INLINE Exponential exponential_of(const StateSpace& system, V t) {
+HWY_INLINE Exponential<n> exponential_of(const StateSpace<n>& system, V t) {
   const Tag tag;
   constexpr double largest = 0.25;  // norm of what the series sums
   constexpr int most_halvings = 16;
-  V norm = norm_of<n>(system.a) * t;
+  V norm = norm_of(system.a) * t;
   V factor = t;
   V halvings = number(0.0);
   for (int i = 0; i < most_halvings; ++i) {
@@ -117,19 +119,19 @@ HWY_INLINE Exponential exponential_of(const StateSpace& system, V t) {
     factor = choose(large, number(0.5) * factor, factor);
     halvings = halvings + hn::IfThenElseZero(large, number(1.0));
   }
-  Matrix x;
+  Matrix<n> x;
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j < n; ++j) x.at[i][j] = factor * system.a.at[i][j];
   }
   // sum of X^k / (k + 1)!, k <= 11: four blocks of three powers
-  const Matrix x2 = times<n>(x, x);
-  const Matrix x3 = times<n>(x2, x);
+  const Matrix<n> x2 = times(x, x);
+  const Matrix<n> x3 = times(x2, x);
   double inverse[12];
   double factorial = 1.0;
   for (int k = 0; k < 12; ++k) inverse[k] = 1.0 / (factorial *= k + 1.0);
-  Matrix sum;
+  Matrix<n> sum;
   for (std::size_t block = 4; block-- > 0;) {
-    if (block < 3) sum = times<n>(x3, sum);
+    if (block < 3) sum = times(x3, sum);
     for (std::size_t i = 0; i < n; ++i) {
       for (std::size_t j = 0; j < n; ++j) {
         V entry = hn::MulAdd(number(inverse[3 * block + 2]), x2.at[i][j], number(inverse[3 * block + 1]) * x.at[i][j]);
@@ -138,13 +140,14 @@ HWY_INLINE Exponential exponential_of(const StateSpace& system, V t) {
       }
     }
   }
-  Exponential result{times<n>(x, sum), {}};
+  Exponential<n> result;
+  result.e = times(x, sum);
   for (std::size_t i = 0; i < n; ++i) result.gamma[i] = factor * system.gain * sum.at[i][system.force];
   for (int step = 0; step < most_halvings; ++step) {
     const M left = halvings > number(step);
     if (hn::AllFalse(tag, left)) break;
-    const Matrix squared = times<n>(result.e, result.e);
-    V turned[most_states];
+    const Matrix<n> squared = times(result.e, result.e);
+    V turned[n];
     for (std::size_t i = 0; i < n; ++i) {
       turned[i] = result.gamma[i] + result.gamma[i];
       for (std::size_t j = 0; j < n; ++j) turned[i] = hn::MulAdd(result.e.at[i][j], result.gamma[j], turned[i]);
@@ -210,25 +213,25 @@ HWY_INLINE LoopPolynomial loop_polynomial(const KernelGroup& group, const V* in)
   const V zero = number(0.0);
   const V one = number(1.0);
   const auto input = [in](KernelInput which) HWY_ATTR { return in[static_cast<std::size_t>(which)]; };
-  const StateSpace system = state_space_of<n>(group, in);
+  const StateSpace<n> system = state_space_of<n>(group, in);
   const V period = input(KernelInput::period);
-  Exponential whole = exponential_of<n>(system, period);
-  V recent[most_states];
-  V old[most_states];
+  const Exponential<n> whole = exponential_of(system, period);
+  V recent[n];
+  V old[n];
   for (std::size_t i = 0; i < n; ++i) recent[i] = whole.gamma[i], old[i] = zero;
   if (group.fractional) {
-    const Exponential first = exponential_of<n>(system, input(KernelInput::with_new));
+    const Exponential<n> first = exponential_of(system, input(KernelInput::with_new));
     for (std::size_t i = 0; i < n; ++i) recent[i] = first.gamma[i], old[i] = whole.gamma[i] - first.gamma[i];
   }
   // Faddeev's recursion: det(delta I - Phi) and C adj(delta I - Phi) Gamma
-  const V norm = norm_of<n>(whole.e);
+  const V norm = norm_of(whole.e);
   V denominator[n + 1];
   V d_size[n + 1];
   V with_new[n];
   V with_old[n];
   V n_size[n];
   denominator[n] = d_size[n] = one;
-  Matrix m;
+  Matrix<n> m;
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j < n; ++j) m.at[i][j] = i == j ? one : zero;
   }
@@ -246,17 +249,15 @@ HWY_INLINE LoopPolynomial loop_polynomial(const KernelGroup& group, const V* in)
     with_old[n - k] = of_old;
     n_size[n - k] = of_size;
     power = power * norm;
-    m = k == 1 ? whole.e : times<n>(whole.e, m);
+    m = k == 1 ? whole.e : times(whole.e, m);
     V trace = zero;
     for (std::size_t i = 0; i < n; ++i) trace = trace + m.at[i][i];
     denominator[n - k] = trace * number(-1.0 / static_cast<double>(k));
     d_size[n - k] = power;
     for (std::size_t i = 0; i < n; ++i) m.at[i][i] = m.at[i][i] + denominator[n - k];
   }
-  LoopPolynomial loop;
-  loop.unit = number(4e-15) * (number(4.0) + norm_of<n>(system.a) * period);
-  loop.open = mapped(denominator, d_size, n + 1);
-  loop.stiffness = mapped(with_new, n_size, n);
+  LoopPolynomial loop{mapped(denominator, d_size, n + 1), mapped(with_new, n_size, n),
+                      number(4e-15) * (number(4.0) + norm_of(system.a) * period)};
   if (group.fractional) {
     multiply_by(loop.stiffness, one, one);
     BoundedPolynomial late = mapped(with_old, n_size, n);

@@ -33,6 +33,7 @@ constexpr double most_noise = 300.0;
 constexpr double last_step = 1e-9;
 constexpr double nearest_nyquist = 1e-3;  // of 4 - x
 constexpr int polishing_steps = 3;
+constexpr double unsure_sign = 1e-6;  // of K against the plant's and the damper's part of it
 
 HWY_INLINE void load_rows(const double* rows, std::size_t stride, std::size_t at, V* out) {
   for (std::size_t i = 0; i < term_rows; ++i) out[i] = hn::LoadU(Tag(), rows + i * stride + at);
@@ -45,10 +46,23 @@ HWY_INLINE M mask_of(const std::uint8_t* flags) {
   return hn::Load(tag, values) > number(0.0);
 }
 
+HWY_INLINE void store_flags(M flags, std::uint8_t* out) {
+  const Tag tag;
+  HWY_ALIGN double values[8];
+  hn::Store(hn::IfThenElseZero(flags, number(1.0)), tag, values);
+  for (std::size_t i = 0; i < hn::Lanes(tag); ++i) out[i] = values[i] != 0.0 ? 1 : 0;
+}
+
+// Whether the sign of a crossover's stiffness is lost in the rounding of its parts.
+HWY_INLINE M is_unsure(const CrossoverAt& at, const V* rows) {
+  return hn::Not(hn::Abs(at.stiffness.value) > number(unsure_sign) * (at.inverse + rows[damper_rate]));
+}
+
 // Terms and polynomials of all devices; how many coefficients these have.
 HWY_NOINLINE std::size_t prepare(const KernelGroup& group, const KernelDevices& devices, std::size_t length,
                                  KernelAnswers& answers, KernelScratch& scratch) {
   const Tag tag;
+  const GroupPowers powers = powers_of(group);
   std::size_t count = 0;
   for (std::size_t at = 0; at < length; at += hn::Lanes(tag)) {
     V in[kernel_inputs];
@@ -56,7 +70,7 @@ HWY_NOINLINE std::size_t prepare(const KernelGroup& group, const KernelDevices& 
     Terms terms;
     const M fits = terms_of(group, in, terms);
     for (std::size_t i = 0; i < term_rows; ++i) hn::StoreU(terms.row[i], tag, scratch.terms.data() + i * length + at);
-    const SizedPolynomial f = crossing_polynomial(group, terms);
+    const SizedPolynomial f = crossing_polynomial(group, powers, terms);
     count = f.count;
     double* sizes = scratch.polynomial.data() + count * length;
     V sum = number(0.0);
@@ -66,9 +80,7 @@ HWY_NOINLINE std::size_t prepare(const KernelGroup& group, const KernelDevices& 
       sum = sum + f.size[k];
     }
     const M good = hn::And(fits, sum < number(infinite));  // NaN is not
-    HWY_ALIGN double flags[8];
-    hn::Store(hn::IfThenElseZero(good, number(1.0)), tag, flags);
-    for (std::size_t i = 0; i < hn::Lanes(tag); ++i) answers.certain[at + i] = flags[i] != 0.0 ? 1 : 0;
+    store_flags(good, answers.certain.data() + at);
   }
   return count;
 }
@@ -78,7 +90,6 @@ HWY_NOINLINE void take_least(const KernelGroup& group, const Polynomials& p, con
                              KernelAnswers& answers, KernelScratch& scratch, double* best) {
   const Tag tag;
   const hn::RebindToSigned<Tag> index_tag;
-  constexpr double unsure_sign = 1e-6;  // of K against the plant's and the damper's part of it
   for (std::size_t i = 0; i < length; ++i) {
     best[best_stiffness * length + i] = best[next_stiffness * length + i] = infinite;
     best[best_x * length + i] = 1.0;
@@ -101,7 +112,7 @@ HWY_NOINLINE void take_least(const KernelGroup& group, const Polynomials& p, con
       rows[i] = hn::GatherIndex(tag, scratch.terms.data() + i * length, device);
     const CrossoverAt at = crossover_at(group, rows, x);
     const V stiffness = at.stiffness.value;
-    const M unsure = hn::Not(hn::Abs(stiffness) > number(unsure_sign) * (at.inverse + rows[damper_rate]));
+    const M unsure = is_unsure(at, rows);
     HWY_ALIGN double k[8];
     HWY_ALIGN double where[8];
     HWY_ALIGN double doubt[8];
@@ -125,6 +136,32 @@ HWY_NOINLINE void take_least(const KernelGroup& group, const Polynomials& p, con
   }
 }
 
+// The same where the polynomial is of degree 1, as that of a rigid device without delay: its only root in closed form.
+HWY_NOINLINE void take_only_root(const KernelGroup& group, const Polynomials& p, std::size_t length,
+                                 KernelAnswers& answers, const KernelScratch& scratch, double* best) {
+  const Tag tag;
+  for (std::size_t at = 0; at < length; at += hn::Lanes(tag)) {
+    const V begin = hn::LoadU(tag, p.values + at);
+    const V slope = hn::LoadU(tag, p.values + p.stride + at);
+    const V end = hn::MulAdd(number(4.0), slope, begin);
+    const V size = hn::MulAdd(number(4.0), hn::LoadU(tag, p.sizes + p.stride + at), hn::LoadU(tag, p.sizes + at));
+    const V error = number(coefficient_rounding) * size;
+    const M sure = hn::And(hn::Abs(begin) > error, hn::Abs(end) > error);
+    const M crosses = have_other_signs(begin, end);
+    V rows[term_rows];
+    load_rows(scratch.terms.data(), length, at, rows);
+    const V x = choose(crosses, hn::Neg(begin / slope), number(1.0));
+    const CrossoverAt crossover = crossover_at(group, rows, x);
+    const V stiffness = crossover.stiffness.value;
+    const M counts = hn::And(crosses, stiffness > number(0.0));
+    hn::StoreU(choose(counts, stiffness, number(infinite)), tag, best + best_stiffness * length + at);
+    hn::StoreU(number(infinite), tag, best + next_stiffness * length + at);
+    hn::StoreU(x - crossover.phase.value / crossover.phase.slope, tag, best + best_x * length + at);
+    const M known = hn::AndNot(hn::And(crosses, is_unsure(crossover, rows)), sure);
+    store_flags(hn::And(mask_of(answers.certain.data() + at), known), answers.certain.data() + at);
+  }
+}
+
 HWY_INLINE M confirmed(const KernelGroup& group, const V* in, V stiffness) {
   if (group.two_bodies) {
     return group.lag ? poles_confirm<5>(group, in, stiffness) : poles_confirm<4>(group, in, stiffness);
@@ -134,7 +171,7 @@ HWY_INLINE M confirmed(const KernelGroup& group, const V* in, V stiffness) {
 
 // The least crossover with all its digits, its mechanism, and whether the second route confirms it.
 HWY_NOINLINE void answer(const KernelGroup& group, const KernelDevices& devices, std::size_t count, std::size_t length,
-                         const double* best, KernelAnswers& answers, const KernelScratch& scratch) {
+                         int steps, const double* best, KernelAnswers& answers, const KernelScratch& scratch) {
   const Tag tag;
   const V one = number(1.0);
   for (std::size_t at = 0; at < count; at += hn::Lanes(tag)) {
@@ -149,7 +186,7 @@ HWY_NOINLINE void answer(const KernelGroup& group, const KernelDevices& devices,
     const M by_nyquist = hn::And(nyquist.stiffness > number(0.0), nyquist.stiffness < least);
     CrossoverAt crossover{};
     V step = number(0.0);
-    for (int i = 0; i < polishing_steps; ++i) {
+    for (int i = 0; i < steps; ++i) {
       x = x - step;
       crossover = crossover_at(group, rows, x);
       step = crossover.phase.value / crossover.phase.slope;
@@ -183,14 +220,12 @@ HWY_NOINLINE void answer(const KernelGroup& group, const KernelDevices& devices,
     certain = hn::And(certain, confirmed(group, in, stiffness));
     hn::StoreU(stiffness, tag, answers.stiffness.data() + at);
     hn::StoreU(angle / rows[sample_period], tag, answers.frequency.data() + at);
-    HWY_ALIGN double flags[8];
     HWY_ALIGN double vibrates[8];
     HWY_ALIGN double real[8];
-    hn::Store(hn::IfThenElseZero(certain, one), tag, flags);
+    store_flags(certain, answers.certain.data() + at);
     hn::Store(hn::IfThenElseZero(mode > rigid, one), tag, vibrates);
     hn::Store(hn::IfThenElseZero(by_nyquist, one), tag, real);
     for (std::size_t i = 0; i < hn::Lanes(tag); ++i) {
-      answers.certain[at + i] = flags[i] != 0.0 ? 1 : 0;
       answers.mode[at + i] = vibrates[i] != 0.0 ? 1 : 0;
       answers.poles_leaving[at + i] = real[i] != 0.0 ? 1 : 2;  // a certain root is simple, and left unstable
     }
@@ -212,14 +247,18 @@ void solve(const KernelGroup& group, const KernelDevices& devices, std::size_t c
   const std::size_t coefficients = prepare(group, devices, length, answers, scratch);
   const Polynomials p{scratch.polynomial.data(), scratch.polynomial.data() + coefficients * length, length,
                       coefficients};
+  double* best = scratch.terms.data() + term_rows * length;
+  if (coefficients == 2) {
+    take_only_root(group, p, length, answers, scratch, best);
+    return answer(group, devices, count, length, 1, best, answers, scratch);  // its root is polished already
+  }
   Tasks tasks{scratch.tasks.data(), scratch.task_device.data(), task_stride, 0};
   Roots roots{scratch.roots.data(), scratch.root_device.data(), root_stride, 0};
   begin_tasks(p, count, tasks);
   scratch.intervals.assign(length, 0);
   isolate_roots(p, tasks, roots, scratch.intervals.data(), answers.certain.data());
-  double* best = scratch.terms.data() + term_rows * length;
   take_least(group, p, roots, length, answers, scratch, best);
-  answer(group, devices, count, length, best, answers, scratch);
+  answer(group, devices, count, length, polishing_steps, best, answers, scratch);
 }
 
 }  // namespace zwidth::internal::HWY_NAMESPACE

@@ -7,8 +7,28 @@ export interface Table {
 
 const kept = ['fill', 'stroke', 'stroke-width', 'stroke-dasharray', 'stroke-linejoin', 'opacity', 'fill-opacity', 'font-size', 'font-weight', 'font-family', 'text-anchor', 'dominant-baseline', 'paint-order']
 
-/** The figure as it looks, without the page's style sheet. */
-function standalone(svg: SVGSVGElement): { text: string; width: number; height: number } {
+/** The figure for paper: in the light colours, whichever the page has, with its title above and its legend below. */
+function standalone(svg: SVGSVGElement, title: string): Drawn {
+  const page = document.documentElement.dataset
+  const before = page.theme
+  page.theme = 'light'
+  try {
+    return drawn(svg, title)
+  } finally {
+    if (before === undefined) delete page.theme
+    else page.theme = before
+  }
+}
+
+interface Drawn {
+  text: string
+  width: number
+  height: number
+}
+const titleHeight = 24
+
+/** As it looks, without the page's style sheet. */
+function drawn(svg: SVGSVGElement, title: string): Drawn {
   const copy = svg.cloneNode(true) as SVGSVGElement
   const from = svg.querySelectorAll<SVGElement>('*')
   copy.querySelectorAll<SVGElement>('*').forEach((element, i) => {
@@ -20,18 +40,27 @@ function standalone(svg: SVGSVGElement): { text: string; width: number; height: 
     if (style.display === 'none') element.setAttribute('display', 'none')
     for (const name of ['class', 'style', 'tabindex', 'role']) element.removeAttribute(name)
   })
-  const { width, height: drawn } = svg.getBoundingClientRect()
-  const height = drawn + legend(svg, copy, drawn)
+  const { width, height: plot } = svg.getBoundingClientRect()
+  const height = titleHeight + plot + legend(svg, copy, plot)
   copy.setAttribute('xmlns', 'http://www.w3.org/2000/svg')
   copy.setAttribute('width', String(width))
   copy.setAttribute('height', String(height))
-  copy.setAttribute('viewBox', `0 0 ${width} ${height}`)
+  copy.setAttribute('viewBox', `0 ${-titleHeight} ${width} ${height}`)
+  copy.append(textOf(title, { x: 4, y: 16 - titleHeight, fill: getComputedStyle(document.body).color, 'font-size': 13, 'font-weight': 600 }))
   const ground = document.createElementNS('http://www.w3.org/2000/svg', 'rect')
+  ground.setAttribute('y', String(-titleHeight))
   ground.setAttribute('width', '100%')
   ground.setAttribute('height', '100%')
   ground.setAttribute('fill', getComputedStyle(document.body).backgroundColor)
   copy.prepend(ground)
   return { text: new XMLSerializer().serializeToString(copy), width, height }
+}
+
+function textOf(content: string, attributes: Record<string, string | number>): SVGTextElement {
+  const text = document.createElementNS('http://www.w3.org/2000/svg', 'text')
+  for (const [name, value] of Object.entries({ 'font-family': 'system-ui, sans-serif', ...attributes })) text.setAttribute(name, String(value))
+  text.textContent = content
+  return text
 }
 
 /** The names of the curves, which stand beside the figure on the page, below it; returns how high they are. */
@@ -44,10 +73,7 @@ function legend(svg: SVGSVGElement, copy: SVGSVGElement, top: number): number {
     const sample = document.createElementNS('http://www.w3.org/2000/svg', 'path')
     sample.setAttribute('d', `M${x} ${y}h26`)
     for (const name of ['stroke', 'stroke-width', 'stroke-dasharray']) sample.setAttribute(name, line ? getComputedStyle(line).getPropertyValue(name) : color)
-    const text = document.createElementNS('http://www.w3.org/2000/svg', 'text')
-    for (const [name, value] of Object.entries({ x: x + 32, y: y + 4, fill: color, 'font-size': 12, 'font-family': 'system-ui, sans-serif' })) text.setAttribute(name, String(value))
-    text.textContent = item.textContent
-    copy.append(sample, text)
+    copy.append(sample, textOf(item.textContent ?? '', { x: x + 32, y: y + 4, fill: color, 'font-size': 12 }))
   })
   return items.length > 0 ? 10 + 18 * Math.ceil(items.length / 3) : 0
 }
@@ -60,12 +86,12 @@ export function download(name: string, content: Blob): void {
   setTimeout(() => URL.revokeObjectURL(link.href), 10_000)
 }
 
-export function saveSvg(svg: SVGSVGElement, name: string): void {
-  download(`${name}.svg`, new Blob([standalone(svg).text], { type: 'image/svg+xml' }))
+export function saveSvg(svg: SVGSVGElement, name: string, title: string): void {
+  download(`${name}.svg`, new Blob([standalone(svg, title).text], { type: 'image/svg+xml' }))
 }
 
-export async function savePng(svg: SVGSVGElement, name: string): Promise<void> {
-  const { text, width, height } = standalone(svg)
+export async function savePng(svg: SVGSVGElement, name: string, title: string): Promise<void> {
+  const { text, width, height } = standalone(svg, title)
   const image = new Image()
   image.src = URL.createObjectURL(new Blob([text], { type: 'image/svg+xml' }))
   await image.decode()

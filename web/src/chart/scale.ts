@@ -49,7 +49,7 @@ export function extent(values: Iterable<number | null | undefined>, log: boolean
     return [low === high ? low / 3 : low, low === high ? high * 3 : high]
   }
   if (low === high) [low, high] = low === 0 ? [-1, 1] : [low - Math.abs(low) / 2, high + Math.abs(high) / 2]
-  const step = niceStep((high - low) / 4)
+  const step = niceStep((high - low) / 8)
   return [Math.floor(low / step + 1e-9) * step, Math.ceil(high / step - 1e-9) * step]
 }
 

@@ -9,6 +9,8 @@ export interface Field {
   about: string
   mayBeZero: boolean
   first: [linear: number, rotary: number] // where a slider begins when the number is 0
+  mayBeAbsent?: string // emptied, it is taken out of the file; then this holds
+  ofRig?: 'number' | 'choice' // no limit feels it: nothing to slide or follow; a choice is not stepped either
 }
 
 const mass: Field = { key: 'mass', label: 'mass', unit: ['kg', 'kg m²'], about: 'Mass of the body; of a rotary device its moment of inertia.', mayBeZero: false, first: [0.1, 1e-4] }
@@ -31,13 +33,13 @@ const loop: Field[] = [
 ]
 const actuator: Field[] = [
   { key: 'time_constant', label: 'lag', unit: ['s', 's'], about: 'Time constant from commanded to real force, first order.', mayBeZero: true, first: [1e-4, 1e-4] },
-  { key: 'force_limit', label: 'largest force', unit: ['N', 'N m'], about: 'Where the force saturates. Only the simulation feels it.', mayBeZero: false, first: [10, 0.1] },
+  { key: 'force_limit', label: 'largest force', unit: ['N', 'N m'], about: 'Where the force saturates. Only the simulation feels it.', mayBeZero: false, first: [10, 0.1], mayBeAbsent: 'none' },
 ]
 const sensor: Field[] = [
   { key: 'resolution', label: 'encoder step', unit: ['m', 'rad'], about: 'Position of one count of the encoder.', mayBeZero: true, first: [1e-6, 1e-4] },
 ]
 const wall: Field[] = [
-  { ...stiffness, label: 'stiffness K', about: 'Stiffness of the virtual wall that is judged.', first: [1e3, 1] },
+  { ...stiffness, label: 'stiffness K', about: 'Stiffness of the virtual wall that is judged.', first: [1e3, 1], mayBeAbsent: 'none' },
   { ...damping, label: 'damping B', about: 'Virtual damper of the wall: B times the difference of two sampled positions, per period.', first: [1, 1e-3] },
   { key: 'velocity_filter_hz', label: 'velocity filter', unit: ['Hz', 'Hz'], about: 'Low-pass of the damper’s velocity; 0 is none.', mayBeZero: true, first: [100, 100] },
 ]
@@ -51,6 +53,16 @@ const operator: Field[] = [
   { ...mass, about: 'Mass of the user’s hand.', mayBeZero: true },
   { ...damping, about: 'Damping of the user’s hand.', first: [1, 1e-3] },
   { ...stiffness, about: 'Stiffness of the user’s hand.', first: [100, 0.1] },
+]
+const driver: Field[] = [
+  { key: 'travel', label: 'travel', unit: ['m', 'rad'], about: 'How far the device moves per turn behind the gear. Linear: needed; rotary: else a turn.', mayBeZero: false, first: [0.025, 6.2832], mayBeAbsent: 'none', ofRig: 'number' },
+  { key: 'gear', label: 'gear', unit: ['', ''], about: 'Turns of the motor per turn behind the gear.', mayBeZero: false, first: [2, 2], mayBeAbsent: '1', ofRig: 'number' },
+  { key: 'sign', label: 'sign', unit: ['', ''], about: '-1 where the drive counts against the device.', mayBeZero: false, first: [-1, -1], mayBeAbsent: '1', ofRig: 'choice' },
+  { key: 'torque_constant', label: 'torque constant', unit: ['N m/A', 'N m/A'], about: 'Torque constant of the motor: for VESC, and SimpleFOC by current.', mayBeZero: false, first: [0.05, 0.05], mayBeAbsent: 'none', ofRig: 'number' },
+  { key: 'torque_per_volt', label: 'torque per volt', unit: ['N m/V', 'N m/V'], about: 'Of the motor at rest, k_t/R: for SimpleFOC by voltage.', mayBeZero: false, first: [0.1, 0.1], mayBeAbsent: 'none', ofRig: 'number' },
+  { key: 'id', label: 'id', unit: ['', ''], about: 'ODrive: the axis, 0 or 1. moteus: 1 to 127.', mayBeZero: false, first: [1, 1], mayBeAbsent: 'the firmware’s', ofRig: 'choice' },
+  { key: 'command', label: 'command', unit: ['', ''], about: 'The motor’s letter in SimpleFOC’s Commander.', mayBeZero: false, first: [0, 0], mayBeAbsent: 'M', ofRig: 'choice' },
+  { key: 'baud', label: 'baud', unit: ['', ''], about: 'Of the serial line.', mayBeZero: false, first: [921600, 921600], mayBeAbsent: 'the firmware’s', ofRig: 'choice' },
 ]
 // What a mass is called in a rotary device.
 const inertias = new Map([...body, ...operator].filter((each) => each.key === 'mass').map((each): [Field, Field] => [each, { ...each, label: 'inertia' }]))
@@ -145,6 +157,7 @@ export function groupsOf(scanned: Scan, before: Group[] = []): Group[] {
     group('sensor', 'Encoder', ['sensor'], sensor),
   ]
   if (!shape.hasTransferFunction) groups.push(group('operator', 'User who holds it', ['operator'], operator))
+  groups.push(group('driver', 'Drive of a rig', ['driver'], driver))
   return groups.map((each) => sharing(each, before))
 }
 

@@ -238,6 +238,21 @@ export function set(text: string, path: string[], raw: string): string {
   return `${text.slice(0, at)}\n${name} = ${raw}${text.slice(at)}`
 }
 
+/** The text without that value and its key, and the comment on its line; as it was where that would change anything else. */
+export function unset(text: string, path: string[]): string {
+  const scanned = scan(text)
+  const entry = find(scanned, path)
+  const parent = scanned.tables.findLast((each) => samePath(each.path, path.slice(0, -1)))
+  if (!entry) return text
+  const isInline = parent?.kind === 'inline'
+  const before = text.slice(0, entry.start).replace(isInline ? /[^{,]*$/ : /[^\n]*$/, '')
+  const after = isInline ? text.slice(entry.end) : text.slice(lineEnd(text, entry.end) + 1)
+  const without = isInline ? (before.trimEnd().endsWith(',') ? before.trimEnd().slice(0, -1) + after : before + after.replace(/^\s*,/, '')) : before + after
+  const others = (entries: Entry[]): string => JSON.stringify(entries.map((each) => [each.path, each.value]))
+  const left = scan(without)
+  return left.complete && others(left.entries) === others(scanned.entries.filter((each) => each !== entry)) ? without : text
+}
+
 /** The text without its comments and empty lines; every value is the same. */
 export function withoutComments(text: string): string {
   let out = text

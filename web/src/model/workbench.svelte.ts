@@ -6,7 +6,7 @@ import { History } from './history'
 import { fullKey, groupsOf, isRotary, sameKey, shapeOf, type Group, type Row } from './keys'
 import { empty, type Settings, type Snapshot } from './snapshot'
 import { confirm } from './parts'
-import { scan, set } from './toml'
+import { scan, set, unset } from './toml'
 
 class Workbench {
   private history = new History<Snapshot>(empty(''))
@@ -96,6 +96,14 @@ class Workbench {
     }
     if (more) toml = `${toml.replace(/\n*$/, '\n')}\n${more}`
     if (toml !== this.state.toml) this.change({ toml }, gesture)
+  }
+
+  /** Takes a number that may be absent out of the file. */
+  leaveOut(key: string): void {
+    const row = this.row(key)
+    if (row?.field.mayBeAbsent === undefined || this.isLocked(key)) return
+    const toml = unset(confirm(this.state.toml, row.key), row.path)
+    if (toml !== this.state.toml) this.change({ toml })
   }
 
   /** That number is right as it stands. */

@@ -1,13 +1,15 @@
+import { workbench } from '../model/workbench.svelte'
+
 /** Which panels are open; the palette opens them too. */
 export const panels = $state<Record<string, boolean>>({})
 
 export const panelNames: [id: string, title: string][] = [
   ['bar', 'Which stiffness is stable'],
   ['limits', 'What limits, what to change'],
+  ['recommend', 'Which wall to render'],
   ['region', 'Stiff and damped walls'],
   ['time', 'The wall hit in time'],
   ['bode', 'Frequency response'],
-  ['recommend', 'Which wall to render'],
   ['sweep', 'Follow one number'],
   ['diagnose', 'What is this buzz?'],
   ['relay', 'Relay experiment'],
@@ -38,6 +40,12 @@ export function showPanel(id: string): void {
     keepAtTop(panel)
     panel.querySelector<HTMLElement>('h2 button')?.focus()
   })
+}
+
+/** Its panel, for that number. */
+export function sweepOver(key: string): void {
+  workbench.setting('sweep', key)
+  showPanel('sweep')
 }
 
 let shown = new AbortController()

@@ -1,9 +1,13 @@
 // What is timed, and so runs by itself: see tests/run.
+import { cpus, loadavg } from 'node:os'
 import type { Page } from 'playwright-core'
 import { expect, it } from 'vitest'
 import { alone, documentOf, openAll, openPage, place, row, settled, withWall } from './program'
 
 const here = place('devices/lhifam.toml')
+
+// How many want each processor: what is timed takes so many times as long.
+const crowd = (): number => Math.max(1, loadavg()[0]! / cpus().length)
 
 const key = 'body.handle.damping'
 const opened = async (): Promise<{ page: Page; end: () => Promise<void> }> => {
@@ -22,13 +26,15 @@ const opened = async (): Promise<{ page: Page; end: () => Promise<void> }> => {
   }
 }
 
-it.each([1280, 390])('prints how soon the first answer is there, %i pixels wide', async (width) => {
-  const started = Date.now()
-  const { page, context } = await openPage(here, width)
-  const took = Date.now() - started
-  console.log(`first answer at most ${(await page.evaluate(() => performance.now())).toFixed(0)} ms after the start of the page, ${took} ms with opening the tab`)
-  expect(took).toBeLessThan(3000)
-  await context.close()
+it.each([1280, 390])('has its first answer on the screen within a second of the start of the page, %i pixels wide', async (width) => {
+  let least = Infinity
+  for (let i = 0; i < 5; ++i) {
+    const { page, context } = await openPage(here, width)
+    least = Math.min(least, await page.evaluate(() => performance.getEntriesByName('first answer')[0]!.startTime))
+    await context.close()
+  }
+  console.log(`first answer on the screen ${least.toFixed(0)} ms after the start of the page, ${crowd().toFixed(1)} at each processor`)
+  expect(least).toBeLessThan(1000 * crowd())
 })
 
 it('prints how fast a drag is drawn, all panels open', async () => {
@@ -71,6 +77,7 @@ it('prints how fast a drag is drawn, all panels open', async () => {
   const at = (values: number[], share: number): string => [...values].sort((a, b) => a - b)[Math.floor(share * (values.length - 1))]!.toFixed(1)
   const say = (values: number[]): string => `median ${at(values, 0.5)} ms, p95 ${at(values, 0.95)} ms, worst ${at(values, 1)} ms`
   console.log(`drag to picture: ${say(found.times)}\n  of these the request: ${say(found.requests)}\n  work of the page: ${((await work()) / steps - before / steps).toFixed(1)} ms a step`)
+  expect(Number(at(found.times, 0.95))).toBeLessThan(33 * crowd())
   expect(Math.max(...found.times)).toBeLessThan(2000)
   await end()
 })

@@ -26,6 +26,7 @@ it('shows the numbers of every document', async () => {
   const felt = design.sensitivities.filter((each) => each.relative !== null && Math.abs(each.relative) > 5e-4)
   await holds('limits', felt.flatMap((each) => [say(each.value, each.unit), percent(each.relative! / 10)]))
   const target = documentOf('design', ...wall, '--target', '12 kN/m') as unknown as { targets: { value_needed: number | null; why: string }[] }
+  await page.getByText('Numbers that alone cannot').click()
   await holds('limits', target.targets.map((each) => each.why))
 
   const region = documentOf('region', ...wall) as unknown as { stiffest: { stiffness: number; damping: number }; any_user: { stiffest: { stiffness: number; damping: number } } }

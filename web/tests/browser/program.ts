@@ -84,6 +84,12 @@ export async function openPage({ browser, served }: Place, width: number, hash =
     const url = request.url()
     if (!url.startsWith(served.address.replace(/\/$/, '')) && !/^(data|blob):/.test(url)) complaints.push(`asked for ${url}`)
   })
+  // When the first answer is painted: in the frame after the one in which it is there.
+  await page.addInitScript(() => {
+    const look = (): unknown =>
+      document.querySelector('[data-answer="alone"]') ? requestAnimationFrame(() => performance.mark('first answer')) : requestAnimationFrame(look)
+    look()
+  })
   await page.goto(served.address + hash)
   await page.waitForSelector('[data-answer="alone"]')
   return { page, context, complaints }

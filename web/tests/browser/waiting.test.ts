@@ -1,7 +1,7 @@
 // What the page says while there is no answer yet.
 import type { Page } from 'playwright-core'
 import { expect, it } from 'vitest'
-import { alone, openPage, place, serve, serveAt, settled, type, withWall } from './program'
+import { alone, openAll, openPage, place, row, serve, serveAt, settled, type, withWall } from './program'
 
 const here = place('devices/lhifam.toml')
 
@@ -47,4 +47,59 @@ it('asks again where the program was ended, and goes on when it is started again
   expect(await alone(page)).toBe(before)
   await context.close()
   await second.stop()
+})
+
+it.each([1280, 390])('says in every panel of long work how far it is, and lets nothing jump meanwhile, %i pixels wide', async (width) => {
+  const { page, context, complaints } = await openPage(here, width)
+  await withWall(page)
+  await openAll(page)
+  await page.setViewportSize({ width, height: 9000 }) // what is out of view waits
+  await settled(page)
+  // Every answer takes long, and tells after a while that it is done by 37 %.
+  await page.evaluate(() => {
+    const real = window.fetch
+    const wait = (): Promise<void> => new Promise((done) => setTimeout(done, 600))
+    window.fetch = async (url, init) => {
+      const tells = new Headers(init?.headers).get('Accept')?.includes('ndjson') ?? false
+      const response = await real(url, { ...init, headers: { 'Content-Type': 'application/json' } })
+      const document = await response.text()
+      if (!tells) await wait()
+      if (!tells) return new Response(document, { status: response.status, headers: { 'Content-Type': 'application/json' } })
+      const body = new ReadableStream({
+        async start(stream) {
+          stream.enqueue(new TextEncoder().encode('{"progress":0.3700}\n'))
+          await wait()
+          stream.enqueue(new TextEncoder().encode(document))
+          stream.close()
+        },
+      })
+      return new Response(body, { status: 200, headers: { 'Content-Type': 'application/x-ndjson' } })
+    }
+  })
+  await type(page, 'body.handle.mass', '4.9') // from then on all are known to take long
+  await settled(page)
+  await page.evaluate(() => {
+    const seen = { told: [] as string[], places: [] as string[] }
+    Object.assign(window, { seen })
+    const look = (): void => {
+      for (const each of document.querySelectorAll('[data-panel], .numbers')) {
+        const name = each.getAttribute('data-panel') ?? 'numbers'
+        const text = each.querySelector(':scope > .late, :scope > header .late')?.textContent ?? ''
+        if (text.includes('37 %') && !seen.told.includes(name)) seen.told.push(name)
+      }
+      const top = (selector: string): number => document.querySelector(selector)!.getBoundingClientRect().top
+      const place = [top('[data-key="loop.delay"]') - top('.numbers'), ...[...document.querySelectorAll('.panel > header')].map((each) => each.getBoundingClientRect().height)].join()
+      if (!seen.places.includes(place)) seen.places.push(place)
+      requestAnimationFrame(look)
+    }
+    look()
+  })
+  await type(page, 'body.handle.mass', '4.8')
+  await settled(page)
+  const seen = await page.evaluate(() => (window as unknown as { seen: { told: string[]; places: string[] } }).seen)
+  expect(seen.told.sort()).toEqual(['answer', 'bar', 'bode', 'compare', 'diagnose', 'file', 'limits', 'numbers', 'recommend', 'region', 'relay', 'sweep', 'time'])
+  expect(seen.places).toHaveLength(1)
+  expect(await page.locator('main').innerText()).not.toContain('37 %')
+  expect(complaints).toEqual([])
+  await context.close()
 })

@@ -174,27 +174,25 @@ export function everythingAt(width: number): void {
     await context.close()
   })
 
-  it('is usable by all: no violation, light and dark, with every panel open', async () => {
-    for (const scheme of ['light', 'dark'] as const) {
-      const { page, context, complaints } = await openPage(here, width, '', scheme)
-      await withWall(page)
-      await openAll(page)
-      await page.getByRole('button', { name: 'Pin', exact: true }).click()
-      await page.getByRole('button', { name: 'Table of Bode magnitude' }).click()
-      await page.getByLabel(/choose it/).setInputFiles(`${project}/recordings/locked_chirp.csv`)
-      await page.getByRole('button', { name: 'Fit', exact: true }).click()
-      await page.getByRole('button', { name: 'Use this device' }).waitFor()
-      await settled(page)
-      await page.evaluate(axe.source)
-      const found = await page.evaluate(async () => {
-        const results = await (window as unknown as { axe: typeof axe }).axe.run(document, { resultTypes: ['violations'] })
-        return results.violations.map((each) => `${each.id}: ${each.nodes.slice(0, 3).map((node) => `${node.html.slice(0, 160)} ${node.failureSummary ?? ''}`).join(' | ')} (${each.nodes.length})`)
-      })
-      expect(found, scheme).toEqual([])
-      expect(await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth)).toBeLessThanOrEqual(0)
-      expect(complaints).toEqual([])
-      await context.close()
-    }
+  it.each(['light', 'dark'] as const)('is usable by all: no violation with every panel open, %s', async (scheme) => {
+    const { page, context, complaints } = await openPage(here, width, '', scheme)
+    await withWall(page)
+    await openAll(page)
+    await page.getByRole('button', { name: 'Pin', exact: true }).click()
+    await page.getByRole('button', { name: 'Table of Bode magnitude' }).click()
+    await page.getByLabel(/choose it/).setInputFiles(`${project}/recordings/locked_chirp.csv`)
+    await page.getByRole('button', { name: 'Fit', exact: true }).click()
+    await page.getByRole('button', { name: 'Use this device' }).waitFor()
+    await settled(page)
+    await page.evaluate(axe.source)
+    const found = await page.evaluate(async () => {
+      const results = await (window as unknown as { axe: typeof axe }).axe.run(document, { resultTypes: ['violations'] })
+      return results.violations.map((each) => `${each.id}: ${each.nodes.slice(0, 3).map((node) => `${node.html.slice(0, 160)} ${node.failureSummary ?? ''}`).join(' | ')} (${each.nodes.length})`)
+    })
+    expect(found, scheme).toEqual([])
+    expect(await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth)).toBeLessThanOrEqual(0)
+    expect(complaints).toEqual([])
+    await context.close()
   })
 
   it('goes from a recording to a device', async () => {

@@ -2,7 +2,7 @@ import { readFileSync, readdirSync } from 'node:fs'
 import { describe, expect, it } from 'vitest'
 import { groupsOf, shapeOf } from '../../src/model/keys'
 import { addBody, assumedKeys, choose, confirm, connect, freeName, newDevice, newLinkedDevice, removeBody, removeLink } from '../../src/model/parts'
-import { find, scan, set, withoutComments } from '../../src/model/toml'
+import { find, scan, set, unset, withoutComments } from '../../src/model/toml'
 
 const devices = new URL('../../../devices/', import.meta.url)
 const lhifam = readFileSync(new URL('lhifam.toml', devices), 'utf8')
@@ -30,6 +30,21 @@ describe('toml', () => {
     expect(find(scan(set(lhifam, ['body', '0', 'coulomb'], '0.5')), ['body', '0', 'coulomb'])?.value).toBe(0.5)
     const walled = set(set(lhifam, ['wall', 'stiffness'], '5000'), ['wall', 'damping'], '5')
     expect(walled.endsWith('\n[wall]\nstiffness = 5000\ndamping = 5\n')).toBe(true)
+  })
+
+  it('takes a value out, and leaves all else as it was', () => {
+    expect(unset(lhifam, ['link', '0', 'damping'])).toBe(lhifam.replace(/damping = 15\.0.*\n/, ''))
+    expect(set(unset('a = 1\n[wall]\nstiffness = 5 # why\ndamping = 2\n', ['wall', 'stiffness']), ['a'], '2')).toBe('a = 2\n[wall]\ndamping = 2\n')
+    for (const [text, path, left] of [
+      ['wall = { stiffness = 5 , damping = 2 }', ['wall', 'stiffness'], 'wall = { damping = 2 }'],
+      ['wall = { stiffness = 5 , damping = 2 }', ['wall', 'damping'], 'wall = { stiffness = 5 }'],
+      ['wall = { stiffness = 5 }', ['wall', 'stiffness'], 'wall = { }'],
+      ['wall.stiffness = 5\nwall.damping = 2', ['wall', 'damping'], 'wall.stiffness = 5\n'],
+      ['x = [1,\n 2]\ny = 3\n', ['x'], 'y = 3\n'],
+      ['y = 3\n', ['x'], 'y = 3\n'],
+    ] as const) {
+      expect(unset(text, [...path]).replace(/\s+\}/, ' }')).toBe(left)
+    }
   })
 
   it('reads inline tables, dotted and quoted keys, arrays over lines, long texts', () => {
