@@ -33,13 +33,13 @@ TEST_F(ExportUnits, TheDrivesOwnLoopMayBeGiven) {
   expect_refusal("zwidth export devices/lhifam.toml --format c --drive-rate 3", "--drive-rate: is for --units");
 }
 
-// K 200 kN/m stands between the limit in any passive user's hand, 157, and that of the wall by itself, 408.
+// K 30 kN/m stands between the limit in any passive user's hand, 23.1, and that of the wall by itself, 41.2.
 TEST_F(ExportUnits, AWallBeyondTheLimitWithAnyUserIsNotBelowIt) {
   const std::string wall =
       "zwidth export devices/lhifam.toml --set wall.damping=5 --set driver.travel=0.06 --units moteus --stiffness ";
   EXPECT_THAT(run(wall + "3000").output, HasSubstr("this wall is below that\n"));
-  EXPECT_THAT(run(wall + "200000").output, HasSubstr("stable by itself, but UNSTABLE in some passive user's hand"));
-  EXPECT_THAT(run(wall + "500000").output, HasSubstr("this wall is UNSTABLE\n"));
+  EXPECT_THAT(run(wall + "30000").output, HasSubstr("stable by itself, but UNSTABLE in some passive user's hand"));
+  EXPECT_THAT(run(wall + "50000").output, HasSubstr("this wall is UNSTABLE\n"));
 }
 
 }  // namespace
