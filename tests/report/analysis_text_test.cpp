@@ -72,11 +72,15 @@ TEST(AnalysisText, ShortensALongListOfCrossoversToTheSoftest) {
 TEST(AnalysisText, SaysOnWhichSideTheRigidModelIs) {
   AnalysedDevice analysed = lhifam();
   EXPECT_THAT(unwrapped(text_of(analysed)), HasSubstr("7.001 kN/m (-2.03 dB), 20.9 % too low: the safe side"));
+  RigidApproximation::Error& error = analysed.analysis.rigid->error;
   analysed.analysis.rigid->critical.stiffness = 2 * 8848.70869499712;
+  error = RigidApproximation::Error::unsafe;
   EXPECT_THAT(unwrapped(text_of(analysed)), HasSubstr("(+6.02 dB), 100 % too high: UNSAFE"));
   analysed.analysis.rigid->critical.stiffness = 8848.70869499712;
+  error = RigidApproximation::Error::none;
   EXPECT_THAT(unwrapped(text_of(analysed)), HasSubstr("the same within 0.05 %"));
   analysed.analysis.critical = undamped_paddle().analysis.critical;
+  error = RigidApproximation::Error::unsafe;
   EXPECT_THAT(unwrapped(text_of(analysed)), HasSubstr("8.849 kN/m: UNSAFE, the links make it lower"));
 }
 

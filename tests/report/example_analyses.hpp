@@ -35,7 +35,8 @@ inline AnalysedDevice lhifam() {
   analysis.modes = {{529.71, 0.0507}};
   analysis.rigid = RigidApproximation{5.4, 3.5, 0.0, {}};
   analysis.rigid->critical.stiffness = 7000.75625452837;
-  analysis.q_criterion = QCriterion{8468.9, false};
+  analysis.rigid->error = RigidApproximation::Error::safe;
+  analysis.q_criterion = QCriterion{8468.9, false, true};
   return {Device(parameters), analysis};
 }
 
