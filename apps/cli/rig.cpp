@@ -157,12 +157,22 @@ std::string measured_device(const Rig& rig, const RigCheck& result) {
          write_device(parameters);
 }
 
+/// What a study takes for its distribution "file".
+std::string delays_text(const Rig& rig, const LoopTiming& timing) {
+  std::string text =
+      fmt::format("# unit: s\n# from asking for the position to having sent the force, {} cycles of rig check on {}\n",
+                  timing.delay.count, rig.arguments.driver);
+  for (const DurationCount& each : timing.delays) text += fmt::format("{} {}\n", each.duration, each.count);
+  return text;
+}
+
 void run_check(const Rig& rig) {
   const double duration = rig.arguments.duration.value_or(checked_duration);
   RigCheck result = rig::check(rig.device, *rig.driver, rig.options, duration);
   result.watchdog_proved = rig.watchdog_proved;
   if (result.session.stop == StopReason::none) {
     rig.outputs.put("--output-device", [&] { return measured_device(rig, result); });
+    rig.outputs.put("--delays", [&] { return delays_text(rig, result.session.timing); });
   }
   answer(rig, result, result.session);
 }
@@ -282,6 +292,7 @@ void add_outputs(const RigArguments& arguments, Outputs& outputs) {
   outputs.add(arguments.output);
   outputs.add("--recording", arguments.recording);
   outputs.add("--output-device", arguments.output_device);
+  outputs.add("--delays", arguments.delays);
   outputs.add("--report", arguments.report, Ending::page);
 }
 

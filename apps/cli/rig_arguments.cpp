@@ -19,7 +19,7 @@ struct OptionOfActions {
   std::string_view actions;
 };
 
-constexpr std::array<OptionOfActions, 13> options_of_actions{
+constexpr std::array<OptionOfActions, 14> options_of_actions{
     {{"--amplitude", "measure identify relay wall limit "},
      {"--duration", "check measure identify relay wall limit "},
      {"--lowest-hz", "measure identify "},
@@ -32,7 +32,8 @@ constexpr std::array<OptionOfActions, 13> options_of_actions{
      {"--trials", "relay "},
      {"--hysteresis", "relay "},
      {"--recording", "measure identify "},
-     {"--output-device", "check identify "}}};
+     {"--output-device", "check identify "},
+     {"--delays", "check "}}};
 
 void add_work_options(CLI::App& command, RigArguments& arguments) {
   const auto add = [&](const char* name, auto& value, const char* what, const char* type) {
@@ -106,6 +107,9 @@ void add_rig_arguments(CLI::App& command, RigArguments& arguments) {
   file("--recording", arguments.recording, "measure, identify: write force and position as CSV");
   file("--output-device", arguments.output_device,
        "identify: write the device file; check: that of FILE with the\ndelay as measured on a drive");
+  file("--delays", arguments.delays,
+       "check: write how often each delay was measured on a drive, which\na study takes as a distribution of "
+       "loop.delay");
   file("--report", arguments.report, "Write all of it as one HTML page");
 }
 
@@ -117,8 +121,9 @@ void check_rig_arguments(const CLI::App& command, const RigArguments& arguments)
     }
   }
   if (arguments.driver == "simulated") {
-    if (arguments.action == "check" && command.count("--output-device") > 0) {
-      throw BadInput("--output-device: a simulated device has the delay of its file: check a drive");
+    for (const char* option : {"--output-device", "--delays"}) {
+      if (arguments.action != "check" || command.count(option) == 0) continue;
+      throw BadInput(fmt::format("{}: a simulated device has the delay of its file: check a drive", option));
     }
     return;
   }

@@ -35,6 +35,7 @@ struct RigArguments {
   std::string flight_record;
   std::string recording;
   std::string output_device;
+  std::string delays;
   std::string report;
   OutputArguments output;
 };

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
+#include <vector>
 
 #include "zwidth/rig/session.hpp"
 
@@ -28,6 +30,17 @@ class LatencyHistogram {
     return {count_, percentile(0.5), percentile(0.99), percentile(0.999), percentile(0.9999), max()};
   }
 
+  /// The middle of every step that holds any.
+  [[nodiscard]] std::vector<DurationCount> counts() const {
+    std::vector<DurationCount> counts;
+    for (std::size_t i = 0; i < counts_.size(); ++i) {
+      if (counts_[i] == 0) continue;
+      const auto [low, high] = ends_of(i);
+      counts.push_back({0.5e-9 * static_cast<double>(low + high), counts_[i]});
+    }
+    return counts;
+  }
+
  private:
   static constexpr unsigned step_bits = 10;
   static constexpr unsigned magnitudes = 28;  // to 1024 * 2^27 ns, 137 s
@@ -39,6 +52,13 @@ class LatencyHistogram {
     return (std::size_t{shift} << step_bits) + static_cast<std::size_t>(value >> shift);
   }
 
+  /// The least and the largest duration of a step, ns.
+  [[nodiscard]] static std::pair<std::uint64_t, std::uint64_t> ends_of(std::size_t index) noexcept {
+    const std::size_t shift = index >> step_bits;
+    const std::uint64_t step = index & ((1U << step_bits) - 1U);
+    return {step << shift, ((step + 1U) << shift) - 1U};
+  }
+
   /// The largest duration of the step that holds this share of all, s; 0 where there is none.
   [[nodiscard]] double percentile(double share) const {
     const auto wanted = static_cast<std::uint64_t>(std::ceil(share * static_cast<double>(count_)));
@@ -46,9 +66,7 @@ class LatencyHistogram {
     for (std::size_t i = 0; i < counts_.size(); ++i) {
       sum += counts_[i];
       if (sum < wanted || sum == 0) continue;
-      const std::size_t shift = i >> step_bits;
-      const std::uint64_t top = (((i & ((1U << step_bits) - 1U)) + 1U) << shift) - 1U;
-      return 1e-9 * static_cast<double>(std::min(top, max_));
+      return 1e-9 * static_cast<double>(std::min(ends_of(i).second, max_));
     }
     return 0.0;
   }

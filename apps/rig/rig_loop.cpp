@@ -133,7 +133,8 @@ void RigLoop::cycle(std::int64_t now, std::int64_t due) noexcept {
 }
 
 LoopTiming RigLoop::timing() const {
-  return {cycles(), missed_, unanswered_, latency_.summary(), between_.summary(), body_.summary(), delay_.summary()};
+  return {cycles(),           missed_,         unanswered_,      latency_.summary(),
+          between_.summary(), body_.summary(), delay_.summary(), delay_.counts()};
 }
 
 }  // namespace zwidth::rig

@@ -10,6 +10,7 @@
 #include <numbers>
 #include <utility>
 
+#include "identification/period_detection.hpp"
 #include "identification/plausibility.hpp"
 #include "identification/pooled_response.hpp"
 #include "identification/response_friction.hpp"
@@ -21,6 +22,12 @@
 namespace zwidth {
 using namespace internal;
 namespace {
+
+double root_mean_square(const std::vector<double>& samples) {
+  double squares = 0.0;
+  for (const double each : samples) squares += each * each;
+  return std::sqrt(squares / static_cast<double>(samples.size()));
+}
 
 std::string sentence(const Remark& remark) {
   std::string text = remark.what;
@@ -171,22 +178,44 @@ void judge_dependence(MeasuredResponse& measured, std::span<const Recording> rec
 }
 
 /// The critical stiffness of a record that shows dry friction is that of small motions.
-void judge_friction(MeasuredResponse& measured, const FrequencyResponse& response, const Recording& recording,
-                    const std::string& name) {
-  if (!measured.stiffness || !measured.stiffness->limit || !response.sampling_period) return;
+void judge_friction(MeasuredResponse& measured, const FrequencyResponse& response, const Recording& recording) {
   const auto found = find_friction_beside(response, recording.channels[0].samples, recording.channels[1].samples);
   constexpr double significant = 25.0;  // chi-squared: once in 3e5 records without friction
   // Of the limit: a rigid body's is b/(T/2) at most, where nothing but the hold delays the force.
   constexpr double negligible = 0.01;
   if (!found || found->evidence < significant) return;
-  const double share =
-      found->equivalent_damping / (0.5 * *response.sampling_period * measured.stiffness->limit->stiffness);
-  if (share < negligible) return;
+  const double largest = 0.5 * *response.sampling_period * measured.stiffness->limit->stiffness;
+  if (found->equivalent_damping < negligible * largest) return;
   measured.trust.doubt(
-      name +
       "the motion shows dry friction, which the response takes for damping: larger motions have less of it, and a "
       "lower "
       "critical stiffness; repeat it with several times the force, or fit the device with its friction in time");
+}
+
+/// Forces of one size hide dry friction. Its harmonics are looked for where they stand beside the response; of a force that
+/// repeats they stand on the lines of the response itself.
+void judge_one_force(MeasuredResponse& measured, std::span<const Recording> recordings,
+                     const std::vector<FrequencyResponse>& responses, const FrequencyResponseOptions& options) {
+  using Excitation = FrequencyResponseOptions::Excitation;
+  if (!measured.stiffness || measured.stiffness->status != MeasuredStiffnessStatus::found) return;
+  constexpr double different = 1.5;
+  std::vector<double> sizes;
+  for (const Recording& each : recordings) sizes.push_back(root_mean_square(each.channels[0].samples));
+  if (std::ranges::max(sizes) >= different * std::ranges::min(sizes)) return;
+  const bool repeats =
+      options.excitation == Excitation::periodic ||
+      (options.excitation == Excitation::detect && std::ranges::any_of(recordings, [](const Recording& each) {
+         return detect_period(each.channels[0].samples).has_value();
+       }));
+  if (repeats) {
+    measured.trust.doubt(
+        "a force that repeats hides dry friction, which makes a small motion look more damped and the critical "
+        "stiffness "
+        "too high; record it with twice the force too, and give both");
+    return;
+  }
+  if (options.output != OutputQuantity::position) return;
+  for (std::size_t r = 0; r < recordings.size(); ++r) judge_friction(measured, responses[r], recordings[r]);
 }
 
 /// The response and what it shows of the critical stiffness.
@@ -321,9 +350,7 @@ MeasuredResponse frequency_response(std::span<const Recording> recordings, const
   }
   MeasuredResponse measured;
   if (recordings.size() == 1) {
-    const FrequencyResponse response = each[0];
-    measured = judged_response(recordings[0].source, std::move(each[0]), std::move(remarks));
-    if (options.output == OutputQuantity::position) judge_friction(measured, response, recordings[0], "");
+    measured = judged_response(recordings[0].source, each[0], std::move(remarks));
   } else {
     PooledResponse pooled = pooled_response(each);
     measured = judged(fmt::format("{} and {} more", recordings[0].source, recordings.size() - 1),
@@ -331,6 +358,7 @@ MeasuredResponse frequency_response(std::span<const Recording> recordings, const
     measured.dependence = pooled.dependence;
     if (pooled.dependence) judge_dependence(measured, recordings, each);
   }
+  judge_one_force(measured, recordings, each, options);
   for (const std::string& doubt : doubts) measured.trust.doubt(doubt);
   return measured;
 }

@@ -27,6 +27,8 @@ TEST_F(Rig, TellsWhatItCannotDo) {
   expect_refused("limit " + lhifam + "--flight-record a.html --report a.html", 2, "is the same file");
   expect_refused("limit " + lhifam + "--flight-record devices/lhifam.toml", 2, "would overwrite the device file");
   expect_refused("check " + lhifam + "--output-device a.toml", 2, "--output-device: a simulated device");
+  expect_refused("check " + lhifam + "--delays a.txt", 2, "--delays: a simulated device");
+  expect_refused("measure " + lhifam + "--delays a.txt", 2, "--delays: is not for rig measure");
   expect_refused("check " + lhifam + "--driver serial", 2, "--driver: serial: is none; simulated, odrive:PORT");
   expect_refused("check " + lhifam + "--driver udp:127.0.0.1:9", 2, "--force-limit: missing");
   expect_refused("check " + lhifam + "--driver udp:127.0.0.1:9 --force-limit 1", 2, "--position-limit: missing");

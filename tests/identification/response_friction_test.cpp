@@ -18,11 +18,11 @@ namespace {
 using ::testing::Contains;
 using ::testing::HasSubstr;
 
-/// 10 s at 1 kHz of 1.2 kg, 2 N s/m under noise or a sweep of 8 N.
-Recording rubbed(double coulomb, ExcitationKind kind, std::uint64_t seed) {
+/// 10 s at 1 kHz of 1.2 kg, 2 N s/m under noise, a sweep or a multisine.
+Recording rubbed(double coulomb, ExcitationKind kind, std::uint64_t seed, double amplitude = 8.0) {
   ExcitationOptions excitation;
   excitation.kind = kind;
-  excitation.amplitude = 8.0;
+  excitation.amplitude = amplitude;
   excitation.duration = 10.0;
   excitation.rate = 1e3;
   excitation.lowest_hz = 0.5;
@@ -40,12 +40,15 @@ Recording rubbed(double coulomb, ExcitationKind kind, std::uint64_t seed) {
 const auto says_friction = Contains(HasSubstr("dry friction, which the response takes for damping"));
 
 TEST(ResponseFriction, MakesTheMeasuredStiffnessDoubtful) {
+  int told = 0;
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     const MeasuredResponse found = frequency_response(rubbed(0.3, ExcitationKind::noise, seed));
     EXPECT_FALSE(found.trust.sound()) << seed;
-    if (!found.stiffness || !found.stiffness->limit) continue;
+    if (found.stiffness->status != MeasuredStiffnessStatus::found) continue;  // refused
     EXPECT_THAT(found.trust.reasons, says_friction) << seed;
+    ++told;
   }
+  EXPECT_GE(told, 2);
 }
 
 TEST(ResponseFriction, IsNotSeenWhereThereIsNone) {
@@ -54,6 +57,21 @@ TEST(ResponseFriction, IsNotSeenWhereThereIsNone) {
       const Recording recording = rubbed(0.0, kind, seed);
       EXPECT_THAT(frequency_response(recording).trust.reasons, ::testing::Not(says_friction)) << seed;
     }
+  }
+}
+
+// In periods that repeat nothing tells friction from damping, but a second force does.
+TEST(ResponseFriction, AForceThatRepeatsIsDoubtfulUntilThereIsASecondOne) {
+  const auto says_so = Contains(HasSubstr("a force that repeats hides dry friction"));
+  const Recording once = rubbed(0.3, ExcitationKind::multisine, 1);
+  EXPECT_THAT(frequency_response(once).trust.reasons, says_so);
+  for (const double coulomb : {0.0, 0.3}) {
+    std::vector<Recording> twice{rubbed(coulomb, ExcitationKind::multisine, 1),
+                                 rubbed(coulomb, ExcitationKind::multisine, 2, 16.0)};
+    twice[1].source = "harder";
+    const MeasuredResponse found = frequency_response(twice);
+    EXPECT_THAT(found.trust.reasons, ::testing::Not(says_so));
+    EXPECT_EQ(found.dependence.has_value(), coulomb > 0.0);
   }
 }
 

@@ -242,13 +242,14 @@ TEST_F(RigFault, TheExampleInCIsSuchADrive) {
   EXPECT_EQ(example.line(), "let go\n");
 }
 
-// The file says how it was measured, and analyze takes it.
+// The file says how it was measured, and analyze takes it; a study takes the delays as they varied.
 TEST_F(RigFault, CheckWritesTheMeasuredDelay) {
   UdpEmulator emulator(slow_device());
   const std::string found = folder / "found.toml";
-  const std::string check =
-      ZWIDTH_PROGRAM " rig check " + (folder / "device.toml").string() + " --driver udp:" + emulator.address() +
-      " --position-limit 1 --duration 1 --output-device " + found + " > " + (folder / "text").string() + " 2>&1";
+  const std::string check = ZWIDTH_PROGRAM " rig check " + (folder / "device.toml").string() +
+                            " --driver udp:" + emulator.address() +
+                            " --position-limit 1 --duration 1 --output-device " + found + " --delays " +
+                            (folder / "delays.txt").string() + " > " + (folder / "text").string() + " 2>&1";
   int status = -1;
   for (int i = 0; i < 3 && status != 0; ++i) status = std::system(check.c_str());  // a machine that pauses stops it
   ASSERT_EQ(status, 0) << std::ifstream(folder / "text").rdbuf();
@@ -261,6 +262,12 @@ TEST_F(RigFault, CheckWritesTheMeasuredDelay) {
   EXPECT_THAT(text.str(), testing::StartsWith("# loop.delay: "));
   EXPECT_THAT(text.str(), HasSubstr("simulate --jitter "));
   EXPECT_EQ(std::system((ZWIDTH_PROGRAM " analyze " + found + " > /dev/null").c_str()), 0);
+  std::ofstream(folder / "study.toml") << "[[parameter]]\nkey = \"loop.delay\"\ndistribution = \"file\"\n"
+                                          "file = \"delays.txt\"\n";
+  EXPECT_EQ(std::system((ZWIDTH_PROGRAM " study " + found + " --study " + (folder / "study.toml").string() +
+                         " --samples 200 > /dev/null")
+                            .c_str()),
+            0);
 }
 
 TEST_F(RigFault, FirmwareWithoutAWatchdogIsRefused) {

@@ -208,6 +208,14 @@ TEST(LatencyHistogram, PercentilesAreWithinTwoThousandths) {
   EXPECT_NEAR(summary.p999, 9.99e-3, 2e-5);
   EXPECT_NEAR(summary.p9999, 9.999e-3, 2e-5);
   EXPECT_DOUBLE_EQ(summary.max, 1e-2);
+  std::uint64_t all = 0;
+  double sum = 0.0;
+  for (const DurationCount& each : histogram.counts()) {
+    all += each.count;
+    sum += static_cast<double>(each.count) * each.duration;
+  }
+  EXPECT_EQ(all, 100000U);
+  EXPECT_NEAR(sum / 1e5, 5e-3, 1e-5);
   histogram.add(std::numeric_limits<std::int64_t>::max());
   histogram.add(-5);
   EXPECT_GT(histogram.summary().max, 100.0);

@@ -20,15 +20,22 @@ struct LatencySummary {
   double max = 0.0;         ///< s
 };
 
+/// A duration, and how often it was measured.
+struct DurationCount {
+  double duration = 0.0;    ///< s, within 0.2 %
+  std::uint64_t count = 0;  ///< cycles
+};
+
 /// How the cycles of a rig ran.
 struct LoopTiming {
-  std::uint64_t cycles = 0;      ///< of the loop
-  std::uint64_t missed = 0;      ///< late by a period or more
-  std::uint64_t unanswered = 0;  ///< without a position
-  LatencySummary latency;        ///< from the instant of the clock to the cycle's begin; none in lock step
-  LatencySummary period;         ///< from one begin to the next; none in lock step
-  LatencySummary body;           ///< from a cycle's begin to its end
-  LatencySummary delay;          ///< from asking for the position to having sent the force; none in lock step
+  std::uint64_t cycles = 0;           ///< of the loop
+  std::uint64_t missed = 0;           ///< late by a period or more
+  std::uint64_t unanswered = 0;       ///< without a position
+  LatencySummary latency;             ///< from the instant of the clock to the cycle's begin; none in lock step
+  LatencySummary period;              ///< from one begin to the next; none in lock step
+  LatencySummary body;                ///< from a cycle's begin to its end
+  LatencySummary delay;               ///< from asking for the position to having sent the force; none in lock step
+  std::vector<DurationCount> delays;  ///< the same of all cycles, rising
 };
 
 /// One session on a rig: what it ran on, how, and how it ended.
