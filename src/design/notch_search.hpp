@@ -34,7 +34,7 @@ class NotchSearch {
   /// One drift of the device more.
   void add(const Device& device);
   /// `grid`: of the device with whatever virtual damper.
-  void add(const Device& device, const LoopGrid& grid);
+  void add(const Device& device, const LoopGrid& of_device);
 
   /// The best of a grid around each mode, with and without a look between the frequencies.
   [[nodiscard]] std::vector<Point> candidates(const Progress& progress) const;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 #include <string_view>
 
 #include "zwidth/quantity.hpp"
@@ -170,12 +169,12 @@ std::string oscillations_text(const RelayResult& result) {
     const auto end = std::find_if(first, readings.end(), [&](const RelayReading* each) {
       return !is_near((*first)->frequency, each->frequency);
     });
-    const auto [softest, stiffest] = std::ranges::minmax(
-        std::ranges::subrange(first, end) | std::views::transform([](const auto* each) { return each->stiffness; }));
+    const auto [softest, stiffest] =
+        std::minmax_element(first, end, [](const auto* a, const auto* b) { return a->stiffness < b->stiffness; });
     const auto count = end - first;
     all += all.empty() ? "" : end == readings.end() ? " and " : ", ";
     all += fmt::format("{} Hz ({}, {} trial{})", range((*first)->frequency, (*(end - 1))->frequency, in_hertz),
-                       range(softest, stiffest, in_units), count, count == 1 ? "" : "s");
+                       range((*softest)->stiffness, (*stiffest)->stiffness, in_units), count, count == 1 ? "" : "s");
     first = end;
   }
   return all;
