@@ -55,22 +55,25 @@ HWY_INLINE StateSpace<n> state_space_of(const KernelGroup& group, const V* in) {
   const V g1 = input(KernelInput::actuated_damping);
   const std::size_t bodies = group.two_bodies ? 2 : 1;
   V scale = one / input(KernelInput::period);
-  if (group.two_bodies) {
-    const V m2 = input(KernelInput::other_mass);
-    const V g2 = input(KernelInput::other_damping);
-    const V k = input(KernelInput::link_stiffness);
-    const V b = input(KernelInput::link_damping);
-    scale = hn::Sqrt(k * (m1 + m2) / (m1 * m2));
-    system.a.at[2][0] = hn::Neg(k / (m1 * scale));
-    system.a.at[2][1] = k / (m1 * scale);
-    system.a.at[3][0] = k / (m2 * scale);
-    system.a.at[3][1] = hn::Neg(k / (m2 * scale));
-    system.a.at[2][2] = hn::Neg((g1 + b) / m1);
-    system.a.at[2][3] = b / m1;
-    system.a.at[3][2] = b / m2;
-    system.a.at[3][3] = hn::Neg((g2 + b) / m2);
-    system.output = group.collocated ? 0 : 1;
-  } else {
+  if constexpr (n >= 4) {  // two bodies have two positions and two velocities
+    if (group.two_bodies) {
+      const V m2 = input(KernelInput::other_mass);
+      const V g2 = input(KernelInput::other_damping);
+      const V k = input(KernelInput::link_stiffness);
+      const V b = input(KernelInput::link_damping);
+      scale = hn::Sqrt(k * (m1 + m2) / (m1 * m2));
+      system.a.at[2][0] = hn::Neg(k / (m1 * scale));
+      system.a.at[2][1] = k / (m1 * scale);
+      system.a.at[3][0] = k / (m2 * scale);
+      system.a.at[3][1] = hn::Neg(k / (m2 * scale));
+      system.a.at[2][2] = hn::Neg((g1 + b) / m1);
+      system.a.at[2][3] = b / m1;
+      system.a.at[3][2] = b / m2;
+      system.a.at[3][3] = hn::Neg((g2 + b) / m2);
+      system.output = group.collocated ? 0 : 1;
+    }
+  }
+  if (!group.two_bodies) {
     system.a.at[1][0] = hn::Neg(input(KernelInput::actuated_stiffness) / (m1 * scale));
     system.a.at[1][1] = hn::Neg(g1 / m1);
   }
