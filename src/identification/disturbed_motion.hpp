@@ -30,6 +30,6 @@ struct DisturbedFit {
 /// J: W dy/dp with the states eliminated; w_i: white forces, each with both signs, of the size with which the linear
 /// device makes the residuals' spectrum in the band (its median, where that stands above the white noise of the position).
 /// 0 for what is held or not estimated, and everywhere where no disturbance shows. The same every time.
-[[nodiscard]] Eigen::MatrixXd scatter_under_disturbance(const DisturbedFit& fit);
+[[nodiscard]] Eigen::MatrixXd scatter_under_disturbance(const DisturbedFit& of);
 
 }  // namespace zwidth::internal

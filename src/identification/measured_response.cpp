@@ -329,16 +329,16 @@ MeasuredResponse frequency_response(const Recording& recording, const FrequencyR
   return frequency_response(std::span(&recording, 1), options, progress);
 }
 
-MeasuredResponse frequency_response(std::span<const Recording> recordings, const FrequencyResponseOptions& given,
+MeasuredResponse frequency_response(std::span<const Recording> recordings, const FrequencyResponseOptions& options,
                                     const Progress& progress) {
-  FrequencyResponseOptions options = given;
-  options.excitation = excitation_of(given);
-  std::vector<FrequencyResponse> each = responses(recordings, options, progress);
+  FrequencyResponseOptions decided = options;
+  decided.excitation = excitation_of(options);
+  std::vector<FrequencyResponse> each = responses(recordings, decided, progress);
   std::vector<Remark> remarks;
   std::vector<std::string> doubts;
   for (std::size_t r = 0; r < recordings.size(); ++r) {
     const std::string name = recordings.size() > 1 ? recordings[r].source + ": " : "";
-    const RecordChecks checks = checked(recordings[r], options.output);
+    const RecordChecks checks = checked(recordings[r], decided.output);
     for (Remark remark : checks.remarks) {
       remark.what = name + remark.what;
       remarks.push_back(std::move(remark));
@@ -358,7 +358,7 @@ MeasuredResponse frequency_response(std::span<const Recording> recordings, const
     measured.dependence = pooled.dependence;
     if (pooled.dependence) judge_dependence(measured, recordings, each);
   }
-  judge_one_force(measured, recordings, each, options);
+  judge_one_force(measured, recordings, each, decided);
   for (const std::string& doubt : doubts) measured.trust.doubt(doubt);
   return measured;
 }
