@@ -205,8 +205,7 @@ void run_in_time(const IdentifyArguments& arguments, Outputs& outputs) {
 
 void run_identify(const IdentifyArguments& arguments) {
   if (arguments.response.recording.list) {
-    write_text(contents_text(arguments.response.recording));
-    return;
+    return write_contents(arguments.response.recording, arguments.output.json);
   }
   Outputs outputs;
   check(arguments, outputs);

@@ -199,15 +199,22 @@ class Judge {
   }
 
   void judge_open_numbers() {
-    const std::vector<std::string> keys = undetermined(fit_, judged_.options);
-    if (keys.empty()) return;
-    const std::string reason =
-        fmt::format("the data do not determine {}: taken as they stand in the structure", fmt::join(keys, ", "));
-    result_.device_trust.doubt(reason);
-    // Along what is open the response does not change, and within the band the critical stiffness is the response's.
-    const bool is_responses = is_in_band_ && judged_.options.fit.locked.empty();
-    if (!is_measured_ && !is_responses) result_.trust.doubt(reason);
+    std::vector<std::string> keys;
+    for (const ParameterEstimate& estimate : fit_.estimates) {
+      if (!estimate.identifiable) keys.push_back(estimate.key);
+    }
+    if (!keys.empty()) {
+      const std::string reason =
+          fmt::format("the data do not determine {}: taken as they stand in the structure", fmt::join(keys, ", "));
+      result_.device_trust.doubt(reason);
+      // Along what is open the response does not change, and within the band the critical stiffness is the response's.
+      const bool is_responses = is_in_band_ && judged_.options.fit.locked.empty();
+      if (!is_measured_ && !is_responses) result_.trust.doubt(reason);
+    }
     if (known_structure()) return;
+    for (std::string& unseen : unseen_placeholders(judged_.options.fit.locked, judged_.options.structure_values)) {
+      keys.push_back(std::move(unseen));
+    }
     for (const std::string& key : keys) {
       result_.remarks.push_back({Remark::Severity::warning,
                                  fmt::format("{} = {:.4g} is a placeholder: the data do not determine it", key,
@@ -274,13 +281,11 @@ class Judge {
 
 }  // namespace
 
-std::vector<std::string> undetermined(const ParameterFit& fit, const IdentifyOptions& options) {
+std::vector<std::string> unseen_placeholders(const std::vector<std::string>& locked,
+                                             IdentifyOptions::StructureValues values) {
   std::vector<std::string> keys;
-  for (const ParameterEstimate& estimate : fit.estimates) {
-    if (!estimate.identifiable) keys.push_back(estimate.key);
-  }
-  if (options.structure_values == IdentifyOptions::StructureValues::known) return keys;
-  for (const std::string& body : options.fit.locked) {
+  if (values == IdentifyOptions::StructureValues::known) return keys;
+  for (const std::string& body : locked) {
     for (const char* number : {"mass", "damping"}) keys.push_back(fmt::format("body.{}.{}", body, number));
   }
   return keys;
@@ -327,10 +332,14 @@ void judge_nonlinearity(Identification& result, std::span<const Recording> recor
 
 CriticalStiffness limit_of(const Device& device) { return critical_stiffness(device); }
 
-void keep_assumed(const Device& structure, std::span<const ParameterEstimate> estimates, Device& fitted,
-                  std::initializer_list<Trust*> trusts) {
-  if (!structure.parameters().uncertainty) return;
-  std::vector<std::string> assumed = structure.parameters().uncertainty->assumed;
+void keep_assumed(const Device& structure, std::span<const ParameterEstimate> estimates,
+                  std::vector<std::string> placeholders, Device& fitted, std::initializer_list<Trust*> trusts) {
+  std::vector<std::string> assumed = std::move(placeholders);
+  if (const auto& of_structure = structure.parameters().uncertainty) {
+    for (const std::string& key : of_structure->assumed) {
+      if (std::ranges::find(assumed, key) == assumed.end()) assumed.push_back(key);
+    }
+  }
   std::erase_if(assumed, [&](const std::string& key) {
     return std::ranges::any_of(estimates, [&](const ParameterEstimate& each) {
       return each.identifiable && each.key == full_parameter_key(structure.parameters(), key);
