@@ -101,6 +101,7 @@ TEST_F(Identify, RefusesWhatItCannotUse) {
   expect_refusal(record + "--structure two-body --free wall.damping", "does not show in a frequency response");
   expect_refusal(record + "--structure devices/lhifam.toml --motion rotary", "--motion: is for a named structure");
   expect_refusal(record + "--structure two-body --sampling-period 0", "--sampling-period: is 0");
+  expect_refusal(record + "--structure devices/lhifam.toml --sampling-period 0", "--sampling-period: is 0");
   expect_refusal(locked + "--figure fit.bmp", "unknown extension");
   expect_refusal(locked + "--json --output-device -", "standard output, which --json takes");
   expect_refusal(locked + "--output-device recordings/locked_chirp.csv", "would overwrite the recording");
