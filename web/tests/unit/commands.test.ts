@@ -1,5 +1,6 @@
 // What is copied runs nothing but the program, and holds the text to the letter, whatever stands in it.
 import { execFileSync } from 'node:child_process'
+import { fileURLToPath } from 'node:url'
 import { describe, expect, it } from 'vitest'
 import { commandLine, cppCode, pythonCode } from '../../src/model/commands'
 
@@ -36,6 +37,13 @@ describe('commands', () => {
       expect(rest!.slice(0, close)).toBe(text)
       expect(rest!.slice(close)).toMatch(/^\)\w+", "workbench"\);\n/)
     }
+  })
+
+  it('give C++ that compiles against the library, and prints every digit', () => {
+    const code = cppCode('name = "a"\n[[body]]\nname = "a"\nmass = 1\n[loop]\nsampling_period = 1e-3\n')
+    const words = ['-std=c++20', '-fsyntax-only', '-I', fileURLToPath(new URL('../../../include', import.meta.url)), '-isystem', '/usr/include/eigen3', '-x', 'c++', '-']
+    execFileSync('c++', words, { input: code, stdio: ['pipe', 'inherit', 'inherit'] })
+    expect(code).toContain('setprecision(17) << analysis.critical.stiffness')
   })
 
   it('give Python one text', () => {
