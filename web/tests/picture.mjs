@@ -18,6 +18,7 @@ const settled = async () => {
 }
 await settled()
 await page.screenshot({ path: `${project}/docs/workbench.png` })
+for (const known of ['body.motor damping', 'body.handle mass', 'body.handle damping']) await page.getByRole('button', { name: `Lock ${known}`, exact: true }).click()
 await page.getByRole('button', { name: 'Recording', exact: true }).click()
 await page.getByLabel(/choose it/).setInputFiles(`${project}/recordings/locked_chirp.csv`)
 await page.getByLabel('Fit', { exact: true }).selectOption('device')
@@ -25,7 +26,7 @@ await page.getByLabel('handle', { exact: true }).check()
 await page.getByRole('button', { name: 'Fit', exact: true }).click()
 await page.getByRole('button', { name: 'Use this device' }).waitFor()
 await settled()
-await page.addStyleTag({ content: '.in-short { display: none }' }) // it lies over the panel
+await page.evaluate(() => document.querySelector('.in-short')?.style.setProperty('display', 'none')) // it lies over the panel
 await page.locator('#panel-recording').screenshot({ path: `${project}/docs/workbench_recording.png` })
 await browser.close()
 server.kill('SIGINT')

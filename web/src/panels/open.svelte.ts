@@ -37,7 +37,7 @@ export function showLine(line: number): void {
 
 export function showPanel(id: string): void {
   panels[id] = true
-  setTimeout(() => {
+  void tick().then(() => {
     const panel = document.getElementById(`panel-${id}`)
     if (!panel) return
     keepAtTop(panel)
