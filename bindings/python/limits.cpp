@@ -212,6 +212,7 @@ py::dict many(const Device& device, const py::dict& changes, const py::object& p
   made["statuses"] = statuses;
   made["mechanisms"] = mechanisms;
   made["reasons"] = reasons_of(columns);
+  made["scalar_count"] = columns.scalar_count;
   made["critical_stiffness"] = array_over(std::move(columns.stiffness));
   made["critical_frequency_rad_s"] = array_over(std::move(columns.frequency));
   return made;

@@ -324,6 +324,8 @@ class CriticalStiffnessMany:
         """rad/s; NaN unless finite."""
         self.reasons: Dict[int, List[str]] = columns["reasons"]
         """By index: why an element is refused, doubtful or failed."""
+        self.scalar_count: int = columns["scalar_count"]
+        """Devices that critical_stiffness() answered one by one, not the kernel of many (docs/batch.md)."""
         self._columns = columns
 
     @functools.cached_property
