@@ -161,8 +161,13 @@ def test_many_devices_are_each_that_device_alone(lhifam, random_devices):
         assert math.isclose(many.critical_frequency_rad_s[i], alone.critical_frequency_rad_s, rel_tol=1e-12)
         assert many.status[i] == alone.status
         assert many.limited_by[i] == alone.limited_by
+    kept = pickle.loads(pickle.dumps(many))
+    assert kept.limited_by == many.limited_by and kept.status == many.status and len(kept) == 300
+    many.limited_by[0]["mode"] = "mine"
+    assert "mine" not in many.limited_by[1].values() and many.limited_by[0]["mode"] == "mine"
     broken = zwidth.critical_stiffness_many(lhifam, {"link.stiffness": [8e4, -1.0, np.nan, np.inf]})
     assert np.isnan(broken.critical_stiffness).tolist() == [False, True, True, True]
+    assert many.scalar_count == 0 and broken.scalar_count == 3
     assert sorted(broken.reasons) == [1, 2, 3] and "link.0.stiffness" in broken.reasons[1][0]
     for file in random_devices[::7]:
         device = zwidth.Device.from_toml(file)

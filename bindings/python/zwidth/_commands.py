@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import copy
+import functools
 import os
 from pathlib import Path
 from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, Union
@@ -320,15 +322,26 @@ class CriticalStiffnessMany:
         """K_CR, N/m or N m/rad: 0 where none is stable, inf where unbounded, NaN where refused or failed."""
         self.critical_frequency_rad_s: npt.NDArray[np.float64] = columns["critical_frequency_rad_s"]
         """rad/s; NaN unless finite."""
-        self.status: List[str] = columns["status"]
-        """As of Analysis."""
-        self.limited_by: List[Optional[Dict[str, Any]]] = columns["limited_by"]
-        """{"kind": ...}; None unless finite."""
         self.reasons: Dict[int, List[str]] = columns["reasons"]
         """By index: why an element is refused, doubtful or failed."""
+        self.scalar_count: int = columns["scalar_count"]
+        """Devices that critical_stiffness() answered one by one, not the kernel of many (docs/batch.md)."""
+        self._columns = columns
+
+    @functools.cached_property
+    def status(self) -> List[str]:
+        """As of Analysis."""
+        names = self._columns["statuses"]
+        return [names[code] for code in self._columns["status"].tolist()]
+
+    @functools.cached_property
+    def limited_by(self) -> List[Optional[Dict[str, Any]]]:
+        """{"kind": ...}; None unless finite."""
+        mechanisms = self._columns["mechanisms"]
+        return [copy.copy(mechanisms[mode]) for mode in self._columns["limited_by"].tolist()]
 
     def __len__(self) -> int:
-        return len(self.status)
+        return len(self.critical_stiffness)
 
     def __repr__(self) -> str:
         return f"<zwidth.CriticalStiffnessMany of {len(self)}, {len(self.reasons)} with reasons>"
