@@ -27,13 +27,13 @@ def _real_numbers(where: str, values: npt.ArrayLike, allowed: str) -> npt.NDArra
     if hasattr(values, "units") or hasattr(values, "unit") or _device.is_time(values):
         raise InputError(where, "has a unit of its own", f"{allowed} without one; of times, seconds")
     try:
-        if isinstance(values, np.ma.MaskedArray):
-            values = values.astype(np.float64).filled(np.nan)
         array = np.array(values, dtype=np.float64)
     except (TypeError, ValueError, OverflowError) as error:
         raise InputError(where, f"is no column of numbers: {error}", allowed) from None
     if array.ndim != 1:
         raise InputError(where, f"has {array.ndim} dimensions", "one")
+    if isinstance(values, np.ma.MaskedArray):
+        array[np.broadcast_to(values.mask, array.shape)] = np.nan
     return array
 
 
