@@ -24,7 +24,7 @@ def _real_numbers(where: str, values: npt.ArrayLike, allowed: str) -> npt.NDArra
     """One column; what is masked is missing. A cast to float alone would drop imaginary parts, masks and units."""
     if np.iscomplexobj(values):
         raise InputError(where, "is complex", allowed)
-    if hasattr(values, "units") or hasattr(values, "unit") or _device.is_time(values):
+    if any(getattr(values, name, None) is not None for name in ("unit", "units")) or _device.is_time(values):
         raise InputError(where, "has a unit of its own", f"{allowed} without one; of times, seconds")
     try:
         array = np.array(values, dtype=np.float64)
@@ -80,6 +80,7 @@ def _held(recorded: Recorded, number: int) -> Tuple[str, Any]:
             raise InputError("recording", "is a path of bytes", "a path of text")
         if path == "-":
             raise InputError("recording", "is standard input", "a file, or columns")
+        _device.text_of("recording", path)
         return path if not path.startswith("-") else f"./{path}", Path(path)
     if hasattr(recorded, "keys"):
         made = Recording(recorded, name="recording" if number == 0 else f"recording {number + 1}")
@@ -290,13 +291,13 @@ def study(
     if isinstance(study, Mapping):
         held = _core.study_toml(_device.json_of(study, "study"))
     elif isinstance(study, str) and "\n" in study:
-        held = study
+        held = _device.text_of("study", study)
     elif isinstance(study, (str, os.PathLike)) and isinstance(os.fspath(study), str):
         if not os.fspath(study) or "\0" in os.fspath(study):
             raise InputError("study", "is empty or has a character of code 0", "a path")
         if os.fspath(study) == "-":
             raise InputError("study", "is standard input", "a file, a text, or a dict")
-        held = Path(os.fspath(study))
+        held = Path(_device.text_of("study", os.fspath(study)))
     else:
         raise InputError("study", f"is of type {type(study).__name__}", "a path, a text, or a dict")
     result: _device_results.Study = _result("study", device, (), progress, options, held)
@@ -311,7 +312,11 @@ def model(device: Device) -> _results.Model:
 
 def export(device: Device, format: str, **options: Option) -> str:
     """The model or the wall as the text of a program: "octave", "python", "json", "c" or "chai3d"."""
-    return _run("export", device, (), None, {"format": format, **options}).printed
+    text = _run("export", device, (), None, {"format": format, **options}).printed
+    # The text says what is doubtful; so does the document of the same device.
+    described = _run("export", device, (), None, {"format": "json", "set": options.get("set")})
+    warn_of_document(described.value(""))
+    return text
 
 
 def _given(name: str, value: Any) -> Dict[str, Any]:
@@ -373,7 +378,7 @@ _COMMANDS = {
 
 def options(command: str) -> Dict[str, str]:
     """What each option of a command says of itself, by keyword: the program's own declarations."""
-    listed = _core.options(command)
+    listed = _core.options(command) if command in _core.commands() else []
     if not listed:
         raise InputError("command", f"{command!r} is none", ", ".join(sorted(_core.commands())))
     return {
