@@ -14,6 +14,7 @@
 #include "identification/percent.hpp"
 #include "identification/plausibility.hpp"
 #include "model/uncertainty_problem.hpp"
+#include "zwidth/model/device_trust.hpp"
 #include "zwidth/model/parameter.hpp"
 #include "zwidth/model/state_space.hpp"
 #include "zwidth/quantity.hpp"
@@ -332,19 +333,35 @@ void judge_nonlinearity(Identification& result, std::span<const Recording> recor
 
 CriticalStiffness limit_of(const Device& device) { return critical_stiffness(device); }
 
-void keep_assumed(const Device& structure, std::span<const ParameterEstimate> estimates,
-                  std::vector<std::string> placeholders, Device& fitted, std::initializer_list<Trust*> trusts) {
+void keep_what_is_assumed(const Device& structure, std::span<const ParameterEstimate> estimates,
+                          std::vector<std::string> placeholders, Device& fitted, std::initializer_list<Trust*> trusts) {
+  const DeviceParameters& given = structure.parameters();
+  const auto is_identified = [&](const std::string& key) {
+    return std::ranges::any_of(estimates, [&](const ParameterEstimate& each) {
+      return each.identifiable && each.key == full_parameter_key(given, key);
+    });
+  };
+  const auto is_taken = [&](const std::string& key) {
+    const bool is_of_the_mechanics = key.starts_with("body.") || key.starts_with("link.");
+    return is_of_the_mechanics && !key.ends_with(".coulomb") && parameter(given, key).value_or(0.0) != 0.0 &&
+           !is_identified(key);
+  };
   std::vector<std::string> assumed = std::move(placeholders);
-  if (const auto& of_structure = structure.parameters().uncertainty) {
-    for (const std::string& key : of_structure->assumed) {
+  if (given.uncertainty) {
+    const std::vector<std::string>& of_structure = given.uncertainty->assumed;
+    Trust stated = trust_of(structure);
+    if (!of_structure.empty()) std::erase(stated.reasons, assumed_reason(of_structure));
+    if (!stated.reasons.empty() && std::ranges::any_of(parameter_keys(given), is_taken)) {
+      for (Trust* trust : trusts) trust->inherit(stated);
+      Trust device_trust = trust_of(fitted);
+      device_trust.inherit(stated);
+      fitted = with_trust(fitted, device_trust);
+    }
+    for (const std::string& key : of_structure) {
       if (std::ranges::find(assumed, key) == assumed.end()) assumed.push_back(key);
     }
   }
-  std::erase_if(assumed, [&](const std::string& key) {
-    return std::ranges::any_of(estimates, [&](const ParameterEstimate& each) {
-      return each.identifiable && each.key == full_parameter_key(structure.parameters(), key);
-    });
-  });
+  std::erase_if(assumed, is_identified);
   if (assumed.empty()) return;
   for (Trust* trust : trusts) trust->doubt(assumed_reason(assumed));
   DeviceParameters parameters = fitted.parameters();

@@ -47,9 +47,10 @@ void judge_nonlinearity(Identification& result, std::span<const Recording> recor
                                                            IdentifyOptions::StructureValues values);
 
 /// What the structure only assumes (Uncertainty::assumed) and the data do not determine stays assumed in the fitted
-/// device, as do these placeholders; for it all these are doubtful.
-void keep_assumed(const Device& structure, std::span<const ParameterEstimate> estimates,
-                  std::vector<std::string> placeholders, Device& fitted, std::initializer_list<Trust*> trusts);
+/// device, as do these placeholders; for it all these are doubtful. Where the structure's file is doubtful or refused and a
+/// mass, spring or damper of it is not determined by the data, all these are so too.
+void keep_what_is_assumed(const Device& structure, std::span<const ParameterEstimate> estimates,
+                          std::vector<std::string> placeholders, Device& fitted, std::initializer_list<Trust*> trusts);
 
 /// The verdict into the fitted device's [uncertainty], so that its file keeps it.
 [[nodiscard]] Device with_trust(const Device& device, const Trust& trust);

@@ -96,8 +96,9 @@ class Judge {
     judge_band();
     judge_interval();
     fit_.device = with_trust(fit_.device, trust_);
-    keep_assumed(judged_.structure, fit_.estimates,
-                 unseen_placeholders(judged_.options.locked, judged_.options.structure_values), fit_.device, {&trust_});
+    keep_what_is_assumed(judged_.structure, fit_.estimates,
+                         unseen_placeholders(judged_.options.locked, judged_.options.structure_values), fit_.device,
+                         {&trust_});
     fit_.analysis = analyze(fit_.device, {.any_user = false});
     const Wall& wall = fit_.device.parameters().wall;
     fit_.basis = {wall.damping, wall.velocity_filter_hz, wall.filters.size()};
