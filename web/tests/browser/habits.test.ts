@@ -187,8 +187,9 @@ it('asks of a device fitted with a body held for that body’s numbers, until th
   await type(page, 'body.handle.mass', '5.1')
   await type(page, 'body.handle.damping', '3.4')
   await assumed.waitFor({ state: 'detached' })
-  // What only its sum showed: known, locked, and fitted again.
-  await type(page, 'body.motor.damping', '0.1')
+  // What only its sum showed: of a new device what is known is typed and locked, the rest fitted.
+  await runPalette(page, 'new motor and handle, linear')
+  for (const [key, value] of [['body.motor.damping', '0.1'], ['body.handle.mass', '5.1'], ['body.handle.damping', '3.4'], ['loop.sampling_period', '1 ms']] as const) await type(page, key, value)
   for (const key of ['body.motor damping', 'body.handle mass', 'body.handle damping']) await page.getByRole('button', { name: `Lock ${key}`, exact: true }).click()
   await page.getByLabel('Fit', { exact: true }).selectOption('device')
   await page.getByRole('button', { name: 'Fit', exact: true }).click()
