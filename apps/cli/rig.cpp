@@ -120,7 +120,7 @@ void answer(const Rig& rig, const Result& result, const RigSession& session) {
   } else {
     write_text(report::rig_text(rig.device, result));
   }
-  if (session.stop != StopReason::none) throw WorkFailed("the rig stopped: " + explanation(session.stop));
+  if (session.stop != StopReason::none) throw WorkFailed("the rig stopped: " + explanation(session));
 }
 
 rig::MeasureOptions measure_options(const Rig& rig) {
@@ -202,6 +202,7 @@ void run_relay_on_rig(const Rig& rig) {
   rig::RelayTrialsOptions options;
   options.relay = {amplitude_of(rig), rig.arguments.hysteresis};
   options.trials = rig.arguments.trials;
+  options.seek_limit = rig.arguments.seek_limit;
   if (rig.arguments.duration) options.duration = *rig.arguments.duration;
   RelayOptions simulated;
   simulated.relay = options.relay;

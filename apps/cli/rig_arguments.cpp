@@ -19,7 +19,7 @@ struct OptionOfActions {
   std::string_view actions;
 };
 
-constexpr std::array<OptionOfActions, 14> options_of_actions{
+constexpr std::array<OptionOfActions, 15> options_of_actions{
     {{"--amplitude", "measure identify relay wall limit "},
      {"--duration", "check measure identify relay wall limit "},
      {"--lowest-hz", "measure identify "},
@@ -31,6 +31,7 @@ constexpr std::array<OptionOfActions, 14> options_of_actions{
      {"--ceiling", "limit "},
      {"--trials", "relay "},
      {"--hysteresis", "relay "},
+     {"--seek-limit", "relay "},
      {"--recording", "measure identify "},
      {"--output-device", "check identify "},
      {"--delays", "check "}}};
@@ -54,6 +55,8 @@ void add_work_options(CLI::App& command, RigArguments& arguments) {
   add("--ceiling", arguments.ceiling, "limit: the most that is tried; else half above what is predicted", "K");
   add("--trials", arguments.trials, "relay: number of trials", "N")->capture_default_str()->check(CLI::Range(1, 1000));
   add("--hysteresis", arguments.hysteresis, "relay: m or rad", "M")->capture_default_str();
+  command.add_flag("--seek-limit", arguments.seek_limit,
+                   "relay: begin so that the limit's oscillation is found,\nnot a faster one; else as relay begins");
   add("--start", arguments.start, "Where all bodies of a simulated device start, at rest, m or rad", "M")
       ->capture_default_str();
 }

@@ -32,6 +32,7 @@ struct RigArguments {
   std::string contact = "bilateral";
   std::size_t trials = 4;
   double hysteresis = 0.0;
+  bool seek_limit = false;
   std::string flight_record;
   std::string recording;
   std::string output_device;

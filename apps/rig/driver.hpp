@@ -38,6 +38,9 @@ class Driver {
   virtual void arm() = 0;
   /// The position now, m or rad; nothing where none came in time.
   [[nodiscard]] virtual std::optional<double> measure() noexcept = 0;
+  /// Why there is no position, where the drive itself said so: it stands on a fault, or has let go. Empty: it did not
+  /// say. When the loop does not run.
+  [[nodiscard]] virtual std::string trouble() const { return {}; }
   /// Force from now on, N or N m; 0 after disarm().
   void command(double force) noexcept { send(is_disarmed() ? 0.0 : force); }
   /// Zero force, for good, and the drive idle.

@@ -42,10 +42,7 @@ MoteusDriver::MoteusDriver(const SerialLink& link)
       },
       refusal_patience);
   if (refused) has_checksums_ = moteus_answer(*refused, true).has_value();
-  if (mode() == fault_mode) {
-    throw DriverFailed(
-        fmt::format("moteus {} stands on a fault; find its cause with tview, then stop it (d stop)", id_));
-  }
+  if (const int found = mode(); found == fault_mode) throw DriverFailed(trouble_text(Trouble::fault, found));
 }
 
 int MoteusDriver::mode() {
@@ -91,8 +88,19 @@ SerialDriver::Heard MoteusDriver::hear(std::string_view frame) noexcept {
   if (*answer == "OK" || answer->empty()) return {Meaning::other};
   const auto reply = moteus_reply(*answer, id_);
   if (!reply || !reply->position) return {Meaning::broken};
-  if (reply->mode != position_mode && !is_disarmed()) return {Meaning::broken};  // it has let go
+  if (reply->mode != position_mode && !is_disarmed()) {
+    const int mode = reply->mode.value_or(0);
+    return {Meaning::broken, 0.0, mode == fault_mode ? Trouble::fault : Trouble::let_go, mode};
+  }
   return {Meaning::position, *reply->position};
+}
+
+std::string MoteusDriver::trouble_text(Trouble trouble, long code) const {
+  if (trouble == Trouble::fault) {
+    return fmt::format("moteus {} stands on a fault; find its cause with tview, then stop it (d stop)", id_);
+  }
+  return fmt::format("moteus {} has let go: it is in mode {}{}", id_, code,
+                     code == timeout_mode ? ", its watchdog's; the loop is too slow, or the line too busy" : "");
 }
 
 SerialFrame MoteusDriver::question() noexcept { return line(moteus_question(id_)); }

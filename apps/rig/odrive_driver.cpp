@@ -29,6 +29,7 @@ constexpr std::string_view closed_loop = "8";
 constexpr std::string_view torque_control = "1";
 constexpr std::string_view passthrough = "1";
 constexpr long watchdog_expired = 1L << 11;
+constexpr double largest_error = 0xffffffff;
 
 double watchdog_of(const SerialLink& link) {
   return std::clamp(watchdog_cycles * link.sampling_period, shortest_watchdog, longest_watchdog);
@@ -50,10 +51,7 @@ OdriveDriver::OdriveDriver(const SerialLink& link)
       axis_(link.drive.id.value_or(0)),
       watchdog_(watchdog_of(link)) {
   if (const long found = error(); (found & ~watchdog_expired) != 0) {
-    throw DriverFailed(
-        fmt::format("axis {} stands on error {:#x}; find its cause with odrivetool (dump_errors), then "
-                    "clear it",
-                    axis_, found));
+    throw DriverFailed(trouble_text(Trouble::fault, found));
   }
 }
 
@@ -102,7 +100,7 @@ void OdriveDriver::arm() {
     sleep_until(clock_now() + between_looks);
   }
   tell(torque_frame(0.0).view());
-  has_failed_ = false;
+  error_ = 0;
   forget_input();
 }
 
@@ -122,12 +120,18 @@ SerialDriver::Heard OdriveDriver::hear(std::string_view frame) noexcept {
   const auto answer = odrive_answer(frame);
   if (!answer) return {Meaning::broken};
   if (const auto feedback = odrive_feedback(*answer)) {
-    return {has_failed_ ? Meaning::broken : Meaning::position, feedback->position};
+    if (error_ != 0) return {Meaning::broken, 0.0, Trouble::fault, error_};
+    return {Meaning::position, feedback->position};
   }
   const auto error = as_number(*answer);
   if (!error) return {Meaning::broken};  // "invalid motor", "unknown command"
-  if (*error != 0.0) has_failed_ = true;
+  if (*error != 0.0) error_ = *error >= 1.0 && *error <= largest_error ? std::lround(*error) : 1;
   return {Meaning::other};
+}
+
+std::string OdriveDriver::trouble_text(Trouble /*trouble*/, long code) const {
+  return fmt::format("axis {} stands on error {:#x}{}; find its cause with odrivetool (dump_errors), then clear it",
+                     axis_, code, (code & watchdog_expired) != 0 ? ", its watchdog's among them" : "");
 }
 
 SerialFrame OdriveDriver::question() noexcept {

@@ -23,6 +23,7 @@ class OdriveDriver : public SerialDriver {
   [[nodiscard]] Heard hear(std::string_view frame) noexcept override;
   [[nodiscard]] SerialFrame question() noexcept override;
   [[nodiscard]] SerialFrame torque_frame(double torque) const noexcept override;
+  [[nodiscard]] std::string trouble_text(Trouble trouble, long code) const override;
   void send_idle() noexcept override;
 
  private:
@@ -34,7 +35,7 @@ class OdriveDriver : public SerialDriver {
   int axis_;
   double watchdog_;  // s
   unsigned asked_ = 0;
-  bool has_failed_ = false;
+  long error_ = 0;
 };
 
 }  // namespace zwidth::rig

@@ -41,15 +41,15 @@ double expected_swing(double amplitude, const CriticalStiffness& predicted) {
   return 4.0 * amplitude / (std::numbers::pi * predicted.stiffness);
 }
 
-/// How a trial of a relay begins where a faster oscillation than that of the limit may be found, of which nothing is read:
-/// with a force that grows, and a hysteresis of half the swing that is expected: what oscillates less, at crossovers of
-/// stiffer walls, does not pass it. Else, and where there is no ramp, at once, as it begins in simulation: from a force that
-/// grows it would settle elsewhere among the oscillations that a sampled relay holds.
-Segment beginning_of(const Segment& trial, const Device& device, const CriticalStiffness& predicted, double ramp) {
+/// How a trial begins that seeks the oscillation of the limit, of which nothing is read: with a force that grows, and a
+/// hysteresis of half the swing that is expected: what oscillates less, at crossovers of stiffer walls, does not pass it.
+/// Nothing where there is no faster oscillation: from a force that grows a trial would settle elsewhere among the
+/// oscillations that a sampled relay holds side by side.
+Segment seeking(const Segment& trial, const Device& device, const CriticalStiffness& predicted, double ramp) {
   Segment beginning = trial;
   beginning.ramps = true;
   beginning.cycles = 0;
-  if (ramp == 0.0 || !has_faster_oscillations(predicted, device.loop().sampling_period)) return beginning;
+  if (!has_faster_oscillations(predicted, device.loop().sampling_period)) return beginning;
   const double duration = std::max(ramp, beginning_cycles * 2.0 * std::numbers::pi / frequency_of(predicted));
   beginning.cycles = cycles_of(duration, device);
   beginning.controller.hysteresis = std::max(
@@ -85,7 +85,8 @@ RigRelay relay_on_rig(const Device& device, Driver& driver, const RigOptions& op
   segment.controller.hysteresis = trials.relay.hysteresis;
   std::vector<Recording> recordings;
   segment.cycles = cycles_of(trials.duration, device);
-  Segment beginning = beginning_of(segment, device, predicted, options.limits.ramp);
+  Segment beginning;
+  if (trials.seek_limit) beginning = seeking(segment, device, predicted, options.limits.ramp);
   const bool can_hold = predicted.status == StiffnessStatus::finite;
   Segment holding;  // the session begins with it, whatever it can hold
   holding.cycles = cycles_of(options.limits.ramp, device);
@@ -112,7 +113,7 @@ RigRelay relay_on_rig(const Device& device, Driver& driver, const RigOptions& op
   }
   result.session = ended(run, options);
   if (recordings.empty()) {
-    result.trust.refuse("the rig stopped in the first trial: " + explanation(result.session.stop));
+    result.trust.refuse("the rig stopped in the first trial: " + explanation(result.session));
     return result;
   }
   RelayRecordOptions record;

@@ -26,6 +26,7 @@ constexpr double cycles_of_lowest = 8.0;  // in each period of the multisine
 constexpr std::size_t measured_periods = 8;
 constexpr std::size_t transient_periods = 4;  // at most: those in which it dies out are skipped
 constexpr double shortest_dwell = 0.5;        // s
+constexpr int holds_before_smaller = 3;       // and one before each knock
 
 /// Half a period of a sine at the frequency of the limit.
 std::vector<double> knock_at(double frequency, double force, double period) {
@@ -126,7 +127,7 @@ RigCheck check(const Device& device, Driver& driver, const RigOptions& options, 
   }
   result.trust = trust_of(device);
   if (result.session.stop != StopReason::none) {
-    result.trust.refuse("the rig stopped before the check was over: " + explanation(result.session.stop));
+    result.trust.refuse("the rig stopped before the check was over: " + explanation(result.session));
   }
   return result;
 }
@@ -236,29 +237,40 @@ RigLimit measure_limit(const Device& device, Driver& driver, const RigOptions& o
   holding.ramps = true;
   holding.watched = limit.search.frequencies;
   holding.watch_floor = 2.0 * limit.search.floor;
-  std::size_t trials = 0;
-  while (const auto stiffness = search.next()) {
-    if (*stiffness < holding.controller.stiffness) holding.controller.stiffness = *stiffness;  // the start was unstable
+  const auto knocked = [&](double stiffness, double share) {
+    if (stiffness < holding.controller.stiffness) holding.controller.stiffness = stiffness;  // the start was unstable
     (void)run.play(holding);
     holding.ramps = false;
     holding.cycles = cycles_of(0.5 * limit.dwell, device);
     Segment segment;
-    segment.controller = wall_of(device, *stiffness);
+    segment.controller = wall_of(device, stiffness);
     segment.force = knock;
+    for (double& force : segment.force) force *= share;
     segment.cycles = knock.size() + cycles_of(limit.dwell, device);
     segment.watched = limit.search.frequencies;
     segment.watch_floor = 2.0 * limit.search.floor;
     segment.cut_from = segment.watch_from = knock.size();
-    const Played played = run.play(segment);
+    return run.play(segment);
+  };
+  const auto after_knock = [&](const Played& played) {
+    return std::span(played.position).subspan(std::min(knock.size(), played.position.size()));
+  };
+  std::size_t trials = 0;
+  while (const auto stiffness = search.next()) {
+    const Played played = knocked(*stiffness, 1.0);
     if (run.is_stopped()) break;
-    search.add(*stiffness, std::span(played.position).subspan(std::min(knock.size(), played.position.size())), period,
-               played.stop == StopReason::oscillation, played.cut > 0);
+    search.add(*stiffness, after_knock(played), period, played.stop == StopReason::oscillation, played.cut > 0);
     report(progress, part(++trials, LimitSearch::most_trials));
+  }
+  if (const auto stiffness = search.next_smaller(); stiffness && !run.is_stopped()) {
+    for (int i = 0; i < holds_before_smaller; ++i) (void)run.play(holding);  // what is left of larger swings dies out
+    const Played played = knocked(*stiffness, LimitSearch::smaller_knock);
+    if (!run.is_stopped()) search.add_smaller(after_knock(played), period);
   }
   result.session = ended(run, options);
   result.measured = search.measurement(device);
   if (result.session.stop != StopReason::none && !result.measured.stiffness) {
-    result.measured.trust.refuse("the rig stopped before an oscillation grew: " + explanation(result.session.stop));
+    result.measured.trust.refuse("the rig stopped before an oscillation grew: " + explanation(result.session));
   }
   return result;
 }

@@ -29,6 +29,8 @@ struct RelayTrialsOptions {
   Relay relay;
   std::size_t trials = 4;
   double duration = 20.0;  ///< s, of each
+  /// Trials begin so that they find the limit's oscillation, and none at a faster crossover; else as those of relay().
+  bool seek_limit = false;
   RelayAnalysisOptions analysis;
 };
 

@@ -28,12 +28,16 @@ InterruptsStopRigs::InterruptsStopRigs() {
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);
   std::signal(SIGHUP, on_interrupt);  // the terminal is gone, the device is not
+  std::signal(SIGQUIT, on_interrupt);
+  std::signal(SIGTSTP, on_interrupt);  // a program that sleeps holds no force: a drive without a watchdog would
 }
 
 InterruptsStopRigs::~InterruptsStopRigs() {
   std::signal(SIGINT, SIG_DFL);
   std::signal(SIGTERM, SIG_DFL);
   std::signal(SIGHUP, SIG_DFL);
+  std::signal(SIGQUIT, SIG_DFL);
+  std::signal(SIGTSTP, SIG_DFL);
 }
 
 RigRun::RigRun(Driver& driver, const SafetyLimits& limits, double sampling_period, Watcher watcher)
@@ -146,8 +150,9 @@ RigSession RigRun::end() {
   session.timing = loop_.timing();
   session.remarks = remarks_;
   std::ranges::move(thread_remarks_, std::back_inserter(session.remarks));
+  if (session.stop == StopReason::lost_link) session.trouble = driver_.trouble();
   if (session.stop != StopReason::none) {
-    session.remarks.push_back({Remark::Severity::warning, explanation(session.stop), ""});
+    session.remarks.push_back({Remark::Severity::warning, explanation(session), ""});
   }
   return session;
 }

@@ -14,7 +14,7 @@
 
 namespace zwidth::rig {
 
-/// While it lives, SIGINT, SIGTERM and SIGHUP stop the rig instead of the program.
+/// While it lives, SIGINT, SIGTERM, SIGHUP, SIGQUIT and SIGTSTP stop the rig instead of the program.
 class InterruptsStopRigs {
  public:
   InterruptsStopRigs();

@@ -89,15 +89,33 @@ std::optional<double> SerialDriver::measure() noexcept {
       if (!is_answer(heard)) continue;
       if (owed_ > 0) {
         --owed_;
-      } else if (heard.meaning == Meaning::position) {
-        return heard.turns * drive_.position_per_turn();
-      } else {
-        return std::nullopt;
+        continue;
       }
+      last_ = heard;
+      if (heard.meaning != Meaning::position) return std::nullopt;
+      return heard.turns * drive_.position_per_turn();
     }
   } while (fill(until));
   ++owed_;
   return std::nullopt;
+}
+
+std::string SerialDriver::trouble() const {
+  return last_.trouble == Trouble::none ? std::string() : trouble_text(last_.trouble, last_.code);
+}
+
+std::string SerialDriver::trouble_text(Trouble trouble, long code) const {
+  switch (trouble) {
+    case Trouble::none:
+      return {};
+    case Trouble::fault:
+      return fmt::format("the drive stands on fault {}", code);
+    case Trouble::let_go:
+      return "the drive has let go";
+    case Trouble::lost_count:
+      return "the motor turned too far from one cycle to the next for its turns to be counted";
+  }
+  return {};
 }
 
 std::optional<std::string> SerialDriver::ask(std::string_view frame, const Understood& understood,

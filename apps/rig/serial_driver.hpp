@@ -32,13 +32,18 @@ class SerialDriver : public Driver {
  public:
   [[nodiscard]] const DriverFacts& facts() const noexcept override { return facts_; }
   [[nodiscard]] std::optional<double> measure() noexcept override;
+  [[nodiscard]] std::string trouble() const override;
 
  protected:
   /// What a frame from the drive says.
   enum class Meaning { position, broken, other };  // broken: an answer that cannot be used
+  /// Why an answer cannot be used.
+  enum class Trouble { none, fault, let_go, lost_count };
   struct Heard {
     Meaning meaning = Meaning::other;
     double turns = 0.0;  ///< of the motor
+    Trouble trouble = Trouble::none;
+    long code = 0;  ///< of a fault, or of the state into which it has gone
   };
 
   /// Throws DriverFailed where the port is not to be had, or its line or the firmware's watchdog does not carry the loop.
@@ -49,6 +54,8 @@ class SerialDriver : public Driver {
   [[nodiscard]] virtual Heard hear(std::string_view frame) noexcept = 0;
   [[nodiscard]] virtual SerialFrame question() noexcept = 0;
   [[nodiscard]] virtual SerialFrame torque_frame(double torque) const noexcept = 0;
+  /// What the drive's users know it by, and where its cause is found.
+  [[nodiscard]] virtual std::string trouble_text(Trouble trouble, long code) const;
 
   void send(double force) noexcept override { port_.write(torque_frame(force * drive_.torque_per_force()).view()); }
 
@@ -81,6 +88,7 @@ class SerialDriver : public Driver {
   std::size_t begin_ = 0;
   std::size_t end_ = 0;
   unsigned owed_ = 0;
+  Heard last_;  // answer of a cycle
 };
 
 }  // namespace zwidth::rig

@@ -128,10 +128,18 @@ std::optional<UdpFrame> UdpDriver::answer(double force, std::int64_t patience) n
 std::optional<double> UdpDriver::measure() noexcept {
   const auto frame = answer(question, patience_);
   if (!frame) return std::nullopt;
+  // What the loop sends then moves nothing. (A simulation in lock step waits for no clock, nor does its watchdog matter.)
+  has_let_go_ = has_sent_ && !facts_.lock_step && !is_disarmed() && std::isnan(frame->force);
+  if (has_let_go_) return std::nullopt;
   return frame->position;
 }
 
-void UdpDriver::send(double force) noexcept { send_frame(force); }
+std::string UdpDriver::trouble() const { return has_let_go_ ? "the drive says that it has let go" : ""; }
+
+void UdpDriver::send(double force) noexcept {
+  has_sent_ = true;
+  send_frame(force);
+}
 
 void UdpDriver::send_idle() noexcept {
   for (int i = 0; i < idle_frames; ++i) send_frame(0.0);

@@ -31,6 +31,7 @@ class UdpDriver : public Driver {
   [[nodiscard]] const DriverFacts& facts() const noexcept override { return facts_; }
   void arm() override {}
   [[nodiscard]] std::optional<double> measure() noexcept override;
+  [[nodiscard]] std::string trouble() const override;
   [[nodiscard]] std::optional<bool> proves_watchdog() override;
 
  protected:
@@ -46,6 +47,8 @@ class UdpDriver : public Driver {
   int socket_ = -1;
   std::int64_t patience_ = 0;  // ns, for a position
   std::atomic<std::uint32_t> sequence_ = 0;
+  bool has_sent_ = false;    // a force, in a cycle
+  bool has_let_go_ = false;  // all the same, by the last answer
 };
 
 }  // namespace zwidth::rig

@@ -42,7 +42,7 @@ VescDriver::VescDriver(const SerialLink& link, double torque_constant)
                    link, default_baud),
       torque_constant_(torque_constant) {
   if (const int fault = values().fault; fault != 0) {
-    throw DriverFailed(fmt::format("the drive stands on fault {}; VESC Tool tells its cause", fault));
+    throw DriverFailed(trouble_text(Trouble::fault, fault));
   }
 }
 
@@ -87,13 +87,31 @@ SerialDriver::Heard VescDriver::hear(std::string_view frame) noexcept {
   if (!payload) return {Meaning::broken};
   const auto found = vesc_values(*payload);
   if (!found) return {Meaning::other};
-  if (found->fault != 0 || found->has_let_go) return {Meaning::broken};
+  if (found->fault != 0) return {Meaning::broken, 0.0, Trouble::fault, found->fault};
+  if (found->has_let_go) return {Meaning::broken, 0.0, Trouble::let_go};
   const double turns = last_turns_ ? found->position + std::round(*last_turns_ - found->position) : found->position;
   // Half a turn forwards looks like half a turn backwards: it stops well before, and for good.
   if (last_turns_ && std::abs(turns - *last_turns_) > most_turns_per_cycle) has_lost_count_ = true;
-  if (has_lost_count_) return {Meaning::broken};
+  if (has_lost_count_) return {Meaning::broken, 0.0, Trouble::lost_count};
   last_turns_ = turns;
   return {Meaning::position, turns};
+}
+
+std::string VescDriver::trouble_text(Trouble trouble, long code) const {
+  switch (trouble) {
+    case Trouble::none:
+      return {};
+    case Trouble::fault:
+      return fmt::format("the drive stands on fault {}; VESC Tool tells its cause", code);
+    case Trouble::let_go:
+      return "the drive has let go: its timeout (App Settings) is too short for the loop, or its kill switch is on";
+    case Trouble::lost_count:
+      return fmt::format(
+          "the motor turned by more than {} of a turn from one cycle to the next, and a VESC tells its position modulo "
+          "a turn; move more slowly (--velocity-limit), or make loop.sampling_period shorter",
+          most_turns_per_cycle);
+  }
+  return {};
 }
 
 SerialFrame VescDriver::torque_frame(double torque) const noexcept { return vesc_current(torque / torque_constant_); }

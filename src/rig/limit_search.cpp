@@ -27,6 +27,9 @@ constexpr double least_swing_share = 0.01;  // of the swing at the end: what is 
 constexpr double same_frequency = 0.2;      // relative: growth rates of one oscillation
 constexpr double sure_deviations = 3.0;     // of a growth rate; its windows overlap
 constexpr double far_below = 0.95;          // of a stiffness
+constexpr double size_margin = 2.0;         // of the error by the size of the swing
+constexpr double least_difference = 0.2;    // of two swings, relative
+constexpr double most_difference = 1.0;     // the same: of one knock and of half of it
 constexpr double most_error = 0.02;         // relative: what a measured limit may be off by
 
 bool swing_alike(const LimitTrial& low, const LimitTrial& high) {
@@ -83,6 +86,21 @@ double encoder_error(double step, double swing) { return 1.5 * std::pow(step / s
 double turning_error(double step, double swing, double samples_per_cycle, const PoleMotion& motion) {
   return step / swing / std::sqrt(6.0 * samples_per_cycle) * std::hypot(motion.growth, motion.frequency) /
          motion.growth;
+}
+
+/// By how much the limit of another size of swing may differ, from the growth after a knock and after half of it.
+///
+/// Dry friction takes c/A from the growth rate of a swing A, c constant, so that of two swings
+///
+///     c/A = (s - s') / (A/A' - 1)
+///
+/// and the slope of the growth rate makes a stiffness of it. Twice that is allowed for: the swings fall while they are
+/// read, and the slope is that of trials with their friction.
+double size_error(const RingDown& whole, const RingDown& smaller, const PoleMotion& motion) {
+  // At their ends: one that decays fast seems to have been smaller than the knock made it.
+  const double larger_by =
+      std::clamp(std::abs(whole.amplitude / smaller.amplitude - 1.0), least_difference, most_difference);
+  return size_margin * std::abs(whole.growth_rate - smaller.growth_rate) / larger_by / motion.growth;
 }
 
 }  // namespace
@@ -200,6 +218,18 @@ void LimitSearch::add(double stiffness, std::span<const double> position, double
   period_ = sampling_period;
 }
 
+std::optional<double> LimitSearch::next_smaller() const {
+  const LimitTrial* low = stable();
+  const LimitTrial* high = unstable();
+  if (low == nullptr || high == nullptr || low->cut || high->cut || !zero_of_growth(*low, *high)) return std::nullopt;
+  return low->stiffness;
+}
+
+void LimitSearch::add_smaller(std::span<const double> position, double sampling_period) {
+  has_smaller_ = true;
+  smaller_ = least_damped_oscillation(position, sampling_period, options_.frequencies, options_.floor);
+}
+
 LimitMeasurement LimitSearch::measurement(const Device& device) const {
   LimitMeasurement result;
   result.trials = trials_;
@@ -245,15 +275,21 @@ LimitMeasurement LimitSearch::measurement(const Device& device) const {
   const double swing = low->ring && high->ring ? std::min(low->ring->amplitude, high->ring->amplitude) : 0.0;
   const double of_encoder = options_.floor > 0.0 ? std::min(encoder_error(options_.floor, swing), 1.0) : 0.0;
   double of_growth = 0.0;  // N/m or N m/rad
+  double of_size = 0.0;    // the same
+  double of_step = of_encoder;
   if (zero) {
     const PoleMotion motion = motion_at_limit(trials_, *low, *high);
     of_growth = sure_deviations * std::max(low->ring->growth_deviation, high->ring->growth_deviation) / motion.growth;
     const double samples_per_cycle = 2.0 * std::numbers::pi / (result.frequency * period_);
     const double of_turning = turning_error(options_.floor, swing, samples_per_cycle, motion);
     const double widening = std::min(of_encoder + of_turning, 1.0);
-    result.interval =
-        Interval{.lower = std::max(0.0, std::min(low->stiffness, *result.stiffness - of_growth) * (1.0 - widening)),
-                 .upper = std::max(high->stiffness, *result.stiffness + of_growth) * (1.0 + widening)};
+    if (smaller_) {
+      of_size = size_error(*low->ring, *smaller_, motion);
+      of_step += of_turning + turning_error(options_.floor, smaller_->amplitude, samples_per_cycle, motion);
+    }
+    result.interval = Interval{
+        .lower = std::max(0.0, std::min(low->stiffness, *result.stiffness - of_growth - of_size) * (1.0 - widening)),
+        .upper = std::max(high->stiffness, *result.stiffness + of_growth) * (1.0 + widening)};
   }
   if (of_encoder > most_error) {
     result.trust.doubt(fmt::format(
@@ -263,6 +299,21 @@ LimitMeasurement LimitSearch::measurement(const Device& device) const {
     result.trust.doubt(
         fmt::format("the oscillation's growth is not known well enough: the limit may be off by {:.0f} %; knock harder",
                     100.0 * of_growth / *result.stiffness));
+  }
+  if (zero && !has_smaller_) {
+    result.trust.doubt("no smaller knock was tried, which would show whether the limit is that of this swing alone");
+  } else if (zero && !smaller_) {
+    result.trust.doubt(
+        "after a knock of half the size no oscillation was read: the limit may be that of this swing alone, as dry "
+        "friction or a coarse encoder makes it; knock harder");
+    if (of_step < most_error) result.interval.reset();
+  } else if (of_size > (most_error + std::min(of_step, most_error)) * *result.stiffness) {
+    result.trust.doubt(fmt::format(
+        "after a knock of half the size the oscillation {}, as friction or play in the device makes it: the limit of "
+        "another swing may be {:.0f} % lower; knock harder and see whether the limit falls",
+        smaller_->growth_rate < low->ring->growth_rate ? "decays faster" : "decays less",
+        100.0 * std::min(1.0, of_size / *result.stiffness)));
+    if (of_step < most_error) result.interval.reset();  // else the encoder makes it, for which it is wide enough
   }
   const double width = (high->stiffness - low->stiffness) / high->stiffness;
   if (width > options_.bracket) {

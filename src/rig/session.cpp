@@ -32,4 +32,9 @@ std::string explanation(StopReason reason) {
   return "";
 }
 
+std::string explanation(const RigSession& session) {
+  if (session.stop != StopReason::lost_link || session.trouble.empty()) return explanation(session.stop);
+  return "there was no position any more: the force is zero; " + session.trouble;
+}
+
 }  // namespace zwidth

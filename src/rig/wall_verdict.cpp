@@ -26,7 +26,7 @@ void judge(RigWall& wall) {
   }
   const bool has_stopped = wall.session.stop != StopReason::none;
   if (has_stopped) {
-    wall.trust.doubt("the rig stopped before the wall's time was over: " + explanation(wall.session.stop));
+    wall.trust.doubt("the rig stopped before the wall's time was over: " + explanation(wall.session));
   }
   if (!wall.predicted_stable) return;
   if (!*wall.predicted_stable && has_stopped) {  // how far it grew until then does not matter
@@ -46,7 +46,7 @@ void judge(RigWall& wall) {
 
 void judge(RigMeasurement& measurement, const Device& device) {
   if (!measurement.response) {
-    measurement.trust.refuse("the rig stopped before its record was whole: " + explanation(measurement.session.stop));
+    measurement.trust.refuse("the rig stopped before its record was whole: " + explanation(measurement.session));
     return;
   }
   if (std::ranges::any_of(device.bodies(), [](const Body& body) { return body.coulomb > 0.0; })) {

@@ -350,8 +350,24 @@ TEST_F(Rig, TheReportShowsWhatWasMeasured) {
   }
 }
 
+// gnuplot failed for want of points, and the answer was lost with the page.
+TEST_F(Rig, ALimitOfWhichNothingWasReadHasAPageToo) {
+  const Outcome outcome = run("zwidth rig limit " + lhifam + "--from 100 --ceiling 120 --report page.html");
+  EXPECT_EQ(outcome.status, 0) << outcome.errors;
+  EXPECT_THAT(outcome.output, HasSubstr("REFUSED"));
+  EXPECT_THAT(contents("page.html"), HasSubstr("no oscillation grew"));
+}
+
+TEST_F(Rig, RelaySeeksTheLimitWhereAsked) {
+  const auto bare = json("relay " + lhifam + "--amplitude 5 --trials 1");
+  const auto sought = json("relay " + lhifam + "--amplitude 5 --trials 1 --seek-limit");
+  EXPECT_GT(bare["table_2_row"]["frequency_hz"], 90.0);
+  EXPECT_NEAR(sought["table_2_row"]["frequency_hz"].get<double>(), 6.4, 0.3);
+  EXPECT_EQ(bare["trust"]["verdict"], "doubtful");
+}
+
 TEST_F(Rig, RelayGivesARowOfTable2) {
-  const auto relay = json("relay " + lhifam + "--amplitude 5 --trials 1 --report relay.html");
+  const auto relay = json("relay " + lhifam + "--amplitude 5 --trials 1 --seek-limit --report relay.html");
   EXPECT_EQ(relay["relay"]["trials"].size(), 1U);
   EXPECT_EQ(relay["table_2_row"]["trials"], 1);
   EXPECT_GT(relay["table_2_row"]["frequency_hz"], 0.0);

@@ -29,13 +29,11 @@ inline void expect_identified(const Device& device, Driver& driver) {
 
 /// One trial of a relay through any driver in lock step reads what the simulation reads, within 5 %.
 inline void expect_relay(const Device& device, Driver& driver) {
-  RigOptions at_once;
-  at_once.limits.ramp = 0.0;
   RelayTrialsOptions trials;
   trials.relay.amplitude = default_force(device);
   trials.trials = 1;
   trials.duration = 10.0;
-  const RigRelay measured = relay_on_rig(device, driver, at_once, trials, {});
+  const RigRelay measured = relay_on_rig(device, driver, {}, trials, {});
   RelayOptions options;
   options.relay = trials.relay;
   options.trials = 1;

@@ -177,6 +177,13 @@ TEST_F(RigFault, ATermination) {
 TEST_F(RigFault, ATerminalThatCloses) {
   expect_stop([](UdpEmulator&, Host& host) { host.send(SIGHUP); }, stopped_by("interrupted"));
 }
+// Ctrl-Z put the program to sleep, with its force on a drive that has no watchdog; Ctrl-\ lost the record.
+TEST_F(RigFault, APutToSleep) {
+  expect_stop([](UdpEmulator&, Host& host) { host.send(SIGTSTP); }, stopped_by("interrupted"));
+}
+TEST_F(RigFault, AQuit) {
+  expect_stop([](UdpEmulator&, Host& host) { host.send(SIGQUIT); }, stopped_by("interrupted"));
+}
 TEST_F(RigFault, AHostThatIsHeldUpBeyondThreeCycles) {
   expect_stop(
       [](UdpEmulator&, Host& host) {

@@ -169,6 +169,8 @@ TEST(VescDriver, CountsTurns) {
   }
   EXPECT_LT(answered, 200) << "faster than can be told from slower, it has no position";
   EXPECT_FALSE(driver.measure()) << "for good";
+  EXPECT_NE(driver.trouble().find("more than 0.25 of a turn from one cycle to the next"), std::string::npos)
+      << driver.trouble();
 }
 
 // What the device file lacks is said before a port is touched: this one does not exist.

@@ -152,7 +152,7 @@ TEST_P(DriveFault, APositionThatIsNoNumber) {
 }
 TEST_P(DriveFault, ADriveThatFails) {
   if (!GetParam().has_watchdog) return;  // nor does it tell of faults
-  expect_stop([](PtyEmulator& drive, Host&) { drive.set_fault(Fault::failed_drive); }, "brought no position");
+  expect_stop([](PtyEmulator& drive, Host&) { drive.set_fault(Fault::failed_drive); }, "stands on");
 }
 TEST_P(DriveFault, AnInterrupt) {
   expect_stop([](PtyEmulator&, Host& rig) { rig.send(SIGINT); }, "interrupted");

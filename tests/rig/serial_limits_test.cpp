@@ -138,6 +138,26 @@ TEST_P(LimitsOnDrive, AVelocityBeyondItsLimitIsZeroForce) {
   expect_no_force();
 }
 
+// All of them were told to check cable, port and baud rate.
+TEST_P(LimitsOnDrive, WhatTheDriveSaysOfItsFaultIsTold) {
+  if (!GetParam().has_watchdog) return;  // nor does it tell of faults
+  driver->arm();
+  ASSERT_TRUE(driver->measure());
+  EXPECT_EQ(driver->trouble(), "");
+  emulator.set_fault(PtyEmulator::Fault::failed_drive);
+  EXPECT_TRUE(test::within(std::chrono::seconds(20), [&] {
+    driver->command(0.1);
+    return !driver->measure();
+  }));
+  RigSession session;
+  session.stop = StopReason::lost_link;
+  session.trouble = driver->trouble();
+  EXPECT_THAT(explanation(session), testing::ContainsRegex("stands on (error 0x|a fault|fault 4)"));
+  EXPECT_THAT(explanation(session), testing::Not(HasSubstr("baud")));
+  session.trouble.clear();
+  EXPECT_THAT(explanation(session), HasSubstr("check cable, port and baud rate"));
+}
+
 const auto name_of = [](const auto& kind) { return std::string(kind.param.name); };
 INSTANTIATE_TEST_SUITE_P(Drive, LimitsOnDrive, testing::ValuesIn(test::drive_kinds), name_of);
 INSTANTIATE_TEST_SUITE_P(Drive, FrictionOnDrive, testing::ValuesIn(test::drive_kinds), name_of);

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <chrono>
 #include <limits>
 #include <string>
 #include <thread>
@@ -14,6 +15,7 @@
 
 #include "rig/measured_as_predicted.hpp"
 #include "rig/rig_devices.hpp"
+#include "rig/rig_host.hpp"
 #include "rig/udp_emulator.hpp"
 #include "rig/udp_frame.hpp"
 
@@ -73,6 +75,22 @@ TEST(UdpDriver, ProvesTheWatchdogBySilence) {
   emulator.set_fault(UdpEmulator::Fault::no_watchdog);
   EXPECT_EQ(driver.proves_watchdog(), false);
   EXPECT_FALSE(driver.facts().watchdog);
+}
+
+// A position all the same: walls were rendered that no force reached.
+TEST(UdpDriver, ADriveThatHasLetGoGivesNoPosition) {
+  const Device device = test::bench_device(1);
+  UdpEmulator emulator(device);
+  UdpDriver driver(emulator.address(), 0.02);
+  EXPECT_TRUE(driver.measure()) << "before the first force it holds none";
+  driver.command(1.0);
+  ASSERT_TRUE(test::within(std::chrono::seconds(5), [&] { return emulator.nonzero_forces() == 1; }));
+  ASSERT_TRUE(test::within(std::chrono::seconds(5), [&] { return emulator.has_let_go(); }));
+  EXPECT_FALSE(driver.measure());
+  EXPECT_EQ(driver.trouble(), "the drive says that it has let go");
+  driver.command(1.0);  // takes hold again
+  EXPECT_TRUE(driver.measure());
+  EXPECT_EQ(driver.trouble(), "");
 }
 
 TEST(UdpDriver, TellsWhatCannotBeReached) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string_view>
 
 #include "report/figure/frf_figure.hpp"
@@ -74,7 +75,8 @@ std::string rig_page(const Device& device, const RigWall& wall) {
 
 std::string rig_page(const Device& device, const RigLimit& limit) {
   std::string figures;
-  if (!limit.measured.trials.empty()) {
+  const auto is_read = [](const LimitTrial& trial) { return trial.ring.has_value(); };
+  if (std::ranges::any_of(limit.measured.trials, is_read)) {
     figures = html_figure(draw_limit_trials(device, limit, FigureFormat::svg), "limit",
                           "Below the grey line the oscillation after a knock decays: the wall is stable. Where the "
                           "growth passes through zero is the critical stiffness of the device on the rig.");

@@ -17,10 +17,10 @@ namespace zwidth::report {
 namespace {
 
 std::string rig_heading(const Device& device, std::string_view what, const RigSession& session) {
-  const std::string stopped = session.stop == StopReason::none
-                                  ? ""
-                                  : labelled("  STOPPED", fmt::format("after {}: {}", quantity(session.stopped_at, "s"),
-                                                                      explanation(session.stop)));
+  const std::string stopped =
+      session.stop == StopReason::none
+          ? ""
+          : labelled("  STOPPED", fmt::format("after {}: {}", quantity(session.stopped_at, "s"), explanation(session)));
   return shortened(fmt::format("{}: {}", what, device.name()), line_width) + "\n" + stopped;
 }
 

@@ -47,8 +47,9 @@ struct LimitTrial {
 struct LimitMeasurement {
   std::optional<double> stiffness;  ///< K_CR where the growth rate passes through zero; absent unless trust allows one
   /// Holds the limit of large motion, N/m or N m/rad: from the last that rang down to the first that grew, widened by
-  /// three deviations of the growth rates and by what the encoder's step makes of the swing. Absent, too, where no
-  /// oscillation was read that decays below the limit and grows above it.
+  /// three deviations of the growth rates, by what the encoder's step makes of the swing, and downwards by what the size
+  /// of the swing makes of it. Absent, too, where no oscillation was read that decays below the limit and grows above it,
+  /// and where the size of the swing matters.
   std::optional<Interval> interval;
   double frequency = 0.0;          ///< rad/s, of the oscillation there; 0 where it was not read
   double lower = 0.0;              ///< stiffest wall that rang down; 0: none did
@@ -63,6 +64,8 @@ struct LimitMeasurement {
 /// that grows, inside the bracket, by the line through the growth rates at its ends. K_CR is where that line passes
 /// zero. Ends with the bracket, at the ceiling, and after 60 trials.
 /// The one that decays least counts, of the oscillations near the predicted frequencies and of the strongest one.
+/// A last trial with a smaller knock tells whether the size of the swing matters, as with dry friction, of which the
+/// device's file may know nothing: of a linear device all swings grow alike.
 class LimitSearch {
  public:
   static constexpr std::size_t most_trials = 60;  ///< after which the search ends
@@ -77,6 +80,13 @@ class LimitSearch {
   /// Throws Error (invalid_argument) for a period that is not > 0 and positions that are not finite.
   void add(double stiffness, std::span<const double> position, double sampling_period, bool stopped, bool cut = false);
 
+  static constexpr double smaller_knock = 0.5;  ///< of the others
+  /// When next() is done, the stiffness to try once more with that share of the knock: the stiffest that rang down.
+  /// Absent where no limit was read.
+  [[nodiscard]] std::optional<double> next_smaller() const;
+  /// The positions after the smaller knock. Throws as add() does.
+  void add_smaller(std::span<const double> position, double sampling_period);
+
   /// What has been found so far on this device.
   [[nodiscard]] LimitMeasurement measurement(const Device& device) const;
 
@@ -87,6 +97,8 @@ class LimitSearch {
   LimitSearchOptions options_;
   double period_ = 0.0;  // s, of the last trial
   std::vector<LimitTrial> trials_;
+  bool has_smaller_ = false;
+  std::optional<RingDown> smaller_;  // the ringing after the smaller knock
 };
 
 /// Where to begin and end, and what to watch, from what theory predicts: from half of the lower of the two limits, up to

@@ -47,11 +47,15 @@ struct RigSession {
   std::optional<double> firmware_watchdog;  ///< s; absent: the firmware has none, or there is no firmware
   StopReason stop = StopReason::none;       ///< none: the work came to its end
   double stopped_at = 0.0;                  ///< s from the start
+  std::string trouble;                      ///< why there was no position, where the drive itself said so; else empty
   LoopTiming timing;                        ///< of clock and drive
   std::vector<Remark> remarks;              ///< what is worth knowing beside it
 };
 
 /// A sentence or two on why the force went to zero, and what to do; empty for none.
 [[nodiscard]] std::string explanation(StopReason reason);
+
+/// The same of a session: with what the drive itself said.
+[[nodiscard]] std::string explanation(const RigSession& session);
 
 }  // namespace zwidth
