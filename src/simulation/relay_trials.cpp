@@ -51,7 +51,7 @@ HybridLoop loop_of(const Device& device, const Relay& relay, const RelayTrial& t
   options.controller.amplitude = relay.amplitude;
   options.controller.hysteresis = relay.hysteresis;
   options.initial_position.assign(parameters.bodies.size(), trial.start_offset);
-  return HybridLoop(Device(std::move(parameters)), options);
+  return {Device(std::move(parameters)), options};
 }
 
 void run(RelayTrial& trial, HybridLoop loop, std::size_t samples, SharedProgress& progress) {

@@ -16,6 +16,8 @@ namespace zwidth {
 using namespace internal;
 namespace {
 
+constexpr double at_the_end = 1e-9;  // of the width of a distribution
+
 void judge(const StudyRun& run, Study& study) {
   const auto warning = [&](std::string what, std::string consequence, std::string remedy) {
     study.remarks.push_back({Remark::Severity::warning, std::move(what), std::move(consequence), std::move(remedy)});
@@ -141,7 +143,9 @@ void internal::add_tightening(const StudyRun& run, Study& study, const Progress&
   for (std::size_t j = 0; j < parameters.size(); ++j) {
     const QuantileFunction& quantile = run.inputs().quantile(j);
     double centre = parameter(run.device().parameters(), parameters[j].key).value_or(quantile(0.5));
-    if (!(centre >= quantile.least() && centre <= quantile.largest())) centre = quantile(0.5);
+    // An end itself is reached, though the numbers that are drawn stop just before it.
+    const double end = at_the_end * (quantile.largest() - quantile.least());
+    if (!(centre >= quantile.least() - end && centre <= quantile.largest() + end)) centre = quantile(0.5);
     const std::vector<double> wide = columns[j].values;
     for (double& value : columns[j].values) value = centre + 0.5 * (value - centre);
     stages.next(static_cast<double>(j + 2) / steps);

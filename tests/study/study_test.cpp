@@ -51,6 +51,22 @@ std::vector<double> numbers_of(const Study& study) {
   return numbers;
 }
 
+// A delay of none up to a millisecond: half of it is up to half a millisecond, not around that.
+TEST(StudyTightening, IsAboutTheDevicesOwnValueWhereThatIsAnEnd) {
+  const DeviceParameters parameters = test::rigid_parameters();
+  const StudyDistributions distributions{
+      {{"loop.delay", {.kind = Distribution::Kind::uniform, .lower = 0.0, .upper = 1e-3}}}};
+  StudyOptions options;
+  options.samples = 1000;
+  options.index_samples = 0;
+  options.worst = false;
+  options.specification.critical_stiffness = critical_stiffness(Device(test::with_delay(parameters, 0.6e-3))).stiffness;
+  const Study result = study(Device(parameters), distributions, options);
+  EXPECT_NEAR(result.yield->value, 0.6, 0.05);
+  EXPECT_DOUBLE_EQ(result.tightening->front().yield_gain, 1.0 - result.yield->value);
+  EXPECT_EQ(result.tighten_first, std::optional<std::size_t>(0));
+}
+
 TEST(Study, IsTheSameForAnyNumberOfThreads) {
   for (const SamplingScheme sampling :
        {SamplingScheme::random, SamplingScheme::latin_hypercube, SamplingScheme::sobol}) {
