@@ -4,6 +4,7 @@
 usage: PYTHONPATH=build/release/python benchmarks/python_speed.py [DEVICE]
 
 Of each ratio the best of many short rounds: on a machine that others use, the one that they disturbed least.
+tests/python/test_speed.py prints the same of few rounds.
 """
 
 import os
@@ -18,7 +19,7 @@ import zwidth
 
 ROUNDS = 40
 CALLS = 400  # a round: some milliseconds
-DEVICES = 30000
+DEVICES = (30_000, 300_000)
 
 
 def seconds(work):
@@ -27,14 +28,13 @@ def seconds(work):
     return time.perf_counter() - begun
 
 
-def call_overhead(device):
-    repeats = 5001
+def call_overhead(device, repeats=5001):
     python = statistics.median(seconds(lambda: zwidth.critical_stiffness(device)) for _ in range(repeats))
     library = zwidth._core.seconds_of_critical_stiffness(device, repeats)
     print(f"critical_stiffness(device): {1e6 * python:.2f} us, {1e6 * (python - library):.2f} us above the library (medians of {repeats})")
 
 
-def two_threads(device):
+def two_threads(device, rounds=ROUNDS):
     def work():
         for _ in range(CALLS):
             zwidth.critical_stiffness(device)
@@ -46,20 +46,20 @@ def two_threads(device):
         for each in threads:
             each.join()
 
-    one, two = (min(seconds(call) for _ in range(ROUNDS)) for call in (work, pair))
+    one, two = (min(seconds(call) for _ in range(rounds)) for call in (work, pair))
     print(f"two threads do {2 * one / two:.2f} times the work of one")
 
 
-def many(device):
-    """Rounds of critical_stiffness_many() on the cores that this process may use: the least seconds."""
-    changes = {"loop.delay": np.linspace(0.0, 4e-3, DEVICES)}
-    return min(seconds(lambda: zwidth.critical_stiffness_many(device, changes)) for _ in range(ROUNDS))
+def many(device, devices, rounds=ROUNDS):
+    """critical_stiffness_many() on the cores that this process may use: the least seconds."""
+    changes = {"loop.delay": np.linspace(0.0, 4e-3, devices)}
+    return min(seconds(lambda: zwidth.critical_stiffness_many(device, changes)) for _ in range(rounds))
 
 
-def many_on(cores, path):
+def many_on(cores, path, devices):
     """Each in a process of its own: the library asks once how many there are."""
-    done = subprocess.run([sys.executable, __file__, path, "--cores", str(cores)], check=True, capture_output=True, text=True)
-    return float(done.stdout)
+    call = [sys.executable, __file__, path, "--cores", str(cores), str(devices)]
+    return float(subprocess.run(call, check=True, capture_output=True, text=True).stdout)
 
 
 def main():
@@ -67,12 +67,16 @@ def main():
     device = zwidth.Device.from_toml(path)
     if len(sys.argv) > 3:
         os.sched_setaffinity(0, sorted(os.sched_getaffinity(0))[: int(sys.argv[3])])
-        print(many(device))
+        print(many(device, int(sys.argv[4])))
         return
     call_overhead(device)
     two_threads(device)
-    one, two = many_on(1, path), many_on(2, path)
-    print(f"critical_stiffness_many: {1e6 * one / DEVICES:.2f} us per device on one core, {1e6 * two / DEVICES:.2f} us on two: {one / two:.2f} times")
+    for devices in DEVICES:
+        one, two = many_on(1, path, devices), many_on(2, path, devices)
+        print(
+            f"critical_stiffness_many of {devices} devices: {1e6 * one / devices:.2f} us each on one core, "
+            f"{1e6 * two / devices:.2f} us on two: {one / two:.2f} times"
+        )
 
 
 if __name__ == "__main__":

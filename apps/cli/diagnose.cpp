@@ -59,7 +59,7 @@ Diagnosis diagnosed(const Device& device, const std::optional<Recording>& record
 
 void run_diagnose(const CLI::App& command, DiagnoseArguments arguments) {
   const bool recorded = !arguments.recording.file.empty();
-  if (recorded && arguments.recording.list) return write_text(contents_text(arguments.recording));
+  if (recorded && arguments.recording.list) return write_contents(arguments.recording, arguments.output.json);
   if (recorded && arguments.oscillates_hz) {
     throw BadInput("--oscillates-hz: excludes --recording, which shows the frequency; give one of them");
   }

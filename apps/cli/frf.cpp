@@ -28,8 +28,7 @@ struct FrfArguments {
 
 void run_frf(const FrfArguments& arguments) {
   const RecordingArguments& recording = arguments.response.recording;
-  if (recording.list && arguments.output.json) throw BadInput("--json: --list prints text; leave one of them out");
-  if (recording.list) return write_text(contents_text(recording));
+  if (recording.list) return write_contents(recording, arguments.output.json);
   Outputs outputs(arguments.output);
   if (arguments.points && !arguments.output.json)
     throw BadInput("--points: is for JSON; add --json, or use --csv FILE");

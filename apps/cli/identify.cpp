@@ -97,16 +97,15 @@ void check(const IdentifyArguments& arguments, Outputs& outputs) {
   }
 }
 
-IdentifyOptions identify_options(const IdentifyArguments& arguments, const FrequencyResponseOptions& response) {
+IdentifyOptions identify_options(const IdentifyArguments& arguments, const FrequencyResponseOptions& response,
+                                 IdentifyOptions::StructureValues values) {
   IdentifyOptions options;
   options.response = response;
+  options.structure_values = values;
   options.fit.free = arguments.structure.free;
   options.fit.locked = arguments.structure.locked;
   if (arguments.from_structure) options.fit.start = ParameterFitOptions::Start::from_structure;
   if (arguments.no_hold) options.fit.critical_point = ParameterFitOptions::CriticalPoint::free;
-  if (is_named_structure(arguments.structure)) {
-    options.structure_values = IdentifyOptions::StructureValues::placeholders;
-  }
   return options;
 }
 
@@ -121,27 +120,28 @@ auto fitted(const std::string& name, const Work& work) {
 
 Identification identified_device(const IdentifyArguments& arguments) {
   const ResponseSource source = response_source(arguments.response);
-  const Device device = structure(arguments.structure, source.sampling_period());
-  const IdentifyOptions options = identify_options(arguments, source.options);
+  const Structure fitted_structure = structure(arguments.structure, source.sampling_period());
+  const IdentifyOptions options = identify_options(arguments, source.options, fitted_structure.values);
   return fitted(source.recordings.size() > 1 ? "" : source.name, [&](const Progress& progress) {
-    return !source.recordings.empty() ? identify(source.recordings, device, options, progress)
-                                      : identify(source.table, device, options);
+    return !source.recordings.empty() ? identify(source.recordings, fitted_structure.device, options, progress)
+                                      : identify(source.table, fitted_structure.device, options);
   });
 }
 
 TimeDomainIdentification device_fitted_in_time(const IdentifyArguments& arguments) {
   const StructureArguments& given = arguments.structure;
   const std::vector<Recording> recordings = read_motions(arguments.response.recording).recordings;
-  const Device device = structure(given, recordings.front().sampling_period);
+  const Structure fitted_structure = structure(given, recordings.front().sampling_period);
   TimeDomainOptions options = arguments.in_time;
   options.free = given.free;
   options.locked = given.locked;
-  if (is_named_structure(given)) options.structure_values = IdentifyOptions::StructureValues::placeholders;
+  options.structure_values = fitted_structure.values;
   constexpr std::pair<std::string_view, std::string_view> own_options[] = {{"segment", "--segment-duration"},
                                                                            {"free", "--free"}};
   if (const auto problem = find_problem(options)) refuse(*problem, own_options);
-  return fitted(arguments.response.recording.file,
-                [&](const Progress& progress) { return identify_in_time(recordings, device, options, progress); });
+  return fitted(arguments.response.recording.file, [&](const Progress& progress) {
+    return identify_in_time(recordings, fitted_structure.device, options, progress);
+  });
 }
 
 RigidBodyIdentification fitted_rigid_body(const IdentifyArguments& arguments) {
@@ -205,8 +205,7 @@ void run_in_time(const IdentifyArguments& arguments, Outputs& outputs) {
 
 void run_identify(const IdentifyArguments& arguments) {
   if (arguments.response.recording.list) {
-    write_text(contents_text(arguments.response.recording));
-    return;
+    return write_contents(arguments.response.recording, arguments.output.json);
   }
   Outputs outputs;
   check(arguments, outputs);

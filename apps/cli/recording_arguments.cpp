@@ -10,9 +10,11 @@
 #include "cli/number_text.hpp"
 #include "cli/option_refusal.hpp"
 #include "cli/progress_line.hpp"
+#include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
 #include "cli/surroundings.hpp"
 #include "report/text/text_table.hpp"
+#include "results/recording_json.hpp"
 #include "zwidth/remark.hpp"
 
 namespace zwidth::cli {
@@ -196,9 +198,10 @@ RecordedMotions read_motions(const RecordingArguments& arguments) {
   return all;
 }
 
-std::string contents_text(const RecordingArguments& arguments) {
+void write_contents(const RecordingArguments& arguments, bool as_json) {
   const auto contents = list_named_recording(arguments.file, recording_options(arguments));
   if (!contents) throw BadInput(input_problem(contents.error()));
+  if (as_json) return write_standard_output(results::line(results::recording_json(*contents)));
   using report::Align;
   report::TextTable table{{Align::right, Align::left, Align::right, Align::left}, {{"", "column", "samples", ""}}};
   for (std::size_t i = 0; i < contents->columns.size(); ++i) {
@@ -209,7 +212,7 @@ std::string contents_text(const RecordingArguments& arguments) {
   for (const Remark& remark : contents->remarks) {
     text += remark_line(remark) + "\n";
   }
-  return text;
+  write_text(text);
 }
 
 }  // namespace zwidth::cli

@@ -58,7 +58,7 @@ struct RecordedMotions {
 };
 [[nodiscard]] RecordedMotions read_motions(const RecordingArguments& arguments);
 
-/// What the file holds, as --list prints it. Throws BadInput.
-[[nodiscard]] std::string contents_text(const RecordingArguments& arguments);
+/// Prints what the file holds, for --list: a table, or with --json a document. Throws BadInput.
+void write_contents(const RecordingArguments& arguments, bool as_json);
 
 }  // namespace zwidth::cli

@@ -201,7 +201,7 @@ void add_relay(CLI::App& app) {
       "  zwidth relay devices/lhifam.toml --delay 4e-3 --recording run.csv --force 2 --position 3 --json");
   command->callback([arguments, command] {
     if (arguments->recording.list && !arguments->recording.file.empty()) {
-      return write_text(contents_text(arguments->recording));
+      return write_contents(arguments->recording, arguments->output.json);
     }
     check_options(*command, *arguments);
     run_relay(*arguments);

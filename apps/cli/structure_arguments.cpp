@@ -4,9 +4,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
+#include <utility>
 
 #include "cli/input_problem.hpp"
+#include "cli/option_refusal.hpp"
 #include "cli/subcommand.hpp"
 #include "cli/surroundings.hpp"
 #include "zwidth/identification/identification.hpp"
@@ -25,17 +26,19 @@ std::string nearest_or_all(const std::string& word, const std::vector<std::strin
                          : fmt::format("; did you mean {}?", nearest);
 }
 
-Device structure_by_name(const StructureArguments& arguments, std::optional<double> record_period) {
-  if (!arguments.sampling_period && !record_period) {
-    throw BadInput("--sampling-period: missing; the table has none, and the loop to judge needs one, in seconds");
-  }
-  const DeviceParameters structure =
-      named_structure(arguments.structure, arguments.motion == "rotary" ? Motion::rotary : Motion::linear,
-                      arguments.sampling_period.value_or(record_period.value_or(0.0)))
-          .value();
-  auto device = parse_device(write_device(structure), "--structure " + arguments.structure, arguments.overrides);
+void check(const NamedStructureOptions& options) {
+  constexpr std::pair<std::string_view, std::string_view> own_options[] = {{"sampling_period", "--sampling-period"}};
+  if (const auto problem = find_problem(options)) refuse(*problem, own_options);
+}
+
+Structure structure_by_name(const StructureArguments& arguments, std::optional<double> record_period) {
+  const NamedStructureOptions options{arguments.motion == "rotary" ? Motion::rotary : Motion::linear,
+                                      arguments.sampling_period, record_period};
+  check(options);
+  const NamedStructure named = named_structure(arguments.structure, options).value();
+  auto device = parse_device(write_device(named.parameters), "--structure " + arguments.structure, arguments.overrides);
   if (!device) throw BadInput(input_problem(device.error()));
-  return *std::move(device);
+  return {*std::move(device), named.values};
 }
 
 Device structure_from_file(const StructureArguments& arguments) {
@@ -43,8 +46,10 @@ Device structure_from_file(const StructureArguments& arguments) {
     throw BadInput("--motion: is for a named structure; a device file says itself what its motion is");
   }
   std::vector<std::string> overrides = arguments.overrides;
-  if (arguments.sampling_period)
+  if (arguments.sampling_period) {
+    check(NamedStructureOptions{.sampling_period = arguments.sampling_period});
     overrides.push_back(fmt::format("loop.sampling_period={}", *arguments.sampling_period));
+  }
   auto device = read_named_device(arguments.structure, overrides);
   if (!device) throw BadInput(input_problem(device.error()));
   if (!device->has_bodies()) {
@@ -89,16 +94,10 @@ void add_structure_arguments(CLI::App& command, StructureArguments& arguments) {
       ->group(structure_group);
 }
 
-bool is_named_structure(const StructureArguments& arguments) {
-  return named_structure(arguments.structure, Motion::linear, 1.0).has_value();
-}
-
-Device structure(const StructureArguments& arguments, std::optional<double> record_period) {
-  if (arguments.sampling_period && !(std::isfinite(*arguments.sampling_period) && *arguments.sampling_period > 0.0)) {
-    throw BadInput(fmt::format("--sampling-period: is {}; a number of seconds above 0", *arguments.sampling_period));
-  }
-  const Device device =
-      is_named_structure(arguments) ? structure_by_name(arguments, record_period) : structure_from_file(arguments);
+Structure structure(const StructureArguments& arguments, std::optional<double> record_period) {
+  Structure structure = names_structure(arguments.structure) ? structure_by_name(arguments, record_period)
+                                                             : Structure{structure_from_file(arguments)};
+  const Device& device = structure.device;
   std::vector<std::string> names;
   for (const Body& body : device.bodies()) names.push_back(body.name);
   for (const std::string& name : arguments.locked) {
@@ -112,7 +111,7 @@ Device structure(const StructureArguments& arguments, std::optional<double> reco
       throw BadInput(fmt::format("--free: no parameter is called {}{}", given, nearest_or_all(given, keys)));
     }
   }
-  return device;
+  return structure;
 }
 
 }  // namespace zwidth::cli

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "zwidth/identification/identification.hpp"
 #include "zwidth/model/device.hpp"
 
 namespace zwidth::cli {
@@ -22,11 +23,14 @@ struct StructureArguments {
 /// Declares --structure, --set, --motion, --sampling-period, --free and --locked; `arguments` must outlive the parsing.
 void add_structure_arguments(CLI::App& command, StructureArguments& arguments);
 
-/// Whether the structure is named: its numbers are then placeholders until they are fitted.
-[[nodiscard]] bool is_named_structure(const StructureArguments& arguments);
+/// A structure to fit, and whether its numbers are known.
+struct Structure {
+  Device device;
+  IdentifyOptions::StructureValues values = IdentifyOptions::StructureValues::known;
+};
 
 /// The structure as asked for, its parameters and bodies checked to be those that --free and --locked name.
 /// `record_period` is the record's sampling period, where it has one. Throws BadInput.
-[[nodiscard]] Device structure(const StructureArguments& arguments, std::optional<double> record_period);
+[[nodiscard]] Structure structure(const StructureArguments& arguments, std::optional<double> record_period);
 
 }  // namespace zwidth::cli

@@ -6,8 +6,10 @@
 #include <chrono>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <memory>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,7 +19,7 @@
 #include "parts.hpp"
 #include "python_error.hpp"
 #include "results/stability_json.hpp"
-#include "zwidth/design/critical_stiffness_many.hpp"
+#include "zwidth/batch/batch_stiffness.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/stability/analysis.hpp"
 
@@ -160,36 +162,59 @@ std::vector<ParameterValues> values_of(const py::dict& changes) {
   return all;
 }
 
-/// The columns of CriticalStiffnessMany, in its order.
+/// A column of few different values as it is, small numbers; what each of them means goes to `meanings`.
+template <typename Number, typename Value, typename MeaningOf>
+py::array coded(const std::vector<Value>& column, py::dict& meanings, const MeaningOf& meaning_of) {
+  py::array_t<Number> codes(static_cast<py::ssize_t>(column.size()));
+  Number* code = codes.mutable_data();
+  std::set<Number> seen;
+  for (std::size_t i = 0; i < column.size(); ++i) {
+    code[i] = static_cast<Number>(column[i]);
+    if (seen.insert(code[i]).second) meanings[py::int_(code[i])] = meaning_of(i);
+  }
+  return codes;
+}
+
+/// What is said of every element that has more to say than its numbers, by index; warns of all of it.
+py::dict reasons_of(const BatchStiffness& columns) {
+  py::dict reasons;
+  Trust trust;
+  const auto add = [&](std::size_t i) {
+    const std::string failure = columns.failure_of(i);
+    if (failure.empty()) trust.inherit(columns.trust_of(i));
+    std::vector<std::string> why = failure.empty() ? columns.trust_of(i).reasons : std::vector{failure};
+    if (!why.empty()) reasons[py::int_(i)] = std::move(why);
+  };
+  if (columns.trust.sound()) {
+    for (const BatchException& each : columns.exceptions) add(each.index);
+  } else {
+    for (std::size_t i = 0; i < columns.size(); ++i) add(i);
+  }
+  warn_of(trust);
+  return reasons;
+}
+
+/// The columns of CriticalStiffnessMany. No Python object is made per device: while one thread makes those, others wait.
 py::dict many(const Device& device, const py::dict& changes, const py::object& progress) {
   const std::vector<ParameterValues> values = values_of(changes);
   if (const auto problem = find_problem(device, values)) raise_input_error(*problem);
-  const std::vector<CriticalStiffnessOfOne> answers =
-      interruptible(progress, [&](const Progress& told) { return critical_stiffness_many(device, values, told); });
-  std::vector<double> stiffnesses;
-  std::vector<double> frequencies;
-  py::list statuses;
-  py::list mechanisms;
-  py::dict reasons;
-  Trust trust;
-  for (std::size_t i = 0; i < answers.size(); ++i) {
-    const CriticalStiffnessOfOne& each = answers[i];
-    stiffnesses.push_back(each.stiffness);
-    frequencies.push_back(each.frequency);
-    statuses.append(results::name_of(each.status));
-    mechanisms.append(each.limited_by ? to_python(Json(*each.limited_by)) : py::none());
-    std::vector<std::string> why = each.trust.reasons;
-    if (!each.failure.empty()) why.insert(why.begin(), each.failure);
-    if (!why.empty()) reasons[py::int_(i)] = why;
-    trust.inherit(each.trust);
-  }
-  warn_of(trust);
+  BatchStiffness columns =
+      interruptible(progress, [&](const Progress& told) { return batch_stiffness(device, values, {}, told); });
+  py::dict statuses;
+  py::dict mechanisms;
   py::dict made;
-  made["critical_stiffness"] = array_over(std::move(stiffnesses));
-  made["critical_frequency_rad_s"] = array_over(std::move(frequencies));
-  made["status"] = statuses;
-  made["limited_by"] = mechanisms;
-  made["reasons"] = reasons;
+  made["status"] = coded<std::int8_t>(columns.status, statuses,
+                                      [&](std::size_t i) { return py::str(results::name_of(columns.status[i])); });
+  made["limited_by"] = coded<std::int16_t>(columns.mode, mechanisms, [&](std::size_t i) -> py::object {
+    const auto mechanism = columns.limited_by(i);
+    return mechanism ? to_python(Json(*mechanism)) : py::none();
+  });
+  made["statuses"] = statuses;
+  made["mechanisms"] = mechanisms;
+  made["reasons"] = reasons_of(columns);
+  made["scalar_count"] = columns.scalar_count;
+  made["critical_stiffness"] = array_over(std::move(columns.stiffness));
+  made["critical_frequency_rad_s"] = array_over(std::move(columns.frequency));
   return made;
 }
 

@@ -2,10 +2,7 @@
 
 #include <fmt/format.h>
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/global_control.h>
-#include <tbb/info.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <iterator>
@@ -16,6 +13,7 @@
 
 #include "batch/kernel/kernel_columns.hpp"
 #include "staged_progress.hpp"
+#include "thread_arena.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/device_trust.hpp"
 #include "zwidth/model/parameter.hpp"
@@ -213,11 +211,7 @@ BatchStiffness batch_stiffness(const Device& device, std::span<const ParameterVa
     }
     shared.add(quick);
   };
-  std::optional<tbb::global_control> more;  // threads than cores
-  if (options.threads > static_cast<std::size_t>(tbb::info::default_concurrency())) {
-    more.emplace(tbb::global_control::max_allowed_parallelism, options.threads);
-  }
-  tbb::task_arena arena(options.threads == 0 ? tbb::task_arena::automatic : static_cast<int>(options.threads));
+  internal::ThreadArena arena(options.threads);
   arena.execute([&] { tbb::parallel_for(std::size_t{0}, blocks, compute); });
   for (std::vector<BatchException>& each : said) {
     std::ranges::move(each, std::back_inserter(columns.exceptions));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 #include <cstddef>
+#include <utility>
 
 namespace zwidth::internal {
 
@@ -26,7 +27,7 @@ class ExponentialGradient {
   using Real = typename P::Real;
   using Matrix = typename P::Matrix;
 
-  explicit ExponentialGradient(const Matrix& matrix) : m_(matrix) {
+  explicit ExponentialGradient(Matrix matrix) : m_(std::move(matrix)) {
     const Real norm = m_.cwiseAbs().rowwise().sum().maxCoeff();
     halvings_ = norm > Real(0.25) ? static_cast<int>(std::ceil(std::log2(norm / Real(0.25)))) : 0;
     m_ *= std::ldexp(Real(1.0), -halvings_);

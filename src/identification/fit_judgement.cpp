@@ -14,6 +14,7 @@
 #include "identification/percent.hpp"
 #include "identification/plausibility.hpp"
 #include "model/uncertainty_problem.hpp"
+#include "zwidth/model/device_trust.hpp"
 #include "zwidth/model/parameter.hpp"
 #include "zwidth/model/state_space.hpp"
 #include "zwidth/quantity.hpp"
@@ -199,15 +200,22 @@ class Judge {
   }
 
   void judge_open_numbers() {
-    const std::vector<std::string> keys = undetermined(fit_, judged_.options);
-    if (keys.empty()) return;
-    const std::string reason =
-        fmt::format("the data do not determine {}: taken as they stand in the structure", fmt::join(keys, ", "));
-    result_.device_trust.doubt(reason);
-    // Along what is open the response does not change, and within the band the critical stiffness is the response's.
-    const bool is_responses = is_in_band_ && judged_.options.fit.locked.empty();
-    if (!is_measured_ && !is_responses) result_.trust.doubt(reason);
+    std::vector<std::string> keys;
+    for (const ParameterEstimate& estimate : fit_.estimates) {
+      if (!estimate.identifiable) keys.push_back(estimate.key);
+    }
+    if (!keys.empty()) {
+      const std::string reason =
+          fmt::format("the data do not determine {}: taken as they stand in the structure", fmt::join(keys, ", "));
+      result_.device_trust.doubt(reason);
+      // Along what is open the response does not change, and within the band the critical stiffness is the response's.
+      const bool is_responses = is_in_band_ && judged_.options.fit.locked.empty();
+      if (!is_measured_ && !is_responses) result_.trust.doubt(reason);
+    }
     if (known_structure()) return;
+    for (std::string& unseen : unseen_placeholders(judged_.options.fit.locked, judged_.options.structure_values)) {
+      keys.push_back(std::move(unseen));
+    }
     for (const std::string& key : keys) {
       result_.remarks.push_back({Remark::Severity::warning,
                                  fmt::format("{} = {:.4g} is a placeholder: the data do not determine it", key,
@@ -274,13 +282,11 @@ class Judge {
 
 }  // namespace
 
-std::vector<std::string> undetermined(const ParameterFit& fit, const IdentifyOptions& options) {
+std::vector<std::string> unseen_placeholders(const std::vector<std::string>& locked,
+                                             IdentifyOptions::StructureValues values) {
   std::vector<std::string> keys;
-  for (const ParameterEstimate& estimate : fit.estimates) {
-    if (!estimate.identifiable) keys.push_back(estimate.key);
-  }
-  if (options.structure_values == IdentifyOptions::StructureValues::known) return keys;
-  for (const std::string& body : options.fit.locked) {
+  if (values == IdentifyOptions::StructureValues::known) return keys;
+  for (const std::string& body : locked) {
     for (const char* number : {"mass", "damping"}) keys.push_back(fmt::format("body.{}.{}", body, number));
   }
   return keys;
@@ -327,15 +333,35 @@ void judge_nonlinearity(Identification& result, std::span<const Recording> recor
 
 CriticalStiffness limit_of(const Device& device) { return critical_stiffness(device); }
 
-void keep_assumed(const Device& structure, std::span<const ParameterEstimate> estimates, Device& fitted,
-                  std::initializer_list<Trust*> trusts) {
-  if (!structure.parameters().uncertainty) return;
-  std::vector<std::string> assumed = structure.parameters().uncertainty->assumed;
-  std::erase_if(assumed, [&](const std::string& key) {
+void keep_what_is_assumed(const Device& structure, std::span<const ParameterEstimate> estimates,
+                          std::vector<std::string> placeholders, Device& fitted, std::initializer_list<Trust*> trusts) {
+  const DeviceParameters& given = structure.parameters();
+  const auto is_identified = [&](const std::string& key) {
     return std::ranges::any_of(estimates, [&](const ParameterEstimate& each) {
-      return each.identifiable && each.key == full_parameter_key(structure.parameters(), key);
+      return each.identifiable && each.key == full_parameter_key(given, key);
     });
-  });
+  };
+  const auto is_taken = [&](const std::string& key) {
+    const bool is_of_the_mechanics = key.starts_with("body.") || key.starts_with("link.");
+    return is_of_the_mechanics && !key.ends_with(".coulomb") && parameter(given, key).value_or(0.0) != 0.0 &&
+           !is_identified(key);
+  };
+  std::vector<std::string> assumed = std::move(placeholders);
+  if (given.uncertainty) {
+    const std::vector<std::string>& of_structure = given.uncertainty->assumed;
+    Trust stated = trust_of(structure);
+    if (!of_structure.empty()) std::erase(stated.reasons, assumed_reason(of_structure));
+    if (!stated.reasons.empty() && std::ranges::any_of(parameter_keys(given), is_taken)) {
+      for (Trust* trust : trusts) trust->inherit(stated);
+      Trust device_trust = trust_of(fitted);
+      device_trust.inherit(stated);
+      fitted = with_trust(fitted, device_trust);
+    }
+    for (const std::string& key : of_structure) {
+      if (std::ranges::find(assumed, key) == assumed.end()) assumed.push_back(key);
+    }
+  }
+  std::erase_if(assumed, is_identified);
   if (assumed.empty()) return;
   for (Trust* trust : trusts) trust->doubt(assumed_reason(assumed));
   DeviceParameters parameters = fitted.parameters();

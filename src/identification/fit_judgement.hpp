@@ -41,14 +41,16 @@ void judge_nonlinearity(Identification& result, std::span<const Recording> recor
 /// K_CR with the wall's damper and filters, as analyze() gives it.
 [[nodiscard]] CriticalStiffness limit_of(const Device& device);
 
-/// Keys of the numbers that stand as they stood in the structure: those that the data leave open and, where the
-/// structure's values are placeholders, those that were not fitted.
-[[nodiscard]] std::vector<std::string> undetermined(const ParameterFit& fit, const IdentifyOptions& options);
+/// Of a structure whose values are placeholders: the numbers of the bodies held still, which no recording of that
+/// experiment shows.
+[[nodiscard]] std::vector<std::string> unseen_placeholders(const std::vector<std::string>& locked,
+                                                           IdentifyOptions::StructureValues values);
 
 /// What the structure only assumes (Uncertainty::assumed) and the data do not determine stays assumed in the fitted
-/// device, for which all these are doubtful.
-void keep_assumed(const Device& structure, std::span<const ParameterEstimate> estimates, Device& fitted,
-                  std::initializer_list<Trust*> trusts);
+/// device, as do these placeholders; for it all these are doubtful. Where the structure's file is doubtful or refused and a
+/// mass, spring or damper of it is not determined by the data, all these are so too.
+void keep_what_is_assumed(const Device& structure, std::span<const ParameterEstimate> estimates,
+                          std::vector<std::string> placeholders, Device& fitted, std::initializer_list<Trust*> trusts);
 
 /// The verdict into the fitted device's [uncertainty], so that its file keeps it.
 [[nodiscard]] Device with_trust(const Device& device, const Trust& trust);

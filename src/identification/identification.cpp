@@ -339,7 +339,9 @@ Identification identified(const MeasuredResponse& measured, std::span<const Reco
   judge_interval(result, judgement.device_trust);
   judge_friction_in_time(result, recordings, options, judgement.device_trust);
   judge_nonlinearity(result, recordings, options, judgement.device_trust);
-  keep_assumed(structure, result.fit.estimates, result.fit.device, {&result.trust, &result.analysis.trust});
+  keep_what_is_assumed(structure, result.fit.estimates,
+                       unseen_placeholders(options.fit.locked, options.structure_values), result.fit.device,
+                       {&result.trust, &result.analysis.trust});
   return result;
 }
 

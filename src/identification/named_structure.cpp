@@ -1,24 +1,51 @@
+#include <fmt/format.h>
+
+#include <cmath>
 #include <map>
 
+#include "require_valid.hpp"
 #include "zwidth/identification/identification.hpp"
 
 namespace zwidth {
+namespace {
 
-std::optional<DeviceParameters> named_structure(std::string_view name, Motion motion, double sampling_period) {
+const std::map<std::string_view, std::vector<std::string>>& bodies_by_name() {
   static const std::map<std::string_view, std::vector<std::string>> bodies{
       {"rigid", {"body"}}, {"two-body", {"motor", "handle"}}, {"three-body", {"motor", "body", "handle"}}};
-  const auto named = bodies.find(name);
-  if (named == bodies.end()) return std::nullopt;
+  return bodies;
+}
+
+}  // namespace
+
+bool names_structure(std::string_view name) { return bodies_by_name().contains(name); }
+
+std::optional<OptionProblem> find_problem(const NamedStructureOptions& options) {
+  constexpr const char* member = "sampling_period";
+  if (!options.sampling_period && !options.record_period) {
+    return OptionProblem{member, "missing", "the table has none, and the loop to judge needs one, in seconds"};
+  }
+  for (const std::optional<double>& each : {options.sampling_period, options.record_period}) {
+    if (each && !(std::isfinite(*each) && *each > 0.0)) {
+      return OptionProblem{member, fmt::format("is {}", *each), "a number of seconds above 0"};
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<NamedStructure> named_structure(std::string_view name, const NamedStructureOptions& options) {
+  const auto named = bodies_by_name().find(name);
+  if (named == bodies_by_name().end()) return std::nullopt;
+  internal::require_valid(find_problem(options));
   DeviceParameters device;
   device.name = name;
-  device.motion = motion;
+  device.motion = options.motion;
   for (const std::string& body : named->second) {
     if (!device.bodies.empty()) device.links.push_back({device.bodies.size() - 1, device.bodies.size(), 1.0, 1.0});
     device.bodies.push_back({body, 1.0, 1.0, 0.0, 0.0});
   }
   device.loop.held = device.bodies.size() - 1;
-  device.loop.sampling_period = sampling_period;
-  return device;
+  device.loop.sampling_period = options.sampling_period ? *options.sampling_period : *options.record_period;
+  return NamedStructure{std::move(device)};
 }
 
 }  // namespace zwidth

@@ -96,7 +96,9 @@ class Judge {
     judge_band();
     judge_interval();
     fit_.device = with_trust(fit_.device, trust_);
-    keep_assumed(judged_.structure, fit_.estimates, fit_.device, {&trust_});
+    keep_what_is_assumed(judged_.structure, fit_.estimates,
+                         unseen_placeholders(judged_.options.locked, judged_.options.structure_values), fit_.device,
+                         {&trust_});
     fit_.analysis = analyze(fit_.device, {.any_user = false});
     const Wall& wall = fit_.device.parameters().wall;
     fit_.basis = {wall.damping, wall.velocity_filter_hz, wall.filters.size()};
@@ -191,10 +193,6 @@ class Judge {
     for (const ParameterEstimate& each : fit_.estimates) {
       // The linear device's limit does not hang on friction.
       if (!each.identifiable && !each.key.ends_with(".coulomb")) keys.push_back(each.key);
-    }
-    if (judged_.options.structure_values == IdentifyOptions::StructureValues::known) return keys;
-    for (const std::string& body : judged_.options.locked) {
-      for (const char* number : {"mass", "damping"}) keys.push_back(fmt::format("body.{}.{}", body, number));
     }
     return keys;
   }

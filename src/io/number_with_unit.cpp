@@ -6,6 +6,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -104,13 +105,23 @@ std::optional<std::string> inverse_remedy(double number, const std::string& unit
   const double magnitude = std::abs(number);
   if (measure == Measure::time) {
     const auto factor = unit_factor(unit, "Hz");
-    if (factor && magnitude > 0.0)
-      return fmt::format("a period is 1/frequency: \"{:.6g} s\"", 1.0 / (number * *factor));
+    if (factor && magnitude > 0.0) {
+      const double rate = number * *factor;
+      const std::string brief = fmt::format("{:.6g}", 1.0 / rate);
+      double read = 0.0;
+      std::from_chars(brief.data(), brief.data() + brief.size(), read);
+      const bool is_exact = read == 1.0 / rate;
+      return fmt::format("a period is 1/frequency: \"{}\"", is_exact ? brief + " s" : fmt::format("1 s/{:.10g}", rate));
+    }
   }
   const std::string per = motion == Motion::rotary ? "rad^-1" : "m^-1";
-  if (measure == Measure::position && unit_factor(unit, per)) {
-    return fmt::format("a step is its inverse, such as {}",
-                       motion == Motion::rotary ? "\"1 turn/4096\"" : "\"1 mm/200\"");
+  if (measure == Measure::position) {
+    const auto factor = unit_factor(unit, per);
+    if (factor && magnitude > 0.0) {
+      const bool is_rotary = motion == Motion::rotary;
+      const double counts = number * *factor * (is_rotary ? 2.0 * std::numbers::pi : 1e-3);
+      return fmt::format("a step is its inverse: \"1 {}/{:.10g}\"", is_rotary ? "turn" : "mm", counts);
+    }
   }
   return std::nullopt;
 }

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <cmath>
 #include <random>
@@ -11,6 +10,7 @@
 
 #include "require_valid.hpp"
 #include "staged_progress.hpp"
+#include "thread_arena.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/simulation/hybrid_loop.hpp"
 
@@ -122,7 +122,7 @@ std::vector<RelayTrial> relay_trials(const Device& device, const RelayOptions& o
   const std::size_t samples = samples_per_trial(device, options);
   std::vector<RelayTrial> trials = drawn_trials(options);
   SharedProgress shared(progress, samples * options.trials);
-  tbb::task_arena arena(options.threads == 0 ? tbb::task_arena::automatic : static_cast<int>(options.threads));
+  ThreadArena arena(options.threads);
   arena.execute([&] {
     tbb::parallel_for(std::size_t{0}, trials.size(), [&](std::size_t i) {
       RelayTrial& trial = trials[i];

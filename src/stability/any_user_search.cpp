@@ -32,6 +32,7 @@ constexpr double far_above = 10.0;       // times the least K: a disc there woul
 constexpr int refining_bits = 30;
 constexpr std::uintmax_t max_refinements = 60;
 constexpr double worth_refining = 1.05;  // of the least sample
+constexpr double flat = 1e-13;           // relative: among samples so much alike a minimum is one of rounding
 // How far below the least K found the condition is shown to hold, relative; more where that cannot be shown.
 constexpr double proven_within[] = {2e-10, 2e-9, 2e-8, 2e-7, 2e-6, 2e-5, 2e-4, 2e-3};
 constexpr double sound_within = 1e-4;  // more taken off makes the limit doubtful
@@ -148,6 +149,7 @@ void AnyUserSearch::take_least_of(VirtualDamper damper, const std::vector<Sample
     const double left = i > 0 ? samples[i - 1].stiffness : infinity;
     const double right = i + 1 < samples.size() ? samples[i + 1].stiffness : infinity;
     if (here.stiffness > left || here.stiffness > right) continue;
+    if (std::max(left, right) - here.stiffness <= flat * here.stiffness) continue;
     // Between the samples it may fall as far again as from the higher neighbour to here.
     const double may_reach = here.stiffness - (std::max(left, right) - here.stiffness);
     if (!(std::isfinite(here.stiffness) && may_reach <= worth_refining * sampled)) continue;

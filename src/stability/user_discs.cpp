@@ -206,6 +206,14 @@ std::complex<double> UserDiscs::kept_motion(double frequency) const {
   using Number = std::complex<Real>;
   if (held_ == sensed_ || held_ == actuated_) return 0.0;
   const auto n = static_cast<Eigen::Index>(matrices_.mass.size());
+  const auto held = static_cast<Eigen::Index>(held_);
+  if (n == 2) {  // the other body stands still
+    const std::size_t entry = held_ * 2 + held_;
+    const Number kept =
+        Real(1.0) / Number(matrices_.stiffness[entry] - Real(frequency) * Real(frequency) * matrices_.mass[held_],
+                           Real(frequency) * matrices_.damping[entry]);
+    return {static_cast<double>(kept.real()), static_cast<double>(kept.imag())};
+  }
   Eigen::Matrix<Number, Eigen::Dynamic, Eigen::Dynamic> bordered(n + 1, n + 1);
   bordered.setZero();
   Real size = 0.0L;
@@ -219,7 +227,6 @@ std::complex<double> UserDiscs::kept_motion(double frequency) const {
       size = std::max({size, std::abs(bordered(i, j).real()), std::abs(bordered(i, j).imag())});
     }
   }
-  const auto held = static_cast<Eigen::Index>(held_);
   // The border as large as the rest.
   bordered(static_cast<Eigen::Index>(actuated_), n) = -size;
   bordered(n, static_cast<Eigen::Index>(sensed_)) = size;

@@ -1,7 +1,6 @@
 #include "zwidth/study/study_run.hpp"
 
 #include <fmt/format.h>
-#include <tbb/global_control.h>
 #include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
 
@@ -11,6 +10,7 @@
 
 #include "require_valid.hpp"
 #include "study/study_parts.hpp"
+#include "thread_arena.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth {
@@ -19,24 +19,6 @@ namespace {
 
 constexpr std::uint64_t most_side_samples = std::uint64_t{1} << 24U;
 constexpr std::uint64_t least_index_samples = 16;  // fewer tell no error of an index
-
-int threads_of(std::size_t threads) {
-  return threads == 0 ? tbb::this_task_arena::max_concurrency() : static_cast<int>(threads);
-}
-
-/// More threads than cores too, where they are asked for.
-class AllowedThreads {
-  using Control = tbb::global_control;
-
- public:
-  explicit AllowedThreads(int threads)
-      : control_(Control::max_allowed_parallelism,
-                 std::max(static_cast<std::size_t>(threads), Control::active_value(Control::max_allowed_parallelism))) {
-  }
-
- private:
-  Control control_;
-};
 
 std::optional<OptionProblem> find_specification_problem(const char* member, std::optional<double> value) {
   if (!value || (std::isfinite(*value) && *value > 0.0)) return std::nullopt;
@@ -148,7 +130,6 @@ BatchStiffness StudyRun::answers(std::uint64_t chunk, const Progress& progress) 
 
 BatchStiffness StudyRun::answers(const std::vector<ParameterValues>& columns, bool any_user,
                                  const Progress& progress) const {
-  const AllowedThreads allowed(threads_of(options_.threads));
   return batch_stiffness(device_, columns, {.any_user = any_user, .threads = options_.threads}, progress);
 }
 
@@ -165,8 +146,6 @@ void compute_chunks(const StudyRun& run, const std::function<std::optional<std::
     std::uint64_t chunk = 0;
     BatchStiffness answers;
   };
-  const int threads = threads_of(run.options().threads);
-  const AllowedThreads allowed(threads);
   const auto named = [&](tbb::flow_control& flow) -> std::uint64_t {
     if (const auto chunk = next()) return *chunk;
     flow.stop();
@@ -174,9 +153,10 @@ void compute_chunks(const StudyRun& run, const std::function<std::optional<std::
   };
   const auto computed = [&](std::uint64_t chunk) { return Computed{chunk, run.answers(chunk, within)}; };
   const auto consumed = [&](Computed one) { consume(one.chunk, std::move(one.answers)); };
-  tbb::task_arena arena(threads);
+  ThreadArena arena(run.options().threads);
   arena.execute([&] {
-    tbb::parallel_pipeline(2 * static_cast<std::size_t>(threads) + 2,
+    const auto in_work = 2 * static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()) + 2;
+    tbb::parallel_pipeline(in_work,
                            tbb::make_filter<void, std::uint64_t>(tbb::filter_mode::serial_in_order, named) &
                                tbb::make_filter<std::uint64_t, Computed>(tbb::filter_mode::parallel, computed) &
                                tbb::make_filter<Computed, void>(tbb::filter_mode::serial_in_order, consumed));

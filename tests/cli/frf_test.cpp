@@ -107,6 +107,12 @@ TEST_F(Frf, ListsTheColumns) {
   EXPECT_EQ(outcome.status, 0);
   EXPECT_THAT(outcome.output, HasSubstr("position"));
   EXPECT_THAT(outcome.output, HasSubstr("10000"));
+  const json listed = document("zwidth frf recordings/locked_chirp.csv --list --json");
+  EXPECT_EQ(listed["schema"], "zwidth.recording/1");
+  EXPECT_EQ(listed["columns"][2], json::parse(R"({"name": "position", "samples": 10000, "detail": "numbers"})"));
+  // As stated: the header is a line to skip, and columns are numbers.
+  const json bare = document("zwidth frf recordings/locked_chirp.csv --list --json --no-header");
+  EXPECT_EQ(bare["columns"][0]["name"], "1");
 }
 
 TEST_F(Frf, ReadsStandardInput) {

@@ -56,10 +56,15 @@ Answer inverse_dynamics(const Recorded& recorded) {
   return {results::line(results::identification_json(identify_rigid_body(recorded.recording)))};
 }
 
-Answer fitted(const Recorded& recorded, const std::string& structure) {
-  const Device device(*named_structure(structure, Motion::linear, recorded.recording.sampling_period));
+NamedStructure named(const std::string& structure, const Recorded& recorded) {
+  return named_structure(structure, {.record_period = recorded.recording.sampling_period}).value();
+}
+
+Answer fitted(const Recorded& recorded, const std::string& name) {
+  const NamedStructure structure = named(name, recorded);
+  const Device device(structure.parameters);
   IdentifyOptions options;
-  options.structure_values = IdentifyOptions::StructureValues::placeholders;
+  options.structure_values = structure.values;
   return {results::line(
       results::identification_json(identify(recorded.recording, device, options), results::PointsInJson::included))};
 }
@@ -77,10 +82,11 @@ Answer link_of_two_bodies(const Recorded& recorded) {
 Answer fitted_in_time(const Recorded& recorded) {
   TimeDomainOptions options;
   options.free = {"body.body.mass", "body.body.damping"};
-  options.structure_values = IdentifyOptions::StructureValues::placeholders;
+  const NamedStructure structure = named("rigid", recorded);
+  options.structure_values = structure.values;
   const std::array recordings{recorded.recording};
-  const Device structure(*named_structure("rigid", Motion::linear, recorded.recording.sampling_period));
-  return {results::line(results::identification_json(identify_in_time(recordings, structure, options)))};
+  return {
+      results::line(results::identification_json(identify_in_time(recordings, Device(structure.parameters), options)))};
 }
 
 /// Of the force as a relay's, whatever it was; predictions for a device are compared where one is simulated.
@@ -151,10 +157,11 @@ TEST_F(SameAnswerOfRecordings, OfTheProject) {
   ask(of("identify", free_motion) + "--method time-domain --structure rigid", free_motion,
       [](const Recorded& recorded) -> Answer {
         TimeDomainOptions options;
-        options.structure_values = IdentifyOptions::StructureValues::placeholders;
+        const NamedStructure structure = named("rigid", recorded);
+        options.structure_values = structure.values;
         const std::array recordings{recorded.recording};
-        const Device structure(*named_structure("rigid", Motion::linear, recorded.recording.sampling_period));
-        return {results::line(results::identification_json(identify_in_time(recordings, structure, options)))};
+        return {results::line(
+            results::identification_json(identify_in_time(recordings, Device(structure.parameters), options)))};
       });
   ask(of("identify", locked_chirp) + "--points --structure two-body", locked_chirp,
       [](const Recorded& recorded) { return fitted(recorded, "two-body"); });

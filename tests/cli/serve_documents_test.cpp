@@ -129,6 +129,7 @@ std::vector<Asked> questions() {
       {"relay", lhifam, {"run.csv"}, {{"force", 2}, {"position", 3}, {"delay", 4e-3}}},
       {"relay", "", {"run.csv"}, {{"force", "force_1"}, {"position", "position_1"}, {"motion", "linear"}}},
       {"frf", "", {"locked_chirp.csv"}, {{"force", "force"}, {"position", "position"}, {"points", true}}},
+      {"frf", "", {"locked_chirp.csv"}, {{"list", true}, {"delimiter", "comma"}, {"header", true}}},
       {"frf", "", {"frf.csv"}, {{"table", true}, {"magnitude", "magnitude"}, {"phase", "phase_deg"}, {"rate", 1000}}},
       {"identify",
        lhifam,

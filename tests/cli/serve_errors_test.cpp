@@ -56,6 +56,19 @@ TEST_F(ServedErrors, AnErrorNamesTheFieldThatCausedIt) {
                "body = [{name = \"a b\", mass = -1}]\nloop.sampling_period = 1e-3");
 }
 
+// A std::regex takes stack for every character: one such number ended the program.
+TEST_F(ServedErrors, ANumberOfAHundredThousandDigitsIsRefusedAndTheServerLives) {
+  const json request{{"device_toml", contents("devices/lhifam.toml")},
+                     {"options", {{"amplitude", 5}, {"seed", std::string(100'000, '7')}}}};
+  const HttpAnswer answer = post("relay", request.dump());
+  EXPECT_EQ(answer.status, 400);
+  EXPECT_EQ(json::parse(answer.body).at("error").at("where"), "options.seed");
+  EXPECT_EQ(
+      post("relay", json{{"device_toml", contents("devices/lhifam.toml")}, {"options", {{"amplitude", 5}}}}.dump())
+          .status,
+      200);
+}
+
 // The device's own reasons are not cut at their semicolons and colons into a place and what is allowed.
 TEST_F(ServedErrors, WorkThatFailsHasNoPlace) {
   for (const std::string verdict : {"doubtful", "refused"}) {

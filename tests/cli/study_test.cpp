@@ -259,7 +259,15 @@ TEST_F(Study, WritesAPageWithFigures) {
   }
 }
 
-// Real processes, as many as asked for, meet at one result.
+// Without Sobol indices, as of correlated parameters, what a tighter tolerance gains; numbers with their prefix.
+TEST_F(Study, DrawsWhichToleranceToTighten) {
+  ASSERT_EQ(run(lhifam + " --samples 400 --report page.html").status, 0);
+  const std::string page = contents("page.html");
+  EXPECT_THAT(page, HasSubstr("Yield gained where one parameter has half its spread"));
+  EXPECT_THAT(page, HasSubstr("link.stiffness (kN/m)"));
+  EXPECT_THAT(page, Not(HasSubstr("-0.000 ±")));
+}
+
 TEST_F(Study, SaysWhichWallsSharesOfTheUnitsRender) {
   const std::string asked = lhifam + " --samples 400 --index-samples 0 --region-units 400";
   const auto regions = document(asked + " --report page.html")["regions"];
@@ -281,6 +289,7 @@ TEST_F(Study, SaysWhichWallsSharesOfTheUnitsRender) {
   expect_refusal(lhifam + " --region-units 300", "--region-units: is 300; must be 0, or 368 to 1048576");
 }
 
+// Real processes, as many as asked for, meet at one result.
 TEST_F(Study, IsTheSameForAnyNumberOfRanks) {
   if (run("command -v zwidth-study mpirun").status != 0) GTEST_SKIP() << "built without MPI";
   const std::string arguments =

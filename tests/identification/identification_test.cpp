@@ -86,19 +86,32 @@ ExcitationOptions noise(double lowest_hz, double highest_hz, double rate, std::u
 
 // Without the delay the same data gave 615.6 N m/rad in [609.6, 621.5].
 TEST(NamedStructure, IsARowOfLinkedBodiesWithPlaceholders) {
-  EXPECT_FALSE(named_structure("four-body", Motion::linear, 1e-3));
+  const NamedStructureOptions options{Motion::rotary, 2e-3, 1e-3};
+  EXPECT_FALSE(named_structure("four-body", options));
+  EXPECT_FALSE(names_structure("four-body"));
   std::size_t bodies = 0;
   for (const char* name : {"rigid", "two-body", "three-body"}) {
-    const auto structure = named_structure(name, Motion::rotary, 2e-3);
+    EXPECT_TRUE(names_structure(name));
+    const auto structure = named_structure(name, options);
     ASSERT_TRUE(structure) << name;
-    EXPECT_EQ(structure->bodies.size(), ++bodies);
-    EXPECT_EQ(structure->links.size(), bodies - 1);
-    EXPECT_EQ(structure->loop.held, bodies - 1);
-    EXPECT_EQ(structure->loop.sensed, 0U);
-    EXPECT_EQ(structure->loop.sampling_period, 2e-3);
-    EXPECT_EQ(structure->motion, Motion::rotary);
-    EXPECT_FALSE(find_problem(*structure)) << name;
+    EXPECT_EQ(structure->values, IdentifyOptions::StructureValues::placeholders);
+    const DeviceParameters& device = structure->parameters;
+    EXPECT_EQ(device.bodies.size(), ++bodies);
+    EXPECT_EQ(device.links.size(), bodies - 1);
+    EXPECT_EQ(device.loop.held, bodies - 1);
+    EXPECT_EQ(device.loop.sensed, 0U);
+    EXPECT_EQ(device.loop.sampling_period, 2e-3);
+    EXPECT_EQ(device.motion, Motion::rotary);
+    EXPECT_FALSE(find_problem(device)) << name;
   }
+}
+
+TEST(NamedStructure, TakesTheLoopsPeriodElseTheRecords) {
+  EXPECT_EQ(named_structure("rigid", {.record_period = 5e-4})->parameters.loop.sampling_period, 5e-4);
+  EXPECT_EQ(find_problem(NamedStructureOptions{})->member, "sampling_period");
+  EXPECT_THROW((void)named_structure("rigid", {}), Error);
+  EXPECT_TRUE(find_problem(NamedStructureOptions{.sampling_period = -1.0, .record_period = 1e-3}));
+  EXPECT_TRUE(find_problem(NamedStructureOptions{.sampling_period = std::nan(""), .record_period = 1e-3}));
 }
 
 TEST(Identification, AnExtrapolatedLimitIsDoubtfulAndItsIntervalHoldsTheTruth) {

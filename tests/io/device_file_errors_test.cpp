@@ -108,8 +108,11 @@ const BadText texts[] = {
     {"period_as_a_frequency", body("") + "[loop]\nsampling_period = \"2.5 kHz\"\n",
      "6:19: loop.sampling_period: \"kHz\" is no unit of a time; a period is 1/frequency: \"0.0004 s\""},
     {"counts_as_a_step", "motion = \"rotary\"\n" + body("") + loop() + "[sensor]\nresolution = \"4096 counts/turn\"\n",
-     "10:14: sensor.resolution: \"counts/turn\" is no unit of an angle; a step is its inverse, such as \"1 "
-     "turn/4096\""},
+     "10:14: sensor.resolution: \"counts/turn\" is no unit of an angle; a step is its inverse: \"1 turn/4096\""},
+    {"counts_as_a_linear_step", body("") + loop() + "[sensor]\nresolution = \"200 counts/mm\"\n",
+     "9:14: sensor.resolution: \"counts/mm\" is no unit of a length; a step is its inverse: \"1 mm/200\""},
+    {"period_as_a_frequency_that_no_decimal_inverts", body("") + "[loop]\nsampling_period = \"3 kHz\"\n",
+     "6:19: loop.sampling_period: \"kHz\" is no unit of a time; a period is 1/frequency: \"1 s/3000\""},
     {"unit_out_of_range", body("damping = \"1e400 N s/m\""),
      "4:11: body.a.damping: the number is out of range; must be 0 or from 1e-30 to 1e30 in magnitude (coefficients: "
      "1e-100 to 1e100)"},

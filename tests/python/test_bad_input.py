@@ -73,6 +73,12 @@ def test_no_part_of_a_number_is_dropped(lhifam):
     assert refusal(lambda: zwidth.Device(body=bodies, loop={})).where == "device.body.1.mass"
 
 
+@pytest.mark.parametrize("call", [zwidth.sweep, zwidth.compare, zwidth.design_targets])
+@pytest.mark.parametrize("nothing", [None, False, True, []])
+def test_no_other_answer_is_given(lhifam, call, nothing):
+    assert refusal(lambda: call(lhifam, nothing)).what == f"is {nothing!r}"
+
+
 def test_none_is_no_value(lhifam):
     for key in ("name", "wall.stiffness", "x"):
         error = refusal(lambda: lhifam.with_({key: None}))

@@ -142,6 +142,11 @@ def test_what_is_handed_to_python_control(lhifam, monkeypatch):
         device = zwidth.control.from_control(system, sampling_period=1e-3, delay=0.5e-3)
         assert device.delay == 0.5e-3
         assert zwidth.critical_stiffness(device).critical_stiffness == pytest.approx(limit.critical_stiffness, rel=1e-9)
+    unseen = np.zeros((3, 3))
+    unseen[:2, :2] = States.A
+    for B, C in (([[0.0], [1 / 5.4], [1.0]], [[1.0, 0.0, 0.0]]), ([[0.0], [1 / 5.4], [0.0]], [[1.0, 0.0, 1.0]])):
+        with pytest.raises(zwidth.InputError, match="may drift unseen"):
+            zwidth.control.from_control(States(A=unseen, B=np.array(B), C=np.array(C)), sampling_period=1e-3)
     shapes = (np.zeros(2), np.zeros((2, 3)), np.zeros((0, 0)), np.full((2, 2), np.inf), np.full((2, 2), "x"), [[1j, 0], [0, 0]])
     for bad in (Fraction(continuous=False), Fraction(ninputs=2), States(D=np.ones((1, 1))), object(), *(States(A=A) for A in shapes)):
         with pytest.raises((zwidth.InputError, TypeError, ValueError)):

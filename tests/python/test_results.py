@@ -161,8 +161,13 @@ def test_many_devices_are_each_that_device_alone(lhifam, random_devices):
         assert math.isclose(many.critical_frequency_rad_s[i], alone.critical_frequency_rad_s, rel_tol=1e-12)
         assert many.status[i] == alone.status
         assert many.limited_by[i] == alone.limited_by
+    kept = pickle.loads(pickle.dumps(many))
+    assert kept.limited_by == many.limited_by and kept.status == many.status and len(kept) == 300
+    many.limited_by[0]["mode"] = "mine"
+    assert "mine" not in many.limited_by[1].values() and many.limited_by[0]["mode"] == "mine"
     broken = zwidth.critical_stiffness_many(lhifam, {"link.stiffness": [8e4, -1.0, np.nan, np.inf]})
     assert np.isnan(broken.critical_stiffness).tolist() == [False, True, True, True]
+    assert many.scalar_count == 0 and broken.scalar_count == 3
     assert sorted(broken.reasons) == [1, 2, 3] and "link.0.stiffness" in broken.reasons[1][0]
     for file in random_devices[::7]:
         device = zwidth.Device.from_toml(file)
@@ -208,3 +213,31 @@ def test_what_a_structure_assumes_and_the_record_does_not_show_stays_assumed(lhi
         assert "assumed, not measured: body.handle.mass, loop.sampling_period; give the device's own" in found.trust.reasons
         assert found.to_device().to_dict()["uncertainty"]["assumed"] == ["body.handle.mass", "loop.sampling_period"]
         assert zwidth.Device.from_toml(found.device_toml) == found.to_device()
+
+
+@pytest.mark.filterwarnings("ignore::zwidth.ResultWarning")
+def test_what_a_structure_is_doubtful_of_and_the_record_does_not_show_stays_doubtful(lhifam):
+    """The masses are the structure's; of a rigid body the record shows every number."""
+    warning = "\n[uncertainty]\nwarning = 'weighed by eye'\n"
+    doubtful = zwidth.Device.from_toml(lhifam.to_toml() + warning)
+    columns = {"force": "force", "position": "position"}
+    for more in ({}, {"method": "time-domain"}):
+        found = zwidth.identify("recordings/locked_chirp.csv", structure=doubtful, free="link.stiffness,link.damping",
+                                locked="handle", **columns, **more)  # fmt: skip
+        assert found.trust.verdict == "doubtful" and "weighed by eye" in found.trust.reasons
+        with pytest.warns(zwidth.DoubtfulResult, match="weighed by eye"):
+            zwidth.critical_stiffness(found.to_device())
+    refused = zwidth.Device.from_toml(lhifam.to_toml() + warning + "verdict = 'refused'\n")
+    found = zwidth.identify("recordings/locked_chirp.csv", structure=refused, free="link.stiffness", locked="handle", **columns)
+    assert found.trust.verdict == "refused" and found.critical_stiffness is None
+    rigid = zwidth.Device.from_toml(zwidth.Device.from_toml("devices/lhifam_rigid.toml").to_toml() + warning)
+    found = zwidth.identify("recordings/free_motion.csv", structure=rigid, **columns)
+    assert all(each.identifiable for each in found.parameters) and "weighed by eye" not in found.trust.reasons
+
+
+def test_the_text_of_a_doubtful_device_is_warned_of(lhifam):
+    doubtful = zwidth.Device.from_toml(lhifam.to_toml() + "\n[uncertainty]\nwarning = 'misfit of 3'\n")
+    for form, options in (("octave", {}), ("python", {}), ("json", {}), ("c", {"stiffness": 100, "accept_doubt": True})):
+        with pytest.warns(zwidth.DoubtfulResult, match="misfit of 3") as caught:
+            zwidth.export(doubtful, form, **options)
+        assert caught[0].filename == __file__

@@ -23,6 +23,7 @@ STUDY = ["--study", "devices/studies/lhifam.toml", "--samples", "300"]
 OTHERS = [
     ["frf", CHIRP, *COLUMNS, "--points"],
     ["frf", MOTION, *COLUMNS],
+    ["frf", CHIRP, "--list"],
     ["frf", CHIRP, *COLUMNS, "--aperiodic", "--lines", "1,2.5,7"],
     ["identify", CHIRP, *COLUMNS, "--structure", LHIFAM, "--free", "link.stiffness,link.damping", "--locked", "handle", "--points"],
     ["identify", CHIRP, *COLUMNS, "--structure", LHIFAM, "--free", "link.stiffness,link.damping", "--locked", "handle"],

@@ -132,6 +132,15 @@ TEST(RelayExperiment, EqualSeedsGiveEqualTrialsOnAnyNumberOfThreads) {
   EXPECT_NE(first[0].friction_factor, first[1].friction_factor);
 }
 
+TEST(RelayExperiment, TakesMoreThreadsThanThereAreWithoutAWarning) {
+  RelayOptions options = options_of(5.0, 0.03);
+  options.duration = 0.5;
+  options.threads = 33;
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(relay_trials(Device(test::reduced_pretension_parameters()), options).size(), 4U);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
 TEST(RelayExperiment, FrictionStrongerThanTheRelayEndsTheMotion) {
   DeviceParameters parameters = test::rigid_parameters();
   parameters.bodies[0].coulomb = 6.0;

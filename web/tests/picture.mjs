@@ -1,4 +1,4 @@
-// Draws docs/workbench.png: the page as the program shows it. usage: node tests/picture.mjs [PROGRAM]
+// Draws docs/workbench.png and docs/workbench_recording.png: the page as the program shows it. usage: node tests/picture.mjs [PROGRAM]
 import { spawn } from 'node:child_process'
 import { dirname, resolve } from 'node:path'
 import { fileURLToPath } from 'node:url'
@@ -12,8 +12,21 @@ const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? 
 const page = await browser.newPage({ viewport: { width: 1280, height: 1180 }, colorScheme: 'light', reducedMotion: 'reduce' })
 await page.goto(address)
 await page.waitForSelector('[data-answer="wall"]')
-await page.waitForTimeout(500)
-await page.waitForFunction(() => document.querySelectorAll('[aria-busy="true"]').length === 0)
+const settled = async () => {
+  await page.waitForTimeout(500)
+  await page.waitForFunction(() => document.querySelectorAll('[aria-busy="true"]').length === 0)
+}
+await settled()
 await page.screenshot({ path: `${project}/docs/workbench.png` })
+for (const known of ['body.motor damping', 'body.handle mass', 'body.handle damping']) await page.getByRole('button', { name: `Lock ${known}`, exact: true }).click()
+await page.getByRole('button', { name: 'Recording', exact: true }).click()
+await page.getByLabel(/choose it/).setInputFiles(`${project}/recordings/locked_chirp.csv`)
+await page.getByLabel('Fit', { exact: true }).selectOption('device')
+await page.getByLabel('handle', { exact: true }).check()
+await page.getByRole('button', { name: 'Fit', exact: true }).click()
+await page.getByRole('button', { name: 'Use this device' }).waitFor()
+await settled()
+await page.evaluate(() => document.querySelector('.in-short')?.style.setProperty('display', 'none')) // it lies over the panel
+await page.locator('#panel-recording').screenshot({ path: `${project}/docs/workbench_recording.png` })
 await browser.close()
 server.kill('SIGINT')

@@ -18,6 +18,7 @@ namespace zwidth::report {
 namespace {
 
 constexpr double study_panel_height = 300.0;
+constexpr double least_gain_shown = 0.001;  // of the yield: the axis where nothing is gained
 constexpr std::string_view bar_colour = "#9db8dc";
 constexpr std::string_view colours[] = {blue, orange, green, purple, red, grey};
 
@@ -44,6 +45,15 @@ std::vector<std::size_t> by_weight(const Study& study) {
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, std::ranges::greater{}, [&](std::size_t j) { return weights[j]; });
   return order;
+}
+
+/// What a parameter's values are drawn in; masses and inertias without a prefix.
+AxisUnit value_axis(const StudyRun& run, const Study& study, std::size_t j) {
+  const std::string unit = results::parameter_unit(study.keys[j], run.device().parameters().motion);
+  if (unit.empty() || unit.starts_with("k")) return {};
+  double largest = 0.0;
+  for (const StudyPoint& each : study.points) largest = std::max(largest, std::abs(each.values[j]));
+  return axis_unit(largest);
 }
 
 /// How a contour is drawn, from the largest share to the least.
@@ -122,9 +132,14 @@ std::optional<std::string> draw_study_scatter(const StudyRun& run, const Study& 
   const std::size_t x = order[0];
   const std::size_t y = order[1];
   const Motion motion = run.device().parameters().motion;
+  const AxisUnit x_axis = value_axis(run, study, x);
+  const AxisUnit y_axis = value_axis(run, study, y);
+  const auto row_of = [&](const std::vector<double>& values) {
+    return fmt::format("{:.9g} {:.9g}\n", values[x] / x_axis.size, values[y] / y_axis.size);
+  };
   std::map<std::pair<int, int>, std::string> rows;  // by status and mode
   for (const StudyPoint& each : study.points) {
-    rows[{static_cast<int>(each.status), each.mode}] += fmt::format("{:.9g} {:.9g}\n", each.values[x], each.values[y]);
+    rows[{static_cast<int>(each.status), each.mode}] += row_of(each.values);
   }
   std::vector<LegendEntry> legend;
   std::string what;
@@ -149,43 +164,72 @@ std::optional<std::string> draw_study_scatter(const StudyRun& run, const Study& 
   std::size_t group = 0;
   for (const auto& [kind, points] : rows) data_block(canvas, fmt::format("group{}", ++group), points);
   if (study.worst) {
-    data_block(canvas, "worst", fmt::format("{:.9g} {:.9g}\n", study.worst->values[x], study.worst->values[y]));
+    data_block(canvas, "worst", row_of(study.worst->values));
   }
-  const auto label = [&](std::size_t j) {
+  const auto label = [&](std::size_t j, const AxisUnit& axis) {
     const std::string unit = results::parameter_unit(study.keys[j], motion);
-    return unit.empty() ? study.keys[j] : fmt::format("{} ({})", study.keys[j], unit);
+    return unit.empty() ? study.keys[j] : fmt::format("{} ({}{})", study.keys[j], axis.prefix, unit);
   };
   canvas.commands(fmt::format("{}\nset offsets graph 0.03, graph 0.03, graph 0.03, graph 0.03\n{}", axes_look(),
-                              y_label(label(y))));
-  x_label(canvas, frame, label(x));
+                              y_label(label(y, y_axis))));
+  x_label(canvas, frame, label(x, x_axis));
   canvas.plot(frame, what + "NaN notitle");
   return canvas.draw(format);
 }
 
 std::optional<std::string> draw_study_tornado(const Study& study, FigureFormat format) {
-  if (!study.sobol_indices) return std::nullopt;
+  const bool of_variance = study.sobol_indices.has_value();
+  if (!of_variance && !study.tightening) return std::nullopt;
   constexpr std::size_t most_bars = 20;
   constexpr double row = 30.0;
   std::vector<std::size_t> order = by_weight(study);
+  if (!of_variance) {
+    std::ranges::stable_sort(order, std::ranges::greater{},
+                             [&](std::size_t j) { return std::abs((*study.tightening)[j].yield_gain); });
+  }
   order.resize(std::min(order.size(), most_bars));
-  const std::string title = fmt::format("What K_CR depends on: share of its variance{}", doubt(study));
-  const Heading heading(title,
-                        {{"a parameter alone", {blue, 8.0}, {}}, {"together with others", {bar_colour, 8.0}, {}}});
+  double low = 0.0;
+  double high = of_variance ? 1.0 : least_gain_shown;
+  for (const std::size_t j : order) {
+    if (of_variance) continue;
+    const TighteningGain& gain = (*study.tightening)[j];
+    low = std::min(low, gain.yield_gain - gain.error);
+    high = std::max(high, gain.yield_gain + gain.error);
+  }
+  const std::string title = fmt::format(
+      "{}{}", of_variance ? "What K_CR depends on: share of its variance" : "Which tolerance to tighten: yield gained",
+      doubt(study));
+  using Legend = std::vector<LegendEntry>;
+  const Heading heading(title, of_variance ? Legend{{"a parameter alone", {blue, 8.0}, {}},
+                                                    {"together with others", {bar_colour, 8.0}, {}}}
+                                           : Legend{{"half the spread of one parameter", {bar_colour, 8.0}, {}},
+                                                    {"standard error", {ink, 1.2}, {}}});
   const double top = heading.bottom() + 16.0;
   const Box frame{frame_left + 180.0, frame_right, top, top + row * static_cast<double>(order.size())};
   Canvas canvas(title, canvas_width, frame.bottom + 62.0);
   heading.draw(canvas);
-  const auto x = [&](double share) { return frame.left + std::clamp(share, 0.0, 1.0) * (frame.right - frame.left); };
+  const auto x = [&](double share) {
+    return frame.left + (std::clamp(share, low, high) - low) / (high - low) * (frame.right - frame.left);
+  };
   for (std::size_t i = 0; i < order.size(); ++i) {
-    const SobolIndex& index = (*study.sobol_indices)[order[i]];
     const double middle = frame.top + row * (static_cast<double>(i) + 0.5);
-    canvas.rectangle({frame.left, x(index.total), middle - 9.0, middle + 9.0}, bar_colour);
-    canvas.rectangle({frame.left, x(index.first), middle - 5.0, middle + 5.0}, blue);
+    if (of_variance) {
+      const SobolIndex& index = (*study.sobol_indices)[order[i]];
+      canvas.rectangle({frame.left, x(index.total), middle - 9.0, middle + 9.0}, bar_colour);
+      canvas.rectangle({frame.left, x(index.first), middle - 5.0, middle + 5.0}, blue);
+    } else {
+      const TighteningGain& gain = (*study.tightening)[order[i]];
+      canvas.rectangle(
+          {x(std::min(gain.yield_gain, 0.0)), x(std::max(gain.yield_gain, 0.0)), middle - 9.0, middle + 9.0},
+          bar_colour);
+      canvas.line(x(gain.yield_gain - gain.error), middle, x(gain.yield_gain + gain.error), middle, {ink, 1.2});
+    }
     canvas.text(frame.left - 8.0, middle, Canvas::fitted(study.keys[order[i]], text_size, frame.left - 16.0),
                 {Anchor::right, text_size});
   }
-  x_label(canvas, frame, "Share of the variance (%)");
-  canvas.commands(fmt::format("{}\nset xrange [0:100]\nset yrange [0:1]\nunset ytics", axes_look()));
+  x_label(canvas, frame, of_variance ? "Share of the variance (%)" : "Yield gained (%)");
+  canvas.commands(fmt::format("{}\nset xrange [{:.9g}:{:.9g}]\nset yrange [0:1]\nunset ytics", axes_look(), 100.0 * low,
+                              100.0 * high));
   canvas.plot(frame, "NaN notitle");
   return canvas.draw(format);
 }

@@ -18,7 +18,8 @@ namespace zwidth::report {
 [[nodiscard]] std::optional<std::string> draw_study_scatter(const StudyRun& run, const Study& study,
                                                             FigureFormat format);
 
-/// Share of the variance of K_CR by parameter: alone, and with others.
+/// Share of the variance of K_CR by parameter: alone, and with others; without Sobol indices what a tighter tolerance
+/// gains.
 [[nodiscard]] std::optional<std::string> draw_study_tornado(const Study& study, FigureFormat format);
 
 /// The walls (K, B) that 99 %, 50 % and 1 % of the units render, with the band of their intervals.

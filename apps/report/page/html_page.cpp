@@ -41,7 +41,7 @@ figure { margin: 1.2rem 0; overflow-x: auto; }
 figure svg { width: 100%; min-width: 620px; height: auto; display: block; background: #fff; border-radius: 4px; }
 @media screen and (prefers-color-scheme: dark) {
   figure svg, figure svg image { filter: invert(.91) hue-rotate(180deg); } }
-figcaption { font-size: .9rem; color: var(--quiet); margin-top: .3rem; }
+figcaption { font-size: .9rem; color: var(--quiet); margin-top: .3rem; padding-bottom: .3rem; }
 .device { border-top: 1px solid var(--line); margin-top: 2.5rem; padding-top: 1rem; }
 footer { margin-top: 2.5rem; padding-top: .6rem; border-top: 1px solid var(--line); font-size: .85rem; color: var(--quiet); }
 @media (max-width: 480px) { body { padding: 1rem .7rem 2rem; } h1 { font-size: 1.4rem; } pre { font-size: .72rem; } th, td { padding: .3rem .45rem; }

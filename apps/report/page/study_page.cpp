@@ -41,7 +41,8 @@ std::string study_page(const StudyRun& run, const Study& study) {
   body += section("Critical stiffness", quantile_table(run, study));
   body += section("What it depends on", parameter_table(study));
   body += figure(draw_study_tornado(study, FigureFormat::svg), "tornado",
-                 "First-order and total Sobol indices: shares of the variance of K_CR.");
+                 study.sobol_indices ? "First-order and total Sobol indices: shares of the variance of K_CR."
+                                     : "Yield gained where one parameter has half its spread, the others theirs.");
   body += figure(draw_study_scatter(run, study, FigureFormat::svg), "scatter",
                  "The two parameters that matter most; every point a unit, coloured by what limits it.");
   if (study.regions) {

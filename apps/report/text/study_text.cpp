@@ -98,8 +98,10 @@ TextTable parameter_table(const Study& study) {
     std::vector<std::string> row{study.keys[j]};
     if (study.sobol_indices) {
       const SobolIndex& index = (*study.sobol_indices)[j];
-      row.push_back(fmt::format("{:.3f} ± {:.3f}", index.first, index.first_error));
-      row.push_back(fmt::format("{:.3f} ± {:.3f}", index.total, index.total_error));
+      constexpr double shown = 0.0005;  // less is 0, not -0
+      const auto share = [](double value) { return std::abs(value) < shown ? 0.0 : value; };
+      row.push_back(fmt::format("{:.3f} ± {:.3f}", share(index.first), index.first_error));
+      row.push_back(fmt::format("{:.3f} ± {:.3f}", share(index.total), index.total_error));
     }
     if (study.tightening) {
       const TighteningGain& gain = (*study.tightening)[j];

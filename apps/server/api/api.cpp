@@ -8,6 +8,7 @@
 
 #include "results/device_json.hpp"
 #include "results/json.hpp"
+#include "results/recording_json.hpp"
 #include "server/api/request_document.hpp"
 #include "zwidth/io/device_file.hpp"
 #include "zwidth/io/recording_file.hpp"
@@ -37,17 +38,9 @@ std::string devices_document(const std::vector<OfferedDevice>& offered) {
 }
 
 std::string contents_document(const std::string& id, std::size_t bytes, const RecordingContents& contents) {
-  Json document = results::document("zwidth.recording/1");
+  Json document = results::recording_json(contents);
   document["id"] = id;
   document["bytes"] = bytes;
-  document["format"] = contents.format == RecordingFormat::mat   ? "mat"
-                       : contents.format == RecordingFormat::uff ? "uff"
-                                                                 : "text";
-  document["columns"] = Json::array();
-  for (const RecordingColumn& each : contents.columns) {
-    document["columns"].push_back({{"name", each.name}, {"samples", each.size}, {"detail", each.detail}});
-  }
-  document["remarks"] = contents.remarks;
   return results::line(document);
 }
 

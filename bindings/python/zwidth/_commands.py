@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import copy
+import functools
 import os
 from pathlib import Path
 from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, Union
@@ -21,15 +23,19 @@ Progress = Optional[Callable[[float], object]]
 
 
 def _real_numbers(where: str, values: npt.ArrayLike, allowed: str) -> npt.NDArray[np.float64]:
-    """One column; a cast to float would drop imaginary parts."""
+    """One column; what is masked is missing. A cast to float alone would drop imaginary parts, masks and units."""
     if np.iscomplexobj(values):
         raise InputError(where, "is complex", allowed)
+    if any(getattr(values, name, None) is not None for name in ("unit", "units")) or _device.is_time(values):
+        raise InputError(where, "has a unit of its own", f"{allowed} without one; of times, seconds")
     try:
         array = np.array(values, dtype=np.float64)
-    except (TypeError, ValueError) as error:
+    except (TypeError, ValueError, OverflowError) as error:
         raise InputError(where, f"is no column of numbers: {error}", allowed) from None
     if array.ndim != 1:
         raise InputError(where, f"has {array.ndim} dimensions", "one")
+    if isinstance(values, np.ma.MaskedArray):
+        array[np.broadcast_to(values.mask, array.shape)] = np.nan
     return array
 
 
@@ -43,18 +49,21 @@ class Recording:
     def __init__(
         self, columns: Mapping[str, npt.ArrayLike], *, sampling_period: Optional[float] = None, name: str = "recording"
     ) -> None:
-        if not name or name.startswith("-"):
+        if not isinstance(name, str) or not name or name.startswith("-"):
             raise InputError("recording", f"{name!r} is no name", "a text that begins with no '-'")
+        _device.text_of("recording", name)
         if not hasattr(columns, "keys"):
             raise InputError(name, f"is of type {type(columns).__name__}", "arrays by name")
         held: List[Tuple[str, npt.NDArray[np.float64]]] = []
         for key in columns:
-            held.append((str(key), _real_numbers(f"{name}: {key}", columns[key], "numbers")))
+            text = _device.text_of(f"{name}: {key!r}", str(key))
+            held.append((text, _real_numbers(f"{name}: {key}", columns[key], "numbers in SI units")))
         if not held:
             raise InputError(name, "has no columns", "arrays by name")
         self.name = name
         self.columns = tuple(key for key, _ in held)
-        self._held = _core.RecordedColumns(name, held, None if sampling_period is None else float(sampling_period))
+        period = None if sampling_period is None else _device.number_of(f"{name}: sampling_period", sampling_period)
+        self._held = _core.RecordedColumns(name, held, period)
 
     def __repr__(self) -> str:
         return f"<zwidth.Recording {self.name!r}: {', '.join(self.columns)}>"
@@ -73,6 +82,7 @@ def _held(recorded: Recorded, number: int) -> Tuple[str, Any]:
             raise InputError("recording", "is a path of bytes", "a path of text")
         if path == "-":
             raise InputError("recording", "is standard input", "a file, or columns")
+        _device.text_of("recording", path)
         return path if not path.startswith("-") else f"./{path}", Path(path)
     if hasattr(recorded, "keys"):
         made = Recording(recorded, name="recording" if number == 0 else f"recording {number + 1}")
@@ -81,23 +91,26 @@ def _held(recorded: Recorded, number: int) -> Tuple[str, Any]:
 
 
 def _value(name: str, value: Any) -> str:
-    if isinstance(value, np.generic):
+    if isinstance(value, np.generic) and not _device.is_time(value):
         value = value.item()
     if isinstance(value, os.PathLike):
         value = os.fspath(value)
     if isinstance(value, str):
         if not value or "\0" in value:
             raise InputError(f"options.{name}", "is empty or has a character of code 0", "a text")
-        return value
+        return _device.text_of(f"options.{name}", value)
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         raise InputError(f"options.{name}", f"is of type {type(value).__name__}", "a number or a text")
-    return repr(value)
+    try:
+        return repr(value)
+    except ValueError:  # Python writes no integer of so many digits
+        raise InputError(f"options.{name}", "is an integer beyond every double", "a finite number") from None
 
 
 def _options(options: Mapping[str, Any]) -> List[Tuple[str, List[str]]]:
     given: List[Tuple[str, List[str]]] = []
     for key, value in options.items():
-        name = key.rstrip("_").replace("_", "-")
+        name = _device.text_of("options", key).rstrip("_").replace("_", "-")
         if isinstance(value, np.bool_):
             value = bool(value)
         if value is None or value is False:
@@ -171,13 +184,13 @@ def sweep(
     device: Device, axis: Union[str, Sequence[str]], *, progress: Progress = None, **options: Option
 ) -> _device_results.Sweep:
     """The limit along one number or two: `axis` is "KEY=FIRST:LAST:COUNT", or with ":log", or two of these."""
-    result: _device_results.Sweep = _result("design", device, (), progress, {"sweep": axis, **options})
+    result: _device_results.Sweep = _result("design", device, (), progress, {**_given("sweep", axis), **options})
     return result
 
 
 def compare(device: Device, values: str, *, progress: Progress = None, **options: Option) -> _device_results.Comparison:
     """Several values of one key side by side: "KEY=VALUE,VALUE"."""
-    result: _device_results.Comparison = _result("design", device, (), progress, {"compare": values, **options})
+    result: _device_results.Comparison = _result("design", device, (), progress, {**_given("compare", values), **options})
     return result
 
 
@@ -191,7 +204,7 @@ def design_targets(
     device: Device, target: Union[float, str], *, progress: Progress = None, **options: Option
 ) -> _device_results.DesignTargets:
     """What each number alone must be for the limit to reach `target`, N/m or N m/rad."""
-    result: _device_results.DesignTargets = _result("design", device, (), progress, {"target": target, **options})
+    result: _device_results.DesignTargets = _result("design", device, (), progress, {**_given("target", target), **options})
     return result
 
 
@@ -280,13 +293,13 @@ def study(
     if isinstance(study, Mapping):
         held = _core.study_toml(_device.json_of(study, "study"))
     elif isinstance(study, str) and "\n" in study:
-        held = study
+        held = _device.text_of("study", study)
     elif isinstance(study, (str, os.PathLike)) and isinstance(os.fspath(study), str):
         if not os.fspath(study) or "\0" in os.fspath(study):
             raise InputError("study", "is empty or has a character of code 0", "a path")
         if os.fspath(study) == "-":
             raise InputError("study", "is standard input", "a file, a text, or a dict")
-        held = Path(os.fspath(study))
+        held = Path(_device.text_of("study", os.fspath(study)))
     else:
         raise InputError("study", f"is of type {type(study).__name__}", "a path, a text, or a dict")
     result: _device_results.Study = _result("study", device, (), progress, options, held)
@@ -301,7 +314,18 @@ def model(device: Device) -> _results.Model:
 
 def export(device: Device, format: str, **options: Option) -> str:
     """The model or the wall as the text of a program: "octave", "python", "json", "c" or "chai3d"."""
-    return _run("export", device, (), None, {"format": format, **options}).printed
+    text = _run("export", device, (), None, {"format": format, **options}).printed
+    # The text says what is doubtful; so does the document of the same device.
+    described = _run("export", device, (), None, {"format": "json", "set": options.get("set")})
+    warn_of_document(described.value(""))
+    return text
+
+
+def _given(name: str, value: Any) -> Dict[str, Any]:
+    """The option that asks for this answer; left out, another answer would come."""
+    if value is None or isinstance(value, (bool, np.bool_)) or np.size(value) == 0:
+        raise InputError(f"options.{name}", f"is {value!r}", "a value")
+    return {name: value}
 
 
 def _refuse(command: str, options: Mapping[str, Any], *names: str) -> None:
@@ -320,15 +344,26 @@ class CriticalStiffnessMany:
         """K_CR, N/m or N m/rad: 0 where none is stable, inf where unbounded, NaN where refused or failed."""
         self.critical_frequency_rad_s: npt.NDArray[np.float64] = columns["critical_frequency_rad_s"]
         """rad/s; NaN unless finite."""
-        self.status: List[str] = columns["status"]
-        """As of Analysis."""
-        self.limited_by: List[Optional[Dict[str, Any]]] = columns["limited_by"]
-        """{"kind": ...}; None unless finite."""
         self.reasons: Dict[int, List[str]] = columns["reasons"]
         """By index: why an element is refused, doubtful or failed."""
+        self.scalar_count: int = columns["scalar_count"]
+        """Devices that critical_stiffness() answered one by one, not the kernel of many (docs/batch.md)."""
+        self._columns = columns
+
+    @functools.cached_property
+    def status(self) -> List[str]:
+        """As of Analysis."""
+        names = self._columns["statuses"]
+        return [names[code] for code in self._columns["status"].tolist()]
+
+    @functools.cached_property
+    def limited_by(self) -> List[Optional[Dict[str, Any]]]:
+        """{"kind": ...}; None unless finite."""
+        mechanisms = self._columns["mechanisms"]
+        return [copy.copy(mechanisms[mode]) for mode in self._columns["limited_by"].tolist()]
 
     def __len__(self) -> int:
-        return len(self.status)
+        return len(self.critical_stiffness)
 
     def __repr__(self) -> str:
         return f"<zwidth.CriticalStiffnessMany of {len(self)}, {len(self.reasons)} with reasons>"
@@ -356,7 +391,7 @@ _COMMANDS = {
 
 def options(command: str) -> Dict[str, str]:
     """What each option of a command says of itself, by keyword: the program's own declarations."""
-    listed = _core.options(command)
+    listed = _core.options(command) if command in _core.commands() else []
     if not listed:
         raise InputError("command", f"{command!r} is none", ", ".join(sorted(_core.commands())))
     return {

@@ -20,6 +20,21 @@ def text_of(where: str, text: str) -> str:
     return text
 
 
+def number_of(where: str, value: Any) -> float:
+    """A number in SI units as a float."""
+    if isinstance(value, bool) or not isinstance(value, numbers.Real) or is_time(value):
+        raise InputError(where, f"is of type {type(value).__name__}", "a number in SI units")
+    try:
+        return float(value)
+    except OverflowError:
+        raise InputError(where, "is an integer beyond every double", "a finite number") from None
+
+
+def is_time(value: Any) -> bool:
+    """Whether NumPy's or pandas' dates or durations, which pass for numbers of a unit of their own: 1 ms for 1, or 10^6."""
+    return getattr(getattr(value, "dtype", None), "kind", "") in ("m", "M")
+
+
 def _plain(where: str, value: Any) -> Any:
     """A value with NumPy's numbers and arrays as Python's."""
     if isinstance(value, str):
@@ -30,6 +45,8 @@ def _plain(where: str, value: Any) -> Any:
         raise InputError(where, "is None", "a value; what is not known is left out")
     if isinstance(value, Mapping):
         return {text_of(where, str(key)): _plain(f"{where}.{key}", each) for key, each in value.items()}
+    if is_time(value):
+        raise InputError(where, f"is of type {type(value).__name__}", 'a number of seconds, or a text such as "1 ms"')
     if isinstance(value, numbers.Integral):
         if abs(int(value)) > sys.float_info.max:
             raise InputError(where, "is an integer beyond every double", "a finite number")

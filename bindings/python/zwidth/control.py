@@ -57,7 +57,7 @@ def from_control(system: Any, *, sampling_period: float, **loop: Any) -> Device:
     `loop`: further keys of [loop]. A state space is converted without rounding: a conversion in double precision moves a
     rigid body's pole away from s = 0, where it grows. Coefficients of a transfer function are taken as they are.
     Raises InputError for other systems, other numbers of inputs or outputs, force that passes straight to the position,
-    and a discrete system: the hold is zwidth's.
+    a state space with an integrator that force or position does not reach, and a discrete system: the hold is zwidth's.
     """
     control = _module()
     if not isinstance(system, (control.TransferFunction, control.StateSpace)):
@@ -70,6 +70,9 @@ def from_control(system: Any, *, sampling_period: float, **loop: Any) -> Device:
         if np.any(system.D):
             raise InputError("system", "passes force straight to the position", "D = 0")
         fraction = _core.transfer_function_of(system.A, system.B, system.C)
+        if fraction["numerator"][-1] == 0.0 and fraction["denominator"][-1] == 0.0:
+            what = "has an integrator that the force does not move or the position does not show: it may drift unseen"
+            raise InputError("system", what, "the system without that state")
     else:
         fraction = {"numerator": system.num[0][0], "denominator": system.den[0][0]}
     return Device(transfer_function=fraction, loop={"sampling_period": sampling_period, **loop})

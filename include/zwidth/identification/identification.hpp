@@ -37,14 +37,32 @@ struct IdentifyOptions {
   enum class FrictionSearch { thorough, brief } friction_search = FrictionSearch::thorough;  ///< in time too
 };
 
-/// A structure for which there is no device file: bodies in a row, each linked to the next, the first actuated and
-/// sensed, the last held. Every number is 1 and stands for nothing: IdentifyOptions::StructureValues::placeholders.
+/// A structure for which there is no device file.
+struct NamedStructure {
+  DeviceParameters parameters;  ///< every number but the sampling period is 1 and stands for nothing
+  IdentifyOptions::StructureValues values = IdentifyOptions::StructureValues::placeholders;  ///< to fit it with
+};
+
+/// How a named structure moves, and the loop to judge.
+struct NamedStructureOptions {
+  Motion motion = Motion::linear;              ///< linear or rotary
+  std::optional<double> sampling_period = {};  ///< s, of the loop; absent: record_period
+  std::optional<double> record_period = {};    ///< s, of the recording; absent: it has none, as a table of a response
+};
+
+/// Whether a structure is called so: "rigid", "two-body" or "three-body".
+[[nodiscard]] bool names_structure(std::string_view name);
+
+/// Bodies in a row, each linked to the next, the first actuated and sensed, the last held:
 ///
 ///     "rigid": body      "two-body": motor, handle      "three-body": motor, body, handle
 ///
-/// Nothing for any other name.
-[[nodiscard]] std::optional<DeviceParameters> named_structure(std::string_view name, Motion motion,
-                                                              double sampling_period);
+/// Nothing for any other name. Throws Error where find_problem(options) finds something.
+[[nodiscard]] std::optional<NamedStructure> named_structure(std::string_view name,
+                                                            const NamedStructureOptions& options);
+
+/// A sampling period must be finite and above 0; one of the two must be given.
+[[nodiscard]] std::optional<OptionProblem> find_problem(const NamedStructureOptions& options);
 
 /// Checks both parts; members are named "response.overlap", "fit.robust_threshold", ...
 [[nodiscard]] std::optional<OptionProblem> find_problem(const IdentifyOptions& options);

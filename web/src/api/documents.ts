@@ -209,7 +209,10 @@ export interface FrequencyResponse {
   trust: Trust
   remarks: Remark[]
 }
-export interface Identification extends Judged {
+export interface Identification extends Omit<Judged, 'units'> {
+  /** Without: of inverse dynamics, which state no limit. */
+  units?: Judged['units']
+  relative_residual?: number
   parameters: { key: string; value: number; unit: string; interval: [number, number] | null; identifiable: boolean }[]
   misfit: number | null
   status: string

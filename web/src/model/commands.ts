@@ -82,7 +82,8 @@ export function commandLine(command: string, options: Options = {}, text = workb
 /** The text's own end of a raw string must not occur in it. */
 export function cppCode(toml = workbench.toml): string {
   const end = unused('toml', (each) => !toml.includes(`)${each}"`))
-  return `#include <iostream>
+  return `#include <iomanip>
+#include <iostream>
 #include <string>
 #include <zwidth/zwidth.hpp>
 
@@ -99,7 +100,7 @@ int main() {
   if (analysis.trust.refused()) {
     return 1;
   }
-  std::cout << analysis.critical.stiffness << '\\n';  // infinite: every wall is stable
+  std::cout << std::setprecision(17) << analysis.critical.stiffness << '\\n';  // infinite: every wall is stable
 }
 `
 }

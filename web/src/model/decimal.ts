@@ -60,6 +60,8 @@ export function shown(value: number, unit: string, digits?: number): Shown {
   if (!Number.isFinite(value)) return { number: String(value), unit, places: 0 }
   const decimal = decimalOf(text)
   if (decimal.digits === '0' || !takesPrefix(unit)) return { number: textOf(decimal), unit, places: 0 }
+  // Beyond the prefixes a power of ten says more than a prefix beside one.
+  if (decimal.exponent < -12 || decimal.exponent > 12) return { number: textOf(decimal), unit, places: 0 }
   // From 0.1 to 1000 a number reads best without a prefix.
   const [places, prefix] = decimal.exponent === -1 ? [0, ''] : (prefixes.find(([power]) => decimal.exponent >= power) ?? prefixes[prefixes.length - 1]!)
   return { number: textOf({ ...decimal, exponent: decimal.exponent - places }), unit: prefix + unit, places }

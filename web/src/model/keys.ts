@@ -177,3 +177,14 @@ export function deviceKey(toml = ''): string {
 /** link.stiffness and link.0.stiffness are one, as are mass and inertia. */
 export const fullKey = (key: string): string => key.replace(/^link\.(?=[a-z])/, 'link.0.').replace(/\.inertia$/, '.mass')
 export const sameKey = (a: string, b: string): boolean => a === b || fullKey(a) === fullKey(b)
+
+/** What the page calls a number: "Body “motor”: mass". */
+export const titleOf = (group: Group, row: Row): string => `${group.title}: ${row.field.label}`
+
+/** A text of the program with the page's names in place of the file's keys. */
+export function inWords(text: string, groups: Group[]): string {
+  if (!/[a-z]\.[^\s]*[a-z]/.test(text)) return text
+  const names = groups.flatMap((group) => group.rows.map((row): [string, string] => [row.key, titleOf(group, row)]))
+  for (const [key, name] of names.sort(([a], [b]) => b.length - a.length)) text = text.replaceAll(key, name)
+  return text
+}

@@ -42,6 +42,15 @@ export const causeWord: Record<string, string> = {
   force_limit: 'the force limit',
 }
 
+/** The numbers of a fit by inverse dynamics. */
+export const rigidBodyWord: Record<string, string> = {
+  mass: 'mass',
+  viscous: 'damping',
+  coulomb: 'dry friction',
+  offset: 'constant force',
+  delay: 'delay from force to motion',
+}
+
 export const glossary: Record<string, string> = {
   'critical stiffness': 'The stiffest wall that the device renders stably when nobody holds it: any stiffer, and it oscillates by itself.',
   'any passive user': 'The stiffest wall that stays stable whoever holds the device, as long as the hand only takes energy and gives none.',

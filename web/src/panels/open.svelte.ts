@@ -1,3 +1,6 @@
+import { tick } from 'svelte'
+import { fullKey, sameKey } from '../model/keys'
+import { assumedKeys } from '../model/parts'
 import { workbench } from '../model/workbench.svelte'
 
 /** Which panels are open; the palette opens them too. */
@@ -34,7 +37,7 @@ export function showLine(line: number): void {
 
 export function showPanel(id: string): void {
   panels[id] = true
-  setTimeout(() => {
+  void tick().then(() => {
     const panel = document.getElementById(`panel-${id}`)
     if (!panel) return
     keepAtTop(panel)
@@ -68,4 +71,18 @@ export function showAnswer(): void {
   const title = document.getElementById('answer-title')
   title?.scrollIntoView({ block: 'start' })
   title?.focus({ preventScroll: true })
+}
+
+/** That number's field, ready to be typed over. */
+export function goTo(key: string): void {
+  workbench.selected = workbench.groups.find((group) => group.rows.some((row) => sameKey(row.key, key)))?.id ?? ''
+  void tick().then(() => document.querySelector<HTMLInputElement>(`[data-key="${CSS.escape(fullKey(key))}"] input`)?.focus())
+}
+
+/** A new device: its numbers are only to begin with, and one goes on with the first of them. */
+export function beginWith(toml: string): void {
+  workbench.load(toml)
+  showAnswer()
+  const [first] = assumedKeys(toml)
+  if (first !== undefined) goTo(first)
 }

@@ -37,6 +37,10 @@ it('takes the unit of a column, to which the remark on counts leads', async () =
 it.each([1280, 390])('breaks no number of a wall over lines, %i pixels wide', async (width) => {
   const { page, complaints } = await openPage(here, width)
   await runPalette(page, 'new motor and wheel, rotary')
+  for (const [key, text] of [['body.motor.mass', '1.2e-4'], ['body.motor.damping', '2e-3'], ['body.wheel.mass', '22 kg cm2'], ['link.0.stiffness', '900'], ['loop.delay', '0.2 ms']] as const) await type(page, key, text)
+  await runPalette(page, 'go to encoder step')
+  await page.keyboard.type('1 turn/10000')
+  await page.keyboard.press('Enter')
   await runPalette(page, 'show: which wall')
   await page.getByRole('button', { name: 'Use this wall: recommended' }).waitFor()
   await settled(page)
@@ -149,6 +153,91 @@ it('does not call a device sure whose numbers are assumed, in a link neither', a
     return effect && slider && effect.getBoundingClientRect().left < slider.getBoundingClientRect().right && effect.getBoundingClientRect().top < slider.getBoundingClientRect().bottom
   }).length)
   expect(over).toBe(0)
+  expect(complaints).toEqual([])
+  await page.context().close()
+})
+
+it('forgets with a new file what was said of the one before', async () => {
+  const { page, complaints } = await openPage(here, 1280)
+  await runPalette(page, 'show: from a recording')
+  await page.getByLabel(/choose it/).setInputFiles(`${project}/recordings/locked_chirp.csv`)
+  await page.getByLabel('One unit of the position is').fill('1 mm')
+  await page.getByLabel('Samples per second').fill('2000')
+  await page.getByLabel('Samples of a segment').fill('512')
+  await page.getByLabel('handle', { exact: true }).check()
+  await page.getByLabel(/choose it/).setInputFiles(`${project}/recordings/free_motion.csv`)
+  await page.locator('#body-recording', { hasText: 'free_motion.csv: text' }).waitFor()
+  const fields = ['One unit of the force is', 'One unit of the position is', 'Samples per second', 'Samples of a segment']
+  expect(await Promise.all(fields.map((each) => page.getByLabel(each).inputValue()))).toEqual(['', '', '', ''])
+  expect(await page.getByLabel('handle', { exact: true }).isChecked()).toBe(false)
+  expect(complaints).toEqual([])
+  await page.context().close()
+})
+
+it('reads a text as it is stated', async () => {
+  const file = `${folder}/semicolons.csv`
+  writeFileSync(file, readFileSync(`${project}/recordings/locked_chirp.csv`, 'utf8').replaceAll(',', ';').replaceAll('.', ','))
+  const { page, complaints } = await openPage(here, 1280)
+  await runPalette(page, 'show: from a recording')
+  await page.getByLabel(/choose it/).setInputFiles(file)
+  await page.getByText('How the file is read').click()
+  const panel = page.locator('#body-recording')
+  await page.getByLabel('Columns are separated by').selectOption('tab')
+  await panel.locator('details [role="alert"]', { hasText: 'has no rows of numbers' }).waitFor()
+  await page.getByLabel('Columns are separated by').selectOption('semicolon')
+  await page.getByLabel('Decimal mark').selectOption('comma')
+  await page.getByLabel('Names of the columns').selectOption('no-header')
+  await expect.poll(() => page.getByLabel('Force (commanded)').locator('option').allInnerTexts()).toEqual(['choose', '1', '2', '3'])
+  await page.getByLabel('Names of the columns').selectOption('header')
+  await expect.poll(() => page.getByLabel('Force (commanded)').inputValue()).toBe('force')
+  await page.getByLabel('Samples of a segment').fill('512')
+  await page.getByRole('button', { name: 'Fit', exact: true }).click()
+  await page.getByRole('button', { name: 'Use this device' }).waitFor()
+  await settled(page)
+  const stated = ['--delimiter', 'semicolon', '--decimal', 'comma', '--header', '--force', 'force', '--position', 'position', '--segment', '512']
+  const fitted = documentOf('identify', file, ...stated, '--structure', 'two-body', '--motion', 'linear')
+  const measured = documentOf('frf', file, ...stated)
+  const shown = await panel.innerText()
+  expect(shown).toContain(`The device fitted: critical stiffness ${say(Number(fitted.critical_stiffness), 'N/m')}`)
+  expect(shown).toContain(`shows a critical stiffness of ${say(Number(measured.critical_stiffness), 'N/m')}`)
+  expect(complaints).toEqual([])
+  await page.context().close()
+})
+
+it('marks the page while a file is dragged over it', async () => {
+  const { page, complaints } = await openPage(here, 1280)
+  const drag = (type: string): Promise<void> =>
+    page.evaluate((name) => {
+      const dataTransfer = new DataTransfer()
+      dataTransfer.items.add(new File(['x'], 'x.csv'))
+      document.querySelector('h1')!.dispatchEvent(new DragEvent(name, { dataTransfer, bubbles: true, cancelable: true }))
+    }, type)
+  const mark = page.getByText('Drop a recording (CSV, MAT, UFF) or a device file (TOML)')
+  expect(await mark.count()).toBe(0)
+  await drag('dragover')
+  await mark.waitFor()
+  await drag('dragleave')
+  await mark.waitFor({ state: 'detached' })
+  await drag('dragover')
+  await mark.waitFor()
+  await drag('drop')
+  await mark.waitFor({ state: 'detached' })
+  expect(complaints).toEqual([])
+  await page.context().close()
+})
+
+it('draws no label of a crossover over another, 390 pixels wide', async () => {
+  const { page, complaints } = await openPage(here, 390)
+  for (const delay of ['0', '0.5 ms', '1 ms']) {
+    await type(page, 'loop.delay', delay)
+    await runPalette(page, 'show: frequency response')
+    await settled(page)
+    const boxes = await page.locator('svg[aria-label="Bode magnitude"] g.mark text').evaluateAll((all) => all.map((each) => each.getBoundingClientRect()))
+    expect(boxes.length).toBeGreaterThan(1)
+    for (const [i, a] of boxes.entries()) {
+      for (const b of boxes.slice(i + 1)) expect(a.left >= b.right || a.right <= b.left || a.top >= b.bottom || a.bottom <= b.top).toBe(true)
+    }
+  }
   expect(complaints).toEqual([])
   await page.context().close()
 })

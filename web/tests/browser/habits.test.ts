@@ -1,6 +1,7 @@
 // What stood in the way of people who were new to it.
 import { expect, it } from 'vitest'
-import { documentOf, openPage, place, project, row, runPalette, settled, type } from './program'
+import { say } from '../../src/model/decimal'
+import { alone, documentOf, openPage, place, project, row, runPalette, settled, type } from './program'
 
 const here = place('devices/lhifam.toml')
 const focused = '[data-key]:has(input[type="text"]:focus)'
@@ -144,4 +145,110 @@ it('shows the limits while one works further down, and with a user the limit tha
     expect(complaints).toEqual([])
     await context.close()
   }
+})
+
+it('fits one rigid body by inverse dynamics', async () => {
+  const { page, context, complaints } = await openPage(here, 1280)
+  await runPalette(page, 'show: from a recording')
+  await page.getByLabel(/choose it/).setInputFiles(`${project}/recordings/free_motion.csv`)
+  await page.getByLabel('By', { exact: true }).selectOption('inverse-dynamics')
+  await page.getByRole('button', { name: 'Fit', exact: true }).click()
+  await page.getByRole('button', { name: 'Use this device' }).waitFor()
+  await settled(page)
+  const found = documentOf('identify', 'recordings/free_motion.csv', '--force', 'force', '--position', 'position', '--method', 'inverse-dynamics') as { parameters: { value: number; unit: string }[] }
+  const shown = await page.locator('#body-recording').innerText()
+  for (const each of found.parameters) expect(shown).toContain(say(each.value, each.unit))
+  expect(shown).toContain('trust: sound')
+  // The device, without its friction, over what was measured: 1/(m w^2) where it moves as a mass.
+  await page.locator('#body-recording .legend', { hasText: 'fitted, without dry friction' }).first().waitFor()
+  await settled(page)
+  await page.getByRole('button', { name: 'Table of Response, magnitude' }).click()
+  const drawn = (await page.locator('#body-recording .table-scroll tbody tr').filter({ hasText: 'fitted' }).last().locator('td').allInnerTexts()).slice(1).map(Number)
+  expect(drawn[1]).toBeCloseTo(-20 * Math.log10(found.parameters[0]!.value * (2 * Math.PI * drawn[0]!) ** 2), 0)
+  await page.getByRole('button', { name: 'Use this device' }).click()
+  await settled(page)
+  expect(await row(page, 'body.body.coulomb').locator('input[type="text"]').inputValue()).toBe(say(found.parameters[2]!.value, 'N'))
+  expect(complaints).toEqual([])
+  await context.close()
+})
+
+it('asks of a device fitted with a body held for that body’s numbers, until they are given', async () => {
+  const { page, context, complaints } = await openPage(here, 1280)
+  await runPalette(page, 'show: from a recording')
+  await page.getByLabel(/choose it/).setInputFiles(`${project}/recordings/locked_chirp.csv`)
+  await page.getByLabel('handle', { exact: true }).check()
+  await page.getByRole('button', { name: 'Fit', exact: true }).click()
+  await page.getByRole('button', { name: 'Use this device' }).click()
+  const assumed = page.locator('[data-answer="assumed"]')
+  await assumed.waitFor()
+  expect(await assumed.innerText()).toContain('Body “handle”: mass, damping.')
+  // In the page's words, not the file's keys.
+  expect(await page.locator('[data-panel="answer"]').innerText()).toContain('the data do not determine Body “motor”: damping, Link motor – handle: damping')
+  await type(page, 'body.handle.mass', '5.1')
+  await type(page, 'body.handle.damping', '3.4')
+  await assumed.waitFor({ state: 'detached' })
+  // What only its sum showed: known, locked, and fitted again.
+  await type(page, 'body.motor.damping', '0.1')
+  for (const key of ['body.motor damping', 'body.handle mass', 'body.handle damping']) await page.getByRole('button', { name: `Lock ${key}`, exact: true }).click()
+  await page.getByLabel('Fit', { exact: true }).selectOption('device')
+  await page.getByRole('button', { name: 'Fit', exact: true }).click()
+  await page.locator('#body-recording', { hasText: /trust: sound[^]*trust: sound/ }).waitFor({ timeout: 30_000 })
+  await page.getByRole('button', { name: 'Use this device' }).click()
+  await page.locator('[data-answer="trust"]', { hasText: 'sound' }).waitFor()
+  expect(parseFloat(await alone(page))).toBeCloseTo(8.849, 1)
+  expect(complaints).toEqual([])
+  await context.close()
+})
+
+it('types over what stands in a field, however one came there, and takes it back with Escape', async () => {
+  const { page, context, complaints } = await openPage(here, 1280)
+  await page.getByRole('button', { name: /^Body motor/ }).focus()
+  await page.keyboard.press('Enter')
+  const mass = row(page, 'body.motor.mass').locator('input[type="text"]')
+  await expect.poll(() => mass.evaluate((each) => document.activeElement === each)).toBe(true)
+  await page.keyboard.type('0.4')
+  await page.keyboard.press('Escape')
+  expect(await mass.inputValue()).toBe('0.3 kg')
+  await row(page, 'body.motor.damping').locator('input[type="text"]').click()
+  await page.keyboard.type('0.2')
+  await page.keyboard.press('Enter')
+  await settled(page)
+  expect(await row(page, 'body.motor.damping').locator('input[type="text"]').inputValue()).toBe('0.2 N s/m')
+  expect(await mass.inputValue()).toBe('0.3 kg')
+  expect(complaints).toEqual([])
+  await context.close()
+})
+
+it('takes what the program says to write instead of a frequency and of counts', async () => {
+  const { page, context, complaints } = await openPage(here, 1280)
+  await type(page, 'loop.sampling_period', '2 kHz')
+  await page.getByRole('button', { name: 'Take 0.0005 s' }).click()
+  await runPalette(page, 'go to encoder step')
+  await page.keyboard.type('200 counts/mm')
+  await page.keyboard.press('Enter')
+  await page.getByRole('button', { name: 'Take 1 mm/200' }).click()
+  await settled(page)
+  const found = documentOf('analyze', 'devices/lhifam.toml', '--set', 'loop.sampling_period=0.5 ms') as { critical_stiffness: number }
+  expect(await alone(page)).toBe(say(found.critical_stiffness, 'N/m'))
+  expect(await row(page, 'sensor.resolution').locator('input[type="text"]').inputValue()).toBe('1 mm/200')
+  expect(complaints).toEqual([])
+  await context.close()
+})
+
+it('goes on with the first number of a new device, and the palette goes to a number before it locks it', async () => {
+  const { page, context, complaints } = await openPage(here, 1280)
+  await runPalette(page, 'new motor and wheel, rotary')
+  const inertia = row(page, 'body.motor.mass').locator('input[type="text"]')
+  await expect.poll(() => inertia.evaluate((each) => document.activeElement === each)).toBe(true)
+  await page.keyboard.type('1.2e-4')
+  await runPalette(page, 'wheel inertia')
+  await page.keyboard.type('22 kg cm2')
+  await page.keyboard.press('Enter')
+  await settled(page)
+  expect(await page.locator('[data-answer="assumed"]').innerText()).toContain('Body “motor”: damping; Link motor – wheel')
+  await runPalette(page, 'they are right')
+  await page.locator('[data-answer="assumed"]').waitFor({ state: 'detached' })
+  expect(await page.locator('[data-answer="trust"]').innerText()).toContain('sound')
+  expect(complaints).toEqual([])
+  await context.close()
 })

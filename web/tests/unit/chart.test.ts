@@ -1,6 +1,7 @@
 import { describe, expect, it } from 'vitest'
+import { placeLabels } from '../../src/chart/labels'
 import { csvOf } from '../../src/chart/save'
-import { axisUnit, extent, pathOf, pixel, roundEnd, ticks, valueAt, type Scale } from '../../src/chart/scale'
+import { axisUnit, bandOf, extent, pathOf, pixel, roundEnd, ticks, valueAt, type Scale } from '../../src/chart/scale'
 import { setsFrom } from '../../src/model/commands'
 
 const linear: Scale = { log: false, from: 0, to: 10, start: 50, end: 450 }
@@ -48,6 +49,35 @@ describe('scale', () => {
     const path = pathOf(xs, ys, linear, { ...linear, start: 100, end: 0 })
     expect(path).toMatch(/ 10(L|$)/)
     expect(path.length).toBeLessThan(100_000)
+  })
+})
+
+describe('labels of marks', () => {
+  const within = { left: 52, right: 360, top: 0, bottom: 196 }
+  it('stand beside their marks, and none over another or over a mark', () => {
+    const points = [[200, 100], [206, 103], [212, 98], [340, 20], [345, 12]].map(([x, y], i) => ({ x: x!, y: y!, label: `${i}5.8 kN/m` }))
+    const places = placeLabels(points, within)
+    const boxes = places.map((place, i) => {
+      const width = points[i]!.label.length * 6.4
+      return { left: place!.anchor === 'start' ? place!.x : place!.x - width, right: place!.anchor === 'start' ? place!.x + width : place!.x, top: place!.y - 10, bottom: place!.y + 3 }
+    })
+    for (const [i, a] of boxes.entries()) {
+      expect(a.left >= within.left && a.right <= within.right && a.top >= within.top && a.bottom <= within.bottom).toBe(true)
+      for (const b of boxes.slice(i + 1)) expect(a.left >= b.right || a.right <= b.left || a.top >= b.bottom || a.bottom <= b.top).toBe(true)
+    }
+    expect(places[0]).toEqual({ x: 193, y: 94, anchor: 'end' })
+  })
+
+  it('leave out what has no place', () => {
+    expect(placeLabels([{ x: 60, y: 10, label: 'far too long for so narrow a plot as this' }], { left: 52, right: 100, top: 0, bottom: 40 })).toEqual([null])
+  })
+})
+
+describe('a band', () => {
+  const y: Scale = { log: false, from: 0, to: 10, start: 100, end: 0 }
+  it('is one closed piece per run, down to the axis where it has no lower end', () => {
+    // x 0 to 4: pixels 50, 90, ... ; the lower end of the third is none, the fourth is not measured at all.
+    expect(bandOf([0, 1, 2, 3, 4], [1, 2, null, null, 3], [3, 4, 5, null, 6], linear, y)).toBe('M50 90L90 80L130 100L130 50L90 60L50 70ZM210 70L210 40Z')
   })
 })
 

@@ -24,6 +24,8 @@ describe('decimal', () => {
     expect(say(0.005, 'kg m²')).toBe('0.005 kg m²')
     expect(say(3.14e-6, 'm')).toBe('3.14 µm')
     expect(say(null, 'N/m')).toBe('none')
+    expect(say(1.089e-28, 'N/m')).toBe('1.089e-28 N/m') // not "1.089e-19 nN/m"
+    expect(say(2e-12, 's')).toBe('0.002 ns')
     expect(say(99995, 'N/m')).toBe('100 kN/m')
     expect(percent(0.000406)).toBe('+0.041 %')
     expect(percent(-0.1338)).toBe('−13.4 %')
