@@ -61,6 +61,7 @@ struct Rig {
   Outputs& outputs;
   rig::RigOptions options;
   std::unique_ptr<rig::Driver> driver;
+  const std::string& lost_record;  ///< why the flight record is not in the file that was named; empty: it is
   std::optional<bool> watchdog_proved = {};
 };
 
@@ -109,18 +110,29 @@ double amplitude_of(const Rig& rig) {
   return amplitude;
 }
 
-/// Writes what was asked for, and prints the answer; a rig that stopped has failed.
+/// Writes what was asked for (`put`: beside the report), and prints the answer: a device cannot be asked again, so that a
+/// file that fails does not take the answer with it. A rig that stopped has failed.
 template <typename Result>
-void answer(const Rig& rig, const Result& result, const RigSession& session) {
-  rig.outputs.put("--report", [&] { return report::rig_page(rig.device, result); });
-  rig.outputs.commit();
+void answer(
+    const Rig& rig, const Result& result, const RigSession& session, const std::function<void()>& put = [] {}) {
+  std::string lost = rig.lost_record;
+  try {
+    put();
+    rig.outputs.put("--report", [&] { return report::rig_page(rig.device, result); });
+    rig.outputs.commit();
+  } catch (const report::OutputFailed& failure) {
+    lost = failure.what();
+  }
   if (rig.arguments.output.json) {
     write_warnings(session.remarks);
     write_standard_output(results::line(results::rig_json(rig.device, result)));
   } else {
     write_text(report::rig_text(rig.device, result));
   }
-  if (session.stop != StopReason::none) throw WorkFailed("the rig stopped: " + explanation(session));
+  if (session.stop == StopReason::none && lost.empty()) return;
+  if (session.stop == StopReason::none) throw report::OutputFailed(lost);
+  if (!lost.empty()) write_standard_error(fmt::format("zwidth: {}\n", lost));
+  throw WorkFailed("the rig stopped: " + explanation(session));
 }
 
 rig::MeasureOptions measure_options(const Rig& rig) {
@@ -170,32 +182,33 @@ void run_check(const Rig& rig) {
   const double duration = rig.arguments.duration.value_or(checked_duration);
   RigCheck result = rig::check(rig.device, *rig.driver, rig.options, duration);
   result.watchdog_proved = rig.watchdog_proved;
-  if (result.session.stop == StopReason::none) {
+  answer(rig, result, result.session, [&] {
+    if (result.session.stop != StopReason::none) return;
     rig.outputs.put("--output-device", [&] { return measured_device(rig, result); });
     rig.outputs.put("--delays", [&] { return delays_text(rig, result.session.timing); });
-  }
-  answer(rig, result, result.session);
+  });
 }
 
 void run_measure(const Rig& rig) {
   const rig::MeasureOptions options = measure_options(rig);
   ProgressLine line("measuring");
   const RigMeasurement result = rig::measure(rig.device, *rig.driver, rig.options, options, line.progress());
-  if (result.response) rig.outputs.put("--recording", [&] { return recording_csv(result.recording); });
-  answer(rig, result, result.session);
+  answer(rig, result, result.session, [&] {
+    if (result.response) rig.outputs.put("--recording", [&] { return recording_csv(result.recording); });
+  });
 }
 
 void run_identify(const Rig& rig) {
   const rig::MeasureOptions options = measure_options(rig);
   ProgressLine line("identifying");
   const RigIdentification result = rig::identify_on_rig(rig.device, *rig.driver, rig.options, options, line.progress());
-  if (result.identification) {
+  answer(rig, result, result.measurement.session, [&] {
+    if (!result.identification) return;
     rig.outputs.put("--recording", [&] { return recording_csv(result.measurement.recording); });
     rig.outputs.put("--output-device", [&] {
       return write_device(result.identification->fit.device.parameters(), result.identification->remarks);
     });
-  }
-  answer(rig, result, result.measurement.session);
+  });
 }
 
 void run_relay_on_rig(const Rig& rig) {
@@ -313,6 +326,7 @@ void run_rig(const RigArguments& arguments) {
   check_permission(arguments, analysis.trust);
   if (arguments.action == "wall") check_wall(arguments, device, analysis);
   all.require_writable();
+  std::string lost_record;
   options.record = [&](const rig::FlightRecorder& recorder, StopReason stop) {
     if (arguments.flight_record.empty()) {
       if (stop != StopReason::none) keep_flight_record(recorder);
@@ -321,9 +335,10 @@ void run_rig(const RigArguments& arguments) {
     try {
       flight.put("--flight-record", [&](const report::Sink& sink) { recorder.write(sink); });
       flight.commit();
-    } catch (const report::OutputFailed&) {
-      if (stop != StopReason::none) keep_flight_record(recorder);  // it cannot be made again
-      throw;
+    } catch (const report::OutputFailed& failure) {
+      keep_flight_record(recorder);  // it cannot be made again
+      lost_record = failure.what();
+      return;
     }
     if (stop != StopReason::none) {
       write_standard_error(fmt::format("zwidth: flight record: {}\n", arguments.flight_record));
@@ -331,7 +346,8 @@ void run_rig(const RigArguments& arguments) {
   };
   Rig rig{arguments,          device,
           analysis.trust,     outputs,
-          std::move(options), rig::open_driver(arguments.driver, device, {arguments.start, arguments.real_time})};
+          std::move(options), rig::open_driver(arguments.driver, device, {arguments.start, arguments.real_time}),
+          lost_record};
   rig.watchdog_proved = proved_watchdog(arguments, *rig.driver);
   if (arguments.action == "check") return run_check(rig);
   if (arguments.action == "measure") return run_measure(rig);

@@ -358,6 +358,14 @@ TEST_F(Rig, ALimitOfWhichNothingWasReadHasAPageToo) {
   EXPECT_THAT(contents("page.html"), HasSubstr("no oscillation grew"));
 }
 
+// A device cannot be asked again.
+TEST_F(Rig, AFullDiskDoesNotTakeTheAnswer) {
+  const Outcome outcome = run("zwidth rig limit " + lhifam + "--report /dev/full");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.output, HasSubstr("K_CR measured"));
+  EXPECT_THAT(outcome.errors, HasSubstr("/dev/full: cannot write"));
+}
+
 TEST_F(Rig, RelaySeeksTheLimitWhereAsked) {
   const auto bare = json("relay " + lhifam + "--amplitude 5 --trials 1");
   const auto sought = json("relay " + lhifam + "--amplitude 5 --trials 1 --seek-limit");
