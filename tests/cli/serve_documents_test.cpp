@@ -212,7 +212,7 @@ TEST_F(ServedDocuments, RecordingsAreNamedByTheirDigest) {
 }
 
 TEST_F(ServedDocuments, ProgressComesAheadOfTheSameDocument) {
-  const Asked sweep{"design", lhifam, {}, {{"sweep", "loop.delay=0:8e-3:300"}, {"any-user", true}}};
+  const Asked sweep{"design", lhifam, {}, {{"sweep", "loop.delay=0:8e-3:3000"}, {"any-user", true}}};
   const HttpAnswer answer = post("design", request_of(sweep).dump(), "Accept: application/x-ndjson\r\n");
   std::istringstream lines(answer.body);
   double before = 0.0;

@@ -149,6 +149,8 @@ def _result(
     options: Mapping[str, Any],
     study: Union[str, Path, None] = None,
 ) -> Any:
+    if "list" in options:
+        raise InputError("options.list", "asks for another document", "none; columns: of a zwidth.Recording")
     answer = _run(command, device, recordings, progress, options, study)
     result = _results.result_of(answer)
     warn_of_document(result._values)
