@@ -30,6 +30,7 @@ class IntegerMatrix {
   }
   IntegerMatrix(const IntegerMatrix&) = delete;
   IntegerMatrix& operator=(const IntegerMatrix&) = delete;
+  IntegerMatrix& operator=(IntegerMatrix&&) = delete;
   ~IntegerMatrix() { fmpz_mat_clear(matrix_); }
 
   fmpz* operator()(Eigen::Index i, Eigen::Index j) { return fmpz_mat_entry(matrix_, i, j); }

@@ -23,8 +23,8 @@ class ResponseBound {
     Quadratic(double c0, double c1, double c2);
     [[nodiscard]] double least(double begin, double end) const;
     [[nodiscard]] double greatest(double begin, double end) const;
-    double coefficients[3];
-    double sizes[3];  // of what was added up in each
+    double coefficients[3] = {};
+    double sizes[3] = {};  // of what was added up in each
   };
   struct Quotient {
     Quadratic numerator;
