@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "identification/fit_weights.hpp"
+#include "identification/identifiability.hpp"
 #include "identification/initial_values.hpp"
 #include "identification/response_features.hpp"
 #include "zwidth/error.hpp"
@@ -93,12 +94,11 @@ Start start_at(const FitModel& model, const Eigen::VectorXd& x) {
 
 Start start_at(const FitModel& model, const Eigen::VectorXd& x, const Eigen::VectorXd& towards,
                const std::vector<bool>& determined) {
-  constexpr double weak = 0.3;  // 1 / standard deviation, in nepers or typical values
   Start start{x, {x, Eigen::VectorXd::Zero(x.size())}};
   for (Eigen::Index i = 0; i < x.size(); ++i) {
     const auto k = static_cast<std::size_t>(i);
     const bool is_logarithmic = model.coordinates()[k].kind == Coordinate::Kind::logarithmic;
-    if (is_logarithmic || !determined[k]) start.pull.strength(i) = weak;
+    if (is_logarithmic || !determined[k]) start.pull.strength(i) = known_beforehand;
     if (!determined[k]) start.pull.towards(i) = towards(i);
   }
   return start;

@@ -131,16 +131,15 @@ Identifiability identifiability(const ResponseWithSlopes& at_solution, const Fit
   return result;
 }
 
-Eigen::MatrixXd covariance(const ResponseWithSlopes& at_solution, const FitData& data,
-                           const std::vector<bool>& estimated, double robust_threshold) {
+Eigen::MatrixXd covariance(const ResponseWithSlopes& at_solution, const FitData& data, const Identifiability& known,
+                           double robust_threshold) {
   const Eigen::Index all = at_solution.slopes.cols();
   Eigen::MatrixXd full = Eigen::MatrixXd::Zero(all, all);
   std::vector<Eigen::Index> kept;
   for (Eigen::Index i = 0; i < all; ++i) {
-    if (estimated[static_cast<std::size_t>(i)]) kept.push_back(i);
+    if (known.shows(static_cast<std::size_t>(i))) kept.push_back(i);
   }
-  const auto n = static_cast<Eigen::Index>(kept.size());
-  if (n == 0) return full;
+  if (kept.empty()) return full;
 
   Eigen::MatrixXcd slopes = weighted_slopes(at_solution, data)(Eigen::all, kept);
   const Eigen::Index points = slopes.rows();
@@ -155,16 +154,25 @@ Eigen::MatrixXd covariance(const ResponseWithSlopes& at_solution, const FitData&
       slopes.row(i) /= std::sqrt(far);
     }
   }
-  // Scaled, so that units of the parameters do not matter to the inverse.
+  // Scaled, so that units of the parameters do not matter to the inverse; along the directions that show.
   const Eigen::VectorXd scale = slopes.colwise().norm().cwiseInverse();
   slopes = slopes * scale.asDiagonal();
-  // Re and Im of a residual each have half of the variance, hence the 2.
-  const Eigen::MatrixXd normal = 2.0 * (slopes.adjoint() * slopes).real();
+  const SymmetricEigen eigen = symmetric_eigen((slopes.adjoint() * slopes).real());
+  const Eigen::Index vanishing = (eigen.values.array() < least_eigenvalue).count();
+  const Eigen::Index n = eigen.values.size() - vanishing;
+  const Eigen::MatrixXd showing = eigen.vectors.rightCols(n);
   const Eigen::VectorXd level = local_level(residuals, n);
-  const Eigen::MatrixXd scores =
-      scores_covariance(level.asDiagonal() * slopes, residuals.cwiseQuotient(level.cast<std::complex<double>>()));
-  const Eigen::MatrixXd inverse = inverse_of_positive(normal);
-  const Eigen::MatrixXd result = scale.asDiagonal() * inverse * scores * inverse * scale.asDiagonal();
+  const Eigen::MatrixXd scores = scores_covariance(level.asDiagonal() * slopes * showing,
+                                                   residuals.cwiseQuotient(level.cast<std::complex<double>>()));
+  // Re and Im of a residual each have half of the variance, hence the 2.
+  const Eigen::MatrixXd inverse = (0.5 * eigen.values.tail(n).cwiseInverse()).asDiagonal() * showing.transpose();
+  Eigen::MatrixXd result = inverse.transpose() * scores * inverse;
+  if (vanishing > 0) {  // known beforehand alone
+    const Eigen::MatrixXd hidden = eigen.vectors.leftCols(vanishing);
+    const Eigen::MatrixXd before = known_beforehand * scale.asDiagonal() * hidden;
+    result += hidden * inverse_of_positive(before.transpose() * before) * hidden.transpose();
+  }
+  result = scale.asDiagonal() * result * scale.asDiagonal();
   full(kept, kept) = 0.5 * (result + result.transpose());
   return full;
 }

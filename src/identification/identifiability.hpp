@@ -30,12 +30,16 @@ struct Identifiability {
 /// the response does not change at all.
 [[nodiscard]] Identifiability identifiability(const ResponseWithSlopes& at_solution, const FitData& data);
 
-/// Covariance of the estimated coordinates at the solution, 0 for the others.
+/// 1 / standard deviation of what is known of a coordinate before the data: 28 as a factor, or 3.3 typical values.
+inline constexpr double known_beforehand = 0.3;
+
+/// Covariance of the coordinates that show at the solution, 0 for the others.
 ///
 /// A^-1 B A^-1 with the normal matrix A and the scores' covariance B (White 1980): B takes the residuals' size from
 /// around each point, and their correlation from the whole band, so that deviations which are wrong, and lines which a
-/// window correlates, do not spoil the intervals.
+/// window correlates, do not spoil the intervals. Along the directions that vanish, known_beforehand takes A's place: one
+/// that hardly shows is not one that does not, and what it moves a little it may move far.
 [[nodiscard]] Eigen::MatrixXd covariance(const ResponseWithSlopes& at_solution, const FitData& data,
-                                         const std::vector<bool>& estimated, double robust_threshold);
+                                         const Identifiability& known, double robust_threshold);
 
 }  // namespace zwidth::internal

@@ -303,9 +303,9 @@ void judge_delay(const Fitting& fitting, Judgement& judgement) {
   judgement.remarks.push_back({Remark::Severity::warning, what, "the critical stiffness depends on it", remedy});
 }
 
-void judge_interval(Identification& result, Trust device_trust) {
+void judge_interval(Identification& result, const IdentifyOptions& options, Trust device_trust) {
   const auto& interval = result.analysis.interval;
-  if (!interval || !is_open(*interval)) return judge_unseen_limit(result, std::move(device_trust));
+  if (!interval || !is_open(*interval)) return judge_unseen_limit(result, options, std::move(device_trust));
   result.trust.doubt(open_interval_reason(*interval));
   device_trust.inherit(result.trust);
   result.fit.device = with_trust(result.fit.device, device_trust);
@@ -336,7 +336,7 @@ Identification identified(const MeasuredResponse& measured, std::span<const Reco
     result.trust.inherit(result.analysis.critical.trust);
   }
   if (judgement.is_measured) narrow_interval(result);
-  judge_interval(result, judgement.device_trust);
+  judge_interval(result, options, judgement.device_trust);
   judge_friction_in_time(result, recordings, options, judgement.device_trust);
   judge_nonlinearity(result, recordings, options, judgement.device_trust);
   keep_what_is_assumed(structure, result.fit.estimates,

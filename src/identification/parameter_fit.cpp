@@ -78,8 +78,7 @@ std::vector<StrongCorrelation> strong_correlations(const FitModel& model, const 
   return result;
 }
 
-/// The covariance of the values. Of a combination its numbers vary given one of them: what depends on the response
-/// alone varies as the data leave it.
+/// The covariance of the values.
 std::optional<Uncertainty> uncertainty(const FitModel& model, const Eigen::VectorXd& x,
                                        const Eigen::MatrixXd& covariance) {
   std::vector<Eigen::Index> kept;
@@ -303,9 +302,8 @@ ParameterFit fit_parameters(const Device& structure, const FrequencyResponse& re
   }
   const FitData data = fit_data(points, solution.model_error);
   const ResponseWithSlopes at_solution = model.slopes_at(solution.x, data.frequencies);
-  const Eigen::MatrixXd covariance_of_x =
-      widened(model, solution.x, known, covariance(at_solution, data, known.estimated, options.robust_threshold),
-              response.averages);
+  const Eigen::MatrixXd covariance_of_x = widened(
+      model, solution.x, known, covariance(at_solution, data, known, options.robust_threshold), response.averages);
 
   DeviceParameters fitted = model.parameters_at(solution.x);
   ParameterFit fit{.device = Device(fitted),

@@ -9,6 +9,7 @@
 #include "identification/friction_test.hpp"
 #include "identification/pooled_response.hpp"
 #include "identification/response_choice.hpp"
+#include "identification/welch.hpp"
 #include "zwidth/model/state_space.hpp"
 #include "zwidth/sampling/forced_response.hpp"
 #include "zwidth/sampling/sampled_plant.hpp"
@@ -32,6 +33,10 @@ FrequencyResponse corrected_response(const FrequencyResponse& last, const Device
     for (std::size_t i = 0; i < rest.size(); ++i) rest[i] -= motion[i];
   }
   options.excitation = Excitation::aperiodic;
+  options.begins_at_rest = std::ranges::all_of(recordings, [](const Recording& each) {
+    return begins_at_rest(each.channels[0].samples, each.channels[1].samples);
+  });
+  options.lines_at_ends = *options.begins_at_rest;
   std::vector<FrequencyResponse> each = responses(rests, options);
   FrequencyResponse response = each.size() == 1 ? std::move(each[0]) : pooled_response(each).response;
   response.remarks = last.remarks;

@@ -99,20 +99,6 @@ void remark_resolution(FrequencyResponse& response, double coarsest_frequency, d
 /// Segments at either end of a record in which the window has not yet, or no longer, its full weight.
 std::size_t ramp_segments(const Segments& segments) { return (segments.length - 1) / segments.step; }
 
-/// The record begins where the device is at rest and the force is nil, as that of a sweep does.
-bool begins_at_rest(std::span<const double> force, std::span<const double> output) {
-  constexpr double nil = 0.05;   // of the largest force
-  constexpr double still = 0.2;  // of the usual step from sample to sample
-  double largest_force = 0.0;
-  double steps = 0.0;
-  for (std::size_t i = 0; i + 1 < output.size(); ++i) {
-    largest_force = std::max(largest_force, std::abs(force[i]));
-    steps += (output[i + 1] - output[i]) * (output[i + 1] - output[i]);
-  }
-  const double usual_step = std::sqrt(steps / static_cast<double>(output.size() - 1));
-  return std::abs(force[0]) <= nil * largest_force && std::abs(output[1] - output[0]) <= still * usual_step;
-}
-
 /// A signal after as many samples at rest as give its first ones the full weight of the window.
 std::vector<double> after_rest(std::span<const double> signal, std::size_t rest) {
   std::vector<double> longer(rest, signal.front());
@@ -163,7 +149,7 @@ Points points_of(const AveragedSpectra& sums, const Cut& cut, double sampling_pe
                  const FrequencyResponseOptions& options) {
   constexpr double most_at_ends = 0.8;
   const std::vector<Line> lines = ratios(sums, options.estimator);
-  const std::vector<double> shares = end_shares(cut, sums);
+  const std::vector<double> shares = options.lines_at_ends ? std::vector<double>{} : end_shares(cut, sums);
   const double moment = lobe_second_moment(options.window);
   const double noise_gain = unsmearing_gain(options.window);
   const double line_angle = 2.0 * std::numbers::pi / static_cast<double>(cut.segments.length);
@@ -245,6 +231,20 @@ std::size_t samples_left(std::size_t samples, SignalForm form) {
 
 }  // namespace
 
+bool begins_at_rest(std::span<const double> force, std::span<const double> output) {
+  constexpr double nil = 0.05;        // of the largest force
+  constexpr double still = 0.2;       // of the usual step
+  constexpr std::size_t samples = 8;  // of a step: one alone may be noise, or a count of the encoder
+  double largest_force = 0.0;
+  double steps = 0.0;
+  for (std::size_t i = 0; i + samples < output.size(); ++i) {
+    largest_force = std::max(largest_force, std::abs(force[i]));
+    steps += (output[i + samples] - output[i]) * (output[i + samples] - output[i]);
+  }
+  const double usual_step = std::sqrt(steps / static_cast<double>(output.size() - samples));
+  return std::abs(force[0]) <= nil * largest_force && std::abs(output[samples] - output[0]) <= still * usual_step;
+}
+
 std::size_t welch_segment_length(std::size_t samples, const FrequencyResponseOptions& options) {
   return options.segment_length.value_or(chosen_segments(samples_left(samples, form_of(options)), options).length);
 }
@@ -261,7 +261,7 @@ FrequencyResponse welch_response(std::span<const double> force, std::span<const 
                                         : chosen_segments(samples, options);
   std::vector<double> rested_force;
   std::vector<double> rested_output;
-  if (begins_at_rest(force, output)) {
+  if (options.begins_at_rest.value_or(begins_at_rest(force, output))) {
     const std::size_t rest = ramp_segments(cut.segments) * cut.segments.step;
     rested_force = after_rest(force, rest);
     rested_output = after_rest(output, rest);

@@ -12,6 +12,9 @@ namespace zwidth::internal {
                                                double sampling_period, const FrequencyResponseOptions& options,
                                                const Progress& progress);
 
+/// The record begins where the device is at rest and the force is nil, as that of a sweep does. More than 8 samples.
+[[nodiscard]] bool begins_at_rest(std::span<const double> force, std::span<const double> output);
+
 /// Samples of the segments that welch_response() cuts a record of that many samples into.
 [[nodiscard]] std::size_t welch_segment_length(std::size_t samples, const FrequencyResponseOptions& options);
 

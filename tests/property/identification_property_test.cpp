@@ -110,6 +110,32 @@ TEST(IdentificationProperty, AModeAboveTheBandOfWhichTheDampingIsAGuessIsDoubtfu
   EXPECT_FALSE(found.analysis.trust.sound());
 }
 
+// Three bodies excited to 21 Hz; a mode near 52 Hz limits at 8237 N/m. Two dampings that the record hardly tells apart were
+// taken for one that it does not, with the others' deviations as if it were known: was sound, with [12376, 12628].
+TEST(IdentificationProperty, ACombinationThatHardlyShowsLeavesTheOthersOpen) {
+  const auto made = test::random_recording(70320);
+  ASSERT_TRUE(made && made->right_structure);
+  ASSERT_GT(made->limiting_hz, made->highest_hz);
+  const Identification found = identified(*made);
+  EXPECT_FALSE(found.trust.sound());
+  EXPECT_FALSE(found.analysis.trust.sound());
+  ASSERT_TRUE(found.analysis.interval);
+  EXPECT_LE(found.analysis.interval->lower, made->stiffness);
+}
+
+// Sweeps that pass the limit's frequency in their first second or their last: those lines were left out, and the answer was
+// doubtful for want of them. Kept with weights that begin within the record, the third is 1 % too high at its lower end.
+TEST(IdentificationProperty, WhatASweepPassesNearItsEndsCounts) {
+  for (const std::uint64_t seed : {70164U, 70126U, 70169U, 80106U}) {
+    const auto made = test::random_recording(seed);
+    ASSERT_TRUE(made && made->right_structure);
+    const Identification found = identified(*made);
+    EXPECT_TRUE(found.trust.sound()) << "seed " << seed << ": " << found.trust.reasons.front();
+    ASSERT_NO_FATAL_FAILURE(expect_interval_holds(found, made->stiffness, seed));
+    EXPECT_LT(found.analysis.interval->upper, 1.05 * found.analysis.interval->lower) << "seed " << seed;
+  }
+}
+
 // Residuals of 3.6 and 1.5 times the noise: 25 and 6 % too high, called sound.
 TEST(IdentificationProperty, ResidualsBeyondTheNoiseAreNeverSound) {
   for (const std::uint64_t seed : {500431U, 630008U}) {

@@ -34,8 +34,13 @@ struct FrequencyResponseOptions {
   std::optional<std::size_t> period;  ///< samples; with Excitation::periodic, detected when absent
   std::size_t skip_periods = 0;       ///< leading periods in which the transient dies out; 0: those are found
   bool detrend = true;                ///< remove mean and drift before the transform
-  std::optional<double> lowest;       ///< rad/s; points outside are left out
-  std::optional<double> highest;      ///< rad/s; absent: as far as the excitation goes
+  /// Of an aperiodic record: whether the device was at rest, without a force, before it. Absent: as the record looks.
+  std::optional<bool> begins_at_rest;
+  /// Keep the lines that the force excites only where an aperiodic record begins or ends. What the device answers there is
+  /// cut off, or was before: for what is left of a motion when a model's is taken off.
+  bool lines_at_ends = false;
+  std::optional<double> lowest;   ///< rad/s; points outside are left out
+  std::optional<double> highest;  ///< rad/s; absent: as far as the excitation goes
   /// rad/s, all that the force excites where that is known: only these are estimated, whatever the record's length.
   /// Empty: found by their power.
   std::vector<double> lines;
