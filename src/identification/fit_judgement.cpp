@@ -10,6 +10,7 @@
 
 #include "identification/friction_test.hpp"
 #include "identification/held_device.hpp"
+#include "identification/limit_outside_band.hpp"
 #include "identification/nonlinearity_test.hpp"
 #include "identification/percent.hpp"
 #include "identification/plausibility.hpp"
@@ -152,12 +153,7 @@ class Judge {
     is_in_band_ = limiting >= lowest && limiting <= highest;
     if (is_in_band_) return;
     const bool above = limiting > highest;
-    const std::string reason = fmt::format(
-        "the crossover that limits, near {:.4g} Hz, lies {} the measured band, {:.4g} to {:.4g} Hz: {}; excite {} "
-        "frequencies",
-        hertz(limiting), above ? "above" : "below", hertz(lines.front()), hertz(lines.back()),
-        above ? "delay, lag and modes there are not in the data" : "dampings and springs there are not in the data",
-        above ? "higher" : "lower");
+    const std::string reason = outside_band_reason(limiting, lines.front(), lines.back());
     result_.trust.doubt(reason);
     result_.remarks.push_back(
         {Remark::Severity::warning,

@@ -7,6 +7,8 @@
 #include <array>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
+#include <numbers>
+#include <optional>
 
 #include "eigenvalues.hpp"
 #include "identification/correlated_residuals.hpp"
@@ -199,6 +201,46 @@ DynamicsSolution solve(const Terms& terms, const std::vector<std::size_t>& kept,
   return solution;
 }
 
+/// What a body behind a link that yields does to the solution, as far as the frequencies' squares go.
+///
+///     L[F] = mass L[a] + ... + c L[F''],    c = -m_2^2 / (k mass) where the driven body is sensed, m_1 m_2 / (k mass)
+///
+/// where the other is. F'' stands for mass a'', which encoder noise drowns.
+struct Compliance {
+  DynamicsSolution solution;  ///< with c as its last parameter
+  Eigen::MatrixXd covariance;
+  Eigen::VectorXd shift;  ///< of the rigid body's parameters, towards this solution
+  bool shows = false;     ///< beyond chance, and by more than it matters
+};
+
+/// Nothing where the record's frequencies do not tell c from the rest.
+std::optional<Compliance> compliance_of(const DynamicsSolution& rigid, const Terms& terms,
+                                        const std::vector<std::size_t>& kept) {
+  constexpr double deviations = 4.0;
+  constexpr double notable = 0.01;  // of the mass
+  constexpr double credible = 0.1;  // the series goes no further
+  const Eigen::Index known = rigid.regressors.cols();
+  Compliance found{{Eigen::MatrixXd(rigid.regressors.rows(), known + 1), {}, rigid.force, {}}, {}, {}};
+  found.solution.regressors.leftCols(known) = rigid.regressors;
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    const double* at = &terms.force[kept[i]];
+    found.solution.regressors(static_cast<Eigen::Index>(i), known) = at[1] - 2.0 * at[0] + at[-1];  // times period^2
+  }
+  if (!independent(found.solution.regressors)) return std::nullopt;
+  found.solution.parameters = least_squares(found.solution.regressors, rigid.force);
+  found.solution.residuals = rigid.force - found.solution.regressors * found.solution.parameters;
+  found.covariance = covariance_with_correlated_residuals(found.solution.regressors, found.solution.residuals);
+  found.shift = found.solution.parameters.head(known) - rigid.parameters;
+  found.shows = std::abs(found.solution.parameters(known)) > deviations * std::sqrt(found.covariance(known, known)) &&
+                std::abs(found.shift(mass)) > notable * rigid.parameters(mass);
+  const double most = credible * std::abs(rigid.parameters(mass));
+  if (std::abs(found.shift(mass)) > most) {
+    found.shows = false;
+    found.shift *= most / std::abs(found.shift(mass));
+  }
+  return found;
+}
+
 ParameterEstimate estimate(std::string key, double value, double deviation, double quantile) {
   ParameterEstimate result;
   result.key = std::move(key);
@@ -272,6 +314,8 @@ RigidBodyFit identify_rigid_body(std::span<const double> force, std::span<const 
   fit.cutoff_hz = cutoff / sampling_period;
   fit.decimation = decimation;
   fit.equations = kept.size();
+  fit.lowest_hz = band.lowest / sampling_period;
+  fit.highest_hz = std::min(band.highest, cutoff) / sampling_period;
   if (band.first_mode) fit.first_mode_hz = *band.first_mode / sampling_period;
 
   DynamicsSolution solution = solve(terms, kept, sampling_period, 0.0, columns);
@@ -298,7 +342,28 @@ RigidBodyFit identify_rigid_body(std::span<const double> force, std::span<const 
   }
   report(0.9);
 
-  const Eigen::MatrixXd covariance = covariance_with_correlated_residuals(solution.regressors, solution.residuals);
+  Eigen::MatrixXd covariance = covariance_with_correlated_residuals(solution.regressors, solution.residuals);
+  if (const auto compliance = compliance_of(solution, terms, kept)) {
+    const Eigen::Index known = solution.regressors.cols();
+    // Of a series in squares of the frequency: what was left out is a part of what was found, or all of it.
+    constexpr double next_term = 0.25;
+    const Eigen::VectorXd open = (compliance->shows ? next_term : 1.0) * compliance->shift;
+    if (compliance->shows) {
+      const double c = compliance->solution.parameters(known);
+      fit.compliant_mode_hz = 1.0 / (2.0 * std::numbers::pi * sampling_period * std::sqrt(std::abs(c)));
+      if (delay_shows) total_delay += compliance->shift(delay);
+      solution = compliance->solution;
+      covariance = compliance->covariance.topLeftCorner(known, known);
+    }
+    covariance += open * open.transpose();
+  }
+  if (delay_shows) {
+    // Friction while the body sticks is not Coulomb's: of the phase at the highest frequency this much is not known.
+    constexpr double phase = 1e-3;
+    const double open = phase / (2.0 * std::numbers::pi * fit.highest_hz);
+    const Eigen::VectorXd column = covariance.col(delay) / covariance(delay, delay);
+    covariance += open * open * column * column.transpose();
+  }
   const auto freedom = static_cast<double>(solution.residuals.size() - solution.parameters.size());
   const double quantile = boost::math::quantile(boost::math::students_t(freedom), 0.975);
   const auto of = [&](Column column, std::string key) {
@@ -315,7 +380,9 @@ RigidBodyFit identify_rigid_body(std::span<const double> force, std::span<const 
     fit.delay.value = total_delay;
     fit.delay.identifiable = false;
   }
-  fit.covariance = covariance.topLeftCorner<4, 4>();
+  const Eigen::Index known = covariance.rows();
+  fit.covariance.setZero();
+  fit.covariance.topLeftCorner(known, known) = covariance;
   fit.relative_residual = solution.residuals.norm() / solution.force.norm();
   for (const std::size_t k : kept) fit.times.push_back(static_cast<double>(k) * sampling_period);
   fit.forces.assign(solution.force.begin(), solution.force.end());

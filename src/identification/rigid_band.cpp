@@ -18,18 +18,26 @@ namespace {
 // Of the rate: central differences of fourth order are good to 1 % there.
 constexpr double most_cutoff = 0.1;
 
-/// Below which 99 % of the signal's power without its mean lies.
-double excited_up_to(std::span<const double> force) {
-  constexpr double nearly_all = 0.99;
+struct ExcitedBand {
+  double lowest = 0.0;
+  double highest = 0.5;
+};
+
+/// Between which 98 % of the signal's power without its mean lies, 1 % beyond either.
+ExcitedBand excited_band(std::span<const double> force) {
+  constexpr double little = 0.01;
   const auto lines = spectrum(force);
   double all = 0.0;
   for (std::size_t k = 1; k < lines.size(); ++k) all += std::norm(lines[k]);
   double sum = 0.0;
+  ExcitedBand band;
   for (std::size_t k = 1; k < lines.size(); ++k) {
+    const double frequency = static_cast<double>(k) / static_cast<double>(force.size());
+    if (sum <= little * all) band.lowest = frequency;
     sum += std::norm(lines[k]);
-    if (sum >= nearly_all * all) return static_cast<double>(k) / static_cast<double>(force.size());
+    if (sum >= (1.0 - little) * all) return {band.lowest, frequency};
   }
-  return 0.5;
+  return band;
 }
 
 /// One line of log w^2 |P|.
@@ -112,9 +120,12 @@ RigidBand rigid_band(std::span<const double> force, std::span<const double> posi
   constexpr double beside_excitation = 1.5;
   constexpr double below_mode = 0.2;
   const MotionBandwidth motion = motion_bandwidth(position);
+  const ExcitedBand excited = excited_band(force);
   RigidBand band;
+  band.lowest = excited.lowest;
+  band.highest = std::min(excited.highest, motion.nearly_all);
   band.cutoff = std::max(motion.nearly_all, harmonics * motion.half);
-  band.cutoff = std::min(band.cutoff, std::max(beside_excitation * excited_up_to(force), harmonics * motion.half));
+  band.cutoff = std::min(band.cutoff, std::max(beside_excitation * excited.highest, harmonics * motion.half));
   band.first_mode = first_mode(force, position);
   if (band.first_mode) band.cutoff = std::min(band.cutoff, below_mode * *band.first_mode);
   band.cutoff = std::min(band.cutoff, most_cutoff);

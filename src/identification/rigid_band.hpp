@@ -8,6 +8,8 @@ namespace zwidth::internal {
 /// Up to where a record of force and position is one of a rigid body; cycles per sample.
 struct RigidBand {
   double cutoff = 0.0;
+  double lowest = 0.0;   ///< from where on the force excites the body (all but 1 % of its power)
+  double highest = 0.0;  ///< up to where it does, and the acceleration stands out of the encoder's noise (99 % of both)
   std::optional<double> first_mode;  ///< where the response turns back: a resonance or an antiresonance
 };
 

@@ -5,57 +5,98 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <string_view>
+#include <optional>
+#include <string>
 #include <utility>
 
 #include "identification/fit_judgement.hpp"
+#include "identification/interval_narrowing.hpp"
+#include "identification/limit_outside_band.hpp"
 #include "identification/nonlinearity_of_equations.hpp"
 #include "identification/percent.hpp"
 #include "identification/plausibility.hpp"
+#include "model/uncertainty_problem.hpp"
 #include "require_valid.hpp"
 #include "signal/clipping.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/quantity.hpp"
+#include "zwidth/stability/analysis.hpp"
 
 namespace zwidth {
 using namespace internal;
 namespace {
 
-/// One parameter of the body, where it stands in the device and in the covariance.
+/// What of the fit is the device's, in the order of estimates(): all but the offset; its delay is later than a hold's.
+struct LaterBody {
+  Eigen::Vector<double, 5> values;
+  Eigen::Matrix<double, 5, 5> covariance;
+};
+
+constexpr Eigen::Index delay_row = 4;
+
+/// Delay not below 0: by chance it comes out so, and the others then follow. Where it is not clearly there, none is within
+/// what the data leave open.
+LaterBody later_body(const RigidBodyFit& fit, double recorded_period) {
+  constexpr double clear = 4.0;
+  constexpr double of_one_side = 1.645;  // deviations that 5 % of a normal distribution are beyond
+  LaterBody body{{fit.mass.value, fit.viscous.value, fit.coulomb.value, fit.offset.value, 0.0}, fit.covariance};
+  const double variance = fit.covariance(delay_row, delay_row);
+  if (!(variance > 0.0)) return body;  // does not show
+  const Eigen::Vector<double, 5> column = fit.covariance.col(delay_row) / variance;
+  const double later = fit.delay.value - 0.5 * recorded_period;
+  const double deviations = later / std::sqrt(variance);
+  body.values(delay_row) = std::max(0.0, later);
+  if (deviations < 0.0 && deviations > -clear) body.values.head(4) -= later * column.head(4);
+  if (deviations > of_one_side && deviations < clear) {
+    const double missing = std::pow(later / of_one_side, 2.0) - variance;
+    body.covariance += missing * column * column.transpose();
+  }
+  return body;
+}
+
+/// One parameter of the device, where it stands there and among the estimates.
 struct Place {
-  std::string_view key;
+  std::string key;
   double* value;
-  const ParameterEstimate* estimate;
   Eigen::Index row;
 };
 
-DeviceParameters device_of(const RigidBodyFit& fit, const RigidBodyOptions& options, double sampling_period,
+DeviceParameters device_of(const RigidBodyFit& fit, const RigidBodyOptions& options, double recorded_period,
                            std::vector<Remark>& remarks) {
-  Body body;
+  const LaterBody found = later_body(fit, recorded_period);
+  DeviceParameters parameters;
+  parameters.name = "rigid body";
+  parameters.motion = options.motion;
+  parameters.bodies.resize(1);
+  parameters.loop.sampling_period = options.sampling_period.value_or(recorded_period);
+  Body& body = parameters.bodies.front();
   body.name = "body";
   Uncertainty uncertainty;
   std::vector<Eigen::Index> rows;
-  for (const Place& place : {Place{"mass", &body.mass, &fit.mass, 0}, Place{"damping", &body.damping, &fit.viscous, 1},
-                             Place{"coulomb", &body.coulomb, &fit.coulomb, 2}}) {
-    if (place.estimate->value < 0.0) {
-      remarks.push_back({Remark::Severity::warning,
-                         fmt::format("{} = {:.4g} is below 0", place.estimate->key, place.estimate->value),
-                         "taken as 0 in the device"});
+  for (const Place& place :
+       {Place{"body.body.mass", &body.mass, 0}, Place{"body.body.damping", &body.damping, 1},
+        Place{"body.body.coulomb", &body.coulomb, 2}, Place{delay_key, &parameters.loop.delay, delay_row}}) {
+    const double value = found.values(place.row);
+    if (value < 0.0) {
+      remarks.push_back(
+          {Remark::Severity::warning,
+           fmt::format("{} = {:.4g} is below 0", estimates(fit)[static_cast<std::size_t>(place.row)].key, value),
+           "taken as 0 in the device"});
       continue;
     }
-    *place.value = place.estimate->value;
-    uncertainty.parameters.push_back(fmt::format("body.{}.{}", body.name, place.key));
+    *place.value = value;
+    if (place.row == delay_row && !fit.delay.identifiable) {
+      uncertainty.assumed.emplace_back(place.key);
+      continue;
+    }
+    uncertainty.parameters.push_back(place.key);
     rows.push_back(place.row);
   }
   for (const Eigen::Index i : rows) {
     uncertainty.covariance.emplace_back();
-    for (const Eigen::Index j : rows) uncertainty.covariance.back().push_back(fit.covariance(i, j));
+    for (const Eigen::Index j : rows) uncertainty.covariance.back().push_back(found.covariance(i, j));
   }
-  DeviceParameters parameters;
-  parameters.name = "rigid body";
-  parameters.motion = options.motion;
-  parameters.bodies = {body};
-  parameters.loop.sampling_period = sampling_period;
-  parameters.uncertainty = std::move(uncertainty);
+  parameters.uncertainty = without_rounding(std::move(uncertainty));
   return parameters;
 }
 
@@ -74,24 +115,38 @@ void judge_friction(RigidBodyIdentification& identified) {
 /// A force that acts later than one that is held delays the loop, too.
 void judge_delay(RigidBodyIdentification& identified, double recorded_period) {
   const ParameterEstimate& delay = identified.fit.delay;
-  const double hold = 0.5 * recorded_period;
-  if (!delay.lower) {
+  if (!delay.identifiable) {
     identified.trust.doubt("the delay from force to motion does not show in this record; move at several frequencies");
     return;
   }
-  if (*delay.lower <= hold) return;
-  const double later = delay.value - hold;
-  identified.remarks.push_back({Remark::Severity::warning,
+  const double later = delay.value - 0.5 * recorded_period;
+  constexpr double clear = 4.0;
+  if (later <= clear * *delay.standard_deviation) return;
+  identified.remarks.push_back({Remark::Severity::note,
                                 fmt::format("the force acts {:.4g} ms later than a held force does", 1e3 * later),
-                                "the device below has no such delay",
-                                fmt::format("where that delay is the actuator's or the sensor's, give the device a "
-                                            "loop.delay of {:.3g} s",
-                                            later)});
-  constexpr double notable = 0.02;  // of the hold: K_CR falls by about as much
-  if (later > notable * hold) {
-    identified.trust.doubt(fmt::format(
-        "the record shows a delay of {:.3g} s that the device does not have; give it as its loop.delay", later));
+                                "the device has it as its loop.delay"});
+}
+
+/// What limits must have been excited, and the delay be known for it.
+void judge_limit(RigidBodyIdentification& identified) {
+  const CriticalStiffness critical = limit_of(identified.device);
+  const double lowest = radians_per_second(identified.fit.lowest_hz);
+  const double highest = radians_per_second(identified.fit.highest_hz);
+  if (critical.limit && (critical.limit->frequency < lowest || critical.limit->frequency > highest)) {
+    identified.trust.doubt(outside_band_reason(critical.limit->frequency, lowest, highest));
+    if (critical.limit->frequency > highest) identified.device = with_shared_lateness(identified.device);
   }
+  const auto interval = analyze(identified.device, {.any_user = false}).interval;
+  if (!interval || !is_open(*interval)) return;
+  std::string reason = open_interval_reason(*interval);
+  const Loop& loop = identified.device.parameters().loop;
+  const auto deviation = identified.fit.delay.standard_deviation;
+  constexpr double notable = 0.2;  // of what delays the loop: K_CR goes with it
+  if (deviation && 2.0 * *deviation > notable * (0.5 * loop.sampling_period + loop.delay)) {
+    reason =
+        fmt::format("the delay is known to +-{:.2g} ms only: {}, and at higher frequencies", 2e3 * *deviation, reason);
+  }
+  identified.trust.doubt(std::move(reason));
 }
 
 void judge_residual(RigidBodyIdentification& identified) {
@@ -113,9 +168,13 @@ void judge_residual(RigidBodyIdentification& identified) {
 
 /// A mode that limits the wall before the rigid body does is not in this model.
 void judge_mode(RigidBodyIdentification& identified) {
-  if (!identified.fit.first_mode_hz) return;
+  const RigidBodyFit& fit = identified.fit;
+  if (!fit.first_mode_hz && !fit.compliant_mode_hz) return;
   const std::string what =
-      fmt::format("the device is not rigid: its response turns back near {:.4g} Hz", *identified.fit.first_mode_hz);
+      fit.first_mode_hz
+          ? fmt::format("the device is not rigid: its response turns back near {:.4g} Hz", *fit.first_mode_hz)
+          : fmt::format("the device is not rigid: its inertia changes with frequency, as below a mode near {:.2g} Hz",
+                        *fit.compliant_mode_hz);
   const char* remedy = "fit a structure of several bodies to judge walls";
   identified.trust.doubt(fmt::format("{}; {}", what, remedy));
   identified.remarks.push_back(
@@ -185,7 +244,7 @@ RigidBodyIdentification identify_rigid_body(const Recording& recording, const Ri
   for (Remark& remark : implausible_recording(recording)) remarks.push_back(std::move(remark));
   std::vector<Remark> own = std::exchange(fit.remarks, {});
   remarks.insert(remarks.end(), std::make_move_iterator(own.begin()), std::make_move_iterator(own.end()));
-  Device device(device_of(fit, options, options.sampling_period.value_or(period), remarks));
+  Device device(device_of(fit, options, period, remarks));
   for (Remark& remark : implausible_device(device, nullptr, period)) remarks.push_back(std::move(remark));
   RigidBodyIdentification identified{recording.source, std::move(fit), std::move(device), std::move(remarks),
                                      std::move(trust)};
@@ -193,6 +252,7 @@ RigidBodyIdentification identify_rigid_body(const Recording& recording, const Ri
   judge_friction(identified);
   judge_mode(identified);
   judge_delay(identified, period);
+  judge_limit(identified);
   judge_nonlinearity(identified, recording, options.motion);
   identified.device = with_trust(identified.device, identified.trust);
   return identified;

@@ -14,13 +14,13 @@
 #include "identification/friction_test.hpp"
 #include "identification/held_device.hpp"
 #include "identification/interval_narrowing.hpp"
+#include "identification/limit_outside_band.hpp"
 #include "identification/nonlinearity_test.hpp"
 #include "identification/percent.hpp"
 #include "identification/plausibility.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/identification/frequency_response.hpp"
 #include "zwidth/model/parameter.hpp"
-#include "zwidth/quantity.hpp"
 #include "zwidth/sampling/sampled_plant.hpp"
 
 namespace zwidth::internal {
@@ -201,13 +201,7 @@ class Judge {
     const auto& limit = fit_.analysis.critical.limit;
     if (!limit || !(fit_.highest > 0.0)) return;
     if (limit->frequency >= fit_.lowest && limit->frequency <= fit_.highest) return;
-    const bool is_above = limit->frequency > fit_.highest;
-    trust_.doubt(fmt::format(
-        "the crossover that limits, near {:.4g} Hz, lies {} the measured band, {:.4g} to {:.4g} Hz: {}; excite {} "
-        "frequencies",
-        hertz(limit->frequency), is_above ? "above" : "below", hertz(fit_.lowest), hertz(fit_.highest),
-        is_above ? "delay, lag and modes there are not in the data" : "dampings and springs there are not in the data",
-        is_above ? "higher" : "lower"));
+    trust_.doubt(outside_band_reason(limit->frequency, fit_.lowest, fit_.highest));
   }
 
   void judge_interval() {

@@ -49,7 +49,7 @@ TEST_F(IdentifyRigidBody, FindsTheExampleRecordingsBody) {
   EXPECT_NEAR(body.coulomb, 1.2, 0.02);
   EXPECT_DOUBLE_EQ(device->loop().sampling_period, 2e-3);
   ASSERT_TRUE(device->parameters().uncertainty);
-  EXPECT_EQ(device->parameters().uncertainty->parameters.size(), 3U);
+  EXPECT_EQ(device->parameters().uncertainty->parameters.size(), 4U);  // the delay is the fourth
   const auto analysis = nlohmann::json::parse(run("zwidth analyze body.toml --json").output);
   // 2 b / T for a light damper, with its interval.
   EXPECT_NEAR(analysis.at("critical_stiffness").get<double>(), 3500.0, 50.0);

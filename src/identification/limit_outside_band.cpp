@@ -1,0 +1,72 @@
+#include "identification/limit_outside_band.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "model/uncertainty_problem.hpp"
+#include "zwidth/quantity.hpp"
+
+namespace zwidth::internal {
+
+std::string outside_band_reason(double limiting, double lowest, double highest) {
+  const bool is_above = limiting > highest;
+  return fmt::format(
+      "the crossover that limits, near {:.4g} Hz, lies {} the measured band, {:.4g} to {:.4g} Hz: {}; excite {} "
+      "frequencies",
+      hertz(limiting), is_above ? "above" : "below", hertz(lowest), hertz(highest),
+      is_above ? "delay, lag and modes there are not in the data" : "dampings and springs there are not in the data",
+      is_above ? "higher" : "lower");
+}
+
+Device with_shared_lateness(const Device& device) {
+  DeviceParameters parameters = device.parameters();
+  const double late = parameters.loop.delay + parameters.actuator.time_constant;
+  if (!parameters.uncertainty || !(late > 0.0)) return device;
+  Uncertainty& uncertainty = *parameters.uncertainty;
+  const auto place = [&](const char* key) {
+    return static_cast<std::size_t>(std::ranges::find(uncertainty.parameters, std::string(key)) -
+                                    uncertainty.parameters.begin());
+  };
+  const std::size_t delay = place(delay_key);
+  std::size_t lag = place(lag_key);
+  std::size_t count = uncertainty.parameters.size();
+  if (delay == count) return device;
+  auto& covariance = uncertainty.covariance;
+  // Where the truth is at a bound, and half of the draws move off it to one side of K_CR, 5 % of the others are 2.5 % of
+  // all: the normal distribution's 1.645 deviations instead of 1.960.
+  constexpr double one_sided = 1.960 / 1.645;
+  for (auto& row : covariance) {
+    for (double& value : row) value *= one_sided * one_sided;
+  }
+  // Wherever the fit puts the difference, from -late to late, 2.5 % of the draws reach either end; none goes beyond.
+  const double of_difference = 1.1 * late * late;
+  if (lag == count) {
+    if (count == max_uncertain_parameters) return device;
+    uncertainty.parameters.emplace_back(lag_key);
+    for (auto& row : covariance) row.push_back(0.0);
+    covariance.emplace_back(++count, 0.0);
+    const double shared = 0.25 * of_difference;
+    covariance[delay][delay] += shared;
+    covariance[lag][lag] += shared;
+    covariance[delay][lag] = covariance[lag][delay] = -shared;
+  } else {  // as if the difference had been measured so
+    std::vector<double> with_difference;
+    with_difference.reserve(count);
+    for (const auto& row : covariance) with_difference.push_back(row[delay] - row[lag]);
+    const double open = with_difference[delay] - with_difference[lag];
+    for (std::size_t i = 0; i < count; ++i) {
+      for (std::size_t j = 0; j < count; ++j) {
+        covariance[i][j] -= with_difference[i] * with_difference[j] / (open + of_difference);
+      }
+    }
+    for (std::size_t i = 0; i < count; ++i) covariance[i][i] = std::max(covariance[i][i], 0.0);
+  }
+  uncertainty = without_rounding(std::move(uncertainty));
+  return Device(std::move(parameters));
+}
+
+}  // namespace zwidth::internal
