@@ -7,6 +7,8 @@
 #include <numeric>
 #include <vector>
 
+#include "zwidth/quantity.hpp"
+
 namespace zwidth::internal {
 
 std::optional<Beginning> beginning_of(std::span<const PhaseLine> lines) {
@@ -36,6 +38,21 @@ std::optional<Beginning> beginning_of(std::span<const PhaseLine> lines) {
     return shared / squares;
   };
   return Beginning{slope_of(magnitude), slope_of(phase)};
+}
+
+std::optional<double> turned_phase(std::span<const PhaseLine> lines) {
+  constexpr double steepest = -3.0;
+  constexpr double falling = -0.7;
+  constexpr double most_turning = 0.5;
+  constexpr double right_angle = 0.5 * std::numbers::pi;
+  constexpr double off = 1.5 * right_angle;
+  const std::optional<Beginning> beginning = beginning_of(lines);
+  if (!beginning || beginning->steepness < steepest || beginning->steepness > falling) return std::nullopt;
+  if (std::abs(beginning->turning) > most_turning) return std::nullopt;
+  const double phase = std::arg(lines.front().value);
+  if (std::abs(std::remainder(phase - right_angle * beginning->steepness, 4.0 * right_angle)) < off)
+    return std::nullopt;
+  return degrees(phase);
 }
 
 }  // namespace zwidth::internal

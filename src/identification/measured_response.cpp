@@ -13,6 +13,7 @@
 #include "identification/period_detection.hpp"
 #include "identification/plausibility.hpp"
 #include "identification/pooled_response.hpp"
+#include "identification/response_choice.hpp"
 #include "identification/response_friction.hpp"
 #include "identification/welch.hpp"
 #include "signal/clipping.hpp"
@@ -312,7 +313,7 @@ std::vector<FrequencyResponse> responses(std::span<const Recording> recordings, 
       found.push_back(frequency_response(each.channels[0].samples, each.channels[1].samples, each.sampling_period,
                                          recordings.size() > 1 ? alike : options, part));
       if (found.back().points.empty()) {
-        throw Error(ErrorCode::invalid_argument, "no line is left in the band asked for; widen it");
+        throw Error(ErrorCode::invalid_argument, nothing_left(each, options));
       }
     } catch (const Error& error) {
       if (recordings.size() == 1) throw;

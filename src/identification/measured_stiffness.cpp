@@ -216,7 +216,17 @@ std::optional<Doubt> drowned_start(const std::vector<PhaseLine>& lines) {
   return Doubt{{lines.front().frequency, lines[given_up].frequency}, 0.0};
 }
 
-void judge(MeasuredStiffness& result, const Findings& findings) {
+void judge(MeasuredStiffness& result, const Findings& findings, std::span<const PhaseLine> lines) {
+  if (const auto phase = turned_phase(lines)) {
+    result.status = MeasuredStiffnessStatus::not_in_band;
+    warn(
+        result,
+        fmt::format("the position falls as the force rises: where the band begins the response falls as a mass's does, "
+                    "and its phase, {:.0f} degrees, is half a turn off",
+                    *phase),
+        "scale one of them by -1");
+    return;
+  }
   if (findings.runs.empty()) {
     result.status = MeasuredStiffnessStatus::undetermined;
     result.doubtful_bands.push_back(findings.band);
@@ -334,7 +344,7 @@ MeasuredStiffness measured_stiffness(const FrequencyResponse& response) {
   const std::optional<Doubt> start = doubtful_start(all_lines);
   if (start && may_cross(std::span(all_lines).first(1))) findings.doubts.push_back(*start);
   if (const auto drowned = drowned_start(all_lines)) findings.doubts.push_back(*drowned);
-  judge(result, findings);
+  judge(result, findings, lines);
   remark_beginning(result, lines);
   remark_gaps(result, lines);
   remark_sparse_lines(result, findings);

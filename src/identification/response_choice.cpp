@@ -1,5 +1,7 @@
 #include "identification/response_choice.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -46,6 +48,21 @@ MeasuredResponse response_with_enough_lines(std::span<const Recording> recording
     measured = frequency_response(recordings, longer, {});
   }
   return measured;
+}
+
+std::string nothing_left(const Recording& recording, const FrequencyResponseOptions& options) {
+  const std::size_t samples = recording.channels[0].samples.size();
+  if (options.lowest || options.highest) return "no line is left in the band asked for; widen it";
+  if (options.period) {
+    const auto detected = detect_period(recording.channels[0].samples);
+    return fmt::format(
+        "the force excites no line of a period of {} samples; leave the period out, or give the force's own{}",
+        *options.period, detected ? fmt::format(": it repeats every {} samples", *detected) : "");
+  }
+  return fmt::format(
+      "the force excites no line that {} samples ({:.3g} s) tell apart: the record is too short, or the force hardly "
+      "changes; record for longer, several periods of the lowest frequency at least",
+      samples, static_cast<double>(samples) * recording.sampling_period);
 }
 
 }  // namespace zwidth::internal

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 
 #include "zwidth/identification/identification.hpp"
 
@@ -13,5 +14,8 @@ namespace zwidth::internal {
 [[nodiscard]] MeasuredResponse response_with_enough_lines(std::span<const Recording> recordings,
                                                           const Device& structure, const IdentifyOptions& options,
                                                           const Progress& progress);
+
+/// Why a recording has no line under these options, with the remedy.
+[[nodiscard]] std::string nothing_left(const Recording& recording, const FrequencyResponseOptions& options);
 
 }  // namespace zwidth::internal

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -204,6 +205,28 @@ TEST_F(Frf, AConstantForceIsRefused) {
   for (int i = 0; i < 100; ++i) rows += std::to_string(i) + ",1," + std::to_string(i % 7) + "\n";
   write("constant.csv", rows);
   expect_refusal("zwidth frf constant.csv --force force --position position", "the force is constant");
+}
+
+// "No line is left in the band asked for; widen it", though none was asked for.
+TEST_F(Frf, ARecordWithoutLinesSaysWhy) {
+  std::string rows = "time,force,position\n";
+  for (int k = 0; k < 50; ++k) {
+    const double t = 1e-3 * k;
+    rows += fmt::format("{},{},{}\n", t, std::sin(40.0 * t) + std::sin(90.0 * t), 1e-3 * t * t);
+  }
+  write("short.csv", rows);
+  expect_refusal("zwidth frf short.csv --force force --position position", "50 samples (0.05 s)");
+  expect_refusal("zwidth frf short.csv --force force --position position", "record for longer");
+  rows = "time,force,position\n";
+  for (int k = 0; k < 8000; ++k) {
+    const double t = 1e-3 * k;
+    double force = 0.0;
+    for (int line = 1; line <= 40; ++line) force += std::sin(3.141592653589793 * line * t + 0.3 * line * line);
+    rows += fmt::format("{},{},{}\n", t, force, 1e-3 * std::sin(3.0 * t));
+  }
+  write("periodic.csv", rows);
+  expect_refusal("zwidth frf periodic.csv --force force --position position --period 1900",
+                 "it repeats every 2000 samples");
 }
 
 class MotorBench : public Frf {

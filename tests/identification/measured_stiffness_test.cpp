@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <random>
 #include <string>
 
 #include "identification/synthetic_bench.hpp"
@@ -121,7 +122,25 @@ TEST(MeasuredStiffness, AMotionOfTheWrongSignIsNotCalledStable) {
   for (const DeviceParameters& parameters : {test::rigid_parameters(), test::lhifam_parameters()}) {
     FrequencyResponse response = exact_response(Device(parameters), 1.0, 450.0, 0.25);
     for (ResponsePoint& point : response.points) point.value = -point.value;
-    EXPECT_NE(measured_stiffness(response).status, Status::found) << parameters.name;
+    const MeasuredStiffness measured = measured_stiffness(response);
+    EXPECT_NE(measured.status, Status::found) << parameters.name;
+    EXPECT_TRUE(warns_of(measured, "the position falls as the force rises")) << parameters.name;
+  }
+}
+
+// A rigid body's, a mode's, a delay's: the right sign is never taken for the wrong one, wherever the band begins.
+TEST(MeasuredStiffness, NoDeviceOfTheRightSignIsTakenForATurnedOne) {
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  for (int i = 0; i < 300; ++i) {
+    DeviceParameters device;
+    device.bodies = {{"motor", 0.1 + uniform(random), uniform(random), 0.0, 0.0},
+                     {"handle", 0.1 + uniform(random), uniform(random), 0.0, 0.0}};
+    device.links = {{0, 1, std::pow(10.0, 3.0 + 2.0 * uniform(random)), std::pow(10.0, 2.0 * uniform(random) - 1.0)}};
+    device.loop = {0, i % 2 == 0 ? 0U : 1U, 1, 1e-3, 5e-3 * uniform(random)};
+    const double lowest = std::pow(10.0, 2.0 * uniform(random) - 0.3);
+    const FrequencyResponse response = exact_response(Device(device), lowest, 4.0 * lowest, 0.1 * lowest);
+    EXPECT_FALSE(warns_of(measured_stiffness(response), "the position falls")) << "device " << i << " from " << lowest;
   }
 }
 
