@@ -79,6 +79,9 @@ class Judge {
     judge_search();
     judge_friction();
     judge_hand();
+    if (const Device* known = known_structure()) {
+      if (auto doubt = doubt_of_masses(fit_.device, *known)) result_.trust.doubt(*std::move(doubt));
+    }
     result_.device_trust = result_.trust;
     judge_open_numbers();
     for (Remark& remark : implausible_device(fit_.device, known_structure(), judged_.fit.response.sampling_period)) {

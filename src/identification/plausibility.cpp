@@ -7,24 +7,29 @@
 #include <cstddef>
 #include <utility>
 
+#include "model/implausible_numbers.hpp"
 #include "zwidth/model/parameter.hpp"
 
 namespace zwidth::internal {
 namespace {
 
-constexpr double many_periods = 20.0;  // of delay or lag: few drives are as slow
-
-/// Many different whole numbers, as counters and converters give them.
+/// Many different numbers, all a whole number apart, as counters and converters give them: 0.5 may be added, so that
+/// they stand in the middle of their steps.
 bool is_in_counts(const std::vector<double>& samples) {
   constexpr double least_range = 100.0;
   if (samples.empty()) return false;
   const auto [lowest, highest] = std::minmax_element(samples.begin(), samples.end());
   if (*highest - *lowest < least_range) return false;
-  if (!std::ranges::all_of(samples, [](double x) { return x == std::round(x); })) return false;
+  const double offset = samples.front() - std::round(samples.front());
+  if (!std::ranges::all_of(samples, [&](double x) { return x - offset == std::round(x - offset); })) return false;
   constexpr std::ptrdiff_t least_values = 20;
   std::vector<double> values = samples;
   std::ranges::sort(values);
   return std::unique(values.begin(), values.end()) - values.begin() >= least_values;
+}
+
+const char* counts_of(const std::vector<double>& samples) {
+  return samples.front() == std::round(samples.front()) ? "whole numbers" : "numbers that are whole ones apart";
 }
 
 /// "ms" for a ratio of about 1000, "us" for a million, ...; nothing for a ratio that no unit explains.
@@ -40,21 +45,27 @@ std::string prefix_of(double ratio) {
   return "";
 }
 
-/// A sampling period of a haptic loop lies between a microsecond and a tenth of a second.
-std::optional<Remark> implausible_period(double period, const std::string& whose) {
-  constexpr double longest = 0.1;
-  constexpr double shortest = 1e-6;
-  if (period >= shortest && period <= longest) return std::nullopt;
-  // 0.2 to 400: milliseconds or microseconds given as seconds.
-  std::string likely;
-  if (period > longest) {
-    likely = period > 30.0 ? "microseconds" : "milliseconds";
-    likely = fmt::format("is it in {}? It must be in seconds: {:.4g}", likely, period * (period > 30.0 ? 1e-6 : 1e-3));
-  } else {
-    likely = "is the time in the unit that was stated? It must be in seconds";
+/// A fitted mass beside the structure's.
+struct OddMass {
+  std::string key;
+  double ratio;  ///< fitted over given
+};
+
+/// Those that are a power of ten off; a fit finds it a little less than ten.
+std::vector<OddMass> odd_masses(const Device& fitted, const Device& known) {
+  constexpr double far = 9.0;
+  std::vector<OddMass> found;
+  for (const std::string& key : parameter_keys(known.parameters())) {
+    if (!key.starts_with("body.") || !key.ends_with(".mass")) continue;
+    const double ratio =
+        parameter(fitted.parameters(), key).value_or(1.0) / parameter(known.parameters(), key).value_or(1.0);
+    if (ratio >= far || ratio <= 1.0 / far) found.push_back({key, ratio});
   }
-  return Remark{Remark::Severity::warning, fmt::format("{} is {:.4g} s", whose, period),
-                "every delay, damping and critical stiffness depends on it", likely};
+  return found;
+}
+
+std::string odd_mass_text(const OddMass& odd) {
+  return fmt::format("{} comes out {:.3g} times the structure's", odd.key, odd.ratio);
 }
 
 }  // namespace
@@ -64,7 +75,8 @@ std::vector<Remark> implausible_recording(const Recording& recording) {
   for (std::size_t i = 0; i < recording.channels.size(); ++i) {
     const Channel& channel = recording.channels[i];
     if (!is_in_counts(channel.samples)) continue;
-    remarks.push_back({Remark::Severity::warning, fmt::format("{} holds whole numbers only", channel.name),
+    remarks.push_back({Remark::Severity::warning,
+                       fmt::format("{} holds {} only", channel.name, counts_of(channel.samples)),
                        i == 0 ? "counts of a converter, or millinewtons? Every number below is then in that unit"
                               : "encoder counts? Every number below is then per count, not per m or rad",
                        "scale it to SI units (metres or radians per count)"});
@@ -78,9 +90,8 @@ std::vector<Remark> implausible_recording(const Recording& recording) {
 std::optional<std::string> doubt_of_counts(const Recording& recording) {
   if (recording.channels.size() < 2 || !is_in_counts(recording.channels[1].samples)) return std::nullopt;
   return fmt::format(
-      "{} holds whole numbers only, as an encoder counts: every number is then per count; give the "
-      "metres or radians per count",
-      recording.channels[1].name);
+      "{} holds {} only, as an encoder counts: every number is then per count; give the metres or radians per count",
+      recording.channels[1].name, counts_of(recording.channels[1].samples));
 }
 
 std::optional<std::string> doubt_of_lag(const std::vector<ParameterEstimate>& estimates, double recorded_period) {
@@ -110,28 +121,28 @@ std::vector<Remark> implausible_device(const Device& fitted, const Device* known
                           : fmt::format("is one of them in {}seconds?", prefix)});
     }
   }
-  const double record = recorded_period.value_or(period);
-  const double late = fitted.loop().delay + fitted.parameters().actuator.time_constant;
-  if (late > many_periods * record) {
-    remarks.push_back({Remark::Severity::warning,
-                       fmt::format("delay and lag come to {:.4g} s, {:.3g} sampling periods", late, late / record),
-                       "few drives are as slow as that",
-                       "are force and motion of the same instant, and the time in seconds?"});
+  if (auto remark = implausible_lateness(fitted, recorded_period.value_or(period))) {
+    remark->remedy = "are force and motion of the same instant, and the time in seconds? Else, " + remark->remedy;
+    remarks.push_back(*std::move(remark));
   }
   if (!known) return remarks;
-  constexpr double far = 30.0;
-  for (const std::string& key : parameter_keys(known->parameters())) {
-    if (!key.starts_with("body.") || !key.ends_with(".mass")) continue;
-    const double ratio =
-        parameter(fitted.parameters(), key).value_or(1.0) / parameter(known->parameters(), key).value_or(1.0);
-    if (ratio < far && ratio > 1.0 / far) continue;
-    const std::string prefix = prefix_of(1.0 / ratio);
+  for (const OddMass& each : odd_masses(fitted, *known)) {
+    const std::string prefix = prefix_of(1.0 / each.ratio);
     remarks.push_back(
-        {Remark::Severity::warning, fmt::format("{} comes out {:.3g} times the structure's", key, ratio),
+        {Remark::Severity::warning, odd_mass_text(each),
          "one of force, motion and structure is probably not in SI units",
          prefix.empty() ? "check their units" : fmt::format("is the motion or the force in {} of its unit?", prefix)});
   }
   return remarks;
+}
+
+std::optional<std::string> doubt_of_masses(const Device& fitted, const Device& known) {
+  constexpr double beyond_belief = 90.0;
+  for (const OddMass& each : odd_masses(fitted, known)) {
+    if (each.ratio < beyond_belief && each.ratio > 1.0 / beyond_belief) continue;
+    return odd_mass_text(each) + ": force, motion or structure is not in SI units; check their units";
+  }
+  return std::nullopt;
 }
 
 }  // namespace zwidth::internal

@@ -14,7 +14,8 @@ namespace zwidth::internal {
 /// Units that are probably not SI: whole numbers in a channel, a sampling period of seconds.
 [[nodiscard]] std::vector<Remark> implausible_recording(const Recording& recording);
 
-/// Why no answer of this recording is one in SI units: the position is whole numbers, as an encoder counts.
+/// Why no answer of this recording is one in SI units: the position is whole numbers, or these and a half, as an
+/// encoder counts.
 [[nodiscard]] std::optional<std::string> doubt_of_counts(const Recording& recording);
 
 /// Why a fitted lag of the actuator cannot be believed: longer than any drive's, beside the record's period. A body's own
@@ -26,5 +27,9 @@ namespace zwidth::internal {
 /// what the record allows.
 [[nodiscard]] std::vector<Remark> implausible_device(const Device& fitted, const Device* known,
                                                      std::optional<double> recorded_period);
+
+/// Why no answer is one in SI units where a fitted mass or inertia is about a hundred times the structure's or more, or a
+/// hundredth or less.
+[[nodiscard]] std::optional<std::string> doubt_of_masses(const Device& fitted, const Device& known);
 
 }  // namespace zwidth::internal

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iterator>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "identification/fit_judgement.hpp"
@@ -182,7 +183,12 @@ class Judge {
     } else if (!is_known && judged_.options.locked.empty()) {
       fit_.remarks.push_back(remark_of_unseen_hand());
     }
+    const double recorded_period = judged_.recordings.front().sampling_period;
+    for (Remark& remark : implausible_device(fit_.device, is_known ? &judged_.structure : nullptr, recorded_period)) {
+      fit_.remarks.push_back(std::move(remark));
+    }
     if (!is_known) return;
+    if (auto doubt = doubt_of_masses(fit_.device, judged_.structure)) trust_.doubt(*std::move(doubt));
     if (auto doubt = doubt_of_hand(judged_.structure, fit_.estimates, judged_.options.locked)) {
       trust_.doubt(*std::move(doubt));
     }

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "model/implausible_numbers.hpp"
 #include "require_valid.hpp"
 #include "stability/guarded_stiffness.hpp"
 #include "staged_progress.hpp"
@@ -231,6 +232,7 @@ Analysis analyze(const Device& device, const AnalysisOptions& options) {
   const FilteredPlant plant = filtered_plant(sample(form, {device.loop().sampling_period, device.loop().delay}),
                                              device.parameters().wall.filters);
   Analysis analysis;
+  analysis.remarks = implausible_numbers(device);
   StagedProgress stages(options.progress);
   stages.next(0.05);
   const PoleCount poles(device);

@@ -3,15 +3,18 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <random>
+#include <span>
 #include <string>
 
 #include "identification/synthetic_response.hpp"
 #include "lhifam.hpp"
 #include "property/random_recordings.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/identification/time_domain.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
 
 namespace zwidth {
@@ -260,6 +263,22 @@ TEST(Identification, APeriodInAnotherUnitIsSaid) {
   structure.loop.sampling_period = 400.0;
   const Identification found = identify(recording, Device(structure));
   EXPECT_THAT(found.remarks, Contains(Field(&Remark::remedy, HasSubstr("microseconds"))));
+}
+
+TEST(Identification, AnInertiaPowersOfTenOffTheStructuresIsSaidAndAHundredDoubtful) {
+  const Recording recording = recorded(late_rotor(), multisine(0.5, 60.0, 500.0), {0.01, 1e-6, 1});
+  for (const double factor : {1.0, 10.0, 0.1, 100.0, 0.01, 1000.0}) {
+    DeviceParameters structure = late_rotor().parameters();
+    structure.bodies[0].mass *= factor;
+    const Identification found = identify(recording, Device(structure));
+    const bool is_said = std::ranges::any_of(
+        found.remarks, [](const Remark& each) { return each.what.find("times the structure's") != std::string::npos; });
+    EXPECT_EQ(is_said, factor != 1.0) << factor;
+    const bool is_far = std::abs(std::log10(factor)) > 1.5;
+    EXPECT_EQ(found.trust.sound(), !is_far) << factor << (found.trust.sound() ? "" : found.trust.reasons.front());
+    const TimeDomainIdentification in_time = identify_in_time(std::span(&recording, 1), Device(structure), {});
+    EXPECT_EQ(all_reasons(in_time.trust).find("times the structure's") != std::string::npos, is_far) << factor;
+  }
 }
 
 TEST(Identification, TheBasisIsTheStructuresWall) {

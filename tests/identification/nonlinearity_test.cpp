@@ -117,6 +117,15 @@ TEST(Nonlinearity, PositionsInCountsAreDoubtful) {
   EXPECT_NE(all.find("metres or radians per count"), std::string::npos) << all;
 }
 
+TEST(Nonlinearity, CountsInTheMiddleOfTheirStepsAreCounts) {
+  Recording recording = record_of({}, 7);
+  for (double& x : recording.channels[1].samples) x = std::floor(x / 1e-6) + 0.5;
+  const Identification found = identify(recording, body(), {});
+  EXPECT_FALSE(found.trust.sound());
+  EXPECT_NE(found.trust.reasons.back().find("whole ones apart only, as an encoder counts"), std::string::npos)
+      << found.trust.reasons.back();
+}
+
 // A fit in time of a body on a cubic spring took the body's inertia for a lag of 0.48 s, and called 20 kN/m sound where 7
 // is true.
 TEST(Plausibility, ALagOfManySamplesIsDoubtful) {

@@ -1,14 +1,17 @@
 #include "zwidth/stability/analysis.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <cmath>
+#include <string>
 
 #include "lhifam.hpp"
 #include "zwidth/error.hpp"
 
 namespace zwidth {
 namespace {
+
+using ::testing::HasSubstr;
 
 TEST(Analysis, OfLhifam) {
   DeviceParameters device = test::lhifam_parameters();
@@ -52,6 +55,28 @@ TEST(Analysis, AWallOfNearlyNothingIsJudged) {
     EXPECT_NEAR(*analysis.wall->gain_margin * stiffness, 8848.70869499712, 1e-5);
     EXPECT_TRUE(analysis.disk_margin || !analysis.remarks.empty()) << stiffness;
   }
+}
+
+TEST(Analysis, NumbersInAnotherUnitAreSaid) {
+  const auto remedies = [](const DeviceParameters& device) {
+    std::string all;
+    for (const Remark& remark : analyze(Device(device), {.any_user = false}).remarks) all += remark.remedy + "\n";
+    return all;
+  };
+  EXPECT_EQ(remedies(test::lhifam_parameters()), "");
+  DeviceParameters slow = test::rigid_parameters();
+  slow.loop.sampling_period = 400.0;
+  EXPECT_THAT(remedies(slow), HasSubstr("is it in microseconds? It must be in seconds: 0.0004"));
+  slow.loop.sampling_period = 1.0;
+  EXPECT_THAT(remedies(slow), HasSubstr("is it in milliseconds? It must be in seconds: 0.001"));
+  DeviceParameters late = test::rigid_parameters();
+  late.loop.sampling_period = 1e-3;
+  late.loop.delay = 2.0;
+  EXPECT_THAT(remedies(late), HasSubstr("is it in milliseconds? It must be in seconds: 0.002"));
+  DeviceParameters heavy = test::rigid_parameters();
+  heavy.motion = Motion::rotary;
+  heavy.bodies[0].mass = 22.0;
+  EXPECT_THAT(remedies(heavy), HasSubstr("is it in g m^2? It must be in kg m^2: 0.022"));
 }
 
 TEST(Analysis, AWallIsReliedOnOnlyWhereTheAnswerIsSound) {

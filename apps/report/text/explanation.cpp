@@ -332,6 +332,11 @@ std::vector<std::string> caveats(const AnalysedDevice& analysed) {
   const DeviceParameters& device = parameters_of(analysed);
   const Units units = device_units(analysed);
   std::vector<std::string> texts;
+  const auto& wall = analysed.analysis.wall;
+  for (const Remark& remark : analysed.analysis.remarks) {
+    const bool stands_beside_margins = wall && wall->stable;
+    if (remark.severity == Remark::Severity::warning && !stands_beside_margins) texts.push_back(remark_line(remark));
+  }
   const Operator& user = device.user;
   const bool has_limit = analysed.analysis.any_user && analysed.analysis.any_user->stiffness > 0.0 &&
                          std::isfinite(analysed.analysis.any_user->stiffness);

@@ -87,7 +87,7 @@ struct Analysis {
   std::optional<WorstUser> worst_user;          ///< absent unless asked for, and where any_user is 0 or infinite
   std::optional<UserFamilyAnswer> user_family;  ///< absent unless asked for
   Trust trust;                                  ///< of everything here: the device's, and what the guards found
-  std::vector<Remark> remarks;                  ///< what was left out, and why
+  std::vector<Remark> remarks;  ///< what was left out, and why; numbers that are probably not in SI units
 };
 
 /// Analyses a device: critical stiffness (with the wall's damper closed), modes, rigid approximation, Q, margins,

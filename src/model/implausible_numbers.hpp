@@ -1,0 +1,26 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "zwidth/model/device.hpp"
+#include "zwidth/remark.hpp"
+
+namespace zwidth::internal {
+
+// Numbers that are probably not in SI units, with the likely one.
+
+constexpr double many_periods = 20.0;  ///< of delay or lag: few drives are as slow
+
+/// A sampling period of a haptic loop lies between a microsecond and a tenth of a second. `whose`: the remark's first
+/// words.
+[[nodiscard]] std::optional<Remark> implausible_period(double period, const std::string& whose);
+
+/// Delay and lag beside a period: the device's own, or the recording's.
+[[nodiscard]] std::optional<Remark> implausible_lateness(const Device& device, double period);
+
+/// Of a device by itself: its period, its delay and lag, and masses that no haptic device has.
+[[nodiscard]] std::vector<Remark> implausible_numbers(const Device& device);
+
+}  // namespace zwidth::internal
