@@ -122,7 +122,7 @@ Recording under_control(double position_gain, double velocity_gain) {
   excitation.kind = ExcitationKind::noise;
   excitation.amplitude = 5.0;
   excitation.lowest_hz = 0.5;
-  excitation.highest_hz = highest_hz;
+  excitation.highest_hz = 150.0;
   excitation.duration = 6.0;
   excitation.seed = 11;
   std::mt19937_64 random(12);
@@ -162,7 +162,7 @@ TEST(TimeDomainProperty, ADelayThatIsNotFreeIsLookedFor) {
   DeviceParameters truth = rubbing_body();
   truth.bodies = {{"motor", 0.3, 1.0, 0.0, 0.0}};
   truth.loop.delay = 0.5e-3;
-  const Recording recording = record_of(truth, 5.0, 11, 8.0, 20.0);
+  const Recording recording = record_of(truth, 5.0, 11, 8.0, 12.0);
   TimeDomainOptions options;
   options.free = {"body.motor.mass", "body.motor.damping"};
   DeviceParameters structure = truth;
@@ -171,7 +171,8 @@ TEST(TimeDomainProperty, ADelayThatIsNotFreeIsLookedFor) {
   structure.loop.delay = 0.0;
   const TimeDomainIdentification wrong = identify_in_time({&recording, 1}, Device(structure), options);
   EXPECT_FALSE(wrong.trust.sound());
-  EXPECT_NE(wrong.trust.reasons.front().find("shows a delay of 0.0005 s"), std::string::npos)
+  ASSERT_FALSE(wrong.trust.reasons.empty());
+  EXPECT_NE(wrong.trust.reasons.front().find("shows a delay of 0.0005"), std::string::npos)
       << wrong.trust.reasons.front();
   ASSERT_TRUE(wrong.analysis.interval);
   EXPECT_LE(wrong.analysis.interval->lower, critical_stiffness(Device(truth)).stiffness);
