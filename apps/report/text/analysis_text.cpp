@@ -35,8 +35,9 @@ std::string crossovers(const AnalysedDevice& analysed) {
   // A long delay has hundreds.
   static constexpr std::size_t most = 20;
   const std::string title =
-      fmt::format("Phase crossovers (a closed-loop pole on the unit circle), all up to Nyquist at {}",
-                  quantity(0.5 / analysed.device.loop().sampling_period, "Hz"));
+      wrap(fmt::format("Phase crossovers (a closed-loop pole on the unit circle), all up to Nyquist at {}",
+                       quantity(0.5 / analysed.device.loop().sampling_period, "Hz")),
+           line_width, 0);
   const std::size_t count = analysed.analysis.critical.crossovers.size();
   if (count == 0) return title + ": none\n\n";
   if (count <= most) return title + "\n" + layout(crossover_table(analysed)) + "\n";
