@@ -12,7 +12,7 @@
 #include "identification/friction_in_time.hpp"
 #include "identification/friction_test.hpp"
 #include "identification/interval_narrowing.hpp"
-#include "identification/limit_outside_band.hpp"
+#include "identification/lateness.hpp"
 #include "identification/response_choice.hpp"
 #include "identification/unseen_limit.hpp"
 #include "model/uncertainty_problem.hpp"
@@ -98,6 +98,13 @@ class Fitting {
     DeviceParameters parameters = fit_->fit.device.parameters();
     parameters.uncertainty = wider->fit.device.parameters().uncertainty;
     fit_->fit.device = Device(std::move(parameters));
+  }
+
+  /// What the record shows of a delay that is not fitted is as open as it is far from the structure's.
+  void open_ignored_delay() {
+    if (!ignored_delay_) return;
+    const double beyond = *ignored_delay_ - fit_->fit.device.loop().delay;
+    fit_->fit.device = with_open_delay(fit_->fit.device, beyond * beyond);
   }
 
   [[nodiscard]] std::optional<ShownFriction> friction() const {
@@ -190,14 +197,7 @@ class Fitting {
     if (is_free(delay_key)) return;
     const std::optional<RecordFit> wider = with_free({delay_key}, ParameterFitOptions::Start::from_structure);
     if (!wider) return;
-    const ParameterEstimate& estimate = wider->fit.estimates.back();
-    const double given = fit_->fit.device.loop().delay;
-    constexpr double significant = 4.0;
-    constexpr double notable = 0.02;  // of the sampling period
-    const double beyond = std::abs(estimate.value - given);
-    if (!estimate.standard_deviation || beyond <= significant * *estimate.standard_deviation) return;
-    if (beyond <= notable * fit_->fit.device.loop().sampling_period) return;
-    ignored_delay_ = estimate.value;
+    ignored_delay_ = other_delay(wider->fit.estimates.back(), fit_->fit.device.loop());
   }
 
   /// Delay, then lag, where the record shows them.
@@ -243,13 +243,10 @@ void judge_dependence(const MeasuredResponse& measured, Judgement& judgement) {
 
 void judge_delay(const Fitting& fitting, Judgement& judgement) {
   if (!fitting.ignored_delay()) return;
-  const double given = fitting.fit().fit.device.loop().delay;
-  const std::string what = fmt::format("the record shows a delay of {:.3g} s where the structure has {:.3g} s",
-                                       *fitting.ignored_delay(), given);
-  const char* remedy = "free loop.delay, or give it";
-  judgement.trust.doubt(fmt::format("{}; {}", what, remedy));
+  const Remark remark = ignored_delay_remark(*fitting.ignored_delay(), fitting.fit().fit.device.loop().delay);
+  judgement.trust.doubt(fmt::format("{}; {}", remark.what, remark.remedy));
   judgement.device_trust.inherit(judgement.trust);
-  judgement.remarks.push_back({Remark::Severity::warning, what, "the critical stiffness depends on it", remedy});
+  judgement.remarks.push_back(remark);
 }
 
 void judge_interval(Identification& result, const IdentifyOptions& options, Trust device_trust) {
@@ -264,6 +261,7 @@ Identification identified(const MeasuredResponse& measured, std::span<const Reco
                           const Device& structure, const IdentifyOptions& options) {
   Fitting fitting(measured, recordings, structure, options);
   fitting.widen_above_the_band();
+  fitting.open_ignored_delay();
   const CriticalStiffness critical = limit_of(fitting.fit().fit.device);
   std::optional<ShownFriction> friction = fitting.friction();
   Judgement judgement = judge({fitting.fit(), structure, options, critical, friction});
@@ -273,6 +271,7 @@ Identification identified(const MeasuredResponse& measured, std::span<const Reco
                         .response = fitting.fit().response,
                         .fit = fitting.fit().fit,
                         .friction = std::move(friction),
+                        .ignored_delay = fitting.ignored_delay(),
                         .trust = std::move(judgement.trust)};
   result.remarks = measured.remarks;
   for (std::vector<Remark>* more : {&result.fit.remarks, &fitting.remarks(), &judgement.remarks})

@@ -11,7 +11,7 @@
 
 #include "identification/fit_judgement.hpp"
 #include "identification/interval_narrowing.hpp"
-#include "identification/limit_outside_band.hpp"
+#include "identification/lateness.hpp"
 #include "identification/nonlinearity_of_equations.hpp"
 #include "identification/percent.hpp"
 #include "identification/plausibility.hpp"

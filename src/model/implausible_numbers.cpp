@@ -29,10 +29,10 @@ std::optional<Remark> implausible_period(double period, const std::string& whose
   constexpr double shortest = 1e-6;
   if (period >= shortest && period <= longest) return std::nullopt;
   constexpr double usual = 0.03;  // 0.2 to 30 are milliseconds given as seconds, more are microseconds
-  return Remark{Remark::Severity::warning, fmt::format("{} is {:.4g} s", whose, period),
-                "every delay, damping and critical stiffness depends on it",
-                period > longest ? likely_time(period, usual)
-                                 : "is the time in the unit that was stated? It must be in seconds"};
+  return Remark{
+      Remark::Severity::warning, fmt::format("{} is {:.4g} s", whose, period),
+      "every delay, damping and critical stiffness depends on it",
+      period > longest ? likely_time(period, usual) : "is the time in the unit that was stated? It must be in seconds"};
 }
 
 std::optional<Remark> implausible_lateness(const Device& device, double period) {

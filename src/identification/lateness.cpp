@@ -1,9 +1,11 @@
-#include "identification/limit_outside_band.hpp"
+#include "identification/lateness.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -11,16 +13,6 @@
 #include "zwidth/quantity.hpp"
 
 namespace zwidth::internal {
-
-std::string outside_band_reason(double limiting, double lowest, double highest) {
-  const bool is_above = limiting > highest;
-  return fmt::format(
-      "the crossover that limits, near {:.4g} Hz, lies {} the measured band, {:.4g} to {:.4g} Hz: {}; excite {} "
-      "frequencies",
-      hertz(limiting), is_above ? "above" : "below", hertz(lowest), hertz(highest),
-      is_above ? "delay, lag and modes there are not in the data" : "dampings and springs there are not in the data",
-      is_above ? "higher" : "lower");
-}
 
 Device with_shared_lateness(const Device& device) {
   DeviceParameters parameters = device.parameters();
@@ -67,6 +59,47 @@ Device with_shared_lateness(const Device& device) {
   }
   uncertainty = without_rounding(std::move(uncertainty));
   return Device(std::move(parameters));
+}
+
+Device with_open_delay(const Device& device, double variance) {
+  DeviceParameters parameters = device.parameters();
+  if (!parameters.uncertainty) parameters.uncertainty.emplace();
+  Uncertainty& uncertainty = *parameters.uncertainty;
+  std::vector<std::string>& keys = uncertainty.parameters;
+  const auto place = static_cast<std::size_t>(std::ranges::find(keys, std::string(delay_key)) - keys.begin());
+  if (place == keys.size()) {
+    if (keys.size() == max_uncertain_parameters) return device;
+    keys.emplace_back(delay_key);
+    for (auto& row : uncertainty.covariance) row.push_back(0.0);
+    uncertainty.covariance.emplace_back(keys.size(), 0.0);
+  }
+  uncertainty.covariance[place][place] += variance;
+  return Device(std::move(parameters));
+}
+
+std::optional<double> other_delay(const ParameterEstimate& estimate, const Loop& loop) {
+  constexpr double significant = 4.0;
+  constexpr double notable = 0.02;  // of the sampling period
+  const double beyond = std::abs(estimate.value - loop.delay);
+  if (!estimate.standard_deviation || beyond <= significant * *estimate.standard_deviation) return std::nullopt;
+  if (beyond <= notable * loop.sampling_period) return std::nullopt;
+  return estimate.value;
+}
+
+Remark ignored_delay_remark(double shown, double given) {
+  return {Remark::Severity::warning,
+          fmt::format("the record shows a delay of {:.3g} s where the structure has {:.3g} s", shown, given),
+          "the critical stiffness depends on it", "free loop.delay, or give it"};
+}
+
+std::string outside_band_reason(double limiting, double lowest, double highest) {
+  const bool is_above = limiting > highest;
+  return fmt::format(
+      "the crossover that limits, near {:.4g} Hz, lies {} the measured band, {:.4g} to {:.4g} Hz: {}; excite {} "
+      "frequencies",
+      hertz(limiting), is_above ? "above" : "below", hertz(lowest), hertz(highest),
+      is_above ? "delay, lag and modes there are not in the data" : "dampings and springs there are not in the data",
+      is_above ? "higher" : "lower");
 }
 
 }  // namespace zwidth::internal
