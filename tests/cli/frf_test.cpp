@@ -210,9 +210,14 @@ TEST_F(Frf, AConstantForceIsRefused) {
 // "No line is left in the band asked for; widen it", though none was asked for.
 TEST_F(Frf, ARecordWithoutLinesSaysWhy) {
   std::string rows = "time,force,position\n";
-  for (int k = 0; k < 50; ++k) {
+  double velocity = 0.0;
+  double position = 0.0;
+  for (int k = 0; k < 50; ++k) {  // 0.3 kg
     const double t = 1e-3 * k;
-    rows += fmt::format("{},{},{}\n", t, std::sin(40.0 * t) + std::sin(90.0 * t), 1e-3 * t * t);
+    const double force = std::sin(300.0 * t) + std::cos(777.0 * t);
+    rows += fmt::format("{:.3f},{:.9f},{:.12g}\n", t, force, position);
+    velocity += 1e-3 * (force - velocity) / 0.3;
+    position += 1e-3 * velocity;
   }
   write("short.csv", rows);
   expect_refusal("zwidth frf short.csv --force force --position position", "50 samples (0.05 s)");
