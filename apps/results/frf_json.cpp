@@ -42,10 +42,9 @@ static void to_json(Json& json, const MeasuredCrossover& crossover) {
 }
 
 static void to_json(Json& json, const AmplitudeDependence& found) {
-  json = {{"difference", found.difference},
-          {"force_ratio", found.force_ratio},
-          {"lines", found.lines},
-          {"grows_with_force", found.grows_with_force}};
+  json = {{"difference", found.difference}, {"force_ratio", found.force_ratio},
+          {"lines", found.lines},           {"grows_with_force", found.grows_with_force},
+          {"friction", found.friction},     {"friction_deviation", found.friction_deviation}};
 }
 
 namespace {

@@ -10,10 +10,9 @@
 #include <numbers>
 #include <utility>
 
-#include "identification/period_detection.hpp"
+#include "identification/friction_doubt.hpp"
 #include "identification/plausibility.hpp"
 #include "identification/pooled_response.hpp"
-#include "identification/response_friction.hpp"
 #include "identification/welch.hpp"
 #include "signal/clipping.hpp"
 #include "zwidth/error.hpp"
@@ -22,12 +21,6 @@
 namespace zwidth {
 using namespace internal;
 namespace {
-
-double root_mean_square(const std::vector<double>& samples) {
-  double squares = 0.0;
-  for (const double each : samples) squares += each * each;
-  return std::sqrt(squares / static_cast<double>(samples.size()));
-}
 
 std::string sentence(const Remark& remark) {
   std::string text = remark.what;
@@ -146,6 +139,12 @@ void judge_dependence(MeasuredResponse& measured, std::span<const Recording> rec
                 "", ""};
   if (by_force && found.grows_with_force) {
     remark.consequence = "so dry friction does: it holds a weak force more, and looks like damping";
+    if (found.friction) {
+      remark.consequence = fmt::format(
+          "so dry friction of about {:.2g} N (N m where it turns) does: it holds a weak force more, and "
+          "looks like damping",
+          *found.friction);
+    }
     remark.remedy = "fit in time with free friction";
   } else {
     remark.consequence = by_force ? "not as dry friction does: a spring that hardens, or a limit of force or current"
@@ -175,47 +174,6 @@ void judge_dependence(MeasuredResponse& measured, std::span<const Recording> rec
     measured.trust.doubt(fmt::format(
         "the recordings disagree on the critical stiffness: {}, outside the interval of all", fmt::join(moved, ", ")));
   }
-}
-
-/// The critical stiffness of a record that shows dry friction is that of small motions.
-void judge_friction(MeasuredResponse& measured, const FrequencyResponse& response, const Recording& recording) {
-  const auto found = find_friction_beside(response, recording.channels[0].samples, recording.channels[1].samples);
-  constexpr double significant = 25.0;  // chi-squared: once in 3e5 records without friction
-  // Of the limit: a rigid body's is b/(T/2) at most, where nothing but the hold delays the force.
-  constexpr double negligible = 0.01;
-  if (!found || found->evidence < significant) return;
-  const double largest = 0.5 * *response.sampling_period * measured.stiffness->limit->stiffness;
-  if (found->equivalent_damping < negligible * largest) return;
-  measured.trust.doubt(
-      "the motion shows dry friction, which the response takes for damping: larger motions have less of it, and a "
-      "lower "
-      "critical stiffness; repeat it with several times the force, or fit the device with its friction in time");
-}
-
-/// Forces of one size hide dry friction. Its harmonics are looked for where they stand beside the response; of a force that
-/// repeats they stand on the lines of the response itself.
-void judge_one_force(MeasuredResponse& measured, std::span<const Recording> recordings,
-                     const std::vector<FrequencyResponse>& responses, const FrequencyResponseOptions& options) {
-  using Excitation = FrequencyResponseOptions::Excitation;
-  if (!measured.stiffness || measured.stiffness->status != MeasuredStiffnessStatus::found) return;
-  constexpr double different = 1.5;
-  std::vector<double> sizes;
-  for (const Recording& each : recordings) sizes.push_back(root_mean_square(each.channels[0].samples));
-  if (std::ranges::max(sizes) >= different * std::ranges::min(sizes)) return;
-  const bool repeats =
-      options.excitation == Excitation::periodic ||
-      (options.excitation == Excitation::detect && std::ranges::any_of(recordings, [](const Recording& each) {
-         return detect_period(each.channels[0].samples).has_value();
-       }));
-  if (repeats) {
-    measured.trust.doubt(
-        "a force that repeats hides dry friction, which makes a small motion look more damped and the critical "
-        "stiffness "
-        "too high; record it with twice the force too, and give both");
-    return;
-  }
-  if (options.output != OutputQuantity::position) return;
-  for (std::size_t r = 0; r < recordings.size(); ++r) judge_friction(measured, responses[r], recordings[r]);
 }
 
 /// The response and what it shows of the critical stiffness.
@@ -356,9 +314,9 @@ MeasuredResponse frequency_response(std::span<const Recording> recordings, const
     measured = judged(fmt::format("{} and {} more", recordings[0].source, recordings.size() - 1),
                       std::move(pooled.response), std::move(remarks));
     measured.dependence = pooled.dependence;
-    if (pooled.dependence) judge_dependence(measured, recordings, each);
   }
-  judge_one_force(measured, recordings, each, decided);
+  judge_friction(measured, recordings, each, decided);
+  if (measured.dependence) judge_dependence(measured, recordings, each);
   for (const std::string& doubt : doubts) measured.trust.doubt(doubt);
   return measured;
 }

@@ -22,6 +22,9 @@ struct AmplitudeDependence {
   double force_ratio = 1.0;       ///< greatest over least force, median
   std::size_t lines = 0;          ///< on which it exceeds the noise
   bool grows_with_force = false;  ///< as dry friction makes it, which holds a weak force more
+  /// N or N m, that makes such a difference, where it grows with the force and stands out from the noise.
+  std::optional<double> friction = {};
+  std::optional<double> friction_deviation = {};  ///< one standard deviation of it, by the noise
 };
 
 /// A measured response and the critical stiffness that it shows without any model.
@@ -51,7 +54,8 @@ struct MeasuredResponse {
 ///
 /// Lines that several hold are averaged, weighted by the power of their force; the others stand side by side (a sine per
 /// recording makes a line each). Recordings that differ by more than their noise are said to, with the size; the trust
-/// is doubtful where that moves the critical stiffness beyond its interval, or may.
+/// is doubtful where that moves the critical stiffness beyond its interval, or may. Sound, here as for one recording, only
+/// where the recordings bound what dry friction may have made of it.
 /// Throws Error as for one recording, naming it by its source; for different rates; for the same samples twice.
 [[nodiscard]] MeasuredResponse frequency_response(std::span<const Recording> recordings,
                                                   const FrequencyResponseOptions& options = {},
