@@ -100,8 +100,7 @@ class FrictionDoubt {
     for (const Slidings& slidings : slidings_) {
       for (const ShownOrHidden& each : slidings.estimates) {
         const double force = each.friction.force;
-        const bool shows =
-            force > clear * each.friction.deviation && !is_harmless(slidings, each.share * force);
+        const bool shows = force > clear * each.friction.deviation && !is_harmless(slidings, each.share * force);
         if (shows && (!found || force > found->friction.force)) found = &each;
       }
     }
@@ -140,7 +139,8 @@ class FrictionDoubt {
 
   /// The critical stiffness without so much friction; nothing where the response does not say.
   [[nodiscard]] std::optional<double> stiffness_without(const Slidings& slidings, double force) const {
-    const MeasuredStiffness without = measured_stiffness(without_friction(measured_.response, slidings.of_records, force, slidings.body));
+    const MeasuredStiffness without =
+        measured_stiffness(without_friction(measured_.response, slidings.of_records, force, slidings.body));
     if (without.status != MeasuredStiffnessStatus::found || !without.limit) return std::nullopt;
     return without.limit->stiffness;
   }
@@ -155,12 +155,13 @@ class FrictionDoubt {
       return "a force that repeats hides dry friction, which makes a small motion look more damped and the critical "
              "stiffness too high; record it with twice the force too, and give both";
     }
-    const bool rests = std::ranges::any_of(slidings_.front().of_records,
-                                           [](const RecordedSliding& each) { return each.friction && !each.is_followed; });
-    return fmt::format("{}: how much of the damping is dry friction, and the critical stiffness too high, is not known; {}",
-                       rests ? "the motion is not what the response makes of the force, as where a device rests at times"
-                             : "the recordings do not show dry friction",
-                       remedy);
+    const bool rests = std::ranges::any_of(
+        slidings_.front().of_records, [](const RecordedSliding& each) { return each.friction && !each.is_followed; });
+    return fmt::format(
+        "{}: how much of the damping is dry friction, and the critical stiffness too high, is not known; {}",
+        rests ? "the motion is not what the response makes of the force, as where a device rests at times"
+              : "the recordings do not show dry friction",
+        remedy);
   }
 
   MeasuredResponse& measured_;

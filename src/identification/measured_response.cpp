@@ -176,6 +176,17 @@ void judge_dependence(MeasuredResponse& measured, std::span<const Recording> rec
   }
 }
 
+/// What a table says of itself: a stiffness that was refused where it was measured is none.
+void inherit(MeasuredResponse& measured, const Trust& source) {
+  measured.trust.inherit(source);
+  const char* reason = "the table says so of its critical stiffness, and not why: see the recording";
+  if (source.verdict == Trust::Verdict::doubtful && source.reasons.empty()) measured.trust.doubt(reason);
+  if (!source.refused()) return;
+  if (source.reasons.empty()) measured.trust.refuse(reason);
+  if (measured.stiffness && measured.stiffness->status == MeasuredStiffnessStatus::found)
+    measured.stiffness->status = MeasuredStiffnessStatus::undetermined;
+}
+
 /// The response and what it shows of the critical stiffness.
 MeasuredResponse judged(std::string source, FrequencyResponse response, std::vector<Remark> remarks) {
   MeasuredResponse measured{std::move(source), std::move(response), std::nullopt, std::move(remarks), {}};
@@ -199,6 +210,7 @@ MeasuredResponse judged(std::string source, FrequencyResponse response, std::vec
     measured.remarks.insert(measured.remarks.end(), found.begin(), found.end());
     measured.trust = trust_of(*measured.stiffness);
   }
+  if (measured.response.trust) inherit(measured, *measured.response.trust);
   return measured;
 }
 
@@ -237,11 +249,10 @@ std::optional<OptionProblem> find_problem(const FrequencyResponseOptions& option
 
 MeasuredResponse judged_response(std::string source, FrequencyResponse response, std::vector<Remark> remarks) {
   MeasuredResponse measured = judged(std::move(source), std::move(response), std::move(remarks));
-  if (measured.stiffness && measured.stiffness->status == MeasuredStiffnessStatus::found) {
-    measured.remarks.push_back({Remark::Severity::note,
-                                "one record does not show dry friction, which makes a small motion look stiffer and "
-                                "more damped: the critical stiffness is then too high",
-                                "repeat it with twice the force: it must come out the same"});
+  if (!measured.response.trust && measured.stiffness && !measured.trust.refused()) {
+    measured.trust.doubt(
+        "a table does not show dry friction, which makes a small motion look more damped and the critical stiffness "
+        "too high; give the recordings themselves");
   }
   return measured;
 }
@@ -308,7 +319,7 @@ MeasuredResponse frequency_response(std::span<const Recording> recordings, const
   }
   MeasuredResponse measured;
   if (recordings.size() == 1) {
-    measured = judged_response(recordings[0].source, each[0], std::move(remarks));
+    measured = judged(recordings[0].source, each[0], std::move(remarks));
   } else {
     PooledResponse pooled = pooled_response(each);
     measured = judged(fmt::format("{} and {} more", recordings[0].source, recordings.size() - 1),

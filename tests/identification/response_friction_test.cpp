@@ -13,6 +13,7 @@
 #include "identification/friction_body.hpp"
 #include "property/friction_recordings.hpp"
 #include "zwidth/identification/excitation.hpp"
+#include "zwidth/identification/identification.hpp"
 #include "zwidth/identification/measured_response.hpp"
 
 namespace zwidth {
@@ -175,6 +176,45 @@ TEST(ResponseFriction, OfADependenceOnTheForceHasASize) {
     ASSERT_TRUE(found.dependence && found.dependence->friction);
     EXPECT_NEAR(*found.dependence->friction, coulomb, 0.25 * coulomb);
     EXPECT_THAT(found.remarks, Contains(::testing::Field(&Remark::consequence, HasSubstr("dry friction of about"))));
+  }
+}
+
+TEST(ResponseFriction, ATableIsTrustedNoMoreThanItSaysOfItself) {
+  const test::FrictionBody damped{.mass = 0.5, .viscous = 4.0};
+  const Recording recording = noisy(rubbed(0.0, ExcitationKind::noise, 1, 20.0, damped), 1);
+  FrequencyResponse table = frequency_response(recording).response;
+  EXPECT_THAT(judged_response("table", table).trust.reasons, Contains(HasSubstr("a table does not show dry friction")));
+  table.trust.emplace();
+  EXPECT_TRUE(judged_response("table", table).trust.sound());
+  for (const auto verdict : {Trust::Verdict::doubtful, Trust::Verdict::refused}) {
+    for (const std::vector<std::string>& reasons : {std::vector<std::string>{"dry friction"}, {}}) {
+      table.trust = Trust{verdict, reasons};
+      const MeasuredResponse found = judged_response("table", table);
+      EXPECT_EQ(found.trust.verdict, verdict);
+      EXPECT_EQ(found.trust.reasons.size(), 1U);
+      EXPECT_EQ(stiffness_interval(*found.stiffness).has_value(), verdict == Trust::Verdict::doubtful);
+      DeviceParameters rigid;
+      rigid.bodies = {{"body", 1.0, 1.0, 0.0, 0.0}};
+      rigid.loop = {0, 0, 0, 1e-3, 0.0};
+      EXPECT_EQ(identify(found, Device(rigid)).trust.verdict, Trust::Verdict::doubtful);
+    }
+  }
+}
+
+// What a linear fit left of 573 N/m without the friction that it found was 10600 N/m.
+TEST(ResponseFriction, ALinearFitSaysNoStiffnessWithoutIt) {
+  DeviceParameters rigid;
+  rigid.bodies = {{"body", 1.0, 1.0, 0.0, 0.0}};
+  rigid.loop = {0, 0, 0, 1e-3, 0.0};
+  for (const double coulomb : {0.15, 0.75}) {
+    const Identification found = identify(rubbed(coulomb, ExcitationKind::noise, 1, 5.0), Device(rigid));
+    EXPECT_FALSE(found.trust.sound());
+    const auto of_friction = HasSubstr("dry friction");
+    ASSERT_THAT(found.trust.reasons, Contains(of_friction));
+    for (const std::string& reason : found.trust.reasons) {
+      EXPECT_THAT(reason, ::testing::Not(HasSubstr("without it the critical stiffness is")));
+    }
+    EXPECT_THAT(found.trust.reasons, Contains(HasSubstr("fit the friction too, in time")));
   }
 }
 

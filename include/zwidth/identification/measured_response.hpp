@@ -61,7 +61,8 @@ struct MeasuredResponse {
                                                   const FrequencyResponseOptions& options = {},
                                                   const Progress& progress = {});
 
-/// A response that was measured elsewhere (a table), judged. `remarks` are those made on the way to it.
+/// A response that was measured elsewhere (a table), judged: as far as it says of itself that it may be trusted, and
+/// doubtful where it says nothing, for it does not show dry friction. `remarks` are those made on the way to it.
 [[nodiscard]] MeasuredResponse judged_response(std::string source, FrequencyResponse response,
                                                std::vector<Remark> remarks = {});
 
