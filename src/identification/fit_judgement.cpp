@@ -10,6 +10,7 @@
 
 #include "identification/friction_test.hpp"
 #include "identification/held_device.hpp"
+#include "identification/lateness.hpp"
 #include "identification/nonlinearity_test.hpp"
 #include "identification/percent.hpp"
 #include "identification/plausibility.hpp"
@@ -66,6 +67,17 @@ double expected_misfit(const FrequencyResponse& response) {
   return std::sqrt(freedom / (freedom - 2.0));
 }
 
+/// Whether of masses, stiffnesses and dampings, some of which are free, the record says nothing.
+bool shows_lateness_alone(const ParameterFit& fit) {
+  const auto is_lateness = [](const ParameterEstimate& each) { return each.key == delay_key || each.key == lag_key; };
+  const auto is_silent = [&](const ParameterEstimate& each) {
+    return is_lateness(each) || std::ranges::any_of(fit.unidentifiable, [&](const UnidentifiableCombination& alone) {
+             return alone.parameters.size() == 1 && alone.parameters.front() == each.key;
+           });
+  };
+  return !std::ranges::all_of(fit.estimates, is_lateness) && std::ranges::all_of(fit.estimates, is_silent);
+}
+
 class Judge {
  public:
   explicit Judge(const JudgedFit& judged) : judged_(judged), fit_(judged.fit.fit) {}
@@ -106,8 +118,8 @@ class Judge {
           "the response hardly stands out of its noise anywhere; excite more strongly, and check that force and "
           "position are those of one experiment");
     }
-    // Each is a direction in which nothing shows: as many as there are numbers leave nothing.
-    if (fit_.unidentifiable.size() >= fit_.estimates.size()) {
+    // Each is a direction in which nothing shows: as many as there are numbers leave nothing. A delay alone is no device.
+    if (fit_.unidentifiable.size() >= fit_.estimates.size() || shows_lateness_alone(fit_)) {
       result_.trust.refuse("the record determines no parameter of the structure; free fewer, or excite more strongly");
     }
   }

@@ -152,12 +152,12 @@ void judge_friction_in_time(Identification& result, std::span<const Recording> r
   if (options.response.output != OutputQuantity::position) return;
   const std::optional<ShownFriction> friction = lowering_friction(result, recordings, options.fit.locked);
   if (!friction) return;
-  constexpr double notable = 0.9;
+  constexpr double notable = 0.95;  // of the linear fit's: an interval beside the friction moves by as much
   const bool shows = friction->force > significant_friction * friction->deviation;
   // Below, the fit in time may as well have ended in a side minimum.
   constexpr double suspected = 2.0;  // deviations
   const bool matters = friction->force > suspected * friction->deviation &&
-                       friction->stiffness_without < notable * result.analysis.interval->lower;
+                       friction->stiffness_without < notable * result.analysis.critical.stiffness;
   if (!shows && !matters) return;
   const Motion motion = result.fit.device.parameters().motion;
   const std::string what = fmt::format("{} dry friction of about {:.3g} {} on {}",

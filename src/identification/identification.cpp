@@ -12,6 +12,7 @@
 #include "identification/friction_in_time.hpp"
 #include "identification/friction_test.hpp"
 #include "identification/interval_narrowing.hpp"
+#include "identification/lateness.hpp"
 #include "identification/response_choice.hpp"
 #include "identification/unseen_limit.hpp"
 #include "model/uncertainty_problem.hpp"
@@ -23,9 +24,6 @@
 namespace zwidth {
 using namespace internal;
 namespace {
-
-constexpr const char* delay_key = "loop.delay";
-constexpr const char* lag_key = "actuator.time_constant";
 
 std::optional<OptionProblem> find_fit_problem(const ParameterFitOptions& options) {
   if (!(std::isfinite(options.robust_threshold) && options.robust_threshold >= 0.0)) {
@@ -45,55 +43,6 @@ std::optional<OptionProblem> find_fit_problem(const ParameterFitOptions& options
                          fmt::format("must be at most {}", max_free_parameters)};
   }
   return std::nullopt;
-}
-
-/// Delay and lag are each between 0 and their sum, which is all that a band below the limit shows of them: how they
-/// share it counts as a number from that range, neither as known nor as open beyond it (draws stay within bounds).
-void share_lateness(ParameterFit& fit) {
-  DeviceParameters parameters = fit.device.parameters();
-  const double late = parameters.loop.delay + parameters.actuator.time_constant;
-  if (!parameters.uncertainty || !(late > 0.0)) return;
-  Uncertainty& uncertainty = *parameters.uncertainty;
-  const auto place = [&](const char* key) {
-    return static_cast<std::size_t>(std::ranges::find(uncertainty.parameters, std::string(key)) -
-                                    uncertainty.parameters.begin());
-  };
-  const std::size_t delay = place(delay_key);
-  std::size_t lag = place(lag_key);
-  std::size_t count = uncertainty.parameters.size();
-  if (delay == count) return;
-  auto& covariance = uncertainty.covariance;
-  // Where the truth is at a bound, and half of the draws move off it to one side of K_CR, 5 % of the others are 2.5 % of
-  // all: the normal distribution's 1.645 deviations instead of 1.960.
-  constexpr double one_sided = 1.960 / 1.645;
-  for (auto& row : covariance) {
-    for (double& value : row) value *= one_sided * one_sided;
-  }
-  // Wherever the fit puts the difference, from -late to late, 2.5 % of the draws reach either end; none goes beyond.
-  const double of_difference = 1.1 * late * late;
-  if (lag == count) {
-    if (count == max_uncertain_parameters) return;
-    uncertainty.parameters.emplace_back(lag_key);
-    for (auto& row : covariance) row.push_back(0.0);
-    covariance.emplace_back(++count, 0.0);
-    const double shared = 0.25 * of_difference;
-    covariance[delay][delay] += shared;
-    covariance[lag][lag] += shared;
-    covariance[delay][lag] = covariance[lag][delay] = -shared;
-  } else {  // as if the difference had been measured so
-    std::vector<double> with_difference;
-    with_difference.reserve(count);
-    for (const auto& row : covariance) with_difference.push_back(row[delay] - row[lag]);
-    const double open = with_difference[delay] - with_difference[lag];
-    for (std::size_t i = 0; i < count; ++i) {
-      for (std::size_t j = 0; j < count; ++j) {
-        covariance[i][j] -= with_difference[i] * with_difference[j] / (open + of_difference);
-      }
-    }
-    for (std::size_t i = 0; i < count; ++i) covariance[i][i] = std::max(covariance[i][i], 0.0);
-  }
-  uncertainty = without_rounding(std::move(uncertainty));
-  fit.device = Device(std::move(parameters));
 }
 
 /// A structure on its way to the device: the record, the fit so far, and what is free.
@@ -141,7 +90,7 @@ class Fitting {
       if (wider && determines(*wider, keys)) break;
     }
     if (!wider || !wider->fit.device.parameters().uncertainty) return;
-    share_lateness(wider->fit);
+    wider->fit.device = with_shared_lateness(wider->fit.device);
     if (may_free()) {
       fit_ = std::move(wider);
       return;
@@ -149,6 +98,13 @@ class Fitting {
     DeviceParameters parameters = fit_->fit.device.parameters();
     parameters.uncertainty = wider->fit.device.parameters().uncertainty;
     fit_->fit.device = Device(std::move(parameters));
+  }
+
+  /// What the record shows of a delay that is not fitted is as open as it is far from the structure's.
+  void open_ignored_delay() {
+    if (!ignored_delay_) return;
+    const double beyond = *ignored_delay_ - fit_->fit.device.loop().delay;
+    fit_->fit.device = with_open_delay(fit_->fit.device, beyond * beyond);
   }
 
   [[nodiscard]] std::optional<ShownFriction> friction() const {
@@ -241,14 +197,7 @@ class Fitting {
     if (is_free(delay_key)) return;
     const std::optional<RecordFit> wider = with_free({delay_key}, ParameterFitOptions::Start::from_structure);
     if (!wider) return;
-    const ParameterEstimate& estimate = wider->fit.estimates.back();
-    const double given = fit_->fit.device.loop().delay;
-    constexpr double significant = 4.0;
-    constexpr double notable = 0.02;  // of the sampling period
-    const double beyond = std::abs(estimate.value - given);
-    if (!estimate.standard_deviation || beyond <= significant * *estimate.standard_deviation) return;
-    if (beyond <= notable * fit_->fit.device.loop().sampling_period) return;
-    ignored_delay_ = estimate.value;
+    ignored_delay_ = other_delay(wider->fit.estimates.back(), fit_->fit.device.loop());
   }
 
   /// Delay, then lag, where the record shows them.
@@ -303,13 +252,10 @@ void judge_table(const MeasuredResponse& measured, Judgement& judgement) {
 
 void judge_delay(const Fitting& fitting, Judgement& judgement) {
   if (!fitting.ignored_delay()) return;
-  const double given = fitting.fit().fit.device.loop().delay;
-  const std::string what = fmt::format("the record shows a delay of {:.3g} s where the structure has {:.3g} s",
-                                       *fitting.ignored_delay(), given);
-  const char* remedy = "free loop.delay, or give it";
-  judgement.trust.doubt(fmt::format("{}; {}", what, remedy));
+  const Remark remark = ignored_delay_remark(*fitting.ignored_delay(), fitting.fit().fit.device.loop().delay);
+  judgement.trust.doubt(fmt::format("{}; {}", remark.what, remark.remedy));
   judgement.device_trust.inherit(judgement.trust);
-  judgement.remarks.push_back({Remark::Severity::warning, what, "the critical stiffness depends on it", remedy});
+  judgement.remarks.push_back(remark);
 }
 
 void judge_interval(Identification& result, const IdentifyOptions& options, Trust device_trust) {
@@ -324,6 +270,7 @@ Identification identified(const MeasuredResponse& measured, std::span<const Reco
                           const Device& structure, const IdentifyOptions& options) {
   Fitting fitting(measured, recordings, structure, options);
   fitting.widen_above_the_band();
+  fitting.open_ignored_delay();
   const CriticalStiffness critical = limit_of(fitting.fit().fit.device);
   std::optional<ShownFriction> friction = fitting.friction();
   Judgement judgement = judge({fitting.fit(), structure, options, critical, friction});
@@ -334,6 +281,7 @@ Identification identified(const MeasuredResponse& measured, std::span<const Reco
                         .response = fitting.fit().response,
                         .fit = fitting.fit().fit,
                         .friction = std::move(friction),
+                        .ignored_delay = fitting.ignored_delay(),
                         .trust = std::move(judgement.trust)};
   result.remarks = measured.remarks;
   for (std::vector<Remark>* more : {&result.fit.remarks, &fitting.remarks(), &judgement.remarks})

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -68,21 +69,31 @@ std::string open_interval_reason(const StiffnessInterval& interval) {
 }
 
 void narrow_interval(Identification& result) {
+  if (!result.analysis.interval) return;
+  // Along a combination that does not show the response stays as it is: each may be taken as known once.
+  auto combinations =
+      std::ranges::count_if(result.fit.unidentifiable, [](const auto& each) { return each.parameters.size() > 1; });
+  const auto is_wide = [&](const StiffnessInterval& interval) {
+    constexpr double wide = 1.05;
+    return is_open(interval) || (combinations > 0 && interval.upper > wide * interval.lower);
+  };
   Device device = result.fit.device;
-  while (result.analysis.interval && is_open(*result.analysis.interval)) {
+  Analysis analysis = result.analysis;
+  while (is_wide(*analysis.interval)) {
     std::optional<Device> narrower = without_least_known(device);
-    if (!narrower) return;
+    if (!narrower) break;
     device = *std::move(narrower);
-    const Analysis analysis = analyze(device, {.any_user = false});
+    if (combinations > 0) --combinations;
+    analysis = analyze(device, {.any_user = false});
     if (!analysis.interval) return;
-    if (is_open(*analysis.interval)) continue;
-    constexpr double safe = 0.9;
-    constexpr double many = 0.25;
-    if (share_limited_elsewhere(result.fit.device, result.fit.frequencies, safe * analysis.interval->lower) > many)
-      return;
-    result.fit.device = device;
-    result.analysis = analysis;
   }
+  constexpr double safe = 0.9;
+  constexpr double many = 0.25;
+  if (is_open(*analysis.interval) || analysis.interval->lower <= result.analysis.interval->lower) return;
+  if (share_limited_elsewhere(result.fit.device, result.fit.frequencies, safe * analysis.interval->lower) > many)
+    return;
+  result.fit.device = std::move(device);
+  result.analysis = std::move(analysis);
 }
 
 }  // namespace zwidth::internal

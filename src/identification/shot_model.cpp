@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "identification/friction_test.hpp"
+#include "identification/lateness.hpp"
 #include "identification/shot_player.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/parameter.hpp"
@@ -14,9 +15,6 @@
 namespace zwidth::internal {
 
 namespace {
-
-constexpr const char* delay_key = "loop.delay";
-constexpr const char* lag_key = "actuator.time_constant";
 
 /// Sampling periods.
 constexpr double shortest_lag = 0.05;

@@ -11,6 +11,7 @@
 #include "identification/encoder_step.hpp"
 #include "identification/feedback_test.hpp"
 #include "identification/fit_judgement.hpp"
+#include "identification/lateness.hpp"
 #include "identification/shot_covariance.hpp"
 #include "identification/shot_fit.hpp"
 #include "identification/shot_search.hpp"
@@ -331,7 +332,19 @@ TimeDomainIdentification identify_in_time(std::span<const Recording> recordings,
   result.remarks = start.remarks;
   describe_parameters(result, model, found->fitted.fit, found->known);
   describe_motions(result, recordings, model, shots, found->fitted, found->known.covariance);
-  judge_in_time(result, {recordings, structure, options, shots, start.is_turned});
+  std::optional<double> other;
+  if (start.shows_other_delay) {  // or friction does, as the fit in time tells
+    TimeDomainOptions wider = options;
+    wider.free = start.free;
+    wider.free.emplace_back(delay_key);
+    const TimeDomainIdentification freed = identify_in_time(recordings, structure, wider);
+    other = other_delay(*std::ranges::find(freed.estimates, delay_key, &ParameterEstimate::key), structure.loop());
+    if (other) {
+      const double beyond = *other - structure.loop().delay;
+      result.device = with_open_delay(result.device, beyond * beyond);
+    }
+  }
+  judge_in_time(result, {recordings, structure, options, shots, start.is_turned, other});
   done(1.0);
   return result;
 }

@@ -14,6 +14,7 @@
 #include "identification/friction_test.hpp"
 #include "identification/held_device.hpp"
 #include "identification/interval_narrowing.hpp"
+#include "identification/lateness.hpp"
 #include "identification/nonlinearity_test.hpp"
 #include "identification/percent.hpp"
 #include "identification/plausibility.hpp"
@@ -87,6 +88,7 @@ class Judge {
     judge_feedback();
     judge_search();
     judge_hand();
+    judge_delay();
     const std::vector<std::string> open = open_numbers();
     if (!open.empty()) {
       trust_.doubt(fmt::format("the data do not determine {}: taken as they stand in the start of the search",
@@ -186,6 +188,12 @@ class Judge {
     if (auto doubt = doubt_of_hand(judged_.structure, fit_.estimates, judged_.options.locked)) {
       trust_.doubt(*std::move(doubt));
     }
+  }
+
+  void judge_delay() {
+    if (!judged_.other_delay) return;
+    const Remark remark = ignored_delay_remark(*judged_.other_delay, judged_.structure.loop().delay);
+    trust_.doubt(fmt::format("{}; {}", remark.what, remark.remedy));
   }
 
   [[nodiscard]] std::vector<std::string> open_numbers() const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "identification/shot_model.hpp"
@@ -12,7 +13,8 @@ struct JudgedTimeFit {
   const Device& structure;
   const TimeDomainOptions& options;
   std::span<const Shot> shots;
-  bool is_turned = false;  ///< the position falls as the force rises
+  bool is_turned = false;               ///< the position falls as the force rises
+  std::optional<double> other_delay{};  ///< s; that the recordings show where another is given and not free
 };
 
 /// Analysis, basis, trust and remarks of a fit whose parameters and motions are given, and each motion's `unexplained`.

@@ -7,15 +7,13 @@
 #include <numbers>
 #include <set>
 
+#include "identification/lateness.hpp"
 #include "simulation/continuous_motion.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/parameter.hpp"
 
 namespace zwidth::internal {
 namespace {
-
-constexpr const char* loop_delay_key = "loop.delay";
-constexpr const char* actuator_lag_key = "actuator.time_constant";
 
 /// Root mean squares of a record.
 struct Sizes {
@@ -74,8 +72,7 @@ void check_free(const Device& structure, const std::vector<std::string>& free) {
   std::set<std::string> seen;
   std::size_t rubbing = 0;
   for (const std::string& key : free) {
-    const bool shows =
-        key.starts_with("body.") || key.starts_with("link.") || key == loop_delay_key || key == actuator_lag_key;
+    const bool shows = key.starts_with("body.") || key.starts_with("link.") || key == delay_key || key == lag_key;
     if (!shows || !parameter(structure.parameters(), key)) {
       throw Error(
           ErrorCode::invalid_argument,
@@ -118,6 +115,7 @@ TimeDomainStart time_domain_start(std::span<const Recording> recordings, const D
     start.lowest = found.fit.frequencies.front();
     start.highest = found.fit.frequencies.back();
     start.is_turned = found.fit.model_error_if_turned.has_value();
+    start.shows_other_delay = found.ignored_delay.has_value();
     if (takes_all) {
       start.free.clear();
       for (const ParameterEstimate& each : found.fit.estimates) start.free.push_back(each.key);
@@ -128,7 +126,7 @@ TimeDomainStart time_domain_start(std::span<const Recording> recordings, const D
       if (std::ranges::count(start.free, key) == 0) start.free.push_back(key);
     };
     if (options.loop_delay != IdentifyOptions::LoopDelay::as_given) {
-      for (const char* key : {loop_delay_key, actuator_lag_key}) add(key);
+      for (const char* key : {delay_key, lag_key}) add(key);
       start.device = with_some_lag(start.device, strongest(recordings).sampling_period);
     }
     for (const Body& body : structure.bodies()) {
@@ -178,7 +176,7 @@ std::vector<Coordinate> time_domain_coordinates(const TimeDomainStart& start, st
     const double value = parameter(start.device.parameters(), key).value_or(0.0);
     if (coordinate.kind == Coordinate::Kind::logarithmic) {
       coordinate.unit = value;
-    } else if (key == loop_delay_key || key == actuator_lag_key) {
+    } else if (key == delay_key || key == lag_key) {
       coordinate.unit = recording.sampling_period;
     } else if (is_friction(key)) {
       coordinate.unit = 0.1 * sizes.force;

@@ -15,7 +15,8 @@ struct TimeDomainStart {
   std::vector<std::string> free;  ///< keys in full
   double lowest = 0.0;            ///< rad/s: band of that recording's response
   double highest = 0.0;
-  bool is_turned = false;  ///< the position falls as the force rises
+  bool is_turned = false;          ///< the position falls as the force rises
+  bool shows_other_delay = false;  ///< than the given one, to the linear fit
   std::vector<Remark> remarks{};
 };
 

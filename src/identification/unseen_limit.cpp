@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "identification/fit_judgement.hpp"
+#include "stability/device_draws.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/parameter.hpp"
 #include "zwidth/quantity.hpp"
@@ -38,20 +40,21 @@ std::optional<Device> moved(const Device& device, std::size_t i, double deviatio
   }
 }
 
-/// Whether a fit with one number given leaves no more than chance may.
-bool explains_as_much(const ParameterFit& given, const ParameterFit& free, double line_correlation) {
-  if (!given.misfit || !free.misfit) return false;
+/// Whether another fit leaves no more than chance may.
+bool explains_as_much(const ParameterFit& other, const ParameterFit& first, double line_correlation) {
+  if (other.model_error > 1.02 * first.model_error + 1e-9) return false;
+  if (!other.misfit || !first.misfit) return true;
   constexpr double chance = 4.0;  // of chi-squared, in the residuals' own size
-  const double independent = 2.0 * static_cast<double>(free.frequencies.size()) / line_correlation;
-  const double ratio = *given.misfit / *free.misfit;
-  return given.model_error <= 1.02 * free.model_error + 1e-9 && (ratio * ratio - 1.0) * independent <= chance;
+  const double independent = 2.0 * static_cast<double>(first.frequencies.size()) / line_correlation;
+  const double ratio = *other.misfit / *first.misfit;
+  return (ratio * ratio - 1.0) * independent <= chance;
 }
 
 constexpr double well_known = 0.2;  // deviations of the value: what is known better moves K_CR as the draws show
 
-/// What of the device limits elsewhere.
+/// A limit where the record shows nothing.
 struct UnseenLimit {
-  std::string known;  ///< of which number, how well
+  std::string why;  ///< what the record leaves open
   CriticalStiffness critical;
 };
 
@@ -67,41 +70,85 @@ std::optional<UnseenLimit> at_an_end(const Device& device, const ParameterEstima
     if (!other) continue;
     CriticalStiffness critical = limit_of(*other);
     if (!limits(critical)) continue;
-    return UnseenLimit{
-        fmt::format("{} is known to {:.2g} % only", each.key, 100.0 * *each.standard_deviation / each.value),
-        std::move(critical)};
+    return UnseenLimit{fmt::format("{} is known to {:.2g} % only: within that", each.key,
+                                   100.0 * *each.standard_deviation / each.value),
+                       std::move(critical)};
   }
   return std::nullopt;
 }
 
-/// A link's damping that the data hardly show, or not at all, as low as links have it, and the others fitted again.
-std::optional<UnseenLimit> with_little_damping(const Identification& result, const IdentifyOptions& options,
-                                               const ParameterEstimate& each, const auto& limits) {
-  constexpr double little = 0.01;  // of the critical one
-  DeviceParameters parameters = result.fit.device.parameters();
-  parameters.uncertainty.reset();
-  for (std::size_t i = 0; i < parameters.links.size(); ++i) {
-    Link& link = parameters.links[i];
-    if (each.key != fmt::format("link.{}.damping", i)) continue;
-    const double first = parameters.bodies[link.first].mass;
-    const double second = parameters.bodies[link.second].mass;
-    const double damping = 2.0 * little * std::sqrt(link.stiffness * first * second / (first + second));
-    if (each.value <= damping) return std::nullopt;
-    link.damping = damping;
-    ParameterFitOptions fit_options = options.fit;
-    fit_options.start = ParameterFitOptions::Start::from_structure;
-    fit_options.free.clear();
-    for (const ParameterEstimate& other : result.fit.estimates) {
-      if (other.key != each.key) fit_options.free.push_back(other.key);
+/// Devices with other values of what the data do not show to a factor of less than 2: masses, stiffnesses, delay and lag
+/// by a factor, dampings of links from 0.5 to 10 % of the critical one, dampings to ground in other shares of their sum.
+class OtherValues {
+ public:
+  explicit OtherValues(const Identification& result) : device_(result.fit.device.parameters()) {
+    device_.uncertainty.reset();
+    for (const ParameterEstimate& each : result.fit.estimates) {
+      constexpr double shown = 0.5;
+      if (!each.standard_deviation || *each.standard_deviation > shown * each.value) open_.insert(each.key);
     }
+  }
+
+  [[nodiscard]] bool exist() const { return !open_.empty(); }
+
+  Device next() {
+    DeviceParameters other = device_;
+    double mass = 0.0;
+    double damping = 0.0;
+    for (Body& body : other.bodies) {
+      vary(body.mass, fmt::format("body.{}.mass", body.name));
+      if (!is_open(fmt::format("body.{}.damping", body.name))) continue;
+      damping += body.damping;
+      body.damping = body.mass * factor();
+      mass += body.damping;
+    }
+    for (Body& body : other.bodies) {
+      if (is_open(fmt::format("body.{}.damping", body.name))) body.damping *= damping / mass;
+    }
+    for (std::size_t i = 0; i < other.links.size(); ++i) {
+      Link& link = other.links[i];
+      vary(link.stiffness, fmt::format("link.{}.stiffness", i));
+      if (!is_open(fmt::format("link.{}.damping", i))) continue;
+      const double first = other.bodies[link.first].mass;
+      const double second = other.bodies[link.second].mass;
+      const double ratio = 0.022 * std::pow(4.5, std::clamp(normal_.next(), -1.0, 1.0));
+      link.damping = 2.0 * ratio * std::sqrt(link.stiffness * first * second / (first + second));
+    }
+    vary(other.loop.delay, "loop.delay");
+    vary(other.actuator.time_constant, "actuator.time_constant");
+    return Device(std::move(other));
+  }
+
+ private:
+  [[nodiscard]] bool is_open(const std::string& key) const { return open_.contains(key); }
+  double factor() { return std::exp(0.7 * normal_.next()); }
+  void vary(double& value, const std::string& key) {
+    if (is_open(key)) value *= factor();
+  }
+
+  DeviceParameters device_;
+  std::set<std::string> open_;
+  NormalDraws normal_{1};
+};
+
+/// A fit from other values of what is open, as good as the first, that limits elsewhere.
+std::optional<UnseenLimit> from_other_values(const Identification& result, const IdentifyOptions& options,
+                                             const auto& limits) {
+  constexpr int starts = 12;
+  OtherValues values(result);
+  if (!values.exist()) return std::nullopt;
+  ParameterFitOptions fit_options = options.fit;
+  fit_options.start = ParameterFitOptions::Start::from_structure;
+  fit_options.free.clear();
+  for (const ParameterEstimate& each : result.fit.estimates) fit_options.free.push_back(each.key);
+  for (int start = 0; start < starts; ++start) {
     try {
-      const ParameterFit fit = fit_parameters(Device(parameters), result.response, fit_options);
-      if (!explains_as_much(fit, result.fit, result.response.line_correlation)) return std::nullopt;
+      const ParameterFit fit = fit_parameters(values.next(), result.response, fit_options);
       CriticalStiffness critical = limit_of(fit.device);
-      if (!limits(critical)) return std::nullopt;
-      return UnseenLimit{fmt::format("{} hardly shows", each.key), std::move(critical)};
+      if (!explains_as_much(fit, result.fit, result.response.line_correlation) || !limits(critical)) continue;
+      return UnseenLimit{"the record leaves numbers open: with others that explain it as well", std::move(critical)};
     } catch (const Error&) {  // no device has such numbers
-      return std::nullopt;
+      continue;
     }
   }
   return std::nullopt;
@@ -119,23 +166,21 @@ void judge_unseen_limit(Identification& result, const IdentifyOptions& options, 
     return critical.limit && critical.stiffness < notable * lower &&
            (critical.limit->frequency < lines.front() || critical.limit->frequency > lines.back());
   };
+  std::optional<UnseenLimit> unseen;
   for (const ParameterEstimate& each : result.fit.estimates) {
-    auto unseen = at_an_end(result.fit.device, each, limits);
-    if (!unseen && !(each.standard_deviation && *each.standard_deviation <= well_known * each.value)) {
-      unseen = with_little_damping(result, options, each, limits);
-    }
-    if (!unseen) continue;
-    const double frequency = unseen->critical.limit->frequency;
-    const bool is_above = frequency > lines.back();
-    result.trust.doubt(fmt::format(
-        "{}: within that a crossover near {:.4g} Hz, {} the measured band, may limit at {:.4g} {}; excite {} frequencies",
-        unseen->known, hertz(frequency), is_above ? "above" : "below", unseen->critical.stiffness,
-        units_of(parameters.motion).stiffness, is_above ? "higher" : "lower"));
-    result.analysis.trust.inherit(result.trust);
-    device_trust.inherit(result.trust);
-    result.fit.device = with_trust(result.fit.device, device_trust);
-    return;
+    if (!unseen) unseen = at_an_end(result.fit.device, each, limits);
   }
+  if (!unseen) unseen = from_other_values(result, options, limits);
+  if (!unseen) return;
+  const double frequency = unseen->critical.limit->frequency;
+  const bool is_above = frequency > lines.back();
+  result.trust.doubt(
+      fmt::format("{} a crossover near {:.4g} Hz, {} the measured band, may limit at {:.4g} {}; excite {} frequencies",
+                  unseen->why, hertz(frequency), is_above ? "above" : "below", unseen->critical.stiffness,
+                  units_of(parameters.motion).stiffness, is_above ? "higher" : "lower"));
+  result.analysis.trust.inherit(result.trust);
+  device_trust.inherit(result.trust);
+  result.fit.device = with_trust(result.fit.device, device_trust);
 }
 
 }  // namespace zwidth::internal

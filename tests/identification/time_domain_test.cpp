@@ -24,12 +24,13 @@ DeviceParameters rubbing_body() {
   return device;
 }
 
-Recording record_of(const DeviceParameters& device, double amplitude, std::uint64_t seed, double duration = 8.0) {
+Recording record_of(const DeviceParameters& device, double amplitude, std::uint64_t seed, double duration = 8.0,
+                    double highest_hz = 150.0) {
   ExcitationOptions excitation;
   excitation.kind = ExcitationKind::noise;
   excitation.amplitude = amplitude;
   excitation.lowest_hz = 0.5;
-  excitation.highest_hz = 150.0;
+  excitation.highest_hz = highest_hz;
   excitation.duration = duration;
   excitation.seed = seed;
   const std::vector<double> force = excite(excitation).samples;
@@ -154,6 +155,27 @@ TEST(TimeDomainProperty, ARecordInFeedbackIsDoubtful) {
   const TimeDomainIdentification closed = identify_in_time({&held, 1}, structure_of(rubbing_body()), placeholders());
   EXPECT_GT(closed.motions[0].feedback, 5.0);
   EXPECT_EQ(closed.trust.verdict, Trust::Verdict::doubtful);
+}
+
+// Held at no delay where the truth has 0.5 ms: 1983 N/m in [1948, 2017], sound; true 1000.7. The given delay is no doubt.
+TEST(TimeDomainProperty, ADelayThatIsNotFreeIsLookedFor) {
+  DeviceParameters truth = rubbing_body();
+  truth.bodies = {{"motor", 0.3, 1.0, 0.0, 0.0}};
+  truth.loop.delay = 0.5e-3;
+  const Recording recording = record_of(truth, 5.0, 11, 8.0, 12.0);
+  TimeDomainOptions options;
+  options.free = {"body.motor.mass", "body.motor.damping"};
+  DeviceParameters structure = truth;
+  const TimeDomainIdentification right = identify_in_time({&recording, 1}, Device(structure), options);
+  EXPECT_TRUE(right.trust.sound()) << right.trust.reasons.front();
+  structure.loop.delay = 0.0;
+  const TimeDomainIdentification wrong = identify_in_time({&recording, 1}, Device(structure), options);
+  EXPECT_FALSE(wrong.trust.sound());
+  ASSERT_FALSE(wrong.trust.reasons.empty());
+  EXPECT_NE(wrong.trust.reasons.front().find("shows a delay of 0.0005"), std::string::npos)
+      << wrong.trust.reasons.front();
+  ASSERT_TRUE(wrong.analysis.interval);
+  EXPECT_LE(wrong.analysis.interval->lower, critical_stiffness(Device(truth)).stiffness);
 }
 
 TEST(TimeDomain, FileKeepsFrictionAndUncertainty) {

@@ -85,6 +85,15 @@ TEST(IdentificationProperty, FrictionThatTheLinearFitHidesIsFoundInTime) {
   }
 }
 
+// Friction of 0.021 N, of which a fit in time finds 0.0124 +- 0.0038 N: the interval began 18 % above the truth, sound.
+TEST(IdentificationProperty, FrictionThatIsSuspectedMovesTheInterval) {
+  const auto made = test::random_recording(600200);
+  ASSERT_TRUE(made && made->has_friction);
+  const Identification found = identified(*made);
+  EXPECT_FALSE(found.trust.sound());
+  EXPECT_FALSE(found.analysis.trust.sound());
+}
+
 // A body too few, excited to 8.5 Hz: the response shows 1284 N/m at 2.8 Hz, but nothing of the damping of a mode near
 // 31 Hz, where half of the devices that the data allow are limited; the true one is, at 633 N/m. Was sound, with
 // [1280, 1288].
@@ -168,12 +177,27 @@ TEST(IdentificationProperty, ARecordWithAnAnswerHasOne) {
 // Numbers of which only a combination shows were taken for known exactly: 0.4 and 0.5 % too high, in intervals of
 // +- 0.04 and + 0.6 - 0.2 %.
 TEST(IdentificationProperty, ACombinationThatShowsVariesAsTheDataLeaveIt) {
-  for (const std::uint64_t seed : {630073U, 620055U}) {
-    const auto made = test::random_recording(seed);
-    ASSERT_TRUE(made && made->right_structure);
-    const Identification found = identified(*made);
-    ASSERT_NO_FATAL_FAILURE(expect_interval_holds(found, made->stiffness, seed));
-  }
+  const auto made = test::random_recording(630073);
+  ASSERT_TRUE(made && made->right_structure && !made->has_friction);
+  const Identification found = identified(*made);
+  ASSERT_NO_FATAL_FAILURE(expect_interval_holds(found, made->stiffness, made->seed));
+  // Friction moves this one 0.6 % up, which no interval of a linear fit holds: it is doubtful for that.
+  const auto rubbing = test::random_recording(620055);
+  ASSERT_TRUE(rubbing && rubbing->right_structure && rubbing->has_friction);
+  const Identification doubtful = identified(*rubbing);
+  EXPECT_FALSE(doubtful.trust.sound());
+  EXPECT_TRUE(doubtful.friction);
+  EXPECT_NEAR(doubtful.analysis.critical.stiffness, rubbing->stiffness, 0.01 * rubbing->stiffness);
+}
+
+// Two bodies excited to 10 Hz, whose mode near 94 Hz limits at 3402 N/m: was sound, with [4354, 4426].
+TEST(IdentificationProperty, OtherNumbersThatExplainTheRecordAsWellAreLookedFor) {
+  const auto made = test::random_recording(400289);
+  ASSERT_TRUE(made && made->right_structure);
+  ASSERT_GT(made->limiting_hz, made->highest_hz);
+  const Identification found = identified(*made);
+  EXPECT_FALSE(found.trust.sound());
+  EXPECT_FALSE(found.analysis.trust.sound());
 }
 
 // A link of 7e-66 N/m on the way ended all, and a search that was stopped was not continued.

@@ -34,13 +34,14 @@ AnalysedDevice with_softest_crossovers(AnalysedDevice analysed, std::size_t most
 std::string crossovers(const AnalysedDevice& analysed) {
   // A long delay has hundreds.
   static constexpr std::size_t most = 20;
-  const std::string title =
-      fmt::format("Phase crossovers (a closed-loop pole on the unit circle), all up to Nyquist at {}",
-                  quantity(0.5 / analysed.device.loop().sampling_period, "Hz"));
   const std::size_t count = analysed.analysis.critical.crossovers.size();
-  if (count == 0) return title + ": none\n\n";
-  if (count <= most) return title + "\n" + layout(crossover_table(analysed)) + "\n";
-  return title + "\n" + layout(crossover_table(with_softest_crossovers(analysed, most))) +
+  const std::string title =
+      wrap(fmt::format("Phase crossovers (a closed-loop pole on the unit circle), all up to Nyquist at {}{}",
+                       quantity(0.5 / analysed.device.loop().sampling_period, "Hz"), count == 0 ? ": none" : ""),
+           line_width, 0);
+  if (count == 0) return title + "\n";
+  if (count <= most) return title + layout(crossover_table(analysed)) + "\n";
+  return title + layout(crossover_table(with_softest_crossovers(analysed, most))) +
          fmt::format("  ... the {} softest of {}; --json gives all\n\n", most, count);
 }
 

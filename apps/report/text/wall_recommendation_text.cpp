@@ -101,10 +101,11 @@ class RecommendationWriter {
   }
 
   [[nodiscard]] std::string asked() const {
-    std::string text = fmt::format(
-        "{}; gain margin {:.3g} dB of K alone and of the whole force with any passive user, "
-        "phase margin {}",
-        goal_text(options_.goal), decibels(options_.gain_margin), degrees(options_.phase_margin));
+    const bool any_user = !answer_.wall || answer_.wall->any_user_limit;
+    std::string text =
+        fmt::format("{}; gain margin {:.3g} dB of K alone and of the whole force {}, phase margin {}",
+                    goal_text(options_.goal), decibels(options_.gain_margin),
+                    any_user ? "with any passive user" : "of the device as it is", degrees(options_.phase_margin));
     if (options_.ripple)
       text += fmt::format(", at most {} per encoder count", quantity(*options_.ripple, units_.force));
     if (options_.drift > 0.0) {

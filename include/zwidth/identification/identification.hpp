@@ -91,6 +91,7 @@ struct Identification {
   Analysis analysis = {};                      ///< of fit.device, as analyze() gives it, without users
   StiffnessBasis basis = {};                   ///< of analysis.critical
   std::optional<ShownFriction> friction = {};  ///< absent where the record shows none
+  std::optional<double> ignored_delay = {};    ///< s; that the record shows where another is given and not free
   std::vector<Remark> remarks = {};            ///< of reading, estimate, fit and judgement
   /// Of analysis.critical. The device's own (fit.device, analysis.trust) is no better: there, numbers that the data
   /// leave open count even where the response itself shows the critical stiffness.
