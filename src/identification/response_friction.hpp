@@ -37,7 +37,8 @@ struct RecordedSliding {
   Lines gain;                       ///< kappa on the lines of the record, s/m: what the response makes of the sign
   std::vector<double> force_power;  ///< around each line
   std::optional<FrictionEstimate> friction = {};  ///< by its harmonics
-  /// The body moves as the response says, so that there is no more friction than is estimated. One that rests for long does not.
+  /// The body moves as the response says, so that there is no more friction than is estimated. One that rests for
+  /// long does not.
   bool is_followed = false;
 
   [[nodiscard]] std::complex<double> gain_at(double at) const;
@@ -49,10 +50,10 @@ struct RecordedSliding {
 ///     S = kappa V + S',   1/G = 1/G_0 + F_c kappa jw/D,   Y - H_Y F = -F_c (G R/D) (S' - H_S F) + rest
 ///
 /// S: lines of sign v, v: recorded velocity, times R of a hidden body; kappa: their regression, line by line over those
-/// around it, or their quotient on the lines of a force that repeats; G: the measured response, which holds the damping F_c kappa; D: the hold; H_Y, H_S: what is locally
-/// proportional to the force. A delay turns the coefficient by up to some 60 degrees. No harmonics are looked for in a
-/// response of lines (`of_lines`), which holds them already. Nothing where the record is too short, does not move, or the
-/// response has too few lines.
+/// around it, or their quotient on the lines of a force that repeats; G: the measured response, which holds the
+/// damping F_c kappa; D: the hold; H_Y, H_S: what is locally proportional to the force. A delay turns the coefficient
+/// by up to some 60 degrees. No harmonics are looked for in a response of lines (`of_lines`), which holds them
+/// already. Nothing where the record is too short, does not move, or the response has too few lines.
 struct SlidingQuestion {
   OutputQuantity output = OutputQuantity::position;
   bool of_lines = false;                ///< averaged over periods, or fitted

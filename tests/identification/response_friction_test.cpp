@@ -88,8 +88,8 @@ TEST(ResponseFriction, AForceThatRepeatsIsDoubtfulUntilThereIsASecondOne) {
   }
 }
 
-// Without a force to tell it by a response of 0.75 N of friction under noise of 5 N peak was sound with 75 times the truth.
-// Each record was called sound; the device of 0.5 kg, 1.2 N s/m bears 1.2/(0.5 ms) at most.
+// Without a force to tell it by a response of 0.75 N of friction under noise of 5 N peak was sound with 75 times the
+// truth. Each record was called sound; the device of 0.5 kg, 1.2 N s/m bears 1.2/(0.5 ms) at most.
 TEST(ResponseFriction, NoStiffnessIsSoundThatFrictionMayHaveRaised) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     for (const double coulomb : {0.025, 0.05, 0.15, 0.35, 0.75}) {
@@ -103,7 +103,8 @@ TEST(ResponseFriction, NoStiffnessIsSoundThatFrictionMayHaveRaised) {
   }
 }
 
-// The rest that no friction explains is a micrometre of noise: so little friction passes unseen that records stay sound.
+// The rest that no friction explains is a micrometre of noise: so little friction passes unseen that records stay
+// sound.
 TEST(ResponseFriction, ALinearDeviceIsSoundWhereTheNoiseIsLow) {
   int sound = 0;
   int all = 0;
