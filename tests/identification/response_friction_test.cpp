@@ -88,8 +88,8 @@ TEST(ResponseFriction, AForceThatRepeatsIsDoubtfulUntilThereIsASecondOne) {
   }
 }
 
-// Without a force to tell it by a response of 0.75 N of friction under noise of 5 N peak was sound with 75 times the
-// truth. Each record was called sound; the device of 0.5 kg, 1.2 N s/m bears 1.2/(0.5 ms) at most.
+// Friction of 0.75 N under noise of 5 N peak was sound with up to 75 times the truth, 0.05 N at two amplitudes with 1.25
+// times.
 TEST(ResponseFriction, NoStiffnessIsSoundThatFrictionMayHaveRaised) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     for (const double coulomb : {0.025, 0.05, 0.15, 0.35, 0.75}) {
