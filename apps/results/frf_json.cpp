@@ -1,11 +1,15 @@
 #include "results/frf_json.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <optional>
 #include <vector>
 
 #include "results/csv.hpp"
 #include "results/identification_json.hpp"
 #include "results/units.hpp"
+#include "zwidth/io/recording_file.hpp"
 
 namespace zwidth::results {
 
@@ -42,10 +46,9 @@ static void to_json(Json& json, const MeasuredCrossover& crossover) {
 }
 
 static void to_json(Json& json, const AmplitudeDependence& found) {
-  json = {{"difference", found.difference},
-          {"force_ratio", found.force_ratio},
-          {"lines", found.lines},
-          {"grows_with_force", found.grows_with_force}};
+  json = {{"difference", found.difference}, {"force_ratio", found.force_ratio},
+          {"lines", found.lines},           {"grows_with_force", found.grows_with_force},
+          {"friction", found.friction},     {"friction_deviation", found.friction_deviation}};
 }
 
 namespace {
@@ -120,14 +123,15 @@ Json frf_json(const MeasuredResponse& measured, const FrfUnits& units, FrfConten
 std::string frf_csv(const MeasuredResponse& measured) {
   const FrequencyResponse& response = measured.response;
   Csv csv({"frequency_rad_s", "frequency_hz", "magnitude", "magnitude_lower", "magnitude_upper", "phase_deg",
-           "phase_lower_deg", "phase_upper_deg", "coherence", "real", "imaginary", "trust"});
+           "phase_lower_deg", "phase_upper_deg", "coherence", "real", "imaginary", "trust", "trust_reasons"});
   const std::vector<ResponseLine> lines = response_lines(response);
+  const std::string reasons = fmt::format("{}", fmt::join(measured.trust.reasons, between_reasons));
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const ResponseLine& line = lines[i];
     const std::complex<double>& value = response.points[i].value;
     csv.row(line.frequency, hertz(line.frequency), line.magnitude, line.magnitude_lower, line.magnitude_upper,
             in_degrees(line.phase), in_degrees(line.phase_lower), in_degrees(line.phase_upper), line.coherence,
-            value.real(), value.imag(), measured.trust);
+            value.real(), value.imag(), measured.trust, i == 0 ? reasons : "");
   }
   return csv.text();
 }

@@ -252,12 +252,12 @@ class Judge {
     const char* unit = fit_.device.parameters().motion == Motion::rotary ? "N m" : "N";
     const std::string what =
         fmt::format("the record shows dry friction of about {:.3g} {} on {}", friction.force, unit, friction.body);
-    const std::string meaning =
-        fmt::format("the fit takes it for damping: without it the critical stiffness is about {:.3g} {}",
-                    friction.stiffness_without, stiffness_unit(fit_.device));
-    result_.trust.doubt(what + ": " + meaning);
-    result_.remarks.push_back(
-        {Remark::Severity::warning, what, meaning, "excite more strongly: its share falls with the amplitude"});
+    // What is left without it is not said: a linear fit of a body that rests at times knows neither its damping nor how
+    // much it rubs, and came out five times too high.
+    const char* meaning = "the fit takes it for damping, which makes the critical stiffness too high";
+    const char* remedy = "fit the friction too, in time; or excite more strongly: its share falls with the amplitude";
+    result_.trust.doubt(fmt::format("{}: {}; {}", what, meaning, remedy));
+    result_.remarks.push_back({Remark::Severity::warning, what, meaning, remedy});
   }
 
   void judge_hand() {

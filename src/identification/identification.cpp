@@ -241,6 +241,15 @@ void judge_dependence(const MeasuredResponse& measured, Judgement& judgement) {
   judgement.device_trust.inherit(judgement.trust);
 }
 
+/// A table that says what its own critical stiffness is worth.
+void judge_table(const MeasuredResponse& measured, Judgement& judgement) {
+  if (!measured.response.trust || measured.response.trust->sound()) return;
+  for (const std::string& reason : measured.trust.reasons) {
+    judgement.trust.doubt(fmt::format("of the table's own critical stiffness: {}", reason));
+  }
+  judgement.device_trust.inherit(judgement.trust);
+}
+
 void judge_delay(const Fitting& fitting, Judgement& judgement) {
   if (!fitting.ignored_delay()) return;
   const Remark remark = ignored_delay_remark(*fitting.ignored_delay(), fitting.fit().fit.device.loop().delay);
@@ -267,6 +276,7 @@ Identification identified(const MeasuredResponse& measured, std::span<const Reco
   Judgement judgement = judge({fitting.fit(), structure, options, critical, friction});
   judge_delay(fitting, judgement);
   judge_dependence(measured, judgement);
+  judge_table(measured, judgement);
   Identification result{.source = measured.source,
                         .response = fitting.fit().response,
                         .fit = fitting.fit().fit,

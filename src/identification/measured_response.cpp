@@ -10,11 +10,10 @@
 #include <numbers>
 #include <utility>
 
-#include "identification/period_detection.hpp"
+#include "identification/friction_doubt.hpp"
 #include "identification/plausibility.hpp"
 #include "identification/pooled_response.hpp"
 #include "identification/response_choice.hpp"
-#include "identification/response_friction.hpp"
 #include "identification/welch.hpp"
 #include "signal/clipping.hpp"
 #include "zwidth/error.hpp"
@@ -23,12 +22,6 @@
 namespace zwidth {
 using namespace internal;
 namespace {
-
-double root_mean_square(const std::vector<double>& samples) {
-  double squares = 0.0;
-  for (const double each : samples) squares += each * each;
-  return std::sqrt(squares / static_cast<double>(samples.size()));
-}
 
 std::string sentence(const Remark& remark) {
   std::string text = remark.what;
@@ -147,6 +140,12 @@ void judge_dependence(MeasuredResponse& measured, std::span<const Recording> rec
                 "", ""};
   if (by_force && found.grows_with_force) {
     remark.consequence = "so dry friction does: it holds a weak force more, and looks like damping";
+    if (found.friction) {
+      remark.consequence = fmt::format(
+          "so dry friction of about {:.2g} N (N m where it turns) does: it holds a weak force more, and "
+          "looks like damping",
+          *found.friction);
+    }
     remark.remedy = "fit in time with free friction";
   } else {
     remark.consequence = by_force ? "not as dry friction does: a spring that hardens, or a limit of force or current"
@@ -178,45 +177,15 @@ void judge_dependence(MeasuredResponse& measured, std::span<const Recording> rec
   }
 }
 
-/// The critical stiffness of a record that shows dry friction is that of small motions.
-void judge_friction(MeasuredResponse& measured, const FrequencyResponse& response, const Recording& recording) {
-  const auto found = find_friction_beside(response, recording.channels[0].samples, recording.channels[1].samples);
-  constexpr double significant = 25.0;  // chi-squared: once in 3e5 records without friction
-  // Of the limit: a rigid body's is b/(T/2) at most, where nothing but the hold delays the force.
-  constexpr double negligible = 0.01;
-  if (!found || found->evidence < significant) return;
-  const double largest = 0.5 * *response.sampling_period * measured.stiffness->limit->stiffness;
-  if (found->equivalent_damping < negligible * largest) return;
-  measured.trust.doubt(
-      "the motion shows dry friction, which the response takes for damping: larger motions have less of it, and a "
-      "lower "
-      "critical stiffness; repeat it with several times the force, or fit the device with its friction in time");
-}
-
-/// Forces of one size hide dry friction. Its harmonics are looked for where they stand beside the response; of a force that
-/// repeats they stand on the lines of the response itself.
-void judge_one_force(MeasuredResponse& measured, std::span<const Recording> recordings,
-                     const std::vector<FrequencyResponse>& responses, const FrequencyResponseOptions& options) {
-  using Excitation = FrequencyResponseOptions::Excitation;
-  if (!measured.stiffness || measured.stiffness->status != MeasuredStiffnessStatus::found) return;
-  constexpr double different = 1.5;
-  std::vector<double> sizes;
-  for (const Recording& each : recordings) sizes.push_back(root_mean_square(each.channels[0].samples));
-  if (std::ranges::max(sizes) >= different * std::ranges::min(sizes)) return;
-  const bool repeats =
-      options.excitation == Excitation::periodic ||
-      (options.excitation == Excitation::detect && std::ranges::any_of(recordings, [](const Recording& each) {
-         return detect_period(each.channels[0].samples).has_value();
-       }));
-  if (repeats) {
-    measured.trust.doubt(
-        "a force that repeats hides dry friction, which makes a small motion look more damped and the critical "
-        "stiffness "
-        "too high; record it with twice the force too, and give both");
-    return;
-  }
-  if (options.output != OutputQuantity::position) return;
-  for (std::size_t r = 0; r < recordings.size(); ++r) judge_friction(measured, responses[r], recordings[r]);
+/// What a table says of itself: a stiffness that was refused where it was measured is none.
+void inherit(MeasuredResponse& measured, const Trust& source) {
+  measured.trust.inherit(source);
+  const char* reason = "the table says so of its critical stiffness, and not why: see the recording";
+  if (source.verdict == Trust::Verdict::doubtful && source.reasons.empty()) measured.trust.doubt(reason);
+  if (!source.refused()) return;
+  if (source.reasons.empty()) measured.trust.refuse(reason);
+  if (measured.stiffness && measured.stiffness->status == MeasuredStiffnessStatus::found)
+    measured.stiffness->status = MeasuredStiffnessStatus::undetermined;
 }
 
 /// The response and what it shows of the critical stiffness.
@@ -242,6 +211,7 @@ MeasuredResponse judged(std::string source, FrequencyResponse response, std::vec
     measured.remarks.insert(measured.remarks.end(), found.begin(), found.end());
     measured.trust = trust_of(*measured.stiffness);
   }
+  if (measured.response.trust) inherit(measured, *measured.response.trust);
   return measured;
 }
 
@@ -280,11 +250,10 @@ std::optional<OptionProblem> find_problem(const FrequencyResponseOptions& option
 
 MeasuredResponse judged_response(std::string source, FrequencyResponse response, std::vector<Remark> remarks) {
   MeasuredResponse measured = judged(std::move(source), std::move(response), std::move(remarks));
-  if (measured.stiffness && measured.stiffness->status == MeasuredStiffnessStatus::found) {
-    measured.remarks.push_back({Remark::Severity::note,
-                                "one record does not show dry friction, which makes a small motion look stiffer and "
-                                "more damped: the critical stiffness is then too high",
-                                "repeat it with twice the force: it must come out the same"});
+  if (!measured.response.trust && measured.stiffness && !measured.trust.refused()) {
+    measured.trust.doubt(
+        "a table does not show dry friction, which makes a small motion look more damped and the critical stiffness "
+        "too high; give the recordings themselves");
   }
   return measured;
 }
@@ -351,15 +320,15 @@ MeasuredResponse frequency_response(std::span<const Recording> recordings, const
   }
   MeasuredResponse measured;
   if (recordings.size() == 1) {
-    measured = judged_response(recordings[0].source, each[0], std::move(remarks));
+    measured = judged(recordings[0].source, each[0], std::move(remarks));
   } else {
     PooledResponse pooled = pooled_response(each);
     measured = judged(fmt::format("{} and {} more", recordings[0].source, recordings.size() - 1),
                       std::move(pooled.response), std::move(remarks));
     measured.dependence = pooled.dependence;
-    if (pooled.dependence) judge_dependence(measured, recordings, each);
   }
-  judge_one_force(measured, recordings, each, decided);
+  judge_friction(measured, recordings, each, decided);
+  if (measured.dependence) judge_dependence(measured, recordings, each);
   for (const std::string& doubt : doubts) measured.trust.doubt(doubt);
   return measured;
 }

@@ -1,9 +1,12 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <new>
 #include <numbers>
+#include <optional>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -30,20 +33,53 @@ using Refusal = tl::unexpected<InputError>;
 class RowReader {
  public:
   RowReader(TextTable& table, const ResponseColumns& columns, double step)
-      : table_(table), columns_(columns), step_(step) {}
+      : table_(table), columns_(columns), step_(step) {
+    const std::vector<std::string> names = table.names();
+    const auto find = [&](const char* name) {
+      return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
+    };
+    verdict_ = find("trust");
+    reasons_ = find("trust_reasons");
+  }
 
   tl::expected<void, InputError> add(const TextRow& row);
 
   std::vector<ResponseLine> lines;
+  std::optional<Trust> trust;  ///< as the table says
 
  private:
+  void add_trust(const TextRow& row);
   tl::expected<double, InputError> number(const TextRow& row, std::size_t column);
   tl::expected<std::complex<double>, InputError> value(const TextRow& row);
 
   TextTable& table_;
   const ResponseColumns& columns_;
   double step_;
+  std::size_t verdict_ = 0;  ///< columns; as many as there are: absent
+  std::size_t reasons_ = 0;
 };
+
+/// The worst verdict of all lines, the reasons of each.
+void RowReader::add_trust(const TextRow& row) {
+  using enum Trust::Verdict;
+  if (verdict_ >= row.cells.size()) return;
+  Trust said;
+  for (const auto& [word, verdict] :
+       {std::pair{"sound", sound}, std::pair{"doubtful", doubtful}, std::pair{"refused", refused}}) {
+    if (row.cells[verdict_] != word) continue;
+    said.verdict = verdict;
+    if (!trust) trust.emplace();
+  }
+  if (!trust) return;
+  std::string_view left = reasons_ < row.cells.size() ? std::string_view(row.cells[reasons_]) : std::string_view();
+  while (!left.empty()) {
+    const std::size_t end = std::min(left.find(between_reasons), left.size());
+    said.reasons.emplace_back(left.substr(0, end));
+    left.remove_prefix(std::min(left.size(), end + std::string_view(between_reasons).size()));
+  }
+  trust->inherit(said);
+  trust->verdict = std::max(trust->verdict, said.verdict);
+}
 
 tl::expected<double, InputError> RowReader::number(const TextRow& row, std::size_t column) {
   const NumberCell cell = table_.number(row.cells[column]);
@@ -95,6 +131,7 @@ tl::expected<void, InputError> RowReader::add(const TextRow& row) {
     line.coherence = *coherence;
   }
   lines.push_back(line);
+  add_trust(row);
   return {};
 }
 
@@ -110,6 +147,7 @@ tl::expected<FrequencyResponse, InputError> read_text_response(TextLines text, c
   if (!read) return Refusal(std::move(read.error()));
   auto response = make_response(std::move(rows.lines), options, table->source());
   if (!response) return response;
+  response->trust = std::move(rows.trust);
   auto& remarks = response->remarks;
   remarks.insert(remarks.end(), columns->remarks.begin(), columns->remarks.end());
   remarks.insert(remarks.end(), table->remarks().begin(), table->remarks().end());

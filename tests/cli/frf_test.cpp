@@ -148,6 +148,24 @@ TEST_F(Frf, PoolsRecordingsAndSaysThatTheyDependOnTheForce) {
   EXPECT_TRUE(document(example + "--json")["amplitude_dependence"].is_null());
 }
 
+// The doubt was lost: `identify --table` called such a table sound.
+TEST_F(Frf, ATableItWritesKeepsItsDoubt) {
+  const std::string table = " --table --real real --imaginary imaginary --rate 1000 --json";
+  ASSERT_EQ(run(example + "--highest-hz 70 --csv refused.csv").status, 0);
+  const json written = document(example + "--highest-hz 70 --json");
+  ASSERT_EQ(written["trust"]["verdict"], "refused");
+  const json refused = document("zwidth frf refused.csv" + table);
+  EXPECT_EQ(refused["trust"]["verdict"], "refused");
+  EXPECT_EQ(refused["trust"]["reasons"][0], written["trust"]["reasons"][0]);
+  EXPECT_TRUE(refused["critical_stiffness"].is_null());
+  const json fitted = document("zwidth identify refused.csv --structure rigid" + table);
+  EXPECT_NE(fitted["trust"]["verdict"], "sound");
+
+  const std::string text = contents("refused.csv");
+  const std::string header = text.substr(0, text.find('\n'));
+  EXPECT_TRUE(header.ends_with(",trust,trust_reasons")) << header;
+}
+
 TEST_F(Frf, TakesTheLinesThatAreGiven) {
   write("sine.csv", sine_recording(5.0, 0.0, 2.0));
   const std::string command = "zwidth frf sine.csv --force force --position position --json --points --lines ";

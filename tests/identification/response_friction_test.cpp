@@ -5,11 +5,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <random>
 #include <vector>
 
 #include "identification/friction_body.hpp"
+#include "property/friction_recordings.hpp"
 #include "zwidth/identification/excitation.hpp"
+#include "zwidth/identification/identification.hpp"
 #include "zwidth/identification/measured_response.hpp"
 
 namespace zwidth {
@@ -19,7 +23,9 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 
 /// 10 s at 1 kHz of 1.2 kg, 2 N s/m under noise, a sweep or a multisine.
-Recording rubbed(double coulomb, ExcitationKind kind, std::uint64_t seed, double amplitude = 8.0) {
+Recording rubbed(double coulomb, ExcitationKind kind, std::uint64_t seed, double amplitude = 8.0,
+                 test::FrictionBody body = {.mass = 1.2, .viscous = 2.0}) {
+  body.coulomb = coulomb;
   ExcitationOptions excitation;
   excitation.kind = kind;
   excitation.amplitude = amplitude;
@@ -29,11 +35,18 @@ Recording rubbed(double coulomb, ExcitationKind kind, std::uint64_t seed, double
   excitation.highest_hz = 200.0;
   excitation.seed = seed;
   Recording recording{"run", 1e-3, {{"force", excite(excitation).samples}, {"position", {}}}, {}};
-  test::FrictionBody body{.mass = 1.2, .viscous = 2.0, .coulomb = coulomb};
   for (const double force : recording.channels[0].samples) {
     recording.channels[1].samples.push_back(body.position);
     body.move(force, 1e-3);
   }
+  return recording;
+}
+
+/// Position noise of a micrometre.
+Recording noisy(Recording recording, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal;
+  for (double& each : recording.channels[1].samples) each += 1e-6 * normal(random);
   return recording;
 }
 
@@ -75,15 +88,149 @@ TEST(ResponseFriction, AForceThatRepeatsIsDoubtfulUntilThereIsASecondOne) {
   }
 }
 
+// Friction of 0.75 N under noise of 5 N peak was sound with up to 75 times the truth, 0.05 N at two amplitudes with 1.25
+// times.
+TEST(ResponseFriction, NoStiffnessIsSoundThatFrictionMayHaveRaised) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    for (const double coulomb : {0.025, 0.05, 0.15, 0.35, 0.75}) {
+      for (const ExcitationKind kind : {ExcitationKind::noise, ExcitationKind::logarithmic_chirp}) {
+        EXPECT_FALSE(frequency_response(rubbed(coulomb, kind, seed, 5.0)).trust.sound()) << coulomb << " " << seed;
+        std::vector<Recording> two{rubbed(coulomb, kind, seed, 5.0), rubbed(coulomb, kind, seed + 10, 2.5)};
+        two[1].source = "weaker";
+        EXPECT_FALSE(frequency_response(two).trust.sound()) << coulomb << " " << seed;
+      }
+    }
+  }
+}
+
+// The rest that no friction explains is a micrometre of noise: so little friction passes unseen that records stay
+// sound.
+TEST(ResponseFriction, ALinearDeviceIsSoundWhereTheNoiseIsLow) {
+  int sound = 0;
+  int all = 0;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    for (const ExcitationKind kind : {ExcitationKind::noise, ExcitationKind::linear_chirp, ExcitationKind::multisine}) {
+      const test::FrictionBody damped{.mass = 0.5, .viscous = 4.0};
+      std::vector<Recording> two{noisy(rubbed(0.0, kind, seed, 8.0, damped), seed),
+                                 noisy(rubbed(0.0, kind, seed + 10, 20.0, damped), seed + 10)};
+      two[1].source = "harder";
+      const MeasuredResponse found = frequency_response(two);
+      if (found.trust.refused()) continue;
+      ++all;
+      sound += found.trust.sound() ? 1 : 0;
+      if (kind == ExcitationKind::multisine) continue;
+      const MeasuredResponse one = frequency_response(two[1]);
+      if (one.trust.refused()) continue;
+      ++all;
+      sound += one.trust.sound() ? 1 : 0;
+    }
+  }
+  EXPECT_GE(all, 15);
+  EXPECT_GE(10 * sound, 8 * all) << sound << " of " << all;
+}
+
+/// A motor without friction and a handle that rubs, under noise of 5 N peak.
+Recording handle_rubs(double coulomb, std::uint64_t seed) {
+  DeviceParameters truth;
+  truth.bodies = {{"motor", 0.3, 1.0, 0.0, 0.0}, {"handle", 1.2, 2.0, 0.0, coulomb}};
+  truth.links = {{0, 1, 8e3, 4.0}};
+  truth.loop = {0, 0, 1, 1e-3, 0.0};
+  ExcitationOptions excitation;
+  excitation.kind = ExcitationKind::noise;
+  excitation.amplitude = 5.0;
+  excitation.duration = 10.0;
+  excitation.rate = 1e3;
+  excitation.lowest_hz = 0.5;
+  excitation.highest_hz = 100.0;
+  excitation.seed = seed;
+  Recording recording{"run", 1e-3, {{"force", excite(excitation).samples}, {"position", {}}}, {}};
+  recording.channels[1].samples = test::FrictionChain(truth).positions(recording.channels[0].samples);
+  return recording;
+}
+
+// The handle's reversals do not show in the motor's: they do in what the antiresonance says of its motion. Friction of
+// 1.6 % of the force's peak on the handle alone was sound, 2 times too high.
+TEST(ResponseFriction, OfAHandleShowsThroughTheAntiresonance) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const Recording recording = handle_rubs(0.08, seed);
+    const FrequencyResponse response = frequency_response(recording).response;
+    const auto bodies = internal::hidden_bodies(response);
+    ASSERT_FALSE(bodies.empty()) << seed;
+    EXPECT_NEAR(bodies[0].frequency, std::sqrt(8e3 / 1.2), 2.0);
+    const auto of_motor = internal::recorded_sliding(response, recording);
+    const auto of_handle = internal::recorded_sliding(response, recording, {.body = bodies[0]});
+    ASSERT_TRUE(of_motor && of_handle);
+    EXPECT_NEAR(of_handle->friction->force, 0.08, 0.02) << seed;
+    EXPECT_LT(of_motor->friction->force, 0.03) << seed;
+    EXPECT_FALSE(frequency_response(recording).trust.sound()) << seed;
+  }
+}
+
+// Two amplitudes: by how much they differ is the friction.
+TEST(ResponseFriction, OfADependenceOnTheForceHasASize) {
+  for (const double coulomb : {0.4, 0.8}) {
+    const test::FrictionBody damped{.mass = 0.5, .viscous = 4.0};
+    std::vector<Recording> two{rubbed(coulomb, ExcitationKind::multisine, 1, 8.0, damped),
+                               rubbed(coulomb, ExcitationKind::multisine, 2, 16.0, damped)};
+    two[1].source = "harder";
+    const MeasuredResponse found = frequency_response(two);
+    ASSERT_TRUE(found.dependence && found.dependence->friction);
+    EXPECT_NEAR(*found.dependence->friction, coulomb, 0.25 * coulomb);
+    EXPECT_THAT(found.remarks, Contains(::testing::Field(&Remark::consequence, HasSubstr("dry friction of about"))));
+  }
+}
+
+TEST(ResponseFriction, ATableIsTrustedNoMoreThanItSaysOfItself) {
+  const test::FrictionBody damped{.mass = 0.5, .viscous = 4.0};
+  const Recording recording = noisy(rubbed(0.0, ExcitationKind::noise, 1, 20.0, damped), 1);
+  FrequencyResponse table = frequency_response(recording).response;
+  EXPECT_THAT(judged_response("table", table).trust.reasons, Contains(HasSubstr("a table does not show dry friction")));
+  table.trust.emplace();
+  EXPECT_TRUE(judged_response("table", table).trust.sound());
+  for (const auto verdict : {Trust::Verdict::doubtful, Trust::Verdict::refused}) {
+    for (const std::vector<std::string>& reasons : {std::vector<std::string>{"dry friction"}, {}}) {
+      table.trust = Trust{verdict, reasons};
+      const MeasuredResponse found = judged_response("table", table);
+      EXPECT_EQ(found.trust.verdict, verdict);
+      EXPECT_EQ(found.trust.reasons.size(), 1U);
+      EXPECT_EQ(stiffness_interval(*found.stiffness).has_value(), verdict == Trust::Verdict::doubtful);
+      DeviceParameters rigid;
+      rigid.bodies = {{"body", 1.0, 1.0, 0.0, 0.0}};
+      rigid.loop = {0, 0, 0, 1e-3, 0.0};
+      EXPECT_EQ(identify(found, Device(rigid)).trust.verdict, Trust::Verdict::doubtful);
+    }
+  }
+}
+
+// What a linear fit left of 573 N/m without the friction that it found was 10600 N/m.
+TEST(ResponseFriction, ALinearFitSaysNoStiffnessWithoutIt) {
+  DeviceParameters rigid;
+  rigid.bodies = {{"body", 1.0, 1.0, 0.0, 0.0}};
+  rigid.loop = {0, 0, 0, 1e-3, 0.0};
+  for (const double coulomb : {0.15, 0.75}) {
+    const Identification found = identify(rubbed(coulomb, ExcitationKind::noise, 1, 5.0), Device(rigid));
+    EXPECT_FALSE(found.trust.sound());
+    const auto of_friction = HasSubstr("dry friction");
+    ASSERT_THAT(found.trust.reasons, Contains(of_friction));
+    for (const std::string& reason : found.trust.reasons) {
+      EXPECT_THAT(reason, ::testing::Not(HasSubstr("without it the critical stiffness is")));
+    }
+    EXPECT_THAT(found.trust.reasons, Contains(HasSubstr("fit the friction too, in time")));
+  }
+}
+
 TEST(ResponseFriction, OfARecordThatIsTooShortOrDoesNotMoveIsNothing) {
   const Recording recording = rubbed(0.3, ExcitationKind::noise, 1);
   const FrequencyResponse response = frequency_response(recording).response;
-  const std::vector<double>& force = recording.channels[0].samples;
-  const std::vector<double>& position = recording.channels[1].samples;
-  EXPECT_TRUE(internal::find_friction_beside(response, force, position));
-  EXPECT_FALSE(internal::find_friction_beside(response, std::span(force).first(500), std::span(position).first(500)));
-  EXPECT_FALSE(
-      internal::find_friction_beside(response, std::vector<double>(4000, 0.0), std::vector<double>(4000, 0.0)));
+  const auto with = [](const std::vector<double>& force, const std::vector<double>& position) {
+    return Recording{"run", 1e-3, {{"force", force}, {"position", position}}, {}};
+  };
+  EXPECT_TRUE(internal::recorded_sliding(response, recording));
+  Recording part = recording;
+  for (Channel& channel : part.channels) channel.samples.resize(500);
+  EXPECT_FALSE(internal::recorded_sliding(response, part));
+  const std::vector<double> still(4000, 0.0);
+  EXPECT_FALSE(internal::recorded_sliding(response, with(still, still)));
 }
 
 }  // namespace

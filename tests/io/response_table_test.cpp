@@ -110,6 +110,23 @@ TEST_P(ResponseWritten, ReadsTheSame) {
   EXPECT_EQ(warnings_in(response->remarks), 0U);
 }
 
+// What `frf --csv` writes of the critical stiffness was lost on the way back.
+TEST_F(ResponseTable, SaysWhatItsCriticalStiffnessIsWorth) {
+  const std::string header = "frequency_hz,real,imaginary,trust,trust_reasons\n";
+  const auto said = read(header + "1,2,3,doubtful,\"dry friction; repeat it, harder | noise\"\n2,2,3,doubtful,\n");
+  ASSERT_TRUE(said && said->trust);
+  EXPECT_EQ(said->trust->verdict, Trust::Verdict::doubtful);
+  EXPECT_EQ(said->trust->reasons, (std::vector<std::string>{"dry friction; repeat it, harder", "noise"}));
+  const auto sound = read(header + "1,2,3,sound,\n2,2,3,sound,\n");
+  ASSERT_TRUE(sound && sound->trust);
+  EXPECT_TRUE(sound->trust->sound());
+  const auto without_reasons = read("frequency_hz,real,imaginary,trust\n1,2,3,refused\n2,2,3,refused\n");
+  ASSERT_TRUE(without_reasons && without_reasons->trust);
+  EXPECT_TRUE(without_reasons->trust->refused());
+  EXPECT_FALSE(read("frequency_hz,real,imaginary\n1,2,3\n2,2,3\n")->trust);
+  EXPECT_FALSE(read("frequency_hz,real,imaginary,trust\n1,2,3,0.5\n2,2,3,0.5\n")->trust);
+}
+
 TEST_F(ResponseTable, SaysWhereANameOverridesAUnit) {
   const auto response = read("f [rad/s],mag [dB],phase [rad]\n10,0,0\n20,0,0\n");
   ASSERT_TRUE(response.has_value()) << response.error().str();

@@ -22,6 +22,9 @@ struct AmplitudeDependence {
   double force_ratio = 1.0;       ///< greatest over least force, median
   std::size_t lines = 0;          ///< on which it exceeds the noise
   bool grows_with_force = false;  ///< as dry friction makes it, which holds a weak force more
+  /// N or N m, that makes such a difference, where it grows with the force and stands out from the noise.
+  std::optional<double> friction = {};
+  std::optional<double> friction_deviation = {};  ///< one standard deviation of it, by the noise
 };
 
 /// A measured response and the critical stiffness that it shows without any model.
@@ -47,17 +50,20 @@ struct MeasuredResponse {
                                                   const FrequencyResponseOptions& options = {},
                                                   const Progress& progress = {});
 
-/// The response of one device from several recordings of it, pooled and judged: of one rate, two channels each as above.
+/// The response of one device from several recordings of it, pooled and judged: of one rate, two channels each as
+/// above.
 ///
-/// Lines that several hold are averaged, weighted by the power of their force; the others stand side by side (a sine per
-/// recording makes a line each). Recordings that differ by more than their noise are said to, with the size; the trust
-/// is doubtful where that moves the critical stiffness beyond its interval, or may.
-/// Throws Error as for one recording, naming it by its source; for different rates; for the same samples twice.
+/// Lines that several hold are averaged, weighted by the power of their force; the others stand side by side (a sine
+/// per recording makes a line each). Recordings that differ by more than their noise are said to, with the size; the
+/// trust is doubtful where that moves the critical stiffness beyond its interval, or may. Sound, here as for one
+/// recording, only where the recordings bound what dry friction may have made of it. Throws Error as for one
+/// recording, naming it by its source; for different rates; for the same samples twice.
 [[nodiscard]] MeasuredResponse frequency_response(std::span<const Recording> recordings,
                                                   const FrequencyResponseOptions& options = {},
                                                   const Progress& progress = {});
 
-/// A response that was measured elsewhere (a table), judged. `remarks` are those made on the way to it.
+/// A response that was measured elsewhere (a table), judged: as far as it says of itself that it may be trusted, and
+/// doubtful where it says nothing, for it does not show dry friction. `remarks` are those made on the way to it.
 [[nodiscard]] MeasuredResponse judged_response(std::string source, FrequencyResponse response,
                                                std::vector<Remark> remarks = {});
 

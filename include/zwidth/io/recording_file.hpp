@@ -116,7 +116,11 @@ struct ResponseTableOptions {
 /// find_problem(options.file).
 [[nodiscard]] std::optional<OptionProblem> find_problem(const ResponseTableOptions& options);
 
-/// Reads a frequency response: a text table, or a UFF record that is one (function type 4; `real` names the record).
+/// Between the reasons in a cell of a table's column `trust_reasons`.
+inline constexpr const char* between_reasons = " | ";
+
+/// Reads a frequency response: a text table, or a UFF record that is one (function type 4; `real` names the record). A
+/// table's columns `trust` and `trust_reasons`, as zwidth writes them, become its trust.
 [[nodiscard]] tl::expected<FrequencyResponse, InputError> read_response_table(const std::string& path,
                                                                               const ResponseTableOptions& options,
                                                                               const Progress& progress = {});

@@ -1,0 +1,184 @@
+#include "identification/friction_doubt.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "identification/response_choice.hpp"
+#include "identification/response_friction.hpp"
+
+namespace zwidth::internal {
+namespace {
+
+constexpr const char* remedy =
+    "repeat it with several times the force and give both recordings, or fit the device with its friction in time";
+
+/// A friction that the recordings show, or leave open.
+struct ShownOrHidden {
+  FrictionEstimate friction;
+  double share = 1.0;   ///< the whole friction of a device may be so many times what shows
+  bool bounds = false;  ///< there is no more of it
+};
+
+constexpr double clear = 3.5;  // deviations, of a few looks
+
+double root_mean_square(const std::vector<double>& samples) {
+  double squares = 0.0;
+  for (const double each : samples) squares += each * each;
+  return std::sqrt(squares / static_cast<double>(samples.size()));
+}
+
+bool are_of_one_force(std::span<const Recording> recordings) {
+  constexpr double different = 1.5;
+  std::vector<double> sizes;
+  for (const Recording& each : recordings) sizes.push_back(root_mean_square(each.channels[0].samples));
+  return std::ranges::max(sizes) < different * std::ranges::min(sizes);
+}
+
+std::string in_units(double force) { return fmt::format("{:.2g} N (N m where it turns)", force); }
+
+/// What the motion of a body shows.
+struct Slidings {
+  std::optional<HiddenBody> body;
+  std::vector<RecordedSliding> of_records;
+  std::vector<ShownOrHidden> estimates;
+  std::optional<FrictionEstimate> between;  ///< two amplitudes
+};
+
+Slidings slidings_of(std::span<const Recording> recordings, std::span<const FrequencyResponse> responses,
+                     const SlidingQuestion& question) {
+  // What shows of the friction of a body that is not known well is a part of it, between amplitudes less so.
+  constexpr double by_harmonics = 3.0;
+  constexpr double by_amplitude = 2.0;
+  Slidings found;
+  found.body = question.body;
+  for (std::size_t r = 0; r < recordings.size(); ++r) {
+    auto sliding = recorded_sliding(responses[r], recordings[r], question);
+    if (!sliding) return Slidings{};
+    if (sliding->friction) found.estimates.push_back({*sliding->friction, by_harmonics, sliding->is_followed});
+    found.of_records.push_back(*std::move(sliding));
+  }
+  found.between = friction_between(responses, found.of_records, found.body);
+  if (found.between) found.estimates.push_back({*found.between, by_amplitude, true});
+  return found;
+}
+
+class FrictionDoubt {
+ public:
+  FrictionDoubt(MeasuredResponse& measured, std::span<const Recording> recordings,
+                std::span<const FrequencyResponse> responses, const FrequencyResponseOptions& options)
+      : measured_(measured), of_lines_(is_of_lines(recordings, options)), of_one_force_(are_of_one_force(recordings)) {
+    SlidingQuestion question{options.output, of_lines_};
+    slidings_.push_back(slidings_of(recordings, responses, question));
+    for (const HiddenBody& body : hidden_bodies(measured.response)) {
+      question.body = body;
+      slidings_.push_back(slidings_of(recordings, responses, question));
+    }
+  }
+
+  void size_dependence() {
+    const auto& between = slidings_.front().between;
+    if (!measured_.dependence || !measured_.dependence->grows_with_force || !between) return;
+    if (between->force < clear * between->deviation) return;
+    measured_.dependence->friction = between->force;
+    measured_.dependence->friction_deviation = between->deviation;
+  }
+
+  void judge() {
+    if (!measured_.stiffness || measured_.trust.refused()) return;
+    const auto interval = stiffness_interval(*measured_.stiffness);
+    if (!interval) return;
+    stiffness_ = measured_.stiffness->limit->stiffness;
+    constexpr double part_of_interval = 0.5;
+    constexpr double negligible = 0.02;
+    tolerance_ = std::max(part_of_interval * (stiffness_ - interval->lower), negligible * stiffness_);
+    const ShownOrHidden* found = nullptr;
+    for (const Slidings& slidings : slidings_) {
+      for (const ShownOrHidden& each : slidings.estimates) {
+        const double force = each.friction.force;
+        const bool shows = force > clear * each.friction.deviation && !is_harmless(slidings, each.share * force);
+        if (shows && (!found || force > found->friction.force)) found = &each;
+      }
+    }
+    if (found) {
+      measured_.trust.doubt(
+          fmt::format("the motion shows dry friction, which the response takes for damping: about {} at least; larger "
+                      "motions have less of it, and a lower critical stiffness; {}",
+                      in_units(found->friction.force), remedy));
+      return;
+    }
+    for (const Slidings& slidings : slidings_) {
+      if (auto reason = open_friction(slidings)) return measured_.trust.doubt(*std::move(reason));
+    }
+  }
+
+ private:
+  [[nodiscard]] static double most_of(const ShownOrHidden& estimate) {
+    return estimate.share * (estimate.friction.force + 2.0 * estimate.friction.deviation);
+  }
+
+  /// Why these do not bound the friction's effect; nothing where they do.
+  [[nodiscard]] std::optional<std::string> open_friction(const Slidings& slidings) const {
+    const ShownOrHidden* least = nullptr;
+    for (const ShownOrHidden& each : slidings.estimates) {
+      if (!each.bounds) continue;
+      if (is_harmless(slidings, most_of(each))) return std::nullopt;
+      if (!least || most_of(each) < most_of(*least)) least = &each;
+    }
+    if (!least || (of_lines_ && of_one_force_)) return unknown();
+    const auto without = stiffness_without(slidings, most_of(*least));
+    return fmt::format("dry friction of {} would pass unseen, and {}; {}", in_units(most_of(*least)),
+                       without ? fmt::format("the critical stiffness without it be {:.3g}", *without)
+                               : "the critical stiffness without it is not known",
+                       remedy);
+  }
+
+  /// The critical stiffness without so much friction; nothing where the response does not say.
+  [[nodiscard]] std::optional<double> stiffness_without(const Slidings& slidings, double force) const {
+    const MeasuredStiffness without =
+        measured_stiffness(without_friction(measured_.response, slidings.of_records, force, slidings.body));
+    if (without.status != MeasuredStiffnessStatus::found || !without.limit) return std::nullopt;
+    return without.limit->stiffness;
+  }
+
+  [[nodiscard]] bool is_harmless(const Slidings& slidings, double force) const {
+    const auto without = stiffness_without(slidings, force);
+    return without && *without >= stiffness_ - tolerance_;
+  }
+
+  [[nodiscard]] std::string unknown() const {
+    if (of_lines_ && of_one_force_) {
+      return "a force that repeats hides dry friction, which makes a small motion look more damped and the critical "
+             "stiffness too high; record it with twice the force too, and give both";
+    }
+    const bool rests = std::ranges::any_of(
+        slidings_.front().of_records, [](const RecordedSliding& each) { return each.friction && !each.is_followed; });
+    return fmt::format(
+        "{}: how much of the damping is dry friction, and the critical stiffness too high, is not known; {}",
+        rests ? "the motion is not what the response makes of the force, as where a device rests at times"
+              : "the recordings do not show dry friction",
+        remedy);
+  }
+
+  MeasuredResponse& measured_;
+  bool of_lines_;
+  bool of_one_force_;
+  std::vector<Slidings> slidings_;  ///< of the sensed body, of hidden ones
+  double stiffness_ = 0.0;
+  double tolerance_ = 0.0;
+};
+
+}  // namespace
+
+void judge_friction(MeasuredResponse& measured, std::span<const Recording> recordings,
+                    std::span<const FrequencyResponse> responses, const FrequencyResponseOptions& options) {
+  FrictionDoubt doubt(measured, recordings, responses, options);
+  doubt.size_dependence();
+  doubt.judge();
+}
+
+}  // namespace zwidth::internal
