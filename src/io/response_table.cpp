@@ -209,12 +209,12 @@ std::optional<OptionProblem> find_problem(const ResponseTableOptions& options) {
 }
 
 tl::expected<FrequencyResponse, InputError> read_response_table(const std::string& path,
-                                                                const ResponseTableOptions& given,
+                                                                const ResponseTableOptions& options,
                                                                 const Progress& progress) try {
-  require_valid(find_problem(given));
-  ResponseTableOptions options = given;
-  if (!options.sampling_period && options.file.rate) options.sampling_period = 1.0 / *options.file.rate;
-  auto response = read_whole_table(path, options, progress);
+  require_valid(find_problem(options));
+  ResponseTableOptions decided = options;
+  if (!decided.sampling_period && options.file.rate) decided.sampling_period = 1.0 / *options.file.rate;
+  auto response = read_whole_table(path, decided, progress);
   if (!response) return response;
   std::erase_if(response->points, [&](const ResponsePoint& point) {
     return (options.lowest && point.frequency < *options.lowest) ||
