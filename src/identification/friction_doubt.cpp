@@ -10,6 +10,7 @@
 
 #include "identification/response_choice.hpp"
 #include "identification/response_friction.hpp"
+#include "zwidth/identification/excitation.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -26,16 +27,10 @@ struct ShownOrHidden {
 
 constexpr double clear = 3.5;  // deviations, of a few looks
 
-double root_mean_square(const std::vector<double>& samples) {
-  double squares = 0.0;
-  for (const double each : samples) squares += each * each;
-  return std::sqrt(squares / static_cast<double>(samples.size()));
-}
-
 bool are_of_one_force(std::span<const Recording> recordings) {
   constexpr double different = 1.5;
   std::vector<double> sizes;
-  for (const Recording& each : recordings) sizes.push_back(root_mean_square(each.channels[0].samples));
+  for (const Recording& each : recordings) sizes.push_back(crest_factor(each.channels[0].samples).rms);
   return std::ranges::max(sizes) < different * std::ranges::min(sizes);
 }
 

@@ -135,7 +135,7 @@ std::optional<ShownFriction> lowering_friction(const Identification& result, std
   for (const Recording& each : recordings) {
     try {
       auto found = friction_beside(result.fit, locked, each);
-      if (found && (!lowest || found->stiffness_without < lowest->stiffness_without)) lowest = std::move(found);
+      if (found && (!lowest || *found->stiffness_beside < *lowest->stiffness_beside)) lowest = std::move(found);
     } catch (const Error&) {  // no device has such numbers
       continue;
     }
@@ -157,14 +157,14 @@ void judge_friction_in_time(Identification& result, std::span<const Recording> r
   // Below, the fit in time may as well have ended in a side minimum.
   constexpr double suspected = 2.0;  // deviations
   const bool matters = friction->force > suspected * friction->deviation &&
-                       friction->stiffness_without < notable * result.analysis.critical.stiffness;
+                       *friction->stiffness_beside < notable * result.analysis.critical.stiffness;
   if (!shows && !matters) return;
   const Motion motion = result.fit.device.parameters().motion;
   const std::string what = fmt::format("{} dry friction of about {:.3g} {} on {}",
                                        shows ? "the record shows" : "the record does not tell damping from",
                                        friction->force, motion == Motion::rotary ? "N m" : "N", friction->body);
   const std::string meaning = fmt::format("beside it the critical stiffness is about {:.3g} {}",
-                                          friction->stiffness_without, units_of(motion).stiffness);
+                                          *friction->stiffness_beside, units_of(motion).stiffness);
   result.trust.doubt(what + ": " + meaning);
   result.analysis.trust.inherit(result.trust);
   result.remarks.push_back(

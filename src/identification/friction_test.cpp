@@ -65,7 +65,6 @@ std::vector<Signal> free_motions(const Device& device, std::size_t size) {
 struct Sliding {
   std::string body;
   Signal effect;  ///< on the sensed position, of unit friction
-  double equivalent_damping = 0.0;
 };
 
 /// What unit friction at each body does to the sensed position.
@@ -76,21 +75,18 @@ std::vector<Sliding> friction_effects(const Device& device, std::span<const doub
     seen.loop.sensed = body;
     const Signal position = motion(Device(seen), force);
     Signal opposing(position.size(), 0.0);
-    double speed = 0.0;
-    double square = 0.0;
+    bool moves = false;
     for (std::size_t k = 0; k + 1 < position.size(); ++k) {
       const double velocity = position[k + 1] - position[k];
       opposing[k] = velocity > 0.0 ? -1.0 : velocity < 0.0 ? 1.0 : 0.0;
-      speed += std::abs(velocity);
-      square += velocity * velocity;
+      moves = moves || velocity != 0.0;
     }
-    if (square == 0.0) continue;
+    if (!moves) continue;
     DeviceParameters pushed = device.parameters();
     pushed.loop.actuated = body;
     pushed.loop.delay = 0.0;
     pushed.actuator.time_constant = 0.0;
-    effects.push_back(
-        {device.bodies()[body].name, motion(Device(pushed), opposing), speed / square * device.loop().sampling_period});
+    effects.push_back({device.bodies()[body].name, motion(Device(pushed), opposing)});
   }
   return effects;
 }
@@ -199,8 +195,7 @@ std::optional<FrictionEvidence> find_friction(const FrictionQuestion& question, 
     const double ratio = found->values(friction) / found->deviations(friction);
     if (best && ratio <= best_ratio) continue;
     best_ratio = ratio;
-    best = FrictionEvidence{each.body, found->values(friction), found->deviations(friction),
-                            found->values(friction) * each.equivalent_damping};
+    best = FrictionEvidence{each.body, found->values(friction), found->deviations(friction)};
   }
   return best;
 }

@@ -12,10 +12,9 @@ namespace zwidth::internal {
 
 /// Dry friction that the motion of a fitted linear device leaves unexplained without it.
 struct FrictionEvidence {
-  std::string body;                 ///< on which it explains most
-  double force = 0.0;               ///< N or N m
-  double deviation = 0.0;           ///< one standard deviation of it
-  double equivalent_damping = 0.0;  ///< what the linear fit makes of it: force <|v|> / <v^2>, N s/m
+  std::string body;        ///< on which it explains most
+  double force = 0.0;      ///< N or N m
+  double deviation = 0.0;  ///< one standard deviation of it
 };
 
 /// In deviations; friction of more shows. Of 116 simulated records without friction the force that find_friction() gives

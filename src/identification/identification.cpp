@@ -123,13 +123,7 @@ class Fitting {
     }
     // Its size is no reason to pass over it: where a body rests for long, a linear device explains little of it.
     if (!found || found->force <= significant_friction * found->deviation) return std::nullopt;
-    DeviceParameters parameters = fit_->fit.device.parameters();
-    parameters.uncertainty.reset();
-    for (Body& body : parameters.bodies) {
-      if (body.name == found->body) body.damping = std::max(0.0, body.damping - found->equivalent_damping);
-    }
-    const double without = limit_of(Device(std::move(parameters))).stiffness;
-    return ShownFriction{found->body, found->force, found->deviation, without};
+    return ShownFriction{found->body, found->force, found->deviation};
   }
 
  private:

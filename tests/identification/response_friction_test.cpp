@@ -22,19 +22,24 @@ namespace {
 using ::testing::Contains;
 using ::testing::HasSubstr;
 
+/// 10 s at 1 kHz, from 0.5 Hz on.
+std::vector<double> ten_seconds(ExcitationKind kind, double amplitude, double highest_hz, std::uint64_t seed) {
+  ExcitationOptions options;
+  options.kind = kind;
+  options.amplitude = amplitude;
+  options.duration = 10.0;
+  options.rate = 1e3;
+  options.lowest_hz = 0.5;
+  options.highest_hz = highest_hz;
+  options.seed = seed;
+  return excite(options).samples;
+}
+
 /// 10 s at 1 kHz of 1.2 kg, 2 N s/m under noise, a sweep or a multisine.
 Recording rubbed(double coulomb, ExcitationKind kind, std::uint64_t seed, double amplitude = 8.0,
                  test::FrictionBody body = {.mass = 1.2, .viscous = 2.0}) {
   body.coulomb = coulomb;
-  ExcitationOptions excitation;
-  excitation.kind = kind;
-  excitation.amplitude = amplitude;
-  excitation.duration = 10.0;
-  excitation.rate = 1e3;
-  excitation.lowest_hz = 0.5;
-  excitation.highest_hz = 200.0;
-  excitation.seed = seed;
-  Recording recording{"run", 1e-3, {{"force", excite(excitation).samples}, {"position", {}}}, {}};
+  Recording recording{"run", 1e-3, {{"force", ten_seconds(kind, amplitude, 200.0, seed)}, {"position", {}}}, {}};
   for (const double force : recording.channels[0].samples) {
     recording.channels[1].samples.push_back(body.position);
     body.move(force, 1e-3);
@@ -135,15 +140,8 @@ Recording handle_rubs(double coulomb, std::uint64_t seed) {
   truth.bodies = {{"motor", 0.3, 1.0, 0.0, 0.0}, {"handle", 1.2, 2.0, 0.0, coulomb}};
   truth.links = {{0, 1, 8e3, 4.0}};
   truth.loop = {0, 0, 1, 1e-3, 0.0};
-  ExcitationOptions excitation;
-  excitation.kind = ExcitationKind::noise;
-  excitation.amplitude = 5.0;
-  excitation.duration = 10.0;
-  excitation.rate = 1e3;
-  excitation.lowest_hz = 0.5;
-  excitation.highest_hz = 100.0;
-  excitation.seed = seed;
-  Recording recording{"run", 1e-3, {{"force", excite(excitation).samples}, {"position", {}}}, {}};
+  const std::vector<double> force = ten_seconds(ExcitationKind::noise, 5.0, 100.0, seed);
+  Recording recording{"run", 1e-3, {{"force", force}, {"position", {}}}, {}};
   recording.channels[1].samples = test::FrictionChain(truth).positions(recording.channels[0].samples);
   return recording;
 }

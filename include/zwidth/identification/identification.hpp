@@ -69,10 +69,12 @@ struct NamedStructureOptions {
 
 /// Coulomb friction that a record shows although the model has none.
 struct ShownFriction {
-  std::string body;                ///< on which it explains most
-  double force = 0.0;              ///< N or N m
-  double deviation = 0.0;          ///< one standard deviation of it
-  double stiffness_without = 0.0;  ///< K_CR of the fitted device less the damping that the friction passes for
+  std::string body;        ///< on which it explains most
+  double force = 0.0;      ///< N or N m
+  double deviation = 0.0;  ///< one standard deviation of it
+  /// K_CR of the device that a fit in time finds beside it. Absent where a linear fit found the friction: it does not know
+  /// the damping that is left.
+  std::optional<double> stiffness_beside = {};
 };
 
 /// The part of the wall that is closed around the device where a critical stiffness is given.
