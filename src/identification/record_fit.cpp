@@ -47,12 +47,7 @@ FrequencyResponse corrected_response(const FrequencyResponse& last, const Device
     const double noise = std::max(1.0, response.averages) * point.variance;
     point.coherence = std::norm(point.value) / (std::norm(point.value) + noise);
   }
-  std::erase_if(response.points, [&](const ResponsePoint& point) {
-    constexpr double clear = 0.1;  // of the square: what is known no better is no part of the measured band
-    const bool was_left_out =
-        point.frequency < last.points.front().frequency || point.frequency > last.points.back().frequency;
-    return point.value == 0.0 || (was_left_out && point.variance > clear * std::norm(point.value));
-  });
+  std::erase_if(response.points, [](const ResponsePoint& point) { return point.value == 0.0; });
   return response;
 }
 
