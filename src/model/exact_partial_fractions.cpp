@@ -1,12 +1,13 @@
 #include "model/exact_partial_fractions.hpp"
 
-#include <arb_fmpz_poly.h>
+#include <acb_poly.h>
 #include <flint/fmpz_poly_factor.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "model/partial_fractions.hpp"
 #include "zwidth/error.hpp"
@@ -34,13 +35,40 @@ struct ExactPole {
   ComplexX rounded;
 };
 
-// All poles of p, with proof; zero among them.
-std::vector<ExactPole> find_poles(const IntegerPolynomial& p, slong precision) {
+// The roots of a squarefree p, none of them 0, in balls that are apart with proof. False where the bits do not suffice.
+// Arb's own arb_fmpz_poly_complex_roots doubles its bits without end once two approximations of 32 bits have met, as they
+// do where the roots' magnitudes span more.
+bool isolate(acb_ptr roots, const IntegerPolynomial& p, slong precision) {
+  constexpr slong first_bits = 64;
+  constexpr slong last_bits = 4 * last_precision;
+  const slong degree = fmpz_poly_degree(p);
+  const auto all = [&](auto holds) { return std::all_of(roots, roots + degree, holds); };
+  ComplexBallPolynomial balls;
+  bool go_on = false;
+  for (slong bits = first_bits; bits <= last_bits; bits *= 2) {
+    acb_poly_set_fmpz_poly(balls, p, bits);
+    const slong most_iterations = std::min(4 * degree + 64, bits);
+    const slong isolated = acb_poly_find_roots(roots, balls, go_on ? roots : nullptr, most_iterations, bits);
+    go_on = all([](const acb_struct& root) { return acb_is_finite(&root) != 0; });
+    if (isolated < degree) continue;
+    if (!all([&](const acb_struct& root) { return acb_rel_accuracy_bits(&root) >= precision; })) continue;
+    if (acb_poly_validate_real_roots(roots, balls, bits) == 0) continue;
+    for (slong i = 0; i < degree; ++i) {
+      if (arb_contains_zero(acb_imagref(roots + i)) != 0) arb_zero(acb_imagref(roots + i));
+    }
+    return true;
+  }
+  return false;
+}
+
+// All poles of p, with proof, zero among them; nothing where they cannot be told apart.
+std::optional<std::vector<ExactPole>> find_poles(const IntegerPolynomial& p, slong precision) {
   fmpz_poly_factor_t factors;
   fmpz_poly_factor_init(factors);
   fmpz_poly_factor_squarefree(factors, p);
   std::vector<ExactPole> poles;
-  for (slong k = 0; k < factors->num; ++k) {
+  bool are_isolated = true;
+  for (slong k = 0; k < factors->num && are_isolated; ++k) {
     IntegerPolynomial factor;
     fmpz_poly_set(factor, factors->p + k);
     if (fmpz_poly_length(factor) > 1 && fmpz_is_zero(fmpz_poly_get_coeff_ptr(factor, 0))) {
@@ -50,8 +78,8 @@ std::vector<ExactPole> find_poles(const IntegerPolynomial& p, slong precision) {
     const slong degree = fmpz_poly_degree(factor);
     if (degree < 1) continue;
     acb_ptr roots = _acb_vec_init(degree);
-    arb_fmpz_poly_complex_roots(roots, factor, 0, precision);
-    for (slong i = 0; i < degree; ++i) {
+    are_isolated = isolate(roots, factor, precision);
+    for (slong i = 0; i < degree && are_isolated; ++i) {
       ExactPole pole;
       acb_set(pole.at, roots + i);
       pole.multiplicity = factors->exp[k];
@@ -62,6 +90,7 @@ std::vector<ExactPole> find_poles(const IntegerPolynomial& p, slong precision) {
     _acb_vec_clear(roots, degree);
   }
   fmpz_poly_factor_clear(factors);
+  if (!are_isolated) return std::nullopt;
   return poles;
 }
 
@@ -316,11 +345,13 @@ std::vector<Fraction> group(const std::vector<ExactPole>& seen, const std::vecto
 // All terms at a given precision; nothing where it does not suffice.
 std::optional<ModalForm> expand(const ExactFraction& whole, const ExactFraction& seen, double lag,
                                 const PoleLabels& labels, slong precision) {
-  const std::vector<ExactPole> all = find_poles(whole.denominator, precision);
+  const std::optional<std::vector<ExactPole>> all = find_poles(whole.denominator, precision);
   const bool some_unseen = fmpz_poly_degree(seen.denominator) < fmpz_poly_degree(whole.denominator);
-  const std::vector<ExactPole> poles = some_unseen ? find_poles(seen.denominator, precision) : all;
+  const std::optional<std::vector<ExactPole>> found = some_unseen ? find_poles(seen.denominator, precision) : all;
+  if (!all || !found) return std::nullopt;
+  const std::vector<ExactPole>& poles = *found;
   ModalForm form;
-  std::vector<Fraction> fractions = group(poles, all, lag, labels, form);
+  std::vector<Fraction> fractions = group(poles, *all, lag, labels, form);
   for (Fraction& fraction : fractions) {
     Fraction sum;
     sum.mode = fraction.mode;
