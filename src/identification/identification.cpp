@@ -170,18 +170,34 @@ class Fitting {
     }
   }
 
-  /// A search that was stopped goes on. What is left beyond the noise, all free that shows, may be a side minimum's.
+  /// A search that was stopped goes on. What is left beyond the noise may be a side minimum's, or one that a delay alone
+  /// led into where there is a lag as well.
   void leave_side_minimum() {
     if (!fit_->fit.settled) {
       auto further = with_free({}, ParameterFitOptions::Start::from_structure);
       if (further && further->fit.model_error <= fit_->fit.model_error) fit_ = std::move(further);
     }
-    constexpr double poor = 1.4;  // residuals over the noise: a right structure hardly leaves more
-    const ParameterFit& fit = fit_->fit;
-    if (fit_options_.start != ParameterFitOptions::Start::from_data || !fit.misfit || *fit.misfit < poor) return;
+    if (fit_options_.start != ParameterFitOptions::Start::from_data) return;
+    constexpr double poor = 1.25;  // residuals over the noise: a right structure hardly leaves more
+    std::vector<std::string> free = fit_options_.free;
+    if (fit_->fit.misfit > poor) search_anew(free);
+    if (!may_free()) return;
+    for (const char* key : {delay_key, lag_key}) {
+      if (!is_free(key)) free.emplace_back(key);
+    }
+    if (fit_->fit.misfit > poor && free.size() > fit_options_.free.size()) search_anew(free);
+  }
+
+  void search_anew(const std::vector<std::string>& free) {
+    ParameterFitOptions options = fit_options_;
+    options.free = free;
+    if (fit_->response.points.size() <= free.size()) return;
     try {
-      RecordFit other = whole_fit(fit.device, fit_->response, fit_options_);
-      if (*other.fit.misfit < 0.9 * *fit.misfit && other.fit.model_error <= fit.model_error) fit_ = std::move(other);
+      RecordFit other = whole_fit(fit_->fit.device, fit_->response, options);
+      constexpr double much = 0.9;
+      if (!(other.fit.misfit < much * *fit_->fit.misfit && other.fit.model_error <= fit_->fit.model_error)) return;
+      fit_ = std::move(other);
+      fit_options_.free = free;
     } catch (const Error&) {  // then there is no other
     }
   }

@@ -260,15 +260,24 @@ TEST(IdentificationProperty, ARecordWithoutFrictionShowsNone) {
   EXPECT_TRUE(found.trust.sound());
 }
 
-// What drifts more slowly than the test's autoregression sees passed for cogging: bodies that drift under a chirp.
+// What drifts more slowly than the test's autoregression sees passed for cogging: bodies that drift under a chirp. In the
+// others up to 1.35 % of what is left goes with some wave of the position: of 578 records four did.
 TEST(IdentificationProperty, ALinearRecordShowsNoCogging) {
-  for (const std::uint64_t seed : {3028U, 3030U}) {
+  for (const std::uint64_t seed : {3028U, 3030U, 500191U, 600030U}) {
     const auto made = test::random_recording(seed);
     ASSERT_TRUE(made && !made->has_friction && made->right_structure);
+    ASSERT_NO_FATAL_FAILURE(expect_sound_and_right(identified(*made), *made));
+  }
+}
+
+// With the delay alone free the search ends where the residuals are 15 times their noise: the device has a lag, no delay.
+TEST(IdentificationProperty, ALagThatTheDelayHidIsFound) {
+  for (const std::uint64_t seed : {500182U, 600299U}) {
+    const auto made = test::random_recording(seed);
+    ASSERT_TRUE(made && made->right_structure && made->truth.actuator.time_constant > 0.0);
     const Identification found = identified(*made);
-    EXPECT_TRUE(found.trust.sound()) << "seed " << seed << ": " << found.trust.reasons.front();
-    ASSERT_TRUE(found.analysis.interval);
-    EXPECT_LE(found.analysis.interval->lower, made->stiffness) << "seed " << seed;
+    ASSERT_NO_FATAL_FAILURE(expect_sound_and_right(found, *made));
+    EXPECT_LT(*found.fit.misfit, 1.5) << "seed " << seed;
   }
 }
 
