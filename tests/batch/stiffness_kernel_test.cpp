@@ -109,7 +109,7 @@ std::size_t cases() {
   return wish != nullptr ? std::max<std::size_t>(100, std::strtoul(wish, nullptr, 10)) : 20'000;
 }
 
-// Each instruction set of this machine by itself, SSE4 to AVX-512 (Highway's test targets).
+// Each instruction set of this machine by itself, one lane to AVX-512 (Highway's test targets).
 void expect_that_instruction_sets_agree(const Device& base, const std::vector<ParameterValues>& changes) {
   const BatchStiffness best = batch_stiffness(base, changes);
   std::size_t sets = 0;
