@@ -10,38 +10,19 @@
 #include "identification/fit_judgement.hpp"
 #include "model/uncertainty_problem.hpp"
 #include "stability/device_draws.hpp"
-#include "zwidth/model/parameter.hpp"
 #include "zwidth/stability/stiffness_interval.hpp"
 
 namespace zwidth::internal {
 namespace {
 
-/// The device with its least known parameter i taken as known: C - c_i c_i' / c_ii of the others. Nothing where all are
-/// known well.
+/// The device with its least known parameter taken as known. Nothing where all are known well.
 std::optional<Device> without_least_known(const Device& device) {
   DeviceParameters parameters = device.parameters();
   if (!parameters.uncertainty || parameters.uncertainty->parameters.size() < 2) return std::nullopt;
-  std::vector<std::string>& keys = parameters.uncertainty->parameters;
-  std::vector<std::vector<double>>& covariance = parameters.uncertainty->covariance;
-  std::size_t least = 0;
-  double largest = 0.0;
-  for (std::size_t i = 0; i < keys.size(); ++i) {
-    const double value = parameter(parameters, keys[i]).value_or(0.0);
-    const double share = value > 0.0 ? covariance[i][i] / (value * value) : 0.0;
-    if (share > largest) least = i;
-    largest = std::max(largest, share);
-  }
   constexpr double well = 0.1;  // one deviation
-  if (largest < well * well) return std::nullopt;
-  const std::vector<double> column = covariance[least];
-  for (std::size_t i = 0; i < keys.size(); ++i) {
-    for (std::size_t j = 0; j < keys.size(); ++j) covariance[i][j] -= column[i] * column[j] / column[least];
-  }
-  const auto at = static_cast<std::ptrdiff_t>(least);
-  keys.erase(keys.begin() + at);
-  covariance.erase(covariance.begin() + at);
-  for (std::vector<double>& row : covariance) row.erase(row.begin() + at);
-  parameters.uncertainty = without_rounding(*std::move(parameters.uncertainty));
+  const LeastKnown least = least_known(parameters, 0.0);
+  if (least.share < well * well) return std::nullopt;
+  parameters.uncertainty = given(*std::move(parameters.uncertainty), least.i);
   return Device(std::move(parameters));
 }
 

@@ -20,9 +20,10 @@ namespace {
 
 using Excitation = FrequencyResponseOptions::Excitation;
 
-/// P_M + H1(force -> y - y_M).
-FrequencyResponse corrected_response(const FrequencyResponse& last, const Device& device,
-                                     std::span<const Recording> recordings, FrequencyResponseOptions options) {
+/// P_M + H1(force -> y - y_M). Nothing of a device whose motion overflows.
+std::optional<FrequencyResponse> corrected_response(const FrequencyResponse& last, const Device& device,
+                                                    std::span<const Recording> recordings,
+                                                    FrequencyResponseOptions options) {
   const double period = device.loop().sampling_period;
   const DiscreteStateSpace sampled = sample(state_space(device), {period, device.loop().delay});
   std::vector<Recording> rests;
@@ -31,6 +32,7 @@ FrequencyResponse corrected_response(const FrequencyResponse& last, const Device
     const std::vector<double> motion = forced_response(sampled, recording.channels[0].samples);
     std::vector<double>& rest = rests.back().channels[1].samples;
     for (std::size_t i = 0; i < rest.size(); ++i) rest[i] -= motion[i];
+    if (!std::ranges::all_of(rest, [](double each) { return std::isfinite(each); })) return std::nullopt;
   }
   options.excitation = Excitation::aperiodic;
   options.begins_at_rest = std::ranges::all_of(recordings, [](const Recording& each) {
@@ -108,10 +110,13 @@ RecordFit without_leakage(RecordFit first, std::span<const Recording> recordings
   constexpr int most_rounds = 3;
   for (int round = 0; round < most_rounds; ++round) {
     const Device device = device_in_experiment(best.fit.device, options.locked, *best.response.sampling_period);
-    FrequencyResponse response = corrected_response(best.response, device, recordings, response_options);
-    if (response.points.size() <= best.fit.estimates.size() || median_noise(response) > median_noise(best.response)) {
+    std::optional<FrequencyResponse> corrected =
+        corrected_response(best.response, device, recordings, response_options);
+    if (!corrected || corrected->points.size() <= best.fit.estimates.size() ||
+        median_noise(*corrected) > median_noise(best.response)) {
       break;
     }
+    FrequencyResponse& response = *corrected;
     ParameterFit fit = fit_parameters(best.fit.device, response, options);
     if (may_search && fit.misfit && *fit.misfit > poor_misfit) {
       // The leakage may have hidden that this is a side minimum.

@@ -115,6 +115,31 @@ std::optional<DeviceProblem> find_uncertainty_problem(const DeviceParameters& pa
   return std::nullopt;
 }
 
+LeastKnown least_known(const DeviceParameters& parameters, double of_zero) {
+  const Uncertainty& uncertainty = *parameters.uncertainty;
+  LeastKnown least;
+  for (std::size_t i = 0; i < uncertainty.parameters.size(); ++i) {
+    const double value = *parameter(parameters, uncertainty.parameters[i]);
+    const double variance = uncertainty.covariance[i][i];
+    const double share = value > 0.0 ? variance / (value * value) : of_zero;
+    if (variance > 0.0 && share > least.share) least = {i, share};
+  }
+  return least;
+}
+
+Uncertainty given(Uncertainty uncertainty, std::size_t i) {
+  std::vector<std::vector<double>>& covariance = uncertainty.covariance;
+  const std::vector<double> column = covariance[i];
+  for (std::size_t j = 0; j < column.size(); ++j) {
+    for (std::size_t k = 0; k < column.size(); ++k) covariance[j][k] -= column[j] * column[k] / column[i];
+  }
+  const auto at = static_cast<std::ptrdiff_t>(i);
+  uncertainty.parameters.erase(uncertainty.parameters.begin() + at);
+  covariance.erase(covariance.begin() + at);
+  for (std::vector<double>& row : covariance) row.erase(row.begin() + at);
+  return without_rounding(std::move(uncertainty));
+}
+
 std::string assumed_reason(const std::vector<std::string>& keys) {
   return fmt::format("assumed, not measured: {}; give the device's own", fmt::join(keys, ", "));
 }

@@ -1,11 +1,13 @@
 #include "zwidth/stability/stiffness_interval.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "batch/kernel/kernel_columns.hpp"
+#include "model/uncertainty_problem.hpp"
 #include "stability/device_draws.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
@@ -62,6 +64,49 @@ class DrawnLimits {
   internal::BlockScratch scratch_;
 };
 
+/// Quantiles of the draws, and how many belong to another mechanism than the device's own.
+struct Quantiles {
+  double lower = 0.0;
+  double upper = 0.0;
+  std::size_t others = 0;
+};
+
+Quantiles quantiles(const Device& device, const Limit& own, std::size_t draws, std::uint64_t seed,
+                    const Progress& progress) {
+  DrawnLimits drawn(device, seed);
+  std::vector<double> stiffness;
+  stiffness.reserve(draws);
+  Quantiles result;
+  while (stiffness.size() < draws) {
+    for (const Limit& each : drawn.next(std::min(block, draws - stiffness.size()))) {
+      stiffness.push_back(each.stiffness);
+      if (each.mode != own.mode || (!each.mode && each.stiffness != own.stiffness)) ++result.others;
+    }
+    internal::tell(progress, static_cast<double>(stiffness.size()) / static_cast<double>(draws));
+  }
+  std::ranges::sort(stiffness);
+  const auto tail = static_cast<std::size_t>(0.025 * static_cast<double>(draws));
+  result.lower = stiffness[tail];
+  result.upper = stiffness[draws - 1 - tail];
+  return result;
+}
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+bool is_at_bound(const Device& device) {
+  return internal::least_known(device.parameters(), infinite).share == infinite;
+}
+
+/// The device of which one more number is taken as known: one at its bound, else the least known. Nothing where that
+/// leaves none.
+std::optional<Device> with_one_more_known(const Device& device) {
+  DeviceParameters parameters = device.parameters();
+  const internal::LeastKnown least = internal::least_known(parameters, infinite);
+  if (parameters.uncertainty->parameters.size() < 2 || least.share == 0.0) return std::nullopt;
+  parameters.uncertainty = internal::given(*std::move(parameters.uncertainty), least.i);
+  return Device(std::move(parameters));
+}
+
 }  // namespace
 
 bool is_open(const StiffnessInterval& interval) {
@@ -76,22 +121,25 @@ StiffnessInterval stiffness_interval(const Device& device, std::size_t draws, st
     throw Error(ErrorCode::invalid_argument, "the device has no uncertainty");
   if (draws == 0) throw Error(ErrorCode::invalid_argument, "draws is 0; must be at least 1");
   const Limit own = limit_of(device);
-  DrawnLimits drawn(device, seed);
-  std::vector<double> stiffness;
-  stiffness.reserve(draws);
-  std::size_t others = 0;
-  while (stiffness.size() < draws) {
-    for (const Limit& each : drawn.next(std::min(block, draws - stiffness.size()))) {
-      stiffness.push_back(each.stiffness);
-      if (each.mode != own.mode || (!each.mode && each.stiffness != own.stiffness)) ++others;
-    }
-    internal::tell(progress, static_cast<double>(stiffness.size()) / static_cast<double>(draws));
+  internal::StagedProgress stages(progress);
+  constexpr double main_stage = 0.8;
+  stages.next(main_stage);
+  const Quantiles all = quantiles(device, own, draws, seed, stages.stage());
+  StiffnessInterval interval{std::min(all.lower, own.stiffness), std::max(all.upper, own.stiffness),
+                             static_cast<double>(all.others) / static_cast<double>(draws), draws};
+  // Draws that go to one side only, of numbers at their bound or where K_CR is least, crowd the other tail: what is
+  // known of K_CR where those numbers stay as they are counts too.
+  std::optional<Device> better = device;
+  while (own.mode && (is_at_bound(*better) || interval.lower >= own.stiffness)) {
+    better = with_one_more_known(*better);
+    if (!better) break;
+    stages.next(1.0);
+    const Quantiles near = quantiles(*better, own, draws, seed, stages.stage());
+    interval.lower = std::min(interval.lower, near.lower);
+    interval.upper = std::max(interval.upper, near.upper);
   }
-  std::ranges::sort(stiffness);
-  const auto tail = static_cast<std::size_t>(0.025 * static_cast<double>(draws));
-  // A parameter at its bound is drawn to one side of it only: the device itself is within, all the same.
-  return {std::min(stiffness[tail], own.stiffness), std::max(stiffness[draws - 1 - tail], own.stiffness),
-          static_cast<double>(others) / static_cast<double>(draws), draws};
+  stages.done();
+  return interval;
 }
 
 }  // namespace zwidth

@@ -270,9 +270,28 @@ TEST(IdentificationProperty, ALinearRecordShowsNoCogging) {
   }
 }
 
+// Of all devices that the data allow the fitted one has the least limit, or nearly: its own value was the lower end, and
+// 0.01 to 0.05 % too high.
+TEST(IdentificationProperty, TheLeastOfAllDrawsIsNoLowerEnd) {
+  for (const std::uint64_t seed : {700060U, 800251U}) {
+    const auto made = test::random_recording(seed);
+    ASSERT_TRUE(made && made->right_structure);
+    const Identification found = identified(*made);
+    ASSERT_NO_FATAL_FAILURE(expect_sound_and_right(found, *made));
+    EXPECT_LT(found.analysis.interval->lower, found.analysis.critical.stiffness) << "seed " << seed;
+  }
+}
+
+// A search that runs away ends in a device whose motion overflows; told as an error of the record's sample 7421.
+TEST(IdentificationProperty, AFitThatRanAwayIsRefused) {
+  const auto made = test::random_recording(800068);
+  ASSERT_TRUE(made);
+  EXPECT_TRUE(identified(*made).trust.refused());
+}
+
 // With the delay alone free the search ends where the residuals are 15 times their noise: the device has a lag, no delay.
 TEST(IdentificationProperty, ALagThatTheDelayHidIsFound) {
-  for (const std::uint64_t seed : {500182U, 600299U}) {
+  for (const std::uint64_t seed : {500182U, 500091U}) {
     const auto made = test::random_recording(seed);
     ASSERT_TRUE(made && made->right_structure && made->truth.actuator.time_constant > 0.0);
     const Identification found = identified(*made);

@@ -185,6 +185,23 @@ TEST(StiffnessInterval, WhatIsKnownOfASumStaysKnownAtABound) {
   EXPECT_NEAR(interval.upper, critical(device), 0.05 * critical(device));
 }
 
+// The delay is 0, and its draws go up alone, each with more damping: of those that stay at 0 the lower tail counts.
+TEST(StiffnessInterval, ANumberAtItsBoundHidesNoTail) {
+  DeviceParameters device = test::rigid_parameters();
+  device.loop.delay = 0.0;
+  const double deviation = 0.1 * device.bodies[0].damping;
+  const double of_delay = 1e-6;
+  constexpr double correlation = 0.7;
+  const double both = correlation * deviation * of_delay;
+  const StiffnessInterval interval =
+      stiffness_interval(Device(with_uncertainty(device, {"body.body.damping", "loop.delay"},
+                                                 {{deviation * deviation, both}, {both, of_delay * of_delay}})),
+                         4000);
+  const double with_delay_known = 1.96 * deviation * std::sqrt(1.0 - correlation * correlation);
+  EXPECT_NEAR(interval.lower, critical(device) - slope(device, "body.body.damping") * with_delay_known,
+              0.06 * with_delay_known * slope(device, "body.body.damping"));
+}
+
 // Impossible draws are brought to their bound: an uncertain damping near 0 stays a damping.
 TEST(StiffnessInterval, DrawsStayPossible) {
   DeviceParameters device = test::lhifam_parameters();
