@@ -34,6 +34,13 @@ Eigen::MatrixXd outside_span(const Eigen::MatrixXd& columns, const Eigen::Matrix
   return qr.householderQ() * turned;
 }
 
+Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& matrix, double rank_tolerance) {
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(matrix);
+  qr.setThreshold(rank_tolerance);
+  const Eigen::MatrixXd first = Eigen::MatrixXd::Identity(matrix.rows(), qr.rank());
+  return qr.householderQ() * first;
+}
+
 Eigen::MatrixXd inverse_of_squares(const Eigen::MatrixXd& matrix) {
   return (matrix.transpose() * matrix).ldlt().solve(Eigen::MatrixXd::Identity(matrix.cols(), matrix.cols()));
 }

@@ -28,6 +28,9 @@ ShortestSolution shortest_least_squares(const Eigen::MatrixXd& matrix, const Eig
 /// `rank_tolerance` of the largest.
 Eigen::MatrixXd outside_span(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& matrix, double rank_tolerance);
 
+/// Orthonormal columns that span the matrix's, of which the rank counts the pivots above `rank_tolerance` of the largest.
+Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& matrix, double rank_tolerance);
+
 /// (M^T M)^{-1}. M has full rank.
 Eigen::MatrixXd inverse_of_squares(const Eigen::MatrixXd& matrix);
 

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "identification/encoder_step.hpp"
+#include "linear_systems.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -87,9 +87,7 @@ Eigen::MatrixXd outside_linear_terms(Eigen::MatrixXd columns, const Eigen::Matri
     const double norm = columns.col(j).norm();
     columns.col(j) *= norm > own * before(j) ? 1.0 / norm : 0.0;
   }
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
-  qr.setThreshold(own);
-  return qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), qr.rank());
+  return orthonormal_basis(columns, own);
 }
 
 }  // namespace zwidth::internal

@@ -1,6 +1,5 @@
 #include "identification/nonlinearity_test.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -161,8 +160,7 @@ class PredictionErrors {
     for (std::size_t j = 0; j < terms.size(); ++j) {
       columns.col(static_cast<Eigen::Index>(j)) = terms[j] / std::max(terms[j].norm(), 1e-300);
     }
-    linear_ = Eigen::HouseholderQR<Eigen::MatrixXd>(columns).householderQ() *
-              Eigen::MatrixXd::Identity(columns.rows(), columns.cols());
+    linear_ = orthonormal_basis(columns, 1e-12);
     left_ -= linear_ * (linear_.transpose() * left_).eval();
   }
 
