@@ -110,15 +110,11 @@ class Fitting {
   [[nodiscard]] std::optional<ShownFriction> friction() const {
     if (is_hopeless_ || options_.response.output != OutputQuantity::position) return std::nullopt;
     std::optional<FrictionEvidence> found;
-    for (const Recording& each : recordings_) {
-      try {
-        const auto next =
-            find_friction({fit_->fit.device, fit_options_.locked, keys_of(fit_->fit), each.sampling_period,
-                           fit_->fit.frequencies.front(), fit_->fit.frequencies.back()},
-                          each.channels[0].samples, each.channels[1].samples);
+    // Friction acts where the device moves fast, mostly far below the highest line: over all lines the noise hides it.
+    for (const double share : {1.0, 0.1}) {
+      for (const Recording& each : recordings_) {
+        const auto next = friction_up_to(share * fit_->fit.frequencies.back(), each);
         if (next && (!found || next->force * found->deviation > found->force * next->deviation)) found = next;
-      } catch (const Error&) {  // a device that cannot be played says nothing
-        continue;
       }
     }
     // Its size is no reason to pass over it: where a body rests for long, a linear device explains little of it.
@@ -127,6 +123,17 @@ class Fitting {
   }
 
  private:
+  [[nodiscard]] std::optional<FrictionEvidence> friction_up_to(double highest, const Recording& recording) const {
+    const std::vector<std::string> keys = keys_of(fit_->fit);
+    try {
+      return find_friction({fit_->fit.device, fit_options_.locked, keys, recording.sampling_period,
+                            fit_->fit.frequencies.front(), highest},
+                           recording.channels[0].samples, recording.channels[1].samples);
+    } catch (const Error&) {  // a device that cannot be played says nothing
+      return std::nullopt;
+    }
+  }
+
   [[nodiscard]] static bool determines(const RecordFit& fit, const std::vector<const char*>& keys) {
     const auto& uncertainty = fit.fit.device.parameters().uncertainty;
     return uncertainty && std::ranges::all_of(keys, [&](const char* key) {
