@@ -2,10 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <array>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -14,6 +12,7 @@
 #include "identification/correlated_residuals.hpp"
 #include "identification/nonlinearity_of_equations.hpp"
 #include "identification/rigid_band.hpp"
+#include "identification/student_t.hpp"
 #include "linear_systems.hpp"
 #include "signal/zero_phase_filter.hpp"
 #include "zwidth/error.hpp"
@@ -365,7 +364,7 @@ RigidBodyFit identify_rigid_body(std::span<const double> force, std::span<const 
     covariance += open * open * column * column.transpose();
   }
   const auto freedom = static_cast<double>(solution.residuals.size() - solution.parameters.size());
-  const double quantile = boost::math::quantile(boost::math::students_t(freedom), 0.975);
+  const double quantile = student_t_quantile(freedom);
   const auto of = [&](Column column, std::string key) {
     return estimate(std::move(key), solution.parameters(column), std::sqrt(covariance(column, column)), quantile);
   };

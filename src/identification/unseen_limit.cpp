@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "identification/fit_judgement.hpp"
+#include "identification/student_t.hpp"
 #include "stability/device_draws.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/parameter.hpp"
@@ -43,14 +44,14 @@ std::optional<Device> moved(const Device& device, std::size_t i, double deviatio
 /// Whether another fit leaves no more than chance may: by Student's t, of as many degrees of freedom as independent
 /// residuals exceed the free parameters,
 ///
-///     (chi^2 / chi_first^2 - 1) nu <= t^2        t = 1.96 + 2.37 / nu + 2.8 / nu^2, its 97.5 % quantile for nu >= 2
+///     (chi^2 / chi_first^2 - 1) nu <= t_nu^2
 bool explains_as_much(const ParameterFit& other, const ParameterFit& first, double line_correlation) {
   if (other.model_error > 1.02 * first.model_error + 1e-9) return false;
   if (!other.misfit || !first.misfit) return true;
   constexpr double least_freedom = 2.0;
   const double independent = 2.0 * static_cast<double>(first.frequencies.size()) / line_correlation;
   const double freedom = std::max(least_freedom, independent - static_cast<double>(first.estimates.size()));
-  const double t = 1.96 + 2.37 / freedom + 2.8 / (freedom * freedom);
+  const double t = student_t_quantile(freedom);
   const double ratio = *other.misfit / *first.misfit;
   return (ratio * ratio - 1.0) * freedom <= t * t;
 }
