@@ -1,7 +1,6 @@
 #include "model/exact_partial_fractions.hpp"
 
 #include <acb_poly.h>
-#include <flint/fmpz_poly_factor.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,6 +8,7 @@
 #include <limits>
 #include <optional>
 
+#include "model/exact_poles.hpp"
 #include "model/partial_fractions.hpp"
 #include "zwidth/error.hpp"
 
@@ -17,82 +17,13 @@ namespace {
 
 using ComplexX = Complex<Extended>;
 
-// Bits of the balls: the first try, and the last.
-constexpr slong first_precision = 256;
-constexpr slong last_precision = 16384;
+constexpr slong first_precision = 256;  // bits
 // Terms that exceed their sum by more than this leave too few digits to whoever adds them up in double.
 constexpr double carried_cancellation = 1e7;
 // A pole this close to the imaginary axis, relative, is on it: the device's own numbers are not known better. Where
 // poles crowd they respond more to those numbers.
 constexpr double undamped_below = 1e-14;
 constexpr double undamped_in_cluster_below = 1e-7;
-
-// A real pole, or the upper one of a complex pair.
-struct ExactPole {
-  ComplexBall at;
-  slong multiplicity = 1;
-  bool is_real = false;
-  ComplexX rounded;
-};
-
-// The roots of a squarefree p, none of them 0, in balls that are apart with proof. False where the bits do not suffice.
-// Arb's own arb_fmpz_poly_complex_roots doubles its bits without end once two approximations of 32 bits have met, as they
-// do where the roots' magnitudes span more.
-bool isolate(acb_ptr roots, const IntegerPolynomial& p, slong precision) {
-  constexpr slong first_bits = 64;
-  constexpr slong last_bits = 4 * last_precision;
-  const slong degree = fmpz_poly_degree(p);
-  const auto all = [&](auto holds) { return std::all_of(roots, roots + degree, holds); };
-  ComplexBallPolynomial balls;
-  bool go_on = false;
-  for (slong bits = first_bits; bits <= last_bits; bits *= 2) {
-    acb_poly_set_fmpz_poly(balls, p, bits);
-    const slong most_iterations = std::min(4 * degree + 64, bits);
-    const slong isolated = acb_poly_find_roots(roots, balls, go_on ? roots : nullptr, most_iterations, bits);
-    go_on = all([](const acb_struct& root) { return acb_is_finite(&root) != 0; });
-    if (isolated < degree) continue;
-    if (!all([&](const acb_struct& root) { return acb_rel_accuracy_bits(&root) >= precision; })) continue;
-    if (acb_poly_validate_real_roots(roots, balls, bits) == 0) continue;
-    for (slong i = 0; i < degree; ++i) {
-      if (arb_contains_zero(acb_imagref(roots + i)) != 0) arb_zero(acb_imagref(roots + i));
-    }
-    return true;
-  }
-  return false;
-}
-
-// All poles of p, with proof, zero among them; nothing where they cannot be told apart.
-std::optional<std::vector<ExactPole>> find_poles(const IntegerPolynomial& p, slong precision) {
-  fmpz_poly_factor_t factors;
-  fmpz_poly_factor_init(factors);
-  fmpz_poly_factor_squarefree(factors, p);
-  std::vector<ExactPole> poles;
-  bool are_isolated = true;
-  for (slong k = 0; k < factors->num && are_isolated; ++k) {
-    IntegerPolynomial factor;
-    fmpz_poly_set(factor, factors->p + k);
-    if (fmpz_poly_length(factor) > 1 && fmpz_is_zero(fmpz_poly_get_coeff_ptr(factor, 0))) {
-      poles.push_back({{}, factors->exp[k], true, {}});
-      fmpz_poly_shift_right(factor, factor, 1);
-    }
-    const slong degree = fmpz_poly_degree(factor);
-    if (degree < 1) continue;
-    acb_ptr roots = _acb_vec_init(degree);
-    are_isolated = isolate(roots, factor, precision);
-    for (slong i = 0; i < degree && are_isolated; ++i) {
-      ExactPole pole;
-      acb_set(pole.at, roots + i);
-      pole.multiplicity = factors->exp[k];
-      pole.is_real = arb_is_zero(acb_imagref(roots + i)) != 0;
-      pole.rounded = {rounded(acb_realref(roots + i)), rounded(acb_imagref(roots + i))};
-      if (pole.is_real || arb_is_positive(acb_imagref(roots + i))) poles.push_back(pole);
-    }
-    _acb_vec_clear(roots, degree);
-  }
-  fmpz_poly_factor_clear(factors);
-  if (!are_isolated) return std::nullopt;
-  return poles;
-}
 
 // A set of poles and what they contribute: numerator / denominator.
 struct Fraction {
@@ -408,7 +339,7 @@ ModalForm exact_modal_form(ExactFraction fraction, double lag, const PoleLabels&
     fmpz_poly_div(seen.numerator, fraction.numerator, common);
     fmpz_poly_div(seen.denominator, fraction.denominator, common);
   }
-  for (slong precision = first_precision; precision <= last_precision; precision *= 2) {
+  for (slong precision = first_precision; precision <= most_precision; precision *= 2) {
     std::optional<ModalForm> form = expand(fraction, seen, lag, labels, precision);
     if (!form) continue;
     partial_fractions::share_lag(*form, lag);

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "model/balls.hpp"
+
+namespace zwidth::internal {
+
+/// A real pole, or the upper one of a complex pair.
+struct ExactPole {
+  ComplexBall at;
+  slong multiplicity = 1;
+  bool is_real = false;
+  Complex<Extended> rounded;
+};
+
+/// Bits of the balls that the poles are last sought with.
+inline constexpr slong most_precision = 16384;
+
+/// All poles of p, with proof, zero among them, each known to `precision` bits; nothing where they cannot be told apart.
+[[nodiscard]] std::optional<std::vector<ExactPole>> find_poles(const IntegerPolynomial& p, slong precision);
+
+}  // namespace zwidth::internal
