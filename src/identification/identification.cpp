@@ -275,10 +275,20 @@ void judge_delay(const Fitting& fitting, Judgement& judgement) {
   judgement.remarks.push_back(remark);
 }
 
-void judge_interval(Identification& result, const IdentifyOptions& options, Trust device_trust) {
+/// A fit that ran away, where no number's deviation is one.
+std::optional<std::string> doubt_of_interval(const Identification& result) {
   const auto& interval = result.analysis.interval;
-  if (!interval || !is_open(*interval)) return judge_unseen_limit(result, options, std::move(device_trust));
-  result.trust.doubt(open_interval_reason(*interval));
+  if (interval && is_open(*interval)) return open_interval_reason(*interval);
+  const bool knows_noise = result.fit.misfit.has_value();
+  if (interval || !knows_noise) return std::nullopt;
+  return "how well the data determine the numbers could not be computed; free fewer, or name a structure of fewer "
+         "bodies";
+}
+
+void judge_interval(Identification& result, const IdentifyOptions& options, Trust device_trust) {
+  const std::optional<std::string> doubt = doubt_of_interval(result);
+  if (!doubt) return judge_unseen_limit(result, options, std::move(device_trust));
+  result.trust.doubt(*doubt);
   device_trust.inherit(result.trust);
   result.fit.device = with_trust(result.fit.device, device_trust);
 }
