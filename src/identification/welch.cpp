@@ -210,8 +210,7 @@ void add_remarks(FrequencyResponse& response, const Cut& cut, const Points& poin
          fmt::format("{} lines are left out: the force excites them only where the record begins or ends",
                      points.at_ends),
          "a device fitted to a record that begins at rest has them all the same; else let the force begin later, or "
-         "end "
-         "earlier, than the record"});
+         "end earlier, than the record"});
   }
   if (segments.averages < 2.0) {
     response.remarks.push_back({Remark::Severity::warning,
