@@ -11,6 +11,7 @@
 #include "identification/friction_test.hpp"
 #include "identification/held_device.hpp"
 #include "identification/lateness.hpp"
+#include "identification/misfit_doubt.hpp"
 #include "identification/nonlinearity_test.hpp"
 #include "identification/percent.hpp"
 #include "identification/plausibility.hpp"
@@ -29,43 +30,7 @@ namespace {
 
 // A fit that leaves more of the response unexplained has identified nothing.
 constexpr double refused_model_error = 0.5;
-// Beyond the noise, a share of the response that moves a critical stiffness by about as much.
-constexpr double doubtful_model_error = 0.05;
-// Beyond the noise, and beside it: what is left over shows clearly, so the structure is another one.
-constexpr double clear_model_error = 0.01;
-// Half of that where the residuals are this many times the noise.
-constexpr double clear_misfit = 5.0;
-// Of the response: what is left of it below this is the arithmetic's, of a record without noise.
-constexpr double rounding_error = 1e-6;
-// Of a right structure the residuals are the noise, as far as so many lines tell: of 116 simulated records the fits that
-// found the device left at most 1.27 times it, friction 1.48 times with a limit 6 % too high. Of few averages the noise
-// is itself a guess, and the ratio's tails are long.
-double doubtful_misfit(const FrequencyResponse& response, std::size_t lines) {
-  constexpr double few_averages = 10.0;
-  constexpr double of_few = 2.0;
-  if (response.averages < few_averages) return of_few;
-  return std::min(of_few, 1.25 + 2.0 / std::sqrt(static_cast<double>(lines)));
-}
-
 std::string_view stiffness_unit(const Device& device) { return units_of(device.parameters().motion).stiffness; }
-
-double median_noise(const FrequencyResponse& response) {
-  std::vector<double> shares;
-  for (const ResponsePoint& point : response.points) {
-    shares.push_back(std::sqrt(point.variance) / std::abs(point.value));
-  }
-  const auto middle = shares.begin() + static_cast<std::ptrdiff_t>(shares.size() / 2);
-  std::nth_element(shares.begin(), middle, shares.end());
-  return *middle;
-}
-
-/// Root mean square of noise over its deviation as estimated with nu = 2 averages - 2 degrees of freedom.
-double expected_misfit(const FrequencyResponse& response) {
-  constexpr double least_freedom = 4.0;
-  if (!(response.averages > 0.0)) return 1.0;
-  const double freedom = std::max(least_freedom, 2.0 * response.averages - 2.0);
-  return std::sqrt(freedom / (freedom - 2.0));
-}
 
 /// Whether of masses, stiffnesses and dampings, some of which are free, the record says nothing.
 bool shows_lateness_alone(const ParameterFit& fit) {
@@ -136,22 +101,7 @@ class Judge {
       result_.trust.doubt(fmt::format("a mode near {:.4g} Hz is missing from the structure; add a body and a link",
                                       hertz(*fit_.missing_mode)));
     }
-    const double noise = median_noise(judged_.fit.response);
-    const bool stands_out = fit_.misfit && *fit_.misfit > clear_misfit;
-    const bool is_clear = fit_.model_error > std::max(stands_out ? 0.5 * clear_model_error : clear_model_error, noise);
-    if (fit_.model_error > doubtful_model_error || is_clear) {
-      result_.trust.doubt(
-          fmt::format("the structure leaves {} of the response unexplained beyond the noise: friction, backlash, or "
-                      "a body that it lacks",
-                      percent(fit_.model_error)));
-    } else if (fit_.misfit && *fit_.misfit * noise > rounding_error &&
-               *fit_.misfit > doubtful_misfit(judged_.fit.response, fit_.frequencies.size()) *
-                                  expected_misfit(judged_.fit.response)) {
-      result_.trust.doubt(
-          fmt::format("what the structure leaves of the response is {:.2g} times its noise: friction, backlash, or a "
-                      "body that it lacks",
-                      *fit_.misfit));
-    }
+    if (auto doubt = doubt_of_misfit(fit_, judged_.fit.response)) result_.trust.doubt(*std::move(doubt));
   }
 
   /// What limits must have been excited.

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -23,13 +25,12 @@
 namespace zwidth::internal {
 namespace {
 
-const Body* heaviest(const Device& device, const std::vector<std::string>& locked) {
-  const Body* found = nullptr;
-  for (const Body& body : device.bodies()) {
-    if (std::ranges::count(locked, body.name) > 0) continue;
-    if (!found || body.mass > found->mass) found = &body;
-  }
-  return found;
+/// Those that move, the heaviest first.
+std::vector<Body> moving_bodies(const Device& device, const std::vector<std::string>& locked) {
+  std::vector<Body> bodies = device.bodies();
+  std::erase_if(bodies, [&](const Body& body) { return std::ranges::count(locked, body.name) > 0; });
+  std::ranges::stable_sort(bodies, std::greater{}, &Body::mass);
+  return bodies;
 }
 
 /// K_CR without the friction.
@@ -58,20 +59,19 @@ bool explains_more(const ShotSearch& search, const ShotModel& model, const std::
   return search.badness(with_friction, shots) < search.badness(*without, shots) - least_gain;
 }
 
-/// Friction of the heaviest body beside all numbers of the fit; nothing where no such motion can be followed.
-std::optional<ShownFriction> friction_beside(const ParameterFit& fit, const std::vector<std::string>& locked,
-                                             const Recording& recording) {
+/// Friction of a body beside all numbers of the fit; nothing where no such motion can be followed.
+std::optional<ShownFriction> friction_beside(const ParameterFit& fit, const Body& body,
+                                             const std::vector<std::string>& locked, const Recording& recording) {
   const std::span one(&recording, 1);
   const MotionRecord record{recording.channels[0].samples, recording.channels[1].samples, recording.sampling_period};
   constexpr std::size_t shortest = 512;
-  const Body* body = heaviest(fit.device, locked);
-  if (record.force.size() < shortest || !body) return std::nullopt;
+  if (record.force.size() < shortest) return std::nullopt;
   DeviceParameters parameters = fit.device.parameters();
   parameters.uncertainty.reset();
   const Device linear(std::move(parameters));
   TimeDomainStart start{.device = linear, .free = {}};
   for (const ParameterEstimate& each : fit.estimates) start.free.push_back(each.key);
-  start.free.push_back("body." + body->name + ".coulomb");
+  start.free.push_back("body." + body.name + ".coulomb");
 
   // Of what takes long to play, the first part: the steps through it times what is followed in each.
   const Device device = device_in_experiment(start.device, locked, record.sampling_period);
@@ -124,21 +124,39 @@ std::optional<ShownFriction> friction_beside(const ParameterFit& fit, const std:
   const auto at = static_cast<Eigen::Index>(last);
   if (!(known.covariance(at, at) > 0.0)) return std::nullopt;
   const double unit = model.coordinates()[last].slope(x(at));
-  return ShownFriction{body->name, x(at) * unit, std::sqrt(known.covariance(at, at)) * unit,
+  return ShownFriction{body.name, x(at) * unit, std::sqrt(known.covariance(at, at)) * unit,
                        stiffness_beside(model.parameters_at(x))};
 }
 
-/// Of all recordings that beside which the critical stiffness is lowest.
+/// What a friction found in time says of a fit.
+enum class Meaning : std::uint8_t { nothing, may_matter, shows };
+
+Meaning meaning_of(const ShownFriction& friction, double stiffness) {
+  if (friction.force > significant_friction * friction.deviation) return Meaning::shows;
+  // Below, the fit in time may as well have ended in a side minimum.
+  constexpr double suspected = 2.0;  // deviations
+  constexpr double notable = 0.95;   // of the linear fit's: an interval beside the friction moves by as much
+  const bool matters =
+      friction.force > suspected * friction.deviation && *friction.stiffness_beside < notable * stiffness;
+  return matters ? Meaning::may_matter : Meaning::nothing;
+}
+
+/// Of the friction of the heaviest body that any recording shows or leaves open, else of the next, that beside which the
+/// critical stiffness is lowest.
 std::optional<ShownFriction> lowering_friction(const Identification& result, std::span<const Recording> recordings,
                                                const std::vector<std::string>& locked) {
   std::optional<ShownFriction> lowest;
-  for (const Recording& each : recordings) {
-    try {
-      auto found = friction_beside(result.fit, locked, each);
-      if (found && (!lowest || *found->stiffness_beside < *lowest->stiffness_beside)) lowest = std::move(found);
-    } catch (const Error&) {  // no device has such numbers
-      continue;
+  for (const Body& body : moving_bodies(result.fit.device, locked)) {
+    for (const Recording& each : recordings) {
+      try {
+        auto found = friction_beside(result.fit, body, locked, each);
+        if (!found || meaning_of(*found, result.analysis.critical.stiffness) == Meaning::nothing) continue;
+        if (!lowest || *found->stiffness_beside < *lowest->stiffness_beside) lowest = std::move(found);
+      } catch (const Error&) {  // no device has such numbers
+        continue;
+      }
     }
+    if (lowest) break;
   }
   return lowest;
 }
@@ -152,13 +170,7 @@ void judge_friction_in_time(Identification& result, std::span<const Recording> r
   if (options.response.output != OutputQuantity::position) return;
   const std::optional<ShownFriction> friction = lowering_friction(result, recordings, options.fit.locked);
   if (!friction) return;
-  constexpr double notable = 0.95;  // of the linear fit's: an interval beside the friction moves by as much
-  const bool shows = friction->force > significant_friction * friction->deviation;
-  // Below, the fit in time may as well have ended in a side minimum.
-  constexpr double suspected = 2.0;  // deviations
-  const bool matters = friction->force > suspected * friction->deviation &&
-                       *friction->stiffness_beside < notable * result.analysis.critical.stiffness;
-  if (!shows && !matters) return;
+  const bool shows = meaning_of(*friction, result.analysis.critical.stiffness) == Meaning::shows;
   const Motion motion = result.fit.device.parameters().motion;
   const std::string what = fmt::format("{} dry friction of about {:.3g} {} on {}",
                                        shows ? "the record shows" : "the record does not tell damping from",

@@ -10,8 +10,9 @@ namespace zwidth::internal {
 
 /// Doubts a sound answer whose damping is friction, or may be.
 ///
-/// Fits the motion of the device with friction of its heaviest body to each recording, from the linear fit on, as
-/// identify_in_time() does but briefly, and to the first part of a recording that takes long to play. It finds what
+/// Fits the motion of the device with friction of its heaviest body to each recording, then of the next, until one
+/// shows; from the linear fit on, as identify_in_time() does but briefly, and to the first part of a recording that takes
+/// long to play. It finds what
 /// find_friction() does not: friction that is no small disturbance of the linear fit's motion, as where a body drifts
 /// until friction stops it, or where modes above the band are not known. Doubtful: the friction shows, or one of more than
 /// two deviations would put the critical stiffness more than 10 % below its interval. `device_trust`: of the device for any

@@ -131,6 +131,25 @@ std::optional<double> misfit(const std::vector<ResponsePoint>& points, const Eig
   return std::sqrt(sum / static_cast<double>(points.size()));
 }
 
+std::optional<LocalMisfit> local_misfit(const std::vector<ResponsePoint>& points, const Eigen::VectorXcd& fitted) {
+  constexpr std::size_t many = lines_of_local_misfit;
+  std::optional<LocalMisfit> largest;
+  double sum = 0.0;
+  const auto square = [&](std::size_t i) {
+    return std::norm(points[i].value - fitted(static_cast<Eigen::Index>(i))) / points[i].variance;
+  };
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points[i].variance == 0.0) return std::nullopt;
+    sum += square(i);
+    if (i >= many) sum -= square(i - many);
+    if (i + 1 < many) continue;
+    const double misfit = std::sqrt(std::max(0.0, sum) / static_cast<double>(many));
+    if (largest && misfit <= largest->misfit) continue;
+    largest = LocalMisfit{misfit, points[i + 1 - many].frequency, points[i].frequency};
+  }
+  return largest;
+}
+
 std::vector<double> mode_frequencies(const Device& device, const std::vector<std::size_t>& locked) {
   const ModalForm form = modal_form(locked_device(device, locked));
   std::vector<double> frequencies;
@@ -309,6 +328,7 @@ ParameterFit fit_parameters(const Device& structure, const FrequencyResponse& re
   ParameterFit fit{.device = Device(fitted),
                    .correlations = strong_correlations(model, known.determined, covariance_of_x),
                    .misfit = misfit(points, at_solution.values),
+                   .local_misfit = local_misfit(points, at_solution.values),
                    .model_error = solution.model_error,
                    .stiffness_without_hold = without_hold,
                    .frequencies = data.frequencies,

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "identification/friction_test.hpp"
+#include "identification/misfit_doubt.hpp"
 #include "identification/pooled_response.hpp"
 #include "identification/response_choice.hpp"
 #include "identification/welch.hpp"
@@ -51,14 +52,6 @@ std::optional<FrequencyResponse> corrected_response(const FrequencyResponse& las
   }
   std::erase_if(response.points, [](const ResponsePoint& point) { return point.value == 0.0; });
   return response;
-}
-
-double median_noise(const FrequencyResponse& response) {
-  std::vector<double> shares;
-  for (const ResponsePoint& point : response.points) shares.push_back(point.variance / std::norm(point.value));
-  const auto middle = shares.begin() + static_cast<std::ptrdiff_t>(shares.size() / 2);
-  std::nth_element(shares.begin(), middle, shares.end());
-  return *middle;
 }
 
 /// Whether no parameter has moved by a notable part of its standard deviation.

@@ -97,6 +97,28 @@ DeviceParameters equal_masses() {
   return device;
 }
 
+// 24 of 800 lines four times as noisy as they say: the misfit over all of them is 1.2.
+TEST(ParameterFit, SaysWhereItLeavesMost) {
+  const Device device(test::lhifam_parameters());
+  FrequencyResponse measured = synthetic_response(device, 1.0, 400.0, 800, {0.01, 1});
+  constexpr std::ptrdiff_t first = 300;
+  for (auto point = measured.points.begin() + first; point != measured.points.begin() + first + 24; ++point) {
+    point->variance /= 16.0;
+  }
+  const ParameterFit fit = fit_parameters(device, measured);
+  ASSERT_TRUE(fit.misfit && fit.local_misfit);
+  EXPECT_LT(*fit.misfit, 1.3);
+  EXPECT_NEAR(fit.local_misfit->misfit, 4.0, 0.8);
+  const double spacing = measured.points[1].frequency - measured.points[0].frequency;
+  EXPECT_NEAR(fit.local_misfit->lowest, measured.points[first].frequency, 2.0 * spacing);
+  EXPECT_NEAR(fit.local_misfit->highest, measured.points[first + 23].frequency, 2.0 * spacing);
+}
+
+TEST(ParameterFit, OfFewerLinesNoPartIsLookedAt) {
+  const Device device(test::lhifam_parameters());
+  EXPECT_FALSE(fit_parameters(device, synthetic_response(device, 1.0, 400.0, 23, {0.01, 1})).local_misfit);
+}
+
 INSTANTIATE_TEST_SUITE_P(All, FreeDevice,
                          testing::Values(Case{"rigid", test::rigid_parameters()},
                                          Case{"lhifam", test::lhifam_parameters()},

@@ -62,6 +62,15 @@ struct UnidentifiableCombination {
   std::vector<std::string> parameters;  ///< keys of the numbers of which only a combination shows
 };
 
+inline constexpr std::size_t lines_of_local_misfit = 24;
+
+/// The part of a response where a fit leaves most.
+struct LocalMisfit {
+  double misfit = 0.0;   ///< root mean square of residual / standard deviation of the noise
+  double lowest = 0.0;   ///< rad/s
+  double highest = 0.0;  ///< rad/s
+};
+
 /// A structure fitted to a measured response.
 struct ParameterFit {
   Device device;  ///< the structure with the fitted values, and the uncertainty of the identifiable ones
@@ -71,6 +80,8 @@ struct ParameterFit {
   /// Root mean square of residual / standard deviation of the noise: near 1 for a right structure. Absent where the
   /// response has no variances.
   std::optional<double> misfit;
+  /// The same of those `lines_of_local_misfit` neighbouring points where it is largest. Absent where there are fewer.
+  std::optional<LocalMisfit> local_misfit{};
   /// What the structure leaves unexplained beyond the noise, as a share of |P_i|: e in variance_i + e^2 |P_i|^2. 0
   /// where the noise explains the residuals.
   double model_error = 0.0;

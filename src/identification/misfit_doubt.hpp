@@ -1,0 +1,17 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "zwidth/identification/parameter_fit.hpp"
+#include "zwidth/signal/frequency_response.hpp"
+
+namespace zwidth::internal {
+
+/// Median over the lines of the noise's deviation as a share of the response.
+[[nodiscard]] double median_noise(const FrequencyResponse& response);
+
+/// Why a fit leaves more of the response than its noise, over all lines or anywhere; nothing where it does not.
+[[nodiscard]] std::optional<std::string> doubt_of_misfit(const ParameterFit& fit, const FrequencyResponse& response);
+
+}  // namespace zwidth::internal
