@@ -15,6 +15,7 @@
 #include "cli/outputs.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/recording_arguments.hpp"
+#include "cli/refused_answer.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
 #include "cli/surroundings.hpp"
@@ -92,6 +93,12 @@ void run_relay(const RelayArguments& arguments) {
   std::optional<Device> device = delayed_device(arguments);
   const RelayResult result =
       arguments.recording.file.empty() ? simulated(arguments, *device) : recorded(arguments, std::move(device));
+  if (result.trials.empty()) {  // of a device that is refused
+    return print_refused(result.trust, result.device->name(),
+                         arguments.output.json ? results::line(results::relay_json(result))
+                                               : report::for_medium(report::relay_text(result)),
+                         {arguments.output.csv, arguments.output.figure});
+  }
   outputs.put("--csv", [&] { return results::relay_csv(result); });
   outputs.draw("--figure", [&](report::FigureFormat format) { return report::draw_relay(result, format); });
   outputs.commit();

@@ -47,7 +47,7 @@ std::optional<std::string> doubt_of_hand(const Device& structure, const std::vec
   };
   const double of_mass = ratio("mass", held.mass);
   const double of_damping = ratio("damping", held.damping);
-  constexpr double heavier = 1.3;
+  constexpr double heavier = 1.1;
   constexpr double more_damped = 2.0;
   if (!(of_mass > heavier && of_damping > more_damped)) return std::nullopt;
   return fmt::format(

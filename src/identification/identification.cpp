@@ -13,6 +13,7 @@
 #include "identification/friction_test.hpp"
 #include "identification/interval_narrowing.hpp"
 #include "identification/lateness.hpp"
+#include "identification/recording_agreement.hpp"
 #include "identification/response_choice.hpp"
 #include "identification/unseen_limit.hpp"
 #include "model/uncertainty_problem.hpp"
@@ -322,6 +323,7 @@ Identification identified(const MeasuredResponse& measured, std::span<const Reco
   }
   if (judgement.is_measured) narrow_interval(result);
   judge_interval(result, options, judgement.device_trust);
+  judge_agreement(result, recordings, options, judgement.device_trust);
   judge_friction_in_time(result, recordings, options, judgement.device_trust);
   judge_nonlinearity(result, recordings, options, judgement.device_trust);
   keep_what_is_assumed(structure, result.fit.estimates,

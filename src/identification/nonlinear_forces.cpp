@@ -52,6 +52,19 @@ std::optional<Nonlinearity> clearest_nonlinearity(
            "lever, or a stop",
            "record smaller motion, about the place that matters"});
 
+  constexpr std::size_t span = 4;  // samples, over which a velocity is taken
+  std::vector<double> drag(position.size(), 0.0);
+  for (std::size_t k = span; k < position.size(); ++k) {
+    const double velocity = (position[k] - position[k - span]) / range;
+    drag[k] = velocity * std::abs(velocity);
+  }
+  examine(
+      {{std::move(drag)},
+       false,
+       "a force that is not in proportion to the speed: drag of air or of a fluid, an eddy-current brake, or friction "
+       "that changes with the speed",
+       "record it at the speeds that matter: slow motion is damped less, and its critical stiffness is lower"});
+
   const auto beyond = [&](double share) {
     const double bound = share * largest;
     return mapped(force, [=](double u) { return std::copysign(std::max(0.0, std::abs(u) - bound), u); });

@@ -136,6 +136,17 @@ class PredictionErrors {
     return all.head(count);
   }
 
+  /// Of a record that begins in motion, from this state at 1.
+  [[nodiscard]] Signal free_motion(Eigen::Index from) const {
+    Eigen::VectorXd state = Eigen::VectorXd::Unit(at_sensed_.Phi.rows(), from);
+    Signal position(size_);
+    for (double& each : position) {
+      each = at_sensed_.C.dot(state);
+      state += at_sensed_.Phi * state;
+    }
+    return position;
+  }
+
   void take_out_linear_terms() {
     std::vector<Eigen::VectorXd> terms;
     constexpr int latest = 32;
@@ -156,6 +167,7 @@ class PredictionErrors {
     }
     for (const Signal& each : {position_, velocity, acceleration, direction, Signal(size_, 1.0)})
       terms.push_back(errors_of(at_sensed_, each));
+    for (Eigen::Index state = 0; state < at_sensed_.Phi.rows(); ++state) terms.push_back(errors_of(free_motion(state)));
     Eigen::MatrixXd columns(left_.size(), static_cast<Eigen::Index>(terms.size()));
     for (std::size_t j = 0; j < terms.size(); ++j) {
       columns.col(static_cast<Eigen::Index>(j)) = terms[j] / std::max(terms[j].norm(), 1e-300);

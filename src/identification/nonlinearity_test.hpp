@@ -23,8 +23,8 @@ struct NonlinearityQuestion {
 ///     A(q) (y - y_M) = A(q) sum_j c_j G g_j + linear terms + e,   g_j: clearest_nonlinearity()
 ///
 /// y_M: the fitted motion; A: the autoregression that makes its residuals white; G: the fitted device, x: the recorded
-/// position. The linear terms (force at eight samples, position, velocity, its sign, acceleration, a constant force) are
-/// taken out of either side. A g_j of the past only meets white errors, so that sums of their products have the variance
+/// position. The linear terms (force at eight samples, position, velocity, its sign, acceleration, a constant force,
+/// motion from its beginning) are taken out of either side. A g_j of the past only meets white errors, so that sums of their products have the variance
 /// of white noise; where the errors' spectrum is above it, as at frequencies that the autoregression is too short for, of
 /// that spectrum. Nothing where the record is too short, or nothing is left. Source: Lagrange multiplier tests of a
 /// linear model against additive nonlinear terms (Tsay 1986; Luukkonen, Saikkonen & Terasvirta 1988).

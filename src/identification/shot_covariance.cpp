@@ -63,8 +63,11 @@ ShotCovariance shot_covariance(const ShotSlopes& slopes, const std::vector<bool>
     residuals.segment(row, count) = slopes.residuals[i];
     row += count;
   }
-  ShotCovariance result{
-      .known = {}, .covariance = Eigen::MatrixXd::Zero(size, size), .pull = {}, .step = Eigen::VectorXd::Zero(size)};
+  ShotCovariance result{.known = {},
+                        .covariance = Eigen::MatrixXd::Zero(size, size),
+                        .pull = {},
+                        .pulled_deviation = {},
+                        .step = Eigen::VectorXd::Zero(size)};
   std::vector<Eigen::Index> varied;
   for (Eigen::Index i = 0; i < size; ++i) {
     if (!held[static_cast<std::size_t>(i)]) varied.push_back(i);
@@ -75,12 +78,14 @@ ShotCovariance shot_covariance(const ShotSlopes& slopes, const std::vector<bool>
   data.deviations.assign(static_cast<std::size_t>(rows), 1.0);
   const Identifiability known = identifiability(at_solution, data);
   // Of dampings that nearly make up for each other, one held at 0 shows in what the other cannot follow alone.
-  result.pull = Eigen::VectorXd::Zero(size);
+  result.pull = result.pulled_deviation = Eigen::VectorXd::Zero(size);
   for (Eigen::Index i = 0; i < size; ++i) {
     if (!held[static_cast<std::size_t>(i)]) continue;
     const Eigen::VectorXd own = outside(regressors.col(i), of_varied);
     const double norm = own.norm();
-    if (norm > 0.0) result.pull(i) = -own.dot(residuals) / norm;
+    if (!(norm > 0.0)) continue;
+    result.pull(i) = -own.dot(residuals) / norm;
+    result.pulled_deviation(i) = 1.0 / norm;
   }
   result.known.determined.assign(static_cast<std::size_t>(size), true);
   result.known.estimated = result.known.determined;

@@ -14,6 +14,8 @@ struct ShotCovariance {
   Eigen::MatrixXd covariance;  ///< of x; 0 for what is not determined
   /// Of what is held: how clearly the residuals ask for more of it, all others free to follow, in standard deviations.
   Eigen::VectorXd pull;
+  /// Of what is held: one such deviation, in x.
+  Eigen::VectorXd pulled_deviation;
   /// Of what varies: how far Newton's step would still go from here. Nothing where a search ended for its slopes; a misfit
   /// with kinks ends it elsewhere.
   Eigen::VectorXd step;

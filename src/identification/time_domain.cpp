@@ -13,6 +13,7 @@
 #include "identification/fit_judgement.hpp"
 #include "identification/lateness.hpp"
 #include "identification/shot_covariance.hpp"
+#include "identification/shot_device.hpp"
 #include "identification/shot_fit.hpp"
 #include "identification/shot_search.hpp"
 #include "identification/time_domain_judgement.hpp"
@@ -26,8 +27,6 @@ using namespace internal;
 namespace {
 
 constexpr std::size_t least_samples = 512;
-// 97.5 % quantile of the normal distribution.
-constexpr double two_sided = 1.959963984540054;
 
 void check(std::span<const Recording> recordings, const Device& structure, const TimeDomainOptions& options) {
   require_valid(find_problem(options));
@@ -139,66 +138,6 @@ ShotFit beyond(const ShotModel& model, const Round& round) {
 
 /// What the search left open counts among what is not known.
 void widen_by_step(ShotCovariance& known) { known.covariance += known.step * known.step.transpose(); }
-
-/// Known to a factor of e only: nothing that a number could be given for.
-bool is_open(const Coordinate& coordinate, double variance) {
-  constexpr double open = 1.0;
-  return !std::isfinite(variance) || (coordinate.kind == Coordinate::Kind::logarithmic && variance > open);
-}
-
-ParameterEstimate estimate(const Coordinate& coordinate, double x, bool determined, double variance) {
-  ParameterEstimate result{coordinate.key, coordinate.value(x), determined, {}, {}, {}};
-  if (!determined || is_open(coordinate, variance)) {
-    result.identifiable = false;
-    return result;
-  }
-  const double deviation = coordinate.slope(x) * std::sqrt(variance);
-  result.standard_deviation = deviation;
-  result.lower = std::max(0.0, result.value - two_sided * deviation);
-  result.upper = result.value + two_sided * deviation;
-  return result;
-}
-
-void describe_parameters(TimeDomainIdentification& result, const ShotModel& model, const ShotFit& fit,
-                         const ShotCovariance& known) {
-  const Eigen::VectorXd& x = fit.x;
-  DeviceParameters fitted = model.parameters_at(x);
-  Uncertainty uncertainty;
-  std::vector<Eigen::Index> kept;
-  for (std::size_t i = 0; i < model.coordinates().size(); ++i) {
-    const auto at = static_cast<Eigen::Index>(i);
-    const Coordinate& coordinate = model.coordinates()[i];
-    result.estimates.push_back(estimate(coordinate, x(at), known.known.determined[i], known.covariance(at, at)));
-    const double variance = known.covariance(at, at);
-    const bool is_of_a_combination = !known.known.determined[i] && variance > 0.0 && !is_open(coordinate, variance);
-    if (fit.held[i] || !(result.estimates.back().identifiable || is_of_a_combination)) continue;
-    kept.push_back(at);
-    uncertainty.parameters.push_back(coordinate.key);
-  }
-  for (const Eigen::Index i : kept) {
-    const Coordinate& row = model.coordinates()[static_cast<std::size_t>(i)];
-    uncertainty.covariance.emplace_back();
-    for (const Eigen::Index j : kept) {
-      const Coordinate& column = model.coordinates()[static_cast<std::size_t>(j)];
-      uncertainty.covariance.back().push_back(row.slope(x(i)) * known.covariance(i, j) * column.slope(x(j)));
-      const auto is_determined = [&](Eigen::Index k) { return known.known.determined[static_cast<std::size_t>(k)]; };
-      if (!is_determined(i) || !is_determined(j)) continue;
-      constexpr double strong = 0.95;
-      const double scale = std::sqrt(known.covariance(i, i) * known.covariance(j, j));
-      if (j <= i || !(std::abs(known.covariance(i, j)) > strong * scale)) continue;
-      result.correlations.push_back({row.key, column.key, known.covariance(i, j) / scale});
-    }
-  }
-  if (!kept.empty() && kept.size() <= max_uncertain_parameters) fitted.uncertainty = std::move(uncertainty);
-  for (const std::vector<std::size_t>& combination : known.known.combinations) {
-    UnidentifiableCombination each;
-    for (const std::size_t k : combination) {
-      if (k < model.coordinates().size()) each.parameters.push_back(model.coordinates()[k].key);
-    }
-    if (!each.parameters.empty()) result.unidentifiable.push_back(std::move(each));
-  }
-  result.device = Device(std::move(fitted));
-}
 
 void describe_motions(TimeDomainIdentification& result, std::span<const Recording> recordings, const ShotModel& model,
                       const std::vector<Shot>& shots, const FittedShots& fitted, const Eigen::MatrixXd& covariance) {
@@ -344,7 +283,10 @@ TimeDomainIdentification identify_in_time(std::span<const Recording> recordings,
       result.device = with_open_delay(result.device, beyond * beyond);
     }
   }
-  judge_in_time(result, {recordings, structure, options, shots, start.is_turned, other});
+  const FittedDevice fitted{model, shots, found->fitted, found->known};
+  judge_in_time(result, {recordings, structure, options, shots, start.is_turned, other,
+                         doubt_of_agreement(devices_of_recordings(fitted, recordings)),
+                         contradicted_numbers(fitted, structure, recordings, options.locked)});
   done(1.0);
   return result;
 }

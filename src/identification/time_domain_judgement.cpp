@@ -89,6 +89,7 @@ class Judge {
     judge_search();
     judge_hand();
     judge_delay();
+    judge_what_was_given();
     const std::vector<std::string> open = open_numbers();
     if (!open.empty()) {
       trust_.doubt(fmt::format("the data do not determine {}: taken as they stand in the start of the search",
@@ -199,6 +200,16 @@ class Judge {
     if (!judged_.other_delay) return;
     const Remark remark = ignored_delay_remark(*judged_.other_delay, judged_.structure.loop().delay);
     trust_.doubt(fmt::format("{}; {}", remark.what, remark.remedy));
+  }
+
+  void judge_what_was_given() {
+    if (judged_.disagreement) trust_.doubt(*judged_.disagreement);
+    for (const ContradictedNumber& each : judged_.contradicted) {
+      trust_.doubt(
+          fmt::format("{} was not fitted, and the recordings contradict it: they ask for about {:.3g} where {:.3g} is "
+                      "taken; free it too",
+                      each.key, each.shown, each.given));
+    }
   }
 
   [[nodiscard]] std::vector<std::string> open_numbers() const {

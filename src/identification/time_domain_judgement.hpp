@@ -2,7 +2,10 @@
 
 #include <optional>
 #include <span>
+#include <string>
+#include <vector>
 
+#include "identification/shot_device.hpp"
 #include "identification/shot_model.hpp"
 #include "zwidth/identification/time_domain.hpp"
 
@@ -13,8 +16,10 @@ struct JudgedTimeFit {
   const Device& structure;
   const TimeDomainOptions& options;
   std::span<const Shot> shots;
-  bool is_turned = false;               ///< the position falls as the force rises
-  std::optional<double> other_delay{};  ///< s; that the recordings show where another is given and not free
+  bool is_turned = false;                          ///< the position falls as the force rises
+  std::optional<double> other_delay{};             ///< s; that the recordings show where another is given and not free
+  std::optional<std::string> disagreement{};       ///< of the recordings
+  std::vector<ContradictedNumber> contradicted{};  ///< numbers of the structure that were not free
 };
 
 /// Analysis, basis, trust and remarks of a fit whose parameters and motions are given, and each motion's `unexplained`.

@@ -13,6 +13,7 @@
 #include "report/figure/plot.hpp"
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
+#include "report/text/trust_text.hpp"
 
 namespace zwidth::report {
 namespace {
@@ -72,7 +73,7 @@ class CurveFigure {
       : sweep_(sweep),
         values_(sweep.values[0]),
         motion_(device.parameters().motion),
-        title_(fmt::format("Critical stiffness of {}", display_name(device))),
+        title_(fmt::format("Critical stiffness of {}{}", display_name(device), trust_mark(sweep.trust))),
         parameter_(parameter_axis_unit(sweep_.axes[0], motion_)),
         stiffness_(axis_unit(range().second / room_above)) {
     for (const SweepPoint& point : sweep_.points) {
@@ -242,7 +243,7 @@ class MapFigure {
   MapFigure(const Device& device, const ParameterSweep& sweep)
       : sweep_(sweep),
         motion_(device.parameters().motion),
-        title_(fmt::format("Critical stiffness of {}", display_name(device))),
+        title_(fmt::format("Critical stiffness of {}{}", display_name(device), trust_mark(sweep.trust))),
         units_{parameter_axis_unit(sweep_.axes[0], motion_), parameter_axis_unit(sweep_.axes[1], motion_)} {}
 
   [[nodiscard]] std::string draw(FigureFormat format) const {

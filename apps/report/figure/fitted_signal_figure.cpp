@@ -11,6 +11,7 @@
 #include "report/figure/plot.hpp"
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
+#include "report/text/trust_text.hpp"
 
 namespace zwidth::report {
 namespace {
@@ -148,7 +149,8 @@ std::string draw_identification(const TimeDomainIdentification& identified, Figu
     signals.push_back(std::move(signal));
   }
   return draw(
-      display_name(identified.device) + ", identified in time", "fitted device with its dry friction",
+      fmt::format("{}, identified in time{}", display_name(identified.device), trust_mark(identified.trust)),
+      "fitted device with its dry friction",
       signals.size() > most_signals ? fmt::format("The first {} of {} recordings.", most_signals, signals.size()) : "",
       signals, format);
 }
@@ -160,7 +162,8 @@ std::string draw_identification(const RigidBodyIdentification& identified, Figur
       file_name(identified.source), "Force", motion == Motion::rotary ? "N m" : "N", fit.times, fit.forces,
       fit.residual_forces};
   return draw(
-      fmt::format("{}, identified by inverse dynamics", display_name(identified.device)),
+      fmt::format("{}, identified by inverse dynamics{}", display_name(identified.device),
+                  trust_mark(identified.trust)),
       "mass, friction and offset of the fitted body",
       fmt::format("Force behind a low-pass of {:.3g} Hz, as fitted; rests of the body are left out.", fit.cutoff_hz),
       {&signal, 1}, format);

@@ -11,6 +11,7 @@
 #include "report/figure/plot.hpp"
 #include "report/text/quantity.hpp"
 #include "report/text/text_table.hpp"
+#include "report/text/trust_text.hpp"
 #include "zwidth/remark.hpp"
 
 namespace zwidth::report {
@@ -124,7 +125,8 @@ std::vector<ListLine> list_of(const MeasuredResponse& frf, const std::string& un
                     quantity(crossover.stiffness_interval.lower, unit),
                     quantity(crossover.stiffness_interval.upper, unit), number(hertz(crossover.frequency)),
                     number(hertz(crossover.frequency_interval.lower)),
-                    number(hertz(crossover.frequency_interval.upper)), critical ? ": critical" : ""),
+                    number(hertz(crossover.frequency_interval.upper)),
+                    critical ? (frf.trust.sound() ? ": critical" : ": critical, doubtful") : ""),
         critical ? measured_limit_style.colour : ink);
   }
   if (crossovers.size() > most_crossovers) {
@@ -225,7 +227,7 @@ std::string band_and_curve(int curve, int lower, int upper) {
 
 std::string draw_frf(const MeasuredResponse& frf, const results::FrfUnits& units, FigureFormat format) {
   const std::vector<ResponseLine> points = thinned(response_lines(frf.response));
-  const Heading heading(std::filesystem::path(frf.source).filename().string(), {},
+  const Heading heading(std::filesystem::path(frf.source).filename().string() + std::string(trust_mark(frf.trust)), {},
                         "Measured response, from commanded force to sensed position");
   const std::vector<ListLine> list = list_of(frf, units.stiffness());
   const FrfLayout layout(frf, list, heading.bottom());

@@ -12,6 +12,7 @@
 #include "report/figure/plot.hpp"
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
+#include "report/text/trust_text.hpp"
 
 namespace zwidth::report {
 namespace {
@@ -86,8 +87,9 @@ std::string plots(int measured, int low, int high, int fitted) {
 
 std::string draw_identification(const Identification& identified, FigureFormat format) {
   IdentificationLabels labels;
-  labels.title = fmt::format("{}, identified from {}", display_name(identified.fit.device),
-                             std::filesystem::path(identified.source).filename().string());
+  labels.title =
+      fmt::format("{}, identified from {}{}", display_name(identified.fit.device),
+                  std::filesystem::path(identified.source).filename().string(), trust_mark(identified.trust));
   return draw_identification(identified, labels, format);
 }
 

@@ -10,6 +10,7 @@
 #include "report/figure/plot.hpp"
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
+#include "report/text/trust_text.hpp"
 #include "report/text/wall_filter_text.hpp"
 #include "results/region_json.hpp"
 
@@ -80,10 +81,7 @@ class RegionFigure {
     const auto filters = wall_filters_text(device_.parameters().wall);
     return fmt::format("Stable walls of {}{}{}{}", display_name(device_),
                        filter > 0.0 ? fmt::format(", velocity filter {}", quantity(filter, "Hz")) : std::string(),
-                       filters ? ", through " + *filters : std::string(),
-                       walls_.trust.sound()     ? ""
-                       : walls_.trust.refused() ? " (REFUSED)"
-                                                : " (DOUBTFUL)");
+                       filters ? ", through " + *filters : std::string(), trust_mark(walls_.trust));
   }
 
   [[nodiscard]] std::vector<LegendEntry> legend() const {

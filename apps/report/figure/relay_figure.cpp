@@ -8,6 +8,7 @@
 
 #include "report/figure/record_figure.hpp"
 #include "report/text/quantity.hpp"
+#include "report/text/trust_text.hpp"
 
 namespace zwidth::report {
 namespace {
@@ -29,9 +30,9 @@ std::string draw_relay_record(const std::string& title, const RelayTrial& trial,
   const Units units = units_of(motion);
   const std::size_t from = shown_from(trial, sampling_period);
   const std::string subtitle =
-      trial.result ? fmt::format("{:.4f} Hz, {} ({:.2f} dB); the last {:.0f} cycles", hertz(trial.result->frequency),
-                                 quantity(trial.result->stiffness, units.stiffness), decibels(trial.result->stiffness),
-                                 cycles_shown)
+      trial.result ? fmt::format("oscillates at {:.4f} Hz, which reads as K = {} ({:.2f} dB); the last {:.0f} cycles",
+                                 hertz(trial.result->frequency), quantity(trial.result->stiffness, units.stiffness),
+                                 decibels(trial.result->stiffness), cycles_shown)
                    : fmt::format("No oscillation: {}", trial.result.error().reason);
   return draw_record(title, subtitle,
                      {.force = std::span(trial.force).subspan(from),
@@ -50,7 +51,8 @@ std::string draw_relay(const RelayResult& result, FigureFormat format) {
   const std::string title = result.trials.size() == 1 ? fmt::format("Relay experiment: {}", name)
                                                       : fmt::format("Relay experiment, trial {}: {}",
                                                                     shown - result.trials.begin() + 1, name);
-  return draw_relay_record(title, *shown, result.sampling_period, result.motion, format);
+  return draw_relay_record(title + std::string(trust_mark(result.trust)), *shown, result.sampling_period, result.motion,
+                           format);
 }
 
 }  // namespace zwidth::report

@@ -14,6 +14,7 @@
 #include "report/text/quantity.hpp"
 #include "report/text/simulation_text.hpp"
 #include "report/text/text_table.hpp"
+#include "report/text/trust_text.hpp"
 
 namespace zwidth::report {
 namespace {
@@ -123,8 +124,13 @@ std::string draw_simulation_figure(const Device& device, const Simulation& resul
   std::vector<LegendEntry> legend;
   for (std::size_t i = 0; i < moved.size(); ++i) legend.push_back({moved[i].name, motion_styles[i]});
   if (surface) legend.push_back({"inside the wall", {wall_colour}, wall_colour});
-  const std::string title = "Simulated motion of " + display_name(device);
-  const Heading heading(title, legend);
+  const std::string title = fmt::format("Simulated motion of {}{}", display_name(device), trust_mark(result.trust));
+  const std::string period = quantity(device.loop().sampling_period, "s");
+  const bool has_wall = result.generated_energy.has_value();
+  const Heading heading(title, legend,
+                        has_wall
+                            ? fmt::format("Wall of {}; sampled every {}.", simulated_wall_text(device, result), period)
+                            : fmt::format("No wall; sampled every {}.", period));
   const Box positions{frame_left, frame_right, heading.bottom() + 14.0, heading.bottom() + 14.0 + positions_height};
   const Box forces{frame_left, frame_right, positions.bottom + 52.0, positions.bottom + 52.0 + forces_height};
   std::vector<std::string> lines;

@@ -13,6 +13,7 @@
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
 #include "report/text/study_text.hpp"
+#include "report/text/trust_text.hpp"
 
 namespace zwidth::report {
 namespace {
@@ -21,8 +22,6 @@ constexpr double study_panel_height = 300.0;
 constexpr double least_gain_shown = 0.001;  // of the yield: the axis where nothing is gained
 constexpr std::string_view bar_colour = "#9db8dc";
 constexpr std::string_view colours[] = {blue, orange, green, purple, red, grey};
-
-std::string doubt(const Study& study) { return study.trust.sound() ? "" : " (DOUBTFUL)"; }
 
 /// The parameters by what they do to K_CR: by total index, or by how far off they are among the worst tenth.
 std::vector<std::size_t> by_weight(const Study& study) {
@@ -85,8 +84,8 @@ std::optional<std::string> draw_study_distribution(const StudyRun& run, const St
   if (histogram.counts.size() < 2) return std::nullopt;
   const std::string_view unit = units_of(run.device().parameters().motion).stiffness;
   const auto& wanted = run.options().specification.critical_stiffness;
-  const std::string title =
-      fmt::format("Critical stiffness of {} units of {}{}", study.samples, display_name(run.device()), doubt(study));
+  const std::string title = fmt::format("Critical stiffness of {} units of {}{}", study.samples,
+                                        display_name(run.device()), trust_mark(study.trust));
   std::vector<LegendEntry> legend{{"units", {bar_colour, 8.0}, {}},
                                   {"share of all units that reach K", {blue, 2.0}, {}}};
   if (wanted) legend.push_back({fmt::format("specified: {}", quantity(*wanted, unit)), {red, 1.6, "(8,4)"}, {}});
@@ -155,7 +154,8 @@ std::optional<std::string> draw_study_scatter(const StudyRun& run, const Study& 
     legend.push_back({"the worst unit", {}, {}, ring});
     what += fmt::format("$worst with points {} notitle, ", ring);
   }
-  const std::string title = fmt::format("What limits the units: {} of them{}", study.points.size(), doubt(study));
+  const std::string title =
+      fmt::format("What limits the units: {} of them{}", study.points.size(), trust_mark(study.trust));
   const Heading heading(title, legend);
   const Box frame{frame_left + 20.0, frame_right, heading.bottom() + 16.0,
                   heading.bottom() + 16.0 + study_panel_height};
@@ -198,7 +198,7 @@ std::optional<std::string> draw_study_tornado(const Study& study, FigureFormat f
   }
   const std::string title = fmt::format(
       "{}{}", of_variance ? "What K_CR depends on: share of its variance" : "Which tolerance to tighten: yield gained",
-      doubt(study));
+      trust_mark(study.trust));
   using Legend = std::vector<LegendEntry>;
   const Heading heading(title, of_variance ? Legend{{"a parameter alone", {blue, 8.0}, {}},
                                                     {"together with others", {bar_colour, 8.0}, {}}}
@@ -246,7 +246,7 @@ std::optional<std::string> draw_study_regions(const StudyRun& run, const Study& 
   const AxisUnit axis = axis_unit(high, 3.0);
   const std::string title =
       fmt::format("Walls that shares of {} units of {} render{}", regions.units, display_name(run.device()),
-                  regions.trust.sound() ? doubt(study) : " (DOUBTFUL)");
+                  trust_mark(regions.trust.sound() ? study.trust : regions.trust));
   std::vector<LegendEntry> legend;
   std::string bands;
   std::string lines;

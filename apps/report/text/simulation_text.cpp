@@ -25,21 +25,6 @@ std::string line(std::string_view label, std::string_view text) {
   return wrap(text, line_width, simulation_indent).replace(0, label.size() + 2, fmt::format("  {}", label));
 }
 
-std::string wall_text(const Device& device, const Simulation& result) {
-  const ControllerOptions& wall = result.loop.controller;
-  const Units units = units_of(device.parameters().motion);
-  std::string text = quantity(wall.stiffness, units.stiffness);
-  if (wall.damping > 0.0) text += fmt::format(" and {}", quantity(wall.damping, units.damping));
-  if (wall.damping > 0.0 && wall.velocity_filter_hz > 0.0) {
-    text += fmt::format(" (velocity low-pass at {})", quantity(wall.velocity_filter_hz, "Hz"));
-  }
-  if (const auto filters = wall_filters_text(device.parameters().wall)) text += ", through " + *filters;
-  return text + fmt::format(", from {} on, {}", quantity(wall.position, units.length),
-                            wall.contact == ControllerOptions::Contact::unilateral
-                                ? "pushing only"
-                                : "pulling back from the other side too");
-}
-
 std::string start_text(const Device& device, const Simulation& result) {
   const Units units = units_of(device.parameters().motion);
   const HybridLoopOptions& options = result.loop;
@@ -132,6 +117,21 @@ std::string ripple_text(const ForceRipple& ripple, Motion motion) {
 
 }  // namespace
 
+std::string simulated_wall_text(const Device& device, const Simulation& result) {
+  const ControllerOptions& wall = result.loop.controller;
+  const Units units = units_of(device.parameters().motion);
+  std::string text = quantity(wall.stiffness, units.stiffness);
+  if (wall.damping > 0.0) text += fmt::format(" and {}", quantity(wall.damping, units.damping));
+  if (wall.damping > 0.0 && wall.velocity_filter_hz > 0.0) {
+    text += fmt::format(" (velocity low-pass at {})", quantity(wall.velocity_filter_hz, "Hz"));
+  }
+  if (const auto filters = wall_filters_text(device.parameters().wall)) text += ", through " + *filters;
+  return text + fmt::format(", from {} on, {}", quantity(wall.position, units.length),
+                            wall.contact == ControllerOptions::Contact::unilateral
+                                ? "pushing only"
+                                : "pulling back from the other side too");
+}
+
 std::string verdict_sentence(const Device& device, const Simulation& result) {
   const Motion motion = device.parameters().motion;
   const std::string oscillation = result.oscillation ? oscillation_text(*result.oscillation, motion) : "";
@@ -198,7 +198,7 @@ std::string simulation_text(const Device& device, const Simulation& result) {
   text +=
       line("simulated", fmt::format("{}, {} samples at {}", quantity(static_cast<double>(result.samples) * period, "s"),
                                     result.samples, quantity(1.0 / period, "Hz")));
-  if (has_wall) text += line("wall", wall_text(device, result));
+  if (has_wall) text += line("wall", simulated_wall_text(device, result));
   text += line("start", start_text(device, result));
   if (result.loop.user_force.kind != UserForce::Kind::none) text += line("user's force", user_text(device, result));
   if (const std::string faults = faults_text(result.loop.faults); !faults.empty()) text += line("faults", faults);

@@ -6,6 +6,9 @@
 
 namespace zwidth::report {
 
+/// The wall that was rendered: stiffness, damping and its filters, where it begins, on which side it pushes.
+[[nodiscard]] std::string simulated_wall_text(const Device& device, const Simulation& result);
+
 /// One sentence: what the loop did, with numbers and units.
 [[nodiscard]] std::string verdict_sentence(const Device& device, const Simulation& result);
 

@@ -17,6 +17,10 @@ std::optional<std::string> trust_note(const Trust& trust) {
   return trust.sound() ? std::nullopt : std::optional(verdict_text(trust));
 }
 
+std::string_view trust_mark(const Trust& trust) {
+  return trust.sound() ? "" : trust.refused() ? " (REFUSED)" : " (DOUBTFUL)";
+}
+
 std::string trust_lines(const Trust& trust, std::string_view what) {
   constexpr std::size_t bullet = 4;
   if (trust.sound()) return "";

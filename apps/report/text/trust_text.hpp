@@ -14,6 +14,9 @@ namespace zwidth::report {
 /// verdict_text() where there is something to say.
 [[nodiscard]] std::optional<std::string> trust_note(const Trust& trust);
 
+/// What stands behind a figure's title: " (DOUBTFUL)", " (REFUSED)", nothing where the answer is sound.
+[[nodiscard]] std::string_view trust_mark(const Trust& trust);
+
 /// A heading, which says of what, and a line per reason; empty where the answer is sound.
 [[nodiscard]] std::string trust_lines(const Trust& trust, std::string_view what = "critical stiffness");
 

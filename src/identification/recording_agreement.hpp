@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "zwidth/identification/identification.hpp"
+#include "zwidth/model/device.hpp"
+#include "zwidth/trust.hpp"
+
+namespace zwidth::internal {
+
+/// A device as one of several recordings alone has it.
+struct OwnDevice {
+  std::string source;  ///< the recording
+  Device device;       ///< with its uncertainty
+};
+
+/// Why a device fitted to several recordings is none of theirs: two of them alone give critical stiffnesses whose 95 %
+/// intervals, 1.25 times as wide, lie apart. Nothing where they agree, or do not say.
+[[nodiscard]] std::optional<std::string> doubt_of_agreement(const std::vector<OwnDevice>& devices);
+
+/// Doubts an answer otherwise sound that is an average of recordings that disagree: each alone is fitted from the answer
+/// on. `device_trust`: of the device for any other purpose.
+void judge_agreement(Identification& result, std::span<const Recording> recordings, const IdentifyOptions& options,
+                     Trust device_trust);
+
+}  // namespace zwidth::internal
