@@ -99,8 +99,8 @@ std::string source_of(const ExportArguments& arguments, const WallToRun& wall) {
   const char* limit = wall.share->basis == SafeWall::Basis::any_user ? "limit for any user" : "critical stiffness";
   std::string text = fmt::format("{} of the {}", *arguments.safety_factor, limit);
   if (wall.share->uncertainty_share == 1.0) return text;
-  return text + fmt::format(", at {:.4g} of it: the lower end of the critical stiffness' 95 % interval",
-                            wall.share->uncertainty_share);
+  return text +
+         fmt::format(", at {:.4g} of it: the lower end of the limits' 95 % intervals", wall.share->uncertainty_share);
 }
 
 WallToRun released_wall(const ExportArguments& arguments) {

@@ -322,9 +322,10 @@ void run_rig(const RigArguments& arguments) {
   const Device device = rig_device(arguments);
   check_duration(arguments.duration, device);
   rig::RigOptions options = rig_options(arguments, device);
-  const Analysis analysis = analyze(device, limit_and_wall_only());
+  const bool has_wall = arguments.action == "wall";  // whose certainty counts
+  const Analysis analysis = analyze(device, has_wall ? AnalysisOptions{.any_user = false} : limit_and_wall_only());
   check_permission(arguments, analysis.trust);
-  if (arguments.action == "wall") check_wall(arguments, device, analysis);
+  if (has_wall) check_wall(arguments, device, analysis);
   all.require_writable();
   std::string lost_record;
   options.record = [&](const rig::FlightRecorder& recorder, StopReason stop) {

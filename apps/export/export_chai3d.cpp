@@ -45,7 +45,7 @@ std::string velocity_text(const Wall& wall, Units units) {
 
 std::string interval_text(const SafeWall& ceilings) {
   if (ceilings.uncertainty_share == 1.0) return {};
-  return fmt::format("// Both are taken at the lower end of the 95 % interval, {:.4g} of their value.\n",
+  return fmt::format("// Both are taken at the lower end of their 95 % intervals, {:.4g} of their value.\n",
                      ceilings.uncertainty_share);
 }
 

@@ -18,6 +18,7 @@ Json any_user_json(const Analysis& analysis) {
   return {{"critical_stiffness", limit.stiffness},
           {"frequency_rad_s", has_frequency ? std::optional(limit.frequency) : std::nullopt},
           {"truncation", limit.truncation},
+          {"critical_stiffness_interval", limit.interval},
           {"worst_user", analysis.worst_user}};
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "infinity.hpp"
 #include "require_valid.hpp"
 #include "stability/any_user_search.hpp"
+#include "stability/device_draws.hpp"
 #include "stability/guarded_stiffness.hpp"
 #include "stability/pole_count.hpp"
 #include "zwidth/design/any_user_region.hpp"
@@ -130,17 +132,53 @@ void check_wall(const Device& device, const SafeWallOptions& options, SafeWall& 
   }
 }
 
-/// What the uncertainty leaves of every limit.
-void take_lower_end(const Device& device, const CriticalStiffness& critical, std::size_t draws, SafeWall& wall) {
+bool is_uncertain(const Device& device) {
   const std::optional<Uncertainty>& uncertainty = device.parameters().uncertainty;
-  if (!uncertainty || uncertainty->parameters.empty()) return;
-  wall.interval = stiffness_interval(device, draws);
+  return uncertainty && !uncertainty->parameters.empty();
+}
+
+/// Whether all but 2.5 % of the devices that the uncertainty allows keep every wall up to these two whoever holds them.
+bool most_keep(const std::vector<Device>& devices, double stiffness, VirtualDamper damper) {
+  std::size_t failed = 0;
+  for (const Device& each : devices) {
+    AnyUserSearch search(each);
+    const bool fails = std::ranges::any_of(std::array{0.0, 0.5, 1.0}, [&](double share) {
+      return search.limit({share * damper.damping, damper.velocity_filter_hz}).stiffness < stiffness;
+    });
+    failed += fails;
+  }
+  return 40 * failed <= devices.size();
+}
+
+/// The ceiling on B that the devices of the uncertainty leave beside the one on K: both limits move with it, each its own way.
+void lower_damping(const Device& device, std::size_t draws, double filter, SafeWall& wall) {
+  DeviceDraws drawn(device, usual_draws_seed);
+  std::vector<Device> devices;
+  for (std::size_t i = 0; i < draws; ++i) devices.push_back(drawn.next());
+  constexpr double less = 0.8;
+  constexpr int most_steps = 20;
+  for (int i = 0; i < most_steps; ++i, wall.damping *= less) {
+    if (most_keep(devices, wall.stiffness, {wall.damping, filter})) return;
+  }
+  wall.damping = 0.0;
+}
+
+/// What the uncertainty leaves of every limit.
+void take_lower_end(const Device& device, const CriticalStiffness& critical, const SafeWallOptions& options,
+                    SafeWall& wall) {
+  if (!is_uncertain(device)) return;
+  wall.interval = stiffness_interval(device, options.draws);
   wall.uncertainty_share = std::clamp(wall.interval->lower / critical.stiffness, 0.0, 1.0);
-  wall.remarks.push_back({Remark::Severity::note,
-                          fmt::format("limits are taken at the lower end of the 95 % interval, {:.4g} of their value",
-                                      wall.uncertainty_share),
-                          "the parameters of the device are known so well and no better",
-                          "identify them from more or longer recordings for a stiffer wall"});
+  if (wall.basis == SafeWall::Basis::any_user) {
+    wall.any_user_interval = any_user_interval(device, virtual_damper(device), options.any_user_draws);
+    wall.uncertainty_share = std::min(wall.uncertainty_share, wall.any_user_interval->lower / wall.limit);
+  }
+  wall.remarks.push_back(
+      {Remark::Severity::note,
+       fmt::format("limits are taken at the lower end of their 95 % intervals, {:.4g} of their value",
+                   wall.uncertainty_share),
+       "the parameters of the device are known so well and no better",
+       "identify them from more or longer recordings for a stiffer wall"});
 }
 
 void choose(const Device& device, const SafeWallOptions& options, SafeWall& wall) {
@@ -166,7 +204,7 @@ void choose(const Device& device, const SafeWallOptions& options, SafeWall& wall
     wall.remarks.push_back({Remark::Severity::note, "there is no limit for any passive user to take a share of",
                             "whoever holds the device may destabilise this wall", ""});
   }
-  take_lower_end(closed, critical, options.draws, wall);
+  take_lower_end(closed, critical, options, wall);
   const double share = options.safety_factor * wall.uncertainty_share;
   wall.stiffness = share * wall.limit;
   if (!own && wall.stiffness > 0.0) {
@@ -181,6 +219,7 @@ void choose(const Device& device, const SafeWallOptions& options, SafeWall& wall
             ? any_user_damping(device, any_user_region(device, walls, region.most_damped->damping), wall.stiffness)
             : boundary_damping(walls, region, wall.stiffness);
     wall.damping = share * *wall.damping_limit;
+    if (wall.any_user_interval) lower_damping(device, options.any_user_draws, filter, wall);
   }
   if (!(wall.stiffness > 0.0)) {
     wall.trust.refuse(
@@ -198,7 +237,9 @@ std::optional<OptionProblem> find_problem(const SafeWallOptions& options) {
   if (!(options.safety_factor > 0.0 && options.safety_factor < 1.0)) {
     return OptionProblem{"safety_factor", fmt::format("is {}", options.safety_factor), "must be above 0 and below 1"};
   }
-  if (options.draws == 0) return OptionProblem{"draws", "is 0", "must be at least 1"};
+  for (const auto& [member, draws] : {std::pair{"draws", options.draws}, {"any_user_draws", options.any_user_draws}}) {
+    if (draws == 0) return OptionProblem{member, "is 0", "must be at least 1"};
+  }
   return std::nullopt;
 }
 

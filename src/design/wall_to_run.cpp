@@ -54,7 +54,7 @@ WallToRun wall_to_run(const Device& device, const WallToRunOptions& options) {
   } else if (options.stiffness) {
     result.device = with_stiffness(device, *options.stiffness);
   }
-  result.analysis = analyze(result.device, {.draws = 0});
+  result.analysis = analyze(result.device, {.any_user_draws = 0});
   if (result.share) result.analysis.trust.inherit(result.share->trust);
   const Trust& trust = result.analysis.trust;
   result.released = !trust.refused() && (trust.sound() || options.accept_doubt);

@@ -46,7 +46,8 @@ std::optional<std::string> doubt_of_agreement(const std::vector<OwnDevice>& devi
   if (stiffest.lower <= softest.upper) return std::nullopt;
   const std::string_view unit = units_of(devices.front().device.parameters().motion).stiffness;
   return fmt::format(
-      "the recordings disagree: {} alone gives a critical stiffness of {}, {} alone {}, beyond what their noise allows; "
+      "the recordings disagree: {} alone gives a critical stiffness of {}, {} alone {}, beyond what their noise "
+      "allows; "
       "the device, its load or its friction has changed between them: look at them one by one",
       softest.source, quantity(softest.value, unit), stiffest.source, quantity(stiffest.value, unit));
 }

@@ -111,9 +111,8 @@ std::vector<std::string> numbers_not_free(const ShotModel& model, const Device& 
       if (std::ranges::count(locked, body.name) == 0) keys.push_back("body." + body.name + ".coulomb");
     }
   }
-  std::erase_if(keys, [&](const std::string& key) {
-    return std::ranges::count(model.coordinates(), key, &Coordinate::key) > 0;
-  });
+  std::erase_if(
+      keys, [&](const std::string& key) { return std::ranges::count(model.coordinates(), key, &Coordinate::key) > 0; });
   return keys;
 }
 

@@ -13,6 +13,7 @@
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/two_mass.hpp"
+#include "zwidth/quantity.hpp"
 
 namespace zwidth {
 using namespace internal;
@@ -121,6 +122,17 @@ void judge_wall(const Device& device, const FilteredPlant& plant, const PoleCoun
   withdraw(analysis.rigid->critical);
 }
 
+/// A wall within the interval of the critical stiffness is stable for some of the devices that it allows.
+void judge_certainty_of_wall(const Device& device, Analysis& analysis) {
+  if (!analysis.wall || !analysis.wall->stable || !analysis.interval) return;
+  if (analysis.wall->stiffness < analysis.interval->lower) return;
+  const auto unit = units_of(device.parameters().motion).stiffness;
+  analysis.trust.doubt(
+      fmt::format("the wall of {} is not surely stable: the 95 % interval of the critical stiffness begins at {}; stay "
+                  "below that, or identify the device more closely",
+                  quantity(analysis.wall->stiffness, unit), quantity(analysis.interval->lower, unit)));
+}
+
 bool is_held(const Device& device) {
   const Operator& user = device.parameters().user;
   return user.mass > 0.0 || user.damping > 0.0 || user.stiffness > 0.0;
@@ -163,6 +175,12 @@ void answer_about_users(const Device& device, const AnalysisOptions& options, St
                                     "the wall is stiffer than the limit with any passive user",
                                     "alone it is stable, but some user's grasp makes it oscillate",
                                     "stay below that limit, or give the users whom you expect as a family"});
+      }
+      if (analysis.any_user && analysis.interval && options.any_user_draws > 0 &&
+          device.bodies().size() <= most_bodies_for_any_user_interval) {
+        analysis.any_user->interval =
+            any_user_interval(device, damper, options.any_user_draws, usual_draws_seed, stages.stage());
+        stages.next(0.4);
       }
       if (analysis.any_user) {
         analysis.any_user->trust.inherit(analysis.trust);
@@ -260,6 +278,7 @@ Analysis analyze(const Device& device, const AnalysisOptions& options) {
           "of 2: measure them more closely");
     }
   }
+  judge_certainty_of_wall(device, analysis);
   stages.next(0.35);
   answer_about_users(device, options, stages, analysis);
   stages.done();

@@ -12,12 +12,14 @@ using namespace internal;
 namespace {
 
 using std::numbers::pi;
-constexpr double degrees = 180.0 / pi;
+constexpr double degrees_per_radian = 180.0 / pi;
 
 double decibels(std::complex<double> value) { return 20.0 * std::log10(std::abs(value)); }
 
-/// Angle from `before` to `after`, degrees in (-180, 180].
-double turn(std::complex<double> before, std::complex<double> after) { return std::arg(after / before) * degrees; }
+/// Angle from `before` to `after`, degrees_per_radian in (-180, 180].
+double turn(std::complex<double> before, std::complex<double> after) {
+  return std::arg(after / before) * degrees_per_radian;
+}
 
 /// An interval is halved while its ends differ by more than this: less than a line width on paper.
 constexpr double bend_db = 0.5;
@@ -122,7 +124,7 @@ std::vector<BodePoint> bode_points(const DelayedResponse& response, std::span<co
   double phase = 0.0;
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (i == 0) {
-      phase = std::arg(values[0]) * degrees;
+      phase = std::arg(values[0]) * degrees_per_radian;
       if (phase > 90.0) phase -= 360.0;  // a position lags its force
     } else {
       double step = turn(values[i - 1], values[i]);
@@ -134,7 +136,8 @@ std::vector<BodePoint> bode_points(const DelayedResponse& response, std::span<co
       }
       phase += step;
     }
-    points.push_back({frequencies[i], decibels(values[i]), phase - frequencies[i] * response.delay * degrees});
+    points.push_back(
+        {frequencies[i], decibels(values[i]), phase - frequencies[i] * response.delay * degrees_per_radian});
   }
   return points;
 }

@@ -102,9 +102,12 @@ TEST(AnalysisJson, AnyUserLimitHasNullsWhereThereIsNone) {
     return Json{{"critical_stiffness", stiffness},
                 {"frequency_rad_s", frequency},
                 {"truncation", truncation},
+                {"critical_stiffness_interval", nullptr},
                 {"worst_user", nullptr}};
   };
   EXPECT_EQ(document_of(analysed)["any_user"], expected(5776.09, 259.9, 1e-12));
+  analysed.analysis.any_user->interval = StiffnessInterval{5000.0, 6000.0};
+  EXPECT_EQ(document_of(analysed)["any_user"]["critical_stiffness_interval"], (Json{5000.0, 6000.0}));
   analysed.analysis.any_user = AnyUserLimit{0.0, 0.0, 0.0};
   EXPECT_EQ(document_of(analysed)["any_user"], expected(0.0, nullptr, 0.0));
   analysed.analysis.any_user->stiffness = std::numeric_limits<double>::infinity();

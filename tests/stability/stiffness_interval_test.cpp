@@ -229,6 +229,49 @@ TEST(StiffnessInterval, RefusesWithoutUncertaintyOrDraws) {
   EXPECT_THROW((void)stiffness_interval(device, 0), Error);
 }
 
+// Of one number the limit rises with, the quantiles are the limits at its own.
+TEST(AnyUserInterval, FollowsAMonotonicFunction) {
+  DeviceParameters parameters = test::lhifam_parameters();
+  constexpr double variance = 0.04;
+  parameters.uncertainty = Uncertainty{{"body.handle.damping"}, {{variance}}};
+  const StiffnessInterval interval = any_user_interval(Device(parameters), {}, 400);
+  const auto limit_at = [&](double deviations) {
+    DeviceParameters moved = parameters;
+    moved.uncertainty.reset();
+    moved.bodies[1].damping += deviations * std::sqrt(variance);
+    return any_user_limit(Device(moved)).stiffness;
+  };
+  EXPECT_GT(interval.lower, limit_at(-2.4));
+  EXPECT_LT(interval.lower, limit_at(-1.6));
+  EXPECT_GT(interval.upper, limit_at(1.6));
+  EXPECT_LT(interval.upper, limit_at(2.4));
+  EXPECT_EQ(interval.draws, 400U);
+}
+
+TEST(AnyUserInterval, RefusesWithoutUncertaintyOrDraws) {
+  DeviceParameters parameters = test::lhifam_parameters();
+  EXPECT_THROW((void)any_user_interval(Device(parameters)), Error);
+  parameters.uncertainty = Uncertainty{{"body.handle.damping"}, {{0.04}}};
+  EXPECT_THROW((void)any_user_interval(Device(parameters), {}, 0), Error);
+}
+
+// 8 kN/m with an interval from 7.6: was called stable, and some devices that the uncertainty allows are not.
+TEST(StiffnessInterval, AWallWithinItIsNotSurelyStable) {
+  DeviceParameters parameters = with_uncertainty(test::lhifam_parameters(), {"body.handle.damping"}, {{0.04}});
+  parameters.wall.stiffness = 8000.0;
+  const Analysis within = analyze(Device(parameters));
+  ASSERT_TRUE(within.interval && within.wall && within.wall->stable);
+  ASSERT_LT(within.interval->lower, 8000.0);
+  EXPECT_EQ(within.trust.verdict, Trust::Verdict::doubtful);
+  EXPECT_EQ(verdict_on_wall(within), WallVerdict::unsure);
+  EXPECT_TRUE(within.critical.trust.sound()) << "the limit is known as well as it is";
+  parameters.wall.stiffness = 7000.0;
+  const Analysis below = analyze(Device(parameters));
+  EXPECT_EQ(verdict_on_wall(below), WallVerdict::stable);
+  ASSERT_TRUE(below.any_user && below.any_user->interval);
+  EXPECT_LT(below.any_user->interval->lower, below.any_user->stiffness);
+}
+
 TEST(StiffnessInterval, AnalysisHasItWhereTheDeviceHasAnUncertainty) {
   EXPECT_FALSE(analyze(Device(test::lhifam_parameters())).interval.has_value());
   const Device device(with_uncertainty(test::lhifam_parameters(), {"link.0.damping"}, {{1.0}}));

@@ -165,7 +165,13 @@ std::optional<std::string> any_user_note(const AnalysedDevice& analysed) {
   const AnyUserLimit& limit = *analysed.analysis.any_user;
   if (limit.stiffness == 0.0) return "none: some passive user destabilises every wall";
   if (!std::isfinite(limit.stiffness)) return "unbounded: no passive user destabilises a wall";
-  const std::string stiffness = quantity(limit.stiffness, device_units(analysed).stiffness);
+  const std::string_view unit = device_units(analysed).stiffness;
+  std::string stiffness = quantity(limit.stiffness, unit);
+  if (limit.interval) {
+    stiffness +=
+        fmt::format(" (95 % interval {} to {})", quantity(limit.interval->lower, unit),
+                    std::isfinite(limit.interval->upper) ? quantity(limit.interval->upper, unit) : "unbounded");
+  }
   if (limit.frequency == 0.0) return stiffness + ", approached by ever heavier users";
   return fmt::format("{}, worst at {}", stiffness, quantity(hertz(limit.frequency), "Hz"));
 }

@@ -20,11 +20,12 @@ struct SafeWallOptions {
     own,      ///< the device's own wall.damping, closed while the stiffness is chosen
     ceiling,  ///< chosen too: ceilings of both that may be used alone or together
   };
-  Damping damping = Damping::own;  ///< of the device's own wall unless asked
-  std::size_t draws = 1000;        ///< of the device's uncertainty, where it has one
+  Damping damping = Damping::own;    ///< of the device's own wall unless asked
+  std::size_t draws = 1000;          ///< of the device's uncertainty, where it has one, for K_CR
+  std::size_t any_user_draws = 200;  ///< the same for the limit with any passive user
 };
 
-/// Checks: safety_factor above 0 and below 1; draws at least 1.
+/// Checks: safety_factor above 0 and below 1; draws and any_user_draws at least 1.
 [[nodiscard]] std::optional<OptionProblem> find_problem(const SafeWallOptions& options);
 
 /// A wall with a margin to the limit, to be rendered.
@@ -48,8 +49,10 @@ struct SafeWall {
   double damping = 0.0;            ///< B of it: the device's own, or the ceiling
   /// With Damping::ceiling the least B at which some wall of 0 < K <= stiffness is not stable.
   std::optional<double> damping_limit;
-  std::optional<StiffnessInterval> interval;  ///< of K_CR, where the device has an uncertainty
-  /// The lower end of that interval over K_CR, at most 1: every limit is taken at this share. 1 without an uncertainty.
+  std::optional<StiffnessInterval> interval;           ///< of K_CR, where the device has an uncertainty
+  std::optional<StiffnessInterval> any_user_interval;  ///< of the any-user limit, where that is the basis too
+  /// The lower end of that interval over K_CR, or of the any-user limit's over that limit where it is less, at most 1:
+  /// every limit is taken at this share. 1 without an uncertainty.
   double uncertainty_share = 1.0;
   Trust trust;  ///< the device's, and what the check of the wall found; where refused, no number is held
   std::vector<Remark> remarks;  ///< on what the limits rest
@@ -67,7 +70,8 @@ struct SafeWall {
 /// A program may then use the stiffness alone, the damping alone, or both, and any less of them: so the whole rectangle
 /// must be stable. damping_limit is the lowest boundary of the region over 0 < K <= stiffness: of the any-user region
 /// (any_user_region(), sampled over B) where any_user_limit() at B = 0 is above 0, else of stable_region(). The velocity
-/// filter and the filters of the wall stay in.
+/// filter and the filters of the wall stay in. Where the device has an uncertainty, `damping` is lowered until all but 2.5 %
+/// of the devices drawn from it keep the rectangle whoever holds them.
 ///
 /// The wall chosen, or walls over the whole rectangle, are asked of a second route, closed-loop poles by matrix
 /// exponential: where one is not stable the answer is `refused`, and so it is for a refused device.

@@ -52,13 +52,17 @@ struct QCriterion {
 /// Each body costs a modal form: beyond, the limit over all users would take longer than the rest by far.
 inline constexpr std::size_t most_bodies_for_any_user = 20;
 
+/// Beyond, its interval would take seconds.
+inline constexpr std::size_t most_bodies_for_any_user_interval = 4;
+
 /// What an analysis computes beside the critical stiffness; what is not asked for costs nothing.
 struct AnalysisOptions {
   bool any_user = true;                   ///< any_user_limit(), where the device has a body to hold and not too many
   bool worst_user = false;                ///< the user who proves that limit; needs any_user
   std::optional<UserRanges> family = {};  ///< worst_of_family() of user_family() of these
   std::size_t draws = 1000;               ///< of the uncertainty, for the interval; 0: no interval
-  Progress progress = {};                 ///< told how far the work is; ends it by throwing
+  std::size_t any_user_draws = 200;  ///< the same for any_user, of at most most_bodies_for_any_user_interval bodies
+  Progress progress = {};            ///< told how far the work is; ends it by throwing
 };
 
 /// The critical stiffness, the modes and the margins of a given wall alone: for who prints nothing more.

@@ -1,8 +1,13 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
 #include "zwidth/model/device.hpp"
 #include "zwidth/progress.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
+#include "zwidth/stability/stiffness_interval.hpp"
 #include "zwidth/trust.hpp"
 
 namespace zwidth {
@@ -20,6 +25,8 @@ struct AnyUserLimit {
   double truncation = 0.0;
   /// The free device itself reaches it: no user makes the wall less stable than nobody.
   bool needs_no_user = false;
+  /// any_user_interval(), where analyze() was asked for it
+  std::optional<StiffnessInterval> interval = {};
   Trust trust = {};  ///< doubtful where more than 1e-4 had to be taken off
 };
 
@@ -40,5 +47,13 @@ struct AnyUserLimit {
 /// theory, section 5; Colgate & Schenkel 1997 is the rigid case without delay.
 [[nodiscard]] AnyUserLimit any_user_limit(const Device& device, VirtualDamper damper = {},
                                           const Progress& progress = {});
+
+/// The 95 % interval of any_user_limit() over devices drawn from the uncertainty, as stiffness_interval() draws them: the
+/// quantiles at 2.5 and 97.5 %, and the device's own limit. `other_mechanism`: the share of draws that have no limit where
+/// the device has one, or the other way round. Requires an uncertainty and draws >= 1; throws Error (invalid_argument)
+/// otherwise, and as any_user_limit().
+[[nodiscard]] StiffnessInterval any_user_interval(const Device& device, VirtualDamper damper = {},
+                                                  std::size_t draws = 200, std::uint64_t seed = usual_draws_seed,
+                                                  const Progress& progress = {});
 
 }  // namespace zwidth
