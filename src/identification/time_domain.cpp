@@ -144,6 +144,8 @@ void describe_motions(TimeDomainIdentification& result, std::span<const Recordin
   const auto residuals = shot_residuals(model, shots, fitted.fit.x, fitted.fit.states);
   const std::vector<double> feedback = residuals ? feedback_evidence(model, shots, fitted.noise, *residuals)
                                                  : std::vector<double>(recordings.size(), 0.0);
+  const bool is_free =
+      std::ranges::all_of(result.device.bodies(), [](const Body& body) { return body.stiffness == 0.0; });
   for (std::size_t r = 0; r < recordings.size(); ++r) {
     const auto bias = static_cast<Eigen::Index>(model.coordinates().size() + r);
     FittedMotion motion{.source = recordings[r].source,
@@ -156,8 +158,10 @@ void describe_motions(TimeDomainIdentification& result, std::span<const Recordin
     motion.residuals.assign(motion.recorded.size(), 0.0);
     for (std::size_t i = 0; residuals && i < shots.size(); ++i) {
       if (shots[i].record != r) continue;
+      // Nothing holds a free device to a place: under noise that drifts it is not known where a shot is.
+      const double place = is_free ? (*residuals)[i].mean() : 0.0;
       for (std::size_t k = 0; k < shots[i].count; ++k) {
-        motion.residuals[shots[i].first + k] = -(*residuals)[i](static_cast<Eigen::Index>(k));
+        motion.residuals[shots[i].first + k] = place - (*residuals)[i](static_cast<Eigen::Index>(k));
       }
     }
     result.motions.push_back(std::move(motion));

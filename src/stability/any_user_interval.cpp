@@ -27,10 +27,12 @@ StiffnessInterval any_user_interval(const Device& device, VirtualDamper damper, 
     limits[i] = any_user_limit(devices[i], damper).stiffness;
     shared.add();
   });
-  const auto others = static_cast<double>(std::ranges::count_if(limits, [&](double k) { return (k > 0.0) != (own > 0.0); }));
+  const auto others =
+      static_cast<double>(std::ranges::count_if(limits, [&](double k) { return (k > 0.0) != (own > 0.0); }));
   std::ranges::sort(limits);
   const auto tail = static_cast<std::size_t>(0.025 * static_cast<double>(draws));
-  return {std::min(limits[tail], own), std::max(limits[draws - 1 - tail], own), others / static_cast<double>(draws), draws};
+  return {std::min(limits[tail], own), std::max(limits[draws - 1 - tail], own), others / static_cast<double>(draws),
+          draws};
 }
 
 }  // namespace zwidth

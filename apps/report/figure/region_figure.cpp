@@ -48,6 +48,34 @@ struct Extent {
   double stiffness = 0.0;
 };
 
+struct Place {
+  double damping = 0.0;
+  double stiffness = 0.0;
+};
+
+/// The part of a closed outline where `excess` is not above 0 (Sutherland & Hodgman): what gnuplot fills of an outline that
+/// leaves its frame is not it.
+template <class Excess>
+std::vector<Place> cut_off(const std::vector<Place>& outline, Excess excess) {
+  std::vector<Place> kept;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Place& a = outline[i];
+    const Place& b = outline[(i + 1) % outline.size()];
+    const double at_a = excess(a);
+    const double at_b = excess(b);
+    if (at_a <= 0.0) kept.push_back(a);
+    if ((at_a <= 0.0) == (at_b <= 0.0)) continue;
+    const double share = at_a / (at_a - at_b);
+    kept.push_back({std::lerp(a.damping, b.damping, share), std::lerp(a.stiffness, b.stiffness, share)});
+  }
+  return kept;
+}
+
+std::vector<Place> within(const std::vector<Place>& outline, const Extent& extent) {
+  return cut_off(cut_off(outline, [&](const Place& each) { return each.damping - extent.damping; }),
+                 [&](const Place& each) { return each.stiffness - extent.stiffness; });
+}
+
 class RegionFigure {
  public:
   RegionFigure(const Device& device, const WallRegion& walls)
@@ -136,6 +164,12 @@ class RegionFigure {
     return fmt::format("{:.9g} {:.9g}\n", damping, stiffness);
   }
 
+  static std::string rows(const std::vector<Place>& places) {
+    std::string text;
+    for (const Place& each : places) text += row(each.damping, each.stiffness);
+    return text + "\n";
+  }
+
   static std::string boundary_rows(const ClosedBoundary& boundary) {
     std::string rows;
     for (const BoundaryArc& arc : boundary.arcs) {
@@ -144,27 +178,46 @@ class RegionFigure {
     return rows;
   }
 
-  /// Data blocks: boundaries as closed outlines, `edges` as the boundary without the axes.
+  /// Data blocks of a panel: what of the regions it shows, as closed outlines.
+  void filled_data(Canvas& canvas, const Extent& extent) const {
+    std::string outlines;
+    for (const StableComponent& component : walls_.region.components) {
+      std::vector<Place> outline;
+      for (const BoundaryArc& arc : component.outline.arcs) {
+        for (const BoundaryPoint& point : arc.points) outline.push_back({point.damping, point.stiffness});
+      }
+      outlines += rows(within(outline, extent));
+    }
+    data_block(canvas, "outlines", outlines);
+    std::string filled;
+    if (walls_.any_user) {
+      for (const auto& range : walls_.any_user->ranges) filled += rows(within(outline_of(range), extent));
+    }
+    data_block(canvas, "filled", filled);
+  }
+
+  /// Down to K = 0 at either end.
+  static std::vector<Place> outline_of(const std::vector<AnyUserPoint>& range) {
+    std::vector<Place> outline{{range.front().damping, 0.0}};
+    for (const AnyUserPoint& point : range) outline.push_back({point.damping, point.stiffness});
+    outline.push_back({range.back().damping, 0.0});
+    return outline;
+  }
+
+  /// Data blocks of all panels: `edges` as the boundary without the axes, limits and formulas.
   void data(Canvas& canvas) const {
     const StableRegion& region = walls_.region;
-    std::string outlines;
     std::string edges;
     for (const StableComponent& component : region.components) {
-      outlines += boundary_rows(component.outline) + "\n";
       for (const BoundaryArc& arc : component.outline.arcs) {
         if (arc.kind == BoundaryKind::no_stiffness || arc.kind == BoundaryKind::no_damping) continue;
         edges += boundary_rows({{arc}}) + "\n";
       }
     }
-    data_block(canvas, "outlines", outlines);
     data_block(canvas, "edges", edges);
     std::string limits;
     if (walls_.any_user) {
-      for (const auto& range : walls_.any_user->ranges) {
-        limits += row(range.front().damping, 0.0);
-        for (const AnyUserPoint& point : range) limits += row(point.damping, point.stiffness);
-        limits += row(range.back().damping, 0.0) + "\n";
-      }
+      for (const auto& range : walls_.any_user->ranges) limits += rows(outline_of(range));
     }
     data_block(canvas, "limits", limits);
     for (const ComparedApproximation& each : walls_.approximations) {
@@ -179,6 +232,7 @@ class RegionFigure {
   }
 
   void draw_panel(Canvas& canvas, const Box& frame, const Extent& extent) const {
+    filled_data(canvas, extent);
     const AxisUnit unit = axis_unit(extent.stiffness, 3.0);
     const std::string columns = fmt::format("using 1:($2/{:g})", unit.size);
     canvas.commands(fmt::format(
@@ -193,7 +247,7 @@ class RegionFigure {
     }
     if (walls_.any_user && walls_.any_user->stiffest) {
       what += fmt::format(
-          "$limits {0} with filledcurves closed fc rgb '{1}' fs solid noborder notitle, $limits {0} with lines {2} "
+          "$filled {0} with filledcurves closed fc rgb '{1}' fs solid noborder notitle, $limits {0} with lines {2} "
           "notitle, ",
           columns, any_user_colour, gnuplot_line(any_user_style));
     }
