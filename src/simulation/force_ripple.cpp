@@ -32,11 +32,20 @@ RippleObserver::RippleObserver(const Device& device, const HybridLoopOptions& lo
 void RippleObserver::note(double position, double command) {
   if (!observes_) return;
   const double exact = std::clamp(exact_.update(position), -limit_, limit_);
-  if (noted_++ >= first_) differences_.push_back(command - exact);
+  if (noted_++ < first_) return;
+  if (!differences_.empty() && command != last_command_) {
+    ++changes_;
+    last_change_ = noted_;
+  }
+  last_command_ = command;
+  differences_.push_back(command - exact);
 }
 
 std::optional<ForceRipple> RippleObserver::found() const {
-  if (differences_.size() < 2) return std::nullopt;
+  // What rests between two steps of the encoder makes no ripple, however the place within them decays.
+  constexpr std::size_t still = 10;  // the last part of the run
+  const bool goes_on = noted_ - last_change_ < noted_ / still;
+  if (changes_ < 2 * least_cycles || !goes_on) return std::nullopt;
   const auto [low, high] = std::minmax_element(differences_.begin(), differences_.end());
   const double amplitude = 0.5 * (*high - *low);
   const double largest = std::max(std::abs(*low), std::abs(*high));
@@ -45,7 +54,9 @@ std::optional<ForceRipple> RippleObserver::found() const {
   for (double& each : centred) each -= *low + amplitude;
   const OscillationCycles cycles = oscillation_cycles(centred, threshold * amplitude);
   if (cycles.count < least_cycles) return std::nullopt;
-  return ForceRipple{amplitude, 2.0 * std::numbers::pi / (cycles.mean_length * period_)};
+  const double most_often =
+      0.5 * static_cast<double>(changes_) / static_cast<double>(differences_.size());  // per sample
+  return ForceRipple{amplitude, 2.0 * std::numbers::pi * std::min(1.0 / cycles.mean_length, most_often) / period_};
 }
 
 }  // namespace zwidth::internal

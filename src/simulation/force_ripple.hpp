@@ -18,8 +18,8 @@ class RippleObserver {
   /// The unrounded position of one sample, and the command that the loop's controller made of the rounded one.
   void note(double position, double command);
 
-  /// Absent without encoder or wall, with faults (the instant of measuring is not known then), and for fewer than two
-  /// cycles.
+  /// Absent without encoder or wall, with faults (the instant of measuring is not known then), for fewer than two
+  /// cycles, and where the command does not change in the last tenth of the run.
   [[nodiscard]] std::optional<ForceRipple> found() const;
 
  private:
@@ -29,6 +29,9 @@ class RippleObserver {
   double period_ = 0.0;
   std::size_t first_ = 0;
   std::size_t noted_ = 0;
+  double last_command_ = 0.0;
+  std::size_t changes_ = 0;      ///< of the command, in that quarter
+  std::size_t last_change_ = 0;  ///< the sample after which there was none
   std::vector<double> differences_;
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -83,12 +84,14 @@ void remark_wall(std::vector<Remark>& remarks, const Simulation& result, const D
   }
 }
 
+bool never_moves(std::span<const double> sensed) {
+  return std::ranges::all_of(sensed, [&](double each) { return each == sensed.front(); });
+}
+
 /// Friction that never lets go of the device.
 void remark_stiction(std::vector<Remark>& remarks, const Simulation& result, const Device& device,
                      std::span<const double> sensed) {
-  const double start = sensed.front();
-  const bool stays = std::all_of(sensed.begin(), sensed.end(), [start](double each) { return each == start; });
-  if (!stays || whole_friction(device) == 0.0) return;
+  if (!never_moves(sensed) || whole_friction(device) == 0.0) return;
   const Units units = units_of(device.parameters().motion);
   std::string remedy = "push harder";
   if (result.loop.user_force.kind == UserForce::Kind::none && has_wall(result)) {
@@ -101,6 +104,28 @@ void remark_stiction(std::vector<Remark>& remarks, const Simulation& result, con
                             "the verdict says nothing about the wall", std::move(remedy)));
 }
 
+/// A wall that could not act, whatever its stiffness.
+void remark_idle_wall(std::vector<Remark>& remarks, const Simulation& result, const Device& device,
+                      std::span<const double> sensed) {
+  if (!has_wall(result)) return;
+  const Units units = units_of(device.parameters().motion);
+  const double friction = whole_friction(device);
+  const double limit = device.parameters().actuator.force_limit.value_or(std::numeric_limits<double>::infinity());
+  if (friction >= limit && !never_moves(sensed) && result.loop.user_force.kind == UserForce::Kind::none) {
+    remarks.push_back(
+        warning(fmt::format("the actuator's {} are less than the friction of {}: no wall moves the device",
+                            quantity(limit, units.force), quantity(friction, units.force)),
+                "the verdict says nothing about the wall", "a force limit above the friction"));
+  }
+  const double step = device.parameters().sensor.resolution;
+  const auto count = [&](double position) { return std::round((position - result.loop.controller.position) / step); };
+  if (step > 0.0 && std::ranges::all_of(sensed, [&](double each) { return count(each) == count(sensed.front()); })) {
+    remarks.push_back(warning(
+        fmt::format("the encoder reads the same step of {} all the time", quantity(step, units.length)),
+        "the wall's force never changes: the verdict says nothing about it", "start further out, or a finer encoder"));
+  }
+}
+
 void remark_encoder(std::vector<Remark>& remarks, const Simulation& result, const Device& device) {
   if (!result.encoder_chatters) return;
   const Units units = units_of(device.parameters().motion);
@@ -110,8 +135,8 @@ void remark_encoder(std::vector<Remark>& remarks, const Simulation& result, cons
       fmt::format("the encoder's steps of {} make the force ripple by {} either way, at {} on average",
                   quantity(device.parameters().sensor.resolution, units.length),
                   quantity(ripple.amplitude, units.force), quantity(hertz(ripple.frequency), "Hz")),
-      result.verdict == LoopVerdict::drifts ? "the user feels it under slow motion, though nothing oscillates"
-                                            : "the user feels it, though the device hardly moves",
+      result.verdict == LoopVerdict::drifts ? "it comes with slow motion, though nothing oscillates"
+                                            : "the force changes though the device hardly moves",
       is_damped ? "a finer encoder, a low-pass on the wall's velocity, or less wall.damping" : "a finer encoder"));
 }
 
@@ -164,6 +189,7 @@ std::vector<Remark> simulation_remarks(const Simulation& result, const Device& d
   remark_wall(remarks, result, device);
   remark_run(remarks, result, device, options);
   remark_stiction(remarks, result, device, sensed);
+  remark_idle_wall(remarks, result, device, sensed);
   remark_encoder(remarks, result, device);
   return remarks;
 }

@@ -210,6 +210,34 @@ TEST(ForceRipple, OfADeviceHeldBetweenTwoCountsIsNamed) {
   EXPECT_THAT(whats(result), Contains(HasSubstr("the encoder's steps of 1 mm make the force ripple")));
 }
 
+// Once the encoder reads one step only, the place within it decays on: that was told as a ripple of the force.
+TEST(ForceRipple, IsNoneWhereTheForceRestsAtLast) {
+  DeviceParameters device = lhifam_with_wall(3000.0);
+  device.bodies[1].damping = 30.0;
+  device.wall.damping = 10.0;
+  device.sensor.resolution = 2e-4;
+  SimulationOptions options;
+  options.duration = 6.0;
+  options.keep_every = 1;
+  const Simulation result = simulate(Device(device), options);
+  const std::vector<double>& commands = result.trajectory.command;
+  const auto tail = std::span(commands).last(commands.size() / 10);
+  ASSERT_TRUE(std::ranges::all_of(tail, [&](double each) { return each == tail.front(); }));
+  EXPECT_FALSE(result.force_ripple);
+}
+
+TEST(SimulationRemarks, SayWhereTheWallCannotAct) {
+  DeviceParameters device = lhifam_with_wall(500.0);
+  device.sensor.resolution = 1e-3;
+  SimulationOptions options;
+  options.initial_position = {0.4e-3, 0.4e-3};
+  EXPECT_THAT(whats(simulate(Device(device), options)),
+              Contains(HasSubstr("reads the same step of 1 mm all the time")));
+  DeviceParameters weak = test::with_friction(lhifam_with_wall(5000.0), 0.0, 10.0);
+  weak.actuator.force_limit = 3.0;
+  EXPECT_THAT(whats(simulate(Device(weak))), Contains(HasSubstr("no wall moves the device")));
+}
+
 TEST(ForceRipple, IsNoneWithoutAnEncoderAndAtRest) {
   EXPECT_FALSE(simulate(Device(lhifam_with_wall(5000.0))).force_ripple);
   DeviceParameters device = test::with_friction(lhifam_with_wall(5000.0), 0.5, 1.0);
