@@ -48,8 +48,9 @@ std::optional<std::string> doubt_of_hand(const Device& structure, const std::vec
   const double of_mass = ratio("mass", held.mass);
   const double of_damping = ratio("damping", held.damping);
   constexpr double heavier = 1.1;
-  constexpr double more_damped = 2.0;
-  if (!(of_mass > heavier && of_damping > more_damped)) return std::nullopt;
+  constexpr double more_damped = 1.3;
+  constexpr double together = 2.2;
+  if (!(of_mass > heavier && of_damping > more_damped && of_mass * of_damping > together)) return std::nullopt;
   return fmt::format(
       "{} comes out at least {:.2g} times as heavy and {:.2g} times as damped as in the structure: a hand on it would "
       "be "

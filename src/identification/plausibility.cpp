@@ -88,10 +88,14 @@ std::vector<Remark> implausible_recording(const Recording& recording) {
 }
 
 std::optional<std::string> doubt_of_counts(const Recording& recording) {
-  if (recording.channels.size() < 2 || !is_in_counts(recording.channels[1].samples)) return std::nullopt;
-  return fmt::format(
-      "{} holds {} only, as an encoder counts: every number is then per count; give the metres or radians per count",
-      recording.channels[1].name, counts_of(recording.channels[1].samples));
+  for (std::size_t i = 0; i < recording.channels.size(); ++i) {
+    const Channel& channel = recording.channels[i];
+    if (!is_in_counts(channel.samples)) continue;
+    return fmt::format("{} holds {} only, as {}: every number is then per count; give the {} per count", channel.name,
+                       counts_of(channel.samples), i == 0 ? "a converter gives" : "an encoder counts",
+                       i == 0 ? "newtons (or newton metres)" : "metres or radians");
+  }
+  return std::nullopt;
 }
 
 std::optional<std::string> doubt_of_lag(const std::vector<ParameterEstimate>& estimates, double recorded_period) {

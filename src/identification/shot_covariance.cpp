@@ -22,6 +22,23 @@ Eigen::MatrixXd outside(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& o
   return outside_span(columns, of_states * scale.asDiagonal(), rank_tolerance);
 }
 
+/// What is not held, and of what is held what those that are not follow wholly: at its bound it is no better known than the
+/// combination of them.
+std::vector<Eigen::Index> not_known(const Eigen::MatrixXd& regressors, const std::vector<bool>& held) {
+  constexpr double own_part = 1e-4;
+  std::vector<Eigen::Index> found;
+  for (Eigen::Index i = 0; i < regressors.cols(); ++i) {
+    if (!held[static_cast<std::size_t>(i)]) found.push_back(i);
+  }
+  const Eigen::MatrixXd of_varied = regressors(Eigen::all, found);
+  for (Eigen::Index i = 0; i < regressors.cols(); ++i) {
+    if (!held[static_cast<std::size_t>(i)] || of_varied.cols() == 0) continue;
+    if (outside(regressors.col(i), of_varied).norm() < own_part * regressors.col(i).norm()) found.push_back(i);
+  }
+  std::ranges::sort(found);
+  return found;
+}
+
 /// Covariance from sums of the scores over stretches of the record: what stays correlated for longer than the noise's
 /// autoregression (rounding of slow motion, friction that is not quite Coulomb's) counts.
 Eigen::MatrixXd covariance_of_stretches(const Eigen::MatrixXd& regressors, const Eigen::VectorXd& residuals) {
@@ -68,10 +85,7 @@ ShotCovariance shot_covariance(const ShotSlopes& slopes, const std::vector<bool>
                         .pull = {},
                         .pulled_deviation = {},
                         .step = Eigen::VectorXd::Zero(size)};
-  std::vector<Eigen::Index> varied;
-  for (Eigen::Index i = 0; i < size; ++i) {
-    if (!held[static_cast<std::size_t>(i)]) varied.push_back(i);
-  }
+  const std::vector<Eigen::Index> varied = not_known(regressors, held);
   const Eigen::MatrixXd of_varied = regressors(Eigen::all, varied);
   const ResponseWithSlopes at_solution{Eigen::VectorXcd::Ones(rows), of_varied.cast<std::complex<double>>()};
   FitData data;
@@ -80,7 +94,7 @@ ShotCovariance shot_covariance(const ShotSlopes& slopes, const std::vector<bool>
   // Of dampings that nearly make up for each other, one held at 0 shows in what the other cannot follow alone.
   result.pull = result.pulled_deviation = Eigen::VectorXd::Zero(size);
   for (Eigen::Index i = 0; i < size; ++i) {
-    if (!held[static_cast<std::size_t>(i)]) continue;
+    if (!held[static_cast<std::size_t>(i)] || std::ranges::binary_search(varied, i)) continue;
     const Eigen::VectorXd own = outside(regressors.col(i), of_varied);
     const double norm = own.norm();
     if (!(norm > 0.0)) continue;

@@ -106,6 +106,10 @@ std::vector<std::string> numbers_not_free(const ShotModel& model, const Device& 
                                           const std::vector<std::string>& locked) {
   std::vector<std::string> keys = fittable_parameters(structure, locked);
   std::erase_if(keys, [](const std::string& key) { return !key.starts_with("body.") && !key.starts_with("link."); });
+  for (const Body& body : structure.bodies()) {  // a spring to the ground that is not in the structure: a hand, a cable
+    const bool moves = std::ranges::count(locked, body.name) == 0;
+    if (moves && body.stiffness == 0.0) keys.push_back("body." + body.name + ".stiffness");
+  }
   if (structure.bodies().size() <= ContinuousMotion::max_friction_bodies) {
     for (const Body& body : structure.bodies()) {
       if (std::ranges::count(locked, body.name) == 0) keys.push_back("body." + body.name + ".coulomb");

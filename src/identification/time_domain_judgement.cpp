@@ -22,6 +22,7 @@
 #include "zwidth/error.hpp"
 #include "zwidth/identification/frequency_response.hpp"
 #include "zwidth/model/parameter.hpp"
+#include "zwidth/quantity.hpp"
 #include "zwidth/sampling/sampled_plant.hpp"
 
 namespace zwidth::internal {
@@ -231,6 +232,17 @@ class Judge {
   void judge_interval() {
     const auto& interval = fit_.analysis.interval;
     if (interval && is_open(*interval)) trust_.doubt(open_interval_reason(*interval));
+    // Friction makes a linear fit's too high, never too low: a second route, on the safe side.
+    const auto& linear = judged_.linear;
+    if (!linear || !interval) return;
+    const double value = fit_.analysis.critical.stiffness;
+    const double apart = std::hypot(value - interval->lower, linear->upper - linear->value);  // that chance allows
+    if (value - linear->value <= apart) return;
+    const auto unit = units_of(fit_.device.parameters().motion).stiffness;
+    trust_.doubt(fmt::format(
+        "a linear fit of the same record gives {}, less than the fit with friction, which can only raise it: a "
+        "spring to the ground, or a body, that the structure lacks passes for noise; name it",
+        quantity(linear->value, unit)));
   }
 
   void describe() {

@@ -7,6 +7,7 @@
 
 #include "identification/shot_device.hpp"
 #include "identification/shot_model.hpp"
+#include "identification/time_domain_start.hpp"
 #include "zwidth/identification/time_domain.hpp"
 
 namespace zwidth::internal {
@@ -16,8 +17,9 @@ struct JudgedTimeFit {
   const Device& structure;
   const TimeDomainOptions& options;
   std::span<const Shot> shots;
-  bool is_turned = false;                          ///< the position falls as the force rises
-  std::optional<double> other_delay{};             ///< s; that the recordings show where another is given and not free
+  bool is_turned = false;               ///< the position falls as the force rises
+  std::optional<double> other_delay{};  ///< s; that the recordings show where another is given and not free
+  std::optional<LinearStiffness> linear{};
   std::optional<std::string> disagreement{};       ///< of the recordings
   std::vector<ContradictedNumber> contradicted{};  ///< numbers of the structure that were not free
 };

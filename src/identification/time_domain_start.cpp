@@ -115,6 +115,9 @@ TimeDomainStart time_domain_start(std::span<const Recording> recordings, const D
     start.lowest = found.fit.frequencies.front();
     start.highest = found.fit.frequencies.back();
     start.is_turned = found.fit.model_error_if_turned.has_value();
+    if (const auto& interval = found.analysis.interval; interval && !found.trust.refused() && found.fit.settled) {
+      start.linear = LinearStiffness{found.analysis.critical.stiffness, interval->upper};
+    }
     start.shows_other_delay = found.ignored_delay.has_value();
     if (takes_all) {
       start.free.clear();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -9,14 +10,21 @@
 
 namespace zwidth::internal {
 
+/// The critical stiffness of the linear fit of the same record.
+struct LinearStiffness {
+  double value = 0.0;
+  double upper = 0.0;  ///< of its 95 % interval
+};
+
 /// Where a fit in time begins.
 struct TimeDomainStart {
   Device device;                  ///< from the linear fit of the recording with the largest force
   std::vector<std::string> free;  ///< keys in full
   double lowest = 0.0;            ///< rad/s: band of that recording's response
   double highest = 0.0;
-  bool is_turned = false;          ///< the position falls as the force rises
-  bool shows_other_delay = false;  ///< than the given one, to the linear fit
+  bool is_turned = false;                   ///< the position falls as the force rises
+  bool shows_other_delay = false;           ///< than the given one, to the linear fit
+  std::optional<LinearStiffness> linear{};  ///< unless that fit is refused
   std::vector<Remark> remarks{};
 };
 
