@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "identification/contradicted_number.hpp"
 #include "identification/fit_judgement.hpp"
 #include "identification/friction_in_time.hpp"
 #include "identification/friction_test.hpp"
@@ -25,26 +26,6 @@
 namespace zwidth {
 using namespace internal;
 namespace {
-
-std::optional<OptionProblem> find_fit_problem(const ParameterFitOptions& options) {
-  if (!(std::isfinite(options.robust_threshold) && options.robust_threshold >= 0.0)) {
-    return OptionProblem{"robust_threshold", fmt::format("is {}", options.robust_threshold), "must be finite and >= 0"};
-  }
-  for (const auto& [name, value] : {std::pair{"lowest", options.lowest}, std::pair{"highest", options.highest}}) {
-    if (value && !(std::isfinite(*value) && *value > 0.0)) {
-      return OptionProblem{name, fmt::format("is {} rad/s", *value), "must be finite and > 0"};
-    }
-  }
-  if (options.lowest && options.highest && *options.lowest >= *options.highest) {
-    return OptionProblem{"highest", fmt::format("is {} rad/s", *options.highest),
-                         fmt::format("must be above lowest, {} rad/s", *options.lowest)};
-  }
-  if (options.free.size() > max_free_parameters) {
-    return OptionProblem{"free", fmt::format("has {} keys", options.free.size()),
-                         fmt::format("must be at most {}", max_free_parameters)};
-  }
-  return std::nullopt;
-}
 
 /// A structure on its way to the device: the record, the fit so far, and what is free.
 class Fitting {
@@ -86,7 +67,7 @@ class Fitting {
     const CriticalStiffness critical = limit_of(fit_->fit.device);
     if (!critical.limit || critical.limit->frequency <= fit_->fit.frequencies.back()) return;
     std::optional<RecordFit> wider;
-    for (const std::vector<const char*>& keys : {std::vector{delay_key, lag_key}, std::vector{delay_key}}) {
+    for (const std::vector<std::string>& keys : {std::vector<std::string>{delay_key, lag_key}, {delay_key}}) {
       wider = with_free(keys, ParameterFitOptions::Start::from_structure);
       if (wider && determines(*wider, keys)) break;
     }
@@ -106,6 +87,29 @@ class Fitting {
     if (!ignored_delay_) return;
     const double beyond = *ignored_delay_ - fit_->fit.device.loop().delay;
     fit_->fit.device = with_open_delay(fit_->fit.device, beyond * beyond);
+  }
+
+  /// Masses, dampings and links that were taken from the structure although the record shows others.
+  [[nodiscard]] std::vector<ContradictedNumber> contradicted() const {
+    std::vector<ContradictedNumber> found;
+    if (is_hopeless_) return found;
+    std::vector<std::string> keys = fittable_parameters(fit_->fit.device, fit_options_.locked);
+    std::erase_if(keys, [&](const std::string& key) { return is_free(key) || key == delay_key || key == lag_key; });
+    if (keys.empty()) return found;
+    const std::optional<RecordFit> wider =
+        with_free({keys.begin(), keys.end()}, ParameterFitOptions::Start::from_structure);
+    if (!wider) return found;
+    for (const ParameterEstimate& each : wider->fit.estimates) {
+      constexpr double significant = 3.0;
+      constexpr double notable = 0.02;
+      if (std::ranges::count(keys, each.key) == 0 || !each.identifiable || !each.standard_deviation) continue;
+      const double given = parameter(fit_->fit.device.parameters(), each.key).value_or(0.0);
+      const double apart = std::abs(each.value - given);
+      if (apart > significant * *each.standard_deviation && apart > notable * given) {
+        found.push_back({each.key, given, each.value});
+      }
+    }
+    return found;
   }
 
   [[nodiscard]] std::optional<ShownFriction> friction() const {
@@ -135,10 +139,10 @@ class Fitting {
     }
   }
 
-  [[nodiscard]] static bool determines(const RecordFit& fit, const std::vector<const char*>& keys) {
+  [[nodiscard]] static bool determines(const RecordFit& fit, const std::vector<std::string>& keys) {
     const auto& uncertainty = fit.fit.device.parameters().uncertainty;
-    return uncertainty && std::ranges::all_of(keys, [&](const char* key) {
-             return std::ranges::count(uncertainty->parameters, std::string(key)) > 0;
+    return uncertainty && std::ranges::all_of(keys, [&](const std::string& key) {
+             return std::ranges::count(uncertainty->parameters, key) > 0;
            });
   }
 
@@ -162,12 +166,12 @@ class Fitting {
   }
 
   /// The same fit with these parameters free beside the others; nothing where that is impossible.
-  [[nodiscard]] std::optional<RecordFit> with_free(const std::vector<const char*>& keys,
+  [[nodiscard]] std::optional<RecordFit> with_free(const std::vector<std::string>& keys,
                                                    ParameterFitOptions::Start start) const {
     ParameterFitOptions options = fit_options_;
     options.start = start;
     options.search_widely = false;  // was done
-    for (const char* key : keys) {
+    for (const std::string& key : keys) {
       if (!is_free(key)) options.free.emplace_back(key);
     }
     if (fit_->response.points.size() <= options.free.size()) return std::nullopt;
@@ -294,6 +298,11 @@ void judge_interval(Identification& result, const IdentifyOptions& options, Trus
   result.fit.device = with_trust(result.fit.device, device_trust);
 }
 
+void judge_what_was_given(const Fitting& fitting, Judgement& judgement) {
+  for (const ContradictedNumber& each : fitting.contradicted()) judgement.trust.doubt(contradiction_reason(each));
+  judgement.device_trust.inherit(judgement.trust);
+}
+
 Identification identified(const MeasuredResponse& measured, std::span<const Recording> recordings,
                           const Device& structure, const IdentifyOptions& options) {
   Fitting fitting(measured, recordings, structure, options);
@@ -303,6 +312,7 @@ Identification identified(const MeasuredResponse& measured, std::span<const Reco
   std::optional<ShownFriction> friction = fitting.friction();
   Judgement judgement = judge({fitting.fit(), structure, options, critical, friction});
   judge_delay(fitting, judgement);
+  judge_what_was_given(fitting, judgement);
   judge_dependence(measured, judgement);
   judge_table(measured, judgement);
   Identification result{.source = measured.source,
@@ -333,15 +343,6 @@ Identification identified(const MeasuredResponse& measured, std::span<const Reco
 }
 
 }  // namespace
-
-std::optional<OptionProblem> find_problem(const IdentifyOptions& options) {
-  const auto within = [](const char* part, std::optional<OptionProblem> problem) {
-    if (problem) problem->member = fmt::format("{}.{}", part, problem->member);
-    return problem;
-  };
-  if (auto problem = within("response", find_problem(options.response))) return problem;
-  return within("fit", find_fit_problem(options.fit));
-}
 
 Identification identify(const Recording& recording, const Device& structure, const IdentifyOptions& options,
                         const Progress& progress) {

@@ -35,7 +35,7 @@ std::optional<OwnStiffness> own_stiffness(const OwnDevice& own) {
 
 }  // namespace
 
-std::optional<std::string> doubt_of_agreement(const std::vector<OwnDevice>& devices) {
+std::optional<std::string> doubt_of_agreement(const std::vector<OwnDevice>& devices, const Device& pooled) {
   std::vector<OwnStiffness> all;
   for (const OwnDevice& each : devices) {
     if (auto own = own_stiffness(each)) all.push_back(*std::move(own));
@@ -43,8 +43,9 @@ std::optional<std::string> doubt_of_agreement(const std::vector<OwnDevice>& devi
   if (all.size() < 2) return std::nullopt;
   const OwnStiffness& softest = *std::ranges::min_element(all, {}, &OwnStiffness::upper);
   const OwnStiffness& stiffest = *std::ranges::max_element(all, {}, &OwnStiffness::lower);
-  if (stiffest.lower <= softest.upper) return std::nullopt;
-  const std::string_view unit = units_of(devices.front().device.parameters().motion).stiffness;
+  const double own = limit_of(pooled).stiffness;
+  if (stiffest.lower <= softest.upper || own < softest.value || own > stiffest.value) return std::nullopt;
+  const std::string_view unit = units_of(pooled.parameters().motion).stiffness;
   return fmt::format(
       "the recordings disagree: {} alone gives a critical stiffness of {}, {} alone {}, beyond what their noise "
       "allows; "
@@ -73,7 +74,7 @@ void judge_agreement(Identification& result, std::span<const Recording> recordin
       continue;
     }
   }
-  const std::optional<std::string> doubt = doubt_of_agreement(devices);
+  const std::optional<std::string> doubt = doubt_of_agreement(devices, result.fit.device);
   if (!doubt) return;
   result.trust.doubt(*doubt);
   result.analysis.trust.inherit(result.trust);

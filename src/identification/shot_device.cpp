@@ -6,10 +6,12 @@
 #include <optional>
 #include <utility>
 
+#include "identification/friction_test.hpp"
 #include "identification/time_domain_start.hpp"
 #include "simulation/continuous_motion.hpp"
 #include "zwidth/identification/parameter_fit.hpp"
 #include "zwidth/model/parameter.hpp"
+#include "zwidth/sampling/sampled_plant.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -185,7 +187,7 @@ std::vector<OwnDevice> devices_of_recordings(const FittedDevice& fitted, std::sp
 
 std::vector<ContradictedNumber> contradicted_numbers(const FittedDevice& fitted, const Device& structure,
                                                      std::span<const Recording> recordings,
-                                                     const std::vector<std::string>& locked) {
+                                                     const std::vector<std::string>& locked, double lowest) {
   std::vector<ContradictedNumber> found;
   std::vector<std::string> keys = numbers_not_free(fitted.model, structure, locked);
   if (keys.empty()) return found;
@@ -194,6 +196,9 @@ std::vector<ContradictedNumber> contradicted_numbers(const FittedDevice& fitted,
   if (!slopes) return found;
   const ShotCovariance known = shot_covariance(*slopes, wider.fit.held);
   const std::vector<Coordinate>& coordinates = wider.model.coordinates();
+  const Device device = device_in_experiment(Device(fitted.model.parameters_at(fitted.fitted.fit.x)), locked,
+                                             recordings.front().sampling_period);
+  const double compliance = lowest > 0.0 ? std::abs(response(sampled_plant(device), lowest)) : 0.0;
   for (std::size_t k = wider.first; k < coordinates.size(); ++k) {
     constexpr double clear = 5.0;  // deviations, as of white noise: 3.9 at most of what was given rightly
     constexpr double notable = 0.02;
@@ -204,7 +209,9 @@ std::vector<ContradictedNumber> contradicted_numbers(const FittedDevice& fitted,
     if (wider.model.is_bounded(at)) x(at) = std::max(0.0, x(at));
     const double given = coordinates[k].value(wider.fit.x(at));
     const double shown = coordinates[k].value(x(at));
-    if (std::abs(pull) > clear && std::abs(shown - given) > notable * given) {
+    const bool is_new_spring = given == 0.0 && coordinates[k].key.ends_with(".stiffness");
+    const bool counts = std::abs(shown - given) > notable * (is_new_spring ? 1.0 / compliance : given);
+    if (std::abs(pull) > clear && counts) {
       found.push_back({coordinates[k].key, given, shown});
     }
   }

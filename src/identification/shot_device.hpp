@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "identification/contradicted_number.hpp"
 #include "identification/recording_agreement.hpp"
 #include "identification/shot_covariance.hpp"
 #include "identification/shot_model.hpp"
@@ -28,17 +29,12 @@ struct FittedDevice {
 [[nodiscard]] std::vector<OwnDevice> devices_of_recordings(const FittedDevice& fitted,
                                                            std::span<const Recording> recordings);
 
-/// A number of the structure that was not free, and what the recordings ask for instead.
-struct ContradictedNumber {
-  std::string key;
-  double given = 0.0;  ///< SI
-  double shown = 0.0;  ///< SI, to the first order
-};
-
 /// Masses, dampings, links and frictions that were taken as they stand in the structure although the residuals pull them
-/// away from there, all that was free following: by more than 5 deviations and 2 % of their value.
+/// away from there, all that was free following: by more than 5 deviations and 2 % of their value. Of a spring to the ground
+/// that is not in the structure: by 2 % of the force at `lowest`, rad/s.
 [[nodiscard]] std::vector<ContradictedNumber> contradicted_numbers(const FittedDevice& fitted, const Device& structure,
                                                                    std::span<const Recording> recordings,
-                                                                   const std::vector<std::string>& locked);
+                                                                   const std::vector<std::string>& locked,
+                                                                   double lowest);
 
 }  // namespace zwidth::internal

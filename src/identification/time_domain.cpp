@@ -289,8 +289,8 @@ TimeDomainIdentification identify_in_time(std::span<const Recording> recordings,
   }
   const FittedDevice fitted{model, shots, found->fitted, found->known};
   judge_in_time(result, {recordings, structure, options, shots, start.is_turned, other, start.linear,
-                         doubt_of_agreement(devices_of_recordings(fitted, recordings)),
-                         contradicted_numbers(fitted, structure, recordings, options.locked)});
+                         doubt_of_agreement(devices_of_recordings(fitted, recordings), result.device),
+                         contradicted_numbers(fitted, structure, recordings, options.locked, start.lowest)});
   done(1.0);
   return result;
 }

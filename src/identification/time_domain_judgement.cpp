@@ -206,10 +206,7 @@ class Judge {
   void judge_what_was_given() {
     if (judged_.disagreement) trust_.doubt(*judged_.disagreement);
     for (const ContradictedNumber& each : judged_.contradicted) {
-      trust_.doubt(
-          fmt::format("{} was not fitted, and the recordings contradict it: they ask for about {:.3g} where {:.3g} is "
-                      "taken; free it too",
-                      each.key, each.shown, each.given));
+      trust_.doubt(contradiction_reason(each));
     }
   }
 

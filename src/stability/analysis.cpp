@@ -14,6 +14,7 @@
 #include "zwidth/error.hpp"
 #include "zwidth/model/two_mass.hpp"
 #include "zwidth/quantity.hpp"
+#include "zwidth/stability/closed_loop.hpp"
 
 namespace zwidth {
 using namespace internal;
@@ -89,6 +90,23 @@ void confirm_delay_margin(const Device& device, Analysis& analysis) {
   }
 }
 
+/// The phase margin by the second route: stable with hardly less of it, by closed-loop poles.
+void confirm_phase_margin(const Device& device, Analysis& analysis) {
+  constexpr double closeness = 1e-4;
+  constexpr double rounding = 1e-11;        // of eigenvalues; a pole that nothing moves is as near to the circle
+  constexpr Eigen::Index most_states = 40;  // beyond, it would take longer than all the rest
+  const DiscreteStateSpace plant = sample(state_space(device), {device.loop().sampling_period, device.loop().delay});
+  if (plant.Phi.rows() + static_cast<Eigen::Index>(plant.delay_samples) > most_states) return;
+  const double phase = (1.0 - closeness) * *analysis.wall->phase_margin;
+  if (!(stability_excess_at_phase(plant, device.parameters().wall, phase) > rounding)) return;
+  analysis.wall->phase_margin.reset();
+  analysis.disk_margin.reset();
+  analysis.trust.doubt(
+      "the phase margin is left out: two computations contradict each other on it; poles lie too close together to "
+      "tell "
+      "them apart");
+}
+
 /// Of a wall many powers of ten below all limits its search does not settle: nothing else is lost by that.
 void add_disk_margin(const FilteredPlant& plant, const Wall& wall, Analysis& analysis) {
   try {
@@ -112,6 +130,7 @@ void judge_wall(const Device& device, const FilteredPlant& plant, const PoleCoun
   if (!analysis.trust.refused()) {
     if (analysis.wall->delay_margin) confirm_delay_margin(device, analysis);
     add_disk_margin(plant, device.parameters().wall, analysis);
+    if (analysis.wall->phase_margin) confirm_phase_margin(device, analysis);
     return;
   }
   analysis.wall.reset();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "eigenvalues.hpp"
 #include "model/balance.hpp"
@@ -11,7 +12,16 @@
 namespace zwidth {
 using namespace internal;
 
-std::vector<std::complex<double>> closed_loop_poles_minus_one(const DiscreteStateSpace& plant, const Wall& wall) {
+namespace {
+
+// The loop opened where the force acts: state matrix less I, and how the force there depends on the state.
+struct OpenedLoop {
+  Eigen::MatrixXd loop;
+  Eigen::VectorXd input;
+  Eigen::RowVectorXd force;
+};
+
+OpenedLoop opened_loop(const DiscreteStateSpace& plant, const Wall& wall) {
   const DiscreteStateSpace device = with_delay_states(plant);
   const Eigen::Index n = device.Phi.rows();
   const double stiffness = wall.stiffness.value_or(0.0);
@@ -56,20 +66,47 @@ std::vector<std::complex<double>> closed_loop_poles_minus_one(const DiscreteStat
     for (Eigen::Index i = 0; i < degree; ++i) force(next + i) += numerator[static_cast<std::size_t>(i)];
     next += degree;
   }
-  loop.topRows(n) += device.Gamma1 * force;
+  Eigen::VectorXd input = Eigen::VectorXd::Zero(order);
+  input.head(n) = device.Gamma1;
+  return {std::move(loop), std::move(input), std::move(force)};
+}
+
+std::vector<std::complex<double>> balanced_eigenvalues(const Eigen::MatrixXd& loop) {
   const Eigen::VectorXd scales = balancing_scales(loop);
   const Eigen::MatrixXd balanced = scales.cwiseInverse().asDiagonal() * loop * scales.asDiagonal();
   const Eigen::VectorXcd values = eigenvalues(balanced);
   return {values.data(), values.data() + values.size()};
 }
 
-double stability_excess(const DiscreteStateSpace& plant, const Wall& wall) {
+double largest_excess(const std::vector<std::complex<double>>& poles_minus_one) {
   double largest = -1.0;
-  for (const std::complex<double>& delta : closed_loop_poles_minus_one(plant, wall)) {
+  for (const std::complex<double>& delta : poles_minus_one) {
     // |1 + d| - 1 = (2 Re d + |d|²) / (|1 + d| + 1)
     largest = std::max(largest, (2.0 * delta.real() + std::norm(delta)) / (std::abs(1.0 + delta) + 1.0));
   }
   return largest;
+}
+
+}  // namespace
+
+std::vector<std::complex<double>> closed_loop_poles_minus_one(const DiscreteStateSpace& plant, const Wall& wall) {
+  const OpenedLoop opened = opened_loop(plant, wall);
+  return balanced_eigenvalues(opened.loop + opened.input * opened.force);
+}
+
+double stability_excess(const DiscreteStateSpace& plant, const Wall& wall) {
+  return largest_excess(closed_loop_poles_minus_one(plant, wall));
+}
+
+double stability_excess_at_phase(const DiscreteStateSpace& plant, const Wall& wall, double phase) {
+  const OpenedLoop opened = opened_loop(plant, wall);
+  const Eigen::MatrixXd closing = opened.input * opened.force;
+  const Eigen::MatrixXd real = opened.loop + std::cos(phase) * closing;
+  const Eigen::MatrixXd imaginary = -std::sin(phase) * closing;
+  // The eigenvalues of a complex matrix and of its conjugate, by a real one.
+  Eigen::MatrixXd both(2 * real.rows(), 2 * real.rows());
+  both << real, -imaginary, imaginary, real;
+  return largest_excess(balanced_eigenvalues(both));
 }
 
 }  // namespace zwidth

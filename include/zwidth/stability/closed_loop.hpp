@@ -20,4 +20,8 @@ namespace zwidth {
 /// Largest |z| - 1 of those poles: negative iff the loop is stable.
 [[nodiscard]] double stability_excess(const DiscreteStateSpace& plant, const Wall& wall);
 
+/// The same of 1 + e^{-j phase} C(z) P(z) = 0 (and of its conjugate), phase in rad: a loop is that far from instability as
+/// its phase margin says. Costs eight times as much.
+[[nodiscard]] double stability_excess_at_phase(const DiscreteStateSpace& plant, const Wall& wall, double phase);
+
 }  // namespace zwidth
