@@ -5,10 +5,10 @@
 //
 // One line per device, then how many 95 % intervals of the critical stiffness hold the truth.
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
 #include <string>
 #include <vector>
 
@@ -30,7 +30,7 @@ struct Count {
   int answered = 0;
   int held = 0;  ///< the interval holds the truth
   std::vector<double> errors;
-  std::vector<double> seconds;  ///< of processor
+  std::vector<double> seconds;
 };
 
 }  // namespace
@@ -41,8 +41,10 @@ int main(int argc, char** argv) {
   Count count;
   for (std::uint64_t seed = first; seed < first + number; ++seed) {
     const test::FrictionRecordings made = test::friction_recordings(seed);
-    const std::clock_t begin = std::clock();
-    const auto seconds = [&] { return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC; };
+    const auto begin = std::chrono::steady_clock::now();
+    const auto seconds = [&] {
+      return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    };
     ++count.all;
     TimeDomainOptions options;
     options.structure_values = IdentifyOptions::StructureValues::placeholders;
@@ -91,8 +93,8 @@ int main(int argc, char** argv) {
       count.all, count.answered, count.sound, count.sound_unsafe, count.far_unsafe, count.refused, count.failed);
   if (count.errors.empty()) return 0;
   std::printf(
-      "interval holds the truth %d/%d; within 5 %% %d/%d; median error %.2g %%, largest %.2g %%; median %.2f s of "
-      "processor, longest %.2f s\n",
+      "interval holds the truth %d/%d; within 5 %% %d/%d; median error %.2g %%, largest %.2g %%; median %.2f s, "
+      "longest %.2f s\n",
       count.held, count.answered, static_cast<int>(within), count.answered,
       100.0 * count.errors[count.errors.size() / 2], 100.0 * count.errors.back(),
       count.seconds[count.seconds.size() / 2], count.seconds.back());

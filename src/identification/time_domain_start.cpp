@@ -88,6 +88,17 @@ void check_free(const Device& structure, const std::vector<std::string>& free) {
   }
 }
 
+/// Of the strongest recording, or of all together where that alone has too few lines, as a single sine has.
+Identification linear_fit(std::span<const Recording> recordings, const Device& structure,
+                          const IdentifyOptions& options) {
+  try {
+    return identify(strongest(recordings), structure, options);
+  } catch (const Error&) {
+    if (recordings.size() == 1) throw;
+    return identify(recordings, structure, options);
+  }
+}
+
 }  // namespace
 
 TimeDomainStart time_domain_start(std::span<const Recording> recordings, const Device& structure,
@@ -110,7 +121,7 @@ TimeDomainStart time_domain_start(std::span<const Recording> recordings, const D
 
   TimeDomainStart start{.device = structure, .free = given};
   if (takes_all || !linear.fit.free.empty()) {
-    const Identification found = identify(strongest(recordings), structure, linear);
+    const Identification found = linear_fit(recordings, structure, linear);
     start.device = found.fit.device;
     start.lowest = found.fit.frequencies.front();
     start.highest = found.fit.frequencies.back();

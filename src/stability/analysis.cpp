@@ -9,12 +9,12 @@
 
 #include "model/implausible_numbers.hpp"
 #include "require_valid.hpp"
+#include "stability/confirmed_margins.hpp"
 #include "stability/guarded_stiffness.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/two_mass.hpp"
 #include "zwidth/quantity.hpp"
-#include "zwidth/stability/closed_loop.hpp"
 
 namespace zwidth {
 using namespace internal;
@@ -70,43 +70,6 @@ std::optional<QCriterion> q_criterion(const Device& device, const RigidApproxima
   return criterion;
 }
 
-/// The delay margin by the second route: stable with hardly less delay, unstable with hardly more.
-void confirm_delay_margin(const Device& device, Analysis& analysis) {
-  constexpr double closeness = 1e-6;
-  constexpr double most_samples = 1000.0;  // beyond, counting the poles takes longer than all the rest
-  if (*analysis.wall->delay_margin > most_samples * device.loop().sampling_period) return;
-  for (const bool stable : {true, false}) {
-    DeviceParameters delayed = device.parameters();
-    delayed.uncertainty.reset();  // its covariance was checked before
-    delayed.loop.delay += *analysis.wall->delay_margin * (stable ? 1.0 - closeness : 1.0 + closeness);
-    if (find_problem(delayed)) return;  // more samples of delay than a device may have
-    const Device later(std::move(delayed));
-    if (agreement(PoleCount(later), analysis.wall->stiffness, stable) != Agreement::contradicts) continue;
-    analysis.wall->delay_margin.reset();
-    analysis.trust.doubt(
-        "the delay margin is left out: two computations contradict each other on it; raise the delay of the loop in "
-        "steps and analyze each");
-    return;
-  }
-}
-
-/// The phase margin by the second route: stable with hardly less of it, by closed-loop poles.
-void confirm_phase_margin(const Device& device, Analysis& analysis) {
-  constexpr double closeness = 1e-4;
-  constexpr double rounding = 1e-11;        // of eigenvalues; a pole that nothing moves is as near to the circle
-  constexpr Eigen::Index most_states = 40;  // beyond, it would take longer than all the rest
-  const DiscreteStateSpace plant = sample(state_space(device), {device.loop().sampling_period, device.loop().delay});
-  if (plant.Phi.rows() + static_cast<Eigen::Index>(plant.delay_samples) > most_states) return;
-  const double phase = (1.0 - closeness) * *analysis.wall->phase_margin;
-  if (!(stability_excess_at_phase(plant, device.parameters().wall, phase) > rounding)) return;
-  analysis.wall->phase_margin.reset();
-  analysis.disk_margin.reset();
-  analysis.trust.doubt(
-      "the phase margin is left out: two computations contradict each other on it; poles lie too close together to "
-      "tell "
-      "them apart");
-}
-
 /// Of a wall many powers of ten below all limits its search does not settle: nothing else is lost by that.
 void add_disk_margin(const FilteredPlant& plant, const Wall& wall, Analysis& analysis) {
   try {
@@ -128,9 +91,8 @@ void judge_wall(const Device& device, const FilteredPlant& plant, const PoleCoun
   if (stiffness == 0.0 || std::ranges::any_of(analysis.critical.crossovers, near)) return;
   distrust(agreement(poles, stiffness, analysis.wall->stable), stiffness, analysis.trust);
   if (!analysis.trust.refused()) {
-    if (analysis.wall->delay_margin) confirm_delay_margin(device, analysis);
     add_disk_margin(plant, device.parameters().wall, analysis);
-    if (analysis.wall->phase_margin) confirm_phase_margin(device, analysis);
+    confirm_margins(device, analysis);
     return;
   }
   analysis.wall.reset();
