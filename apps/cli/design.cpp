@@ -243,7 +243,8 @@ void add_design(CLI::App& app) {
       "  zwidth design devices/lhifam.toml --compare sensed=motor,handle --operator 0.5,6,135\n"
       "  zwidth design devices/lhifam.toml --target 12000\n"
       "  zwidth design devices/lhifam.toml --recommend --ripple 0.1\n"
-      "  zwidth design devices/lhifam_reduced_pretension.toml --notch --drift-percent 10 --output notch.svg");
+      "  zwidth design devices/lhifam_reduced_pretension.toml --notch --drift-percent 10 \\\n"
+      "    --phase-margin-deg 0 --lower-any-user --output notch.svg");
   command->callback([arguments, command] { run_design(*command, *arguments); });
 }
 

@@ -126,10 +126,12 @@ class FrictionDoubt {
     }
     if (!least || (of_lines_ && of_one_force_)) return unknown();
     const auto without = stiffness_without(slidings, most_of(*least));
-    return fmt::format("dry friction of {} would pass unseen, and {}; {}", in_units(most_of(*least)),
-                       without ? fmt::format("the critical stiffness without it be {:.3g}", *without)
-                               : "the critical stiffness without it is not known",
-                       remedy);
+    return fmt::format(
+        "dry friction of {} would pass unseen, and {}; {}", in_units(most_of(*least)),
+        without
+            ? fmt::format("the critical stiffness without it would be {:.3g} N/m (N m/rad where it turns)", *without)
+            : "the critical stiffness without it is not known",
+        remedy);
   }
 
   /// The critical stiffness without so much friction; nothing where the response does not say.

@@ -57,7 +57,8 @@ const std::vector<Synonyms>& all_synonyms() {
        "did you mean \"force_limit\"?"},
       {{actuator}, {"tau", "lag"}, "did you mean \"time_constant\"?"},
       {{wall},
-       {"velocity_filter", "filter_hz", "cutoff", "cutoff_hz", "cutoff_frequency", "tau", "filter_time_constant"},
+       {"velocity_filter", "filter_hz", "cutoff", "cutoff_hz", "cutoff_frequency", "tau", "filter_time_constant",
+        "velocity_filter_cutoff", "velocity_filter_cutoff_hz", "velocity_filter_frequency"},
        "write velocity_filter_hz, or velocity_filter_tau for backward Euler's time constant in s"},
   };
   return all;

@@ -24,7 +24,8 @@ bool delay_margin_stands(const Device& device, const WallMargins& wall) {
     delayed.uncertainty.reset();  // its covariance was checked before
     delayed.loop.delay += *wall.delay_margin * (stable ? 1.0 - closeness : 1.0 + closeness);
     if (find_problem(delayed)) return true;  // more samples of delay than a device may have
-    if (agreement(PoleCount(Device(std::move(delayed))), wall.stiffness, stable) == Agreement::contradicts) return false;
+    if (agreement(PoleCount(Device(std::move(delayed))), wall.stiffness, stable) == Agreement::contradicts)
+      return false;
   }
   return true;
 }
@@ -66,7 +67,8 @@ void confirm_margins(const Device& device, Analysis& analysis) {
     wall.delay_margin.reset();
     analysis.disk_margin.reset();
     analysis.trust.doubt(
-        "the margins of phase, delay and disk are left out: two computations contradict each other on them; poles lie too "
+        "the margins of phase, delay and disk are left out: two computations contradict each other on them; poles lie "
+        "too "
         "close together to tell them apart");
   }
   constexpr double rounding = 1e-6;

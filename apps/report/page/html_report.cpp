@@ -139,6 +139,8 @@ std::string parameters(const AnalysedDevice& analysed) {
   add("sampling period", device.loop.sampling_period, "s");
   add("delay besides the hold", device.loop.delay, "s");
   add_if("actuator time constant", device.actuator.time_constant, "s");
+  if (device.actuator.force_limit) add("actuator force limit", *device.actuator.force_limit, units.force);
+  add_if("encoder step", device.sensor.resolution, units.length);
   add_if("operator: mass", device.user.mass, units.mass);
   add_if("operator: damping", device.user.damping, units.damping);
   add_if("operator: stiffness", device.user.stiffness, units.stiffness);
@@ -156,6 +158,7 @@ std::string wall(const AnalysedDevice& analysed) {
   std::string text = element("h2", "The wall of the file");
   if (filters) text += element("p", fmt::format("Filters in the wall, closed in every number here: {}.", *filters));
   if (verdict) text += element("p", *verdict) + list(wall_margin_notes(analysed.analysis));
+  if (const std::vector<std::string> encoder = encoder_notes(analysed); !encoder.empty()) text += list(encoder);
   return text;
 }
 

@@ -8,6 +8,7 @@
 
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
+#include "report/text/trust_text.hpp"
 
 namespace zwidth::report {
 namespace {
@@ -87,8 +88,10 @@ TextTable comparison_table(std::span<const AnalysedDevice> devices, std::size_t 
       {{"", "device", "K_CR", "any user", "frequency", "limited by", "rigid model", "wall"}}};
   for (const AnalysedDevice& each : devices) {
     const CriticalStiffness& critical = each.analysis.critical;
+    const std::string_view mark = trust_mark(each.analysis.trust);
+    const std::size_t room = name_width > mark.size() ? name_width - mark.size() : 1;
     std::vector<std::string> row = {std::to_string(table.rows.size()),
-                                    shortened(display_name(each.device), name_width)};
+                                    shortened(display_name(each.device), room) + std::string(mark)};
     if (critical.limit) {
       row.insert(row.end(), {quantity(critical.stiffness, units_of(each.device.parameters().motion).stiffness),
                              quantity(hertz(critical.limit->frequency), "Hz"), short_name(critical.limit->limited_by)});

@@ -74,30 +74,10 @@ std::string bullets(const std::vector<std::string>& texts) {
   return lines;
 }
 
-/// What the encoder does to the wall's force, and friction about it.
-std::string encoder_section(const AnalysedDevice& analysed) {
-  const Units units = units_of(analysed.device.parameters().motion);
-  std::vector<std::string> notes;
-  if (const auto& force = analysed.analysis.force_per_count) {
-    notes.push_back(fmt::format("one step of the encoder moves the force by {} (K q = {}, damper {})",
-                                quantity(force->largest, units.force), quantity(force->stiffness, units.force),
-                                quantity(force->damping, units.force)));
-  }
-  if (const auto& bound = analysed.analysis.quantisation) {
-    notes.push_back(fmt::format(
-        "the device's friction dissipates what encoder steps generate up to K = {}: min(2 f_c/q = {}, 2 b/T = {}) "
-        "(Abbott & Okamura 2005; passivity of a rigid device with a spring alone, not a limit of stability){}",
-        quantity(bound->stiffness, units.stiffness), quantity(bound->friction_stiffness, units.stiffness),
-        quantity(bound->damping_stiffness, units.stiffness),
-        bound->not_met.empty() ? "" : fmt::format("; here it does not hold: {}", fmt::join(bound->not_met, ", "))));
-  }
-  return bullets(notes);
-}
-
 std::string wall_section(const AnalysedDevice& analysed) {
   const auto verdict = wall_note(analysed);
   const auto filters = wall_filters_text(analysed.device.parameters().wall);
-  const std::string encoder = encoder_section(analysed);
+  const std::string encoder = bullets(encoder_notes(analysed));
   if (!verdict && !filters) return encoder.empty() ? "" : encoder + "\n";
   return (filters ? wrap(fmt::format("Filters in the wall, closed in every number here: {}.", *filters), line_width, 0)
                   : "") +

@@ -309,6 +309,25 @@ std::optional<std::string> q_criterion_note(const AnalysedDevice& analysed) {
          fmt::format("It is far above the rigid critical stiffness of {}: the mode hardly matters.", rigid_value);
 }
 
+std::vector<std::string> encoder_notes(const AnalysedDevice& analysed) {
+  const Units units = units_of(analysed.device.parameters().motion);
+  std::vector<std::string> notes;
+  if (const auto& force = analysed.analysis.force_per_count) {
+    notes.push_back(fmt::format("one step of the encoder moves the force by {} (K q = {}, damper {})",
+                                quantity(force->largest, units.force), quantity(force->stiffness, units.force),
+                                quantity(force->damping, units.force)));
+  }
+  if (const auto& bound = analysed.analysis.quantisation) {
+    notes.push_back(fmt::format(
+        "the device's friction dissipates what encoder steps generate up to K = {}: min(2 f_c/q = {}, 2 b/T = {}) "
+        "(Abbott & Okamura 2005; passivity of a rigid device with a spring alone, not a limit of stability){}",
+        quantity(bound->stiffness, units.stiffness), quantity(bound->friction_stiffness, units.stiffness),
+        quantity(bound->damping_stiffness, units.stiffness),
+        bound->not_met.empty() ? "" : fmt::format("; here it does not hold: {}", fmt::join(bound->not_met, ", "))));
+  }
+  return notes;
+}
+
 std::string wall_verdict(const Analysis& analysis) {
   if (!analysis.wall) return "-";
   return analysis.wall->stable ? "stable" : "UNSTABLE";

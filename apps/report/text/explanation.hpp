@@ -54,6 +54,9 @@ namespace zwidth::report {
 /// The margins of a stable wall, one phrase each; empty without a wall or when it is unstable.
 [[nodiscard]] std::vector<std::string> wall_margin_notes(const Analysis& analysis);
 
+/// What the encoder does to the wall's force, and friction about it, one phrase each.
+[[nodiscard]] std::vector<std::string> encoder_notes(const AnalysedDevice& analysed);
+
 /// "stable", "UNSTABLE" or "-" where there is no wall.
 [[nodiscard]] std::string wall_verdict(const Analysis& analysis);
 

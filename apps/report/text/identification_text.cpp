@@ -83,9 +83,9 @@ std::string limit_text(const Device& device, const Analysis& analysis, const Sti
 std::string identification_text(const Identification& identified) {
   const ParameterFit& fit = identified.fit;
   std::string text = fmt::format("{}, identified from {}\n", display_name(fit.device), identified.source);
+  text += trust_lines(identified.trust);
   text += layout(estimate_table(fit.estimates, fit.device.parameters().motion)) + correlations(fit.correlations) +
           "\n" + wrap(fit_quality(fit), line_width, 0) + "\n";
-  text += trust_lines(identified.trust);
   if (identified.trust.refused()) return text + remarks(identified.remarks);
   return text + limit_text(fit.device, identified.analysis, identified.basis) + remarks(identified.remarks);
 }
@@ -95,14 +95,15 @@ std::string identification_text(const TimeDomainIdentification& identified) {
   std::string text =
       fmt::format("{}, identified in time from {}", display_name(identified.device), identified.motions.front().source);
   if (identified.motions.size() > 1) text += fmt::format(" and {} more", identified.motions.size() - 1);
-  text += "\n" + layout(estimate_table(identified.estimates, motion)) + correlations(identified.correlations) + "\n";
+  text += "\n" + trust_lines(identified.trust);
+  text += layout(estimate_table(identified.estimates, motion)) + correlations(identified.correlations) + "\n";
   for (const FittedMotion& each : identified.motions) {
     text +=
         wrap(fmt::format("{}: {:.3g} {} of noise per sample; {:.3g} % of the linear response unexplained beyond it.",
                          each.source, each.noise, motion == Motion::rotary ? "rad" : "m", 100.0 * each.unexplained),
              line_width, 0);
   }
-  text += "\n" + trust_lines(identified.trust);
+  text += "\n";
   if (identified.trust.refused()) return text + remarks(identified.remarks);
   return text + limit_text(identified.device, identified.analysis, identified.basis) + remarks(identified.remarks);
 }
@@ -110,8 +111,8 @@ std::string identification_text(const TimeDomainIdentification& identified) {
 std::string identification_text(const RigidBodyIdentification& identified) {
   const RigidBodyFit& fit = identified.fit;
   std::string text = fmt::format("A rigid body, identified from {}\n", identified.source);
-  text += layout(estimate_table(estimates(fit), identified.device.parameters().motion)) + "\n";
   text += trust_lines(identified.trust);
+  text += layout(estimate_table(estimates(fit), identified.device.parameters().motion)) + "\n";
   text += wrap(fmt::format("Inverse dynamics: low-pass of {:.4g} Hz without phase, every {}. sample, {} equations; the "
                            "residual force is {:.3g} % of the force (both rms). Intervals allow for residuals that are "
                            "correlated in time.",

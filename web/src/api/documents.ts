@@ -139,7 +139,7 @@ export interface Recommendation extends Judged, Omit<Option, 'what'> {
 export interface Diagnosis extends Judged {
   cause: string | null
   oscillates_hz: number
-  stiffness: number
+  stiffness: number | null
   damping: number
   candidates: { cause: string; fits: boolean; frequency_hz: number | null; stiffness: number | null; why: string }[]
   changes: {
@@ -149,7 +149,7 @@ export interface Diagnosis extends Judged {
     value_then: number
     limit_now: number | null
     limit_then: number | null
-    ends_it: boolean
+    ends_it: boolean | null
   }[]
 }
 export interface Simulation {
