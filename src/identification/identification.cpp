@@ -354,18 +354,27 @@ Identification identify(std::span<const Recording> recordings, const Device& str
   require_valid(find_problem(options));
   IdentifyOptions decided = options;
   decided.response.excitation = excitation_of(options.response);
-  Identification found =
-      identified(response_with_enough_lines(recordings, structure, decided, progress), recordings, structure, decided);
-  constexpr double clear = 0.005;
-  const bool is_detected = decided.response.excitation == FrequencyResponseOptions::Excitation::detect;
-  if (!is_detected || found.fit.model_error < clear || !is_of_lines(recordings, decided.response)) return found;
-  // What drifts from the first period to the last leaks into all lines alike, which a fit cannot tell from the device;
-  // a window keeps it out.
+  const auto with = [&](const IdentifyOptions& chosen, const Progress& told) {
+    return identified(response_with_enough_lines(recordings, structure, chosen, told), recordings, structure, chosen);
+  };
   IdentifyOptions windowed = decided;
   windowed.response.excitation = FrequencyResponseOptions::Excitation::aperiodic;
+  const bool is_detected = decided.response.excitation == FrequencyResponseOptions::Excitation::detect &&
+                           is_of_lines(recordings, decided.response);
+  Identification found = [&] {
+    try {
+      return with(decided, progress);
+    } catch (const Error&) {  // a period that is none, of a loop that rings, has too few lines
+      if (!is_detected) throw;
+      return with(windowed, {});
+    }
+  }();
+  constexpr double clear = 0.005;
+  if (!is_detected || found.fit.model_error < clear) return found;
+  // What drifts from the first period to the last leaks into all lines alike, which a fit cannot tell from the device;
+  // a window keeps it out.
   try {
-    Identification other =
-        identified(response_with_enough_lines(recordings, structure, windowed, {}), recordings, structure, windowed);
+    Identification other = with(windowed, {});
     constexpr double much_better = 0.5;
     if (other.trust.refused() || other.fit.model_error > much_better * found.fit.model_error) return found;
     other.remarks.push_back({Remark::Severity::note,

@@ -74,7 +74,7 @@ std::optional<std::size_t> period_of(std::span<const double> signal) {
   std::transform(signal.begin(), signal.end(), centred.begin(), [mean](double value) { return value - mean; });
 
   const std::size_t most_lag = signal.size() / 2;
-  const std::vector<double> correlation = autocorrelation(centred, most_lag);
+  const std::vector<double> correlation = autocorrelation(centred, 3 * (signal.size() / 4));  // three of four periods
   const auto first_fall = std::find_if(correlation.begin(), correlation.end(), [](double r) { return r < 0.5; });
   std::optional<std::size_t> best;
   const auto fallen = static_cast<std::size_t>(first_fall - correlation.begin());

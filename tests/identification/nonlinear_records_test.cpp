@@ -245,6 +245,35 @@ TEST(GivenNumber, ADampingAtItsBoundHidesNoCombination) {
 
 TEST(GivenNumber, ThatIsRightCastsNoDoubt) { EXPECT_TRUE(with_damping_given(3.5).trust.sound()); }
 
+// A body of 1 kg held by 250 N/m of position feedback under a chirp: its ringing passed for a period of one line, an error.
+TEST(Feedback, ALoopThatRingsHasNoPeriod) {
+  ExcitationOptions excitation;
+  excitation.kind = ExcitationKind::linear_chirp;
+  excitation.amplitude = 5.0;
+  excitation.lowest_hz = 0.5;
+  excitation.highest_hz = 60.0;
+  excitation.duration = 20.0;
+  const std::vector<double> wanted = excite(excitation).samples;
+  Recording recording{"ringing", period, {{"force", {}}, {"position", {}}}, {}};
+  double x = 0.0;
+  double v = 0.0;
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> noise(0.0, 1e-6);
+  for (const double each : wanted) {
+    const double measured = x + noise(random);
+    const double force = each - 250.0 * measured;
+    recording.channels[0].samples.push_back(force);
+    recording.channels[1].samples.push_back(measured);
+    constexpr int steps = 20;
+    for (int i = 0; i < steps; ++i) {
+      x += 0.5 * period / steps * v;
+      v += period / steps * (force - 0.2 * v);
+      x += 0.5 * period / steps * v;
+    }
+  }
+  EXPECT_NO_THROW((void)identify(recording, body(), {}));
+}
+
 // A fit in time of a body on a cubic spring took the body's inertia for a lag of 0.48 s, and called 20 kN/m sound where 7
 // is true.
 TEST(Plausibility, ALagOfManySamplesIsDoubtful) {
