@@ -106,8 +106,9 @@ BodeFigure device_bode_figure(std::span<const AnalysedDevice> devices, const Bod
     for (std::size_t i = 0; i < devices.size(); ++i) {
       // Letters: names can be long and alike.
       const char letter = static_cast<char>('A' + i);
-      figure.curves.push_back(
-          {fmt::format("{}: {}", letter, display_name(devices[i].device)), bode_of(devices[i]).sampled});
+      figure.curves.push_back({fmt::format("{}: {}, sampled every {}", letter, display_name(devices[i].device),
+                                           quantity(devices[i].device.loop().sampling_period, "s")),
+                               bode_of(devices[i]).sampled});
       if (const auto note = trust_note(devices[i].analysis.trust)) {
         figure.notes.push_back(fmt::format("{}: {}", letter, *note));
       }

@@ -83,7 +83,12 @@ class RegionFigure {
 
   [[nodiscard]] std::string draw(FigureFormat format) const {
     const std::vector<Extent> panels = extents();
-    const Heading heading(title_, legend());
+    const Loop& loop = device_.loop();
+    const Heading heading(
+        title_, legend(),
+        fmt::format("Sampled every {}, {} of delay. In brackets: how far a formula lies above the exact "
+                    "limit.",
+                    quantity(loop.sampling_period, "s"), quantity(loop.delay, "s")));
     const double top = heading.bottom() + 28.0;
     Canvas canvas(title_, canvas_width, top + panel_height + 62.0);
     heading.draw(canvas);
