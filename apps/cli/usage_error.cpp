@@ -76,6 +76,11 @@ std::string clear_problem(const std::string& message) {
     if (const auto count = parted(required->before, ": "))
       return fmt::format("{}: has no value; {}", count->before, kind->before);
   }
+  if (const auto wrong = parted(message, "Could not convert: ")) {
+    if (const auto value = parted(wrong->after, " = ")) {
+      return fmt::format("{}: is {}; a number, without a unit", value->before, value->after);
+    }
+  }
   const auto choice = parted(message, " not in {");
   if (!choice || !choice->after.ends_with('}')) return message;
   const auto given = parted(choice->before, ": ");

@@ -12,6 +12,8 @@
 
 #include "stability/gain_crossings.hpp"
 #include "zwidth/model/device_trust.hpp"
+#include "zwidth/model/state_space.hpp"
+#include "zwidth/stability/closed_loop.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -80,6 +82,23 @@ void polish(const FilteredPlant& plant, VirtualDamper damper, const PoleCount& p
   std::erase_if(found.crossings, [](const GainCrossing& each) { return !(each.gain > 0.0); });
 }
 
+// A pole that only touches the circle at the limit, inside on either side, must lie on it there: poles close together
+// make up touches that are none.
+void doubt_touch_without_pole(const Device& device, CriticalStiffness& critical) {
+  constexpr double on_circle = 1e-6;
+  constexpr std::size_t most_samples = 40;  // beyond, eigenvalues would take longer than all the rest
+  if (!critical.limit || critical.limit->poles_leaving != 0) return;
+  const DiscreteStateSpace plant = sample(state_space(device), {device.loop().sampling_period, device.loop().delay});
+  if (plant.delay_samples > most_samples) return;
+  Wall wall = device.parameters().wall;
+  wall.stiffness = critical.stiffness;
+  if (!(stability_excess(plant, wall) < -on_circle)) return;
+  critical.trust.doubt(fmt::format(
+      "at the limit of {:.6g} a pole is to touch the unit circle, and none does by a second computation: poles lie too "
+      "close together; stiffer walls may be stable",
+      critical.stiffness));
+}
+
 // A free device that leaves so slowly that a wall of a millionth of the limit holds it: rounded coefficients.
 void doubt_slow_instability(CriticalStiffness& critical) {
   constexpr double negligible = 1e-6;
@@ -137,6 +156,7 @@ CriticalStiffness guarded_stiffness(const Device& device, const FilteredPlant& p
   }
   if (critical.trust.refused()) withdraw(critical);
   doubt_slow_instability(critical);
+  doubt_touch_without_pole(device, critical);
   return critical;
 }
 

@@ -178,7 +178,7 @@ TEST_F(ExportCCommand, AShareOfAnUncertainLimitSaysOfWhat) {
   const Outcome outcome = run("zwidth export uncertain.toml --format c --safety-factor 0.5");
   ASSERT_EQ(outcome.status, 0) << outcome.errors;
   EXPECT_THAT(outcome.output, HasSubstr("(0.5 of the limit for any user, at 0.85"));
-  EXPECT_THAT(outcome.output, HasSubstr(" of it: the lower end of the critical stiffness' 95 % interval)"));
+  EXPECT_THAT(outcome.output, HasSubstr(" of it: the lower end of the limits' 95 % intervals)"));
 }
 
 TEST_F(ExportCCommand, WhereTheSoftestWallsAreUnstableThereIsNoShare) {

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Optional
 
-from ._record import Record, Result, count, flag, many, maybe, maybe_one, number, one, text, texts
+from ._record import Record, Result, count, flag, interval, many, maybe, maybe_one, number, one, text, texts
 
 
 class Trust(Record):
@@ -74,6 +74,7 @@ class AnyUser(Record):
     critical_stiffness = maybe("N/m or N m/rad; 0: some user destabilises every wall; None: none does.")
     frequency_rad_s = maybe("Of the worst user, rad/s; None where the limit is 0 or None.")
     truncation = maybe("Relative: what the bounds leave open; it is taken off.")
+    critical_stiffness_interval = interval("95 % interval that the device's uncertainty makes of it; up to four bodies.")
     worst_user = maybe_one(Record, "With worst_user=True: a user that proves the limit tight.")
 
 

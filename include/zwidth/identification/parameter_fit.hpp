@@ -62,6 +62,7 @@ struct UnidentifiableCombination {
   std::vector<std::string> parameters;  ///< keys of the numbers of which only a combination shows
 };
 
+/// So many neighbouring points a LocalMisfit is of.
 inline constexpr std::size_t lines_of_local_misfit = 24;
 
 /// The part of a response where a fit leaves most.

@@ -43,7 +43,7 @@ export interface Analysis extends Judged {
   stable_intervals: [number, number | null][] | null
   crossovers: Crossover[] | null
   modes: { frequency_hz: number; damping_ratio: number }[]
-  any_user: { critical_stiffness: number | null; frequency_rad_s: number | null } | null
+  any_user: { critical_stiffness: number | null; frequency_rad_s: number | null; critical_stiffness_interval?: [number, number | null] | null } | null
   wall: (Margins & { stiffness: number; damping: number }) | null
   force_per_count: { largest: number | null } | null
   critical_stiffness_interval: [number, number] | null
