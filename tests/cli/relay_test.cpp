@@ -65,6 +65,20 @@ TEST_F(Relay, SeedsDecideTheTrials) {
   EXPECT_NE(json(arguments + "--seed 3"), json(arguments + "--seed 4"));
 }
 
+// There is no trial to draw: it was a crash.
+TEST_F(Relay, OfARefusedDeviceNothingIsDrawn) {
+  write("refused.toml",
+        contents("devices/lhifam.toml") + "\n[uncertainty]\nverdict = 'refused'\nwarning = 'nothing is known'\n");
+  for (const std::string file : {"x.svg", "x.csv"}) {
+    const std::string option = file == "x.csv" ? " --csv " : " --figure ";
+    const Outcome outcome = run("zwidth relay refused.toml --amplitude 5" + option + file);
+    EXPECT_EQ(outcome.status, 1) << outcome.errors;
+    EXPECT_THAT(outcome.errors, HasSubstr(file + ": is not written: REFUSED"));
+    EXPECT_FALSE(std::filesystem::exists(directory() / file));
+  }
+  EXPECT_EQ(run("zwidth relay refused.toml --amplitude 5").status, 0);
+}
+
 TEST_F(Relay, NoOscillationIsAVerdict) {
   const Outcome stuck = run("zwidth relay devices/lhifam_rigid.toml --amplitude 5 --set body.0.coulomb=6");
   EXPECT_EQ(stuck.status, 0) << stuck.errors;
