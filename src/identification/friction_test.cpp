@@ -46,22 +46,6 @@ std::optional<Signal> slope(const FrictionQuestion& question, const std::string&
   return change;
 }
 
-/// Motions from each initial state without a force.
-std::vector<Signal> free_motions(const Device& device, std::size_t size) {
-  const DiscreteStateSpace system = sample(state_space(device), {device.loop().sampling_period, 0.0});
-  std::vector<Signal> motions;
-  for (Eigen::Index i = 0; i < system.Phi.rows(); ++i) {
-    Eigen::VectorXd state = Eigen::VectorXd::Unit(system.Phi.rows(), i);
-    Signal position(size);
-    for (double& y : position) {
-      y = system.C.dot(state);
-      state += system.Phi * state;
-    }
-    motions.push_back(std::move(position));
-  }
-  return motions;
-}
-
 struct Sliding {
   std::string body;
   Signal effect;  ///< on the sensed position, of unit friction
@@ -147,6 +131,21 @@ std::optional<Regression> regress(const Eigen::MatrixXcd& columns, const Eigen::
 }
 
 }  // namespace
+
+std::vector<std::vector<double>> free_motions(const Device& device, std::size_t size) {
+  const DiscreteStateSpace system = sample(state_space(device), {device.loop().sampling_period, 0.0});
+  std::vector<Signal> motions;
+  for (Eigen::Index i = 0; i < system.Phi.rows(); ++i) {
+    Eigen::VectorXd state = Eigen::VectorXd::Unit(system.Phi.rows(), i);
+    Signal position(size);
+    for (double& y : position) {
+      y = system.C.dot(state);
+      state += system.Phi * state;
+    }
+    motions.push_back(std::move(position));
+  }
+  return motions;
+}
 
 std::optional<FrictionEvidence> find_friction(const FrictionQuestion& question, std::span<const double> force,
                                               std::span<const double> position) {

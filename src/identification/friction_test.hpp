@@ -45,4 +45,7 @@ struct FrictionQuestion {
 [[nodiscard]] Device device_in_experiment(const Device& fitted, const std::vector<std::string>& locked,
                                           double sampling_period);
 
+/// Sensed positions of `size` samples from each initial state at 1, without a force.
+[[nodiscard]] std::vector<std::vector<double>> free_motions(const Device& device, std::size_t size);
+
 }  // namespace zwidth::internal

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "identification/encoder_step.hpp"
+#include "identification/friction_test.hpp"
 #include "identification/shot_fit.hpp"
 #include "identification/time_domain_start.hpp"
 #include "linear_systems.hpp"
@@ -40,7 +41,7 @@ class PredictionErrors {
     const std::span<const double> residuals = question.residuals.first(size_);
     noise_ = shot_noise(shots_, parts(residuals), {encoder_step(position_)}, error_terms).front();
     left_ = errors_of(residuals);
-    take_out_linear_terms();
+    take_out_linear_terms(pushed_where_sensed(question.device));
   }
 
   [[nodiscard]] const Signal& position() const { return position_; }
@@ -136,18 +137,7 @@ class PredictionErrors {
     return all.head(count);
   }
 
-  /// Of a record that begins in motion, from this state at 1.
-  [[nodiscard]] Signal free_motion(Eigen::Index from) const {
-    Eigen::VectorXd state = Eigen::VectorXd::Unit(at_sensed_.Phi.rows(), from);
-    Signal position(size_);
-    for (double& each : position) {
-      each = at_sensed_.C.dot(state);
-      state += at_sensed_.Phi * state;
-    }
-    return position;
-  }
-
-  void take_out_linear_terms() {
+  void take_out_linear_terms(const Device& device) {
     std::vector<Eigen::VectorXd> terms;
     constexpr int latest = 32;
     for (const int late : {-1, 0, 1, 2, 4, 8, 16, latest}) {
@@ -167,7 +157,7 @@ class PredictionErrors {
     }
     for (const Signal& each : {position_, velocity, acceleration, direction, Signal(size_, 1.0)})
       terms.push_back(errors_of(at_sensed_, each));
-    for (Eigen::Index state = 0; state < at_sensed_.Phi.rows(); ++state) terms.push_back(errors_of(free_motion(state)));
+    for (const Signal& each : free_motions(device, size_)) terms.push_back(errors_of(each));
     Eigen::MatrixXd columns(left_.size(), static_cast<Eigen::Index>(terms.size()));
     for (std::size_t j = 0; j < terms.size(); ++j) {
       columns.col(static_cast<Eigen::Index>(j)) = terms[j] / std::max(terms[j].norm(), 1e-300);
