@@ -50,6 +50,7 @@ ContinuousMotion::ContinuousMotion(const Device& device, OutsideForce outside, s
   const auto n = static_cast<Eigen::Index>(size_);
   state_ = Eigen::VectorXd::Zero(n);
   next_ = Eigen::VectorXd::Zero(n);
+  sizes_ = Eigen::VectorXd::Zero(n);
   series_ = Eigen::MatrixXd::Zero(n, degree + 1);
   multiply_ = matrix_vector(size_);
   moving_ = outside.acts ? size_ : command_;
@@ -64,8 +65,14 @@ ContinuousMotion::ContinuousMotion(const Device& device, OutsideForce outside, s
     each.other_forces[row] = 0.0;  // at rest
   }
   for (unsigned stuck = 0; stuck < 1u << friction_.size(); ++stuck) {
-    patterns_.push_back(make_pattern(matrix_of(device, outside, stuck), stuck));
+    patterns_.push_back(pattern_of(matrix_of(device, outside, stuck)));
   }
+  if (!friction_.empty() && !lengths_.empty()) {
+    const double longest = *std::max_element(lengths_.begin(), lengths_.end());
+    const double parts = std::log2(std::max(1.0, rate() * longest));
+    halvings_ = static_cast<std::size_t>(std::clamp(std::ceil(parts), least_halvings, most_halvings));
+  }
+  for (unsigned stuck = 0; stuck < 1u << friction_.size(); ++stuck) add_steps(patterns_[stuck], stuck);
   reset();
 }
 
@@ -155,10 +162,12 @@ double ContinuousMotion::acceleration(const FrictionBody& body) const noexcept {
   return pattern().matrix.row(static_cast<Eigen::Index>(bodies_ + body.body)).dot(state_);
 }
 
-bool ContinuousMotion::nothing_happens(const RecurringStep& step) const noexcept {
+bool ContinuousMotion::nothing_happens(const RecurringStep& step) noexcept {
+  sizes_ = state_.cwiseAbs();
+  for (std::size_t i = 1; i < bodies_; ++i) sizes_.data()[bodies_ + i] = std::abs(velocity(i) - velocity(0));
   for (std::size_t k = 0; k < friction_.size(); ++k) {
     const FrictionBody& each = friction_[k];
-    const double bend = step.bend[k].dot(state_.cwiseAbs());
+    const double bend = step.bend[k].dot(sizes_);
     // A function lies above its chord less h²/8 sup |y''|.
     if (each.direction != 0) {
       const double start = each.direction * state_.data()[bodies_ + each.body];
@@ -176,16 +185,16 @@ bool ContinuousMotion::nothing_happens(const RecurringStep& step) const noexcept
 void ContinuousMotion::advance_recurring(std::size_t which) noexcept { advance_part(which, 0); }
 
 void ContinuousMotion::advance_part(std::size_t which, std::size_t halvings) noexcept {
-  const RecurringStep& step = pattern().steps[which * (most_halvings + 1) + halvings];
+  const RecurringStep& step = pattern().steps[which * (halvings_ + 1) + halvings];
   multiply_(step.transition.data(), state_.data(), next_.data(), size_);
   if (friction_.empty() || nothing_happens(step)) {
-    if (tangent_ != nullptr) tangent_->step(stuck_, which * (most_halvings + 1) + halvings, state_.data());
+    if (tangent_ != nullptr) tangent_->step(stuck_, which * (halvings_ + 1) + halvings, state_.data());
     state_.swap(next_);
-  } else if (halvings < most_halvings) {
+  } else if (halvings < halvings_) {
     advance_part(which, halvings + 1);
     advance_part(which, halvings + 1);
   } else {
-    advance(lengths_[which] / std::pow(2.0, static_cast<double>(halvings)));
+    advance(std::ldexp(lengths_[which], -static_cast<int>(halvings)));
   }
 }
 

@@ -80,12 +80,12 @@ class ContinuousMotion {
   [[nodiscard]] std::size_t events() const noexcept { return events_; }
   [[nodiscard]] std::size_t overloaded() const noexcept { return overloaded_; }
 
-  /// Halvings of a recurring length before an event within it is looked for by a series.
-  static constexpr std::size_t most_halvings = 3;
+  /// Of a recurring length, before an event within it is looked for by a series: down to the device's fastest motion.
+  [[nodiscard]] std::size_t halvings() const noexcept { return halvings_; }
   /// A step of recurring length, or of half, a quarter, ... of one, in one pattern of sticking bodies.
   struct RecurringStep {
     Eigen::MatrixXd transition;         // e^{Ah}
-    std::vector<Eigen::VectorXd> bend;  // per friction body: h²/8 sup |c A² e^{At}|, by component of the state
+    std::vector<Eigen::VectorXd> bend;  // per friction body: h²/8 sup |c A² e^{At}|, by component of sizes_
   };
   struct Pattern {
     Eigen::MatrixXd matrix;            // A
@@ -100,6 +100,8 @@ class ContinuousMotion {
   [[nodiscard]] const std::vector<double>& recurring_lengths() const noexcept { return lengths_; }
 
  private:
+  static constexpr double least_halvings = 3.0;
+  static constexpr double most_halvings = 10.0;
   static constexpr int degree = 18;  // of the Taylor series: 1/19! < 1e-17 where |A| h <= 1
 
   /// A body with Coulomb friction.
@@ -113,11 +115,12 @@ class ContinuousMotion {
   };
 
   [[nodiscard]] Eigen::MatrixXd matrix_of(const Device& device, OutsideForce outside, unsigned stuck) const;
-  [[nodiscard]] Pattern make_pattern(const Eigen::MatrixXd& matrix, unsigned stuck) const;
+  [[nodiscard]] static Pattern pattern_of(Eigen::MatrixXd matrix);
+  void add_steps(Pattern& pattern, unsigned stuck) const;
   [[nodiscard]] const Pattern& pattern() const noexcept { return patterns_[stuck_]; }
   void advance_part(std::size_t which, std::size_t halvings) noexcept;
   [[nodiscard]] double output() const noexcept;
-  [[nodiscard]] bool nothing_happens(const RecurringStep& step) const noexcept;
+  [[nodiscard]] bool nothing_happens(const RecurringStep& step) noexcept;
   void expand(double length) noexcept;                           // series_ of the state over `length`
   void evaluate_series(double fraction) noexcept;                // state_ = series at fraction of its length
   [[nodiscard]] double first_event(std::size_t& body) noexcept;  // fraction of the series' length; above 1: none
@@ -140,10 +143,12 @@ class ContinuousMotion {
   std::size_t moving_ = 0;  // of the state, those before the constant ones
   std::vector<FrictionBody> friction_;
   std::vector<double> lengths_;
+  std::size_t halvings_ = 0;
   std::vector<Pattern> patterns_;  // by the bits of the stuck friction bodies
   unsigned stuck_ = 0;
   Eigen::VectorXd state_;
   Eigen::VectorXd next_;
+  Eigen::VectorXd sizes_;   // of the state's components, velocities less body 0's
   Eigen::MatrixXd series_;  // column k: A^k x h^k / k!
   std::size_t terms_ = 0;   // columns of series_ in use
   MatrixVector multiply_ = nullptr;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "model/balance.hpp"
 #include "model/device_matrices.hpp"
@@ -108,33 +109,42 @@ Eigen::MatrixXd ContinuousMotion::matrix_of(const Device& device, OutsideForce o
   return matrix;
 }
 
-ContinuousMotion::Pattern ContinuousMotion::make_pattern(const Eigen::MatrixXd& matrix, unsigned stuck) const {
-  Pattern pattern{matrix, std::max(balanced_norm(matrix), least_rate), {}};
-  const Eigen::MatrixXd square = matrix * matrix;
+ContinuousMotion::Pattern ContinuousMotion::pattern_of(Eigen::MatrixXd matrix) {
+  const double norm = std::max(balanced_norm(matrix), least_rate);
+  return {std::move(matrix), norm, {}};
+}
+
+void ContinuousMotion::add_steps(Pattern& pattern, unsigned stuck) const {
+  // y: the state with the velocities less that of body 0, so that a stiff link's parts are small where it hardly stretches.
+  Eigen::MatrixXd x_of_y = Eigen::MatrixXd::Identity(pattern.matrix.rows(), pattern.matrix.cols());
+  Eigen::MatrixXd y_of_x = x_of_y;
+  for (std::size_t i = 1; i < bodies_; ++i) {
+    x_of_y(static_cast<Eigen::Index>(bodies_ + i), static_cast<Eigen::Index>(bodies_)) = 1.0;
+    y_of_x(static_cast<Eigen::Index>(bodies_ + i), static_cast<Eigen::Index>(bodies_)) = -1.0;
+  }
+  const Eigen::MatrixXd matrix = y_of_x * pattern.matrix * x_of_y;
+  const Eigen::MatrixXd second = x_of_y * matrix * matrix;  // x'' = second y
   for (const double h : lengths_) {
-    RecurringStep step{exponential(matrix * h), {}};
-    if (friction_.empty()) {
-      pattern.steps.push_back(std::move(step));
-      pattern.steps.resize(pattern.steps.size() + most_halvings);
-      continue;
-    }
-    const Pieces pieces = pieces_of(matrix, h);
-    for (std::size_t k = 0; k < friction_.size(); ++k) {
-      const auto velocity = static_cast<Eigen::Index>(bodies_ + friction_[k].body);
-      const Eigen::RowVectorXd row = (stuck >> k & 1u) != 0
-                                         ? Eigen::RowVectorXd(friction_[k].other_forces.transpose() * square)
-                                         : Eigen::RowVectorXd(square.row(velocity));
-      step.bend.emplace_back(h * h / 8.0 * largest_over(row, pieces));
-    }
-    pattern.steps.push_back(std::move(step));
-    for (std::size_t halving = 1; halving <= most_halvings; ++halving) {
-      const double part = h / std::pow(2.0, static_cast<double>(halving));
-      RecurringStep shorter{exponential(matrix * part), pattern.steps.back().bend};
-      for (Eigen::VectorXd& bend : shorter.bend) bend /= 4.0;  // h² of a shorter time
-      pattern.steps.push_back(std::move(shorter));
+    std::vector<Eigen::VectorXd> bend(friction_.size());
+    for (std::size_t halving = 0; halving <= halvings_; ++halving) {
+      const double part = std::ldexp(h, -static_cast<int>(halving));
+      // Shorter than the device's fastest motion the bound falls by h² alone.
+      const bool is_long = 2.0 * part * pattern.norm > 1.0;
+      if ((halving == 0 || is_long) && !bend.empty()) {
+        const Pieces pieces = pieces_of(matrix, part);
+        for (std::size_t k = 0; k < friction_.size(); ++k) {
+          const auto velocity = static_cast<Eigen::Index>(bodies_ + friction_[k].body);
+          const Eigen::RowVectorXd row = (stuck >> k & 1u) != 0
+                                             ? Eigen::RowVectorXd(friction_[k].other_forces.transpose() * second)
+                                             : Eigen::RowVectorXd(second.row(velocity));
+          bend[k] = part * part / 8.0 * largest_over(row, pieces);
+        }
+      } else {
+        for (Eigen::VectorXd& each : bend) each /= 4.0;
+      }
+      pattern.steps.push_back({exponential(pattern.matrix * part), bend});
     }
   }
-  return pattern;
 }
 
 }  // namespace zwidth::internal

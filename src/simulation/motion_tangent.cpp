@@ -61,7 +61,7 @@ MotionTangent::MotionTangent(const ContinuousMotion& motion, std::vector<MotionP
           if (value != 0.0) varied.entries.back().push_back({row, column, value});
         }
       }
-      make_steps(varied, pattern, slope, motion.recurring_lengths());
+      make_steps(varied, pattern, slope, motion);
     }
     varied_.push_back(std::move(varied));
   }
@@ -69,10 +69,10 @@ MotionTangent::MotionTangent(const ContinuousMotion& motion, std::vector<MotionP
 
 /// By their series over a short time, and e^{2M} = (e^M)², d e^{2M} = de^M e^M + e^M de^M.
 void MotionTangent::make_steps(Varied& varied, const ContinuousMotion::Pattern& pattern, const Eigen::MatrixXd& slope,
-                               const std::vector<double>& lengths) const {
-  constexpr auto halvings = static_cast<int>(ContinuousMotion::most_halvings);
+                               const ContinuousMotion& motion) const {
+  const auto halvings = static_cast<int>(motion.halvings());
   std::vector<Eigen::MatrixXd>& steps = varied.steps.emplace_back();
-  for (const double length : lengths) {
+  for (const double length : motion.recurring_lengths()) {
     constexpr double small = 0.25;
     const int doublings = std::max(halvings, static_cast<int>(std::ceil(std::log2(pattern.norm * length / small))));
     const double part = std::ldexp(length, -doublings);
@@ -88,7 +88,7 @@ void MotionTangent::make_steps(Varied& varied, const ContinuousMotion::Pattern& 
       slope_sum += slope_term;
     }
     const std::size_t first = steps.size();
-    steps.resize(first + ContinuousMotion::most_halvings + 1);
+    steps.resize(first + motion.halvings() + 1);
     for (int left = doublings; left >= 0; --left) {
       if (left <= halvings) steps[first + static_cast<std::size_t>(left)] = slope_sum;
       slope_sum = (slope_sum * sum + sum * slope_sum).eval();

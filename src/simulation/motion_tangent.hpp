@@ -67,7 +67,7 @@ class MotionTangent {
 
   [[nodiscard]] static Sparse sparse(const Eigen::MatrixXd& matrix);
   void make_steps(Varied& varied, const ContinuousMotion::Pattern& pattern, const Eigen::MatrixXd& slope,
-                  const std::vector<double>& lengths) const;
+                  const ContinuousMotion& motion) const;
   /// out = factor * matrix * in.
   void multiply(const Sparse& matrix, double factor, const Slopes& in, Slopes& out) const noexcept;
 

@@ -124,6 +124,14 @@ TEST(Energy, BalancesWithFrictionThatBringsBothBodiesToRest) {
   expect_balance(with_friction(lhifam_parameters(), 0.5, 1.0), starting_at(spring_wall(5000.0), {3e-3, 3e-3}));
 }
 
+// Its fastest motion turns 24 times per sample: the loop's steps are halved further, the series beside it takes 24 parts.
+TEST(Energy, BalancesWithFrictionAcrossAStiffLink) {
+  DeviceParameters device = with_friction(lhifam_parameters(), 0.05, 0.1);
+  device.links[0].stiffness = 1e8;
+  device.links[0].damping = 100.0;
+  expect_balance(device, starting_at(spring_wall(5000.0), {3e-3, 3e-3}));
+}
+
 TEST(Energy, BalancesWithFrictionThroughReversals) {
   expect_balance(with_friction(lhifam_parameters(), 0.05, 0.1), starting_at(spring_wall(9500.0), {3e-3, 3e-3}));
 }
