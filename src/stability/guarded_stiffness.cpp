@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "stability/gain_crossings.hpp"
+#include "zwidth/error.hpp"
 #include "zwidth/model/device_trust.hpp"
 #include "zwidth/model/state_space.hpp"
 #include "zwidth/stability/closed_loop.hpp"
@@ -146,10 +147,20 @@ void withdraw(CriticalStiffness& critical) {
 
 CriticalStiffness guarded_stiffness(const Device& device, const FilteredPlant& plant, const PoleCount& poles) {
   const VirtualDamper damper = virtual_damper(device);
-  GainCrossings crossings = stiffness_crossings(plant, damper);
-  polish(plant, damper, poles, crossings);
-  CriticalStiffness critical = critical_stiffness_of(plant, crossings);
-  critical.trust = trust_of(device);
+  CriticalStiffness critical;
+  try {
+    GainCrossings crossings = stiffness_crossings(plant, damper);
+    polish(plant, damper, poles, crossings);
+    critical = critical_stiffness_of(plant, crossings);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::did_not_converge) throw;
+    critical.trust.refuse(error.what());
+  }
+  critical.trust.inherit(trust_of(device));
+  if (critical.trust.refused()) {
+    withdraw(critical);
+    return critical;
+  }
   for (const Claim& claim : claims_of(critical, plant)) {
     if (critical.trust.refused()) break;
     distrust(agreement(poles, claim.stiffness, claim.stable), claim.stiffness, critical.trust);

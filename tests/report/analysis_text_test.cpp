@@ -155,6 +155,13 @@ TEST(AnalysisText, ExplainsUnbounded) {
   EXPECT_THAT(text, HasSubstr("up to Nyquist at 500 mHz: none"));
 }
 
+TEST(AnalysisText, ARefusedAnswerCountsNoCrossovers) {
+  AnalysedDevice analysed = unlimited_transfer_function();
+  analysed.analysis.critical.trust.refuse("its poles crowd");
+  analysed.analysis.critical.status = StiffnessStatus::refused;
+  EXPECT_THAT(unwrapped(text_of(analysed)), Not(HasSubstr("Phase crossovers")));
+}
+
 TEST(AnalysisText, StatesWhatIsLeftOut) {
   AnalysedDevice analysed = lhifam();
   EXPECT_THAT(unwrapped(text_of(analysed)), HasSubstr("can be made unstable by a user's grasp"));

@@ -4,10 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "exact_closed_loop.hpp"
+#include "zwidth/design/design_target.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/stability/analysis.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
 
 namespace zwidth {
@@ -83,6 +86,27 @@ TEST(CrowdedPoles, MoreThanOneTermHoldsIsRefused) {
     EXPECT_EQ(error.code(), ErrorCode::did_not_converge);
     EXPECT_NE(std::string(error.what()).find("lower the order"), std::string::npos) << error.what();
   }
+}
+
+// Sensed at the far end of a chain, terms cancel beyond what the search for crossovers carries: no number, and why.
+TEST(CrowdedPoles, AChainThatCancelsTooMuchIsRefused) {
+  DeviceParameters parameters;
+  parameters.name = "chain";
+  for (std::size_t i = 0; i < 15; ++i) {
+    parameters.bodies.push_back({"body" + std::to_string(i), 0.1, 0.1, 0.0, 0.0});
+    if (i > 0) parameters.links.push_back({i - 1, i, 2e4, 1.0});
+  }
+  parameters.loop.sampling_period = 1e-3;
+  parameters.loop.sensed = parameters.loop.held = 14;
+  const Device device(parameters);
+  const Analysis analysis = analyze(device, {});
+  EXPECT_TRUE(analysis.trust.refused());
+  EXPECT_EQ(analysis.critical.status, StiffnessStatus::refused);
+  EXPECT_TRUE(std::isnan(analysis.critical.stiffness));
+  ASSERT_FALSE(analysis.trust.reasons.empty());
+  EXPECT_NE(analysis.trust.reasons.front().find("sense nearer to the actuator"), std::string::npos);
+  EXPECT_EQ(verdict_on_wall(analysis), WallVerdict::unsure);
+  EXPECT_TRUE(design_targets(device, {.stiffness = 1000.0}).trust.refused());
 }
 
 TEST(CrowdedPoles, FourNearlyIdenticalBodies) {

@@ -58,6 +58,7 @@ TextTable numbered(TextTable table) {
 }
 
 std::string crossover_section(const AnalysedDevice& analysed) {
+  if (analysed.analysis.critical.trust.refused()) return "";
   std::string text = element("h2", "Crossovers");
   text += element("p", fmt::format("Every wall stiffness that puts a closed-loop pole on the unit circle, up to the "
                                    "Nyquist frequency of {}, that frequency included.",

@@ -34,6 +34,7 @@ AnalysedDevice with_softest_crossovers(AnalysedDevice analysed, std::size_t most
 std::string crossovers(const AnalysedDevice& analysed) {
   // A long delay has hundreds.
   static constexpr std::size_t most = 20;
+  if (analysed.analysis.critical.trust.refused()) return "";
   const std::size_t count = analysed.analysis.critical.crossovers.size();
   const std::string title =
       wrap(fmt::format("Phase crossovers (a closed-loop pole on the unit circle), all up to Nyquist at {}{}",

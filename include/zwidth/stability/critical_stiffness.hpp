@@ -64,9 +64,9 @@ struct VirtualDamper {
 ///
 /// Computed by the function below, then checked by a second route that shares nothing with it (matrix exponential,
 /// closed-loop poles): the number of poles outside the unit circle just below and just above K_CR. Where the two
-/// contradict, or where the device's own numbers are refused (trust_of()), the answer is `refused` and holds no number;
-/// what is doubtful stays so.
-/// Throws Error (did_not_converge) as modal_form() and the function below do.
+/// contradict, where the device's own numbers are refused (trust_of()), or where the search for crossovers hits its cap,
+/// the answer is `refused` and holds no number; what is doubtful stays so.
+/// Throws Error (did_not_converge) as modal_form() does.
 [[nodiscard]] CriticalStiffness critical_stiffness(const Device& device);
 
 /// Finds every K > 0 at which 1 + (K + B v(z)) P(z) = 0 has a root on the unit circle, and from them K_CR.
