@@ -177,12 +177,16 @@ class Search {
   // A bound in place of a limit is on the same side.
   [[nodiscard]] std::optional<double> refined(MovedLimit& moved, Point a, Point b) const {
     bool lost = false;
-    double nearest = 1.0;  // of the limits found to the target, relative
+    double nearest = 1.0;      // of the limits found to the target, relative
+    std::vector<Point> found;  // differences: the ends are asked for again
     const auto difference = [&](double value) {
+      const auto known = std::ranges::find(found, value, &Point::value);
+      if (known != found.end()) return known->limit;
       const std::optional<double> limit = limit_at(moved, value, 2.0 * options_.stiffness);
       if (!limit) lost = true;
       const double apart = limit ? std::clamp(excess(*limit) / options_.stiffness, -1.0, 1.0) : 0.0;
       nearest = std::min(nearest, std::abs(apart));
+      found.push_back({value, apart});
       return apart;
     };
     const auto is_done = [&](double left, double right) {

@@ -32,7 +32,8 @@ std::vector<Device> drawn(const Device& device, const RecommendationOptions& opt
 std::vector<Device> with_drifts(const Device& device, double drift) {
   std::vector<Device> devices;
   for (std::size_t i = 0; i < drifts_held; ++i) {
-    devices.push_back(drifted(device, drift * (2.0 * static_cast<double>(i) / (drifts_held - 1) - 1.0)));
+    const double inwards = 1.0 - static_cast<double>(i / 2 * 2) / (drifts_held - 1);
+    devices.push_back(drifted(device, (i % 2 == 0 ? -drift : drift) * inwards));
   }
   return devices;
 }
@@ -46,12 +47,14 @@ LowerEnd::LowerEnd(const std::vector<Device>& devices, const std::optional<WallF
   }
 }
 
-/// On the grids.
-double LowerEnd::lower_limit(VirtualDamper damper, WallGoal goal) {
+/// On the grids; 0 as soon as more devices than may fail are seen not to get above `enough`.
+double LowerEnd::lower_limit(VirtualDamper damper, WallGoal goal, double enough) {
   std::vector<double> stiffnesses;
+  std::size_t failed = 0;
   for (Each& each : devices_) {
     if (!each.search) each.search = std::make_unique<WallSearch>(*each.limits, options_);
     stiffnesses.push_back(each.search->stiffest(damper, goal));
+    if (!(stiffnesses.back() > enough) && ++failed > may_fail_) return 0.0;
   }
   const auto at = stiffnesses.begin() + static_cast<std::ptrdiff_t>(may_fail_);
   std::nth_element(stiffnesses.begin(), at, stiffnesses.end());
@@ -79,7 +82,11 @@ LowerEnd::Kept LowerEnd::lowered(double stiffness, VirtualDamper damper, WallGoa
   double value = 0.0;
   for (int i = shares_of_damping; i >= 0; --i) {
     const VirtualDamper less{damper.damping * i / shares_of_damping, damper.velocity_filter_hz};
-    const double limit = std::min(stiffness, lower_limit(less, goal));
+    // What the goal needs to get above the best so far.
+    const double per_stiffness = WallSearch::value_of(goal, 1.0, less.damping);
+    const double enough = value > 0.0 ? value / per_stiffness : 0.0;
+    if (!(stiffness > enough)) continue;
+    const double limit = std::min(stiffness, lower_limit(less, goal, enough));
     if (WallSearch::value_of(goal, limit, less.damping) > value) {
       value = WallSearch::value_of(goal, limit, less.damping);
       best = {limit, less};

@@ -13,7 +13,7 @@ namespace zwidth::internal {
 // `options.draws` devices drawn from the uncertainty of one that has uncertain parameters.
 [[nodiscard]] std::vector<Device> drawn(const Device& device, const RecommendationOptions& options);
 
-// The device with its modes at every drift that a wall is held against, see drifted().
+// The device with its modes at every drift that a wall is held against, see drifted(); the furthest first.
 inline constexpr std::size_t drifts_held = 41;
 [[nodiscard]] std::vector<Device> with_drifts(const Device& device, double drift);
 
@@ -42,7 +42,7 @@ class LowerEnd {
     std::unique_ptr<WallSearch> search;  // once it is needed
   };
   [[nodiscard]] bool most_keep(double stiffness, VirtualDamper damper) const;
-  [[nodiscard]] double lower_limit(VirtualDamper damper, WallGoal goal);
+  [[nodiscard]] double lower_limit(VirtualDamper damper, WallGoal goal, double enough);
 
   const RecommendationOptions& options_;
   std::size_t may_fail_ = 0;
