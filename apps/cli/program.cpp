@@ -8,6 +8,7 @@
 #include <CLI/Formatter.hpp>
 #include <exception>
 #include <new>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,8 @@
 #include "cli/standard_output.hpp"
 #include "cli/subcommand.hpp"
 #include "cli/usage_error.hpp"
+#include "report/text/text_medium.hpp"
+#include "report/text/text_table.hpp"
 
 namespace zwidth::cli {
 namespace {
@@ -29,6 +32,25 @@ void report_problem(std::string message) {
     message.insert(at + 1, "zwidth: ");
   }
   write_standard_error("zwidth: " + message + "\n");
+}
+
+/// The help with its descriptions broken to the medium's lines; commands stay whole.
+std::string help_of(const CLI::App& app, const std::string& name = "") {
+  constexpr std::size_t descriptions_from = 30;
+  std::istringstream help(app.help(name));
+  std::string text;
+  bool is_of_commands = false;
+  for (std::string line; std::getline(help, line);) {
+    is_of_commands = is_of_commands || line == "Examples:";
+    const bool is_long = line.size() > report::text_medium().line_length && report::text_medium().line_length > 0;
+    if (is_long && !is_of_commands && !line.starts_with("Usage:")) {
+      const std::size_t label = line.starts_with(' ') ? descriptions_from : 0;
+      line = report::labelled(line.substr(0, label), line.substr(label), label);
+      line.pop_back();
+    }
+    text += line + "\n";
+  }
+  return text;
 }
 
 /// What `zwidth` alone says: where to begin, and the commands in one line.
@@ -90,7 +112,7 @@ int run(int argument_count, char** arguments) {
     return done;
   } catch (const CLI::CallForHelp&) {
     const auto parsed = app.get_subcommands();
-    write_text(parsed.empty() ? app.help() : parsed.front()->help("zwidth"));
+    write_text(parsed.empty() ? help_of(app) : help_of(*parsed.front(), "zwidth"));
     return done;
   } catch (const CLI::CallForVersion& version) {
     write_standard_output(std::string(version.what()) + "\n");

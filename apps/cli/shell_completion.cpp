@@ -41,6 +41,20 @@ std::string quoted(std::string_view text, std::string_view special, std::string_
   return result + "'";
 }
 
+/// What the first argument must be one of; empty: anything.
+std::vector<std::string> first_choices(const CommandDescription& command) {
+  return command.arguments.empty() ? std::vector<std::string>{} : command.arguments.front().choices;
+}
+
+/// Of the words that are no options: the first argument's choices until one of them stands there, then files.
+std::string bash_arguments(const CommandDescription& command) {
+  const std::vector<std::string> choices = first_choices(command);
+  if (choices.empty()) return command.arguments.empty() ? ":" : "files=1";
+  return fmt::format(
+      "if [[ \" ${{COMP_WORDS[*]:2:COMP_CWORD-2}} \" =~ \\ ({})\\  ]]; then files=1; else words='{}'; fi",
+      fmt::join(choices, "|"), fmt::join(choices, " "));
+}
+
 std::string bash_options(const CommandDescription& command, std::string_view otherwise) {
   std::string text = "    case $previous in\n";
   for (const OptionDescription& option : command.options) {
@@ -121,7 +135,7 @@ _zwidth() {
 )";
   text += "  '')\n" + bash_options(commands.front(), fmt::format("words='{}'", names_of(subcommands(commands))));
   for (const CommandDescription& command : subcommands(commands)) {
-    text += fmt::format("  {})\n{}", command.name, bash_options(command, command.arguments.empty() ? ":" : "files=1"));
+    text += fmt::format("  {})\n{}", command.name, bash_options(command, bash_arguments(command)));
   }
   return text + R"(  esac
   if [[ -n $files ]]; then
@@ -171,7 +185,14 @@ std::string fish_completion(const std::vector<CommandDescription>& commands) {
   for (const CommandDescription& command : subcommands(commands)) {
     const std::string in_command = "__fish_seen_subcommand_from " + command.name;
     for (const OptionDescription& option : command.options) text += fish_option(option, in_command);
-    if (!command.arguments.empty()) text += fmt::format("complete -c zwidth -n '{}' -F\n", in_command);
+    const std::string choices = fmt::format("{}", fmt::join(first_choices(command), " "));
+    if (!choices.empty()) {
+      text += fmt::format("complete -c zwidth -n '{}; and not __fish_seen_subcommand_from {}' -a '{}'\n", in_command,
+                          choices, choices);
+      text += fmt::format("complete -c zwidth -n '{}; and __fish_seen_subcommand_from {}' -F\n", in_command, choices);
+    } else if (!command.arguments.empty()) {
+      text += fmt::format("complete -c zwidth -n '{}' -F\n", in_command);
+    }
   }
   return text;
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 #include <sstream>
 #include <string>
@@ -76,6 +77,9 @@ TEST_F(GeneratedFiles, BashCompletesValuesAndFiles) {
   EXPECT_EQ(completed("zwidth analyze devices/lhifam_r"),
             (Words{"devices/lhifam_reduced_pretension.toml", "devices/lhifam_rigid.toml"}));
   EXPECT_EQ(completed("zwidth excite --device devices/emp"), Words{"devices/emps.toml"});
+  EXPECT_EQ(completed("zwidth rig ''"), (Words{"check", "identify", "limit", "measure", "relay", "wall"}));
+  EXPECT_EQ(completed("zwidth rig me"), Words{"measure"});
+  EXPECT_EQ(completed("zwidth rig wall devices/emp"), Words{"devices/emps.toml"});
 }
 
 TEST_F(GeneratedFiles, BashTakesThemAtAPrompt) {
@@ -96,6 +100,10 @@ TEST_F(GeneratedFiles, OtherShellsReadTheirs) {
   }
   const Outcome fish = run("fish -c \"source file; complete -C 'zwidth simulate --contact '\" | cut -f1");
   EXPECT_EQ(words_in(fish.output), (Words{"bilateral", "unilateral"})) << fish.errors;
+  const Outcome actions = run("fish -c \"source file; complete -C 'zwidth rig '\" | cut -f1");
+  EXPECT_EQ(words_in(actions.output), (Words{"check", "identify", "limit", "measure", "relay", "wall"}));
+  const Outcome files = run("fish -c \"source file; complete -C 'zwidth rig wall devices/emp'\" | cut -f1");
+  EXPECT_EQ(words_in(files.output), Words{"devices/emps.toml"});
   const Outcome zsh = run("zsh -fc 'autoload -Uz compinit && compinit -u -D && source <(zwidth --generate zsh)'");
   EXPECT_EQ(zsh.status, 0);
   EXPECT_THAT(zsh.errors, IsEmpty());
@@ -156,6 +164,25 @@ TEST_F(GeneratedFiles, TextIsAsciiWhereTheLocaleIs) {
   const Outcome refused = run("LC_ALL=C zwidth analyze devices/lhifam.toml --set 'loop.delay=5 \u00b5m'");
   EXPECT_EQ(refused.status, 2);
   EXPECT_THAT(refused.errors, HasSubstr("\"um\" is no unit of a time"));
+}
+
+/// Descriptions are broken beside their options; commands to copy are not.
+TEST_F(GeneratedFiles, HelpIsAsWideAsTheTerminal) {
+  for (const std::string& command : commands()) {
+    std::istringstream lines(run("COLUMNS=60 zwidth " + command + " --help").output);
+    for (std::string line; std::getline(lines, line) && line != "Examples:";) {
+      const bool is_of_options = line.starts_with("  ") && line.find_first_not_of(' ') < 30;
+      if (!line.starts_with("Usage:") && !is_of_options) EXPECT_LE(line.size(), 60u) << command << ": " << line;
+    }
+    const auto words = [&](const std::string& environment) {
+      std::istringstream help(run(environment + "zwidth " + command + " --help").output);
+      return std::vector<std::string>(std::istream_iterator<std::string>(help), {});
+    };
+    EXPECT_EQ(words("COLUMNS=60 "), words("")) << command;
+  }
+  EXPECT_THAT(run("COLUMNS=60 zwidth analyze --help").output,
+              HasSubstr("  --json                      Print one JSON document per\n"
+                        "                              device, one per line\n"));
 }
 
 TEST_F(GeneratedFiles, ParagraphsAreAsLongAsTheTerminal) {
