@@ -10,8 +10,6 @@
 namespace zwidth::internal {
 namespace {
 
-// Slopes are differences, good to 1e-7; so an eigenvalue of their squares that is 0 comes out at 1e-13 or so.
-constexpr double least_eigenvalue = 1e-10;
 // Change of the response, relative to itself, over a typical change of a coordinate: below, it is rounding.
 constexpr double least_influence = 3e-7;
 // Of a unit vector: a smaller part of a direction does not take part in it.

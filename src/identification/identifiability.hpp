@@ -30,6 +30,10 @@ struct Identifiability {
 /// the response does not change at all.
 [[nodiscard]] Identifiability identifiability(const ResponseWithSlopes& at_solution, const FitData& data);
 
+/// Of the squares of slopes of norm 1, below which one vanishes. Slopes are differences, good to 1e-7: an eigenvalue that
+/// is 0 comes out at 1e-13 or so.
+inline constexpr double least_eigenvalue = 1e-10;
+
 /// 1 / standard deviation of what is known of a coordinate before the data: 28 as a factor, or 3.3 typical values.
 inline constexpr double known_beforehand = 0.3;
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "eigenvalues.hpp"
 #include "identification/correlated_residuals.hpp"
 #include "linear_systems.hpp"
 
@@ -37,6 +38,19 @@ std::vector<Eigen::Index> not_known(const Eigen::MatrixXd& regressors, const std
   }
   std::ranges::sort(found);
   return found;
+}
+
+/// Of regressors of norm 1: directions in which they change something, and in which they do not.
+struct Directions {
+  Eigen::MatrixXd showing;
+  Eigen::MatrixXd hidden;
+};
+
+Directions directions_of(const Eigen::MatrixXd& regressors) {
+  const SymmetricEigen eigen = symmetric_eigen(regressors.transpose() * regressors);
+  const Eigen::Index hidden = (eigen.values.array() < least_eigenvalue).count();
+  if (hidden == 0) return {Eigen::MatrixXd::Identity(regressors.cols(), regressors.cols()), {}};
+  return {eigen.vectors.rightCols(regressors.cols() - hidden), eigen.vectors.leftCols(hidden)};
 }
 
 /// Covariance from sums of the scores over stretches of the record: what stays correlated for longer than the noise's
@@ -103,11 +117,11 @@ ShotCovariance shot_covariance(const ShotSlopes& slopes, const std::vector<bool>
   }
   result.known.determined.assign(static_cast<std::size_t>(size), true);
   result.known.estimated = result.known.determined;
-  std::vector<Eigen::Index> kept;
+  std::vector<Eigen::Index> shown;
   for (std::size_t k = 0; k < varied.size(); ++k) {
     result.known.determined[static_cast<std::size_t>(varied[k])] = known.determined[k];
     result.known.estimated[static_cast<std::size_t>(varied[k])] = known.estimated[k];
-    if (known.estimated[k]) kept.push_back(varied[k]);
+    if (known.shows(k)) shown.push_back(varied[k]);
   }
   for (const std::vector<std::size_t>& combination : known.combinations) {
     result.known.combinations.emplace_back();
@@ -118,18 +132,29 @@ ShotCovariance shot_covariance(const ShotSlopes& slopes, const std::vector<bool>
   for (Eigen::Index i = 0; i < size; ++i) {
     if (held[static_cast<std::size_t>(i)]) result.covariance(i, i) = 1.0 / regressors.col(i).squaredNorm();
   }
-  if (kept.empty()) return result;
-  Eigen::MatrixXd estimated = regressors(Eigen::all, kept);
-  const Eigen::VectorXd scale = estimated.colwise().norm().cwiseInverse();
-  estimated = estimated * scale.asDiagonal();
-  result.step(kept) = -scale.cwiseProduct(inverse_of_squares(estimated) * (estimated.transpose() * residuals));
-  Eigen::MatrixXd covariance = covariance_with_correlated_residuals(estimated, residuals);
-  widen(covariance, covariance_of_stretches(estimated, residuals));
+  if (shown.empty()) return result;
+  // Scaled, so that units do not matter; along the directions that show.
+  const Eigen::VectorXd scale = regressors(Eigen::all, shown).colwise().norm().cwiseInverse();
+  const Directions directions = directions_of(regressors(Eigen::all, shown) * scale.asDiagonal());
+  const Eigen::MatrixXd& showing = directions.showing;
+  const Eigen::MatrixXd estimated = regressors(Eigen::all, shown) * scale.asDiagonal() * showing;
+  const auto of_shown = [&](const Eigen::MatrixXd& covariance) {
+    const Eigen::MatrixXd unscaled =
+        scale.asDiagonal() * showing * covariance * showing.transpose() * scale.asDiagonal();
+    return Eigen::MatrixXd(0.5 * (unscaled + unscaled.transpose()));  // rounding of the inverse
+  };
+  result.step(shown) =
+      -scale.cwiseProduct(showing * (inverse_of_squares(estimated) * (estimated.transpose() * residuals)));
+  Eigen::MatrixXd covariance = of_shown(covariance_with_correlated_residuals(estimated, residuals));
+  widen(covariance, of_shown(covariance_of_stretches(estimated, residuals)));
   covariance *= calibration * calibration;
   const double mean_square = residuals.squaredNorm() / static_cast<double>(rows);
   if (mean_square < 1.0) covariance /= mean_square;
-  const Eigen::MatrixXd unscaled = scale.asDiagonal() * covariance * scale.asDiagonal();
-  result.covariance(kept, kept) = 0.5 * (unscaled + unscaled.transpose());  // rounding of the inverse
+  if (directions.hidden.cols() > 0) {
+    const Eigen::MatrixXd hidden = scale.asDiagonal() * directions.hidden;
+    covariance += hidden * inverse_of_squares(known_beforehand * hidden) * hidden.transpose();
+  }
+  result.covariance(shown, shown) = covariance;
   return result;
 }
 

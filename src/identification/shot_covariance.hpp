@@ -11,7 +11,7 @@ namespace zwidth::internal {
 /// What the records determine of x, and how well.
 struct ShotCovariance {
   Identifiability known;       ///< of the coordinates and the constant forces
-  Eigen::MatrixXd covariance;  ///< of x; 0 for what is not determined
+  Eigen::MatrixXd covariance;  ///< of x; 0 for what does not show
   /// Of what is held: how clearly the residuals ask for more of it, all others free to follow, in standard deviations.
   Eigen::VectorXd pull;
   /// Of what is held: one such deviation, in x.
@@ -23,7 +23,8 @@ struct ShotCovariance {
 
 /// With the states eliminated: x's slopes less what the shots' own states explain of them; then
 /// covariance_with_correlated_residuals(), no variance less than that of the scores' sums over stretches of the record,
-/// nor than for white noise of deviation 1 (the encoder's floor).
+/// nor than for white noise of deviation 1 (the encoder's floor). Along the directions that do not show, known_beforehand
+/// takes its place.
 ///
 /// What is held (at 0, its bound) counts as known beside the others; its own variance is that with the others known.
 [[nodiscard]] ShotCovariance shot_covariance(const ShotSlopes& slopes, const std::vector<bool>& held);

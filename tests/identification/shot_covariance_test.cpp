@@ -37,5 +37,18 @@ TEST(ShotCovariance, WhatIsHeldPullsByWhatTheOthersDoNotFollow) {
   EXPECT_LT(shot_covariance(slopes_beside_one_held(-1.0), {false, true}).pull(1), -10.0);
 }
 
+// Of two dampings of which only the sum shows, each is as open as it was before; their sum is known.
+TEST(ShotCovariance, OfASumEachPartStaysOpen) {
+  ShotSlopes slopes = slopes_beside_one_held(0.0);
+  slopes.of_parameters.front().col(1) = slopes.of_parameters.front().col(0);
+  const ShotCovariance found = shot_covariance(slopes, {false, false});
+  ASSERT_EQ(found.known.combinations.size(), 1u);
+  const Eigen::MatrixXd& c = found.covariance;
+  const double of_sum = c(0, 0) + c(1, 1) + 2.0 * c(0, 1);
+  EXPECT_GT(std::sqrt(c(0, 0)), 2.0);
+  EXPECT_GT(std::sqrt(c(1, 1)), 2.0);
+  EXPECT_LT(std::sqrt(of_sum), 0.01);
+}
+
 }  // namespace
 }  // namespace zwidth::internal
