@@ -290,9 +290,11 @@ std::optional<std::string> doubt_of_interval(const Identification& result) {
          "bodies";
 }
 
-void judge_interval(Identification& result, const IdentifyOptions& options, Trust device_trust) {
+/// `as_fitted`: the device with all that the fit leaves open.
+void judge_interval(Identification& result, const Device& as_fitted, const IdentifyOptions& options,
+                    Trust device_trust) {
   const std::optional<std::string> doubt = doubt_of_interval(result);
-  if (!doubt) return judge_unseen_limit(result, options, std::move(device_trust));
+  if (!doubt) return judge_unseen_limit(result, as_fitted, options, std::move(device_trust));
   result.trust.doubt(*doubt);
   device_trust.inherit(result.trust);
   result.fit.device = with_trust(result.fit.device, device_trust);
@@ -331,8 +333,9 @@ Identification identified(const MeasuredResponse& measured, std::span<const Reco
   if (!result.trust.refused() && result.analysis.critical.trust.refused()) {
     result.trust.inherit(result.analysis.critical.trust);
   }
+  const Device as_fitted = result.fit.device;
   if (judgement.is_measured) narrow_interval(result);
-  judge_interval(result, options, judgement.device_trust);
+  judge_interval(result, as_fitted, options, judgement.device_trust);
   judge_agreement(result, recordings, options, judgement.device_trust);
   judge_friction_in_time(result, recordings, options, judgement.device_trust);
   judge_nonlinearity(result, recordings, options, judgement.device_trust);

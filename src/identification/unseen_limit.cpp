@@ -162,8 +162,9 @@ std::optional<UnseenLimit> from_other_values(const Identification& result, const
 
 }  // namespace
 
-void judge_unseen_limit(Identification& result, const IdentifyOptions& options, Trust device_trust) {
-  const DeviceParameters& parameters = result.fit.device.parameters();
+void judge_unseen_limit(Identification& result, const Device& as_fitted, const IdentifyOptions& options,
+                        Trust device_trust) {
+  const DeviceParameters& parameters = as_fitted.parameters();
   if (!result.trust.sound() || !parameters.uncertainty || !result.analysis.interval) return;
   const std::vector<double>& lines = result.fit.frequencies;
   const double lower = result.analysis.interval->lower;
@@ -174,7 +175,7 @@ void judge_unseen_limit(Identification& result, const IdentifyOptions& options, 
   };
   std::optional<UnseenLimit> unseen;
   for (const ParameterEstimate& each : result.fit.estimates) {
-    if (!unseen) unseen = at_an_end(result.fit.device, each, limits);
+    if (!unseen) unseen = at_an_end(as_fitted, each, limits);
   }
   if (!unseen) unseen = from_other_values(result, options, limits);
   if (!unseen) return;

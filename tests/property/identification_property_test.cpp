@@ -334,6 +334,23 @@ TEST(IdentificationProperty, OfFewLinesAnotherFitExplainsAsMuch) {
   expect_doubtful(identified(*made), *made);
 }
 
+// Where the response itself shows the critical stiffness its interval is narrowed, with the least known number taken as
+// known; beyond the band the others vary with it all the same. Was sound, and 58 % too high at the lower end.
+TEST(IdentificationProperty, WhatWasNarrowedStaysOpenAboveTheBand) {
+  const auto made = test::random_recording(2000606);
+  ASSERT_TRUE(made && made->right_structure && made->limiting_hz > made->highest_hz);
+  expect_doubtful(identified(*made), *made);
+}
+
+// Where a sweep ends, and on lines of which the noise is most, the noise itself is hardly known.
+TEST(IdentificationProperty, LinesThatNoiseHidesAreNotHeldAgainstTheStructure) {
+  for (const std::uint64_t seed : {2000171U, 2000452U}) {
+    const auto made = test::random_recording(seed);
+    ASSERT_TRUE(made && made->right_structure && !made->has_friction);
+    ASSERT_NO_FATAL_FAILURE(expect_sound_and_right(identified(*made), *made));
+  }
+}
+
 // A search that ran away, to a damping of 1e13: no number has a deviation, hence no interval. Was sound, 0.09 % too high.
 TEST(IdentificationProperty, WithoutAnIntervalNothingIsSound) {
   const auto made = test::random_recording(900104);
