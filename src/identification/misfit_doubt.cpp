@@ -65,13 +65,15 @@ std::optional<std::string> doubt_of_misfit(const ParameterFit& fit, const Freque
                        percent(fit.model_error), causes);
   }
   const auto exceeds = [&](double misfit, double most) { return misfit * noise > rounding_error && misfit > most; };
-  if (fit.misfit && exceeds(*fit.misfit, most_misfit(response, fit.frequencies.size(), 2.0))) {
-    return fmt::format("what the structure leaves of the response is {:.2g} times its noise: {}", *fit.misfit, causes);
+  const std::optional<double> left = fit.clear_misfit ? fit.clear_misfit->misfit : fit.misfit;
+  const std::size_t lines = fit.clear_misfit ? fit.clear_misfit->lines : fit.frequencies.size();
+  if (left && exceeds(*left, most_misfit(response, lines, 2.0))) {
+    return fmt::format("what the structure leaves of the response is {:.2g} times its noise: {}", *left, causes);
   }
   // Friction where the device moves stands out of a few lines only, of a band most of which is noise. Of so many looks
   // the most is another deviation more: 1.68 times the noise in 150 fits that found the device.
-  if (!fit.local_misfit || response.averages < few_averages) return std::nullopt;
-  const auto& [misfit, lowest, highest] = *fit.local_misfit;
+  if (!fit.clear_misfit || response.averages < few_averages) return std::nullopt;
+  const auto& [misfit, lowest, highest] = fit.clear_misfit->local;
   if (!exceeds(misfit, most_misfit(response, lines_of_local_misfit, 3.0))) return std::nullopt;
   return fmt::format("from {:.4g} to {:.4g} Hz what the structure leaves of the response is {:.2g} times its noise: {}",
                      hertz(lowest), hertz(highest), misfit, causes);

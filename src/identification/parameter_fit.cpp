@@ -131,23 +131,34 @@ std::optional<double> misfit(const std::vector<ResponsePoint>& points, const Eig
   return std::sqrt(sum / static_cast<double>(points.size()));
 }
 
-std::optional<LocalMisfit> local_misfit(const std::vector<ResponsePoint>& points, const Eigen::VectorXcd& fitted) {
+std::optional<ClearMisfit> misfit_where_clear(const std::vector<ResponsePoint>& points,
+                                              const Eigen::VectorXcd& fitted) {
   constexpr std::size_t many = lines_of_local_misfit;
-  std::optional<LocalMisfit> largest;
-  double sum = 0.0;
-  const auto square = [&](std::size_t i) {
-    return std::norm(points[i].value - fitted(static_cast<Eigen::Index>(i))) / points[i].variance;
-  };
+  ClearMisfit result;
+  std::vector<double> frequencies;
+  std::vector<double> squares;
+  double all = 0.0;
+  double local = 0.0;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (points[i].variance == 0.0) return std::nullopt;
-    sum += square(i);
-    if (i >= many) sum -= square(i - many);
-    if (i + 1 < many) continue;
-    const double misfit = std::sqrt(std::max(0.0, sum) / static_cast<double>(many));
-    if (largest && misfit <= largest->misfit) continue;
-    largest = LocalMisfit{misfit, points[i + 1 - many].frequency, points[i].frequency};
+    const ResponsePoint& point = points[i];
+    if (point.variance == 0.0) return std::nullopt;
+    const std::complex<double> model = fitted(static_cast<Eigen::Index>(i));
+    const double response = std::max(std::abs(model), std::abs(point.value));
+    if (std::sqrt(point.variance) > clear_of_noise * response) continue;
+    frequencies.push_back(point.frequency);
+    squares.push_back(std::norm(point.value - model) / point.variance);
+    const std::size_t lines = squares.size();
+    all += squares.back();
+    local += squares.back();
+    if (lines > many) local -= squares[lines - 1 - many];
+    if (lines < many) continue;
+    const double misfit = std::sqrt(std::max(0.0, local) / static_cast<double>(many));
+    if (misfit > result.local.misfit) result.local = {misfit, frequencies[lines - many], point.frequency};
   }
-  return largest;
+  if (squares.size() < many) return std::nullopt;
+  result.lines = squares.size();
+  result.misfit = std::sqrt(all / static_cast<double>(result.lines));
+  return result;
 }
 
 std::vector<double> mode_frequencies(const Device& device, const std::vector<std::size_t>& locked) {
@@ -328,7 +339,7 @@ ParameterFit fit_parameters(const Device& structure, const FrequencyResponse& re
   ParameterFit fit{.device = Device(fitted),
                    .correlations = strong_correlations(model, known.determined, covariance_of_x),
                    .misfit = misfit(points, at_solution.values),
-                   .local_misfit = local_misfit(points, at_solution.values),
+                   .clear_misfit = misfit_where_clear(points, at_solution.values),
                    .model_error = solution.model_error,
                    .stiffness_without_hold = without_hold,
                    .frequencies = data.frequencies,

@@ -62,7 +62,9 @@ struct UnidentifiableCombination {
   std::vector<std::string> parameters;  ///< keys of the numbers of which only a combination shows
 };
 
-/// So many neighbouring points a LocalMisfit is of.
+/// A point stands clear of its noise where that deviates by at most this share of the response.
+inline constexpr double clear_of_noise = 0.05;
+/// So many neighbouring points of those a LocalMisfit is of.
 inline constexpr std::size_t lines_of_local_misfit = 24;
 
 /// The part of a response where a fit leaves most.
@@ -70,6 +72,14 @@ struct LocalMisfit {
   double misfit = 0.0;   ///< root mean square of residual / standard deviation of the noise
   double lowest = 0.0;   ///< rad/s
   double highest = 0.0;  ///< rad/s
+};
+
+/// What a fit leaves of the points that stand clear of their noise: of others, as where a sweep ends, the noise itself
+/// is hardly known.
+struct ClearMisfit {
+  double misfit = 0.0;    ///< root mean square of residual / standard deviation of the noise
+  std::size_t lines = 0;  ///< how many points
+  LocalMisfit local{};    ///< of `lines_of_local_misfit` of them, where it is largest
 };
 
 /// A structure fitted to a measured response.
@@ -81,8 +91,8 @@ struct ParameterFit {
   /// Root mean square of residual / standard deviation of the noise: near 1 for a right structure. Absent where the
   /// response has no variances.
   std::optional<double> misfit;
-  /// The same of those `lines_of_local_misfit` neighbouring points where it is largest. Absent where there are fewer.
-  std::optional<LocalMisfit> local_misfit{};
+  /// Absent where fewer than `lines_of_local_misfit` points stand clear of their noise.
+  std::optional<ClearMisfit> clear_misfit{};
   /// What the structure leaves unexplained beyond the noise, as a share of |P_i|: e in variance_i + e^2 |P_i|^2. 0
   /// where the noise explains the residuals.
   double model_error = 0.0;
