@@ -73,7 +73,7 @@ export async function openPage({ browser, served }: Place, width: number, hash =
   const context = await browser.newContext({ viewport: { width, height: 900 }, colorScheme: scheme, reducedMotion: 'reduce', acceptDownloads: true })
   await context.grantPermissions(['clipboard-read', 'clipboard-write'])
   const page = await context.newPage()
-  page.setDefaultTimeout(10_000)
+  page.setDefaultTimeout(40_000)
   const complaints: string[] = []
   page.on('pageerror', (error) => complaints.push(error.message))
   page.on('console', (message) => {
@@ -98,7 +98,7 @@ export async function openPage({ browser, served }: Place, width: number, hash =
 /** All late panels have caught up. */
 export async function settled(page: Page): Promise<void> {
   await page.waitForTimeout(60)
-  await page.waitForFunction(() => document.querySelectorAll('[aria-busy="true"]').length === 0, null, { timeout: 30_000 })
+  await page.waitForFunction(() => document.querySelectorAll('[aria-busy="true"]').length === 0, null, { timeout: 90_000 })
 }
 
 export const documentOf = (...words: string[]): Record<string, unknown> =>

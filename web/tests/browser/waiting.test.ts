@@ -58,7 +58,7 @@ it.each([1280, 390])('says in every panel of long work how far it is, and lets n
   // Every answer takes long, and tells after a while that it is done by 37 %.
   await page.evaluate(() => {
     const real = window.fetch
-    const wait = (): Promise<void> => new Promise((done) => setTimeout(done, 600))
+    const wait = (): Promise<void> => new Promise((done) => setTimeout(done, 1500))
     window.fetch = async (url, init) => {
       const tells = new Headers(init?.headers).get('Accept')?.includes('ndjson') ?? false
       const response = await real(url, { ...init, headers: { 'Content-Type': 'application/json' } })
