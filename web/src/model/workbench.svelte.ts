@@ -23,6 +23,8 @@ class Workbench {
   restedToml = $state('')
   private restTimer: ReturnType<typeof setTimeout> | undefined
   private addressTimer: ReturnType<typeof setTimeout> | undefined
+  /** As this page wrote it or followed it last; null: neither yet. */
+  address: string | null = null
 
   toml = $derived(this.state.toml)
   settings: Settings = $derived(this.state.settings)
@@ -143,7 +145,10 @@ class Workbench {
     this.canUndo = this.history.canUndo
     this.canRedo = this.history.canRedo
     clearTimeout(this.addressTimer)
-    this.addressTimer = setTimeout(() => this.writeAddress(), 250)
+    this.addressTimer = setTimeout(() => {
+      // Another address than the one known here is on its way: its hashchange comes next.
+      if (this.address === null || this.address === location.hash) this.writeAddress()
+    }, 250)
   }
 
   /** The link that shares all this. */
@@ -158,6 +163,7 @@ class Workbench {
             ? 'The link leaves out the pinned designs.'
             : ''
     window.history.replaceState(null, '', address === null ? location.pathname : `#d=${address.text}`)
+    this.address = location.hash
   }
 
   /** What the address holds; null: nothing. */
