@@ -32,7 +32,8 @@ std::vector<Device> drawn(const Device& device, const RecommendationOptions& opt
 std::vector<Device> with_drifts(const Device& device, double drift) {
   std::vector<Device> devices;
   for (std::size_t i = 0; i < drifts_held; ++i) {
-    const double inwards = 1.0 - static_cast<double>(i / 2 * 2) / (drifts_held - 1);
+    const std::size_t pair = i / 2;
+    const double inwards = 1.0 - 2.0 * static_cast<double>(pair) / (drifts_held - 1);
     devices.push_back(drifted(device, (i % 2 == 0 ? -drift : drift) * inwards));
   }
   return devices;

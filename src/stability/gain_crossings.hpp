@@ -31,7 +31,7 @@ GainCrossings stiffness_crossings(const FilteredPlant& plant, const VirtualDampe
                                   const GainCrossings& by_damping);
 
 // The critical stiffness that these stiffness crossings say.
-CriticalStiffness critical_stiffness_of(const FilteredPlant& plant, const GainCrossings& by_stiffness);
+CriticalStiffness critical_stiffness_of(const FilteredPlant& plant, const GainCrossings& crossings);
 
 // The end of the stable stiffnesses from 0 on where it is at most `most` > 0, else `most`; infinite where nothing bounds it
 // and `most` is. Only the frequencies are isolated at which so soft a wall can be critical.
