@@ -120,7 +120,8 @@ class Search {
     std::ranges::sort(extremes.bounds, std::greater{}, &Point::limit);
     for (const Point& bound : extremes.bounds) {
       if (bound.limit <= extremes.most) return;
-      extremes.most = std::max(extremes.most, limit_at(moved, bound.value, options_.stiffness).value_or(0.0));
+      const auto limit = look_at(moved, bound.value, {beyond * beyond * extremes.most, options_.stiffness});
+      if (limit && !limit->is_bound) extremes.most = std::max(extremes.most, limit->stiffness);
     }
   }
 
@@ -191,7 +192,7 @@ class Search {
     };
     const auto is_done = [&](double left, double right) {
       const bool is_jump = nearest > least_jump && std::abs(right - left) <= jump_width * std::abs(left);
-      return is_jump || boost::math::tools::eps_tolerance<double>(52)(left, right);
+      return is_jump || nearest <= reached || boost::math::tools::eps_tolerance<double>(52)(left, right);
     };
     const auto [low, high] = std::minmax(a.value, b.value);
     const double at_low = std::clamp(excess(a.value <= b.value ? a.limit : b.limit) / options_.stiffness, -1.0, 1.0);
