@@ -1,6 +1,9 @@
 #include "design/lower_end.hpp"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 
@@ -41,33 +44,49 @@ std::vector<Device> with_drifts(const Device& device, double drift) {
 
 LowerEnd::LowerEnd(const std::vector<Device>& devices, const std::optional<WallFilter>& notch, double may_fail,
                    const RecommendationOptions& options)
-    : options_(options), may_fail_(static_cast<std::size_t>(may_fail * static_cast<double>(devices.size()))) {
-  for (const Device& each : devices) {
-    tell(options.progress, static_cast<double>(devices_.size()) / static_cast<double>(devices.size()));
-    devices_.push_back({std::make_unique<WallLimits>(notch ? with_filter(each, *notch) : each, options), nullptr});
+    : options_(options),
+      may_fail_(static_cast<std::size_t>(may_fail * static_cast<double>(devices.size()))),
+      devices_(devices.size()) {
+  if (options.progress) {
+    options_.progress = [this, whole = options.progress](double fraction) {
+      const std::lock_guard lock(told_);
+      whole(fraction);
+    };
   }
+  tbb::parallel_for(std::size_t{0}, devices.size(), [&](std::size_t i) {
+    devices_[i].limits = std::make_unique<WallLimits>(notch ? with_filter(devices[i], *notch) : devices[i], options_);
+  });
+}
+
+template <typename Keeps>
+bool LowerEnd::enough_keep(const Keeps& keeps) {
+  std::atomic<std::size_t> next = 0;
+  std::atomic<std::size_t> failed = 0;
+  tbb::parallel_for(std::size_t{0}, devices_.size(), [&](std::size_t /*any*/) {
+    if (failed > may_fail_) return;
+    const std::size_t i = next++;
+    if (!keeps(i)) ++failed;
+  });
+  return failed <= may_fail_;
 }
 
 /// On the grids; 0 as soon as more devices than may fail are seen not to get above `enough`.
 double LowerEnd::lower_limit(VirtualDamper damper, WallGoal goal, double enough) {
-  std::vector<double> stiffnesses;
-  std::size_t failed = 0;
-  for (Each& each : devices_) {
+  std::vector<double> stiffnesses(devices_.size());
+  const bool is_higher = enough_keep([&](std::size_t i) {
+    Each& each = devices_[i];
     if (!each.search) each.search = std::make_unique<WallSearch>(*each.limits, options_);
-    stiffnesses.push_back(each.search->stiffest(damper, goal));
-    if (!(stiffnesses.back() > enough) && ++failed > may_fail_) return 0.0;
-  }
+    stiffnesses[i] = each.search->stiffest(damper, goal);
+    return stiffnesses[i] > enough;
+  });
+  if (!is_higher) return 0.0;
   const auto at = stiffnesses.begin() + static_cast<std::ptrdiff_t>(may_fail_);
   std::nth_element(stiffnesses.begin(), at, stiffnesses.end());
   return *at;
 }
 
-bool LowerEnd::most_keep(double stiffness, VirtualDamper damper) const {
-  std::size_t failed = 0;
-  for (const Each& each : devices_) {
-    if (!each.limits->keeps(stiffness, damper) && ++failed > may_fail_) return false;
-  }
-  return true;
+bool LowerEnd::most_keep(double stiffness, VirtualDamper damper) {
+  return enough_keep([&](std::size_t i) { return devices_[i].limits->keeps(stiffness, damper); });
 }
 
 bool LowerEnd::has_no_lower_limit_than(const LowerEnd& others, VirtualDamper damper) const {

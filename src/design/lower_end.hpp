@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -17,11 +19,11 @@ namespace zwidth::internal {
 inline constexpr std::size_t drifts_held = 41;
 [[nodiscard]] std::vector<Device> with_drifts(const Device& device, double drift);
 
-// What a device leaves of a wall that may be any of several: each with its own limits.
+// What a device leaves of a wall that may be any of several: each with its own limits, looked at side by side.
 class LowerEnd {
  public:
-  // With `notch` behind the filters of each wall; all but this share of them keep what is asked. `options` must outlive
-  // this.
+  // With `notch` behind the filters of each wall; all but this share of them keep what is asked. The progress of `options`
+  // is told by one thread at a time.
   LowerEnd(const std::vector<Device>& devices, const std::optional<WallFilter>& notch, double may_fail,
            const RecommendationOptions& options);
 
@@ -41,10 +43,14 @@ class LowerEnd {
     std::unique_ptr<WallLimits> limits;
     std::unique_ptr<WallSearch> search;  // once it is needed
   };
-  [[nodiscard]] bool most_keep(double stiffness, VirtualDamper damper) const;
+  // Asks the devices in their order, and no further than is needed.
+  template <typename Keeps>
+  [[nodiscard]] bool enough_keep(const Keeps& keeps);
+  [[nodiscard]] bool most_keep(double stiffness, VirtualDamper damper);
   [[nodiscard]] double lower_limit(VirtualDamper damper, WallGoal goal, double enough);
 
-  const RecommendationOptions& options_;
+  std::mutex told_;
+  RecommendationOptions options_;
   std::size_t may_fail_ = 0;
   std::vector<Each> devices_;
 };
