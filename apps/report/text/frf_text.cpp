@@ -48,14 +48,14 @@ std::string crossovers(const MeasuredResponse& frf, const std::string& unit) {
   if (!frf.stiffness || frf.stiffness->crossovers.empty()) return "";
   const MeasuredStiffness& stiffness = *frf.stiffness;
   TextTable table{{Align::right, Align::right, Align::right, Align::right, Align::left},
-                  {{"Hz", "95 %", fmt::format("K ({})", unit), "95 %", "as K rises"}}};
+                  {{"Hz", "95 %", "K", "95 %", "as K rises"}}};
   for (const MeasuredCrossover& crossover : stiffness.crossovers) {
     const bool limits = stiffness.status == MeasuredStiffnessStatus::found && stiffness.limit &&
                         stiffness.limit->frequency == crossover.frequency;
     table.rows.push_back({number(hertz(crossover.frequency)), in_hertz(crossover.frequency_interval),
-                          number(crossover.stiffness),
-                          fmt::format("{} to {}", number(crossover.stiffness_interval.lower),
-                                      number(crossover.stiffness_interval.upper)),
+                          quantity(crossover.stiffness, unit),
+                          fmt::format("{} to {}", quantity(crossover.stiffness_interval.lower, unit),
+                                      quantity(crossover.stiffness_interval.upper, unit)),
                           std::string(crossover.poles_leaving > 0 ? "an oscillation sets in" : "an oscillation ends") +
                               (limits ? "  <- critical" : "")});
   }

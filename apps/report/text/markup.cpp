@@ -36,14 +36,15 @@ std::string escape_markup(std::string_view text) {
 }
 
 const Symbol* symbol_at(std::string_view text, std::size_t at) {
-  static constexpr std::array<Symbol, 8> symbols = {{{"K_CR", "K", "CR"},
+  static constexpr std::array<Symbol, 9> symbols = {{{"K_CR", "K", "CR"},
                                                      {"t_d", "t", "d"},
                                                      {"G_d", "G", "d"},
                                                      {"G_c", "G", "c"},
                                                      {"G_m", "G", "m"},
                                                      {"k_c", "k", "c"},
                                                      {"b_c", "b", "c"},
-                                                     {"f_c", "f", "c"}}};
+                                                     {"f_c", "f", "c"},
+                                                     {"F_c", "F", "c"}}};
   const auto is_of_word = [](char c) { return c == '_' || std::isalnum(static_cast<unsigned char>(c)) != 0; };
   if (at > 0 && is_of_word(text[at - 1])) return nullptr;
   const auto* const found = std::ranges::find_if(symbols, [&](const Symbol& each) {

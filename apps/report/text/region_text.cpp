@@ -117,8 +117,7 @@ class RegionWriter {
 
   [[nodiscard]] std::string approximations() const {
     TextTable table{{Align::left, Align::left, Align::right, Align::right, Align::left, Align::left}, {}};
-    table.rows.push_back(
-        {"formula", "", fmt::format("K ({})", units_.stiffness), "exact", "off at B = 0", "over all B"});
+    table.rows.push_back({"formula", "", "K", "exact", "off at B = 0", "over all B"});
     std::string notes;
     for (const ComparedApproximation& each : walls_.approximations) {
       const RegionApproximation& formula = each.formula;
@@ -131,7 +130,7 @@ class RegionWriter {
                                      : std::string("B = 0 only");
       const FormulaFacts facts = facts_of(formula.formula);
       table.rows.push_back({std::string(facts.name), formula.any_user ? "any user" : "this device",
-                            number(formula.at_zero_damping), number(error.at_zero_damping), off, shares});
+                            stiffness(formula.at_zero_damping), stiffness(error.at_zero_damping), off, shares});
       notes += wrap(
           fmt::format(
               "{}: {}. For a {}{}.", facts.source, facts.equation, facts.valid_for,

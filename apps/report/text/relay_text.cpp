@@ -44,8 +44,7 @@ std::string heading(const RelayResult& result) {
 std::string trial_table(const RelayResult& result) {
   const Units units = units_of(result.motion);
   TextTable table{{Align::right, Align::right, Align::right, Align::right, Align::right, Align::right, Align::right},
-                  {{"trial", "Hz", fmt::format("K ({})", units.stiffness), "K (dB)",
-                    fmt::format("amplitude ({})", units.length), "steady from (s)", "by cycles (Hz)"}}};
+                  {{"trial", "Hz", "K", "K (dB)", "amplitude", "steady from (s)", "by cycles (Hz)"}}};
   std::string failures;
   for (std::size_t i = 0; i < result.trials.size(); ++i) {
     const RelayTrial& trial = result.trials[i];
@@ -56,14 +55,16 @@ std::string trial_table(const RelayResult& result) {
       continue;
     }
     const RelayReading& reading = *trial.result;
-    table.rows.push_back({name, fmt::format("{:.4f}", hertz(reading.frequency)), number(reading.stiffness),
-                          fmt::format("{:.2f}", decibels(reading.stiffness)), number(reading.amplitude),
+    table.rows.push_back({name, fmt::format("{:.4f}", hertz(reading.frequency)),
+                          quantity(reading.stiffness, units.stiffness),
+                          fmt::format("{:.2f}", decibels(reading.stiffness)), quantity(reading.amplitude, units.length),
                           fmt::format("{:.2f}", static_cast<double>(reading.steady_from) * result.sampling_period),
                           reading.cycle_frequency ? fmt::format("{:.4f}", hertz(*reading.cycle_frequency)) : "-"});
   }
   if (const auto& mean = result.mean; mean && mean->trials > 1) {
-    table.rows.push_back({"mean", fmt::format("{:.4f}", hertz(mean->frequency)), number(mean->stiffness),
-                          fmt::format("{:.2f}", decibels(mean->stiffness)), number(mean->amplitude), "", ""});
+    table.rows.push_back({"mean", fmt::format("{:.4f}", hertz(mean->frequency)),
+                          quantity(mean->stiffness, units.stiffness), fmt::format("{:.2f}", decibels(mean->stiffness)),
+                          quantity(mean->amplitude, units.length), "", ""});
   }
   return layout(table) + failures;
 }
@@ -81,19 +82,20 @@ std::string spectra_note(const RelayResult& result) {
 
 /// `none`: what stands where there are no cycles.
 void add_cycles(TextTable& table, const std::string& name, const std::vector<LimitCycle>& cycles,
-                const std::string& none) {
+                const std::string& none, std::string_view length) {
   const std::vector<CycleBand> bands = cycle_bands(cycles);
   if (bands.empty()) table.rows.push_back({name, none, "", ""});
   for (std::size_t i = 0; i < bands.size(); ++i) {
     const auto& [count, low, high] = bands[i];
     const std::string label = i == 0 ? name : "";
     if (count == 1) {
-      table.rows.push_back(
-          {label, number(hertz(low.frequency)), fmt::format("{:.2f}", decibels(low.stiffness)), number(low.amplitude)});
+      table.rows.push_back({label, number(hertz(low.frequency)), fmt::format("{:.2f}", decibels(low.stiffness)),
+                            quantity(low.amplitude, length)});
     } else {
-      table.rows.push_back({label, fmt::format("{} to {}", number(hertz(low.frequency)), number(hertz(high.frequency))),
-                            fmt::format("{:.2f} to {:.2f}", decibels(low.stiffness), decibels(high.stiffness)),
-                            fmt::format("{} to {}", number(low.amplitude), number(high.amplitude))});
+      table.rows.push_back(
+          {label, fmt::format("{} to {}", number(hertz(low.frequency)), number(hertz(high.frequency))),
+           fmt::format("{:.2f} to {:.2f}", decibels(low.stiffness), decibels(high.stiffness)),
+           fmt::format("{} to {}", quantity(low.amplitude, length), quantity(high.amplitude, length))});
     }
   }
 }
@@ -123,14 +125,14 @@ void add_crossovers(TextTable& table, const CriticalStiffness& linear) {
 std::string prediction_table(const RelayResult& result) {
   if (!result.prediction) return "";
   const RelayPrediction& prediction = *result.prediction;
-  TextTable table{{Align::left, Align::right, Align::right, Align::right},
-                  {{"", "Hz", "K (dB)", fmt::format("amplitude ({})", units_of(result.motion).length)}}};
+  const std::string_view length = units_of(result.motion).length;
+  TextTable table{{Align::left, Align::right, Align::right, Align::right}, {{"", "Hz", "K (dB)", "amplitude"}}};
   add_crossovers(table, prediction.linear);
   add_cycles(table, result.friction_level.value_or(0.0) > 0.0 ? "first harmonics, with friction" : "first harmonics",
-             prediction.describing_function, "none");
+             prediction.describing_function, "none", length);
   const std::string none = fmt::format("none above {}", number(hertz(prediction.lowest_frequency)));
-  add_cycles(table, "sampled relay, exact", prediction.sampled_relay, none);
-  add_cycles(table, "continuous relay, exact", prediction.continuous_relay, none);
+  add_cycles(table, "sampled relay, exact", prediction.sampled_relay, none, length);
+  add_cycles(table, "continuous relay, exact", prediction.continuous_relay, none, length);
   return "What theory expects\n" + layout(table) +
          wrap(
              "First harmonics are an approximation. The exact oscillations have neither friction nor encoder nor force "

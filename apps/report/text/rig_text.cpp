@@ -64,10 +64,10 @@ std::string limit_of(const CriticalStiffness& predicted, const Units& units) {
 }
 
 std::string trial_rows(const LimitMeasurement& measured, const Units& units) {
-  TextTable table{{Align::right, Align::right, Align::right, Align::left},
-                  {{fmt::format("K ({})", units.stiffness), "Hz", "grows by (1/s)", ""}}};
+  TextTable table{{Align::right, Align::right, Align::right, Align::left}, {{"K", "Hz", "grows by (1/s)", ""}}};
   for (const LimitTrial& trial : measured.trials) {
-    table.rows.push_back({number(trial.stiffness), trial.ring ? number(hertz(trial.ring->frequency)) : "-",
+    table.rows.push_back({quantity(trial.stiffness, units.stiffness),
+                          trial.ring ? number(hertz(trial.ring->frequency)) : "-",
                           trial.ring ? number(trial.ring->growth_rate) : "-",
                           trial.stopped   ? "grew: taken away at once"
                           : trial.cut     ? "force was cut off"
