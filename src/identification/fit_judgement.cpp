@@ -277,7 +277,11 @@ void judge_nonlinearity(Identification& result, std::span<const Recording> recor
     std::vector<double> residuals = each.channels[1].samples;
     const std::vector<double> fitted = forced_response(system, each.channels[0].samples);
     for (std::size_t k = 0; k < residuals.size(); ++k) residuals[k] -= fitted[k];
-    const auto found = find_nonlinearity({device, each.channels[0].samples, each.channels[1].samples, residuals});
+    const auto found = find_nonlinearity({.device = device,
+                                          .force = each.channels[0].samples,
+                                          .position = each.channels[1].samples,
+                                          .residuals = residuals,
+                                          .matters = outside_interval(result.fit.device, result.analysis.interval)});
     if (!found) continue;
     const std::string what = fmt::format("the record shows {}", found->what);
     result.trust.doubt(fmt::format("{}; {}", what, found->remedy));

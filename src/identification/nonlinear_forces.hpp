@@ -15,6 +15,7 @@ namespace zwidth::internal {
 struct NonlinearForce {
   std::vector<std::vector<double>> terms;  ///< by sample
   bool is_of_command = false;              ///< acts where the actuator does; else where the position is sensed
+  bool is_of_speed = false;                ///< one term, opposed to the velocity: a fit takes it for damping
   std::string what;                        ///< in words, with its likely cause
   std::string remedy;
 };
@@ -23,6 +24,7 @@ struct NonlinearForce {
 struct NonlinearEvidence {
   double chi_squared = 0.0;  ///< less its degrees of freedom
   double share = 0.0;        ///< of the squares of what is left
+  double damping = 0.0;  ///< of a force of the speed: what a linear fit has of it in its damping, N s/m or N m s/rad
 };
 
 /// What a linear device with dry friction does not do.
@@ -34,13 +36,15 @@ struct Nonlinearity {
 
 /// The clearest of
 ///
-///     cos and sin of 2 pi n x / range, n = 1..100 (each n by itself);   x^2 and x^3;   the part of the force beyond
-///     1/4, 1/2 and 3/4 of its largest
+///     cos and sin of 2 pi n x / range, n = 1..100 (each n by itself);   x^2 and x^3;   v |v|;   the part of the force
+///     beyond 1/4, 1/2 and 3/4 of its largest
 ///
 /// where chi-squared and the share explained are both beyond what records of linear devices show; nothing where none is.
+/// A force of the speed may be a smaller share where `matters` says so of the damping that it lends a fit.
 [[nodiscard]] std::optional<Nonlinearity> clearest_nonlinearity(
     std::span<const double> position, std::span<const double> force, Motion motion,
-    const std::function<NonlinearEvidence(const NonlinearForce&)>& evidence_of);
+    const std::function<NonlinearEvidence(const NonlinearForce&)>& evidence_of,
+    const std::function<bool(double damping)>& matters = {});
 
 /// Orthonormal columns that span these less what the orthonormal linear ones have of them; fewer where nothing is left.
 [[nodiscard]] Eigen::MatrixXd outside_linear_terms(Eigen::MatrixXd columns, const Eigen::MatrixXd& linear);

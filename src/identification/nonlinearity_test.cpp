@@ -15,6 +15,7 @@
 #include "zwidth/model/state_space.hpp"
 #include "zwidth/sampling/discrete_state_space.hpp"
 #include "zwidth/sampling/forced_response.hpp"
+#include "zwidth/stability/critical_stiffness.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -61,6 +62,11 @@ class PredictionErrors {
     if (!(evidence.chi_squared > 0.0)) return evidence;
     const Eigen::VectorXd scaled = solve(covariance(basis, left_ - basis * effects), effects);
     evidence.chi_squared = effects.dot(scaled) - freedom;
+    if (force.is_of_speed && basis.cols() == 1) {
+      const Eigen::VectorXd whole = errors_of(at_sensed_, force.terms.front());
+      // c g + ... is left where the device has c g: its fit has the velocity's share of g with the other sign.
+      evidence.damping = -effects(0) / basis.col(0).dot(whole) * least_squares(motion_, whole)(0);
+    }
     return evidence;
   }
 
@@ -157,6 +163,9 @@ class PredictionErrors {
     }
     for (const Signal& each : {position_, velocity, acceleration, direction, Signal(size_, 1.0)})
       terms.push_back(errors_of(at_sensed_, each));
+    motion_.resize(left_.size(), 3);
+    motion_ << terms[terms.size() - 4] / (span * device.loop().sampling_period), terms[terms.size() - 3],
+        terms[terms.size() - 2];
     for (const Signal& each : free_motions(device, size_)) terms.push_back(errors_of(each));
     Eigen::MatrixXd columns(left_.size(), static_cast<Eigen::Index>(terms.size()));
     for (std::size_t j = 0; j < terms.size(); ++j) {
@@ -175,9 +184,22 @@ class PredictionErrors {
   ShotNoise noise_;
   Eigen::VectorXd left_;    ///< prediction errors in their deviation, linear terms taken out
   Eigen::MatrixXd linear_;  ///< orthonormal
+  Eigen::MatrixXd
+      motion_;  ///< errors of a force that is the velocity, per m/s or rad/s, the acceleration, the direction
 };
 
 }  // namespace
+
+std::function<bool(double)> outside_interval(const Device& fitted, const std::optional<StiffnessInterval>& interval) {
+  if (!interval) return {};
+  return [parameters = fitted.parameters(), interval = *interval](double damping) {
+    DeviceParameters without = parameters;
+    double& of_sensed = without.bodies[without.loop.sensed].damping;
+    of_sensed = std::max(0.0, of_sensed - damping);
+    const double stiffness = critical_stiffness(Device(std::move(without))).stiffness;
+    return stiffness < interval.lower || stiffness > interval.upper;
+  };
+}
 
 std::optional<Nonlinearity> find_nonlinearity(const NonlinearityQuestion& question) {
   if (question.residuals.size() < least_examined) return std::nullopt;
@@ -186,8 +208,9 @@ std::optional<Nonlinearity> find_nonlinearity(const NonlinearityQuestion& questi
   const double left = std::ranges::max(question.residuals, {}, [](double each) { return std::abs(each); });
   if (!(std::abs(left) > nothing * (most - least))) return std::nullopt;
   const PredictionErrors errors(question);
-  return clearest_nonlinearity(errors.position(), errors.force(), question.device.parameters().motion,
-                               [&](const NonlinearForce& force) { return errors.of(force); });
+  return clearest_nonlinearity(
+      errors.position(), errors.force(), question.device.parameters().motion,
+      [&](const NonlinearForce& force) { return errors.of(force); }, question.matters);
 }
 
 }  // namespace zwidth::internal

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 
 #include "identification/nonlinear_forces.hpp"
 #include "identification/shot_model.hpp"
 #include "zwidth/model/device.hpp"
+#include "zwidth/stability/stiffness_interval.hpp"
 
 namespace zwidth::internal {
 
@@ -16,7 +18,13 @@ struct NonlinearityQuestion {
   std::span<const double> position;   ///< recorded
   std::span<const double> residuals;  ///< recorded less fitted position
   std::span<const Shot> shots = {};   ///< what was fitted from a state of its own; empty: the whole record
+  /// Whether the answer's interval does not hold without so much of the sensed body's damping.
+  std::function<bool(double damping)> matters = {};
 };
+
+/// NonlinearityQuestion::matters of a fitted device and the interval of its critical stiffness; of none without one.
+[[nodiscard]] std::function<bool(double)> outside_interval(const Device& fitted,
+                                                           const std::optional<StiffnessInterval>& interval);
 
 /// Looks for forces that hang on the measured position or on the commanded force in no linear way.
 ///

@@ -30,8 +30,9 @@ namespace {
 
 constexpr double refused_share = 0.5;
 constexpr double clear_feedback = 5.0;
-// Of the response: what moves a critical stiffness by about as much.
+// Of the response, which moves a critical stiffness by about as much and more.
 constexpr double doubtful_share = 0.05;
+constexpr double negligible_share = 0.005;
 
 /// The least relative error e of the fitted device's linear response that explains what the residuals have of the
 /// force; 0 where noise does.
@@ -84,6 +85,7 @@ class Judge {
   Judge(TimeDomainIdentification& fit, const JudgedTimeFit& judged) : fit_(fit), judged_(judged) {}
 
   void judge() {
+    fit_.analysis = analyze(fit_.device, {.any_user = false});
     refuse_what_is_none();
     judge_misfit();
     judge_feedback();
@@ -96,7 +98,6 @@ class Judge {
       trust_.doubt(fmt::format("the data do not determine {}: taken as they stand in the start of the search",
                                fmt::join(open, ", ")));
     }
-    fit_.analysis = analyze(fit_.device, {.any_user = false});
     judge_band();
     judge_interval();
     fit_.device = with_trust(fit_.device, trust_);
@@ -130,7 +131,7 @@ class Judge {
             fmt::format("the fitted device leaves {} of the response of {} unexplained; is the structure "
                         "right, and are force and position those of one experiment?",
                         percent(motion.unexplained), motion.source));
-      } else if (motion.unexplained > doubtful_share) {
+      } else if (motion.unexplained > std::clamp(known_share(), negligible_share, doubtful_share)) {
         trust_.doubt(
             fmt::format("the fitted device leaves {} of the response of {} unexplained beyond the noise: a "
                         "body that it lacks, or backlash",
@@ -148,6 +149,12 @@ class Judge {
     }
   }
 
+  /// How well the critical stiffness is known if the structure is right, relative.
+  [[nodiscard]] double known_share() const {
+    const auto& interval = fit_.analysis.interval;
+    return interval ? 1.0 - interval->lower / fit_.analysis.critical.stiffness : 0.0;
+  }
+
   void judge_nonlinearity(std::size_t r) {
     const Recording& recording = judged_.recordings[r];
     const FittedMotion& motion = fit_.motions[r];
@@ -157,8 +164,9 @@ class Judge {
     std::ranges::copy_if(judged_.shots, std::back_inserter(shots), [r](const Shot& shot) { return shot.record == r; });
     if (motion.feedback > clear_feedback) return;  // the force answers to the errors: doubtful for that
     const Device device = device_in_experiment(fit_.device, judged_.options.locked, recording.sampling_period);
-    const auto found = find_nonlinearity(
-        {device, recording.channels[0].samples, recording.channels[1].samples, motion.residuals, shots});
+    const auto found =
+        find_nonlinearity({device, recording.channels[0].samples, recording.channels[1].samples, motion.residuals,
+                           shots, outside_interval(fit_.device, fit_.analysis.interval)});
     if (found) trust_.doubt(fmt::format("{} shows {}; {}", motion.source, found->what, found->remedy));
   }
 

@@ -146,7 +146,7 @@ TEST(AnalysisText, ExplainsNoneStableWithItsHigherInterval) {
   const std::string text = unwrapped(text_of(undamped_paddle()));
   EXPECT_THAT(text, HasSubstr("critical stiffness none: the softest walls are unstable, stiffer ones are stable"));
   EXPECT_THAT(text, HasSubstr("unstable for an arbitrarily small wall stiffness"));
-  EXPECT_THAT(text, HasSubstr("Stiffnesses from 2 N m/rad to 5 N m/rad are stable too"));
+  EXPECT_THAT(text, HasSubstr("Stiffnesses from 2 N m/rad to 5 N m/rad are stable."));
 }
 
 TEST(AnalysisText, ExplainsUnbounded) {

@@ -62,7 +62,9 @@ std::string percent(double fraction) { return number(std::round(1000.0 * fractio
 std::string other_intervals(const AnalysedDevice& analysed) {
   const auto higher = higher_intervals(analysed);
   if (higher.empty()) return {};
-  return fmt::format(" Stiffnesses {} are stable too, with an unstable range below.", fmt::join(higher, ", and "));
+  const bool are_all = higher.size() == analysed.analysis.critical.stable_intervals.size();
+  return fmt::format(" Stiffnesses {} are stable{}.", fmt::join(higher, ", and "),
+                     are_all ? "" : " too, with an unstable range below");
 }
 
 /// What the device does just above a crossover.
