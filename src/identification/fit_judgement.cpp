@@ -260,15 +260,9 @@ bool is_drowned(const FrequencyResponse& response, std::size_t numbers) {
   return 2 * static_cast<std::size_t>(standing_out) < numbers;  // each is two numbers
 }
 
-void judge_nonlinearity(Identification& result, std::span<const Recording> recordings, const IdentifyOptions& options,
-                        Trust device_trust) {
+void judge_nonlinearity(Identification& result, std::span<const Recording> recordings, const IdentifyOptions& options) {
   for (const Recording& each : recordings) {
     if (auto doubt = doubt_of_counts(each)) result.trust.doubt(*std::move(doubt));
-  }
-  if (!result.trust.sound()) {
-    result.analysis.trust.inherit(result.trust);
-    device_trust.inherit(result.trust);
-    result.fit.device = with_trust(result.fit.device, device_trust);
   }
   if (!result.trust.sound() || options.response.output != OutputQuantity::position) return;
   for (const Recording& each : recordings) {
@@ -287,12 +281,8 @@ void judge_nonlinearity(Identification& result, std::span<const Recording> recor
     result.trust.doubt(fmt::format("{}; {}", what, found->remedy));
     result.remarks.push_back(
         {Remark::Severity::warning, what, "the fit takes it for mass, damping and springs", found->remedy});
-    break;
+    return;
   }
-  if (result.trust.sound()) return;
-  result.analysis.trust.inherit(result.trust);
-  device_trust.inherit(result.trust);
-  result.fit.device = with_trust(result.fit.device, device_trust);
 }
 
 CriticalStiffness limit_of(const Device& device) { return critical_stiffness(device); }

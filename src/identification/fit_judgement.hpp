@@ -35,8 +35,7 @@ struct Judgement {
 [[nodiscard]] Judgement judge(const JudgedFit& judged);
 
 /// A sound answer whose recordings show a force that is not linear (find_nonlinearity()) becomes doubtful.
-void judge_nonlinearity(Identification& result, std::span<const Recording> recordings, const IdentifyOptions& options,
-                        Trust device_trust);
+void judge_nonlinearity(Identification& result, std::span<const Recording> recordings, const IdentifyOptions& options);
 
 /// K_CR with the wall's damper and filters, as analyze() gives it.
 [[nodiscard]] CriticalStiffness limit_of(const Device& device);

@@ -164,7 +164,7 @@ std::optional<ShownFriction> lowering_friction(const Identification& result, std
 }  // namespace
 
 void judge_friction_in_time(Identification& result, std::span<const Recording> recordings,
-                            const IdentifyOptions& options, Trust device_trust) {
+                            const IdentifyOptions& options) {
   if (!result.trust.sound() || !result.analysis.interval) return;
   if (options.friction_search == IdentifyOptions::FrictionSearch::brief) return;
   if (options.response.output != OutputQuantity::position) return;
@@ -178,13 +178,10 @@ void judge_friction_in_time(Identification& result, std::span<const Recording> r
   const std::string meaning = fmt::format("beside it the critical stiffness is about {:.3g} {}",
                                           *friction->stiffness_beside, units_of(motion).stiffness);
   result.trust.doubt(what + ": " + meaning);
-  result.analysis.trust.inherit(result.trust);
   result.remarks.push_back(
       {Remark::Severity::warning, what, meaning,
        "fit the friction too, in time; or excite more strongly: its share falls with the amplitude"});
   if (shows) result.friction = friction;
-  device_trust.inherit(result.trust);
-  result.fit.device = with_trust(result.fit.device, device_trust);
 }
 
 }  // namespace zwidth::internal

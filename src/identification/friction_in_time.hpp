@@ -15,9 +15,8 @@ namespace zwidth::internal {
 /// long to play. It finds what
 /// find_friction() does not: friction that is no small disturbance of the linear fit's motion, as where a body drifts
 /// until friction stops it, or where modes above the band are not known. Doubtful: the friction shows, or one of more than
-/// two deviations would put the critical stiffness more than 10 % below its interval. `device_trust`: of the device for any
-/// other purpose.
+/// two deviations would put the critical stiffness more than 10 % below its interval.
 void judge_friction_in_time(Identification& result, std::span<const Recording> recordings,
-                            const IdentifyOptions& options, Trust device_trust);
+                            const IdentifyOptions& options);
 
 }  // namespace zwidth::internal

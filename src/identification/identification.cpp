@@ -291,13 +291,10 @@ std::optional<std::string> doubt_of_interval(const Identification& result) {
 }
 
 /// `as_fitted`: the device with all that the fit leaves open.
-void judge_interval(Identification& result, const Device& as_fitted, const IdentifyOptions& options,
-                    Trust device_trust) {
+void judge_interval(Identification& result, const Device& as_fitted, const IdentifyOptions& options) {
   const std::optional<std::string> doubt = doubt_of_interval(result);
-  if (!doubt) return judge_unseen_limit(result, as_fitted, options, std::move(device_trust));
+  if (!doubt) return judge_unseen_limit(result, as_fitted, options);
   result.trust.doubt(*doubt);
-  device_trust.inherit(result.trust);
-  result.fit.device = with_trust(result.fit.device, device_trust);
 }
 
 void judge_what_was_given(const Fitting& fitting, Judgement& judgement) {
@@ -335,10 +332,13 @@ Identification identified(const MeasuredResponse& measured, std::span<const Reco
   }
   const Device as_fitted = result.fit.device;
   if (judgement.is_measured) narrow_interval(result);
-  judge_interval(result, as_fitted, options, judgement.device_trust);
-  judge_agreement(result, recordings, options, judgement.device_trust);
-  judge_friction_in_time(result, recordings, options, judgement.device_trust);
-  judge_nonlinearity(result, recordings, options, judgement.device_trust);
+  judge_interval(result, as_fitted, options);
+  judge_agreement(result, recordings, options);
+  judge_friction_in_time(result, recordings, options);
+  judge_nonlinearity(result, recordings, options);
+  result.analysis.trust.inherit(result.trust);
+  judgement.device_trust.inherit(result.trust);
+  result.fit.device = with_trust(result.fit.device, judgement.device_trust);
   keep_what_is_assumed(structure, result.fit.estimates,
                        unseen_placeholders(options.fit.locked, options.structure_values), result.fit.device,
                        {&result.trust, &result.analysis.trust});

@@ -53,8 +53,7 @@ std::optional<std::string> doubt_of_agreement(const std::vector<OwnDevice>& devi
       softest.source, quantity(softest.value, unit), stiffest.source, quantity(stiffest.value, unit));
 }
 
-void judge_agreement(Identification& result, std::span<const Recording> recordings, const IdentifyOptions& options,
-                     Trust device_trust) {
+void judge_agreement(Identification& result, std::span<const Recording> recordings, const IdentifyOptions& options) {
   if (recordings.size() < 2 || !result.trust.sound()) return;
   ParameterFitOptions alone = options.fit;
   alone.free.clear();
@@ -75,11 +74,7 @@ void judge_agreement(Identification& result, std::span<const Recording> recordin
     }
   }
   const std::optional<std::string> doubt = doubt_of_agreement(devices, result.fit.device);
-  if (!doubt) return;
-  result.trust.doubt(*doubt);
-  result.analysis.trust.inherit(result.trust);
-  device_trust.inherit(result.trust);
-  result.fit.device = with_trust(result.fit.device, device_trust);
+  if (doubt) result.trust.doubt(*doubt);
 }
 
 }  // namespace zwidth::internal

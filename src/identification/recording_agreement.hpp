@@ -23,8 +23,7 @@ struct OwnDevice {
                                                             const Device& pooled);
 
 /// Doubts an answer otherwise sound that is an average of recordings that disagree: each alone is fitted from the answer
-/// on. `device_trust`: of the device for any other purpose.
-void judge_agreement(Identification& result, std::span<const Recording> recordings, const IdentifyOptions& options,
-                     Trust device_trust);
+/// on.
+void judge_agreement(Identification& result, std::span<const Recording> recordings, const IdentifyOptions& options);
 
 }  // namespace zwidth::internal

@@ -162,8 +162,7 @@ std::optional<UnseenLimit> from_other_values(const Identification& result, const
 
 }  // namespace
 
-void judge_unseen_limit(Identification& result, const Device& as_fitted, const IdentifyOptions& options,
-                        Trust device_trust) {
+void judge_unseen_limit(Identification& result, const Device& as_fitted, const IdentifyOptions& options) {
   const DeviceParameters& parameters = as_fitted.parameters();
   if (!result.trust.sound() || !parameters.uncertainty || !result.analysis.interval) return;
   const std::vector<double>& lines = result.fit.frequencies;
@@ -185,9 +184,6 @@ void judge_unseen_limit(Identification& result, const Device& as_fitted, const I
       fmt::format("{} a crossover near {:.4g} Hz, {} the measured band, may limit at {:.4g} {}; excite {} frequencies",
                   unseen->why, hertz(frequency), is_above ? "above" : "below", unseen->critical.stiffness,
                   units_of(parameters.motion).stiffness, is_above ? "higher" : "lower"));
-  result.analysis.trust.inherit(result.trust);
-  device_trust.inherit(result.trust);
-  result.fit.device = with_trust(result.fit.device, device_trust);
 }
 
 }  // namespace zwidth::internal

@@ -10,7 +10,6 @@ namespace zwidth::internal {
 /// above the band, whose damping is a guess), or in one of 12 fits that begin with other values of what the data do not
 /// show and explain the response as well. Within the band the response itself says that there is none. `as_fitted`: the
 /// device with all that the fit leaves open, of which the response may have narrowed result's.
-void judge_unseen_limit(Identification& result, const Device& as_fitted, const IdentifyOptions& options,
-                        Trust device_trust);
+void judge_unseen_limit(Identification& result, const Device& as_fitted, const IdentifyOptions& options);
 
 }  // namespace zwidth::internal

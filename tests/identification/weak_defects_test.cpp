@@ -22,10 +22,10 @@ constexpr double period = 1e-3;
 
 // A body of 0.4 kg and 1 N s/m with dry friction, or the same in two parts on a link: the first is moved, the other sensed.
 struct Bench {
-  double drag = 0.0;        // N s^2/m^2
-  double link = 0.0;        // N/m; 0: one body
-  double resolution = 1e-5; // m
-  double amplitude = 4.0;   // N
+  double drag = 0.0;         // N s^2/m^2
+  double link = 0.0;         // N/m; 0: one body
+  double resolution = 1e-5;  // m
+  double amplitude = 4.0;    // N
   double highest_hz = 60.0;
 };
 
@@ -122,8 +122,7 @@ TEST(WeakDefects, WithoutThemTheAnswerIsSoundAndHolds) {
 // The rounding of steps of 0.2 mm hangs on the force, before and after alike: it was taken for feedback.
 TEST(WeakDefects, ACoarseEncoderIsNoFeedback) {
   for (const double resolution : {1e-4, 2e-4}) {
-    const TimeDomainIdentification found =
-        fitted({.resolution = resolution, .amplitude = 2.0, .highest_hz = 40.0}, 7);
+    const TimeDomainIdentification found = fitted({.resolution = resolution, .amplitude = 2.0, .highest_hz = 40.0}, 7);
     EXPECT_EQ(reasons_of(found).find("recorded in feedback"), std::string::npos) << reasons_of(found);
   }
 }
