@@ -280,16 +280,6 @@ void judge_delay(const Fitting& fitting, Judgement& judgement) {
   judgement.remarks.push_back(remark);
 }
 
-/// A fit that ran away, where no number's deviation is one.
-std::optional<std::string> doubt_of_interval(const Identification& result) {
-  const auto& interval = result.analysis.interval;
-  if (interval && is_open(*interval)) return open_interval_reason(*interval);
-  const bool knows_noise = result.fit.misfit.has_value();
-  if (interval || !knows_noise) return std::nullopt;
-  return "how well the data determine the numbers could not be computed; free fewer, or name a structure of fewer "
-         "bodies";
-}
-
 /// `as_fitted`: the device with all that the fit leaves open.
 void judge_interval(Identification& result, const Device& as_fitted, const IdentifyOptions& options) {
   const std::optional<std::string> doubt = doubt_of_interval(result);

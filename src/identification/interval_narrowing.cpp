@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "identification/fit_judgement.hpp"
 #include "model/uncertainty_problem.hpp"
 #include "stability/device_draws.hpp"
+#include "zwidth/quantity.hpp"
 #include "zwidth/stability/stiffness_interval.hpp"
 
 namespace zwidth::internal {
@@ -47,6 +49,30 @@ std::string open_interval_reason(const StiffnessInterval& interval) {
   return fmt::format("the data leave the critical stiffness open {}; excite more strongly or for longer",
                      interval.lower > 0.0 ? fmt::format("within a factor of {:.2g}", interval.upper / interval.lower)
                                           : std::string("down to 0, where not even the softest wall is stable"));
+}
+
+std::optional<std::string> doubt_of_interval(const Identification& result) {
+  const auto& interval = result.analysis.interval;
+  if (!interval) {
+    const bool knows_noise = result.fit.misfit.has_value();
+    if (!knows_noise) return std::nullopt;
+    return "how well the data determine the numbers could not be computed; free fewer, or name a structure of fewer "
+           "bodies";
+  }
+  if (is_open(*interval)) return open_interval_reason(*interval);
+  constexpr double wide = 1.4;
+  constexpr double clear = 0.95;
+  const auto& limit = result.analysis.critical.limit;
+  if (!limit || !(interval->upper > wide * interval->lower)) return std::nullopt;
+  const ResponsePoint& line = *std::ranges::min_element(result.response.points, {}, [&](const ResponsePoint& each) {
+    return std::abs(each.frequency - limit->frequency);
+  });
+  if (line.coherence >= clear) return std::nullopt;
+  return fmt::format(
+      "noise hides the response where the crossover limits, near {:.4g} Hz (coherence {:.2f}), and the other lines "
+      "leave "
+      "the critical stiffness open within a factor of {:.2g}; excite more strongly there, or for longer",
+      hertz(limit->frequency), line.coherence, interval->upper / interval->lower);
 }
 
 void narrow_interval(Identification& result) {
