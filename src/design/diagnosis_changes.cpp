@@ -76,6 +76,14 @@ class Changes {
       add("twice the sampling rate", "loop.sampling_period", now.loop.sampling_period, half * now.loop.sampling_period,
           [](DeviceParameters& then) { then.loop.sampling_period *= half; });
     }
+    if (now.actuator.time_constant > 0.0) {
+      add("half the actuator's lag", "actuator.time_constant", now.actuator.time_constant,
+          half * now.actuator.time_constant, [](DeviceParameters& then) { then.actuator.time_constant *= half; });
+    }
+    if (now.wall.damping > 0.0 && now.wall.velocity_filter_hz > 0.0) {
+      add("no velocity filter", "wall.velocity_filter_hz", now.wall.velocity_filter_hz, 0.0,
+          [](DeviceParameters& then) { then.wall.velocity_filter_hz = 0.0; });
+    }
     damp();
     if (cause_.limited_by && cause_.limited_by->kind == Mechanism::Kind::vibration_mode) stop_mode();
     for (std::size_t i = 0; i < std::min(now.links.size(), most_links); ++i) {

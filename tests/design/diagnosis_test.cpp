@@ -76,6 +76,28 @@ TEST(Diagnosis, ChangesAreWhatTheLibraryComputes) {
                                      [](const DiagnosisChange& each) { return *each.limit_then; }));
 }
 
+// A damper of 20 times was the first remedy, which makes the wall half as stiff as leaving the filter out.
+TEST(Diagnosis, ASlowVelocityFilterIsAmongWhatMovesIt) {
+  DeviceParameters slow;
+  slow.name = "slow filter";
+  slow.bodies = {{"body", 1.54, 4.86}};
+  slow.loop = {0, 0, 0, 1e-3, 0.0};
+  slow.actuator.time_constant = 1e-4;
+  slow.wall.damping = 38.8;
+  slow.wall.velocity_filter_hz = 8.44;
+  const CriticalStiffness now = critical_stiffness(Device(slow));
+  const Diagnosis diagnosis =
+      diagnose(Device(slow), {.frequency = now.limit->frequency, .stiffness = 1.03 * now.stiffness});
+  ASSERT_FALSE(diagnosis.changes.empty());
+  EXPECT_EQ(diagnosis.changes.front().key, "wall.velocity_filter_hz");
+  EXPECT_EQ(diagnosis.changes.front().value_then, 0.0);
+  const auto faster = std::ranges::find(diagnosis.changes, "actuator.time_constant", &DiagnosisChange::key);
+  ASSERT_NE(faster, diagnosis.changes.end());
+  EXPECT_DOUBLE_EQ(faster->value_then, 0.5e-4);
+  slow.wall.velocity_filter_hz = 0.0;
+  EXPECT_DOUBLE_EQ(*diagnosis.changes.front().limit_then, critical_stiffness(Device(slow)).stiffness);
+}
+
 TEST(Diagnosis, WithoutAStiffnessACrossoverIsNamedAndWhatComesFirst) {
   const Diagnosis diagnosis = diagnose(lhifam(), {.frequency = 618.0});
   ASSERT_TRUE(diagnosis.cause);

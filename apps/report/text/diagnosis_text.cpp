@@ -42,7 +42,8 @@ std::string mechanism_text(const std::optional<Mechanism>& mechanism) {
 }
 
 std::string value_text(const DiagnosisChange& change, double value, Motion motion) {
-  if (change.key == "wall.filter") return value > 0.0 ? quantity(value, "Hz") : "none";
+  if (change.key == "wall.filter" || change.key == "wall.velocity_filter_hz")
+    return value > 0.0 ? quantity(value, "Hz") : "none";
   return parameter_text(change.key == "body.*.damping" ? "wall.damping" : change.key, value, motion);
 }
 
