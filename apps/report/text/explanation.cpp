@@ -62,9 +62,8 @@ std::string percent(double fraction) { return number(std::round(1000.0 * fractio
 std::string other_intervals(const AnalysedDevice& analysed) {
   const auto higher = higher_intervals(analysed);
   if (higher.empty()) return {};
-  const bool are_all = higher.size() == analysed.analysis.critical.stable_intervals.size();
-  return fmt::format(" Stiffnesses {} are stable{}.", fmt::join(higher, ", and "),
-                     are_all ? "" : " too, with an unstable range below");
+  const bool all = higher.size() == analysed.analysis.critical.stable_intervals.size();
+  return fmt::format(" Stiffnesses {} are stable{}.", fmt::join(higher, ", and "), all ? "" : " too, unstable below");
 }
 
 /// What the device does just above a crossover.
