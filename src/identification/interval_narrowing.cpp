@@ -70,8 +70,7 @@ std::optional<std::string> doubt_of_interval(const Identification& result) {
   if (line.coherence >= clear) return std::nullopt;
   return fmt::format(
       "noise hides the response where the crossover limits, near {:.4g} Hz (coherence {:.2f}), and the other lines "
-      "leave "
-      "the critical stiffness open within a factor of {:.2g}; excite more strongly there, or for longer",
+      "leave the critical stiffness open within a factor of {:.2g}; excite more strongly there, or for longer",
       hertz(limit->frequency), line.coherence, interval->upper / interval->lower);
 }
 

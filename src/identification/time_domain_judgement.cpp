@@ -149,10 +149,11 @@ class Judge {
     }
   }
 
-  /// How well the critical stiffness is known if the structure is right, relative.
+  /// How well the critical stiffness is known if the structure is right, relative; 0 where there is none to speak of.
   [[nodiscard]] double known_share() const {
     const auto& interval = fit_.analysis.interval;
-    return interval ? 1.0 - interval->lower / fit_.analysis.critical.stiffness : 0.0;
+    const double stiffness = fit_.analysis.critical.stiffness;
+    return interval && stiffness > 0.0 && std::isfinite(stiffness) ? 1.0 - interval->lower / stiffness : 0.0;
   }
 
   void judge_nonlinearity(std::size_t r) {
