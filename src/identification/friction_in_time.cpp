@@ -95,9 +95,9 @@ std::optional<ShownFriction> friction_beside(const ParameterFit& fit, const Body
   if (kept < static_cast<double>(shots.size())) shots.resize(static_cast<std::size_t>(kept));
   std::optional<FittedShots> best;
   double least_badness = std::numeric_limits<double>::infinity();
-  const auto keep_better = [&](std::optional<FittedShots> found) {
+  const auto keep_better = [&](std::optional<FittedShots> found, double handicap) {
     if (!found) return;
-    const double badness = search.badness(*found, shots);
+    const double badness = search.badness(*found, shots) + handicap;
     if (best && badness >= least_badness) return;
     least_badness = badness;
     best = std::move(found);
@@ -107,10 +107,11 @@ std::optional<ShownFriction> friction_beside(const ParameterFit& fit, const Body
   constexpr std::size_t few = 3;
   const std::vector<Shot> short_shots =
       some_of(cut_into_shots(model.records(), start.device, part * length, shortest), 1, few);
-  for (const DeviceParameters& each : starting_frictions(start, one)) {
-    keep_better(search.from(model.position_of(each), shots));
-    const auto of_short = search.from(model.position_of(each), short_shots);
-    if (of_short) keep_better(search.from(of_short->fit.x, shots));
+  for (const FrictionStart& each : starting_frictions(start, one)) {
+    const Eigen::VectorXd x = model.position_of(each.device);
+    keep_better(search.from(x, shots), each.handicap);
+    const auto of_short = search.from(x, short_shots);
+    if (of_short) keep_better(search.from(of_short->fit.x, shots), each.handicap);
   }
   if (!best) return std::nullopt;
   const Eigen::VectorXd towards = best->fit.x;

@@ -211,10 +211,10 @@ TimeDomainIdentification identify_in_time(std::span<const Recording> recordings,
       some_of(cut_into_shots(records, start.device, part * options.segment, least), records.size(), few);
   std::optional<FittedShots> best;
   double least_badness = std::numeric_limits<double>::infinity();
-  for (const DeviceParameters& each : starting_frictions(start, recordings)) {
-    std::optional<FittedShots> found = search.from(model.position_of(each), short_shots);
+  for (const FrictionStart& each : starting_frictions(start, recordings)) {
+    std::optional<FittedShots> found = search.from(model.position_of(each.device), short_shots);
     if (!found) continue;
-    const double badness = search.badness(*found, short_shots);
+    const double badness = search.badness(*found, short_shots) + each.handicap;
     if (best && badness >= least_badness) continue;
     least_badness = badness;
     best = std::move(found);

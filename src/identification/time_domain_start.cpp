@@ -7,6 +7,7 @@
 #include <numbers>
 #include <set>
 
+#include "identification/alike_devices.hpp"
 #include "identification/lateness.hpp"
 #include "simulation/continuous_motion.hpp"
 #include "zwidth/error.hpp"
@@ -153,7 +154,7 @@ TimeDomainStart time_domain_start(std::span<const Recording> recordings, const D
   return start;
 }
 
-std::vector<DeviceParameters> starting_frictions(const TimeDomainStart& start, std::span<const Recording> recordings) {
+std::vector<FrictionStart> starting_frictions(const TimeDomainStart& start, std::span<const Recording> recordings) {
   const Sizes sizes = sizes_of(strongest(recordings));
   std::vector<std::size_t> rubbing;
   DeviceParameters parameters = start.device.parameters();
@@ -162,10 +163,9 @@ std::vector<DeviceParameters> starting_frictions(const TimeDomainStart& start, s
     const bool is_free = std::ranges::count(start.free, "body." + parameters.bodies[i].name + ".coulomb") > 0;
     if (is_free) rubbing.push_back(i);
   }
-  if (rubbing.empty()) return {parameters};
-  std::vector<DeviceParameters> starts;
-  for (const double share : {0.03, 0.2, 0.6}) {  // of the force
-    DeviceParameters each = parameters;
+  if (rubbing.empty()) return {{parameters}};
+  std::vector<FrictionStart> starts;
+  const auto add = [&](DeviceParameters each, double share, double handicap) {
     const double friction = share * sizes.force / static_cast<double>(rubbing.size());
     for (const std::size_t body : rubbing) {
       constexpr double least = 0.1;
@@ -173,7 +173,12 @@ std::vector<DeviceParameters> starting_frictions(const TimeDomainStart& start, s
       each.bodies[body].coulomb = friction;
       each.bodies[body].damping = std::max(least * each.bodies[body].damping, each.bodies[body].damping - taken);
     }
-    starts.push_back(std::move(each));
+    starts.push_back({std::move(each), handicap});
+  };
+  for (const double share : {0.03, 0.2, 0.6}) add(parameters, share, 0.0);  // of the force
+  for (const DeviceParameters& alike : alike_devices(parameters, start.free)) {
+    constexpr double clear = 10.0;
+    for (const double share : {0.03, 0.2}) add(alike, share, clear);
   }
   return starts;
 }

@@ -32,10 +32,18 @@ struct TimeDomainStart {
 [[nodiscard]] TimeDomainStart time_domain_start(std::span<const Recording> recordings, const Device& structure,
                                                 const TimeDomainOptions& options);
 
+/// A device from which a search with friction begins.
+struct FrictionStart {
+  DeviceParameters device;
+  /// To be beaten by this much of the log-likelihood, lest what does not show decide where the masses are.
+  double handicap = 0.0;
+};
+
 /// The start with several frictions of the bodies whose friction is free; the dampings less what a linear fit takes the
-/// friction for, sqrt(2/pi) F_c / s at a Gaussian velocity of deviation s.
-[[nodiscard]] std::vector<DeviceParameters> starting_frictions(const TimeDomainStart& start,
-                                                               std::span<const Recording> recordings);
+/// friction for, sqrt(2/pi) F_c / s at a Gaussian velocity of deviation s. Then the same of alike_devices(), which a linear
+/// fit does not tell from it.
+[[nodiscard]] std::vector<FrictionStart> starting_frictions(const TimeDomainStart& start,
+                                                            std::span<const Recording> recordings);
 
 /// How each free parameter is searched: its unit is the start's value, or what it typically is.
 [[nodiscard]] std::vector<Coordinate> time_domain_coordinates(const TimeDomainStart& start,
