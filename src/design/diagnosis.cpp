@@ -232,7 +232,9 @@ Diagnosis diagnose(const Device& device, const Recording& recording, const Diagn
     if (!diagnosis.trust.refused()) doubt_recorded(*found, diagnosis.trust);
   } else {
     diagnosis.amplitude = options.amplitude;
-    diagnosis.trust.refuse("nothing oscillates in the last half of the recording; record while it does");
+    diagnosis.trust.refuse(
+        "nothing oscillates for four cycles and more in the last half of the recording; record for longer, while it "
+        "does");
   }
   diagnosis.remarks.insert(diagnosis.remarks.begin(), recording.remarks.begin(), recording.remarks.end());
   return diagnosis;

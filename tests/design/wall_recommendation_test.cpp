@@ -101,6 +101,21 @@ TEST(WallRecommendation, ATransferFunctionIsWarnedAbout) {
   EXPECT_TRUE(warned);
 }
 
+// The held body has no damping, and is driven itself: users leave 30 nN/m of 52 N/m. Was answered with 15 nN/m.
+TEST(WallRecommendation, NextToNothingIsNoWall) {
+  DeviceParameters parameters;
+  parameters.bodies = {{"far", 0.35211050663092236, 0.3824210949641596},
+                       {"held", 0.06991810606866407, 0.0, 4.2929035999047995}};
+  parameters.links = {{0, 1, 152744.04831067976, 0.0}};
+  parameters.loop = {.actuated = 1, .sensed = 1, .held = 1, .sampling_period = 0.0002612985474436173};
+  parameters.actuator.time_constant = 0.0011612128976711035;
+  const Device device(std::move(parameters));
+  const WallRecommendation found = recommend_wall(device);
+  EXPECT_NE(found.status, WallRecommendation::Status::found);
+  EXPECT_FALSE(found.wall);
+  EXPECT_NE(found.reason.find("nN/m"), std::string::npos) << found.reason;
+}
+
 TEST(WallRecommendation, NamesTheMemberOutsideItsRange) {
   const Device device = rigid(1.0, 1.0, 1e-3);
   EXPECT_EQ(find_problem({.gain_margin = 0.9}, device)->member, "gain_margin");
