@@ -8,7 +8,7 @@
 #include <random>
 #include <span>
 
-#include "identification/friction_test.hpp"
+#include "identification/motion_residuals.hpp"
 #include "linear_systems.hpp"
 #include "zwidth/sampling/sampled_plant.hpp"
 

@@ -8,10 +8,11 @@
 #include <limits>
 #include <utility>
 
-#include "identification/friction_test.hpp"
+#include "identification/drag_test.hpp"
 #include "identification/held_device.hpp"
 #include "identification/lateness.hpp"
 #include "identification/misfit_doubt.hpp"
+#include "identification/motion_residuals.hpp"
 #include "identification/nonlinearity_test.hpp"
 #include "identification/percent.hpp"
 #include "identification/plausibility.hpp"
@@ -265,6 +266,14 @@ void judge_nonlinearity(Identification& result, std::span<const Recording> recor
     if (auto doubt = doubt_of_counts(each)) result.trust.doubt(*std::move(doubt));
   }
   if (!result.trust.sound() || options.response.output != OutputQuantity::position) return;
+  std::vector<std::string> keys;
+  for (const ParameterEstimate& each : result.fit.estimates) keys.push_back(each.key);
+  const std::vector<double>& lines = result.fit.frequencies;
+  const auto doubt = [&](const std::string& what, const std::string& remedy) {
+    result.trust.doubt(fmt::format("{}; {}", what, remedy));
+    result.remarks.push_back(
+        {Remark::Severity::warning, what, "the fit takes it for mass, damping and springs", remedy});
+  };
   for (const Recording& each : recordings) {
     const Device device = device_in_experiment(result.fit.device, options.fit.locked, each.sampling_period);
     const DiscreteStateSpace system = sample(state_space(device), {each.sampling_period, device.loop().delay});
@@ -274,14 +283,14 @@ void judge_nonlinearity(Identification& result, std::span<const Recording> recor
     const auto found = find_nonlinearity({.device = device,
                                           .force = each.channels[0].samples,
                                           .position = each.channels[1].samples,
-                                          .residuals = residuals,
-                                          .matters = outside_interval(result.fit.device, result.analysis.interval)});
-    if (!found) continue;
-    const std::string what = fmt::format("the record shows {}", found->what);
-    result.trust.doubt(fmt::format("{}; {}", what, found->remedy));
-    result.remarks.push_back(
-        {Remark::Severity::warning, what, "the fit takes it for mass, damping and springs", found->remedy});
-    return;
+                                          .residuals = residuals});
+    if (found) return doubt(fmt::format("the record shows {}", found->what), found->remedy);
+    const auto drag =
+        find_drag({result.fit.device, options.fit.locked, keys, each.sampling_period, lines.front(), lines.back()},
+                  each.channels[0].samples, each.channels[1].samples);
+    if (const auto shown = doubt_of_drag(drag, result.analysis, device.parameters().motion)) {
+      return doubt("the record shows " + *shown, slow_motion_remedy);
+    }
   }
 }
 

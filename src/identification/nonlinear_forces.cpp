@@ -13,7 +13,6 @@ namespace zwidth::internal {
 namespace {
 
 constexpr double clear_evidence = 40.0;
-constexpr double clear_of_speed = 15.0;  // one look, of one degree of freedom
 constexpr double notable_share =
     0.015;  // of linear records 0.0135 at most, where chi-squared is clear; weak cogging 0.0155 and more
 
@@ -28,8 +27,7 @@ std::vector<double> mapped(std::span<const double> signal, Function function) {
 
 std::optional<Nonlinearity> clearest_nonlinearity(
     std::span<const double> position, std::span<const double> force, Motion motion,
-    const std::function<NonlinearEvidence(const NonlinearForce&)>& evidence_of,
-    const std::function<bool(double)>& matters) {
+    const std::function<NonlinearEvidence(const NonlinearForce&)>& evidence_of) {
   const auto extremes = std::ranges::minmax(position);
   const double least = extremes.min;  // no structured binding: the closures below capture it
   const double range = extremes.max - least;
@@ -41,9 +39,7 @@ std::optional<Nonlinearity> clearest_nonlinearity(
   const auto examine = [&](NonlinearForce candidate) {
     const NonlinearEvidence evidence = evidence_of(candidate);
     const bool shows = evidence.chi_squared > clear_evidence && evidence.share > notable_share;
-    const bool biases =
-        candidate.is_of_speed && matters && evidence.chi_squared > clear_of_speed && matters(evidence.damping);
-    if (!shows && !biases) return;
+    if (!shows) return;
     if (found && found->evidence.chi_squared >= evidence.chi_squared) return;
     found = Nonlinearity{std::move(candidate.what), std::move(candidate.remedy), evidence};
   };
@@ -52,7 +48,6 @@ std::optional<Nonlinearity> clearest_nonlinearity(
     return mapped(position, [=](double x) { return std::pow((x - middle) / range, exponent); });
   };
   examine({{power(2), power(3)},
-           false,
            false,
            "a force that changes with the position, but not in proportion to it: a spring that stiffens, gravity on a "
            "lever, or a stop",
@@ -64,13 +59,7 @@ std::optional<Nonlinearity> clearest_nonlinearity(
     const double velocity = (position[k] - position[k - span]) / range;
     drag[k] = velocity * std::abs(velocity);
   }
-  examine(
-      {{std::move(drag)},
-       false,
-       true,
-       "a force that is not in proportion to the speed: drag of air or of a fluid, an eddy-current brake, or friction "
-       "that changes with the speed",
-       "record it at the speeds that matter: slow motion is damped less, and its critical stiffness is lower"});
+  examine({{std::move(drag)}, false, force_not_in_proportion_to_the_speed, slow_motion_remedy});
 
   const auto beyond = [&](double share) {
     const double bound = share * largest;
@@ -78,7 +67,6 @@ std::optional<Nonlinearity> clearest_nonlinearity(
   };
   examine({{beyond(0.25), beyond(0.5), beyond(0.75)},
            true,
-           false,
            "a force that is not in proportion to the recorded one: an amplifier that saturates, or a torque that falls "
            "at large currents",
            "record the force that acts, or excite less strongly"});
@@ -91,7 +79,6 @@ std::optional<Nonlinearity> clearest_nonlinearity(
     examine(
         {{mapped(position, [=](double x) { return std::cos(wave_number * (x - least)); }),
           mapped(position, [=](double x) { return std::sin(wave_number * (x - least)); })},
-         false,
          false,
          fmt::format("a force that comes and goes with the position, about every {:.2g} {}: cogging, gear teeth, or "
                      "a bearing",

@@ -15,16 +15,21 @@ namespace zwidth::internal {
 struct NonlinearForce {
   std::vector<std::vector<double>> terms;  ///< by sample
   bool is_of_command = false;              ///< acts where the actuator does; else where the position is sensed
-  bool is_of_speed = false;                ///< one term, opposed to the velocity: a fit takes it for damping
   std::string what;                        ///< in words, with its likely cause
   std::string remedy;
 };
+
+inline constexpr const char* force_not_in_proportion_to_the_speed =
+    "a force that is not in proportion to the speed: drag of air or of a fluid, an eddy-current brake, or friction "
+    "that "
+    "changes with the speed";
+inline constexpr const char* slow_motion_remedy =
+    "record it at the speeds that matter: slow motion is damped less, and its critical stiffness is lower";
 
 /// How clearly a record shows such a force beside all that is linear.
 struct NonlinearEvidence {
   double chi_squared = 0.0;  ///< less its degrees of freedom
   double share = 0.0;        ///< of the squares of what is left
-  double damping = 0.0;  ///< of a force of the speed: what a linear fit has of it in its damping, N s/m or N m s/rad
 };
 
 /// What a linear device with dry friction does not do.
@@ -40,11 +45,9 @@ struct Nonlinearity {
 ///     beyond 1/4, 1/2 and 3/4 of its largest
 ///
 /// where chi-squared and the share explained are both beyond what records of linear devices show; nothing where none is.
-/// A force of the speed may be a smaller share where `matters` says so of the damping that it lends a fit.
 [[nodiscard]] std::optional<Nonlinearity> clearest_nonlinearity(
     std::span<const double> position, std::span<const double> force, Motion motion,
-    const std::function<NonlinearEvidence(const NonlinearForce&)>& evidence_of,
-    const std::function<bool(double damping)>& matters = {});
+    const std::function<NonlinearEvidence(const NonlinearForce&)>& evidence_of);
 
 /// Orthonormal columns that span these less what the orthonormal linear ones have of them; fewer where nothing is left.
 [[nodiscard]] Eigen::MatrixXd outside_linear_terms(Eigen::MatrixXd columns, const Eigen::MatrixXd& linear);

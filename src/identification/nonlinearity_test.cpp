@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "identification/encoder_step.hpp"
-#include "identification/friction_test.hpp"
+#include "identification/motion_residuals.hpp"
 #include "identification/shot_fit.hpp"
 #include "identification/time_domain_start.hpp"
 #include "linear_systems.hpp"
@@ -15,7 +15,6 @@
 #include "zwidth/model/state_space.hpp"
 #include "zwidth/sampling/discrete_state_space.hpp"
 #include "zwidth/sampling/forced_response.hpp"
-#include "zwidth/stability/critical_stiffness.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -33,7 +32,7 @@ class PredictionErrors {
         position_(question.position.begin(), question.position.begin() + static_cast<std::ptrdiff_t>(size_)),
         force_(question.force.begin(), question.force.begin() + static_cast<std::ptrdiff_t>(size_)),
         from_force_(discrete(question.device)),
-        at_sensed_(discrete(pushed_where_sensed(question.device))) {
+        at_sensed_(discrete(pushed_at(question.device, question.device.loop().sensed))) {
     for (const Shot& each : question.shots) {
       if (each.first + least_examined > size_) break;
       shots_.push_back({0, each.first, std::min(each.count, size_ - each.first)});
@@ -42,7 +41,7 @@ class PredictionErrors {
     const std::span<const double> residuals = question.residuals.first(size_);
     noise_ = shot_noise(shots_, parts(residuals), {encoder_step(position_)}, error_terms).front();
     left_ = errors_of(residuals);
-    take_out_linear_terms(pushed_where_sensed(question.device));
+    take_out_linear_terms(pushed_at(question.device, question.device.loop().sensed));
   }
 
   [[nodiscard]] const Signal& position() const { return position_; }
@@ -62,11 +61,6 @@ class PredictionErrors {
     if (!(evidence.chi_squared > 0.0)) return evidence;
     const Eigen::VectorXd scaled = solve(covariance(basis, left_ - basis * effects), effects);
     evidence.chi_squared = effects.dot(scaled) - freedom;
-    if (force.is_of_speed && basis.cols() == 1) {
-      const Eigen::VectorXd whole = errors_of(at_sensed_, force.terms.front());
-      // c g + ... is left where the device has c g: its fit has the velocity's share of g with the other sign.
-      evidence.damping = -effects(0) / basis.col(0).dot(whole) * least_squares(motion_, whole)(0);
-    }
     return evidence;
   }
 
@@ -109,14 +103,6 @@ class PredictionErrors {
 
   static DiscreteStateSpace discrete(const Device& device) {
     return sample(state_space(device), {device.loop().sampling_period, device.loop().delay});
-  }
-
-  static Device pushed_where_sensed(const Device& device) {
-    DeviceParameters parameters = device.parameters();
-    parameters.loop.actuated = parameters.loop.sensed;
-    parameters.loop.delay = 0.0;
-    parameters.actuator.time_constant = 0.0;
-    return Device(std::move(parameters));
   }
 
   [[nodiscard]] Eigen::VectorXd errors_of(const DiscreteStateSpace& system, const Signal& force) const {
@@ -163,9 +149,6 @@ class PredictionErrors {
     }
     for (const Signal& each : {position_, velocity, acceleration, direction, Signal(size_, 1.0)})
       terms.push_back(errors_of(at_sensed_, each));
-    motion_.resize(left_.size(), 3);
-    motion_ << terms[terms.size() - 4] / (span * device.loop().sampling_period), terms[terms.size() - 3],
-        terms[terms.size() - 2];
     for (const Signal& each : free_motions(device, size_)) terms.push_back(errors_of(each));
     Eigen::MatrixXd columns(left_.size(), static_cast<Eigen::Index>(terms.size()));
     for (std::size_t j = 0; j < terms.size(); ++j) {
@@ -184,22 +167,9 @@ class PredictionErrors {
   ShotNoise noise_;
   Eigen::VectorXd left_;    ///< prediction errors in their deviation, linear terms taken out
   Eigen::MatrixXd linear_;  ///< orthonormal
-  Eigen::MatrixXd
-      motion_;  ///< errors of a force that is the velocity, per m/s or rad/s, the acceleration, the direction
 };
 
 }  // namespace
-
-std::function<bool(double)> outside_interval(const Device& fitted, const std::optional<StiffnessInterval>& interval) {
-  if (!interval) return {};
-  return [parameters = fitted.parameters(), interval = *interval](double damping) {
-    DeviceParameters without = parameters;
-    double& of_sensed = without.bodies[without.loop.sensed].damping;
-    of_sensed = std::max(0.0, of_sensed - damping);
-    const double stiffness = critical_stiffness(Device(std::move(without))).stiffness;
-    return stiffness < interval.lower || stiffness > interval.upper;
-  };
-}
 
 std::optional<Nonlinearity> find_nonlinearity(const NonlinearityQuestion& question) {
   if (question.residuals.size() < least_examined) return std::nullopt;
@@ -208,9 +178,8 @@ std::optional<Nonlinearity> find_nonlinearity(const NonlinearityQuestion& questi
   const double left = std::ranges::max(question.residuals, {}, [](double each) { return std::abs(each); });
   if (!(std::abs(left) > nothing * (most - least))) return std::nullopt;
   const PredictionErrors errors(question);
-  return clearest_nonlinearity(
-      errors.position(), errors.force(), question.device.parameters().motion,
-      [&](const NonlinearForce& force) { return errors.of(force); }, question.matters);
+  return clearest_nonlinearity(errors.position(), errors.force(), question.device.parameters().motion,
+                               [&](const NonlinearForce& force) { return errors.of(force); });
 }
 
 }  // namespace zwidth::internal

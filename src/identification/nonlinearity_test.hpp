@@ -18,13 +18,7 @@ struct NonlinearityQuestion {
   std::span<const double> position;   ///< recorded
   std::span<const double> residuals;  ///< recorded less fitted position
   std::span<const Shot> shots = {};   ///< what was fitted from a state of its own; empty: the whole record
-  /// Whether the answer's interval does not hold without so much of the sensed body's damping.
-  std::function<bool(double damping)> matters = {};
 };
-
-/// NonlinearityQuestion::matters of a fitted device and the interval of its critical stiffness; of none without one.
-[[nodiscard]] std::function<bool(double)> outside_interval(const Device& fitted,
-                                                           const std::optional<StiffnessInterval>& interval);
 
 /// Looks for forces that hang on the measured position or on the commanded force in no linear way.
 ///

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "identification/friction_test.hpp"
+#include "identification/motion_residuals.hpp"
 #include "identification/misfit_doubt.hpp"
 #include "identification/pooled_response.hpp"
 #include "identification/response_choice.hpp"

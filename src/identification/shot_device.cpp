@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "identification/friction_test.hpp"
+#include "identification/motion_residuals.hpp"
 #include "identification/time_domain_start.hpp"
 #include "simulation/continuous_motion.hpp"
 #include "zwidth/identification/parameter_fit.hpp"

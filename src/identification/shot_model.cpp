@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "identification/friction_test.hpp"
+#include "identification/motion_residuals.hpp"
 #include "identification/lateness.hpp"
 #include "identification/shot_player.hpp"
 #include "zwidth/error.hpp"

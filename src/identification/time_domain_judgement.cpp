@@ -12,10 +12,10 @@
 
 #include "identification/fit_judgement.hpp"
 #include "identification/fit_weights.hpp"
-#include "identification/friction_test.hpp"
 #include "identification/held_device.hpp"
 #include "identification/interval_narrowing.hpp"
 #include "identification/lateness.hpp"
+#include "identification/motion_residuals.hpp"
 #include "identification/nonlinearity_test.hpp"
 #include "identification/percent.hpp"
 #include "identification/plausibility.hpp"
@@ -165,10 +165,11 @@ class Judge {
     std::ranges::copy_if(judged_.shots, std::back_inserter(shots), [r](const Shot& shot) { return shot.record == r; });
     if (motion.feedback > clear_feedback) return;  // the force answers to the errors: doubtful for that
     const Device device = device_in_experiment(fit_.device, judged_.options.locked, recording.sampling_period);
-    const auto found =
-        find_nonlinearity({device, recording.channels[0].samples, recording.channels[1].samples, motion.residuals,
-                           shots, outside_interval(fit_.device, fit_.analysis.interval)});
-    if (found) trust_.doubt(fmt::format("{} shows {}; {}", motion.source, found->what, found->remedy));
+    const auto found = find_nonlinearity(
+        {device, recording.channels[0].samples, recording.channels[1].samples, motion.residuals, shots});
+    if (found) return trust_.doubt(fmt::format("{} shows {}; {}", motion.source, found->what, found->remedy));
+    const auto drag = doubt_of_drag(judged_.drags[r], fit_.analysis, device.parameters().motion);
+    if (drag) trust_.doubt(fmt::format("{} shows {}; {}", motion.source, *drag, slow_motion_remedy));
   }
 
   void judge_feedback() {
