@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "identification/motion_residuals.hpp"
 #include "identification/misfit_doubt.hpp"
+#include "identification/motion_residuals.hpp"
 #include "identification/pooled_response.hpp"
 #include "identification/response_choice.hpp"
 #include "identification/welch.hpp"
