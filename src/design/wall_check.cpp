@@ -6,6 +6,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -15,6 +16,8 @@
 #include "stability/pole_count.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/model/state_space.hpp"
+#include "zwidth/quantity.hpp"
+#include "zwidth/stability/critical_stiffness.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -126,6 +129,27 @@ void check_wall(const Device& walled, const RecommendationOptions& options, bool
     if (any_user) check_users(each, options.progress, trust);
   }
   if (!trust.refused()) check_phase(walled, options.phase_margin, options.progress, trust);
+}
+
+Device without_wall(const Device& device) {
+  DeviceParameters parameters = device.parameters();
+  parameters.wall.stiffness.reset();
+  parameters.wall.damping = 0.0;
+  parameters.wall.velocity_filter_hz = 0.0;
+  // An uncertain number of the wall that is left out says nothing.
+  if (find_problem(parameters)) parameters.uncertainty.reset();
+  return Device(std::move(parameters));
+}
+
+std::string why_negligible(const Device& walled) {
+  constexpr double negligible = 1e-6;
+  const DeviceParameters& parameters = walled.parameters();
+  const double alone = critical_stiffness(walled).stiffness;
+  if (!std::isfinite(alone) || *parameters.wall.stiffness >= negligible * alone) return {};
+  return fmt::format(
+      "with some passive user no wall stiffer than {} keeps the margins asked: hardly anything damps a motion that "
+      "the user can drive (the device's own damping, not the wall's, is what bears a user)",
+      quantity(*parameters.wall.stiffness, units_of(parameters.motion).stiffness));
 }
 
 }  // namespace zwidth::internal

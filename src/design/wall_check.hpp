@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "zwidth/design/wall_recommendation.hpp"
 
 namespace zwidth::internal {
@@ -9,5 +11,12 @@ namespace zwidth::internal {
 // users; gain crossovers of the state space's response on a grid, refined, for the phase margin. What contradicts is
 // refused in `trust`.
 void check_wall(const Device& walled, const RecommendationOptions& options, bool any_user, Trust& trust);
+
+/// The device whose wall has neither stiffness nor damping; its filters stay.
+[[nodiscard]] Device without_wall(const Device& device);
+
+/// Why a wall that some passive user bounds is none worth rendering: below a millionth of what the device renders alone.
+/// Empty where it is one.
+[[nodiscard]] std::string why_negligible(const Device& walled);
 
 }  // namespace zwidth::internal

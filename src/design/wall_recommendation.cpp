@@ -34,16 +34,6 @@ constexpr double faster = 1.25;          // where the bound of the velocity filt
 constexpr double fastest = 0.45;         // of the sampling rate
 constexpr double to_be_distinct = 0.01;  // relative, of an alternative
 
-Device without_wall(const Device& device) {
-  DeviceParameters parameters = device.parameters();
-  parameters.wall.stiffness.reset();
-  parameters.wall.damping = 0.0;
-  parameters.wall.velocity_filter_hz = 0.0;
-  // An uncertain number of the wall that is left out says nothing.
-  if (find_problem(parameters)) parameters.uncertainty.reset();
-  return Device(std::move(parameters));
-}
-
 /// One wall on its way: with the filters of its limits closed.
 struct Candidate {
   VirtualDamper damper;
@@ -78,12 +68,10 @@ class Recommendation {
     stages_.next(0.7);
     if (options_.drift > 0.0) result.drifts_checked = drifts_held;
     if (best) best = kept(*best, *plain, result);
-    if (best && is_negligible(*best)) {
-      result.reason = fmt::format(
-          "with some passive user no wall stiffer than {} keeps the margins asked: hardly anything damps a motion that "
-          "the user can drive (the device's own damping, not the wall's, is what bears a user)",
-          quantity(best->stiffest.stiffness, units_of(device_.parameters().motion).stiffness));
-      best.reset();
+    if (best && limits_.has_users()) {
+      result.reason =
+          why_negligible(with_wall(limits_of(best->notch).device(), best->stiffest.stiffness, best->damper));
+      if (!result.reason.empty()) best.reset();
     }
     if (!best) {
       result.reason = result.reason.empty() ? why_none() : result.reason;
@@ -236,16 +224,6 @@ class Recommendation {
           bound_with(candidate, {candidate.damper.damping, cutoff < fastest / period ? cutoff : 0.0});
     }
     return bounds;
-  }
-
-  /// Whether some passive user leaves next to nothing of what the device renders alone.
-  [[nodiscard]] bool is_negligible(const Candidate& candidate) {
-    constexpr double negligible = 1e-6;
-    if (!limits_.has_users()) return false;
-    const Device walled =
-        with_wall(limits_of(candidate.notch).device(), candidate.stiffest.stiffness, candidate.damper);
-    const double alone = critical_stiffness(walled).stiffness;
-    return std::isfinite(alone) && candidate.stiffest.stiffness < negligible * alone;
   }
 
   /// With everything that stands behind it; `trust` says what the check found.
