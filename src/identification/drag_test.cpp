@@ -32,26 +32,24 @@ std::optional<double> ratio_of(const std::optional<LineRegression>& found) {
   return found->values(last) / found->deviations(last);
 }
 
+double drag_of_unit_size(double speed) { return speed * speed; }
+
 /// The sensed positions that drag of unit size makes, as far as the device slides.
 std::vector<double> drag_effect(const Device& device, const Eigen::VectorXd& positions) {
-  const double period = device.loop().sampling_period;
-  std::vector<double> drag(static_cast<std::size_t>(positions.size()), 0.0);
-  for (Eigen::Index k = 0; k + 1 < positions.size(); ++k) {
-    const double velocity = (positions(k + 1) - positions(k)) / period;
-    drag[static_cast<std::size_t>(k)] = -velocity * std::abs(velocity);
-  }
-  return motion_of(pushed_at(device, device.loop().sensed), drag);
+  const std::span played(positions.data(), static_cast<std::size_t>(positions.size()));
+  return motion_of(pushed_at(device, device.loop().sensed),
+                   opposing_force(played, device.loop().sampling_period, drag_of_unit_size));
 }
 
 }  // namespace
 
 std::optional<DragEvidence> find_drag(const MotionQuestion& question, std::span<const double> force,
-                                      std::span<const double> position) {
+                                      std::span<const double> position) try {
   const MotionResiduals residuals(question, force, position);
   if (!residuals.are_enough()) return std::nullopt;
   std::optional<DragEvidence> best;
   std::optional<LineRegression> fitted;
-  for (const Opposing& each : residuals.opposing_forces([](double speed) { return speed * speed; })) {
+  for (const Opposing& each : residuals.opposing_forces(drag_of_unit_size)) {
     auto found = residuals.beside(each);
     const auto ratio = ratio_of(found);
     if (!ratio || (best && *ratio <= best->ratio)) continue;
@@ -60,6 +58,8 @@ std::optional<DragEvidence> find_drag(const MotionQuestion& question, std::span<
   }
   if (best) best->stiffness_beside = stiffness_of(residuals.parameters_beside(*fitted));
   return best;
+} catch (const Error&) {  // a device that cannot be played says nothing
+  return std::nullopt;
 }
 
 std::optional<DragEvidence> find_drag(const FittedDevice& fitted, const std::vector<std::string>& locked,

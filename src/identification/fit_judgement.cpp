@@ -266,8 +266,7 @@ void judge_nonlinearity(Identification& result, std::span<const Recording> recor
     if (auto doubt = doubt_of_counts(each)) result.trust.doubt(*std::move(doubt));
   }
   if (!result.trust.sound() || options.response.output != OutputQuantity::position) return;
-  std::vector<std::string> keys;
-  for (const ParameterEstimate& each : result.fit.estimates) keys.push_back(each.key);
+  const std::vector<std::string> keys = keys_of(result.fit);
   const std::vector<double>& lines = result.fit.frequencies;
   const auto doubt = [&](const std::string& what, const std::string& remedy) {
     result.trust.doubt(fmt::format("{}; {}", what, remedy));
@@ -292,6 +291,12 @@ void judge_nonlinearity(Identification& result, std::span<const Recording> recor
       return doubt("the record shows " + *shown, slow_motion_remedy);
     }
   }
+}
+
+std::vector<std::string> keys_of(const ParameterFit& fit) {
+  std::vector<std::string> keys;
+  for (const ParameterEstimate& each : fit.estimates) keys.push_back(each.key);
+  return keys;
 }
 
 CriticalStiffness limit_of(const Device& device) { return critical_stiffness(device); }

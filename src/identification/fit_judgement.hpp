@@ -54,4 +54,7 @@ void keep_what_is_assumed(const Device& structure, std::span<const ParameterEsti
 /// The verdict into the fitted device's [uncertainty], so that its file keeps it.
 [[nodiscard]] Device with_trust(const Device& device, const Trust& trust);
 
+/// Keys of what a fit determined or left open, in full.
+[[nodiscard]] std::vector<std::string> keys_of(const ParameterFit& fit);
+
 }  // namespace zwidth::internal

@@ -69,8 +69,7 @@ std::optional<ShownFriction> friction_beside(const ParameterFit& fit, const Body
   DeviceParameters parameters = fit.device.parameters();
   parameters.uncertainty.reset();
   const Device linear(std::move(parameters));
-  TimeDomainStart start{.device = linear, .free = {}};
-  for (const ParameterEstimate& each : fit.estimates) start.free.push_back(each.key);
+  TimeDomainStart start{.device = linear, .free = keys_of(fit)};
   start.free.push_back("body." + body.name + ".coulomb");
 
   // Of what takes long to play, the first part: the steps through it times what is followed in each.

@@ -152,12 +152,6 @@ class Fitting {
   }
   [[nodiscard]] bool is_free(const std::string& key) const { return std::ranges::count(fit_options_.free, key) > 0; }
 
-  [[nodiscard]] static std::vector<std::string> keys_of(const ParameterFit& fit) {
-    std::vector<std::string> keys;
-    for (const ParameterEstimate& each : fit.estimates) keys.push_back(each.key);
-    return keys;
-  }
-
   [[nodiscard]] RecordFit whole_fit(const Device& structure, const FrequencyResponse& response,
                                     const ParameterFitOptions& options) const {
     RecordFit fit{fit_parameters(structure, response, options), response};

@@ -71,16 +71,9 @@ std::vector<Opposing> MotionResiduals::opposing_forces(const std::function<doubl
   for (std::size_t body = 0; body < device_.bodies().size(); ++body) {
     DeviceParameters seen = device_.parameters();
     seen.loop.sensed = body;
-    const Signal position = motion_of(Device(std::move(seen)), force_);
-    Signal opposing(position.size(), 0.0);
-    bool moves = false;
-    for (std::size_t k = 0; k + 1 < position.size(); ++k) {
-      const double velocity = (position[k + 1] - position[k]) / question_.sampling_period;
-      if (velocity == 0.0) continue;
-      opposing[k] = std::copysign(size(std::abs(velocity)), -velocity);
-      moves = true;
-    }
-    if (moves) forces.push_back({device_.bodies()[body].name, motion_of(pushed_at(device_, body), opposing)});
+    const Signal opposing = opposing_force(motion_of(Device(std::move(seen)), force_), question_.sampling_period, size);
+    if (std::ranges::all_of(opposing, [](double each) { return each == 0.0; })) continue;
+    forces.push_back({device_.bodies()[body].name, motion_of(pushed_at(device_, body), opposing)});
   }
   return forces;
 }
@@ -104,6 +97,16 @@ DeviceParameters MotionResiduals::parameters_beside(const LineRegression& found)
     set_parameter(parameters, key, std::max(least * value, value + found.values(static_cast<Eigen::Index>(i)) * unit));
   }
   return parameters;
+}
+
+std::vector<double> opposing_force(std::span<const double> positions, double sampling_period,
+                                   const std::function<double(double)>& size) {
+  Signal opposing(positions.size(), 0.0);
+  for (std::size_t k = 0; k + 1 < positions.size(); ++k) {
+    const double velocity = (positions[k + 1] - positions[k]) / sampling_period;
+    if (velocity != 0.0) opposing[k] = std::copysign(size(std::abs(velocity)), -velocity);
+  }
+  return opposing;
 }
 
 Device pushed_at(const Device& device, std::size_t body) {

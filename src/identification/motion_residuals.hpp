@@ -42,7 +42,7 @@ class MotionResiduals {
   [[nodiscard]] bool are_enough() const { return are_enough_; }
   [[nodiscard]] std::span<const double> force() const { return force_; }
 
-  /// e of a force -size(|v|) sign(v) at each body that moves; `size` of a speed in m/s or rad/s.
+  /// e of an opposing_force() at each body that moves.
   [[nodiscard]] std::vector<Opposing> opposing_forces(const std::function<double(double)>& size) const;
 
   /// c with its deviation; dp first.
@@ -73,6 +73,10 @@ class MotionResiduals {
 /// The fitted device as it was in the experiment: bodies locked, sampled at the record's rate, no wall's filters.
 [[nodiscard]] Device device_in_experiment(const Device& fitted, const std::vector<std::string>& locked,
                                           double sampling_period);
+
+/// Of positions a sampling period apart: a force -size(|v|) sign(v) by sample; `size` of a speed in m/s or rad/s.
+[[nodiscard]] std::vector<double> opposing_force(std::span<const double> positions, double sampling_period,
+                                                 const std::function<double(double)>& size);
 
 /// The device pushed at a body, at once.
 [[nodiscard]] Device pushed_at(const Device& device, std::size_t body);

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <utility>
 
-#include "identification/motion_residuals.hpp"
 #include "identification/lateness.hpp"
+#include "identification/motion_residuals.hpp"
 #include "identification/shot_player.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/parameter.hpp"

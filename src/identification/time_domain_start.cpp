@@ -8,6 +8,7 @@
 #include <set>
 
 #include "identification/alike_devices.hpp"
+#include "identification/fit_judgement.hpp"
 #include "identification/lateness.hpp"
 #include "simulation/continuous_motion.hpp"
 #include "zwidth/error.hpp"
@@ -132,8 +133,7 @@ TimeDomainStart time_domain_start(std::span<const Recording> recordings, const D
     }
     start.shows_other_delay = found.ignored_delay.has_value();
     if (takes_all) {
-      start.free.clear();
-      for (const ParameterEstimate& each : found.fit.estimates) start.free.push_back(each.key);
+      start.free = keys_of(found.fit);
     }
   }
   if (takes_all) {
