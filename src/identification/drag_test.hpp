@@ -28,7 +28,7 @@ struct DragEvidence {
 [[nodiscard]] std::optional<DragEvidence> find_drag(const FittedDevice& fitted, const std::vector<std::string>& locked,
                                                     std::size_t record, double lowest, double highest);
 
-/// What a record of a fit without drag shows, in words; nothing where it does not show (3.5 deviations), or where the critical
+/// What a record of a fit without drag shows, in words; nothing where it does not show (significant_friction, in deviations), or where the critical
 /// stiffness beside it is within the interval.
 [[nodiscard]] std::optional<std::string> doubt_of_drag(const std::optional<DragEvidence>& drag,
                                                        const Analysis& analysis, Motion motion);
