@@ -43,6 +43,10 @@ double most_misfit(const FrequencyResponse& response, std::size_t lines, double 
   return doubtful_misfit(response, lines, deviations) * expected_misfit(response);
 }
 
+// Of so many looks the most is another deviation more: 1.68 times the noise in 150 fits that found the device.
+constexpr double deviations_anywhere = 3.0;
+constexpr double deviations_over_all = 2.0;
+
 }  // namespace
 
 double median_noise(const FrequencyResponse& response) {
@@ -55,11 +59,16 @@ double median_noise(const FrequencyResponse& response) {
   return *middle;
 }
 
+bool stands_out(const ClearMisfit& left, const FrequencyResponse& response) {
+  return left.misfit > most_misfit(response, left.lines, deviations_over_all) ||
+         left.local.misfit > most_misfit(response, lines_of_local_misfit, deviations_anywhere);
+}
+
 std::optional<std::string> doubt_of_misfit(const ParameterFit& fit, const FrequencyResponse& response) {
   constexpr const char* causes = "friction, backlash, or a body that it lacks";
   const double noise = median_noise(response);
-  const bool stands_out = fit.misfit && *fit.misfit > clear_misfit;
-  const bool is_clear = fit.model_error > std::max(stands_out ? 0.5 * clear_model_error : clear_model_error, noise);
+  const bool is_far_above = fit.misfit && *fit.misfit > clear_misfit;
+  const bool is_clear = fit.model_error > std::max(is_far_above ? 0.5 * clear_model_error : clear_model_error, noise);
   if (fit.model_error > doubtful_model_error || is_clear) {
     return fmt::format("the structure leaves {} of the response unexplained beyond the noise: {}",
                        percent(fit.model_error), causes);
@@ -67,14 +76,13 @@ std::optional<std::string> doubt_of_misfit(const ParameterFit& fit, const Freque
   const auto exceeds = [&](double misfit, double most) { return misfit * noise > rounding_error && misfit > most; };
   const std::optional<double> left = fit.clear_misfit ? fit.clear_misfit->misfit : fit.misfit;
   const std::size_t lines = fit.clear_misfit ? fit.clear_misfit->lines : fit.frequencies.size();
-  if (left && exceeds(*left, most_misfit(response, lines, 2.0))) {
+  if (left && exceeds(*left, most_misfit(response, lines, deviations_over_all))) {
     return fmt::format("what the structure leaves of the response is {:.2g} times its noise: {}", *left, causes);
   }
-  // Friction where the device moves stands out of a few lines only, of a band most of which is noise. Of so many looks
-  // the most is another deviation more: 1.68 times the noise in 150 fits that found the device.
+  // Friction where the device moves stands out of a few lines only, of a band most of which is noise.
   if (!fit.clear_misfit || response.averages < few_averages) return std::nullopt;
   const auto& [misfit, lowest, highest] = fit.clear_misfit->local;
-  if (!exceeds(misfit, most_misfit(response, lines_of_local_misfit, 3.0))) return std::nullopt;
+  if (!exceeds(misfit, most_misfit(response, lines_of_local_misfit, deviations_anywhere))) return std::nullopt;
   return fmt::format("from {:.4g} to {:.4g} Hz what the structure leaves of the response is {:.2g} times its noise: {}",
                      hertz(lowest), hertz(highest), misfit, causes);
 }

@@ -12,6 +12,7 @@
 #include "identification/fit_solution.hpp"
 #include "identification/fit_weights.hpp"
 #include "identification/identifiability.hpp"
+#include "identification/misfit_doubt.hpp"
 #include "identification/percent.hpp"
 #include "identification/residual_checks.hpp"
 #include "model/uncertainty_problem.hpp"
@@ -122,6 +123,12 @@ Eigen::MatrixXd widened(const FitModel& model, const Eigen::VectorXd& x, const I
   return covariance + open_scale * open_scale * scale * scale.transpose();
 }
 
+std::vector<double> frequencies_of(const std::vector<ResponsePoint>& points) {
+  std::vector<double> frequencies(points.size());
+  std::ranges::transform(points, frequencies.begin(), &ResponsePoint::frequency);
+  return frequencies;
+}
+
 std::optional<double> misfit(const std::vector<ResponsePoint>& points, const Eigen::VectorXcd& fitted) {
   double sum = 0.0;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -139,7 +146,9 @@ std::optional<ClearMisfit> misfit_where_clear(const std::vector<ResponsePoint>& 
   std::vector<double> squares;
   double all = 0.0;
   double local = 0.0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
+  if (points.front().variance == 0.0) return std::nullopt;
+  // Into the first and the last line leaks what lies outside the band.
+  for (std::size_t i = 1; i + 1 < points.size(); ++i) {
     const ResponsePoint& point = points[i];
     if (point.variance == 0.0) return std::nullopt;
     const std::complex<double> model = fitted(static_cast<Eigen::Index>(i));
@@ -179,9 +188,7 @@ Solution with_missing_mode(const FitModel& model, const std::vector<ResponsePoin
     const bool is_in_band = mode.frequency < points.back().frequency && mode.frequency > points.front().frequency;
     if (is_in_band && mode.damping_ratio < overdamped) modes.push_back(mode.frequency);
   }
-  std::vector<double> frequencies(points.size());
-  std::ranges::transform(points, frequencies.begin(), &ResponsePoint::frequency);
-  const Eigen::VectorXcd fitted = model.response_at(found.x, frequencies);
+  const Eigen::VectorXcd fitted = model.response_at(found.x, frequencies_of(points));
   std::vector<std::complex<double>> residuals;
   for (std::size_t i = 0; i < points.size(); ++i) {
     residuals.push_back(points[i].value - fitted(static_cast<Eigen::Index>(i)));
@@ -322,7 +329,9 @@ ParameterFit fit_parameters(const Device& structure, const FrequencyResponse& re
   std::optional<double> without_hold;
   std::vector<Remark> about_the_hold;
   bool held_to_a_guess = false;
-  if (const auto critical = measured_critical_point(in_band, options)) {
+  const auto left = misfit_where_clear(points, model.response_at(solution.x, frequencies_of(points)));
+  const bool is_explained = left && !stands_out(*left, in_band);
+  if (const auto critical = is_explained ? std::nullopt : measured_critical_point(in_band, options)) {
     if (const auto held = hold(model, points, solution, *critical, options.robust_threshold)) {
       without_hold = stiffness_at(model, solution.x);
       solution = *held;

@@ -75,7 +75,7 @@ struct LocalMisfit {
 };
 
 /// What a fit leaves of the points that stand clear of their noise: of others, as where a sweep ends, the noise itself
-/// is hardly known.
+/// is hardly known. Without the first and the last point, into which what lies outside the band leaks.
 struct ClearMisfit {
   double misfit = 0.0;    ///< root mean square of residual / standard deviation of the noise
   std::size_t lines = 0;  ///< how many points
@@ -129,8 +129,8 @@ struct ParameterFit {
 /// where P is the exact sampled plant of the record's own period (hold, delay and lag included), or the continuous
 /// G(jw) e^{-jw t_d} of a table. e is the least model error for which the median residual is what it should be (0 where
 /// the noise explains it; the whole weight where variances are unknown), so that friction or a missing mode is not
-/// mistaken for information. Where e exceeds the noise at the measured critical point -1/K_CR (measured_stiffness()),
-/// the fit is repeated with the model held to that point: the device then has the measured K_CR, which friction at the
+/// mistaken for information. Where the residuals stand out of the noise (clear_misfit) and e exceeds that at the measured
+/// critical point -1/K_CR (measured_stiffness()), the fit is repeated with the model held to that point: the device then has the measured K_CR, which friction at the
 /// other points would otherwise shift. The covariance is that of the normal equations at the solution, widened where
 /// residuals of neighbouring points are correlated or larger than their deviations. The fitted device's sampling_period
 /// is the structure's. Parameters that may be 0 are bounded there. Requires a device of bodies, known keys and names,
