@@ -84,7 +84,7 @@ Eigen::VectorXd ShotModel::position_of(const DeviceParameters& parameters) const
 DeviceParameters ShotModel::parameters_at(const Eigen::VectorXd& x) const {
   DeviceParameters parameters = structure_.parameters();
   parameters.uncertainty.reset();
-  for (std::size_t i = 0; i < coordinates_.size(); ++i) {
+  for (std::size_t i = 0; i + dragged_.size() < coordinates_.size(); ++i) {
     set_parameter(parameters, coordinates_[i].key, coordinates_[i].value(x(static_cast<Eigen::Index>(i))));
   }
   return parameters;
@@ -120,6 +120,7 @@ ShotModel ShotModel::at(const Eigen::VectorXd& x) const {
   ShotModel fixed = *this;
   fixed.structure_ = Device(parameters_at(x));
   fixed.coordinates_.clear();
+  fixed.dragged_.clear();
   return fixed;
 }
 
@@ -127,6 +128,13 @@ ShotModel ShotModel::with_forces(const std::vector<std::span<const double>>& for
   ShotModel other = *this;
   for (std::size_t r = 0; r < forces.size(); ++r) other.records_[r].force = forces[r];
   return other;
+}
+
+ShotModel ShotModel::with_drag(std::vector<std::string> bodies) const {
+  ShotModel wider = *this;
+  for (const std::string& body : bodies) wider.coordinates_.push_back({"body." + body + ".damping"});
+  wider.dragged_ = std::move(bodies);
+  return wider;
 }
 
 bool ShotModel::is_bounded(Eigen::Index i) const {
@@ -180,6 +188,11 @@ PlayedParameter ShotModel::played(std::size_t i, double x, std::size_t record, c
   const auto matrix_of = [](const Device& each) { return ContinuousMotion(each, {}, {}).patterns().front().matrix; };
   played.motion.matrix = factor * (matrix_of(there) - matrix_of(device));
   if (is_lag) played.of_lag = slope;
+  const std::size_t before_drag = coordinates_.size() - dragged_.size();
+  if (i >= before_drag) {
+    const auto body = std::ranges::find(device.bodies(), dragged_[i - before_drag], &Body::name);
+    played.dragged = static_cast<std::size_t>(body - device.bodies().begin());
+  }
   return played;
 }
 

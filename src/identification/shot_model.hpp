@@ -112,6 +112,10 @@ class ShotModel {
   /// The same under other forces, as long as the recorded ones and by their units; the caller keeps them alive.
   [[nodiscard]] ShotModel with_forces(const std::vector<std::span<const double>>& forces) const;
 
+  /// The same with a further coordinate c for each of these bodies, after the others: a force -c |v| v, |v| held over each
+  /// sampling period. It is 0 in every device, and has slopes only.
+  [[nodiscard]] ShotModel with_drag(std::vector<std::string> bodies) const;
+
   enum class Slopes { none, exact };
   /// Null where the parameters make no device that can be followed in time. With slopes a free friction of 0 is
   /// taken as one too small to matter, so that its own slope shows; they are exact along the motion, of a short lag by a
@@ -139,6 +143,7 @@ class ShotModel {
   Device structure_;
   std::vector<MotionRecord> records_;
   std::vector<Coordinate> coordinates_;
+  std::vector<std::string> dragged_;  ///< bodies of the last coordinates
   std::vector<std::string> locked_;
   double most_parts_;             ///< per sampling period
   std::vector<ShotUnits> units_;  ///< by record

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -16,7 +18,8 @@ namespace zwidth::internal {
 /// Of an element of x, for Player's slopes: how it changes the motion, and the lagged force that a shot begins with.
 struct PlayedParameter {
   MotionParameter motion;
-  double of_lag = 0.0;  ///< s per unit
+  double of_lag = 0.0;                      ///< s per unit
+  std::optional<std::size_t> dragged = {};  ///< of drag: the body by whose speed the motion's slope is weighed
 };
 
 /// The lagged force as a shot begins, and how it changes.
@@ -61,7 +64,11 @@ class Player {
     motions.reserve(parameters.size());
     for (PlayedParameter& each : parameters) motions.push_back(std::move(each.motion));
     delays_.clear();
-    for (std::size_t j = 0; j < parameters.size(); ++j) delays_.push_back({motions[j].switching, parameters[j].of_lag});
+    drags_.clear();
+    for (std::size_t j = 0; j < parameters.size(); ++j) {
+      delays_.push_back({motions[j].switching, parameters[j].of_lag});
+      if (parameters[j].dragged) drags_.push_back({j, *parameters[j].dragged});
+    }
     tangent_.emplace(motion_, std::move(motions), 1 + 2 * positions_.size());
     motion_.set_tangent(&*tangent_);
   }
@@ -84,6 +91,7 @@ class Player {
         };
         out.slopes.col(column) = slopes_of(0);
         if (sensed > 0) out.slopes.col(column) += slopes_of(sensed);
+        weigh_drag(i == 0);
       }
       const std::size_t k = shot.first + i;
       if (instants_.with_old > 0.0) {
@@ -104,6 +112,22 @@ class Player {
     double of_delay = 0.0;  // s per unit of x
     double of_lag = 0.0;
   };
+
+  struct Drag {
+    std::size_t parameter = 0;
+    std::size_t body = 0;
+    double speed = 0.0;  // as the sample before began
+  };
+
+  /// By the speed in the middle of the sample that begins, as far as this one and the last tell.
+  void weigh_drag(bool is_first) {
+    for (Drag& each : drags_) {
+      const double speed = std::abs(motion_.velocity(each.body));
+      const double before = is_first ? speed : each.speed;
+      tangent_->weigh(each.parameter, std::max(0.0, 1.5 * speed - 0.5 * before));
+      each.speed = speed;
+    }
+  }
 
   [[nodiscard]] double command(std::size_t k, std::size_t late) const {
     return record_.force[k < late ? 0 : k - late] + constant_;
@@ -162,6 +186,7 @@ class Player {
   SamplingInstants instants_;
   ContinuousMotion motion_;
   std::vector<Delays> delays_;  ///< by parameter
+  std::vector<Drag> drags_;
   std::optional<MotionTangent> tangent_;
   std::vector<double> positions_;
   std::vector<double> velocities_;

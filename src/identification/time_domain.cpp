@@ -288,14 +288,10 @@ TimeDomainIdentification identify_in_time(std::span<const Recording> recordings,
     }
   }
   const FittedDevice fitted{model, shots, found->fitted, found->known};
-  std::vector<std::optional<DragEvidence>> drags;
-  for (std::size_t r = 0; r < recordings.size(); ++r) {
-    drags.push_back(find_drag(fitted, options.locked, r, start.lowest, start.highest));
-  }
-  judge_in_time(result,
-                {recordings, structure, options, shots, start.is_turned, other, start.linear,
-                 doubt_of_agreement(devices_of_recordings(fitted, recordings), result.device),
-                 contradicted_numbers(fitted, structure, recordings, options.locked, start.lowest), std::move(drags)});
+  judge_in_time(result, {recordings, structure, options, shots, start.is_turned, other, start.linear,
+                         doubt_of_agreement(devices_of_recordings(fitted, recordings), result.device),
+                         contradicted_numbers(fitted, structure, recordings, options.locked, start.lowest),
+                         find_drag(fitted, options.locked, start.lowest, start.highest)});
   done(1.0);
   return result;
 }

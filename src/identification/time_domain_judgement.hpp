@@ -21,9 +21,9 @@ struct JudgedTimeFit {
   bool is_turned = false;               ///< the position falls as the force rises
   std::optional<double> other_delay{};  ///< s; that the recordings show where another is given and not free
   std::optional<LinearStiffness> linear{};
-  std::optional<std::string> disagreement{};         ///< of the recordings
-  std::vector<ContradictedNumber> contradicted{};    ///< numbers of the structure that were not free
-  std::vector<std::optional<DragEvidence>> drags{};  ///< of each recording
+  std::optional<std::string> disagreement{};       ///< of the recordings
+  std::vector<ContradictedNumber> contradicted{};  ///< numbers of the structure that were not free
+  std::vector<std::vector<DragEvidence>> drags{};  ///< of each recording
 };
 
 /// Analysis, basis, trust and remarks of a fit whose parameters and motions are given, and each motion's `unexplained`.

@@ -51,7 +51,7 @@ MotionTangent::MotionTangent(const ContinuousMotion& motion, std::vector<MotionP
   const Eigen::MatrixXd& free = motion.patterns().front().matrix;
   for (std::size_t j = 0; j < parameters_.size(); ++j) {
     if (parameters_[j].matrix.size() == 0 || parameters_[j].matrix.isZero(0.0)) continue;
-    Varied varied{j, {}, {}};
+    Varied varied{j, 1.0, {}, {}};
     for (const ContinuousMotion::Pattern& pattern : motion.patterns()) {
       const Eigen::MatrixXd slope = in_pattern(parameters_[j].matrix, pattern.matrix, free);
       varied.entries.emplace_back();
@@ -128,13 +128,19 @@ void MotionTangent::multiply(const Sparse& matrix, double factor, const Slopes& 
   }
 }
 
+void MotionTangent::weigh(std::size_t parameter, double weight) noexcept {
+  for (Varied& each : varied_) {
+    if (each.column == parameter) each.weight = weight;
+  }
+}
+
 void MotionTangent::step(unsigned stuck, std::size_t which, const double* x) noexcept {
   multiply(transitions_[stuck][which], 1.0, slopes_, next_);
   slopes_.swap(next_);
   const auto width = static_cast<std::size_t>(slopes_.cols());
   for (const Varied& each : varied_) {
     multiply_(each.steps[stuck][which].data(), x, change_.data(), size_);
-    for (std::size_t i = 0; i < size_; ++i) slopes_.data()[i * width + each.column] += change_[i];
+    for (std::size_t i = 0; i < size_; ++i) slopes_.data()[i * width + each.column] += each.weight * change_[i];
   }
 }
 
@@ -152,7 +158,7 @@ void MotionTangent::move(const ContinuousMotion::Pattern& pattern, unsigned stuc
       const double* x = series.data() + static_cast<std::size_t>(k - 1) * size_;
       for (const Varied& each : varied_) {
         for (const Entry& entry : each.entries[stuck]) {
-          next_.data()[entry.row * width + each.column] += factor * entry.value * power * x[entry.column];
+          next_.data()[entry.row * width + each.column] += factor * each.weight * entry.value * power * x[entry.column];
         }
       }
     }

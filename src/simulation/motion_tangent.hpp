@@ -37,6 +37,9 @@ class MotionTangent {
   [[nodiscard]] const Slopes& slopes() const noexcept { return slopes_; }
   [[nodiscard]] Eigen::Index columns() const noexcept { return columns_; }
 
+  /// The parameter's dA/dp counts this many times from then on: a force that is not linear, held from step to step.
+  void weigh(std::size_t parameter, double weight) noexcept;
+
   // What ContinuousMotion tells; x: its state before.
   void step(unsigned stuck, std::size_t which, const double* x) noexcept;
   /// Over a fraction of the length of x's series, of which `known` terms are not 0.
@@ -60,7 +63,8 @@ class MotionTangent {
   };
   /// A parameter that A hangs on.
   struct Varied {
-    std::size_t column = 0;                           // of S
+    std::size_t column = 0;  // of S
+    double weight = 1.0;
     std::vector<std::vector<Entry>> entries;          // of dA/dp, by pattern
     std::vector<std::vector<Eigen::MatrixXd>> steps;  // de^{Ah}/dp, by pattern and recurring step
   };
