@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "identification/motion_residuals.hpp"
-#include "identification/nonlinear_forces.hpp"
 #include "identification/shot_device.hpp"
 #include "zwidth/stability/analysis.hpp"
 
@@ -29,14 +28,9 @@ struct DragEvidence {
                                                                const std::vector<std::string>& locked, double lowest,
                                                                double highest);
 
-/// The clearest that shows, by `significant` deviations and more, and beside which the critical stiffness is outside the
-/// interval.
-[[nodiscard]] std::optional<Nonlinearity> drag_that_matters(std::span<const DragEvidence> drags, double significant,
-                                                            const Analysis& analysis, Motion motion);
-
-/// For drag_that_matters(). With the friction left out, of records that have some: of 70 linear ones 1.8 at most, of 70 with friction 3.9.
-inline constexpr double significant_drag = 4.8;
-/// With the friction played: of NNN linear records with friction N at most.
-inline constexpr double significant_drag_in_time = 3.5;
+/// What `source`, a record of a fit without drag, shows in words: drag (significant_friction, in deviations) beside which the
+/// critical stiffness is outside the interval, or that it hardly tells damping from drag beside which that is lower.
+[[nodiscard]] std::optional<std::string> doubt_of_drag(std::span<const DragEvidence> drags, const Analysis& analysis,
+                                                       Motion motion, const std::string& source);
 
 }  // namespace zwidth::internal

@@ -279,17 +279,16 @@ void judge_nonlinearity(Identification& result, std::span<const Recording> recor
     std::vector<double> residuals = each.channels[1].samples;
     const std::vector<double> fitted = forced_response(system, each.channels[0].samples);
     for (std::size_t k = 0; k < residuals.size(); ++k) residuals[k] -= fitted[k];
-    auto found = find_nonlinearity({.device = device,
-                                    .force = each.channels[0].samples,
-                                    .position = each.channels[1].samples,
-                                    .residuals = residuals});
-    if (!found) {
-      const MotionQuestion question{result.fit.device,    options.fit.locked, keys,
-                                    each.sampling_period, lines.front(),      lines.back()};
-      const auto drags = find_drag(question, each.channels[0].samples, each.channels[1].samples);
-      found = drag_that_matters(drags, significant_drag, result.analysis, device.parameters().motion);
-    }
+    const auto found = find_nonlinearity({.device = device,
+                                          .force = each.channels[0].samples,
+                                          .position = each.channels[1].samples,
+                                          .residuals = residuals});
     if (found) return doubt(fmt::format("the record shows {}", found->what), found->remedy);
+    const auto drags =
+        find_drag({result.fit.device, options.fit.locked, keys, each.sampling_period, lines.front(), lines.back()},
+                  each.channels[0].samples, each.channels[1].samples);
+    const auto drag = doubt_of_drag(drags, result.analysis, device.parameters().motion, "the record");
+    if (drag) return doubt(*drag, slow_motion_remedy);
   }
 }
 

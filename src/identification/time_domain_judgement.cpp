@@ -165,12 +165,11 @@ class Judge {
     std::ranges::copy_if(judged_.shots, std::back_inserter(shots), [r](const Shot& shot) { return shot.record == r; });
     if (motion.feedback > clear_feedback) return;  // the force answers to the errors: doubtful for that
     const Device device = device_in_experiment(fit_.device, judged_.options.locked, recording.sampling_period);
-    auto found = find_nonlinearity(
+    const auto found = find_nonlinearity(
         {device, recording.channels[0].samples, recording.channels[1].samples, motion.residuals, shots});
-    if (!found) {
-      found = drag_that_matters(judged_.drags[r], significant_drag_in_time, fit_.analysis, device.parameters().motion);
-    }
-    if (found) trust_.doubt(fmt::format("{} shows {}; {}", motion.source, found->what, found->remedy));
+    if (found) return trust_.doubt(fmt::format("{} shows {}; {}", motion.source, found->what, found->remedy));
+    const auto drag = doubt_of_drag(judged_.drags[r], fit_.analysis, device.parameters().motion, motion.source);
+    if (drag) trust_.doubt(fmt::format("{}; {}", *drag, slow_motion_remedy));
   }
 
   void judge_feedback() {
