@@ -121,9 +121,9 @@ TEST_F(Serve, AnInterruptFinishesWhatRuns) {
   start();
   Client client(port());
   const json request{{"device_toml", contents("devices/lhifam.toml")},
-                     {"options", {{"sweep", "loop.delay=0:8e-3:40"}, {"any-user", true}}}};
+                     {"options", {{"sweep", "loop.delay=0:8e-3:400"}, {"any-user", true}}}};
   client.send(whole("design", request.dump()));
-  wait_until_it_works(0.01);
+  wait_until_it_works(0.01);  // of a second and more, so that it is not done before anyone looks
   const Client idle(port());  // does not keep it alive
   HttpAnswer answer;
   std::thread waits([&] { answer = client.answer(); });

@@ -1,0 +1,22 @@
+// A page with all panels open, and the number whose slider is drawn.
+import type { Page } from 'playwright-core'
+import { expect } from 'vitest'
+import { openAll, openPage, place, row, settled, withWall } from './program'
+
+export const here = place('devices/lhifam.toml')
+export const key = 'body.handle.damping'
+export const opened = async (): Promise<{ page: Page; end: () => Promise<void> }> => {
+  const { page, context, complaints } = await openPage(here, 1280)
+  await withWall(page)
+  await openAll(page)
+  await row(page, key).scrollIntoViewIfNeeded()
+  await settled(page)
+  return {
+    page,
+    end: async () => {
+      await settled(page)
+      expect(complaints).toEqual([])
+      await context.close()
+    },
+  }
+}

@@ -1,0 +1,58 @@
+// How fast the page is, in print: scripts/bench runs it.
+import { expect, it } from 'vitest'
+import { openPage, row } from './program'
+import { here, key, opened } from './slider'
+
+it.each([1280, 390])('how soon the first answer is on the screen, %i pixels wide', async (width) => {
+  let least = Infinity
+  for (let i = 0; i < 5; ++i) {
+    const { page, context } = await openPage(here, width)
+    least = Math.min(least, await page.evaluate(() => performance.getEntriesByName('first answer')[0]!.startTime))
+    await context.close()
+  }
+  console.log(`first answer on the screen ${least.toFixed(0)} ms after the start of the page, ${width} pixels wide (1000 ms are promised)`)
+})
+
+it('how fast a drag is drawn, all panels open', async () => {
+  const { page, end } = await opened()
+  const session = await page.context().newCDPSession(page)
+  await session.send('Performance.setTimeDomain', { timeDomain: 'threadTicks' }) // the page's own work, whatever else the machine does
+  await session.send('Performance.enable')
+  const work = async (): Promise<number> => (await session.send('Performance.getMetrics')).metrics.find((each) => each.name === 'TaskDuration')!.value * 1000
+  const [steps, before] = [200, await work()]
+  // From the input of a slider to the frame that shows its answer; it begins with a frame, so these are whole frames.
+  const found = await page.evaluate(
+    async ([slider, steps]) => {
+      const input = document.querySelector<HTMLInputElement>(slider)!
+      const shown = document.querySelector('[data-answer="alone"]')!
+      const frame = (): Promise<number> => new Promise((done) => requestAnimationFrame(done))
+      const real = window.fetch
+      const [requests, times]: [number[], number[]] = [[], []]
+      let sent = 0
+      window.fetch = async (url, init) => {
+        const isAnalysis = String(url).endsWith('/analyze')
+        if (isAnalysis) sent = performance.now()
+        const response = await real(url, init)
+        if (isAnalysis) requests.push(performance.now() - sent)
+        return response
+      }
+      for (let i = 0; i < steps; ++i) {
+        const before = shown.textContent
+        input.value = String(500 + (i % 2 ? 1 : -1) * (20 + i))
+        const start = performance.now()
+        input.dispatchEvent(new Event('input', { bubbles: true }))
+        while (shown.textContent === before && performance.now() - start < 2000) await frame()
+        times.push(performance.now() - start)
+      }
+      window.fetch = real
+      input.dispatchEvent(new Event('change', { bubbles: true }))
+      return { requests, times }
+    },
+    [`[data-key="${key}"] input[type="range"]`, steps] as const,
+  )
+  const at = (values: number[], share: number): string => [...values].sort((a, b) => a - b)[Math.floor(share * (values.length - 1))]!.toFixed(1)
+  const say = (values: number[]): string => `median ${at(values, 0.5)} ms, p95 ${at(values, 0.95)} ms, worst ${at(values, 1)} ms`
+  console.log(`drag to picture (33 ms are promised): ${say(found.times)}\n  of these the request: ${say(found.requests)}\n  work of the page: ${((await work()) / steps - before / steps).toFixed(1)} ms a step`)
+  expect(Math.max(...found.times)).toBeLessThan(2000)
+  await end()
+})
