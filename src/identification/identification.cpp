@@ -358,20 +358,33 @@ Identification identify(std::span<const Recording> recordings, const Device& str
   }();
   constexpr double clear = 0.005;
   if (!is_detected || found.fit.model_error < clear) return found;
+  const auto better = [&](const IdentifyOptions& chosen) -> std::optional<Identification> {
+    constexpr double much = 0.5;
+    try {
+      Identification other = with(chosen, {});
+      if (other.trust.refused() || other.fit.model_error > much * found.fit.model_error) return std::nullopt;
+      return other;
+    } catch (const Error&) {  // then it is no better
+      return std::nullopt;
+    }
+  };
+  // A transient may last through the first period.
+  std::optional<Identification> later;
+  if (decided.response.skip_periods == 0) {
+    IdentifyOptions skipping = decided;
+    skipping.response.skip_periods = 1;
+    later = better(skipping);
+  }
   // What drifts from the first period to the last leaks into all lines alike, which a fit cannot tell from the device;
   // a window keeps it out.
-  try {
-    Identification other = with(windowed, {});
-    constexpr double much_better = 0.5;
-    if (other.trust.refused() || other.fit.model_error > much_better * found.fit.model_error) return found;
-    other.remarks.push_back({Remark::Severity::note,
-                             "the periods of the force are not averaged: what drifts between them would leave more of "
-                             "the response unexplained",
-                             ""});
-    return other;
-  } catch (const Error&) {  // too short for that
-    return found;
-  }
+  std::optional<Identification> other = better(windowed);
+  if (later && !(other && other->fit.model_error < later->fit.model_error)) return *std::move(later);
+  if (!other) return found;
+  other->remarks.push_back({Remark::Severity::note,
+                            "the periods of the force are not averaged: what drifts between them would leave more of "
+                            "the response unexplained",
+                            ""});
+  return *std::move(other);
 }
 
 Identification identify(const MeasuredResponse& measured, const Device& structure, const IdentifyOptions& options) {

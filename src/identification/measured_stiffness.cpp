@@ -24,6 +24,19 @@ std::string band_text(const Interval& band) {
                                   : fmt::format("from {:.4g} to {:.4g} Hz", hertz(band.lower), hertz(band.upper));
 }
 
+/// The first few, and how many more.
+std::string bands_text(const std::vector<Interval>& bands) {
+  constexpr std::size_t most = 3;
+  std::string text;
+  double highest = 0.0;
+  for (std::size_t i = 0; i < bands.size(); ++i) {
+    highest = std::max(highest, bands[i].upper);
+    if (i < most) text += (i == 0 ? "" : ", ") + band_text(bands[i]);
+  }
+  if (bands.size() <= most) return text;
+  return fmt::format("{}, and in {} more bands up to {:.4g} Hz", text, bands.size() - most, hertz(highest));
+}
+
 /// A phase farther above 0 than this is no sensor's or noise's lead: it has come from below.
 constexpr double most_lead = std::numbers::pi / 6.0;
 /// Lines at an end of the band that count as outside it rather than as a doubt within.
@@ -253,11 +266,14 @@ void judge(MeasuredStiffness& result, const Findings& findings, std::span<const 
   for (const Doubt& doubt : findings.doubts) {
     if (result.limit && doubt.least_stiffness >= result.limit->stiffness_interval.lower) continue;
     result.doubtful_bands.push_back(doubt.band);
-    warn(result, "the noise hides whether the phase passes -180 degrees " + band_text(doubt.band),
-         result.limit ? "a crossover there would be softer than any that is proven: the critical stiffness is unknown"
-                      : "the critical stiffness is unknown");
   }
-  if (!result.doubtful_bands.empty()) result.status = MeasuredStiffnessStatus::undetermined;
+  if (result.doubtful_bands.empty()) return;
+  result.status = MeasuredStiffnessStatus::undetermined;
+  warn(result, "the noise hides whether the phase passes -180 degrees " + bands_text(result.doubtful_bands),
+       result.limit
+           ? "a crossover there would be softer than any that is proven: the response alone leaves the critical "
+             "stiffness unknown"
+           : "the response alone leaves the critical stiffness unknown");
 }
 
 /// Resonances that stand between lines too far apart to show them.
