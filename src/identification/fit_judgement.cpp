@@ -8,7 +8,6 @@
 #include <limits>
 #include <utility>
 
-#include "identification/drag_test.hpp"
 #include "identification/held_device.hpp"
 #include "identification/lateness.hpp"
 #include "identification/misfit_doubt.hpp"
@@ -16,6 +15,7 @@
 #include "identification/nonlinearity_test.hpp"
 #include "identification/percent.hpp"
 #include "identification/plausibility.hpp"
+#include "identification/weak_force_test.hpp"
 #include "model/uncertainty_problem.hpp"
 #include "zwidth/model/device_trust.hpp"
 #include "zwidth/model/parameter.hpp"
@@ -284,11 +284,11 @@ void judge_nonlinearity(Identification& result, std::span<const Recording> recor
                                           .position = each.channels[1].samples,
                                           .residuals = residuals});
     if (found) return doubt(fmt::format("the record shows {}", found->what), found->remedy);
-    const auto drags =
-        find_drag({result.fit.device, options.fit.locked, keys, each.sampling_period, lines.front(), lines.back()},
-                  each.channels[0].samples, each.channels[1].samples);
-    const auto drag = doubt_of_drag(drags, result.analysis, device.parameters().motion, "the record");
-    if (drag) return doubt(*drag, slow_motion_remedy);
+    const auto forces = find_weak_forces(
+        {result.fit.device, options.fit.locked, keys, each.sampling_period, lines.front(), lines.back()},
+        each.channels[0].samples, each.channels[1].samples);
+    const auto weak = doubt_of_weak_forces(forces, result.analysis, device.parameters().motion, "the record");
+    if (weak) return doubt(weak->what, weak->remedy);
   }
 }
 

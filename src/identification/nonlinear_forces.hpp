@@ -23,6 +23,11 @@ inline constexpr const char* force_not_in_proportion_to_the_speed =
     "a force that is not in proportion to the speed: drag of air or of a fluid, an eddy-current brake, or friction "
     "that "
     "changes with the speed";
+inline constexpr const char* friction_not_coulombs =
+    "friction that is not Coulomb's as the motion turns: what rubs, or a cable, bends before it slips, or friction at "
+    "rest is "
+    "more";
+inline constexpr const char* strong_motion_remedy = "excite more strongly: its share falls with the amplitude";
 inline constexpr const char* slow_motion_remedy =
     "record it at the speeds that matter: slow motion is damped less, and its critical stiffness is lower";
 

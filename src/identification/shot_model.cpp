@@ -84,7 +84,7 @@ Eigen::VectorXd ShotModel::position_of(const DeviceParameters& parameters) const
 DeviceParameters ShotModel::parameters_at(const Eigen::VectorXd& x) const {
   DeviceParameters parameters = structure_.parameters();
   parameters.uncertainty.reset();
-  for (std::size_t i = 0; i + dragged_.size() < coordinates_.size(); ++i) {
+  for (std::size_t i = 0; i + weak_forces_.size() < coordinates_.size(); ++i) {
     set_parameter(parameters, coordinates_[i].key, coordinates_[i].value(x(static_cast<Eigen::Index>(i))));
   }
   return parameters;
@@ -120,7 +120,7 @@ ShotModel ShotModel::at(const Eigen::VectorXd& x) const {
   ShotModel fixed = *this;
   fixed.structure_ = Device(parameters_at(x));
   fixed.coordinates_.clear();
-  fixed.dragged_.clear();
+  fixed.weak_forces_.clear();
   return fixed;
 }
 
@@ -130,10 +130,12 @@ ShotModel ShotModel::with_forces(const std::vector<std::span<const double>>& for
   return other;
 }
 
-ShotModel ShotModel::with_drag(std::vector<std::string> bodies) const {
+ShotModel ShotModel::with_weak_forces(std::vector<WeakForce> forces) const {
   ShotModel wider = *this;
-  for (const std::string& body : bodies) wider.coordinates_.push_back({"body." + body + ".damping"});
-  wider.dragged_ = std::move(bodies);
+  for (const WeakForce& each : forces) {
+    wider.coordinates_.push_back({"body." + each.body + (each.length > 0.0 ? ".coulomb" : ".damping")});
+  }
+  wider.weak_forces_ = std::move(forces);
   return wider;
 }
 
@@ -178,6 +180,12 @@ PlayedParameter ShotModel::played(std::size_t i, double x, std::size_t record, c
   set_parameter(moved, coordinate.key, other);
   const Device there = device_in(record, moved);
   PlayedParameter played;
+  const std::size_t known = coordinates_.size() - weak_forces_.size();
+  if (i >= known) {
+    const auto& [body, length] = weak_forces_[i - known];
+    const auto at = std::ranges::find(device.bodies(), body, &Body::name);
+    played.weighing = {static_cast<std::size_t>(at - device.bodies().begin()), length};
+  }
   const double factor = slope / (is_inverse ? 0.5 * value : other - value);
   if (coordinate.key.ends_with(".coulomb")) {
     for (std::size_t body = 0; body < device.bodies().size(); ++body) {
@@ -188,11 +196,6 @@ PlayedParameter ShotModel::played(std::size_t i, double x, std::size_t record, c
   const auto matrix_of = [](const Device& each) { return ContinuousMotion(each, {}, {}).patterns().front().matrix; };
   played.motion.matrix = factor * (matrix_of(there) - matrix_of(device));
   if (is_lag) played.of_lag = slope;
-  const std::size_t before_drag = coordinates_.size() - dragged_.size();
-  if (i >= before_drag) {
-    const auto body = std::ranges::find(device.bodies(), dragged_[i - before_drag], &Body::name);
-    played.dragged = static_cast<std::size_t>(body - device.bodies().begin());
-  }
   return played;
 }
 

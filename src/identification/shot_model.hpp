@@ -79,6 +79,13 @@ class PlayedShots {
   Motions motions_;
 };
 
+/// A force on a body beside what a device has: drag -c |v| v, or what friction has more, c e^{-s/length} against the motion,
+/// after the body turned and went s. |v| and s are held over each sampling period.
+struct WeakForce {
+  std::string body;
+  double length = 0.0;  ///< m or rad; 0: drag
+};
+
 /// The structure moved exactly under the recorded forces, friction included.
 ///
 /// x: the coordinates of the free parameters, then a constant force per record in its unit. A shot's state: position of
@@ -112,9 +119,9 @@ class ShotModel {
   /// The same under other forces, as long as the recorded ones and by their units; the caller keeps them alive.
   [[nodiscard]] ShotModel with_forces(const std::vector<std::span<const double>>& forces) const;
 
-  /// The same with a further coordinate c for each of these bodies, after the others: a force -c |v| v, |v| held over each
-  /// sampling period. It is 0 in every device, and has slopes only.
-  [[nodiscard]] ShotModel with_drag(std::vector<std::string> bodies) const;
+  /// The same with a further coordinate c for each of these, after the others. It is 0 in every device, and has slopes
+  /// only.
+  [[nodiscard]] ShotModel with_weak_forces(std::vector<WeakForce> forces) const;
 
   enum class Slopes { none, exact };
   /// Null where the parameters make no device that can be followed in time. With slopes a free friction of 0 is
@@ -143,7 +150,7 @@ class ShotModel {
   Device structure_;
   std::vector<MotionRecord> records_;
   std::vector<Coordinate> coordinates_;
-  std::vector<std::string> dragged_;  ///< bodies of the last coordinates
+  std::vector<WeakForce> weak_forces_;  ///< of the last coordinates
   std::vector<std::string> locked_;
   double most_parts_;             ///< per sampling period
   std::vector<ShotUnits> units_;  ///< by record

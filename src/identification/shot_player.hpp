@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -15,11 +16,17 @@
 
 namespace zwidth::internal {
 
+/// By what a weak force's slope is weighed.
+struct Weighing {
+  std::size_t body = 0;
+  double length = 0.0;  ///< WeakForce::length
+};
+
 /// Of an element of x, for Player's slopes: how it changes the motion, and the lagged force that a shot begins with.
 struct PlayedParameter {
   MotionParameter motion;
-  double of_lag = 0.0;                      ///< s per unit
-  std::optional<std::size_t> dragged = {};  ///< of drag: the body by whose speed the motion's slope is weighed
+  double of_lag = 0.0;                    ///< s per unit
+  std::optional<Weighing> weighing = {};  ///< of a weak force
 };
 
 /// The lagged force as a shot begins, and how it changes.
@@ -64,10 +71,10 @@ class Player {
     motions.reserve(parameters.size());
     for (PlayedParameter& each : parameters) motions.push_back(std::move(each.motion));
     delays_.clear();
-    drags_.clear();
+    weights_.clear();
     for (std::size_t j = 0; j < parameters.size(); ++j) {
       delays_.push_back({motions[j].switching, parameters[j].of_lag});
-      if (parameters[j].dragged) drags_.push_back({j, *parameters[j].dragged});
+      if (parameters[j].weighing) weights_.push_back({j, *parameters[j].weighing});
     }
     tangent_.emplace(motion_, std::move(motions), 1 + 2 * positions_.size());
     motion_.set_tangent(&*tangent_);
@@ -91,7 +98,7 @@ class Player {
         };
         out.slopes.col(column) = slopes_of(0);
         if (sensed > 0) out.slopes.col(column) += slopes_of(sensed);
-        weigh_drag(i == 0);
+        weigh(i == 0);
       }
       const std::size_t k = shot.first + i;
       if (instants_.with_old > 0.0) {
@@ -113,20 +120,42 @@ class Player {
     double of_lag = 0.0;
   };
 
-  struct Drag {
+  struct Weight {
     std::size_t parameter = 0;
-    std::size_t body = 0;
-    double speed = 0.0;  // as the sample before began
+    Weighing of;
+    double speed = 0.0;   // as the sample before began
+    int direction = 0;    // of the last motion
+    double turned = 0.0;  // position of the last turn; NaN: before the first
   };
 
-  /// By the speed in the middle of the sample that begins, as far as this one and the last tell.
-  void weigh_drag(bool is_first) {
-    for (Drag& each : drags_) {
-      const double speed = std::abs(motion_.velocity(each.body));
-      const double before = is_first ? speed : each.speed;
-      tangent_->weigh(each.parameter, std::max(0.0, 1.5 * speed - 0.5 * before));
-      each.speed = speed;
+  /// For the sample that begins.
+  void weigh(bool is_first) {
+    for (Weight& each : weights_) {
+      const double velocity = motion_.velocity(each.of.body);
+      const double weight = each.of.length > 0.0 ? since_the_turn(each, velocity, is_first)
+                                                 : speed_within(each, std::abs(velocity), is_first);
+      tangent_->weigh(each.parameter, weight);
     }
+  }
+
+  /// In its middle, as far as this sample and the last tell.
+  static double speed_within(Weight& each, double speed, bool is_first) {
+    const double before = is_first ? speed : each.speed;
+    each.speed = speed;
+    return std::max(0.0, 1.5 * speed - 0.5 * before);
+  }
+
+  /// e^{-distance / length} since the body turned; 0 before it does.
+  double since_the_turn(Weight& each, double velocity, bool is_first) const {
+    const double position = motion_.position(each.of.body);
+    const int direction = velocity > 0.0 ? 1 : velocity < 0.0 ? -1 : each.direction;
+    if (is_first) {
+      each.turned = std::numeric_limits<double>::quiet_NaN();
+    } else if (direction != each.direction) {
+      each.turned = position;
+    }
+    each.direction = direction;
+    return std::isnan(each.turned) ? 0.0 : std::exp(-std::abs(position - each.turned) / each.of.length);
   }
 
   [[nodiscard]] double command(std::size_t k, std::size_t late) const {
@@ -186,7 +215,7 @@ class Player {
   SamplingInstants instants_;
   ContinuousMotion motion_;
   std::vector<Delays> delays_;  ///< by parameter
-  std::vector<Drag> drags_;
+  std::vector<Weight> weights_;
   std::optional<MotionTangent> tangent_;
   std::vector<double> positions_;
   std::vector<double> velocities_;

@@ -291,7 +291,7 @@ TimeDomainIdentification identify_in_time(std::span<const Recording> recordings,
   judge_in_time(result, {recordings, structure, options, shots, start.is_turned, other, start.linear,
                          doubt_of_agreement(devices_of_recordings(fitted, recordings), result.device),
                          contradicted_numbers(fitted, structure, recordings, options.locked, start.lowest),
-                         find_drag(fitted, options.locked, start.lowest, start.highest)});
+                         find_weak_forces(fitted, options.locked, start.lowest, start.highest)});
   done(1.0);
   return result;
 }

@@ -168,8 +168,9 @@ class Judge {
     const auto found = find_nonlinearity(
         {device, recording.channels[0].samples, recording.channels[1].samples, motion.residuals, shots});
     if (found) return trust_.doubt(fmt::format("{} shows {}; {}", motion.source, found->what, found->remedy));
-    const auto drag = doubt_of_drag(judged_.drags[r], fit_.analysis, device.parameters().motion, motion.source);
-    if (drag) trust_.doubt(fmt::format("{}; {}", *drag, slow_motion_remedy));
+    const auto weak =
+        doubt_of_weak_forces(judged_.weak_forces[r], fit_.analysis, device.parameters().motion, motion.source);
+    if (weak) trust_.doubt(fmt::format("{}; {}", weak->what, weak->remedy));
   }
 
   void judge_feedback() {

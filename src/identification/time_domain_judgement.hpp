@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "identification/drag_test.hpp"
 #include "identification/shot_device.hpp"
 #include "identification/shot_model.hpp"
 #include "identification/time_domain_start.hpp"
+#include "identification/weak_force_test.hpp"
 #include "zwidth/identification/time_domain.hpp"
 
 namespace zwidth::internal {
@@ -21,9 +21,9 @@ struct JudgedTimeFit {
   bool is_turned = false;               ///< the position falls as the force rises
   std::optional<double> other_delay{};  ///< s; that the recordings show where another is given and not free
   std::optional<LinearStiffness> linear{};
-  std::optional<std::string> disagreement{};       ///< of the recordings
-  std::vector<ContradictedNumber> contradicted{};  ///< numbers of the structure that were not free
-  std::vector<std::vector<DragEvidence>> drags{};  ///< of each recording
+  std::optional<std::string> disagreement{};                  ///< of the recordings
+  std::vector<ContradictedNumber> contradicted{};             ///< numbers of the structure that were not free
+  std::vector<std::vector<WeakForceEvidence>> weak_forces{};  ///< of each recording
 };
 
 /// Analysis, basis, trust and remarks of a fit whose parameters and motions are given, and each motion's `unexplained`.

@@ -36,6 +36,8 @@ MotionTangent::MotionTangent(const ContinuousMotion& motion, std::vector<MotionP
   multiply_ = matrix_vector(size_);
   const auto n = static_cast<Eigen::Index>(size_);
   columns_ = static_cast<Eigen::Index>(parameters_.size() + others);
+  limit_weights_.assign(parameters_.size(), 1.0);
+  sliding_.resize(motion.bodies());
   constexpr auto of_block = static_cast<Eigen::Index>(block);
   slopes_ = Slopes::Zero(n, (columns_ + of_block - 1) / of_block * of_block);
   next_ = slopes_;
@@ -132,6 +134,14 @@ void MotionTangent::weigh(std::size_t parameter, double weight) noexcept {
   for (Varied& each : varied_) {
     if (each.column == parameter) each.weight = weight;
   }
+  limit_weights_[parameter] = weight;
+  const std::vector<double>& limits = parameters_[parameter].limits;
+  for (std::size_t body = 0; body < limits.size(); ++body) {
+    const auto& [force, direction] = sliding_[body];
+    if (direction == 0) continue;
+    slopes_(static_cast<Eigen::Index>(force), static_cast<Eigen::Index>(parameter)) =
+        -direction * weight * limits[body];
+  }
 }
 
 void MotionTangent::step(unsigned stuck, std::size_t which, const double* x) noexcept {
@@ -173,9 +183,11 @@ void MotionTangent::turn(std::size_t velocity, double ratio) noexcept {
 }
 
 void MotionTangent::slide(std::size_t body, std::size_t force, int direction) noexcept {
+  sliding_[body] = {force, direction};
   for (std::size_t j = 0; j < parameters_.size(); ++j) {
     if (parameters_[j].limits.empty()) continue;
-    slopes_(static_cast<Eigen::Index>(force), static_cast<Eigen::Index>(j)) = -direction * parameters_[j].limits[body];
+    slopes_(static_cast<Eigen::Index>(force), static_cast<Eigen::Index>(j)) =
+        -direction * limit_weights_[j] * parameters_[j].limits[body];
   }
 }
 

@@ -37,7 +37,8 @@ class MotionTangent {
   [[nodiscard]] const Slopes& slopes() const noexcept { return slopes_; }
   [[nodiscard]] Eigen::Index columns() const noexcept { return columns_; }
 
-  /// The parameter's dA/dp counts this many times from then on: a force that is not linear, held from step to step.
+  /// The parameter's dA/dp and dF_c/dp count this many times from then on: a force that is not linear, held from step to
+  /// step.
   void weigh(std::size_t parameter, double weight) noexcept;
 
   // What ContinuousMotion tells; x: its state before.
@@ -75,7 +76,14 @@ class MotionTangent {
   /// out = factor * matrix * in.
   void multiply(const Sparse& matrix, double factor, const Slopes& in, Slopes& out) const noexcept;
 
+  struct Sliding {
+    std::size_t force = 0;  // row of its friction force
+    int direction = 0;      // the last
+  };
+
   std::vector<MotionParameter> parameters_;
+  std::vector<double> limit_weights_;  // by parameter
+  std::vector<Sliding> sliding_;       // by body
   std::vector<Varied> varied_;
   std::vector<Sparse> matrices_;                  // A, by pattern
   std::vector<std::vector<Sparse>> transitions_;  // e^{Ah}, by pattern and recurring step

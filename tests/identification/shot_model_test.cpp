@@ -154,7 +154,7 @@ TEST(ShotModelDrag, ChangesTheMotionAsTheForceDoes) {
   DeviceParameters structure;
   structure.bodies = {{"body", 0.4, 1.3, 0.0, 0.3}};
   structure.loop = {0, 0, 0, 1e-3, 0.0};
-  const ShotModel model = ShotModel(Device(structure), {{force, position, 1e-3}}, {}, {}).with_drag({"body"});
+  const ShotModel model = ShotModel(Device(structure), {{force, position, 1e-3}}, {}, {}).with_weak_forces({{"body"}});
   const std::vector<Shot> shots{{0, 0, force.size()}};
   const auto played = model.play(Eigen::VectorXd::Zero(2), shots, {Eigen::VectorXd::Zero(2)}, ShotModel::Slopes::exact);
   ASSERT_TRUE(played);

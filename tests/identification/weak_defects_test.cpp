@@ -31,6 +31,7 @@ struct Bench {
   ExcitationKind kind = ExcitationKind::logarithmic_chirp;
   double friction = 0.4;  // N
   double noise = 0.0;     // m, of each position
+  double bend = 0.0;      // m, over which friction builds up after a turn (Dahl 1968); 0: at once
 };
 
 // Leapfrog, 50 steps a sample; the friction of a step takes no more than the motion there is.
@@ -52,6 +53,7 @@ Recording record_of(const Bench& bench, std::uint64_t seed) {
   constexpr double step = period / steps;
   std::vector<double> x(bodies, 0.0);
   std::vector<double> v(bodies, 0.0);
+  std::vector<double> bent(bodies, 0.0);
   std::vector<double> position;
   for (const double command : force) {
     const double seen = x.back() + (bench.noise > 0.0 ? bench.noise / 0.01 * normal(random) : 0.0);
@@ -65,7 +67,11 @@ Recording record_of(const Bench& bench, std::uint64_t seed) {
       for (std::size_t b = 0; b < bodies; ++b) {
         const double driven = (b == 0 ? acting + pull : -pull) - damping * v[b] - bench.drag * v[b] * std::abs(v[b]);
         v[b] += step / masses[b] * driven;
-        const double slid = step / masses[b] * friction;
+        if (bench.bend > 0.0) {
+          bent[b] += step * (v[b] - std::abs(v[b]) * bent[b] / bench.bend);
+          v[b] -= step / masses[b] * friction * bent[b] / bench.bend;
+        }
+        const double slid = bench.bend > 0.0 ? 0.0 : step / masses[b] * friction;
         v[b] = v[b] > slid ? v[b] - slid : v[b] < -slid ? v[b] + slid : 0.0;
         x[b] += 0.5 * step * v[b];
       }
@@ -113,6 +119,14 @@ TEST(WeakDefects, DragBesideFrictionIsFoundWithTheFrictionPlayed) {
     EXPECT_NE(reasons_of(found).find("not in proportion to the speed"), std::string::npos)
         << "drag " << drag << ": " << found.analysis.critical.stiffness << " N/m; " << reasons_of(found);
   }
+}
+
+// Friction that bends before it slips was taken for damping: of 14 sound answers on such records seven were 23 to 580 % too
+// high. Sound here before.
+TEST(WeakDefects, FrictionThatBendsBeforeItSlipsIsDoubtful) {
+  const TimeDomainIdentification found = fitted({.bend = 1e-3}, 7);
+  EXPECT_NE(reasons_of(found).find("not Coulomb's as the motion turns"), std::string::npos)
+      << found.analysis.critical.stiffness << " N/m; " << reasons_of(found);
 }
 
 // In lines: sound, its interval 88 % above the truth. What predicts the residuals from their past took up the drag, strong as

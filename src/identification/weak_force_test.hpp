@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "identification/motion_residuals.hpp"
+#include "identification/nonlinear_forces.hpp"
+#include "identification/shot_device.hpp"
+#include "zwidth/stability/analysis.hpp"
+
+namespace zwidth::internal {
+
+/// A force that no device has, beside all numbers of a fit.
+struct WeakForceEvidence {
+  enum class Kind : std::uint8_t { drag, presliding } kind = Kind::drag;
+  double ratio = 0.0;             ///< its size in deviations, > 0
+  double stiffness_beside = 0.0;  ///< K_CR of the numbers fitted beside it, friction left out; NaN: no device has them
+};
+
+/// Drag in proportion to the square of a body's speed, in a record that a linear device was fitted to, at each body at which
+/// it shows at all: c e of MotionResiduals is that of q |v_M| v_M. Nothing where the record is too short.
+[[nodiscard]] std::vector<WeakForceEvidence> find_weak_forces(const MotionQuestion& question,
+                                                              std::span<const double> force,
+                                                              std::span<const double> position);
+
+/// Of each recording of a fit in time: drag, and friction that does not reverse at once or is more as a body turns (six
+/// lengths). Of the filtered residuals of its shots, with the exact slopes of numbers, states and these forces, friction
+/// and all (ShotModel::with_weak_forces()). The band in rad/s.
+[[nodiscard]] std::vector<std::vector<WeakForceEvidence>> find_weak_forces(const FittedDevice& fitted,
+                                                                           const std::vector<std::string>& locked,
+                                                                           double lowest, double highest);
+
+/// What `source`, a record of a fit without them, shows in words: friction of another kind (significant_friction, in
+/// deviations), drag (the same) beside which the critical stiffness is outside the interval, or that it hardly tells the fitted numbers from one beside which that is
+/// lower. With its remedy.
+[[nodiscard]] std::optional<Nonlinearity> doubt_of_weak_forces(std::span<const WeakForceEvidence> forces,
+                                                               const Analysis& analysis, Motion motion,
+                                                               const std::string& source);
+
+}  // namespace zwidth::internal
