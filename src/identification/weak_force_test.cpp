@@ -91,7 +91,8 @@ class RecordLines {
     target_.resize(rows);
     Eigen::Index row = 0;
     for (std::size_t s = 0; s < stretches.size(); ++s) {
-      const auto& [shot, band] = stretches[s];
+      const std::size_t shot = stretches[s].shot;
+      const LineBand band = stretches[s].band;  // no structured binding: the closure below captures it
       const auto put = [&](const Eigen::VectorXd& signal) {
         return lines_of({signal.data(), static_cast<std::size_t>(signal.size())}, band);
       };
