@@ -148,10 +148,11 @@ class Player {
   /// e^{-distance / length} since the body turned; 0 before it does.
   double since_the_turn(Weight& each, double velocity, bool is_first) const {
     const double position = motion_.position(each.of.body);
-    const int direction = velocity > 0.0 ? 1 : velocity < 0.0 ? -1 : each.direction;
+    const int before = is_first ? 0 : each.direction;
+    const int direction = velocity > 0.0 ? 1 : velocity < 0.0 ? -1 : before;
     if (is_first) {
       each.turned = std::numeric_limits<double>::quiet_NaN();
-    } else if (direction != each.direction) {
+    } else if (direction != each.direction && each.direction != 0) {  // from rest it does not turn
       each.turned = position;
     }
     each.direction = direction;
