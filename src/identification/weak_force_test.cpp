@@ -38,7 +38,7 @@ std::optional<double> ratio_of(const std::optional<LineRegression>& found, Kind 
   return ratio > 0.0 ? std::optional(ratio) : std::nullopt;
 }
 
-/// Median distance from turn to turn of a recorded motion: the time at one side of its middle is half of one.
+/// Median distance from turn to turn of a recorded motion.
 double stroke_of(const MotionRecord& record) {
   std::vector<double> strokes;
   double turned = record.position.front();
@@ -163,6 +163,31 @@ class RecordLines {
   Eigen::VectorXcd target_;
 };
 
+std::optional<Nonlinearity> doubt_of(const WeakForceEvidence& force, const Analysis& analysis, Motion motion,
+                                     const std::string& source) {
+  // Without friction: of 70 linear records 1.8 at most. With friction, fitted in time: drag of 98 right fits of linear records
+  // 4.4 at most, above 3 in four; friction as the motion turns 3.2 at most of 28. Of drag that made an answer 6 to 19 % too high 3.4 and
+  // more; of friction that bends before it slips, 23 to 580 % too high, 10 and more.
+  constexpr double possible = 3.0;
+  if (force.ratio < possible) return std::nullopt;
+  const bool is_drag = force.kind == Kind::drag;
+  const char* what = is_drag ? force_not_in_proportion_to_the_speed : friction_not_coulombs;
+  const char* remedy = is_drag ? slow_motion_remedy : strong_motion_remedy;
+  const double beside = force.stiffness_beside;
+  const double value = analysis.critical.stiffness;
+  const double lower = analysis.interval ? analysis.interval->lower : value;
+  const double upper = analysis.interval ? analysis.interval->upper : value;
+  const std::string about =
+      fmt::format("beside it the critical stiffness is about {}", quantity(beside, units_of(motion).stiffness));
+  if (force.ratio < significant_friction) {
+    if (!(beside < lower)) return std::nullopt;
+    return Nonlinearity{fmt::format("{} hardly tells damping from {}: {}", source, what, about), remedy, {}};
+  }
+  // Of friction of another kind one step does not tell how far away the device is.
+  if (is_drag && lower <= beside && beside <= upper) return std::nullopt;
+  return Nonlinearity{fmt::format("{} shows {}{}", source, what, beside < value ? " (" + about + ")" : ""), remedy, {}};
+}
+
 }  // namespace
 
 std::vector<WeakForceEvidence> find_weak_forces(const MotionQuestion& question, std::span<const double> force,
@@ -215,28 +240,12 @@ std::vector<std::vector<WeakForceEvidence>> find_weak_forces(const FittedDevice&
 
 std::optional<Nonlinearity> doubt_of_weak_forces(std::span<const WeakForceEvidence> forces, const Analysis& analysis,
                                                  Motion motion, const std::string& source) {
-  // Without friction: of 70 linear records 1.8 at most. With friction, fitted in time: drag of 98 right fits of linear records
-  // 4.4 at most, above 3 in four; friction as the motion turns 3.2 at most of 28. Of drag that made an answer 6 to 19 % too high 3.4 and
-  // more; of friction that bends before it slips, 23 to 580 % too high, 10 and more.
-  constexpr double possible = 3.0;
-  const auto clearest = std::ranges::max_element(forces, {}, &WeakForceEvidence::ratio);
-  if (clearest == forces.end() || clearest->ratio < possible) return std::nullopt;
-  const bool is_drag = clearest->kind == Kind::drag;
-  const char* what = is_drag ? force_not_in_proportion_to_the_speed : friction_not_coulombs;
-  const char* remedy = is_drag ? slow_motion_remedy : strong_motion_remedy;
-  const double beside = clearest->stiffness_beside;
-  const double value = analysis.critical.stiffness;
-  const double lower = analysis.interval ? analysis.interval->lower : value;
-  const double upper = analysis.interval ? analysis.interval->upper : value;
-  const std::string about =
-      fmt::format("beside it the critical stiffness is about {}", quantity(beside, units_of(motion).stiffness));
-  if (clearest->ratio < significant_friction) {
-    if (!(beside < lower)) return std::nullopt;
-    return Nonlinearity{fmt::format("{} hardly tells damping from {}: {}", source, what, about), remedy, {}};
+  std::vector<WeakForceEvidence> clearest(forces.begin(), forces.end());
+  std::ranges::sort(clearest, std::ranges::greater{}, &WeakForceEvidence::ratio);
+  for (const WeakForceEvidence& each : clearest) {  // one that does not matter hides no other
+    if (auto doubt = doubt_of(each, analysis, motion, source)) return doubt;
   }
-  // Of friction of another kind one step does not tell how far away the device is.
-  if (is_drag && lower <= beside && beside <= upper) return std::nullopt;
-  return Nonlinearity{fmt::format("{} shows {}{}", source, what, beside < value ? " (" + about + ")" : ""), remedy, {}};
+  return std::nullopt;
 }
 
 }  // namespace zwidth::internal
