@@ -11,6 +11,7 @@
 #include "identification/friction_test.hpp"
 #include "identification/nonlinear_forces.hpp"
 #include "identification/shot_fit.hpp"
+#include "simulation/continuous_motion.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/quantity.hpp"
 
@@ -215,11 +216,13 @@ std::vector<std::vector<WeakForceEvidence>> find_weak_forces(const FittedDevice&
   std::vector<Kind> kinds;
   double stroke = 0.0;
   for (const MotionRecord& record : fitted.model.records()) stroke = std::max(stroke, stroke_of(record));
-  for (const Body& body : fitted.model.parameters_at(fit.x).bodies) {
+  const DeviceParameters device = fitted.model.parameters_at(fit.x);
+  const bool may_all_rub = device.bodies.size() <= ContinuousMotion::max_friction_bodies;
+  for (const Body& body : device.bodies) {
     if (std::ranges::count(locked, body.name) > 0) continue;
     forces.push_back({body.name});
     kinds.push_back(Kind::drag);
-    if (!(stroke > 0.0)) continue;
+    if (!(stroke > 0.0) || !(may_all_rub || body.coulomb > 0.0)) continue;
     for (const double share : {0.003, 0.01, 0.03, 0.1, 0.3, 1.0}) {
       forces.push_back({body.name, share * stroke});
       kinds.push_back(Kind::presliding);

@@ -27,15 +27,16 @@ struct WeakForceEvidence {
                                                               std::span<const double> position);
 
 /// Of each recording of a fit in time: drag, and friction that does not reverse at once or is more as a body turns (six
-/// lengths). Of the filtered residuals of its shots, with the exact slopes of numbers, states and these forces, friction
-/// and all (ShotModel::with_weak_forces()). The band in rad/s.
+/// lengths; of more than ContinuousMotion::max_friction_bodies bodies at those only that rub). Of the filtered residuals
+/// of its shots, with the exact slopes of numbers, states and these forces, friction and all
+/// (ShotModel::with_weak_forces()). The band in rad/s.
 [[nodiscard]] std::vector<std::vector<WeakForceEvidence>> find_weak_forces(const FittedDevice& fitted,
                                                                            const std::vector<std::string>& locked,
                                                                            double lowest, double highest);
 
 /// What `source`, a record of a fit without them, shows in words: friction of another kind (significant_friction, in
-/// deviations), drag (the same) beside which the critical stiffness is outside the interval, or that it hardly tells the fitted numbers from one beside which that is
-/// lower. With its remedy.
+/// deviations), drag (the same) beside which the critical stiffness is outside the interval, or that it hardly tells the
+/// fitted numbers from one beside which that is lower. With its remedy.
 [[nodiscard]] std::optional<Nonlinearity> doubt_of_weak_forces(std::span<const WeakForceEvidence> forces,
                                                                const Analysis& analysis, Motion motion,
                                                                const std::string& source);

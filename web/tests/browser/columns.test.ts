@@ -3,7 +3,7 @@ import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs'
 import { tmpdir } from 'node:os'
 import { afterAll, expect, it } from 'vitest'
 import { say } from '../../src/model/decimal'
-import { documentOf, openPage, place, project, row, runPalette, settled, type, withWall } from './program'
+import { addressOf, documentOf, openPage, place, project, row, runPalette, settled, type, withWall } from './program'
 
 const folder = mkdtempSync(`${tmpdir()}/zwidth-`)
 const here = place()
@@ -102,7 +102,7 @@ it('takes a file that is dropped anywhere', async () => {
   await drop('wheel.csv', 'time_s,torque_N_m,angle\n0,0,0\n0.001,1,0\n0.002,0,1e-6\n')
   await page.getByRole('button', { name: 'Fit', exact: true }).waitFor()
   expect(await page.locator('#body-recording').innerText()).toContain('wheel.csv: text, 3 columns of 3 samples')
-  await expect.poll(() => page.getByRole('button', { name: 'Fit', exact: true }).evaluate((each) => each.getBoundingClientRect().bottom < innerHeight), { timeout: 40_000 }).toBe(true)
+  await expect.poll(() => page.getByRole('button', { name: 'Fit', exact: true }).evaluate((each) => each.getBoundingClientRect().bottom < innerHeight)).toBe(true)
   expect([await page.getByLabel('Force (commanded)').inputValue(), await page.getByLabel('Position', { exact: true }).inputValue(), await page.getByLabel('Motion').inputValue()]).toEqual(['torque_N_m', 'angle', 'rotary'])
   await drop('mine.TOML', 'name = "dropped"\n[[body]]\nname = "a"\nmass = 1\n[loop]\nsampling_period = 1e-3\n')
   await page.getByRole('heading', { name: 'dropped' }).waitFor()
@@ -138,8 +138,7 @@ it('does not call a device sure whose numbers are assumed, in a link neither', a
   await withWall(page)
   await settled(page)
   expect(await page.locator('[data-answer="wall"]').innerText()).toMatch(/^!/)
-  await page.evaluate(() => new Promise((done) => setTimeout(done, 300))) // the address is written behind a change
-  const shared = await openPage(here, 390, new URL(page.url()).hash)
+  const shared = await openPage(here, 390, await addressOf(page))
   await shared.page.locator('[data-answer="assumed"]').waitFor()
   expect(await shared.page.locator('[data-answer="trust"]').innerText()).toBe('! doubtful')
   await shared.context.close()

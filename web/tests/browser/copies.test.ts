@@ -5,9 +5,8 @@ import { documentOf, openPage, place, runPalette, settled, type } from './progra
 
 const packages = process.env.ZWIDTH_PYTHON // the folder of the module; without one tests/run leaves this file out
 const here = place('devices/lhifam.toml')
-const setup = { timeout: 60_000 }
 
-it('copies Python that imports zwidth and gives the same numbers', setup, async () => {
+it('copies Python that imports zwidth and gives the same numbers', async () => {
   const { page, complaints } = await openPage(here, 1280)
   await type(page, 'loop.delay', '0.3 ms')
   await type(page, 'body.handle.damping', '4.2')

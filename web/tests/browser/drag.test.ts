@@ -9,7 +9,7 @@ interface Log {
   asked: { panel: string; body: string; inFlight: number; value?: string }[]
   shown: string[]
 }
-it('for 10 s: one request in flight per panel, nothing goes backwards, nothing is stale at the end', async () => {
+it('through a drag: one request in flight per panel, nothing goes backwards, nothing is stale at the end', async () => {
   const { page, end } = await opened()
   await page.evaluate(() => {
     const log: Log = { asked: [], shown: [] }
@@ -37,17 +37,21 @@ it('for 10 s: one request in flight per panel, nothing goes backwards, nothing i
   })
   const slider = (await row(page, key).locator('input[type="range"]').boundingBox())!
   const y = slider.y + slider.height / 2
-  const [from, to] = [slider.x + 0.1 * slider.width, slider.x + 0.6 * slider.width]
+  const [from, to] = [slider.x + 0.1 * slider.width, slider.x + 0.9 * slider.width]
   await page.mouse.move(from, y)
   await page.mouse.down()
-  const start = Date.now()
-  for (let share = 0; share < 1; share = (Date.now() - start) / 10_000) await page.mouse.move(from + share * (to - from), y)
+  const rests = 12 // in between, more is asked than is answered
+  const movesEach = 6
+  for (let i = 1; i <= rests * movesEach; ++i) {
+    await page.mouse.move(from + (i / rests / movesEach) * (to - from), y)
+    if (i % movesEach === 0) await page.locator('.answer[aria-busy="false"]').waitFor()
+  }
   await page.mouse.up()
   await settled(page)
   const log = await page.evaluate(() => (window as unknown as { log: Log }).log)
   const analyses = log.asked.filter((each) => each.panel.startsWith('analyze'))
-  console.log(`${log.asked.length} requests in 10 s, ${analyses.length} of them the analysis; ${log.shown.length} answers seen`)
-  expect(analyses.length).toBeGreaterThan(20)
+  console.log(`${log.asked.length} requests, ${analyses.length} of them the analysis; ${log.shown.length} answers seen`)
+  expect(analyses.length).toBeGreaterThanOrEqual(rests)
   expect(log.asked.filter((each) => each.inFlight > 1)).toEqual([])
   // The damping only grows, so each answer seen belongs to a later question than the one before.
   const order = analyses.map((each) => fourDigits(Number(each.value)))

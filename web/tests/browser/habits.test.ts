@@ -101,7 +101,7 @@ it('fits a record with dry friction in time, and one of two bodies with the hand
   await page.getByLabel('Fit', { exact: true }).selectOption('rigid')
   await page.getByLabel('By', { exact: true }).selectOption('time-domain')
   await page.getByRole('button', { name: 'Fit', exact: true }).click()
-  await page.locator('#body-recording', { hasText: 'Body “body”: dry friction' }).waitFor({ timeout: 60_000 })
+  await page.locator('#body-recording', { hasText: 'Body “body”: dry friction' }).waitFor()
   const inTime = documentOf('identify', 'recordings/free_motion.csv', '--force', 'force', '--position', 'position', '--time', 'time', '--method', 'time-domain', '--structure', 'rigid', '--motion', 'linear') as { critical_stiffness: number }
   await settled(page)
   expect(await page.locator('#body-recording').innerText()).toContain(`The device fitted: critical stiffness ${(inTime.critical_stiffness / 1000).toPrecision(4)} kN/m`)
@@ -193,7 +193,7 @@ it('asks of a device fitted with a body held for that body’s numbers, until th
   for (const key of ['body.motor damping', 'body.handle mass', 'body.handle damping']) await page.getByRole('button', { name: `Lock ${key}`, exact: true }).click()
   await page.getByLabel('Fit', { exact: true }).selectOption('device')
   await page.getByRole('button', { name: 'Fit', exact: true }).click()
-  await page.locator('#body-recording', { hasText: /trust: doubtful[^]*trust: sound/ }).waitFor({ timeout: 30_000 })
+  await page.locator('#body-recording', { hasText: /trust: doubtful[^]*trust: sound/ }).waitFor()
   await page.getByRole('button', { name: 'Use this device' }).click()
   await page.locator('[data-answer="trust"]', { hasText: 'sound' }).waitFor()
   expect(parseFloat(await alone(page))).toBeCloseTo(8.849, 1)

@@ -1,25 +1,21 @@
 // Links: opened, pasted into the tab, followed back, broken.
 import type { Page } from 'playwright-core'
 import { expect, it } from 'vitest'
-import { alone, openPage, place, row, settled, type } from './program'
+import { addressOf, alone, openPage, place, row, settled, type } from './program'
 
 const here = place('devices/lhifam.toml')
 
 const stiffness = (page: Page): Promise<string> => row(page, 'link.0.stiffness').locator('input[type="text"]').inputValue()
-const hashOf = async (page: Page): Promise<string> => {
-  await page.waitForTimeout(400) // the address is written behind a change
-  return new URL(page.url()).hash
-}
 
 it('follows a link pasted into its tab, and Back, as steps to undo', async () => {
   const { page, context, complaints } = await openPage(here, 1280)
-  const first = await hashOf(page)
+  const first = await addressOf(page)
   await type(page, 'link.0.stiffness', '70000')
   await settled(page)
   const answer = await alone(page)
-  const changed = await hashOf(page)
+  const changed = await addressOf(page)
   await page.keyboard.press('Control+z')
-  expect(await hashOf(page)).toBe(first)
+  expect(await addressOf(page)).toBe(first)
 
   await page.evaluate((hash) => (location.hash = hash), changed)
   await expect.poll(() => stiffness(page)).toBe('70 kN/m')
@@ -29,7 +25,7 @@ it('follows a link pasted into its tab, and Back, as steps to undo', async () =>
   expect(await stiffness(page)).toBe('79.5 kN/m')
   await page.getByRole('button', { name: 'Redo' }).click()
   expect(await stiffness(page)).toBe('70 kN/m')
-  await page.waitForTimeout(400)
+  await addressOf(page)
   await page.goBack()
   await expect.poll(() => stiffness(page)).toBe('79.5 kN/m')
   await page.goForward()
@@ -41,7 +37,7 @@ it('follows a link pasted into its tab, and Back, as steps to undo', async () =>
 it('says what is wrong with a link, and keeps what it shows', async () => {
   const { page, context, complaints } = await openPage(here, 1280)
   await type(page, 'link.0.stiffness', '70000')
-  const hash = await hashOf(page)
+  const hash = await addressOf(page)
   const at = hash.length - 10
   for (const [broken, why] of [
     [hash.slice(0, at) + (hash[at] === 'A' ? 'B' : 'A') + hash.slice(at + 1), /changed or cut off/],

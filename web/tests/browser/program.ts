@@ -73,7 +73,7 @@ export async function openPage({ browser, served }: Place, width: number, hash =
   const context = await browser.newContext({ viewport: { width, height: 900 }, colorScheme: scheme, reducedMotion: 'reduce', acceptDownloads: true })
   await context.grantPermissions(['clipboard-read', 'clipboard-write'])
   const page = await context.newPage()
-  page.setDefaultTimeout(40_000)
+  page.setDefaultTimeout(90_000)
   const complaints: string[] = []
   page.on('pageerror', (error) => complaints.push(error.message))
   page.on('console', (message) => {
@@ -99,6 +99,12 @@ export async function openPage({ browser, served }: Place, width: number, hash =
 export async function settled(page: Page): Promise<void> {
   await page.waitForTimeout(60)
   await page.waitForFunction(() => document.querySelectorAll('[aria-busy="true"]').length === 0, null, { timeout: 90_000 })
+}
+
+/** The address is written behind a change; by the page's own clock, which comes after what it was to do before. */
+export const addressOf = async (page: Page): Promise<string> => {
+  await page.evaluate(() => new Promise((done) => setTimeout(done, 300)))
+  return new URL(page.url()).hash
 }
 
 export const documentOf = (...words: string[]): Record<string, unknown> =>

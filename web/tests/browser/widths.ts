@@ -1,7 +1,7 @@
 // What holds at every width: the answer, numbers, drags, errors, links, recordings; and for everybody.
 import axe from 'axe-core'
 import { expect, it } from 'vitest'
-import { alone, documentOf, openAll, openPage, place, project, row, runPalette, settled, type, withWall } from './program'
+import { addressOf, alone, documentOf, openAll, openPage, place, project, row, runPalette, settled, type, withWall } from './program'
 
 export function everythingAt(width: number): void {
   const here = place('devices/lhifam.toml')
@@ -161,8 +161,7 @@ export function everythingAt(width: number): void {
     await page.getByRole('button', { name: 'Pin', exact: true }).click()
     await type(page, 'loop.delay', '1.5e-4')
     await settled(page)
-    await page.waitForTimeout(400)
-    const [answer, file, hash] = [await alone(page), await page.locator('#toml').count(), new URL(page.url()).hash]
+    const [answer, file, hash] = [await alone(page), await page.locator('#toml').count(), await addressOf(page)]
     expect(file).toBe(0)
     expect(hash.length).toBeLessThanOrEqual(2048 + 3)
     const again = await openPage(here, width, hash)
