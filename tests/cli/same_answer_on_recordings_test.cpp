@@ -112,11 +112,11 @@ constexpr std::array commands = {
     Command{"LinkOfTwoBodies",
             "identify FILE --force force --position position --json --structure DEVICE "
             "--free link.stiffness,link.damping --from-structure",
-            link_of_two_bodies, "two_mass", 2.0},
+            link_of_two_bodies, "two_mass", 1.0},
     Command{"InTime",
             "identify FILE --force force --position position --json --method time-domain --structure rigid "
             "--free body.body.mass,body.body.damping",
-            fitted_in_time, "rigid", 2.0},
+            fitted_in_time, "rigid", 1.0},
     Command{"Relay", "relay --recording FILE --force force --position position --json --segment 256", relay_reading,
             "two_mass", 1.0},
     Command{"Diagnose", "diagnose DEVICE --recording FILE --position position --stiffness 300 --json", heard, "rigid",

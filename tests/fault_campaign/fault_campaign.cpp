@@ -266,69 +266,89 @@ std::string stop_of(const std::string& errors) {
   return line.substr(0, 110);
 }
 
-Tally tally_of(std::string_view driver, const FaultCase& fault, int runs, std::uint64_t seed, int together) {
-  Tally tally;
-  std::mutex mutex;
-  std::atomic<int> next = 0;
-  const auto work = [&] {
-    for (int i = next++; i < runs; i = next++) {
-      Outcome outcome;
-      for (int start = 0; start < most_starts && !outcome.has_begun; ++start) {
-        std::string name = (fs::temp_directory_path() / "zwidth_campaign_XXXXXX").string();
-        if (mkdtemp(name.data()) == nullptr) std::abort();
-        const std::uint64_t own = seed + static_cast<std::uint64_t>(1000 * i + start);
-        outcome = run_once({driver, own, name}, fault);
-        fs::remove_all(name);
-        const std::lock_guard lock(mutex);
-        if (!outcome.has_begun) {
-          ++tally.restarts;
-          ++tally.stops["before its fault: " + stop_of(outcome.errors)];
-        }
-      }
-      const std::lock_guard lock(mutex);
-      if (!outcome.has_begun) {
-        ++tally.never_begun;
-        continue;
-      }
-      ++tally.runs;
-      tally.safe += outcome.is_safe ? 1 : 0;
-      tally.staying += outcome.force_stays && !outcome.is_safe ? 1 : 0;
-      tally.whole += outcome.is_whole ? 1 : 0;
-      tally.most_forces = std::max(tally.most_forces, outcome.forces_after);
-      ++tally.stops[stop_of(outcome.errors)];
-      if ((!outcome.is_safe && !outcome.force_stays) || !outcome.is_whole) {
-        fmt::print("  {} {} run {}: safe {}, whole {}, {} forces after: {}\n", driver, fault.name, i, outcome.is_safe,
-                   outcome.is_whole, outcome.forces_after, outcome.errors);
-      }
+/// A fault on a driver.
+struct Cell {
+  std::string_view driver;
+  const FaultCase* fault;
+  Tally tally{};
+};
+
+/// One run, begun anew until its fault comes; the tally is under the mutex.
+Outcome run_in(Cell& cell, int number, std::uint64_t seed, std::mutex& mutex) {
+  Outcome outcome;
+  for (int start = 0; start < most_starts && !outcome.has_begun; ++start) {
+    std::string name = (fs::temp_directory_path() / "zwidth_campaign_XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) std::abort();
+    const std::uint64_t own = seed + static_cast<std::uint64_t>(1000 * number + start);
+    outcome = run_once({cell.driver, own, name}, *cell.fault);
+    fs::remove_all(name);
+    const std::lock_guard lock(mutex);
+    if (!outcome.has_begun) {
+      ++cell.tally.restarts;
+      ++cell.tally.stops["before its fault: " + stop_of(outcome.errors)];
     }
-  };
-  std::vector<std::thread> workers;
-  for (int i = 0; i < together; ++i) workers.emplace_back(work);
-  for (std::thread& worker : workers) worker.join();
-  return tally;
+  }
+  return outcome;
+}
+
+void count(const Outcome& outcome, int number, Cell& cell) {
+  Tally& tally = cell.tally;
+  if (!outcome.has_begun) {
+    ++tally.never_begun;
+    return;
+  }
+  ++tally.runs;
+  tally.safe += outcome.is_safe ? 1 : 0;
+  tally.staying += outcome.force_stays && !outcome.is_safe ? 1 : 0;
+  tally.whole += outcome.is_whole ? 1 : 0;
+  tally.most_forces = std::max(tally.most_forces, outcome.forces_after);
+  ++tally.stops[stop_of(outcome.errors)];
+  if ((!outcome.is_safe && !outcome.force_stays) || !outcome.is_whole) {
+    fmt::print("  {} {} run {}: safe {}, whole {}, {} forces after: {}\n", cell.driver, cell.fault->name, number,
+               outcome.is_safe, outcome.is_whole, outcome.forces_after, outcome.errors);
+  }
+}
+
+void print(const Cell& cell) {
+  const Tally& tally = cell.tally;
+  const bool stays = tally.staying > 0;
+  fmt::print("{:10} {:16} {:>6} {:>6} {:>6} {:>9} {:>9}  {}\n", cell.driver, cell.fault->name,
+             stays ? "-" : std::to_string(tally.safe), tally.whole, tally.runs, tally.most_forces, tally.restarts,
+             stays ? "no watchdog: the force stays" : "");
+  for (const auto& [stop, count] : tally.stops) fmt::print("{:>62} x {}\n", count, stop);
+  std::fflush(stdout);
 }
 
 int campaign(int runs, std::uint64_t seed, int together, std::string_view one_driver, std::string_view one_fault) {
   fmt::print("{} runs of each, seed {}, {} side by side, period {} s\n", runs, seed, together, period);
   fmt::print("{:10} {:16} {:>6} {:>6} {:>6} {:>9} {:>9}  {}\n", "driver", "fault", "zero", "whole", "of", "forces",
              "restarts", "what stopped it");
-  bool is_safe = true;
+  std::vector<Cell> cells;
   for (const std::string_view driver : {"udp", "odrive", "moteus", "vesc", "simplefoc"}) {
     for (const FaultCase& fault : fault_cases) {
       const bool is_asked =
           (one_driver.empty() || one_driver == driver) && (one_fault.empty() || one_fault == fault.name);
-      if (!is_asked || !is_possible(driver, fault.name)) continue;
-      const Tally tally = tally_of(driver, fault, runs, seed, together);
-      const bool stays = tally.staying > 0;
-      fmt::print("{:10} {:16} {:>6} {:>6} {:>6} {:>9} {:>9}  {}\n", driver, fault.name,
-                 stays ? "-" : std::to_string(tally.safe), tally.whole, tally.runs, tally.most_forces, tally.restarts,
-                 stays ? "no watchdog: the force stays" : "");
-      for (const auto& [stop, count] : tally.stops) fmt::print("{:>62} x {}\n", count, stop);
-      std::fflush(stdout);
-      is_safe =
-          is_safe && tally.never_begun == 0 && tally.safe + tally.staying == tally.runs && tally.whole == tally.runs;
+      if (is_asked && is_possible(driver, fault.name)) cells.push_back({driver, &fault});
     }
   }
+  std::mutex mutex;
+  std::atomic<int> next = 0;
+  const auto work = [&] {
+    for (int i = next++; i < runs * static_cast<int>(cells.size()); i = next++) {
+      Cell& cell = cells[static_cast<std::size_t>(i / runs)];
+      const Outcome outcome = run_in(cell, i % runs, seed, mutex);
+      const std::lock_guard lock(mutex);
+      count(outcome, i % runs, cell);
+      if (cell.tally.runs + cell.tally.never_begun == runs) print(cell);
+    }
+  };
+  std::vector<std::thread> workers;
+  for (int i = 0; i < together; ++i) workers.emplace_back(work);
+  for (std::thread& worker : workers) worker.join();
+  const bool is_safe = std::ranges::all_of(cells, [&](const Cell& cell) {
+    const Tally& tally = cell.tally;
+    return tally.runs == runs && tally.safe + tally.staying == runs && tally.whole == runs;
+  });
   fmt::print("{}\n", is_safe ? "all zero in time, every record whole" : "NOT all");
   return is_safe ? 0 : 1;
 }

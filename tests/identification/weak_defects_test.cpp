@@ -121,6 +121,23 @@ TEST(WeakDefects, DragBesideFrictionIsFoundWithTheFrictionPlayed) {
   }
 }
 
+// Nothing was looked for in devices with more bodies than friction is played on.
+TEST(WeakDefects, DragOfOneOfManyBodiesIsFound) {
+  DeviceParameters device = rigid().parameters();
+  for (int i = 1; i <= 6; ++i) {
+    device.bodies.push_back({"part " + std::to_string(i), 1e-4, 0.0});
+    device.links.push_back({0, static_cast<std::size_t>(i), 1000.0, 0.05});
+  }
+  Bench bench{.drag = 0.3, .friction = 0.0};
+  bench.resolution = 1e-6;
+  const Recording recording = record_of(bench, 7);
+  TimeDomainOptions options;
+  options.free = {"body.body.mass", "body.body.damping"};
+  const auto found = identify_in_time(std::span(&recording, 1), Device(device), options);
+  EXPECT_NE(reasons_of(found).find("not in proportion to the speed"), std::string::npos)
+      << found.analysis.critical.stiffness << " N/m; " << reasons_of(found);
+}
+
 // Friction that bends before it slips was taken for damping: of 14 sound answers on such records seven were 23 to 580 % too
 // high. Sound here before.
 TEST(WeakDefects, FrictionThatBendsBeforeItSlipsIsDoubtful) {

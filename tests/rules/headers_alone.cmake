@@ -1,8 +1,8 @@
-# Compiles each header under include_dir on its own, without code.
+# Compiles each header under include_dir on its own, without code; by the compiler cache where the build has one.
 list(TRANSFORM system_dirs PREPEND -isystem)
 file(GLOB_RECURSE headers RELATIVE ${include_dir} ${include_dir}/*.hpp)
 foreach(header ${headers})
-  execute_process(COMMAND ${compiler} -std=c++20 -fsyntax-only -I${include_dir} ${system_dirs} -x c++ ${include_dir}/${header}
+  execute_process(COMMAND ${launcher} ${compiler} -std=c++20 -O0 -I${include_dir} ${system_dirs} -x c++ -c ${include_dir}/${header} -o ${object}
     RESULT_VARIABLE result ERROR_VARIABLE error)
   if(NOT result EQUAL 0)
     message(SEND_ERROR "${header} does not compile alone:\n${error}")
