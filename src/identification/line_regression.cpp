@@ -8,10 +8,7 @@
 #include "signal/fourier.hpp"
 
 namespace zwidth::internal {
-namespace {
-
-/// 1 / rms of the values around each line.
-Eigen::VectorXd weights_of(const Eigen::VectorXcd& rest, std::span<const Eigen::Index> stretches) {
+Eigen::VectorXd line_weights(const Eigen::VectorXcd& rest, std::span<const Eigen::Index> stretches) {
   constexpr Eigen::Index reach = 12;
   const double least = 1e-12 * rest.squaredNorm() / static_cast<double>(rest.size());
   Eigen::VectorXd weights(rest.size());
@@ -27,8 +24,6 @@ Eigen::VectorXd weights_of(const Eigen::VectorXcd& rest, std::span<const Eigen::
   }
   return weights;
 }
-
-}  // namespace
 
 LineBand band_with_harmonics(double lowest, double highest, std::size_t samples, double sampling_period) {
   const double step = 2.0 * std::numbers::pi / (sampling_period * static_cast<double>(samples));
@@ -57,7 +52,7 @@ std::optional<LineRegression> regress_lines(const Eigen::MatrixXcd& columns, con
   LineRegression found;
   constexpr int rounds = 3;
   for (int round = 0; round < rounds; ++round) {
-    const Eigen::VectorXd weights = weights_of(rest, stretches);
+    const Eigen::VectorXd weights = line_weights(rest, stretches);
     left << (weights.asDiagonal() * columns.real()), (weights.asDiagonal() * columns.imag());
     right << weights.cwiseProduct(target.real()), weights.cwiseProduct(target.imag());
     const Eigen::VectorXd scale = left.colwise().norm().cwiseMax(1e-300).cwiseInverse();

@@ -22,6 +22,9 @@ struct LineBand {
 /// Those of a signal under a Hann window.
 [[nodiscard]] Eigen::VectorXcd lines_of(std::span<const double> signal, LineBand band);
 
+/// 1 / rms of the rest around each line.
+[[nodiscard]] Eigen::VectorXd line_weights(const Eigen::VectorXcd& rest, std::span<const Eigen::Index> stretches);
+
 /// target = columns values + rest, of real values.
 struct LineRegression {
   Eigen::VectorXd values;

@@ -87,6 +87,10 @@ std::optional<LineRegression> MotionResiduals::beside(const Opposing& force) con
   return found;
 }
 
+RestLines MotionResiduals::rest() const {
+  return {known_, target_, {known_.rows()}, [this](std::span<const double> motion) { return lines_of(motion, band_); }};
+}
+
 DeviceParameters MotionResiduals::parameters_beside(const LineRegression& found) const {
   DeviceParameters parameters = question_.device.parameters();
   parameters.uncertainty.reset();

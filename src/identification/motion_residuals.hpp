@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "identification/line_regression.hpp"
+#include "identification/missing_mode.hpp"
 #include "zwidth/model/device.hpp"
 
 namespace zwidth::internal {
@@ -47,6 +48,9 @@ class MotionResiduals {
 
   /// c with its deviation; dp first.
   [[nodiscard]] std::optional<LineRegression> beside(const Opposing& force) const;
+
+  /// dp, start, constant force and offset are known. Refers to this.
+  [[nodiscard]] RestLines rest() const;
 
   /// The fitted device with dp of that; a number of which nothing would be left keeps a tenth.
   [[nodiscard]] DeviceParameters parameters_beside(const LineRegression& found) const;

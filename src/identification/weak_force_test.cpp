@@ -4,13 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include "identification/fit_judgement.hpp"
 #include "identification/friction_test.hpp"
 #include "identification/nonlinear_forces.hpp"
 #include "identification/shot_fit.hpp"
+#include "identification/suspected_motions.hpp"
 #include "simulation/continuous_motion.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/quantity.hpp"
@@ -29,14 +32,52 @@ double stiffness_of(DeviceParameters parameters) {
 
 using Kind = WeakForceEvidence::Kind;
 
-/// Of the last column; nothing for drag with the sign of a motor.
+/// Of the last column; nothing for a force with the sign of a motor.
 std::optional<double> ratio_of(const std::optional<LineRegression>& found, Kind kind) {
   if (!found) return std::nullopt;
   const Eigen::Index last = found->values.size() - 1;
   if (!(found->deviations(last) > 0.0)) return std::nullopt;
   const double ratio = found->values(last) / found->deviations(last);
-  if (kind == Kind::presliding) return std::abs(ratio);
+  if (kind == Kind::presliding || kind == Kind::clock_skew) return std::abs(ratio);
   return ratio > 0.0 ? std::optional(ratio) : std::nullopt;
+}
+
+using Beside = std::function<DeviceParameters(const LineRegression&)>;  ///< the numbers beside what was found
+
+std::optional<WeakForceEvidence> mode_in(const RestLines& rest, const ModeQuestion& question, const Beside& beside) {
+  const auto mode = find_missing_mode(rest, question);
+  if (!mode) return std::nullopt;
+  DeviceParameters parameters = beside(mode->found);
+  for (Body& body : parameters.bodies) body.coulomb = 0.0;
+  try {
+    const Device device(std::move(parameters));
+    return WeakForceEvidence{Kind::mode, mode->ratio, stiffness_with(device, *mode), mode->frequency,
+                             share_of(device, *mode)};
+  } catch (const Error&) {  // no device has such numbers
+    return std::nullopt;
+  }
+}
+
+/// A mode and suspected motions. `device`: the fitted one, without friction, as it was in the experiment.
+std::vector<WeakForceEvidence> suspects_in(const RestLines& rest, const Device& device, std::span<const double> position,
+                                           const ModeQuestion& question, const Beside& beside) {
+  std::vector<WeakForceEvidence> found;
+  if (auto mode = mode_in(rest, question, beside)) found.push_back(*std::move(mode));
+  for (const SuspectedMotion& suspect : suspected_motions(device, question.force, position)) {
+    Eigen::MatrixXcd columns(rest.known.rows(), rest.known.cols() + 1);
+    columns << rest.known, rest.lines(suspect.motion);
+    const auto regressed = regress_lines(columns, rest.target, rest.stretches);
+    const bool is_skew = suspect.kind == SuspectedMotion::Kind::clock_skew;
+    const Kind kind = is_skew ? Kind::clock_skew : Kind::link_friction;
+    const auto ratio = ratio_of(regressed, kind);
+    if (!ratio) continue;
+    WeakForceEvidence evidence{kind, *ratio, stiffness_of(beside(*regressed))};
+    const double duration = static_cast<double>(position.size()) * question.sampling_period;
+    if (is_skew) evidence.drift = regressed->values(rest.known.cols()) * duration;
+    constexpr double notable = 0.02;  // sampling periods
+    if (!is_skew || std::abs(evidence.drift) > notable * question.sampling_period) found.push_back(evidence);
+  }
+  return found;
 }
 
 /// Median distance from turn to turn of a recorded motion.
@@ -80,20 +121,20 @@ class RecordLines {
     for (Eigen::Index i = 0; i < fit.x.size(); ++i) {
       if (!fit.held[static_cast<std::size_t>(i)]) varied_.push_back(i);
     }
-    const std::vector<Stretch> stretches = stretches_of(slopes, record, lowest, highest);
+    stretches_ = stretches_of(slopes, record, lowest, highest);
     const auto numbers = static_cast<Eigen::Index>(varied_.size());
     const Eigen::Index states = fitted.model.states();
     const auto known = static_cast<Eigen::Index>(fitted.model.coordinates().size());
     const auto forces = static_cast<Eigen::Index>(kinds_.size());
     Eigen::Index rows = 0;
     for (const Eigen::Index size : sizes_) rows += size;
-    known_ = Eigen::MatrixXcd::Zero(rows, numbers + states * static_cast<Eigen::Index>(stretches.size()));
+    known_ = Eigen::MatrixXcd::Zero(rows, numbers + states * static_cast<Eigen::Index>(stretches_.size()));
     forces_.resize(rows, forces);
     target_.resize(rows);
     Eigen::Index row = 0;
-    for (std::size_t s = 0; s < stretches.size(); ++s) {
-      const std::size_t shot = stretches[s].shot;
-      const LineBand band = stretches[s].band;  // no structured binding: the closure below captures it
+    for (std::size_t s = 0; s < stretches_.size(); ++s) {
+      const std::size_t shot = stretches_[s].shot;
+      const LineBand band = stretches_[s].band;  // no structured binding: the closure below captures it
       const auto put = [&](const Eigen::VectorXd& signal) {
         return lines_of({signal.data(), static_cast<std::size_t>(signal.size())}, band);
       };
@@ -124,9 +165,33 @@ class RecordLines {
       columns << known_, forces_.col(static_cast<Eigen::Index>(j));
       const auto found = regress_lines(columns, target_, sizes_);
       if (const auto ratio = ratio_of(found, kinds_[j]))
-        forces.push_back({kinds_[j], *ratio, stiffness_beside(*found)});
+        forces.push_back({kinds_[j], *ratio, stiffness_of(parameters_beside(*found))});
     }
     return forces;
+  }
+
+  /// A mode that the device lacks, and suspected motions.
+  [[nodiscard]] std::vector<WeakForceEvidence> find_suspects(const Device& device, const MotionRecord& record,
+                                                             double lowest, double highest) const {
+    constexpr Eigen::Index lines_each = 4;
+    if (known_.rows() < lines_each * (known_.cols() + 2)) return {};
+    const auto lines = [this](std::span<const double> motion) {
+      Eigen::VectorXcd all(known_.rows());
+      Eigen::Index row = 0;
+      for (std::size_t s = 0; s < stretches_.size(); ++s) {
+        const Shot& shot = fitted_.shots[stretches_[s].shot];
+        const std::span<const double> part = motion.subspan(shot.first, shot.count);
+        const Eigen::Map<const Eigen::VectorXd> samples(part.data(), static_cast<Eigen::Index>(part.size()));
+        const Eigen::VectorXd filtered = whitened(fitted_.fitted.noise[shot.record], samples);
+        all.segment(row, sizes_[s]) =
+            lines_of({filtered.data(), static_cast<std::size_t>(filtered.size())}, stretches_[s].band);
+        row += sizes_[s];
+      }
+      return all;
+    };
+    return suspects_in({known_, target_, sizes_, lines}, device, record.position,
+                       {record.force, record.sampling_period, device.loop().delay, lowest, highest},
+                       [this](const LineRegression& found) { return parameters_beside(found); });
   }
 
  private:
@@ -145,18 +210,19 @@ class RecordLines {
     return stretches;
   }
 
-  [[nodiscard]] double stiffness_beside(const LineRegression& found) const {
+  [[nodiscard]] DeviceParameters parameters_beside(const LineRegression& found) const {
     Eigen::VectorXd x = fitted_.fitted.fit.x;
     for (std::size_t j = 0; j < varied_.size(); ++j) {
       const Eigen::Index i = varied_[j];
       x(i) += found.values(static_cast<Eigen::Index>(j));
       if (fitted_.model.is_bounded(i)) x(i) = std::max(0.0, x(i));
     }
-    return stiffness_of(fitted_.model.parameters_at(x));
+    return fitted_.model.parameters_at(x);
   }
 
   const FittedDevice& fitted_;
   std::vector<Kind> kinds_;
+  std::vector<Stretch> stretches_;
   std::vector<Eigen::Index> varied_;  ///< elements of x
   std::vector<Eigen::Index> sizes_;   ///< rows of each stretch
   Eigen::MatrixXcd known_;            ///< numbers and states
@@ -164,29 +230,70 @@ class RecordLines {
   Eigen::VectorXcd target_;
 };
 
+constexpr double clear_suspect = 6.0;  // deviations: the most of hundreds of frequencies; of right structures 4.8 were seen
+
+std::string about(double stiffness, Motion motion) {
+  return fmt::format("the critical stiffness is about {}", quantity(stiffness, units_of(motion).stiffness));
+}
+
+std::optional<Nonlinearity> doubt_of_mode(const WeakForceEvidence& mode, double lower, Motion motion,
+                                          const std::string& source) {
+  constexpr double large = 0.1;  // of the response: then one mode may not be all that lacks
+  const bool lowers = mode.stiffness_beside < lower;
+  if (!(mode.ratio > clear_suspect) || !(lowers || mode.share > large)) return std::nullopt;
+  return Nonlinearity{
+      fmt::format("{} shows a mode near {:.4g} Hz that the structure lacks, {:.2g} % of the response there{}", source,
+                  mode.frequency / (2.0 * std::numbers::pi), 100.0 * mode.share,
+                  lowers ? ": with it " + about(mode.stiffness_beside, motion) : ""),
+      "give the structure one more body (a frame that shakes is one), or hold the device firmly",
+      {}};
+}
+
+std::optional<Nonlinearity> doubt_of_skew(const WeakForceEvidence& skew, const std::string& source) {
+  if (!(skew.ratio > clear_suspect)) return std::nullopt;
+  return Nonlinearity{fmt::format("{} shows a delay that changes by {} from its beginning to its end: the clocks of "
+                                  "force and position run apart",
+                                  source, quantity(std::abs(skew.drift), "s")),
+                      "record both by one clock",
+                      {}};
+}
+
+struct Words {
+  const char* what;
+  const char* remedy;
+};
+
+Words words_of(Kind kind) {
+  if (kind == Kind::drag) return {force_not_in_proportion_to_the_speed, slow_motion_remedy};
+  if (kind == Kind::presliding) return {friction_not_coulombs, strong_motion_remedy};
+  return {"friction in a link: a belt, cable or gear that rubs, or gives before it slips", strong_motion_remedy};
+}
+
 std::optional<Nonlinearity> doubt_of(const WeakForceEvidence& force, const Analysis& analysis, Motion motion,
                                      const std::string& source) {
-  // Without friction: of 70 linear records 1.8 at most. With friction, fitted in time: drag of 98 right fits of linear records
-  // 4.4 at most, above 3 in four; friction as the motion turns 3.2 at most of 28. Of drag that made an answer 6 to 19 % too high 3.4 and
-  // more; of friction that bends before it slips, 23 to 580 % too high, 10 and more.
-  constexpr double possible = 3.0;
-  if (force.ratio < possible) return std::nullopt;
-  const bool is_drag = force.kind == Kind::drag;
-  const char* what = is_drag ? force_not_in_proportion_to_the_speed : friction_not_coulombs;
-  const char* remedy = is_drag ? slow_motion_remedy : strong_motion_remedy;
-  const double beside = force.stiffness_beside;
   const double value = analysis.critical.stiffness;
   const double lower = analysis.interval ? analysis.interval->lower : value;
   const double upper = analysis.interval ? analysis.interval->upper : value;
-  const std::string about =
-      fmt::format("beside it the critical stiffness is about {}", quantity(beside, units_of(motion).stiffness));
+  if (force.kind == Kind::mode) return doubt_of_mode(force, lower, motion, source);
+  if (force.kind == Kind::clock_skew) return doubt_of_skew(force, source);
+  // Without friction: of 70 linear records 1.8 at most. With friction, fitted in time: drag of 98 right fits of linear records
+  // 4.4 at most, above 3 in four; friction as the motion turns 3.2 at most of 28. Of drag that made an answer 6 to 19 % too high 3.4 and
+  // more; of friction that bends before it slips, 23 to 580 % too high, 10 and more; in a link, 24 to 90 % too high, 20 and more.
+  constexpr double possible = 3.0;
+  if (force.ratio < possible) return std::nullopt;
+  const auto [what, remedy] = words_of(force.kind);
+  const double beside = force.stiffness_beside;
   if (force.ratio < significant_friction) {
     if (!(beside < lower)) return std::nullopt;
-    return Nonlinearity{fmt::format("{} hardly tells damping from {}: {}", source, what, about), remedy, {}};
+    return Nonlinearity{
+        fmt::format("{} hardly tells damping from {}: beside it {}", source, what, about(beside, motion)), remedy, {}};
   }
   // Of friction of another kind one step does not tell how far away the device is.
-  if (is_drag && lower <= beside && beside <= upper) return std::nullopt;
-  return Nonlinearity{fmt::format("{} shows {}{}", source, what, beside < value ? " (" + about + ")" : ""), remedy, {}};
+  if (force.kind != Kind::presliding && lower <= beside && beside <= upper) return std::nullopt;
+  return Nonlinearity{
+      fmt::format("{} shows {}{}", source, what, beside < value ? " (beside it " + about(beside, motion) + ")" : ""),
+      remedy,
+      {}};
 }
 
 }  // namespace
@@ -202,6 +309,13 @@ std::vector<WeakForceEvidence> find_weak_forces(const MotionQuestion& question, 
       forces.push_back({Kind::drag, *ratio, stiffness_of(residuals.parameters_beside(*found))});
     }
   }
+  const std::span<const double> played = residuals.force();
+  const auto suspects =
+      suspects_in(residuals.rest(), device_in_experiment(question.device, question.locked, question.sampling_period),
+                  position.first(played.size()),
+                  {played, question.sampling_period, question.device.loop().delay, question.lowest, question.highest},
+                  [&](const LineRegression& found) { return residuals.parameters_beside(found); });
+  forces.insert(forces.end(), suspects.begin(), suspects.end());
   return forces;
 } catch (const Error&) {  // a device that cannot be played says nothing
   return {};
@@ -235,8 +349,15 @@ std::vector<std::vector<WeakForceEvidence>> find_weak_forces(const FittedDevice&
   const ShotModel model = fitted.model.with_weak_forces(std::move(forces));
   const auto slopes = shot_slopes(model, fitted.shots, fitted.fitted.noise, x, fit.states);
   if (!slopes) return found;
+  DeviceParameters linear = device;
+  for (Body& body : linear.bodies) body.coulomb = 0.0;
   for (std::size_t r = 0; r < found.size(); ++r) {
-    found[r] = RecordLines(fitted, *slopes, kinds, r, lowest, highest).find();
+    const RecordLines lines(fitted, *slopes, kinds, r, lowest, highest);
+    found[r] = lines.find();
+    const MotionRecord& record = fitted.model.records()[r];
+    const Device device = device_in_experiment(Device(linear), locked, record.sampling_period);
+    const auto suspects = lines.find_suspects(device, record, lowest, highest);
+    found[r].insert(found[r].end(), suspects.begin(), suspects.end());
   }
   return found;
 }

@@ -15,9 +15,12 @@ namespace zwidth::internal {
 
 /// A force that no device has, beside all numbers of a fit.
 struct WeakForceEvidence {
-  enum class Kind : std::uint8_t { drag, presliding } kind = Kind::drag;
+  enum class Kind : std::uint8_t { drag, presliding, mode, clock_skew, link_friction } kind = Kind::drag;
   double ratio = 0.0;             ///< its size in deviations, > 0
   double stiffness_beside = 0.0;  ///< K_CR of the numbers fitted beside it, friction left out; NaN: no device has them
+  double frequency = 0.0;         ///< of a mode, rad/s
+  double share = 0.0;             ///< of the response there, that the mode has
+  double drift = 0.0;             ///< of a delay over the record, s
 };
 
 /// Drag in proportion to the square of a body's speed, in a record that a linear device was fitted to, at each body at which
