@@ -74,7 +74,7 @@ std::vector<WeakForceEvidence> suspects_in(const RestLines& rest, const Device& 
     WeakForceEvidence evidence{kind, *ratio, stiffness_of(beside(*regressed))};
     const double duration = static_cast<double>(position.size()) * question.sampling_period;
     if (is_skew) evidence.drift = regressed->values(rest.known.cols()) * duration;
-    constexpr double notable = 0.02;  // sampling periods
+    constexpr double notable = 0.05;  // sampling periods
     if (!is_skew || std::abs(evidence.drift) > notable * question.sampling_period) found.push_back(evidence);
   }
   return found;
@@ -252,9 +252,10 @@ std::optional<Nonlinearity> doubt_of_mode(const WeakForceEvidence& mode, double 
 std::optional<Nonlinearity> doubt_of_skew(const WeakForceEvidence& skew, const std::string& source) {
   if (!(skew.ratio > clear_suspect)) return std::nullopt;
   return Nonlinearity{fmt::format("{} shows a delay that changes by {} from its beginning to its end: the clocks of "
-                                  "force and position run apart",
+                                  "force and position run apart, or under a sweep something delays some frequencies "
+                                  "more than others",
                                   source, quantity(std::abs(skew.drift), "s")),
-                      "record both by one clock",
+                      "record both by one clock, under noise or a multisine",
                       {}};
 }
 
