@@ -59,14 +59,15 @@ std::vector<SuspectedMotion> suspected_motions(const Device& device, std::span<c
   std::vector<SuspectedMotion> suspects;
   suspects.push_back({SuspectedMotion::Kind::clock_skew, growing_delay(position)});
   for (const Link& link : device.links()) {
-    const Signal stretch = difference(motion_of_body(device, link.second, force), motion_of_body(device, link.first, force));
+    const Signal stretch =
+        difference(motion_of_body(device, link.second, force), motion_of_body(device, link.first, force));
     const double typical = rms(stretch);
     if (!(typical > 0.0)) continue;
     for (const double share : {0.0, 0.1, 0.5, 2.0}) {
       const Signal acting = rubbing(stretch, share * typical);
-      suspects.push_back({SuspectedMotion::Kind::link_friction,
-                          difference(motion_of(pushed_at(device, link.second), acting),
-                                     motion_of(pushed_at(device, link.first), acting))});
+      suspects.push_back(
+          {SuspectedMotion::Kind::link_friction, difference(motion_of(pushed_at(device, link.second), acting),
+                                                            motion_of(pushed_at(device, link.first), acting))});
     }
   }
   return suspects;

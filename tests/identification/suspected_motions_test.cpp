@@ -27,9 +27,9 @@ struct Rig {
   std::vector<double> dampings = {4.46};  // of the first against the frame, of others against the ground
   double link = 0.0;                      // N/m
   double link_damping = 0.0;
-  double frame = 0.0;       // kg; 0: it does not move. 13 Hz, damping ratio 0.05
-  double skew = 0.0;        // the position's clock is slower by this share
-  double slip = 0.0;        // N: of a spring beside the link that slips
+  double frame = 0.0;        // kg; 0: it does not move. 13 Hz, damping ratio 0.05
+  double skew = 0.0;         // the position's clock is slower by this share
+  double slip = 0.0;         // N: of a spring beside the link that slips
   double slip_spring = 0.0;  // N/m
   ExcitationKind kind = ExcitationKind::logarithmic_chirp;
 };
@@ -64,8 +64,7 @@ Recording record_of(const Rig& rig, std::uint64_t seed) {
       if (bodies == 2) {
         const double limit = rig.slip_spring > 0.0 ? rig.slip / rig.slip_spring : 0.0;
         slipping = std::fmin(std::fmax(slipping + step * (v[1] - v[0]), -limit), limit);
-        const double pull =
-            rig.link * (x[1] - x[0]) + rig.link_damping * (v[1] - v[0]) + rig.slip_spring * slipping;
+        const double pull = rig.link * (x[1] - x[0]) + rig.link_damping * (v[1] - v[0]) + rig.slip_spring * slipping;
         acting[0] += pull;
         acting[1] = -pull - rig.dampings[1] * v[1];
       }
