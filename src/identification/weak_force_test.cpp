@@ -244,7 +244,8 @@ std::optional<Nonlinearity> doubt_of_mode(const WeakForceEvidence& mode, double 
   // friction in time, far above the crossovers, modes as large were seen with 6 and more.
   constexpr double large = 0.1;  // of the response
   constexpr double plain = 30.0;
-  const bool lowers = mode.stiffness_beside < lower;
+  constexpr double least = 0.003;  // smaller ones stand for what drifts, at the low end of the band
+  const bool lowers = mode.stiffness_beside < lower && mode.share > least;
   const bool is_large = mode.share > large && mode.ratio > plain;
   if (!(mode.ratio > clear_suspect) || !(lowers || is_large)) return std::nullopt;
   return Nonlinearity{
@@ -363,8 +364,8 @@ std::vector<std::vector<WeakForceEvidence>> find_weak_forces(const FittedDevice&
     const RecordLines lines(fitted, *slopes, kinds, r, lowest, highest);
     found[r] = lines.find();
     const MotionRecord& record = fitted.model.records()[r];
-    const Device device = device_in_experiment(Device(linear), locked, record.sampling_period);
-    const auto suspects = lines.find_suspects(device, record, lowest, highest);
+    const Device experiment = device_in_experiment(Device(linear), locked, record.sampling_period);
+    const auto suspects = lines.find_suspects(experiment, record, lowest, highest);
     found[r].insert(found[r].end(), suspects.begin(), suspects.end());
   }
   return found;
