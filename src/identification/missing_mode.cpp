@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <utility>
 
@@ -51,7 +52,7 @@ class ModeMotion {
 class Scan {
  public:
   Scan(const RestLines& rest, const ModeQuestion& question, const Eigen::VectorXcd& left)
-      : rest_(rest), question_(question), weights_(line_weights(left, rest.stretches)) {
+      : rest_(rest), force_(rest.lines(question.force)), weights_(line_weights(left, rest.stretches)) {
     const Eigen::Index rows = rest.target.size();
     Eigen::MatrixXd known(2 * rows, rest.known.cols());
     known << (weights_.asDiagonal() * rest.known.real()), (weights_.asDiagonal() * rest.known.imag());
@@ -62,9 +63,15 @@ class Scan {
   }
 
   [[nodiscard]] double gain(ModeGuess mode) const {
-    const ModeMotion motion(question_, mode);
+    const double w = mode.frequency;
+    const Eigen::ArrayXd share = rest_.frequencies.array() / w;
+    Eigen::VectorXcd position(share.size());  // of a force that a window leaves as it is: near enough to look
+    for (Eigen::Index k = 0; k < share.size(); ++k) {
+      position(k) = force_(k) / std::complex<double>(1.0 - share(k) * share(k), 2.0 * mode.damping_ratio * share(k));
+    }
+    const Eigen::VectorXcd velocity = std::complex<double>(0.0, 1.0) * position.cwiseProduct(share.matrix());
     Eigen::MatrixXd columns(left_.size(), 2);
-    columns << outside(rest_.lines(motion.position)), outside(rest_.lines(motion.velocity));
+    columns << outside(position), outside(velocity);
     const Eigen::Matrix2d squares = columns.transpose() * columns;
     const Eigen::Vector2d product = columns.transpose() * left_;
     const double determinant = squares.determinant();
@@ -80,7 +87,7 @@ class Scan {
   }
 
   const RestLines& rest_;
-  const ModeQuestion& question_;
+  Eigen::VectorXcd force_;
   Eigen::VectorXd weights_;
   Eigen::MatrixXd basis_;
   Eigen::VectorXd left_;

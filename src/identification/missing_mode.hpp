@@ -16,6 +16,7 @@ namespace zwidth::internal {
 struct RestLines {
   Eigen::MatrixXcd known;
   Eigen::VectorXcd target;
+  Eigen::VectorXd frequencies;                                     ///< of each row, rad/s
   std::vector<Eigen::Index> stretches;                             ///< rows of each spectrum
   std::function<Eigen::VectorXcd(std::span<const double>)> lines;  ///< of a motion, by sample of the whole record
 };

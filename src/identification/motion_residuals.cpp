@@ -88,7 +88,11 @@ std::optional<LineRegression> MotionResiduals::beside(const Opposing& force) con
 }
 
 RestLines MotionResiduals::rest() const {
-  return {known_, target_, {known_.rows()}, [this](std::span<const double> motion) { return lines_of(motion, band_); }};
+  return {known_,
+          target_,
+          frequencies_of(band_, force_.size(), question_.sampling_period),
+          {known_.rows()},
+          [this](std::span<const double> motion) { return lines_of(motion, band_); }};
 }
 
 DeviceParameters MotionResiduals::parameters_beside(const LineRegression& found) const {

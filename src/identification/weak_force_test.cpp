@@ -63,7 +63,7 @@ std::vector<WeakForceEvidence> suspects_in(const RestLines& rest, const Device& 
                                            std::span<const double> position, const ModeQuestion& question,
                                            const Beside& beside) {
   std::vector<WeakForceEvidence> found;
-  if (auto mode = mode_in(rest, question, beside)) found.push_back(*std::move(mode));
+  if (const auto mode = mode_in(rest, question, beside)) found.push_back(*mode);
   for (const SuspectedMotion& suspect : suspected_motions(device, question.force, position)) {
     Eigen::MatrixXcd columns(rest.known.rows(), rest.known.cols() + 1);
     columns << rest.known, rest.lines(suspect.motion);
@@ -190,7 +190,14 @@ class RecordLines {
       }
       return all;
     };
-    return suspects_in({known_, target_, sizes_, lines}, device, record.position,
+    Eigen::VectorXd frequencies(known_.rows());
+    Eigen::Index first = 0;
+    for (std::size_t s = 0; s < stretches_.size(); ++s) {
+      const auto samples = static_cast<std::size_t>(samples_[s]);
+      frequencies.segment(first, sizes_[s]) = frequencies_of(stretches_[s].band, samples, record.sampling_period);
+      first += sizes_[s];
+    }
+    return suspects_in({known_, target_, std::move(frequencies), sizes_, lines}, device, record.position,
                        {record.force, record.sampling_period, device.loop().delay, lowest, highest},
                        [this](const LineRegression& found) { return parameters_beside(found); });
   }
@@ -206,6 +213,7 @@ class RecordLines {
       const LineBand band = band_with_harmonics(lowest, highest, samples, period);
       if (band.size() == 0) continue;
       stretches.push_back({i, band});
+      samples_.push_back(slopes.residuals[i].size());
       sizes_.push_back(static_cast<Eigen::Index>(band.size()));
     }
     return stretches;
@@ -224,10 +232,11 @@ class RecordLines {
   const FittedDevice& fitted_;
   std::vector<Kind> kinds_;
   std::vector<Stretch> stretches_;
-  std::vector<Eigen::Index> varied_;  ///< elements of x
-  std::vector<Eigen::Index> sizes_;   ///< rows of each stretch
-  Eigen::MatrixXcd known_;            ///< numbers and states
-  Eigen::MatrixXcd forces_;           ///< a column each
+  std::vector<Eigen::Index> varied_;   ///< elements of x
+  std::vector<Eigen::Index> sizes_;    ///< rows of each stretch
+  std::vector<Eigen::Index> samples_;  ///< that its lines are of
+  Eigen::MatrixXcd known_;             ///< numbers and states
+  Eigen::MatrixXcd forces_;            ///< a column each
   Eigen::VectorXcd target_;
 };
 
