@@ -41,7 +41,8 @@ struct ModeBeside {
 
 /// The mode that explains most of what is left, of any frequency in the band: a frame that shakes, a body that the structure
 /// lacks. A narrow one does not show in a response of which the lines lie farther apart than it is wide, and noise that is
-/// predicted from its past takes it up; here each line of the whole record counts. Nothing where no mode explains anything.
+/// predicted from its past takes it up; here each line of the whole record counts. It is looked for as if the force of a spectrum
+/// alone moved it: where a record is in parts, one that rings on from the part before may be missed. Nothing where no mode explains anything.
 [[nodiscard]] std::optional<ModeBeside> find_missing_mode(const RestLines& rest, const ModeQuestion& question);
 
 /// How large it is where it is largest, of the device's response there.

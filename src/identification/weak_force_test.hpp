@@ -13,7 +13,8 @@
 
 namespace zwidth::internal {
 
-/// A force that no device has, beside all numbers of a fit.
+/// What no number of the structure is, beside all numbers of a fit: a force that no device has, a mode that it lacks, clocks of
+/// force and position that run apart.
 struct WeakForceEvidence {
   enum class Kind : std::uint8_t { drag, presliding, mode, clock_skew, link_friction } kind = Kind::drag;
   double ratio = 0.0;             ///< its size in deviations, > 0
@@ -24,7 +25,7 @@ struct WeakForceEvidence {
 };
 
 /// Drag in proportion to the square of a body's speed, in a record that a linear device was fitted to, at each body at which
-/// it shows at all: c e of MotionResiduals is that of q |v_M| v_M. Nothing where the record is too short.
+/// it shows at all: c e of MotionResiduals is that of q |v_M| v_M; a mode (find_missing_mode()) and suspected_motions(). Nothing where the record is too short.
 [[nodiscard]] std::vector<WeakForceEvidence> find_weak_forces(const MotionQuestion& question,
                                                               std::span<const double> force,
                                                               std::span<const double> position);
@@ -32,7 +33,7 @@ struct WeakForceEvidence {
 /// Of each recording of a fit in time: drag, and friction that does not reverse at once or is more as a body turns (six
 /// lengths; of more than ContinuousMotion::max_friction_bodies bodies at those only that rub). Of the filtered residuals
 /// of its shots, with the exact slopes of numbers, states and these forces, friction and all
-/// (ShotModel::with_weak_forces()). The band in rad/s.
+/// (ShotModel::with_weak_forces()); then a mode and suspected_motions(), as the linear device moves. The band in rad/s.
 [[nodiscard]] std::vector<std::vector<WeakForceEvidence>> find_weak_forces(const FittedDevice& fitted,
                                                                            const std::vector<std::string>& locked,
                                                                            double lowest, double highest);
