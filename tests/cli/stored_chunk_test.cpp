@@ -14,7 +14,9 @@ namespace {
 // HDF5 itself reads what stored_chunk() made, its checksum included, and a damaged byte is an error of its own.
 class StoredChunk : public testing::Test {
  protected:
-  StoredChunk() : path_(testing::TempDir() + "/stored_chunk.h5") {
+  // a name of its own: the tests run side by side
+  StoredChunk()
+      : path_(testing::TempDir() + testing::UnitTest::GetInstance()->current_test_info()->name() + ".stored_chunk.h5") {
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
     file_ = H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
   }

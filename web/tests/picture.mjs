@@ -3,12 +3,13 @@ import { spawn } from 'node:child_process'
 import { dirname, resolve } from 'node:path'
 import { fileURLToPath } from 'node:url'
 import { chromium } from 'playwright-core'
+import { chromiumHere } from './chromium.mjs'
 
 const project = resolve(dirname(fileURLToPath(import.meta.url)), '../..')
 const program = resolve(process.argv[2] ?? `${project}/build/release/bin/zwidth`)
 const server = spawn(program, ['serve', 'devices/lhifam.toml', '--set', 'wall.stiffness=3000', '--set', 'wall.damping=10', '--port', '0'], { cwd: project, stdio: ['ignore', 'pipe', 'inherit'] })
 const address = await new Promise((done) => server.stdout.once('data', (data) => done(String(data).trim())))
-const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args: process.getuid?.() === 0 ? ['--no-sandbox'] : [] })
+const browser = await chromium.launch(chromiumHere())
 const page = await browser.newPage({ viewport: { width: 1280, height: 1180 }, colorScheme: 'light', reducedMotion: 'reduce' })
 await page.goto(address)
 await page.waitForSelector('[data-answer="wall"]')

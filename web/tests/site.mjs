@@ -4,12 +4,13 @@ import { mkdirSync, readdirSync, readFileSync } from 'node:fs'
 import { createRequire } from 'node:module'
 import { join, relative, resolve } from 'node:path'
 import { chromium } from 'playwright-core'
+import { chromiumHere } from './chromium.mjs'
 
 const [folder, pictures] = process.argv.slice(2, 4).map((path) => resolve(path))
 const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8')
 const pages = readdirSync(folder, { recursive: true }).map((path) => join(folder, path)).filter((path) => path.endsWith('.html') && !path.includes('/_static/'))
 const wrong = new Set()
-const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args: process.getuid?.() === 0 ? ['--no-sandbox'] : [] })
+const browser = await chromium.launch(chromiumHere())
 for (const [width, colorScheme] of [[1280, 'light'], [390, 'dark']]) {
   const context = await browser.newContext({ viewport: { width, height: 900 }, colorScheme, reducedMotion: 'reduce' })
   const page = await context.newPage()

@@ -16,7 +16,7 @@ it.each([1280, 390])('is written with its units, judged at its fields, and taken
   const given = { travel: '25 mm', sign: '-1', torque_constant: '50 mN m/A', torque_per_volt: '0.2', id: '3', command: 'K', baud: '921600' }
   for (const [key, value] of Object.entries(given)) await type(page, `driver.${key}`, value)
   await settled(page)
-  expect(await alone(page)).toBe(answer)
+  await expect.poll(() => alone(page)).toBe(answer)
   const device = JSON.parse(execFileSync(program, ['export', '-', '--format', 'json'], { input: await text(), encoding: 'utf8' })) as { device_file: { driver: unknown } }
   expect(device.device_file.driver).toEqual({ travel: 0.025, gear: 2, sign: -1, torque_constant: 0.05, torque_per_volt: 0.2, id: 3, command: 'K', baud: 921600 })
   // What is no such drive is said at its field.
@@ -33,15 +33,15 @@ it.each([1280, 390])('is written with its units, judged at its fields, and taken
   // A choice is not stepped; what is emptied is left out.
   const id = row(page, 'driver.id').locator('input[type="text"]')
   await id.press('ArrowUp')
-  expect(await id.inputValue()).toBe('3')
+  await expect.poll(() => id.inputValue()).toBe('3')
   await type(page, 'driver.id', '')
-  expect(await text()).not.toMatch(/^id =/m)
-  expect(await id.getAttribute('placeholder')).toBe('the firmware’s')
+  await expect.poll(() => text()).not.toMatch(/^id =/m)
+  await expect.poll(() => id.getAttribute('placeholder')).toBe('the firmware’s')
   await page.getByRole('button', { name: 'Take it out' }).click()
-  expect(await text()).not.toContain('driver')
+  await expect.poll(() => text()).not.toContain('driver')
   expect((await text()).trim()).toBe(before.trim())
   await page.getByRole('button', { name: 'Add a drive' }).click()
-  expect(await text()).toMatch(/\n\[driver\]\n/)
+  await expect.poll(() => text()).toMatch(/\n\[driver\]\n/)
   expect(complaints).toEqual([])
   await context.close()
 })

@@ -21,7 +21,7 @@ it('saves every figure as SVG, PNG and CSV, with what they show', async () => {
     expect(figures).toContain(name)
   }
   // Every plot that is drawn has them.
-  expect(await page.locator('figure.plot').evaluateAll((all) => all.filter((each) => !each.querySelector('.figure-tools')).length)).toBe(0)
+  await expect.poll(() => page.locator('figure.plot').evaluateAll((all) => all.filter((each) => !each.querySelector('.figure-tools')).length)).toBe(0)
   const saved = async (label: string): Promise<Buffer> => {
     const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name: label, exact: true }).click()])
     return readFileSync(await download.path())
@@ -63,11 +63,11 @@ it('prints the answer, its numbers and every open panel, without what is only fo
   await settled(page)
   await page.emulateMedia({ media: 'print' })
   await page.setViewportSize({ width: 718, height: 1000 }) // A4 less its margins
-  expect(await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth)).toBeLessThanOrEqual(0)
+  await expect.poll(() => page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth)).toBeLessThanOrEqual(0)
   const seen = async (selector: string): Promise<number> => page.locator(selector).evaluateAll((all) => all.filter((each) => (each as HTMLElement).checkVisibility()).length)
-  for (const selector of ['nav', 'input[type="range"]', '.figure-tools', '.row .icon', '.panel-body button.small']) expect(await seen(selector), selector).toBe(0)
-  for (const selector of ['[data-answer="alone"]', '[data-answer="trust"]', '#body-region svg', '#body-recommend table']) expect(await seen(selector), selector).toBeGreaterThan(0)
-  expect(await page.evaluate(() => getComputedStyle(document.body).backgroundColor)).toBe('rgb(255, 255, 255)')
+  for (const selector of ['nav', 'input[type="range"]', '.figure-tools', '.row .icon', '.panel-body button.small']) await expect.poll(() => seen(selector), { message: selector }).toBe(0)
+  for (const selector of ['[data-answer="alone"]', '[data-answer="trust"]', '#body-region svg', '#body-recommend table']) await expect.poll(() => seen(selector), { message: selector }).toBeGreaterThan(0)
+  await expect.poll(() => page.evaluate(() => getComputedStyle(document.body).backgroundColor)).toBe('rgb(255, 255, 255)')
   const cut = await page.locator('.panel table, figure svg').evaluateAll((all) => all.filter((each) => each.getBoundingClientRect().right > document.documentElement.clientWidth + 1).map((each) => each.closest('.panel')?.id))
   expect(cut).toEqual([])
   const pdf = await page.pdf({ format: 'A4', margin: { top: '10mm', bottom: '10mm', left: '10mm', right: '10mm' }, ...(process.env.ZWIDTH_PDF ? { path: process.env.ZWIDTH_PDF } : {}) })

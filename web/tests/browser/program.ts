@@ -1,11 +1,11 @@
 // The program's own server and a browser, for the tests.
 
 import { type ChildProcess, execFileSync, spawn } from 'node:child_process'
-import { existsSync } from 'node:fs'
 import { dirname, resolve } from 'node:path'
 import { fileURLToPath } from 'node:url'
 import { type Browser, type BrowserContext, chromium, type Page } from 'playwright-core'
 import { afterAll, beforeAll } from 'vitest'
+import { chromiumHere } from '../chromium.mjs'
 
 export const project = resolve(dirname(fileURLToPath(import.meta.url)), '../../..')
 export const program = resolve(process.env.ZWIDTH ?? `${project}/build/release/bin/zwidth`)
@@ -39,11 +39,7 @@ export async function serveAt(port: number, ...files: string[]): Promise<Served>
   }
 }
 
-export const openBrowser = (): Promise<Browser> => {
-  const found = [process.env.CHROMIUM, '/usr/bin/chromium', '/usr/bin/chromium-browser'].find((path) => path && existsSync(path))
-  if (!found) throw new Error('no Chromium; install Debian’s package chromium or name it in CHROMIUM')
-  return chromium.launch({ executablePath: found, args: process.getuid?.() === 0 ? ['--no-sandbox', '--disable-gpu', '--disable-software-rasterizer'] : [] })
-}
+export const openBrowser = (): Promise<Browser> => chromium.launch(chromiumHere())
 
 /** A server with these devices and a browser, for all tests of a file. */
 export interface Place {
@@ -95,10 +91,23 @@ export async function openPage({ browser, served }: Place, width: number, hash =
   return { page, context, complaints }
 }
 
-/** All late panels have caught up. */
+/**
+ * All panels have caught up: none is busy, twice in a row. By the page's own clock and frames, after which what it was to do
+ * before is done (a panel that came into view has asked), however slow the machine is.
+ */
 export async function settled(page: Page): Promise<void> {
-  await page.waitForTimeout(60)
-  await page.waitForFunction(() => document.querySelectorAll('[aria-busy="true"]').length === 0, null, { timeout: 90_000 })
+  const restsOnce = (): Promise<boolean> =>
+    page.evaluate(async () => {
+      const frame = (): Promise<unknown> => new Promise((done) => requestAnimationFrame(done))
+      await frame().then(frame)
+      await new Promise((done) => setTimeout(done, 50))
+      return !document.querySelector('[aria-busy="true"]')
+    })
+  const until = Date.now() + 90_000
+  for (let rests = 0; rests < 2; ) {
+    if (Date.now() > until) throw new Error('panels stay busy')
+    rests = (await restsOnce()) ? rests + 1 : 0
+  }
 }
 
 /** The address is written behind a change; by the page's own clock, which comes after what it was to do before. */
