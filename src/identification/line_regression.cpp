@@ -31,13 +31,6 @@ LineBand band_with_harmonics(double lowest, double highest, std::size_t samples,
           std::min(samples / 2, static_cast<std::size_t>(std::ceil(2.0 * highest / step)) + 1)};
 }
 
-Eigen::VectorXd frequencies_of(LineBand band, std::size_t samples, double sampling_period) {
-  const double step = 2.0 * std::numbers::pi / (sampling_period * static_cast<double>(samples));
-  const auto first = static_cast<double>(band.first);
-  return step * Eigen::VectorXd::LinSpaced(static_cast<Eigen::Index>(band.size()), first,
-                                           first + static_cast<double>(band.size()) - 1.0);
-}
-
 Eigen::VectorXcd lines_of(std::span<const double> signal, LineBand band) {
   std::vector<double> windowed(signal.size());
   const double turn = 2.0 * std::numbers::pi / static_cast<double>(signal.size());

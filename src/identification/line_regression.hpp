@@ -19,9 +19,6 @@ struct LineBand {
 /// the two lines that a Hann window fills from a constant.
 [[nodiscard]] LineBand band_with_harmonics(double lowest, double highest, std::size_t samples, double sampling_period);
 
-/// In rad/s.
-[[nodiscard]] Eigen::VectorXd frequencies_of(LineBand band, std::size_t samples, double sampling_period);
-
 /// Those of a signal under a Hann window.
 [[nodiscard]] Eigen::VectorXcd lines_of(std::span<const double> signal, LineBand band);
 

@@ -1,12 +1,16 @@
 #include "identification/missing_mode.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include "linear_systems.hpp"
+#include "sampling/sampling_instants.hpp"
+#include "signal/fourier.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/sampling/discrete_state_space.hpp"
 #include "zwidth/sampling/sampled_plant.hpp"
@@ -20,39 +24,123 @@ struct ModeGuess {
   double damping_ratio = 0.0;
 };
 
-/// w^2 / D(s) and w s / D(s) of a force: the two motions of a mode, of similar size.
+/// The force of a record and a mode that it moves from rest: x[k + 1] = Phi x[k] + now F[k - d] + before F[k - d - 1], of
+/// which w^2 x_1 and w x_2 are two motions of similar size.
 class ModeMotion {
  public:
-  ModeMotion(const ModeQuestion& question, ModeGuess mode) {
+  ModeMotion(const ModeQuestion& question, ModeGuess mode) : force_(question.force), scale_(mode.frequency) {
     const double w = mode.frequency;
-    ContinuousStateSpace system{Eigen::Matrix2d{{0.0, 1.0}, {-w * w, -2.0 * mode.damping_ratio * w}},
-                                Eigen::Vector2d{0.0, 1.0}, Eigen::RowVector2d{1.0, 0.0}};
+    const ContinuousStateSpace system{Eigen::Matrix2d{{0.0, 1.0}, {-w * w, -2.0 * mode.damping_ratio * w}},
+                                      Eigen::Vector2d{0.0, 1.0}, Eigen::RowVector2d{1.0, 0.0}};
     const DiscreteStateSpace sampled = sample(system, {question.sampling_period, question.delay});
-    const Eigen::Matrix2d Phi = sampled.Phi;
-    const Eigen::Vector2d now = sampled.Gamma1;
-    const Eigen::Vector2d before = sampled.Gamma2;
-    const auto late = static_cast<std::ptrdiff_t>(sampled.delay_samples);
-    const auto size = static_cast<std::ptrdiff_t>(question.force.size());
-    const auto force = [&](std::ptrdiff_t k) { return k < 0 ? 0.0 : question.force[static_cast<std::size_t>(k)]; };
-    position.reserve(question.force.size());
-    velocity.reserve(question.force.size());
+    phi_ = Eigen::Matrix2d::Identity() + sampled.Phi;
+    now_ = sampled.Gamma1;
+    before_ = sampled.Gamma2;
+    late_ = sampled.delay_samples;
+  }
+
+  /// `visit(k, x[k])` of every sample, and of the one after the last.
+  void play(const auto& visit) const {
     Eigen::Vector2d state = Eigen::Vector2d::Zero();
-    for (std::ptrdiff_t k = 0; k < size; ++k) {
-      position.push_back(w * w * state(0));
-      velocity.push_back(w * state(1));
-      state += (Phi * state + now * force(k - late) + before * force(k - late - 1)).eval();
+    for (std::size_t k = 0; k <= force_.size(); ++k) {
+      visit(k, state);
+      state = (phi_ * state + now_ * delayed(k, late_) + before_ * delayed(k, late_ + 1)).eval();
     }
   }
 
-  std::vector<double> position;
-  std::vector<double> velocity;
+  /// Line of w^2 x_1 and w x_2 over a part of n samples, at z = e^{j w T}, z^n = 1, of the force's lines there, d and d + 1
+  /// samples late, and of the states in the part's first sample less after its last:
+  /// (z I - Phi) X = now F_d + before F_{d + 1} + z (x[0] - x[n]).
+  [[nodiscard]] Eigen::Vector2cd line(std::complex<double> z, std::complex<double> force,
+                                      std::complex<double> earlier, const Eigen::Vector2d& lost) const {
+    const Eigen::Vector2cd right = now_ * force + before_ * earlier + lost * z;
+    const std::complex<double> a = z - phi_(0, 0);
+    const std::complex<double> d = z - phi_(1, 1);
+    const std::complex<double> determinant = a * d - phi_(0, 1) * phi_(1, 0);
+    return {scale_ * scale_ * (d * right(0) + phi_(0, 1) * right(1)) / determinant,
+            scale_ * (phi_(1, 0) * right(0) + a * right(1)) / determinant};
+  }
+
+ private:
+  [[nodiscard]] double delayed(std::size_t sample, std::size_t by) const {
+    return sample < by || sample >= force_.size() ? 0.0 : force_[sample - by];
+  }
+
+  std::span<const double> force_;
+  double scale_;
+  Eigen::Matrix2d phi_;
+  Eigen::Vector2d now_;
+  Eigen::Vector2d before_;
+  std::size_t late_ = 0;
 };
+
+/// One part of a record: its force at the lines that count and at their neighbours, which a Hann window mixes with them.
+struct PartOfForce {
+  std::size_t first = 0;
+  std::size_t last = 0;
+  std::vector<std::complex<double>> z;
+  std::vector<std::complex<double>> force;    ///< by the whole samples of the delay late
+  std::vector<std::complex<double>> earlier;  ///< one sample later than that
+};
+
+PartOfForce force_in(const RestPart& part, const ModeQuestion& question) {
+  const std::size_t late = sampling_instants({question.sampling_period, question.delay}).whole_samples;
+  const auto lines = [&](std::size_t by) {
+    std::vector<double> samples(part.count, 0.0);
+    for (std::size_t k = 0; k < part.count; ++k) {
+      if (part.first + k >= by) samples[k] = question.force[part.first + k - by];
+    }
+    const auto all = spectrum(samples);
+    const auto at = [&](std::size_t k) { return k < all.size() ? all[k] : std::conj(all[part.count - k]); };
+    std::vector<std::complex<double>> found;
+    for (std::size_t k = part.band.first - 1; k <= part.band.last; ++k) found.push_back(at(k));
+    return found;
+  };
+  PartOfForce own{part.first, part.first + part.count, {}, lines(late), lines(late + 1)};
+  const double turn = 2.0 * std::numbers::pi / static_cast<double>(part.count);
+  for (std::size_t k = part.band.first - 1; k <= part.band.last; ++k) {
+    own.z.push_back(std::polar(1.0, turn * static_cast<double>(k)));
+  }
+  return own;
+}
+
+/// 1 / rms of the rest around each line, by the median within a quarter of its frequency, which is wider than a mode: what
+/// stands out of it is what is looked for.
+Eigen::VectorXd broad_weights(const Eigen::VectorXcd& rest, const std::vector<RestPart>& parts) {
+  constexpr double share = 0.25;
+  constexpr std::size_t least_reach = 12;
+  constexpr double median_of_squares = 0.6931471805599453;  // ln 2: of squares that are distributed exponentially
+  const double smallest = 1e-30 * std::max(rest.cwiseAbs2().maxCoeff(), 1e-300);
+  Eigen::VectorXd weights(rest.size());
+  std::vector<double> squares;
+  Eigen::Index row = 0;
+  for (const RestPart& part : parts) {
+    const std::size_t size = part.band.size();
+    for (std::size_t k = 0; k < size;) {
+      const auto reach = std::max(least_reach, static_cast<std::size_t>(share * static_cast<double>(part.band.first + k)));
+      const std::size_t begin = k > reach ? k - reach : 0;
+      const std::size_t end = std::min(size, k + reach + 1);
+      squares.clear();
+      for (std::size_t i = begin; i < end; ++i) squares.push_back(std::norm(rest(row + static_cast<Eigen::Index>(i))));
+      const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
+      std::ranges::nth_element(squares, middle);
+      const double weight = 1.0 / std::sqrt(std::max(*middle / median_of_squares, smallest));
+      constexpr std::size_t steps = 4;  // in a reach
+      for (const std::size_t next = std::min(size, k + reach / steps + 1); k < next; ++k) {
+        weights(row + static_cast<Eigen::Index>(k)) = weight;
+      }
+    }
+    row += static_cast<Eigen::Index>(size);
+  }
+  return weights;
+}
 
 /// The rest of a fit beside the known columns, each line by the rest around it; and what a mode takes of its squares.
 class Scan {
  public:
   Scan(const RestLines& rest, const ModeQuestion& question, const Eigen::VectorXcd& left)
-      : rest_(rest), force_(rest.lines(question.force)), weights_(line_weights(left, rest.stretches)) {
+      : rest_(rest), question_(question), weights_(broad_weights(left, rest.parts)) {
+    for (const RestPart& part : rest.parts) parts_.push_back(force_in(part, question));
     const Eigen::Index rows = rest.target.size();
     Eigen::MatrixXd known(2 * rows, rest.known.cols());
     known << (weights_.asDiagonal() * rest.known.real()), (weights_.asDiagonal() * rest.known.imag());
@@ -63,15 +151,9 @@ class Scan {
   }
 
   [[nodiscard]] double gain(ModeGuess mode) const {
-    const double w = mode.frequency;
-    const Eigen::ArrayXd share = rest_.frequencies.array() / w;
-    Eigen::VectorXcd position(share.size());  // of a force that a window leaves as it is: near enough to look
-    for (Eigen::Index k = 0; k < share.size(); ++k) {
-      position(k) = force_(k) / std::complex<double>(1.0 - share(k) * share(k), 2.0 * mode.damping_ratio * share(k));
-    }
-    const Eigen::VectorXcd velocity = std::complex<double>(0.0, 1.0) * position.cwiseProduct(share.matrix());
+    const Eigen::MatrixX2cd motion = lines_of_mode(mode);
     Eigen::MatrixXd columns(left_.size(), 2);
-    columns << outside(position), outside(velocity);
+    columns << outside(motion.col(0)), outside(motion.col(1));
     const Eigen::Matrix2d squares = columns.transpose() * columns;
     const Eigen::Vector2d product = columns.transpose() * left_;
     const double determinant = squares.determinant();
@@ -80,6 +162,34 @@ class Scan {
   }
 
  private:
+  /// Under a Hann window, and as if that came before what whitens the motion: near enough to look.
+  [[nodiscard]] Eigen::MatrixX2cd lines_of_mode(ModeGuess mode) const {
+    const ModeMotion motion(question_, mode);
+    std::vector<Eigen::Vector2d> lost(parts_.size(), Eigen::Vector2d::Zero());
+    motion.play([&](std::size_t k, const Eigen::Vector2d& state) {
+      for (std::size_t p = 0; p < parts_.size(); ++p) {
+        if (parts_[p].first == k) lost[p] += state;
+        if (parts_[p].last == k) lost[p] -= state;
+      }
+    });
+    Eigen::MatrixX2cd lines(rest_.target.size(), 2);
+    Eigen::Index row = 0;
+    for (std::size_t p = 0; p < parts_.size(); ++p) {
+      const PartOfForce& part = parts_[p];
+      const auto at = [&](std::size_t k) { return motion.line(part.z[k], part.force[k], part.earlier[k], lost[p]); };
+      Eigen::Vector2cd below = at(0);
+      Eigen::Vector2cd here = at(1);
+      for (std::size_t k = 2; k < part.z.size(); ++k) {
+        const Eigen::Vector2cd above = at(k);
+        lines.row(row) = (0.5 * here - 0.25 * (below + above)).transpose() * rest_.filter(row);
+        below = here;
+        here = above;
+        ++row;
+      }
+    }
+    return lines;
+  }
+
   [[nodiscard]] Eigen::VectorXd outside(const Eigen::VectorXcd& lines) const {
     Eigen::VectorXd stacked(2 * lines.size());
     stacked << weights_.cwiseProduct(lines.real()), weights_.cwiseProduct(lines.imag());
@@ -87,7 +197,8 @@ class Scan {
   }
 
   const RestLines& rest_;
-  Eigen::VectorXcd force_;
+  const ModeQuestion& question_;
+  std::vector<PartOfForce> parts_;
   Eigen::VectorXd weights_;
   Eigen::MatrixXd basis_;
   Eigen::VectorXd left_;
@@ -128,13 +239,19 @@ std::optional<ModeBeside> find_missing_mode(const RestLines& rest, const ModeQue
   const Scan scan(rest, question, rest.target - rest.known * without->values);
   const ModeGuess best = best_of(scan, question);
   if (!(best.frequency > 0.0)) return std::nullopt;
-  const ModeMotion motion(question, best);
+  const double w = best.frequency;
+  std::vector<double> position(question.force.size());
+  std::vector<double> velocity(question.force.size());
+  ModeMotion(question, best).play([&](std::size_t k, const Eigen::Vector2d& state) {
+    if (k == position.size()) return;
+    position[k] = w * w * state(0);
+    velocity[k] = w * state(1);
+  });
   const Eigen::Index known = rest.known.cols();
   Eigen::MatrixXcd columns(rest.known.rows(), known + 2);
-  columns << rest.known, rest.lines(motion.position), rest.lines(motion.velocity);
+  columns << rest.known, rest.lines(position), rest.lines(velocity);
   auto found = regress_lines(columns, rest.target, rest.stretches);
   if (!found || !(found->deviations(known) > 0.0) || !(found->deviations(known + 1) > 0.0)) return std::nullopt;
-  const double w = best.frequency;
   const double a = found->values(known);
   const double b = found->values(known + 1);
   ModeBeside mode;

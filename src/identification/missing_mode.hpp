@@ -12,12 +12,21 @@
 
 namespace zwidth::internal {
 
-/// What a fit leaves of a record, on lines of its spectra, and what everything that is known to move would change of that.
+/// Samples of a record, and which lines of their spectrum count.
+struct RestPart {
+  std::size_t first = 0;
+  std::size_t count = 0;
+  LineBand band;
+};
+
+/// What a fit leaves of a record, on lines of the spectra of its parts, and what everything that is known to move would change
+/// of that.
 struct RestLines {
   Eigen::MatrixXcd known;
   Eigen::VectorXcd target;
-  Eigen::VectorXd frequencies;                                     ///< of each row, rad/s
-  std::vector<Eigen::Index> stretches;                             ///< rows of each spectrum
+  std::vector<RestPart> parts;
+  std::vector<Eigen::Index> stretches;                             ///< rows of each part
+  Eigen::VectorXcd filter;                                         ///< of each row: what whitens the motion there
   std::function<Eigen::VectorXcd(std::span<const double>)> lines;  ///< of a motion, by sample of the whole record
 };
 
@@ -41,8 +50,8 @@ struct ModeBeside {
 
 /// The mode that explains most of what is left, of any frequency in the band: a frame that shakes, a body that the structure
 /// lacks. A narrow one does not show in a response of which the lines lie farther apart than it is wide, and noise that is
-/// predicted from its past takes it up; here each line of the whole record counts. It is looked for as if the force of a spectrum
-/// alone moved it: where a record is in parts, one that rings on from the part before may be missed. Nothing where no mode explains anything.
+/// predicted from its past takes it up; here each line counts, and a mode rings on from part to part. Nothing where no mode
+/// explains anything.
 [[nodiscard]] std::optional<ModeBeside> find_missing_mode(const RestLines& rest, const ModeQuestion& question);
 
 /// How large it is where it is largest, of the device's response there.

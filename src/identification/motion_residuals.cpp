@@ -90,8 +90,9 @@ std::optional<LineRegression> MotionResiduals::beside(const Opposing& force) con
 RestLines MotionResiduals::rest() const {
   return {known_,
           target_,
-          frequencies_of(band_, force_.size(), question_.sampling_period),
+          {{0, force_.size(), band_}},
           {known_.rows()},
+          Eigen::VectorXcd::Ones(known_.rows()),
           [this](std::span<const double> motion) { return lines_of(motion, band_); }};
 }
 

@@ -19,6 +19,14 @@ Eigen::MatrixXd whitened(const ShotNoise& noise, const Eigen::MatrixXd& columns)
   return white;
 }
 
+std::complex<double> response_of(const ShotNoise& noise, double angle) {
+  std::complex<double> sum;
+  for (std::size_t j = 0; j < noise.filter.size(); ++j) {
+    sum += noise.filter[j] * std::polar(1.0, -angle * static_cast<double>(j));
+  }
+  return sum / noise.deviation;
+}
+
 std::vector<ShotNoise> shot_noise(const std::vector<Shot>& shots, const ShotPositions& residuals,
                                   const std::vector<double>& steps, std::size_t order) {
   std::vector<ShotNoise> noise(steps.size());

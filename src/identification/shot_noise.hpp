@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <complex>
 #include <cstddef>
 #include <vector>
 
@@ -24,5 +25,8 @@ struct ShotNoise {
 
 /// The filtered rows of a shot: as many as it has samples, less the filter's order.
 [[nodiscard]] Eigen::MatrixXd whitened(const ShotNoise& noise, const Eigen::MatrixXd& columns);
+
+/// The filter's, at an `angle` of w T, rad: sum_j filter[j] e^{-j angle j} / deviation.
+[[nodiscard]] std::complex<double> response_of(const ShotNoise& noise, double angle);
 
 }  // namespace zwidth::internal

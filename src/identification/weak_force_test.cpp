@@ -190,14 +190,20 @@ class RecordLines {
       }
       return all;
     };
-    Eigen::VectorXd frequencies(known_.rows());
-    Eigen::Index first = 0;
-    for (std::size_t s = 0; s < stretches_.size(); ++s) {
-      const auto samples = static_cast<std::size_t>(samples_[s]);
-      frequencies.segment(first, sizes_[s]) = frequencies_of(stretches_[s].band, samples, record.sampling_period);
-      first += sizes_[s];
+    std::vector<RestPart> parts;
+    Eigen::VectorXcd filter(known_.rows());
+    Eigen::Index row = 0;
+    for (const Stretch& stretch : stretches_) {
+      const Shot& shot = fitted_.shots[stretch.shot];
+      const ShotNoise& noise = fitted_.fitted.noise[shot.record];
+      const std::size_t order = noise.filter.size() - 1;
+      parts.push_back({shot.first + order, shot.count - order, stretch.band});
+      const double turn = 2.0 * std::numbers::pi / static_cast<double>(shot.count - order);
+      for (std::size_t k = stretch.band.first; k < stretch.band.last; ++k) {
+        filter(row++) = response_of(noise, turn * static_cast<double>(k));
+      }
     }
-    return suspects_in({known_, target_, std::move(frequencies), sizes_, lines}, device, record.position,
+    return suspects_in({known_, target_, std::move(parts), sizes_, std::move(filter), lines}, device, record.position,
                        {record.force, record.sampling_period, device.loop().delay, lowest, highest},
                        [this](const LineRegression& found) { return parameters_beside(found); });
   }
@@ -213,7 +219,6 @@ class RecordLines {
       const LineBand band = band_with_harmonics(lowest, highest, samples, period);
       if (band.size() == 0) continue;
       stretches.push_back({i, band});
-      samples_.push_back(slopes.residuals[i].size());
       sizes_.push_back(static_cast<Eigen::Index>(band.size()));
     }
     return stretches;
@@ -234,7 +239,6 @@ class RecordLines {
   std::vector<Stretch> stretches_;
   std::vector<Eigen::Index> varied_;   ///< elements of x
   std::vector<Eigen::Index> sizes_;    ///< rows of each stretch
-  std::vector<Eigen::Index> samples_;  ///< that its lines are of
   Eigen::MatrixXcd known_;             ///< numbers and states
   Eigen::MatrixXcd forces_;            ///< a column each
   Eigen::VectorXcd target_;
