@@ -7,6 +7,7 @@
 
 #include "design/region_check.hpp"
 #include "design/region_structure.hpp"
+#include "percent.hpp"
 #include "require_valid.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
@@ -70,10 +71,10 @@ void find_walls(const Device& device, const OutlineOptions& outline, WallRegion&
   }
   if (result.region.vertex_error > usual_vertex_error) {
     result.trust.doubt(
-        fmt::format("the region is known to {:.2g} % of its extent only: it ends beside a mode that hardly anything "
+        fmt::format("the region is known to {} of its extent only: it ends beside a mode that hardly anything "
                     "damps; give the "
                     "links their damping",
-                    100.0 * result.region.vertex_error));
+                    percent(result.region.vertex_error)));
   }
   if (!result.walls->structure().proven) {
     result.remarks.push_back(

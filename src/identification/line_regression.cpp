@@ -70,4 +70,11 @@ std::optional<LineRegression> regress_lines(const Eigen::MatrixXcd& columns, con
   return found;
 }
 
+std::optional<LineRegression> regress_lines(const Eigen::MatrixXcd& known, const Eigen::MatrixXcd& further,
+                                            const Eigen::VectorXcd& target, std::span<const Eigen::Index> stretches) {
+  Eigen::MatrixXcd columns(known.rows(), known.cols() + further.cols());
+  columns << known, further;
+  return regress_lines(columns, target, stretches);
+}
+
 }  // namespace zwidth::internal

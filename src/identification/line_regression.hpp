@@ -37,4 +37,10 @@ struct LineRegression {
                                                           const Eigen::VectorXcd& target,
                                                           std::span<const Eigen::Index> stretches);
 
+/// The same of known columns and further ones behind them.
+[[nodiscard]] std::optional<LineRegression> regress_lines(const Eigen::MatrixXcd& known,
+                                                          const Eigen::MatrixXcd& further,
+                                                          const Eigen::VectorXcd& target,
+                                                          std::span<const Eigen::Index> stretches);
+
 }  // namespace zwidth::internal

@@ -15,6 +15,7 @@
 #include "identification/pooled_response.hpp"
 #include "identification/response_choice.hpp"
 #include "identification/welch.hpp"
+#include "percent.hpp"
 #include "signal/clipping.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/quantity.hpp"
@@ -130,13 +131,12 @@ void judge_dependence(MeasuredResponse& measured, std::span<const Recording> rec
   const AmplitudeDependence& found = *measured.dependence;
   const bool by_force = found.force_ratio > other_force;
   Remark remark{Remark::Severity::warning,
-                by_force
-                    ? fmt::format("the response depends on the force: {:.2g} times the force changes it by {:.2g} % "
-                                  "(median of {} lines that show it above the noise)",
-                                  found.force_ratio, 100.0 * found.difference, found.lines)
-                    : fmt::format("recordings of about the same force differ by {:.2g} % (median of {} lines that "
-                                  "show it above the noise)",
-                                  100.0 * found.difference, found.lines),
+                by_force ? fmt::format("the response depends on the force: {:.2g} times the force changes it by {} "
+                                       "(median of {} lines that show it above the noise)",
+                                       found.force_ratio, percent(found.difference), found.lines)
+                         : fmt::format("recordings of about the same force differ by {} (median of {} lines that "
+                                       "show it above the noise)",
+                                       percent(found.difference), found.lines),
                 "", ""};
   if (by_force && found.grows_with_force) {
     remark.consequence = "so dry friction does: it holds a weak force more, and looks like damping";

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "identification/percent.hpp"
+#include "percent.hpp"
 #include "zwidth/quantity.hpp"
 
 namespace zwidth::internal {

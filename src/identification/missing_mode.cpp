@@ -51,8 +51,8 @@ class ModeMotion {
   /// Line of w^2 x_1 and w x_2 over a part of n samples, at z = e^{j w T}, z^n = 1, of the force's lines there, d and d + 1
   /// samples late, and of the states in the part's first sample less after its last:
   /// (z I - Phi) X = now F_d + before F_{d + 1} + z (x[0] - x[n]).
-  [[nodiscard]] Eigen::Vector2cd line(std::complex<double> z, std::complex<double> force,
-                                      std::complex<double> earlier, const Eigen::Vector2d& lost) const {
+  [[nodiscard]] Eigen::Vector2cd line(std::complex<double> z, std::complex<double> force, std::complex<double> earlier,
+                                      const Eigen::Vector2d& lost) const {
     const Eigen::Vector2cd right = now_ * force + before_ * earlier + lost * z;
     const std::complex<double> a = z - phi_(0, 0);
     const std::complex<double> d = z - phi_(1, 1);
@@ -117,7 +117,8 @@ Eigen::VectorXd broad_weights(const Eigen::VectorXcd& rest, const std::vector<Re
   for (const RestPart& part : parts) {
     const std::size_t size = part.band.size();
     for (std::size_t k = 0; k < size;) {
-      const auto reach = std::max(least_reach, static_cast<std::size_t>(share * static_cast<double>(part.band.first + k)));
+      const auto reach =
+          std::max(least_reach, static_cast<std::size_t>(share * static_cast<double>(part.band.first + k)));
       const std::size_t begin = k > reach ? k - reach : 0;
       const std::size_t end = std::min(size, k + reach + 1);
       squares.clear();
@@ -248,9 +249,9 @@ std::optional<ModeBeside> find_missing_mode(const RestLines& rest, const ModeQue
     velocity[k] = w * state(1);
   });
   const Eigen::Index known = rest.known.cols();
-  Eigen::MatrixXcd columns(rest.known.rows(), known + 2);
-  columns << rest.known, rest.lines(position), rest.lines(velocity);
-  auto found = regress_lines(columns, rest.target, rest.stretches);
+  Eigen::MatrixXcd motions(rest.known.rows(), 2);
+  motions << rest.lines(position), rest.lines(velocity);
+  auto found = regress_lines(rest.known, motions, rest.target, rest.stretches);
   if (!found || !(found->deviations(known) > 0.0) || !(found->deviations(known + 1) > 0.0)) return std::nullopt;
   const double a = found->values(known);
   const double b = found->values(known + 1);

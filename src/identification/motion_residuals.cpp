@@ -79,10 +79,8 @@ std::vector<Opposing> MotionResiduals::opposing_forces(const std::function<doubl
 }
 
 std::optional<LineRegression> MotionResiduals::beside(const Opposing& force) const {
-  Eigen::MatrixXcd columns(known_.rows(), known_.cols() + 1);
-  columns << known_, lines_of(force.effect, band_);
   const Eigen::Index rows = known_.rows();
-  auto found = regress_lines(columns, target_, {&rows, 1});
+  auto found = regress_lines(known_, lines_of(force.effect, band_), target_, {&rows, 1});
   if (found && !(found->deviations(known_.cols()) > 0.0)) return std::nullopt;
   return found;
 }

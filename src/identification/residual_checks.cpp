@@ -7,8 +7,8 @@
 #include <functional>
 #include <optional>
 
-#include "identification/percent.hpp"
 #include "linear_systems.hpp"
+#include "percent.hpp"
 #include "zwidth/quantity.hpp"
 
 namespace zwidth::internal {

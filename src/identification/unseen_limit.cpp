@@ -12,6 +12,7 @@
 
 #include "identification/fit_judgement.hpp"
 #include "identification/student_t.hpp"
+#include "percent.hpp"
 #include "stability/device_draws.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/parameter.hpp"
@@ -76,9 +77,9 @@ std::optional<UnseenLimit> at_an_end(const Device& device, const ParameterEstima
     if (!other) continue;
     CriticalStiffness critical = limit_of(*other);
     if (!limits(critical)) continue;
-    return UnseenLimit{fmt::format("{} is known to {:.2g} % only: within that", each.key,
-                                   100.0 * *each.standard_deviation / each.value),
-                       std::move(critical)};
+    return UnseenLimit{
+        fmt::format("{} is known to {} only: within that", each.key, percent(*each.standard_deviation / each.value)),
+        std::move(critical)};
   }
   return std::nullopt;
 }

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "percent.hpp"
 #include "signal/clipping.hpp"
 #include "signal/median.hpp"
 #include "zwidth/error.hpp"
@@ -132,9 +133,9 @@ void check_levels(const Signal& signal, std::size_t levels, std::vector<Remark>&
   if (levels >= fewest_levels || switched) return;
   remarks.push_back(signal.warning(
       fmt::format("is coarsely quantised: it takes {} different values", levels),
-      fmt::format("rounding errs by up to {:.2g} % of its whole range: what moves less than that, mostly at high "
+      fmt::format("rounding errs by up to {} of its whole range: what moves less than that, mostly at high "
                   "frequency, is not seen; excite more strongly or use a finer sensor",
-                  50.0 / static_cast<double>(levels - 1))));
+                  internal::percent(0.5 / static_cast<double>(levels - 1)))));
 }
 
 /// Plateaus at one extreme value.
@@ -203,8 +204,8 @@ std::vector<double> check_clipping(const Signal& signal, const Extent& extent, s
     if (!is_clipped(plateaus, extent, usual_move, x.size())) continue;
     clipped.push_back(extreme);
     remarks.push_back(signal.warning(
-        fmt::format("is clipped at {:.6g}: {:.2g} % of its samples, first at {:.4g} s", extreme,
-                    100.0 * static_cast<double>(plateaus.samples) / static_cast<double>(x.size()),
+        fmt::format("is clipped at {:.6g}: {} of its samples, first at {:.4g} s", extreme,
+                    internal::percent(static_cast<double>(plateaus.samples) / static_cast<double>(x.size())),
                     signal.time(plateaus.first)),
         signal.is_force()
             ? "if it was clipped after it was recorded or the actuator saturated, the response is not that of a linear "

@@ -140,6 +140,12 @@ TEST(SuspectedMotions, AFrameThatShakesIsAModeThatTheStructureLacks) {
   EXPECT_NE(reasons_in_time(rig).find("that the structure lacks"), std::string::npos) << reasons_in_time(rig);
 }
 
+TEST(SuspectedMotions, AFrameThatShakesIsSeenInLinesToo) {
+  Rig rig;
+  rig.frame = 5.0;
+  EXPECT_NE(reasons_in_lines(rig).find("that the structure lacks"), std::string::npos) << reasons_in_lines(rig);
+}
+
 TEST(SuspectedMotions, ClocksThatRunApartAreADelayThatChanges) {
   Rig rig = two_bodies();
   rig.skew = 5e-5;
@@ -147,11 +153,26 @@ TEST(SuspectedMotions, ClocksThatRunApartAreADelayThatChanges) {
       << reasons_in_lines(rig);
 }
 
+TEST(SuspectedMotions, ClocksThatRunApartAreSeenInTimeToo) {
+  Rig rig;
+  rig.skew = 5e-5;
+  rig.kind = ExcitationKind::noise;
+  EXPECT_NE(reasons_in_time(rig).find("clocks of force and position run apart"), std::string::npos)
+      << reasons_in_time(rig);
+}
+
 TEST(SuspectedMotions, ASpringThatSlipsBesideTheLinkIsFrictionInIt) {
   Rig rig = two_bodies();
   rig.slip = 0.1;
   rig.slip_spring = 1850.0;
   EXPECT_NE(reasons_in_lines(rig).find("friction in a link"), std::string::npos) << reasons_in_lines(rig);
+}
+
+TEST(SuspectedMotions, ASpringThatSlipsIsSeenInTimeToo) {
+  Rig rig = two_bodies();
+  rig.slip = 0.1;
+  rig.slip_spring = 1850.0;
+  EXPECT_NE(reasons_in_time(rig).find("friction in a link"), std::string::npos) << reasons_in_time(rig);
 }
 
 TEST(SuspectedMotions, WithoutThemTheAnswerIsSound) {
