@@ -5,6 +5,8 @@
 #include <iterator>
 #include <limits>
 
+#include "zwidth/error.hpp"
+
 namespace zwidth::internal {
 
 std::vector<Shot> cut_into_shots(const std::vector<MotionRecord>& records, const Device& device, double length,
@@ -73,7 +75,7 @@ std::optional<FittedShots> ShotSearch::with_noise(const ShotFit& start, const st
 }
 
 double ShotSearch::restart_states(ShotFit& fit, const std::vector<Shot>& shots,
-                                  const std::vector<ShotNoise>& noise) const {
+                                  const std::vector<ShotNoise>& noise) const try {
   const Eigen::VectorXd constants = fit.x.tail(static_cast<Eigen::Index>(model_.records().size()));
   const auto again = fit_shots(model_.at(fit.x), shots, noise, {constants, model_.recorded_states(shots)}, constants,
                                {.most_iterations = 20, .tolerance = 1e-4});
@@ -90,6 +92,8 @@ double ShotSearch::restart_states(ShotFit& fit, const std::vector<Shot>& shots,
     fit.states[i] = again->states[i];
   }
   return gain;
+} catch (const Error&) {  // no device has these numbers
+  return 0.0;
 }
 
 double ShotSearch::badness(const FittedShots& fitted, const std::vector<Shot>& shots) const {

@@ -220,8 +220,10 @@ TimeDomainIdentification identify_in_time(std::span<const Recording> recordings,
     best = std::move(found);
   }
   if (!best) {
-    throw Error(ErrorCode::did_not_converge,
-                "no device near the linear fit can be played through the record; is the structure right?");
+    throw Error(
+        ErrorCode::did_not_converge,
+        "no device near the fit of the response can be played through the record; see what that fit says; excite "
+        "by noise, a sweep or a multisine, and check the structure");
   }
   done(0.5);
 
@@ -257,8 +259,10 @@ TimeDomainIdentification identify_in_time(std::span<const Recording> recordings,
     if (!found || now->badness < found->badness + allowed) found = std::move(now);
   }
   if (!found) {
-    throw Error(ErrorCode::did_not_converge,
-                "the fit lost itself where no device can be played; is the structure right?");
+    throw Error(
+        ErrorCode::did_not_converge,
+        "the fit lost itself where no device can be played; check the structure, free fewer parameters, or start from "
+        "values that are nearly right");
   }
   widen_by_step(found->known);
   if (const auto slopes =

@@ -80,6 +80,21 @@ double reversal_ratio(const Recording& recording, const FittedMotion& motion) {
   return near / static_cast<double>(near_count) / (far / static_cast<double>(far_count));
 }
 
+constexpr const char* nothing_determined =
+    "the recordings determine no parameter of the structure; free fewer, or excite more strongly";
+
+/// Whether of masses, dampings and stiffnesses, some of which are free, none is known to within half its size.
+bool knows_nothing(const std::vector<ParameterEstimate>& estimates) {
+  const auto is_of_device = [](const ParameterEstimate& each) {
+    return each.key != delay_key && each.key != lag_key && !each.key.ends_with(".coulomb");
+  };
+  const auto is_known = [&](const ParameterEstimate& each) {
+    return is_of_device(each) && each.identifiable && each.standard_deviation &&
+           *each.standard_deviation < 0.5 * std::abs(each.value);
+  };
+  return std::ranges::any_of(estimates, is_of_device) && std::ranges::none_of(estimates, is_known);
+}
+
 class Judge {
  public:
   Judge(TimeDomainIdentification& fit, const JudgedTimeFit& judged) : fit_(fit), judged_(judged) {}
@@ -94,6 +109,10 @@ class Judge {
     judge_delay();
     judge_what_was_given();
     const std::vector<std::string> open = open_numbers();
+    const auto& interval = fit_.analysis.interval;
+    if (knows_nothing(fit_.estimates) && (!interval || is_open(*interval) || !(interval->upper > 0.0))) {
+      trust_.refuse(nothing_determined);
+    }
     if (!open.empty()) {
       trust_.doubt(fmt::format("the data do not determine {}: taken as they stand in the start of the search",
                                fmt::join(open, ", ")));
@@ -116,7 +135,7 @@ class Judge {
   void refuse_what_is_none() {
     if (judged_.is_turned) trust_.refuse("the position falls as the force rises: scale one of them by -1");
     if (std::ranges::none_of(fit_.estimates, &ParameterEstimate::identifiable)) {
-      trust_.refuse("the recordings determine no parameter of the structure; free fewer, or excite more strongly");
+      trust_.refuse(nothing_determined);
     }
   }
 

@@ -214,5 +214,27 @@ TEST(TimeDomain, NamesWhatIsWrong) {
   EXPECT_THROW((void)identify_in_time({}, structure_of(truth)), Error);
 }
 
+// It was doubtful, with a number.
+TEST(TimeDomain, OfNoiseAloneNoNumberIsGiven) {
+  std::mt19937_64 random(20261126);
+  std::normal_distribution<double> normal;
+  Recording recording{"noise", 1e-3, {{"force", {}}, {"position", {}}}, {}};
+  double drift = 0.0;
+  for (int k = 0; k < 5000; ++k) {
+    recording.channels[0].samples.push_back(normal(random));
+    recording.channels[1].samples.push_back(drift += 1e-5 * normal(random));
+  }
+  for (const char* name : {"rigid", "two-body"}) {
+    SCOPED_TRACE(name);
+    const auto structure = named_structure(name, {.record_period = 1e-3});
+    ASSERT_TRUE(structure);
+    TimeDomainOptions options;
+    options.structure_values = structure->values;
+    const auto found = identify_in_time(std::span(&recording, 1), Device(structure->parameters), options);
+    EXPECT_TRUE(found.trust.refused());
+    EXPECT_TRUE(found.analysis.critical.trust.refused());
+  }
+}
+
 }  // namespace
 }  // namespace zwidth
