@@ -218,6 +218,7 @@ class Judge {
     } else if (!is_known && judged_.options.fit.locked.empty()) {
       result_.remarks.push_back(remark_of_unseen_hand());
     }
+    if (!is_known) result_.remarks.push_back(remark_of_measured_force());
     if (is_known) {
       if (auto doubt = doubt_of_hand(judged_.structure, fit_.estimates, judged_.options.fit.locked)) {
         result_.trust.doubt(*std::move(doubt));

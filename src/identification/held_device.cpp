@@ -35,6 +35,13 @@ Remark remark_of_unseen_hand() {
       "record it alone"};
 }
 
+Remark remark_of_measured_force() {
+  return {Remark::Severity::note, "the force is taken for the one that was commanded",
+          "of a load cell's, what delays the command before it (a bus, a drive) is not in the record, and the critical "
+          "stiffness comes out up to several times too high",
+          "record the command, or add that delay as loop.delay"};
+}
+
 std::optional<std::string> doubt_of_hand(const Device& structure, const std::vector<ParameterEstimate>& estimates,
                                          const std::vector<std::string>& locked) {
   if (!structure.has_bodies() || !locked.empty()) return std::nullopt;

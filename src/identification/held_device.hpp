@@ -18,6 +18,9 @@ namespace zwidth::internal {
 /// Of a structure whose numbers are unknown nothing tells a hand's mass and damping from the device's: what is assumed, said.
 [[nodiscard]] Remark remark_of_unseen_hand();
 
+/// Nor whether the force is the command or a load cell's.
+[[nodiscard]] Remark remark_of_measured_force();
+
 /// Why a known structure's held body looks held: heavier than it is, and damped several times as much.
 [[nodiscard]] std::optional<std::string> doubt_of_hand(const Device& structure,
                                                        const std::vector<ParameterEstimate>& estimates,

@@ -216,6 +216,7 @@ class Judge {
     } else if (!is_known && judged_.options.locked.empty()) {
       fit_.remarks.push_back(remark_of_unseen_hand());
     }
+    if (!is_known) fit_.remarks.push_back(remark_of_measured_force());
     const double recorded_period = judged_.recordings.front().sampling_period;
     for (Remark& remark : implausible_device(fit_.device, is_known ? &judged_.structure : nullptr, recorded_period)) {
       fit_.remarks.push_back(std::move(remark));
