@@ -167,11 +167,11 @@ class Scan {
   [[nodiscard]] Eigen::MatrixX2cd lines_of_mode(ModeGuess mode) const {
     const ModeMotion motion(question_, mode);
     std::vector<Eigen::Vector2d> lost(parts_.size(), Eigen::Vector2d::Zero());
+    std::size_t begun = 0;
+    std::size_t ended = 0;
     motion.play([&](std::size_t k, const Eigen::Vector2d& state) {
-      for (std::size_t p = 0; p < parts_.size(); ++p) {
-        if (parts_[p].first == k) lost[p] += state;
-        if (parts_[p].last == k) lost[p] -= state;
-      }
+      if (begun < parts_.size() && parts_[begun].first == k) lost[begun++] += state;
+      if (ended < parts_.size() && parts_[ended].last == k) lost[ended++] -= state;
     });
     Eigen::MatrixX2cd lines(rest_.target.size(), 2);
     Eigen::Index row = 0;

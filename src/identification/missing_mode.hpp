@@ -24,7 +24,7 @@ struct RestPart {
 struct RestLines {
   Eigen::MatrixXcd known;
   Eigen::VectorXcd target;
-  std::vector<RestPart> parts;
+  std::vector<RestPart> parts;                                     ///< in the order of time; none begins in another
   std::vector<Eigen::Index> stretches;                             ///< rows of each part
   Eigen::VectorXcd filter;                                         ///< of each row: what whitens the motion there
   std::function<Eigen::VectorXcd(std::span<const double>)> lines;  ///< of a motion, by sample of the whole record

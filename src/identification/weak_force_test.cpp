@@ -258,7 +258,8 @@ std::optional<Nonlinearity> doubt_of_mode(const WeakForceEvidence& mode, double 
   constexpr double far = 0.9;
   constexpr double clear_and_far = 5.5;
   const double clear = mode.stiffness_beside < far * lower ? clear_and_far : clear_suspect;
-  const bool lowers = mode.stiffness_beside < lower && mode.share > least;
+  constexpr double notable = 0.99;
+  const bool lowers = mode.stiffness_beside < notable * lower && mode.share > least;
   const bool is_large = mode.share > large && mode.ratio > plain;
   if (!(mode.ratio > clear) || !(lowers || is_large)) return std::nullopt;
   return Nonlinearity{fmt::format("{} shows a mode near {:.4g} Hz that the structure lacks, {} the response there{}",
