@@ -27,6 +27,8 @@ await page.getByLabel('handle', { exact: true }).check()
 await page.getByRole('button', { name: 'Fit', exact: true }).click()
 await page.getByRole('button', { name: 'Use this device' }).waitFor()
 await settled()
+await page.setViewportSize({ width: 1280, height: 6000 }) // the whole panel in view: nothing moves while it is drawn
+await settled()
 await page.evaluate(() => document.querySelector('.in-short')?.style.setProperty('display', 'none')) // it lies over the panel
 await page.locator('#panel-recording').screenshot({ path: `${project}/docs/workbench_recording.png` })
 await browser.close()
