@@ -11,6 +11,7 @@
 #include "identification/response_choice.hpp"
 #include "identification/response_friction.hpp"
 #include "zwidth/identification/excitation.hpp"
+#include "zwidth/quantity.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -129,7 +130,8 @@ class FrictionDoubt {
     return fmt::format(
         "dry friction of {} would pass unseen, and {}; {}", in_units(most_of(*least)),
         without
-            ? fmt::format("the critical stiffness without it would be {:.3g} N/m (N m/rad where it turns)", *without)
+            ? fmt::format("the critical stiffness without it would be {} (where it turns {})",
+                          quantity(*without, "N/m"), quantity(*without, "N m/rad"))
             : "the critical stiffness without it is not known",
         remedy);
   }

@@ -23,10 +23,13 @@ it('through a drag: one request in flight per panel, nothing goes backwards, not
       running.set(panel, (running.get(panel) ?? 0) + 1)
       const entry: Log['asked'][number] = { panel, body, inFlight: running.get(panel)! }
       log.asked.push(entry)
-      const response = await real(url, init)
-      if (path === 'analyze') entry.value = String(((await response.clone().json()) as { critical_stiffness: number }).critical_stiffness)
-      running.set(panel, running.get(panel)! - 1)
-      return response
+      try {
+        const response = await real(url, init)
+        if (path === 'analyze') entry.value = String(((await response.clone().json()) as { critical_stiffness: number }).critical_stiffness)
+        return response
+      } finally {
+        running.set(panel, running.get(panel)! - 1) // given up as well, which a slow answer is
+      }
     }
     const look = (): void => {
       const text = document.querySelector('[data-answer="alone"]')?.textContent ?? ''
