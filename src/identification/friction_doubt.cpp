@@ -127,13 +127,11 @@ class FrictionDoubt {
     }
     if (!least || (of_lines_ && of_one_force_)) return unknown();
     const auto without = stiffness_without(slidings, most_of(*least));
-    return fmt::format(
-        "dry friction of {} would pass unseen, and {}; {}", in_units(most_of(*least)),
-        without
-            ? fmt::format("the critical stiffness without it would be {} (where it turns {})",
-                          quantity(*without, "N/m"), quantity(*without, "N m/rad"))
-            : "the critical stiffness without it is not known",
-        remedy);
+    return fmt::format("dry friction of {} would pass unseen, and {}; {}", in_units(most_of(*least)),
+                       without ? fmt::format("the critical stiffness without it would be {} (where it turns {})",
+                                             quantity(*without, "N/m"), quantity(*without, "N m/rad"))
+                               : "the critical stiffness without it is not known",
+                       remedy);
   }
 
   /// The critical stiffness without so much friction; nothing where the response does not say.
