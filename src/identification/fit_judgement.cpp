@@ -213,12 +213,9 @@ class Judge {
 
   void judge_hand() {
     const bool is_known = judged_.options.structure_values == IdentifyOptions::StructureValues::known;
-    if (auto remark = remark_of_operator(judged_.structure)) {
-      result_.remarks.push_back(*std::move(remark));
-    } else if (!is_known && judged_.options.fit.locked.empty()) {
-      result_.remarks.push_back(remark_of_unseen_hand());
+    for (Remark& remark : remarks_of_experiment(judged_.structure, is_known, judged_.options.fit.locked)) {
+      result_.remarks.push_back(std::move(remark));
     }
-    if (!is_known) result_.remarks.push_back(remark_of_measured_force());
     if (is_known) {
       if (auto doubt = doubt_of_hand(judged_.structure, fit_.estimates, judged_.options.fit.locked)) {
         result_.trust.doubt(*std::move(doubt));

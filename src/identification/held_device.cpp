@@ -17,8 +17,6 @@ bool is_on_springs(const DeviceParameters& device) {
          std::ranges::any_of(device.bodies, [](const Body& body) { return body.stiffness > 0.0; });
 }
 
-}  // namespace
-
 std::optional<Remark> remark_of_operator(const Device& structure) {
   const Operator& user = structure.parameters().user;
   if (user.mass == 0.0 && user.damping == 0.0 && user.stiffness == 0.0) return std::nullopt;
@@ -40,6 +38,20 @@ Remark remark_of_measured_force() {
           "of a load cell's, what delays the command before it (a bus, a drive) is not in the record, and the critical "
           "stiffness comes out up to several times too high",
           "record the command, or add that delay as loop.delay"};
+}
+
+}  // namespace
+
+std::vector<Remark> remarks_of_experiment(const Device& structure, bool is_known,
+                                          const std::vector<std::string>& locked) {
+  std::vector<Remark> remarks;
+  if (auto remark = remark_of_operator(structure)) {
+    remarks.push_back(*std::move(remark));
+  } else if (!is_known && locked.empty()) {
+    remarks.push_back(remark_of_unseen_hand());
+  }
+  if (!is_known) remarks.push_back(remark_of_measured_force());
+  return remarks;
 }
 
 std::optional<std::string> doubt_of_hand(const Device& structure, const std::vector<ParameterEstimate>& estimates,

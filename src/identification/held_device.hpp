@@ -12,14 +12,10 @@ namespace zwidth::internal {
 
 // Who holds the device while it is recorded is fitted with it: the limit is then that of the device in this hand.
 
-/// What the structure's operator means in a fit; nothing where it has none.
-[[nodiscard]] std::optional<Remark> remark_of_operator(const Device& structure);
-
-/// Of a structure whose numbers are unknown nothing tells a hand's mass and damping from the device's: what is assumed, said.
-[[nodiscard]] Remark remark_of_unseen_hand();
-
-/// Nor whether the force is the command or a load cell's.
-[[nodiscard]] Remark remark_of_measured_force();
+/// What is assumed of how the device was recorded: that the structure's operator held it; or, of a structure whose numbers are
+/// unknown, that nobody did, for nothing tells a hand from the device; nor whether the force is the command or a load cell's.
+[[nodiscard]] std::vector<Remark> remarks_of_experiment(const Device& structure, bool is_known,
+                                                        const std::vector<std::string>& locked);
 
 /// Why a known structure's held body looks held: heavier than it is, and damped several times as much.
 [[nodiscard]] std::optional<std::string> doubt_of_hand(const Device& structure,

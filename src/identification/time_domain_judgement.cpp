@@ -211,12 +211,9 @@ class Judge {
 
   void judge_hand() {
     const bool is_known = judged_.options.structure_values == IdentifyOptions::StructureValues::known;
-    if (auto remark = remark_of_operator(judged_.structure)) {
-      fit_.remarks.push_back(*std::move(remark));
-    } else if (!is_known && judged_.options.locked.empty()) {
-      fit_.remarks.push_back(remark_of_unseen_hand());
+    for (Remark& remark : remarks_of_experiment(judged_.structure, is_known, judged_.options.locked)) {
+      fit_.remarks.push_back(std::move(remark));
     }
-    if (!is_known) fit_.remarks.push_back(remark_of_measured_force());
     const double recorded_period = judged_.recordings.front().sampling_period;
     for (Remark& remark : implausible_device(fit_.device, is_known ? &judged_.structure : nullptr, recorded_period)) {
       fit_.remarks.push_back(std::move(remark));

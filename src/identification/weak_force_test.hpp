@@ -25,7 +25,8 @@ struct WeakForceEvidence {
 };
 
 /// Drag in proportion to the square of a body's speed, in a record that a linear device was fitted to, at each body at which
-/// it shows at all: c e of MotionResiduals is that of q |v_M| v_M; a mode (find_missing_mode()) and suspected_motions(). Nothing where the record is too short.
+/// it shows at all: c e of MotionResiduals is that of q |v_M| v_M; a mode (find_missing_mode())
+/// and suspected_motions(). Nothing where the record is too short.
 [[nodiscard]] std::vector<WeakForceEvidence> find_weak_forces(const MotionQuestion& question,
                                                               std::span<const double> force,
                                                               std::span<const double> position);
