@@ -8,7 +8,9 @@
 #include <set>
 #include <utility>
 
+#include "identification/motion_slope.hpp"
 #include "identification/response_features.hpp"
+#include "identification/response_slopes.hpp"
 #include "signal/median.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/parameter.hpp"
@@ -125,11 +127,14 @@ DeviceParameters FitModel::parameters_at(const Eigen::VectorXd& x) const {
   return parameters;
 }
 
-Eigen::VectorXcd FitModel::response_at(const Eigen::VectorXd& x, const std::vector<double>& frequencies) const {
-  DeviceParameters parameters = parameters_at(x);
+Device FitModel::as_measured(DeviceParameters parameters) const {
   if (sampling_period_) parameters.loop.sampling_period = *sampling_period_;
   parameters.wall.filters.clear();  // no wall acted; and at the record's rate they may be impossible
-  const Device device = locked_device(Device(std::move(parameters)), locked_);
+  for (Body& body : parameters.bodies) body.coulomb = 0.0;  // does not show in a response
+  return locked_device(Device(std::move(parameters)), locked_);
+}
+
+Eigen::VectorXcd FitModel::response_of(const Device& device, const std::vector<double>& frequencies) const {
   Eigen::VectorXcd values(static_cast<Eigen::Index>(frequencies.size()));
   if (sampling_period_) {
     const SampledPlant plant = sampled_plant(device);
@@ -146,9 +151,38 @@ Eigen::VectorXcd FitModel::response_at(const Eigen::VectorXd& x, const std::vect
   return values;
 }
 
+Eigen::VectorXcd FitModel::response_at(const Eigen::VectorXd& x, const std::vector<double>& frequencies) const {
+  return response_of(as_measured(parameters_at(x)), frequencies);
+}
+
 ResponseWithSlopes FitModel::slopes_at(const Eigen::VectorXd& x, const std::vector<double>& frequencies) const {
-  ResponseWithSlopes result{response_at(x, frequencies),
-                            Eigen::MatrixXcd(static_cast<Eigen::Index>(frequencies.size()), x.size())};
+  const DeviceParameters parameters = parameters_at(x);
+  const Device device = as_measured(parameters);
+  ResponseWithSlopes result{response_of(device, frequencies), {}};
+  std::vector<ResponseChange> changes;
+  for (const Coordinate& each : coordinates_) {
+    const bool is_lag = each.key == "actuator.time_constant";
+    if (each.key == "loop.delay" || (is_lag && device.parameters().actuator.time_constant == 0.0)) {
+      changes.push_back({{}, 1.0});  // a short lag is a short delay
+    } else {
+      changes.push_back(
+          {motion_slope(parameters, each, [&](const DeviceParameters& moved) { return as_measured(moved); })});
+    }
+  }
+  std::optional<Eigen::MatrixXcd> slopes =
+      response_slopes(device, sampling_period_, changes, frequencies, result.values);
+  if (!slopes) {
+    result.slopes = differences_at(x, frequencies, result.values);
+    return result;
+  }
+  for (Eigen::Index i = 0; i < x.size(); ++i) slopes->col(i) *= coordinates_[static_cast<std::size_t>(i)].slope(x(i));
+  result.slopes = std::move(*slopes);
+  return result;
+}
+
+Eigen::MatrixXcd FitModel::differences_at(const Eigen::VectorXd& x, const std::vector<double>& frequencies,
+                                          const Eigen::VectorXcd& values) const {
+  Eigen::MatrixXcd slopes(values.size(), x.size());
   for (Eigen::Index i = 0; i < x.size(); ++i) {
     const auto shifted = [&](double by) {
       Eigen::VectorXd moved = x;
@@ -158,12 +192,12 @@ ResponseWithSlopes FitModel::slopes_at(const Eigen::VectorXd& x, const std::vect
     constexpr double h = difference_step;
     const bool at_bound = coordinates_[static_cast<std::size_t>(i)].kind == Coordinate::Kind::not_negative && x(i) < h;
     if (at_bound) {
-      result.slopes.col(i) = (4.0 * shifted(h) - 3.0 * result.values - shifted(2.0 * h)) / (2.0 * h);
+      slopes.col(i) = (4.0 * shifted(h) - 3.0 * values - shifted(2.0 * h)) / (2.0 * h);
     } else {
-      result.slopes.col(i) = (shifted(h) - shifted(-h)) / (2.0 * h);
+      slopes.col(i) = (shifted(h) - shifted(-h)) / (2.0 * h);
     }
   }
-  return result;
+  return slopes;
 }
 
 }  // namespace zwidth::internal

@@ -53,10 +53,17 @@ class FitModel {
 
   /// The response at each frequency, rad/s. Throws Error (did_not_converge) as sampled_plant() does.
   [[nodiscard]] Eigen::VectorXcd response_at(const Eigen::VectorXd& x, const std::vector<double>& frequencies) const;
-  /// The same with central differences (one-sided ones at a bound).
+  /// The same with its slopes, exact or, where doubles do not carry those, by central differences (one-sided ones at a
+  /// bound).
   [[nodiscard]] ResponseWithSlopes slopes_at(const Eigen::VectorXd& x, const std::vector<double>& frequencies) const;
 
  private:
+  /// Bodies locked, sampled as the response is, no wall's filters, no friction.
+  [[nodiscard]] Device as_measured(DeviceParameters parameters) const;
+  [[nodiscard]] Eigen::VectorXcd response_of(const Device& device, const std::vector<double>& frequencies) const;
+  [[nodiscard]] Eigen::MatrixXcd differences_at(const Eigen::VectorXd& x, const std::vector<double>& frequencies,
+                                                const Eigen::VectorXcd& values) const;
+
   Device structure_;
   std::vector<std::size_t> locked_;
   std::optional<double> sampling_period_;

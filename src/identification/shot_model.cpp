@@ -8,6 +8,7 @@
 
 #include "identification/lateness.hpp"
 #include "identification/motion_residuals.hpp"
+#include "identification/motion_slope.hpp"
 #include "identification/shot_player.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/parameter.hpp"
@@ -164,7 +165,6 @@ Device ShotModel::device_in(std::size_t record, const DeviceParameters& paramete
   return without_short_lag(device_in_experiment(Device(parameters), locked_, records_[record].sampling_period));
 }
 
-/// A is affine in each parameter, or in the inverse of a mass and of a lag: its slope follows from a second value.
 PlayedParameter ShotModel::played(std::size_t i, double x, std::size_t record, const DeviceParameters& parameters,
                                   const Device& device) const {
   const Coordinate& coordinate = coordinates_[i];
@@ -173,12 +173,6 @@ PlayedParameter ShotModel::played(std::size_t i, double x, std::size_t record, c
   if (coordinate.key == delay_key || (is_lag && !(device.parameters().actuator.time_constant > 0.0))) {
     return {{.switching = slope}};  // a lag too short to follow is a delay
   }
-  const double value = *parameter(parameters, coordinate.key);
-  const bool is_inverse = is_lag || coordinate.key.ends_with(".mass");
-  const double other = value > 0.0 ? 2.0 * value : coordinate.unit;
-  DeviceParameters moved = parameters;
-  set_parameter(moved, coordinate.key, other);
-  const Device there = device_in(record, moved);
   PlayedParameter played;
   const std::size_t known = coordinates_.size() - weak_forces_.size();
   if (i >= known) {
@@ -186,15 +180,14 @@ PlayedParameter ShotModel::played(std::size_t i, double x, std::size_t record, c
     const auto at = std::ranges::find(device.bodies(), body, &Body::name);
     played.weighing = {static_cast<std::size_t>(at - device.bodies().begin()), length};
   }
-  const double factor = slope / (is_inverse ? 0.5 * value : other - value);
   if (coordinate.key.ends_with(".coulomb")) {
-    for (std::size_t body = 0; body < device.bodies().size(); ++body) {
-      played.motion.limits.push_back(factor * (there.bodies()[body].coulomb - device.bodies()[body].coulomb));
+    for (const Body& body : device.bodies()) {
+      played.motion.limits.push_back(coordinate.key == "body." + body.name + ".coulomb" ? slope : 0.0);
     }
     return played;
   }
-  const auto matrix_of = [](const Device& each) { return ContinuousMotion(each, {}, {}).patterns().front().matrix; };
-  played.motion.matrix = factor * (matrix_of(there) - matrix_of(device));
+  played.motion.matrix = slope * motion_slope(parameters, coordinate,
+                                              [&](const DeviceParameters& each) { return device_in(record, each); });
   if (is_lag) played.of_lag = slope;
   return played;
 }

@@ -21,6 +21,7 @@ struct Played {
   double lag = 0.0;
   std::size_t sensed = 0;
   std::vector<double> friction;
+  Operator user = {};
 };
 
 class ShotModelSlopes : public testing::TestWithParam<Played> {
@@ -33,6 +34,7 @@ class ShotModelSlopes : public testing::TestWithParam<Played> {
     device.links = {{0, 1, 8e3, 1.5}};
     device.loop = {0, GetParam().sensed, 1, 1e-3, GetParam().delay};
     device.actuator.time_constant = GetParam().lag;
+    device.user = GetParam().user;
     structure = device;
     ExcitationOptions excitation;
     excitation.kind = ExcitationKind::noise;
@@ -117,7 +119,8 @@ INSTANTIATE_TEST_SUITE_P(Devices, ShotModelSlopes,
                                          Played{"DelayWithin", 0.3e-3, 0.0, 0, {0.5, 0.3}},
                                          Played{"LagAndDelay", 1.4e-3, 0.8e-3, 1, {0.5, 0.3}},
                                          Played{"OneRubs", 1.0e-3, 0.0, 1, {0.6, 0.0}},
-                                         Played{"Stiction", 0.6e-3, 0.5e-3, 0, {1.5, 1.0}}),
+                                         Played{"Stiction", 0.6e-3, 0.5e-3, 0, {1.5, 1.0}},
+                                         Played{"InAHand", 0.3e-3, 0.0, 0, {0.0, 0.0}, {1.5, 4.0, 200.0}}),
                          [](const auto& each) { return each.param.name; });
 
 // A body with dry friction by the leapfrog rule, 500 steps a sample.
