@@ -124,6 +124,10 @@ std::optional<ShownFriction> friction_beside(const ParameterFit& fit, const Body
   const auto at = static_cast<Eigen::Index>(last);
   if (!(known.covariance(at, at) > 0.0)) return std::nullopt;
   const double unit = model.coordinates()[last].slope(x(at));
+  // A body alone that rubs as strongly as it is pushed would not have moved.
+  const auto [least, most] = std::ranges::minmax(record.force);
+  const double strongest = std::max(std::abs(least), std::abs(most));
+  if (device.bodies().size() == 1 && x(at) * unit >= strongest) return std::nullopt;
   return ShownFriction{body.name, x(at) * unit, std::sqrt(known.covariance(at, at)) * unit,
                        stiffness_beside(model.parameters_at(x))};
 }

@@ -14,6 +14,7 @@
 #include "identification/friction_test.hpp"
 #include "identification/interval_narrowing.hpp"
 #include "identification/lateness.hpp"
+#include "identification/period_choice.hpp"
 #include "identification/recording_agreement.hpp"
 #include "identification/response_choice.hpp"
 #include "identification/unseen_limit.hpp"
@@ -344,47 +345,9 @@ Identification identify(std::span<const Recording> recordings, const Device& str
   const auto with = [&](const IdentifyOptions& chosen, const Progress& told) {
     return identified(response_with_enough_lines(recordings, structure, chosen, told), recordings, structure, chosen);
   };
-  IdentifyOptions windowed = decided;
-  windowed.response.excitation = FrequencyResponseOptions::Excitation::aperiodic;
   const bool is_detected = decided.response.excitation == FrequencyResponseOptions::Excitation::detect &&
                            is_of_lines(recordings, decided.response);
-  Identification found = [&] {
-    try {
-      return with(decided, progress);
-    } catch (const Error&) {  // a period that is none, of a loop that rings, has too few lines
-      if (!is_detected) throw;
-      return with(windowed, {});
-    }
-  }();
-  constexpr double clear = 0.005;
-  if (!is_detected || found.fit.model_error < clear) return found;
-  const auto better = [&](const IdentifyOptions& chosen) -> std::optional<Identification> {
-    constexpr double much = 0.5;
-    try {
-      Identification other = with(chosen, {});
-      if (other.trust.refused() || other.fit.model_error > much * found.fit.model_error) return std::nullopt;
-      return other;
-    } catch (const Error&) {  // then it is no better
-      return std::nullopt;
-    }
-  };
-  // A transient may last through the first period.
-  std::optional<Identification> later;
-  if (decided.response.skip_periods == 0) {
-    IdentifyOptions skipping = decided;
-    skipping.response.skip_periods = 1;
-    later = better(skipping);
-  }
-  // What drifts from the first period to the last leaks into all lines alike, which a fit cannot tell from the device;
-  // a window keeps it out.
-  std::optional<Identification> other = better(windowed);
-  if (later && !(other && other->fit.model_error < later->fit.model_error)) return *std::move(later);
-  if (!other) return found;
-  other->remarks.push_back({Remark::Severity::note,
-                            "the periods of the force are not averaged: what drifts between them would leave more of "
-                            "the response unexplained",
-                            ""});
-  return *std::move(other);
+  return is_detected ? with_periods_chosen(decided, progress, with) : with(decided, progress);
 }
 
 Identification identify(const MeasuredResponse& measured, const Device& structure, const IdentifyOptions& options) {
