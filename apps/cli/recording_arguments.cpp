@@ -24,9 +24,10 @@ namespace {
 void add_column(CLI::App& command, const std::string& name, ColumnRequest& column, const std::string& what,
                 const char* unit = "X") {
   command.add_option("--" + name, column.name, what)->type_name("COLUMN")->group(recording_group);
-  command.add_option("--" + name + "-scale", column.scale, "What its samples are multiplied by, to get SI units")
+  command
+      .add_option("--" + name + "-scale", column.scale,
+                  "What its samples are multiplied by, to get SI units; 1 and -1: beside the unit in its name")
       ->type_name(unit)
-      ->capture_default_str()
       ->group(recording_group);
 }
 

@@ -58,6 +58,8 @@ class Judge {
     judge_hand();
     if (const Device* known = known_structure()) {
       if (auto doubt = doubt_of_masses(fit_.device, *known)) result_.trust.doubt(*std::move(doubt));
+    } else if (auto doubt = doubt_of_weight(fit_.device)) {
+      result_.trust.doubt(*std::move(doubt));
     }
     result_.device_trust = result_.trust;
     judge_open_numbers();
@@ -261,7 +263,7 @@ bool is_drowned(const FrequencyResponse& response, std::size_t numbers) {
 
 void judge_nonlinearity(Identification& result, std::span<const Recording> recordings, const IdentifyOptions& options) {
   for (const Recording& each : recordings) {
-    if (auto doubt = doubt_of_counts(each)) result.trust.doubt(*std::move(doubt));
+    if (auto doubt = doubt_of_units(each, options.response.output)) result.trust.doubt(*std::move(doubt));
   }
   if (!result.trust.sound() || options.response.output != OutputQuantity::position) return;
   const std::vector<std::string> keys = keys_of(result.fit);

@@ -121,6 +121,7 @@ RecordChecks checked(const Recording& recording, OutputQuantity output) {
     }
   }
   for (Remark& remark : implausible_recording(recording)) found.remarks.push_back(std::move(remark));
+  if (auto doubt = doubt_of_units(recording, output)) found.doubts.push_back(*std::move(doubt));
   return found;
 }
 

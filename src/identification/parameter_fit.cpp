@@ -84,7 +84,9 @@ std::optional<Uncertainty> uncertainty(const FitModel& model, const Eigen::Vecto
                                        const Eigen::MatrixXd& covariance) {
   std::vector<Eigen::Index> kept;
   for (Eigen::Index i = 0; i < x.size(); ++i) {
-    if (covariance(i, i) > 0.0 && std::isfinite(covariance(i, i))) kept.push_back(i);
+    const double slope = model.coordinates()[static_cast<std::size_t>(i)].slope(x(i));
+    const double variance = slope * covariance(i, i) * slope;
+    if (variance >= smallest_variance && variance <= largest_variance) kept.push_back(i);
   }
   if (kept.empty() || kept.size() > max_uncertain_parameters) return std::nullopt;
   Uncertainty result;

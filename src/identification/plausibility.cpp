@@ -87,6 +87,8 @@ std::vector<Remark> implausible_recording(const Recording& recording) {
   return remarks;
 }
 
+namespace {
+/// The position is whole numbers only, or these and a half, as an encoder counts.
 std::optional<std::string> doubt_of_counts(const Recording& recording) {
   for (std::size_t i = 0; i < recording.channels.size(); ++i) {
     const Channel& channel = recording.channels[i];
@@ -96,6 +98,35 @@ std::optional<std::string> doubt_of_counts(const Recording& recording) {
                        i == 0 ? "newtons (or newton metres)" : "metres or radians");
   }
   return std::nullopt;
+}
+}  // namespace
+
+std::optional<std::string> doubt_of_units(const Recording& recording, OutputQuantity output) {
+  using enum StatedQuantity;
+  const StatedQuantity motion = output == OutputQuantity::velocity       ? velocity
+                                : output == OutputQuantity::acceleration ? acceleration
+                                                                         : position;
+  for (std::size_t i = 0; i < recording.channels.size(); ++i) {
+    const Channel& channel = recording.channels[i];
+    if (channel.quantity == nothing || channel.quantity == (i == 0 ? force : motion)) continue;
+    const char* wanted = i == 0 ? "a force or torque" : "the motion";
+    if (channel.quantity != other) {
+      return fmt::format("{} is in {} by its name, and is taken for {}: name the right column, or give its scale",
+                         channel.name, channel.unit, wanted);
+    }
+    return fmt::format(
+        "{} is in {} by its name, which is no unit of {} that is known: every number is then in that unit; give its "
+        "scale, {} per unit of it (1 says that it is in SI units)",
+        channel.name, channel.unit, wanted, i == 0 ? "newtons or newton metres" : "metres or radians");
+  }
+  return doubt_of_counts(recording);
+}
+
+std::optional<std::string> doubt_of_weight(const Device& fitted) {
+  const double heaviest = fitted.parameters().motion == Motion::rotary ? 10.0 : 100.0;
+  const std::vector<Remark> heavy = implausible_masses(fitted, heaviest);
+  if (heavy.empty()) return std::nullopt;
+  return fmt::format("{}: {}; are force and motion in SI units?", heavy.front().what, heavy.front().consequence);
 }
 
 std::optional<std::string> doubt_of_lag(const std::vector<ParameterEstimate>& estimates, double recorded_period) {

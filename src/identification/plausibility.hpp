@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "zwidth/identification/frequency_response.hpp"
 #include "zwidth/identification/parameter_fit.hpp"
 #include "zwidth/model/device.hpp"
 #include "zwidth/remark.hpp"
@@ -14,9 +15,12 @@ namespace zwidth::internal {
 /// Units that are probably not SI: whole numbers in a channel, a sampling period of seconds.
 [[nodiscard]] std::vector<Remark> implausible_recording(const Recording& recording);
 
-/// Why no answer of this recording is one in SI units: the position is whole numbers, or these and a half, as an
-/// encoder counts.
-[[nodiscard]] std::optional<std::string> doubt_of_counts(const Recording& recording);
+/// Why no answer of this recording is one in SI units: a column's name states a unit that is not known, or of something
+/// else than the column is taken for; or it holds whole numbers, or these and a half, as an encoder counts.
+[[nodiscard]] std::optional<std::string> doubt_of_units(const Recording& recording, OutputQuantity output);
+
+/// Why the masses of a device of which nothing was known are not in SI units: no haptic device has such.
+[[nodiscard]] std::optional<std::string> doubt_of_weight(const Device& fitted);
 
 /// Why a fitted lag of the actuator cannot be believed: longer than any drive's, beside the record's period. A body's own
 /// m/b and such a lag can be exchanged in its response.

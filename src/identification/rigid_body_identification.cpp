@@ -182,7 +182,7 @@ void judge_mode(RigidBodyIdentification& identified) {
 }
 
 void judge_nonlinearity(RigidBodyIdentification& identified, const Recording& recording, Motion motion) {
-  if (auto doubt = doubt_of_counts(recording)) identified.trust.doubt(*std::move(doubt));
+  if (auto doubt = doubt_of_units(recording, OutputQuantity::position)) identified.trust.doubt(*std::move(doubt));
   const auto found = find_nonlinearity_of_equations(identified.fit, recording.channels[0].samples,
                                                     recording.channels[1].samples, recording.sampling_period, motion);
   if (!found) return;

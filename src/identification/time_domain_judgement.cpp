@@ -178,7 +178,7 @@ class Judge {
   void judge_nonlinearity(std::size_t r) {
     const Recording& recording = judged_.recordings[r];
     const FittedMotion& motion = fit_.motions[r];
-    if (auto doubt = doubt_of_counts(recording)) trust_.doubt(*std::move(doubt));
+    if (auto doubt = doubt_of_units(recording, OutputQuantity::position)) trust_.doubt(*std::move(doubt));
     if (auto doubt = doubt_of_lag(fit_.estimates, recording.sampling_period)) trust_.doubt(*std::move(doubt));
     std::vector<Shot> shots;
     std::ranges::copy_if(judged_.shots, std::back_inserter(shots), [r](const Shot& shot) { return shot.record == r; });
@@ -218,6 +218,7 @@ class Judge {
     for (Remark& remark : implausible_device(fit_.device, is_known ? &judged_.structure : nullptr, recorded_period)) {
       fit_.remarks.push_back(std::move(remark));
     }
+    if (auto doubt = is_known ? std::nullopt : doubt_of_weight(fit_.device)) trust_.doubt(*std::move(doubt));
     if (!is_known) return;
     if (auto doubt = doubt_of_masses(fit_.device, judged_.structure)) trust_.doubt(*std::move(doubt));
     if (auto doubt = doubt_of_hand(judged_.structure, fit_.estimates, judged_.options.locked)) {

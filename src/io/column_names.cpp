@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <functional>
 #include <utility>
@@ -16,13 +15,6 @@
 
 namespace zwidth::internal {
 namespace {
-
-std::string lower_case(std::string_view text) {
-  std::string lower(text);
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return lower;
-}
 
 /// Numbers from 1 of the columns that are in question, as the user may give them.
 std::string numbers_of(const std::vector<std::size_t>& indices) {

@@ -3,6 +3,8 @@
 #include <optional>
 #include <string_view>
 
+#include "zwidth/signal/recording.hpp"
+
 namespace zwidth::internal {
 
 /// Whether a word is a unit of measurement as tables have it, in brackets or not: "s", "[mm]", "(N m)".
@@ -11,11 +13,15 @@ namespace zwidth::internal {
 /// Seconds per unit of time: "ms" is 1e-3; nothing where the word is no unit of time.
 [[nodiscard]] std::optional<double> seconds_per(std::string_view unit);
 
-/// The unit that a column's name ends with after "_", "." or a space: "mm" of "x_mm"; empty where there is none for sure.
-[[nodiscard]] std::string_view unit_at_end(std::string_view name);
+/// What a column's name says of its unit.
+struct ColumnUnit {
+  std::string_view text = {};  ///< as it is written; empty: nothing for sure
+  StatedQuantity quantity = StatedQuantity::nothing;
+  double factor = 1.0;  ///< base units (N, N m, m, rad, A, V and their rates) per unit; 1 where it is not known
+};
 
-/// Base units per unit with a prefix: "mm" is 1e-3 (m), "kN" 1e3, "deg" pi/180; nothing where the unit is a base unit
-/// or not known.
-[[nodiscard]] std::optional<double> base_units_per(std::string_view unit);
+/// Of a unit in brackets or parentheses, or at the end after one of "_ .:,/": "x [mm]", "F (in mN)", "angle_deg", "force/mN".
+/// What stands in brackets is a unit, if a strange one; at the end only what could be no part of a name ("force_in").
+[[nodiscard]] ColumnUnit unit_of_column(std::string_view name);
 
 }  // namespace zwidth::internal

@@ -56,4 +56,10 @@ std::string listed(std::span<const std::string> words) {
   return fmt::format("{}{}", fmt::join(shown, ", "), shown.size() < words.size() ? ", ..." : "");
 }
 
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return lower;
+}
+
 }  // namespace zwidth::internal

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "io/column_names.hpp"
 #include "io/column_unit.hpp"
 #include "io/prose.hpp"
 #include "io/time_axis.hpp"
@@ -16,27 +15,35 @@
 namespace zwidth::internal {
 namespace {
 
-/// What a column's values are multiplied by: the scale asked for, else (or where that only turns the sign) that of the
-/// unit in its name, which is said.
-double scale_of(const RawColumn& column, const ColumnRequest& request, std::vector<Remark>& remarks) {
-  const auto [name, in_brackets] = name_and_unit(column.name);
-  const std::string_view unit = in_brackets.empty() ? unit_at_end(name) : in_brackets;
-  const auto scale = base_units_per(unit);
-  if (!scale || std::abs(request.scale) != 1.0) return request.scale;
-  if (unit == "g") {  // of acceleration, or grams: only the user knows
-    remarks.push_back({Remark::Severity::warning, fmt::format("{} is used as it stands, in g", in_quotes(column.name)),
-                       fmt::format("results are in that unit; for m/s^2 scale the column by {:.6g}", *scale)});
-    return request.scale;
+/// What a column's values are multiplied by: the scale asked for, else (or where that is 1, or turns the sign) that of the
+/// unit in its name, which is said. The channel states that unit where no scale was asked for.
+double scale_of(const ColumnRequest& request, Channel& channel, std::vector<Remark>& remarks) {
+  const double asked = request.scale.value_or(1.0);
+  if (std::abs(asked) != 1.0) return asked;
+  const ColumnUnit unit = unit_of_column(channel.name);
+  if (unit.text.empty()) return asked;
+  if (!request.scale || *request.scale != 1.0) {
+    channel.unit = unit.text;
+    channel.quantity = unit.quantity;
   }
-  remarks.push_back({Remark::Severity::note, fmt::format("{} is in {}", in_quotes(column.name), shortened(unit)),
-                     fmt::format("read in base units (N, N m, m, rad, A, V): times {:.6g}", *scale)});
-  return request.scale * *scale;
+  if (unit.factor != 1.0) {
+    remarks.push_back({Remark::Severity::note,
+                       fmt::format("{} is in {}", in_quotes(channel.name), shortened(unit.text)),
+                       fmt::format("read in base units (N, N m, m, rad, A, V): times {:.6g}", unit.factor)});
+  } else if (channel.quantity == StatedQuantity::other) {
+    remarks.push_back({Remark::Severity::warning,
+                       fmt::format("{} is used as it stands, in {}", in_quotes(channel.name), shortened(unit.text)),
+                       "no unit of a force or motion that is known: results are in it",
+                       "scale it to SI units; 1 says that it is"});
+  }
+  return asked * unit.factor;
 }
 
 tl::expected<Channel, InputError> make_channel(RawColumn column, const ColumnRequest& request,
                                                std::vector<Remark>& remarks) {
   if (auto filled = fill_missing(column, remarks); !filled) return tl::unexpected(std::move(filled.error()));
-  const double scale = scale_of(column, request, remarks);
+  Channel channel{.name = column.name, .samples = {}};
+  const double scale = scale_of(request, channel, remarks);
   for (std::size_t i = 0; i < column.values.size(); ++i) {
     column.values[i] *= scale;
     if (!std::isfinite(column.values[i])) {
@@ -44,7 +51,8 @@ tl::expected<Channel, InputError> make_channel(RawColumn column, const ColumnReq
                                            "must be below 1e308 after scaling"));
     }
   }
-  return Channel{std::move(column.name), std::move(column.values)};
+  channel.samples = std::move(column.values);
+  return channel;
 }
 
 tl::expected<TimeAxis, InputError> find_axis(std::optional<RawColumn> times, const RecordingOptions& options,

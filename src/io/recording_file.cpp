@@ -62,7 +62,7 @@ std::optional<OptionProblem> find_problem(const RecordingOptions& options) {
     return OptionProblem{"time_scale", fmt::format("is {} s", *options.time_scale), "must be above 0"};
   }
   for (std::size_t i = 0; i < options.columns.size(); ++i) {
-    const double scale = options.columns[i].scale;
+    const double scale = options.columns[i].scale.value_or(1.0);
     if (std::isfinite(scale) && scale != 0.0) continue;
     return OptionProblem{fmt::format("columns.{}.scale", i), fmt::format("is {}", scale), "must be finite and not 0"};
   }

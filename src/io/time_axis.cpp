@@ -37,12 +37,6 @@ std::string in_seconds(double time) {
   return fmt::format("{:.6g} s", time);
 }
 
-std::string lower_case(std::string_view text) {
-  std::string lower(text);
-  for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return lower;
-}
-
 /// "t_ms" is t in ms; without such an ending, no unit.
 NameAndUnit name_and_suffix(std::string_view name) {
   const std::size_t mark = name.rfind('_');

@@ -43,13 +43,9 @@ std::optional<Remark> implausible_lateness(const Device& device, double period) 
                 "few drives are as slow as that", likely_time(late, many_periods * period)};
 }
 
-std::vector<Remark> implausible_numbers(const Device& device) {
+std::vector<Remark> implausible_masses(const Device& device, double heaviest) {
   std::vector<Remark> remarks;
-  const double period = device.loop().sampling_period;
-  if (auto remark = implausible_period(period, "the sampling period")) remarks.push_back(*std::move(remark));
-  if (auto remark = implausible_lateness(device, period)) remarks.push_back(*std::move(remark));
   const bool is_rotary = device.parameters().motion == Motion::rotary;
-  const double heaviest = is_rotary ? 10.0 : 1000.0;
   for (const Body& body : device.bodies()) {
     if (body.mass <= heaviest) continue;
     remarks.push_back({Remark::Severity::warning,
@@ -59,6 +55,16 @@ std::vector<Remark> implausible_numbers(const Device& device) {
                        fmt::format("is it in {}? It must be in {}: {:.4g}", is_rotary ? "g m^2" : "g",
                                    is_rotary ? "kg m^2" : "kg", 1e-3 * body.mass)});
   }
+  return remarks;
+}
+
+std::vector<Remark> implausible_numbers(const Device& device) {
+  std::vector<Remark> remarks;
+  const double period = device.loop().sampling_period;
+  if (auto remark = implausible_period(period, "the sampling period")) remarks.push_back(*std::move(remark));
+  if (auto remark = implausible_lateness(device, period)) remarks.push_back(*std::move(remark));
+  const double heaviest = device.parameters().motion == Motion::rotary ? 10.0 : 1000.0;
+  for (Remark& remark : implausible_masses(device, heaviest)) remarks.push_back(std::move(remark));
   return remarks;
 }
 

@@ -20,6 +20,9 @@ constexpr double many_periods = 20.0;  ///< of delay or lag: few drives are as s
 /// Delay and lag beside a period: the device's own, or the recording's.
 [[nodiscard]] std::optional<Remark> implausible_lateness(const Device& device, double period);
 
+/// Bodies of more than `heaviest`, kg or kg m^2.
+[[nodiscard]] std::vector<Remark> implausible_masses(const Device& device, double heaviest);
+
 /// Of a device by itself: its period, its delay and lag, and masses that no haptic device has.
 [[nodiscard]] std::vector<Remark> implausible_numbers(const Device& device);
 

@@ -15,8 +15,6 @@ namespace zwidth::internal {
 namespace {
 
 // Squares of what a parameter may be.
-constexpr double smallest_variance = 1e-60;
-constexpr double largest_variance = 1e60;
 // What rounding of the file's digits may do, relative to the standard deviations.
 constexpr double rounding = 1e-9;
 

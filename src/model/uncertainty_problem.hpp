@@ -9,6 +9,9 @@
 
 namespace zwidth::internal {
 
+constexpr double smallest_variance = 1e-60;  ///< of a parameter; else 0
+constexpr double largest_variance = 1e60;
+
 /// The first impossible thing about the uncertainty of parameters that are otherwise a device's; it must be present.
 [[nodiscard]] std::optional<DeviceProblem> find_uncertainty_problem(const DeviceParameters& parameters);
 

@@ -219,12 +219,19 @@ TEST(RecordFit, WhatDiesOutOverTwoPeriodsIsNoNoise) {
   rigid.bodies[0] = {"body", 0.945, 0.527, 0.0, 0.0};
   rigid.loop.delay = 0.0;
   const double truth = critical_stiffness(Device(rigid)).stiffness;
-  const std::vector<ExcitationOptions> sweeps = {
-      {.kind = ExcitationKind::linear_chirp, .lowest_hz = 0.2, .highest_hz = 150.0},
-      {.kind = ExcitationKind::logarithmic_chirp, .lowest_hz = 0.3, .highest_hz = 260.0},
-      {.kind = ExcitationKind::logarithmic_chirp, .lowest_hz = 0.7, .highest_hz = 80.0}};
-  for (ExcitationOptions sweep : sweeps) {
-    SCOPED_TRACE(sweep.highest_hz);
+  struct Sweep {
+    ExcitationKind kind;
+    double lowest_hz;
+    double highest_hz;
+  };
+  for (const Sweep& each :
+       {Sweep{ExcitationKind::linear_chirp, 0.2, 150.0}, Sweep{ExcitationKind::logarithmic_chirp, 0.3, 260.0},
+        Sweep{ExcitationKind::logarithmic_chirp, 0.7, 80.0}}) {
+    SCOPED_TRACE(each.highest_hz);
+    ExcitationOptions sweep;
+    sweep.kind = each.kind;
+    sweep.lowest_hz = each.lowest_hz;
+    sweep.highest_hz = each.highest_hz;
     sweep.amplitude = 6.0;
     sweep.duration = 5.0;
     std::vector<double> force = excite(sweep).samples;

@@ -27,8 +27,10 @@ enum class RecordingFormat {
 /// UFF record, or its number from 1. Its samples are multiplied by `scale` (mm to m: 1e-3); where that is 1 or -1, by the
 /// unit in its name too ("x [mm]", "x_mm", "angle_deg"), and a remark says so.
 struct ColumnRequest {
-  std::string name;    ///< of the column, or its number from 1
-  double scale = 1.0;  ///< what its samples are multiplied by, to get SI units
+  std::string name;  ///< of the column, or its number from 1
+  /// What its samples are multiplied by, to get SI units; 1 and -1: beside the unit in its name. Absent: by that alone;
+  /// a unit that is not known then counts as none of a force or motion.
+  std::optional<double> scale = {};
 };
 
 /// How to read a recording. What is absent is detected.

@@ -7,10 +7,16 @@
 
 namespace zwidth {
 
+/// What a column's name says that it holds, by its unit: "F [N]", "angle_deg". `other`: something else, or in a unit that is
+/// not known.
+enum class StatedQuantity { nothing, force, position, velocity, acceleration, other };
+
 /// One measured signal.
 struct Channel {
-  std::string name;             ///< as the file has it
-  std::vector<double> samples;  ///< finite, in the unit that the user asked for (already scaled)
+  std::string name;                                   ///< as the file has it
+  std::vector<double> samples;                        ///< finite, in the unit that the user asked for (already scaled)
+  std::string unit = {};                              ///< in its name; empty: none, or a scale was given that says more
+  StatedQuantity quantity = StatedQuantity::nothing;  ///< of that unit: a force or torque, a length or angle, ...
 };
 
 /// Signals sampled together at one rate.
