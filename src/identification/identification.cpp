@@ -17,6 +17,7 @@
 #include "identification/period_choice.hpp"
 #include "identification/recording_agreement.hpp"
 #include "identification/response_choice.hpp"
+#include "identification/ringing_mode.hpp"
 #include "identification/unseen_limit.hpp"
 #include "model/uncertainty_problem.hpp"
 #include "require_valid.hpp"
@@ -276,7 +277,9 @@ void judge_delay(const Fitting& fitting, Judgement& judgement) {
 }
 
 /// `as_fitted`: the device with all that the fit leaves open.
-void judge_interval(Identification& result, const Device& as_fitted, const IdentifyOptions& options) {
+void judge_interval(Identification& result, const Device& as_fitted, std::span<const Recording> recordings,
+                    const IdentifyOptions& options) {
+  if (auto ringing = doubt_of_ringing(result, recordings, options)) result.trust.doubt(*std::move(ringing));
   const std::optional<std::string> doubt = doubt_of_interval(result);
   if (!doubt) return judge_unseen_limit(result, as_fitted, options);
   result.trust.doubt(*doubt);
@@ -317,7 +320,7 @@ Identification identified(const MeasuredResponse& measured, std::span<const Reco
   }
   const Device as_fitted = result.fit.device;
   if (judgement.is_measured) narrow_interval(result);
-  judge_interval(result, as_fitted, options);
+  judge_interval(result, as_fitted, recordings, options);
   judge_agreement(result, recordings, options);
   judge_friction_in_time(result, recordings, options);
   judge_nonlinearity(result, recordings, options);
@@ -328,6 +331,22 @@ Identification identified(const MeasuredResponse& measured, std::span<const Reco
                        unseen_placeholders(options.fit.locked, options.structure_values), result.fit.device,
                        {&result.trust, &result.analysis.trust});
   return result;
+}
+
+/// The same of longer segments, where a mode rings on from one to the next.
+Identification with_longer_segments(Identification found, std::span<const Recording> recordings,
+                                    const Device& structure, const IdentifyOptions& options) {
+  const std::optional<std::size_t> length = segment_for_modes(found, recordings, options);
+  if (found.trust.refused() || !length) return found;
+  IdentifyOptions longer = options;
+  longer.response.excitation = FrequencyResponseOptions::Excitation::aperiodic;
+  longer.response.segment_length = *length;
+  try {
+    Identification other = identified(frequency_response(recordings, longer.response), recordings, structure, longer);
+    if (!other.trust.refused()) return other;
+  } catch (const Error&) {  // too few of them
+  }
+  return found;
 }
 
 }  // namespace
@@ -343,7 +362,9 @@ Identification identify(std::span<const Recording> recordings, const Device& str
   IdentifyOptions decided = options;
   decided.response.excitation = excitation_of(options.response);
   const auto with = [&](const IdentifyOptions& chosen, const Progress& told) {
-    return identified(response_with_enough_lines(recordings, structure, chosen, told), recordings, structure, chosen);
+    Identification found =
+        identified(response_with_enough_lines(recordings, structure, chosen, told), recordings, structure, chosen);
+    return with_longer_segments(std::move(found), recordings, structure, chosen);
   };
   const bool is_detected = decided.response.excitation == FrequencyResponseOptions::Excitation::detect &&
                            is_of_lines(recordings, decided.response);

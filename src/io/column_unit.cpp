@@ -54,15 +54,15 @@ constexpr Spelling spellings[] = {
 
 /// At the end of a name, where "force_in", "x_m" or "channel_A" would say something else.
 constexpr std::array clear_ends{
-    "mm"sv,      "cm"sv,      "um"sv,    "\u00b5m"sv, "\u03bcm"sv, "mrad"sv,   "urad"sv, "rad"sv,    "deg"sv,
-    "degrees"sv, "\u00b0"sv,  "rev"sv,   "turn"sv,    "turns"sv,   "arcmin"sv, "inch"sv, "inches"sv, "mils"sv,
-    "micron"sv,  "microns"sv, "N"sv,     "uN"sv,      "mN"sv,      "cN"sv,     "kN"sv,   "Nm"sv,     "uNm"sv,
-    "mNm"sv,     "kNm"sv,     "Nmm"sv,   "Ncm"sv,     "N-m"sv,     "N mm"sv,   "N m"sv,  "gf"sv,     "kgf"sv,
-    "lbf"sv,     "ozf"sv,     "ozin"sv,  "oz-in"sv,   "lbin"sv,    "lb-in"sv,  "lbft"sv, "lb-ft"sv,  "ft-lb"sv,
-    "lb"sv,      "lbs"sv,     "oz"sv,    "kg"sv,      "gcm"sv,     "kgcm"sv,   "mA"sv,   "mV"sv,     "amps"sv,
-    "volts"sv,   "counts"sv,  "count"sv, "ticks"sv,   "cnt"sv,     "lsb"sv,    "LSB"sv,  "bits"sv,   "%"sv,
-    "percent"sv, "m/s"sv,     "mm/s"sv,  "rad/s"sv,   "deg/s"sv,   "rpm"sv,    "m/s2"sv, "m/s^2"sv,  "mm/s^2"sv,
-    "rad/s2"sv,  "rad/s^2"sv};
+    "mm"sv,      "cm"sv,      "um"sv,     "\u00b5m"sv, "\u03bcm"sv, "mrad"sv,   "urad"sv, "rad"sv,    "deg"sv,
+    "degrees"sv, "\u00b0"sv,  "rev"sv,    "turn"sv,    "turns"sv,   "arcmin"sv, "inch"sv, "inches"sv, "mils"sv,
+    "micron"sv,  "microns"sv, "N"sv,      "uN"sv,      "mN"sv,      "cN"sv,     "kN"sv,   "Nm"sv,     "uNm"sv,
+    "mNm"sv,     "kNm"sv,     "Nmm"sv,    "Ncm"sv,     "N-m"sv,     "N mm"sv,   "N m"sv,  "gf"sv,     "kgf"sv,
+    "lbf"sv,     "ozf"sv,     "ozin"sv,   "oz-in"sv,   "lbin"sv,    "lb-in"sv,  "lbft"sv, "lb-ft"sv,  "ft-lb"sv,
+    "lb"sv,      "lbs"sv,     "oz"sv,     "kg"sv,      "gcm"sv,     "kgcm"sv,   "mA"sv,   "mV"sv,     "amps"sv,
+    "volts"sv,   "counts"sv,  "count"sv,  "ticks"sv,   "cnt"sv,     "lsb"sv,    "LSB"sv,  "bits"sv,   "%"sv,
+    "percent"sv, "m/s"sv,     "mm/s"sv,   "rad/s"sv,   "deg/s"sv,   "rpm"sv,    "m/s2"sv, "m/s^2"sv,  "mm/s2"sv,
+    "mm/s^2"sv,  "rad/s2"sv,  "rad/s^2"sv};
 
 std::string_view without_brackets(std::string_view word) {
   word = trimmed(word);
