@@ -291,8 +291,28 @@ void judge_what_was_given(const Fitting& fitting, Judgement& judgement) {
 }
 
 Identification identified(const MeasuredResponse& measured, std::span<const Recording> recordings,
+                          const Device& structure, const IdentifyOptions& options);
+
+/// The same with longer segments, where a mode of the fitted device rings on from one to the next.
+std::optional<Identification> with_longer_segments(const RecordFit& fit, std::span<const Recording> recordings,
+                                                   const Device& structure, const IdentifyOptions& options) {
+  const std::optional<std::size_t> length = segment_for_modes(fit, recordings, options);
+  if (!length) return std::nullopt;
+  IdentifyOptions longer = options;
+  longer.response.excitation = FrequencyResponseOptions::Excitation::aperiodic;
+  longer.response.segment_length = *length;
+  try {
+    Identification other = identified(frequency_response(recordings, longer.response), recordings, structure, longer);
+    if (!other.trust.refused()) return other;
+  } catch (const Error&) {  // too few of them
+  }
+  return std::nullopt;
+}
+
+Identification identified(const MeasuredResponse& measured, std::span<const Recording> recordings,
                           const Device& structure, const IdentifyOptions& options) {
   Fitting fitting(measured, recordings, structure, options);
+  if (auto longer = with_longer_segments(fitting.fit(), recordings, structure, options)) return *std::move(longer);
   fitting.widen_above_the_band();
   fitting.open_ignored_delay();
   const CriticalStiffness critical = limit_of(fitting.fit().fit.device);
@@ -333,22 +353,6 @@ Identification identified(const MeasuredResponse& measured, std::span<const Reco
   return result;
 }
 
-/// The same of longer segments, where a mode rings on from one to the next.
-Identification with_longer_segments(Identification found, std::span<const Recording> recordings,
-                                    const Device& structure, const IdentifyOptions& options) {
-  const std::optional<std::size_t> length = segment_for_modes(found, recordings, options);
-  if (found.trust.refused() || !length) return found;
-  IdentifyOptions longer = options;
-  longer.response.excitation = FrequencyResponseOptions::Excitation::aperiodic;
-  longer.response.segment_length = *length;
-  try {
-    Identification other = identified(frequency_response(recordings, longer.response), recordings, structure, longer);
-    if (!other.trust.refused()) return other;
-  } catch (const Error&) {  // too few of them
-  }
-  return found;
-}
-
 }  // namespace
 
 Identification identify(const Recording& recording, const Device& structure, const IdentifyOptions& options,
@@ -362,9 +366,7 @@ Identification identify(std::span<const Recording> recordings, const Device& str
   IdentifyOptions decided = options;
   decided.response.excitation = excitation_of(options.response);
   const auto with = [&](const IdentifyOptions& chosen, const Progress& told) {
-    Identification found =
-        identified(response_with_enough_lines(recordings, structure, chosen, told), recordings, structure, chosen);
-    return with_longer_segments(std::move(found), recordings, structure, chosen);
+    return identified(response_with_enough_lines(recordings, structure, chosen, told), recordings, structure, chosen);
   };
   const bool is_detected = decided.response.excitation == FrequencyResponseOptions::Excitation::detect &&
                            is_of_lines(recordings, decided.response);

@@ -102,6 +102,7 @@ std::optional<std::string> doubt_of_counts(const Recording& recording) {
 }  // namespace
 
 std::optional<std::string> doubt_of_units(const Recording& recording, OutputQuantity output) {
+  if (!recording.doubts.empty()) return recording.doubts.front();
   using enum StatedQuantity;
   const StatedQuantity motion = output == OutputQuantity::velocity       ? velocity
                                 : output == OutputQuantity::acceleration ? acceleration

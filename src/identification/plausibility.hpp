@@ -15,7 +15,7 @@ namespace zwidth::internal {
 /// Units that are probably not SI: whole numbers in a channel, a sampling period of seconds.
 [[nodiscard]] std::vector<Remark> implausible_recording(const Recording& recording);
 
-/// Why no answer of this recording is one in SI units: a column's name states a unit that is not known, or of something
+/// Why no answer of this recording is one in SI units: what was doubted as it was read; a column's name states a unit that is not known, or of something
 /// else than the column is taken for; or it holds whole numbers, or these and a half, as an encoder counts.
 [[nodiscard]] std::optional<std::string> doubt_of_units(const Recording& recording, OutputQuantity output);
 

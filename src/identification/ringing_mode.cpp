@@ -22,7 +22,7 @@ struct RingingMode {
 };
 
 /// That which rings for longest of those that the lines see.
-RingingMode longest_ringing(const Identification& found, const IdentifyOptions& options) try {
+RingingMode longest_ringing(const RecordFit& found, const IdentifyOptions& options) try {
   const std::vector<ResponsePoint>& points = found.response.points;
   RingingMode longest;
   const Device device = device_in_experiment(found.fit.device, options.fit.locked, *found.response.sampling_period);
@@ -48,17 +48,17 @@ double segment_duration(const FrequencyResponse& response) {
   return 2.0 * std::numbers::pi / spacing;
 }
 
-bool is_of_segments(const Identification& found, std::span<const Recording> recordings,
+bool is_of_segments(const FrequencyResponse& response, std::span<const Recording> recordings,
                     const IdentifyOptions& options) {
-  return !recordings.empty() && !is_of_lines(recordings, options.response) && found.response.sampling_period &&
-         found.response.points.size() > 1;
+  return !recordings.empty() && !is_of_lines(recordings, options.response) && response.sampling_period &&
+         response.points.size() > 1;
 }
 
 }  // namespace
 
-std::optional<std::size_t> segment_for_modes(const Identification& found, std::span<const Recording> recordings,
+std::optional<std::size_t> segment_for_modes(const RecordFit& found, std::span<const Recording> recordings,
                                              const IdentifyOptions& options) {
-  if (!is_of_segments(found, recordings, options) || options.response.segment_length) return std::nullopt;
+  if (!is_of_segments(found.response, recordings, options) || options.response.segment_length) return std::nullopt;
   constexpr double died_out = 4.0;  // time constants
   constexpr std::size_t least_segments = 4;
   constexpr double notably = 1.25;
@@ -76,8 +76,8 @@ std::optional<std::size_t> segment_for_modes(const Identification& found, std::s
 std::optional<std::string> doubt_of_ringing(const Identification& found, std::span<const Recording> recordings,
                                             const IdentifyOptions& options) {
   const auto& limit = found.analysis.critical.limit;
-  if (!is_of_segments(found, recordings, options) || !limit) return std::nullopt;
-  const RingingMode mode = longest_ringing(found, options);
+  if (!is_of_segments(found.response, recordings, options) || !limit) return std::nullopt;
+  const RingingMode mode = longest_ringing({found.fit, found.response}, options);
   constexpr double few = 2.0;  // time constants
   constexpr double near = 1.3;
   const double duration = segment_duration(found.response);

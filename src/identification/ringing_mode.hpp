@@ -6,6 +6,7 @@
 #include <string>
 
 #include "zwidth/identification/identification.hpp"
+#include "zwidth/identification/record_fit.hpp"
 
 namespace zwidth::internal {
 
@@ -14,7 +15,7 @@ namespace zwidth::internal {
 
 /// Samples of segments over which the modes of the fitted device die out, as far as the records let them be longer.
 /// Nothing where those of the response are long enough, or were asked for, or it is one of lines.
-[[nodiscard]] std::optional<std::size_t> segment_for_modes(const Identification& found,
+[[nodiscard]] std::optional<std::size_t> segment_for_modes(const RecordFit& found,
                                                            std::span<const Recording> recordings,
                                                            const IdentifyOptions& options);
 

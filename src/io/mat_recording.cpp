@@ -296,7 +296,7 @@ tl::expected<Recording, InputError> read_mat_recording(const std::string& path, 
   }
   auto recording = make_recording(std::move(columns), std::move(times), options);
   if (recording) {
-    if (contradicting) recording->remarks.push_back(*contradicting);
+    if (contradicting) add_contradiction(*contradicting, *recording);
     auto skipped = remarks_on_skipped(table->file.contents.skipped);
     recording->remarks.insert(recording->remarks.end(), skipped.begin(), skipped.end());
   }

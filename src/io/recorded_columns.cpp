@@ -89,7 +89,7 @@ tl::expected<Recording, InputError> read_recording(const RecordedColumns& record
   const bool uses_times = times != nullptr && !options.rate && (options.time_column || !period);
   auto recording = make_recording(std::move(columns), uses_times ? std::optional(raw(recorded, *times)) : std::nullopt,
                                   options, period);
-  if (recording && contradicting) recording->remarks.push_back(*contradicting);
+  if (recording && contradicting) add_contradiction(*contradicting, *recording);
   return recording;
 }
 

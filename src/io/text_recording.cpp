@@ -134,7 +134,7 @@ tl::expected<Recording, InputError> read_text_recording(TextLines lines, const R
   if (recording) {
     recording->remarks.insert(recording->remarks.begin(), table->remarks().begin(), table->remarks().end());
     if (const auto remark = unused ? contradiction(*options.rate, *unused, options) : std::nullopt) {
-      recording->remarks.push_back(*remark);
+      add_contradiction(*remark, *recording);
     }
   }
   return recording;

@@ -299,7 +299,12 @@ std::optional<Remark> contradiction(double rate, const UnusedTimes& times, const
   return Remark{Remark::Severity::warning,
                 fmt::format("the rate is given as {:.7g} Hz; the times in column {} say {:.7g} Hz", rate,
                             shortened(times.column), stated),
-                "the given rate is used; leave it out to use the times"};
+                "the given rate is used; leave it out to use the times, or give their scale"};
+}
+
+void add_contradiction(const Remark& remark, Recording& recording) {
+  recording.remarks.push_back(remark);
+  recording.doubts.push_back(fmt::format("{}; {}", remark.what, remark.consequence));
 }
 
 }  // namespace zwidth::internal

@@ -47,4 +47,7 @@ struct UnusedTimes {
 [[nodiscard]] std::optional<Remark> contradiction(double rate, const UnusedTimes& times,
                                                   const RecordingOptions& options);
 
+/// Among the recording's remarks and doubts.
+void add_contradiction(const Remark& remark, Recording& recording);
+
 }  // namespace zwidth::internal

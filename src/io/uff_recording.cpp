@@ -111,10 +111,11 @@ void remark_on_axis(const UffRecord& record, const RecordingOptions& options, do
     recording.remarks.push_back(
         {Remark::Severity::note, fmt::format("rate {:.7g} Hz: what the file states", 1.0 / period), ""});
   } else if (std::abs(*options.rate * period - 1.0) > rate_differs) {
-    recording.remarks.push_back(
+    add_contradiction(
         {Remark::Severity::warning,
          fmt::format("the rate is given as {:.7g} Hz; the file states {:.7g} Hz", *options.rate, 1.0 / period),
-         "the given rate is used"});
+         "the given rate is used"},
+        recording);
   }
 }
 

@@ -213,10 +213,12 @@ TEST_F(TextRecording, SaysThatTheGivenRateContradictsTheTimes) {
   ASSERT_TRUE(twice.has_value());
   EXPECT_EQ(twice->sampling_period, 0.5e-3);
   EXPECT_EQ(warnings_in(twice->remarks), 1U);
+  EXPECT_EQ(twice->doubts.size(), 1U);
   EXPECT_TRUE(mentions(twice->remarks, "the rate is given as 2000 Hz; the times in column t [ms] say 1000 Hz"));
   const auto right = with_rate(1005.0);
   ASSERT_TRUE(right.has_value());
   EXPECT_EQ(warnings_in(right->remarks), 0U);
+  EXPECT_TRUE(right->doubts.empty());
   // A count of microseconds, not said to be one.
   RecordingOptions in_microseconds = columns_named({"x"});
   in_microseconds.rate = 2500.0;

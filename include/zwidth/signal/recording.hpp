@@ -25,6 +25,8 @@ struct Recording {
   double sampling_period = 0.0;   ///< s; > 0
   std::vector<Channel> channels;  ///< in the order asked for, all of one size
   std::vector<Remark> remarks;    ///< what was noticed while reading: gaps, NaN, a timer that wraps, jitter
+  /// Why no number that is found from it can be relied on: a stated rate that the times contradict.
+  std::vector<std::string> doubts = {};
 };
 
 /// What a signal is called in remarks, and its role, which decides what a defect means.
