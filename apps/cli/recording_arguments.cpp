@@ -26,7 +26,7 @@ void add_column(CLI::App& command, const std::string& name, ColumnRequest& colum
   command.add_option("--" + name, column.name, what)->type_name("COLUMN")->group(recording_group);
   command
       .add_option("--" + name + "-scale", column.scale,
-                  "What its samples are multiplied by, to get SI units; 1 and -1: beside the unit in its name")
+                  "Factor to SI units; 1 and -1: beside the unit in the column's name")
       ->type_name(unit)
       ->group(recording_group);
 }

@@ -2,6 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+#include <vector>
+
+#include "identification/synthetic_response.hpp"
+#include "lhifam.hpp"
+#include "zwidth/identification/identification.hpp"
+
 namespace zwidth {
 namespace {
 
@@ -17,6 +24,22 @@ TEST(OpenInterval, IsNamedByItsFactorWhereItHasOne) {
   EXPECT_EQ(internal::open_interval_reason({.lower = 0.0, .upper = 350.0}),
             "the data leave the critical stiffness open down to 0, where not even the softest wall is stable; "
             "excite more strongly or for longer");
+}
+
+// A search that ran away leaves no deviation of any number: the answer was sound, without an interval.
+TEST(OpenInterval, WhereThereIsNoneTheAnswerIsDoubtful) {
+  const Device device(test::rigid_parameters());
+  ExcitationOptions options;
+  options.kind = ExcitationKind::noise;
+  options.lowest_hz = 1.0;
+  std::vector<double> force = excite(options).samples;
+  std::vector<double> position = test::synthetic_position(device, force, {0.05, 1e-6, 1});
+  const Recording recording{"", 1e-3, {{"force", std::move(force)}, {"position", std::move(position)}}, {}};
+  Identification found = identify(recording, device);
+  ASSERT_TRUE(found.analysis.interval && found.fit.misfit);
+  EXPECT_FALSE(internal::doubt_of_interval(found));
+  found.analysis.interval.reset();
+  EXPECT_TRUE(internal::doubt_of_interval(found));
 }
 
 }  // namespace
