@@ -31,9 +31,10 @@ TEST(OpenInterval, WhereThereIsNoneTheAnswerIsDoubtful) {
   const Device device(test::rigid_parameters());
   ExcitationOptions options;
   options.kind = ExcitationKind::noise;
+  options.amplitude = 10.0;
   options.lowest_hz = 1.0;
   std::vector<double> force = excite(options).samples;
-  std::vector<double> position = test::synthetic_position(device, force, {0.05, 1e-6, 1});
+  std::vector<double> position = test::synthetic_position(device, force, {0.01, 1e-6, 1});
   const Recording recording{"", 1e-3, {{"force", std::move(force)}, {"position", std::move(position)}}, {}};
   Identification found = identify(recording, device);
   ASSERT_TRUE(found.analysis.interval && found.fit.misfit);
