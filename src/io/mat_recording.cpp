@@ -120,6 +120,7 @@ InputError nothing_to_read(const MatTable& table) {
                    "must hold numeric arrays: take the data out of tables and timeseries and save them as vectors");
   }
   std::vector<std::string> all;
+  all.reserve(skipped.size());
   for (const SkippedMatArray& array : skipped) all.push_back(fmt::format("{} ({})", shortened(array.name), array.why));
   for (const std::size_t index : table.scalars) {
     all.push_back(fmt::format("{} (is a single number)", shortened(table.array(index).name)));

@@ -11,6 +11,7 @@
 #include "io/column_unit.hpp"
 #include "io/prose.hpp"
 #include "io/recording_channels.hpp"
+#include "io/time_axis.hpp"
 #include "io/uff_file.hpp"
 #include "io/uff_names.hpp"
 #include "io/uff_values.hpp"
