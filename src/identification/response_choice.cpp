@@ -22,6 +22,14 @@ bool is_of_lines(std::span<const Recording> recordings, const FrequencyResponseO
          });
 }
 
+double segment_duration(const FrequencyResponse& response) {
+  double spacing = response.points.back().frequency;  // rad/s, of neighbouring lines
+  for (std::size_t i = 1; i < response.points.size(); ++i) {
+    spacing = std::min(spacing, response.points[i].frequency - response.points[i - 1].frequency);
+  }
+  return 2.0 * std::numbers::pi / spacing;
+}
+
 MeasuredResponse response_with_enough_lines(std::span<const Recording> recordings, const Device& structure,
                                             const IdentifyOptions& options, const Progress& progress) {
   MeasuredResponse measured = frequency_response(recordings, options.response, progress);
@@ -35,12 +43,8 @@ MeasuredResponse response_with_enough_lines(std::span<const Recording> recording
   FrequencyResponseOptions longer = options.response;
   longer.excitation = FrequencyResponseOptions::Excitation::aperiodic;
   const std::size_t samples = recordings.front().channels[0].samples.size();
-  double spacing = measured.response.points.back().frequency;  // rad/s, of neighbouring lines
-  for (std::size_t i = 1; i < measured.response.points.size(); ++i) {
-    spacing = std::min(spacing, measured.response.points[i].frequency - measured.response.points[i - 1].frequency);
-  }
   auto length =
-      static_cast<std::size_t>(std::lround(2.0 * std::numbers::pi / (spacing * *measured.response.sampling_period)));
+      static_cast<std::size_t>(std::lround(segment_duration(measured.response) / *measured.response.sampling_period));
   while (measured.response.points.size() < lines_each * free && 2.0 * least_averages <= measured.response.averages) {
     length *= 2;
     if (length > samples / least_segments) break;

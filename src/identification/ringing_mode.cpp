@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "identification/motion_residuals.hpp"
 #include "identification/response_choice.hpp"
@@ -37,15 +36,6 @@ RingingMode longest_ringing(const RecordFit& found, const IdentifyOptions& optio
   return longest;
 } catch (const Error&) {  // no poles were found
   return {};
-}
-
-/// Of the response's segments, by the spacing of its lines, s.
-double segment_duration(const FrequencyResponse& response) {
-  double spacing = response.points.back().frequency;
-  for (std::size_t i = 1; i < response.points.size(); ++i) {
-    spacing = std::min(spacing, response.points[i].frequency - response.points[i - 1].frequency);
-  }
-  return 2.0 * std::numbers::pi / spacing;
 }
 
 bool is_of_segments(const FrequencyResponse& response, std::span<const Recording> recordings,
