@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
-#include <limits>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
@@ -92,26 +92,23 @@ std::optional<ShownFriction> friction_beside(const ParameterFit& fit, const Body
   const double share = affordable / static_cast<double>(record.force.size());
   const double kept = std::max(1.0, std::round(share * static_cast<double>(shots.size())));
   if (kept < static_cast<double>(shots.size())) shots.resize(static_cast<std::size_t>(kept));
-  std::optional<FittedShots> best;
-  double least_badness = std::numeric_limits<double>::infinity();
-  const auto keep_better = [&](std::optional<FittedShots> found, double handicap) {
-    if (!found) return;
-    const double badness = search.badness(*found, shots) + handicap;
-    if (best && badness >= least_badness) return;
-    least_badness = badness;
-    best = std::move(found);
-  };
   // Of long shots some searches end in side minima without friction, of short ones others.
   constexpr double part = 0.1;
   constexpr std::size_t few = 3;
   const std::vector<Shot> short_shots =
       some_of(cut_into_shots(model.records(), start.device, part * length, shortest), 1, few);
+  std::vector<SearchStart> starts;
   for (const FrictionStart& each : starting_frictions(start, one)) {
-    const Eigen::VectorXd x = model.position_of(each.device);
-    keep_better(search.from(x, shots), each.handicap);
-    const auto of_short = search.from(x, short_shots);
-    if (of_short) keep_better(search.from(of_short->fit.x, shots), each.handicap);
+    starts.push_back({model.position_of(each.device), each.handicap});
   }
+  auto ends = search.from_each(starts, shots);
+  const auto of_short = search.from_each(starts, short_shots);
+  std::vector<SearchStart> next;
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    if (of_short[i]) next.push_back({of_short[i]->fitted.fit.x, starts[i].handicap});
+  }
+  std::ranges::move(search.from_each(next, shots), std::back_inserter(ends));
+  std::optional<FittedShots> best = least_bad(std::move(ends));
   if (!best) return std::nullopt;
   const Eigen::VectorXd towards = best->fit.x;
   best = search.with_noise(best->fit, shots, towards, {.most_iterations = 12, .tolerance = 1e-5});

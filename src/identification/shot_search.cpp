@@ -1,5 +1,7 @@
 #include "identification/shot_search.hpp"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -39,6 +41,27 @@ std::vector<Shot> some_of(const std::vector<Shot>& shots, std::size_t records, s
     for (std::size_t i = 0; i < count; ++i) some.push_back(own[(2 * i + 1) * own.size() / (2 * count)]);
   }
   return some;
+}
+
+std::optional<FittedShots> least_bad(std::vector<std::optional<SearchEnd>> ends) {
+  std::erase_if(ends, [](const auto& end) { return !end; });
+  const auto best = std::ranges::min_element(ends, {}, [](const auto& end) { return end->badness; });
+  if (best == ends.end()) return std::nullopt;
+  return std::move((*best)->fitted);
+}
+
+std::vector<std::optional<SearchEnd>> ShotSearch::from_each(const std::vector<SearchStart>& starts,
+                                                            const std::vector<Shot>& shots) const {
+  std::vector<std::optional<SearchEnd>> ends(starts.size());
+  tbb::parallel_for(std::size_t{0}, starts.size(), [&](std::size_t i) {
+    const ShotModel model = model_;  // it keeps the motions that it played last
+    const ShotSearch search(model, steps_, order_);
+    auto found = search.from(starts[i].x, shots);
+    if (!found) return;
+    const double badness = search.badness(*found, shots) + starts[i].handicap;
+    ends[i] = SearchEnd{*std::move(found), badness};
+  });
+  return ends;
 }
 
 std::optional<FittedShots> ShotSearch::from(const Eigen::VectorXd& x, const std::vector<Shot>& shots) const {

@@ -26,6 +26,21 @@ struct FittedShots {
   std::vector<ShotNoise> noise;
 };
 
+/// Where a search begins, and what it has to be better by than others.
+struct SearchStart {
+  Eigen::VectorXd x;
+  double handicap = 0.0;  ///< of the log-likelihood
+};
+
+/// What a search came to; `badness` with the handicap of its start.
+struct SearchEnd {
+  FittedShots fitted;
+  double badness = 0.0;
+};
+
+/// The least bad, the first of equals; nothing of none.
+[[nodiscard]] std::optional<FittedShots> least_bad(std::vector<std::optional<SearchEnd>> ends);
+
 /// Looks for the parameters of a model, the noise unknown beforehand.
 class ShotSearch {
  public:
@@ -33,9 +48,10 @@ class ShotSearch {
   ShotSearch(const ShotModel& model, std::vector<double> steps, std::size_t order)
       : model_(model), steps_(std::move(steps)), order_(order) {}
 
-  /// From a device, with states from the record: as if the noise were white, what a linear fit does not tell from friction
-  /// alone, then all under the noise of the residuals.
-  [[nodiscard]] std::optional<FittedShots> from(const Eigen::VectorXd& x, const std::vector<Shot>& shots) const;
+  /// From each, side by side, with states from the record: as if the noise were white, what a linear fit does not tell from
+  /// friction alone, then all under the noise of the residuals. In the order of the starts; each as if it were alone.
+  [[nodiscard]] std::vector<std::optional<SearchEnd>> from_each(const std::vector<SearchStart>& starts,
+                                                                const std::vector<Shot>& shots) const;
 
   /// Noise from the residuals, then a fit under that noise.
   [[nodiscard]] std::optional<FittedShots> with_noise(const ShotFit& start, const std::vector<Shot>& shots,
@@ -50,6 +66,8 @@ class ShotSearch {
   [[nodiscard]] double badness(const FittedShots& fitted, const std::vector<Shot>& shots) const;
 
  private:
+  [[nodiscard]] std::optional<FittedShots> from(const Eigen::VectorXd& x, const std::vector<Shot>& shots) const;
+
   const ShotModel& model_;
   std::vector<double> steps_;
   std::size_t order_;

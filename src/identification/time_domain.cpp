@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "identification/disturbed_motion.hpp"
@@ -209,16 +208,11 @@ TimeDomainIdentification identify_in_time(std::span<const Recording> recordings,
   constexpr std::size_t few = 3;
   const std::vector<Shot> short_shots =
       some_of(cut_into_shots(records, start.device, part * options.segment, least), records.size(), few);
-  std::optional<FittedShots> best;
-  double least_badness = std::numeric_limits<double>::infinity();
+  std::vector<SearchStart> starts;
   for (const FrictionStart& each : starting_frictions(start, recordings)) {
-    std::optional<FittedShots> found = search.from(model.position_of(each.device), short_shots);
-    if (!found) continue;
-    const double badness = search.badness(*found, short_shots) + each.handicap;
-    if (best && badness >= least_badness) continue;
-    least_badness = badness;
-    best = std::move(found);
+    starts.push_back({model.position_of(each.device), each.handicap});
   }
+  const std::optional<FittedShots> best = least_bad(search.from_each(starts, short_shots));
   if (!best) {
     throw Error(
         ErrorCode::did_not_converge,
