@@ -14,6 +14,7 @@
 #include "identification/motion_residuals.hpp"
 #include "identification/nonlinearity_test.hpp"
 #include "identification/plausibility.hpp"
+#include "identification/response_choice.hpp"
 #include "identification/weak_force_test.hpp"
 #include "model/uncertainty_problem.hpp"
 #include "percent.hpp"
@@ -222,6 +223,7 @@ class Judge {
       if (auto doubt = doubt_of_hand(judged_.structure, fit_.estimates, judged_.options.fit.locked)) {
         result_.trust.doubt(*std::move(doubt));
       }
+      if (auto doubt = doubt_of_lost_delay(judged_.structure, fit_.estimates)) result_.trust.doubt(*std::move(doubt));
     }
     if (result_.trust.refused()) return;
     const std::optional<double> spring = missing_spring(judged_.fit, judged_.options.fit);
@@ -263,7 +265,12 @@ bool is_drowned(const FrequencyResponse& response, std::size_t numbers) {
 
 void judge_nonlinearity(Identification& result, std::span<const Recording> recordings, const IdentifyOptions& options) {
   for (const Recording& each : recordings) {
-    if (auto doubt = doubt_of_units(each, options.response.output)) result.trust.doubt(*std::move(doubt));
+    for (std::string& doubt : doubts_of_recording(each, options.response.output, result.fit.device)) {
+      result.trust.doubt(std::move(doubt));
+    }
+  }
+  if (options.response.window == Window::rectangular && !is_of_lines(recordings, options.response)) {
+    result.trust.doubt("segments under a rectangular window leak from the strongest lines into all others; take hann");
   }
   if (!result.trust.sound() || options.response.output != OutputQuantity::position) return;
   const std::vector<std::string> keys = keys_of(result.fit);

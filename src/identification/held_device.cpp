@@ -34,10 +34,11 @@ Remark remark_of_unseen_hand() {
 }
 
 Remark remark_of_measured_force() {
-  return {Remark::Severity::note, "the force is taken for the one that was commanded",
-          "of a load cell's, what delays the command before it (a bus, a drive) is not in the record, and the critical "
-          "stiffness comes out up to several times too high",
-          "record the command, or add that delay as loop.delay"};
+  return {
+      Remark::Severity::note, "the force is taken for the one that was commanded at the instant of its row's position",
+      "of a load cell's, or beside a later position, what delays the command (a bus, a drive) is not in the record, "
+      "and the critical stiffness comes out up to several times too high",
+      "record the command beside the position read before it, or add that delay as loop.delay"};
 }
 
 }  // namespace

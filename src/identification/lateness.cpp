@@ -86,6 +86,26 @@ std::optional<double> other_delay(const ParameterEstimate& estimate, const Loop&
   return estimate.value;
 }
 
+std::optional<std::string> doubt_of_lost_delay(const Device& structure,
+                                               const std::vector<ParameterEstimate>& estimates) {
+  const auto delay = std::ranges::find(estimates, std::string(delay_key), &ParameterEstimate::key);
+  if (delay == estimates.end() || !delay->standard_deviation) return std::nullopt;
+  const auto lag = std::ranges::find(estimates, std::string(lag_key), &ParameterEstimate::key);
+  const double given_lag = structure.parameters().actuator.time_constant;
+  const double given = structure.loop().delay + given_lag;
+  const double shown = delay->value + (lag == estimates.end() ? given_lag : lag->value);
+  constexpr double significant = 4.0;
+  constexpr double notable = 0.1;  // of the sampling period
+  const double lost = given - shown;
+  if (lost <= significant * *delay->standard_deviation || lost <= notable * structure.loop().sampling_period) {
+    return std::nullopt;
+  }
+  return fmt::format(
+      "the record shows {} less delay than the structure states: rows that pair a force with a later position hide it, "
+      "and the critical stiffness comes out too high; log both at one instant, or correct loop.delay in the structure",
+      quantity(lost, "s"));
+}
+
 Remark ignored_delay_remark(double shown, double given) {
   return {Remark::Severity::warning,
           fmt::format("the record shows a delay of {:.3g} s where the structure has {:.3g} s", shown, given),

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "zwidth/identification/parameter_fit.hpp"
 #include "zwidth/model/device.hpp"
@@ -21,6 +22,11 @@ inline constexpr const char* lag_key = "actuator.time_constant";
 
 /// The delay of an estimate that is significantly and notably (2 % of the sampling period) another than the loop's; s.
 [[nodiscard]] std::optional<double> other_delay(const ParameterEstimate& estimate, const Loop& loop);
+
+/// Why a fit that finds less delay and lag than a known structure states is not to be trusted: rows that pair a force with a later
+/// position hide it. By 4 deviations and a tenth of the sampling period at least.
+[[nodiscard]] std::optional<std::string> doubt_of_lost_delay(const Device& structure,
+                                                             const std::vector<ParameterEstimate>& estimates);
 
 /// That the record shows another delay than the structure has.
 [[nodiscard]] Remark ignored_delay_remark(double shown, double given);

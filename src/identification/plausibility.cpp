@@ -9,6 +9,7 @@
 
 #include "model/implausible_numbers.hpp"
 #include "zwidth/model/parameter.hpp"
+#include "zwidth/quantity.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -26,6 +27,16 @@ bool is_in_counts(const std::vector<double>& samples) {
   std::vector<double> values = samples;
   std::ranges::sort(values);
   return std::unique(values.begin(), values.end()) - values.begin() >= least_values;
+}
+
+/// But for rests without a force.
+bool has_two_values(const std::vector<double>& samples) {
+  if (samples.empty()) return false;
+  const auto [least, most] = std::ranges::minmax(samples);
+  constexpr double share = 0.9;
+  const auto extreme = std::ranges::count_if(samples, [&](double each) { return each == least || each == most; });
+  const auto moving = std::ranges::count_if(samples, [](double each) { return each != 0.0; });
+  return least<most&& static_cast<double>(extreme)> share * static_cast<double>(moving);
 }
 
 const char* counts_of(const std::vector<double>& samples) {
@@ -81,6 +92,13 @@ std::vector<Remark> implausible_recording(const Recording& recording) {
                               : "encoder counts? Every number below is then per count, not per m or rad",
                        "scale it to SI units (metres or radians per count)"});
   }
+  if (has_two_values(recording.channels.front().samples)) {
+    remarks.push_back({Remark::Severity::note,
+                       fmt::format("{} takes two values only: an amplifier that gives less shows in nothing",
+                                   recording.channels.front().name),
+                       "every number would come out as if it gave all, and the critical stiffness too high by as much",
+                       "stay well below the amplifier's limit, or record noise, a sweep or a multisine"});
+  }
   if (auto remark = implausible_period(recording.sampling_period, "the sampling period of the recording")) {
     remarks.push_back(*std::move(remark));
   }
@@ -121,6 +139,44 @@ std::optional<std::string> doubt_of_units(const Recording& recording, OutputQuan
         channel.name, channel.unit, wanted, i == 0 ? "newtons or newton metres" : "metres or radians");
   }
   return doubt_of_counts(recording);
+}
+
+namespace {
+std::optional<std::string> doubt_of_force_limit(const Recording& recording, const Device& fitted) {
+  const DeviceParameters& device = fitted.parameters();
+  if (!device.actuator.force_limit) return std::nullopt;
+  const auto [least, most] = std::ranges::minmax(recording.channels[0].samples);
+  const double strongest = std::max(most, -least);
+  constexpr double beyond = 1.01;  // of the limit: rounding, and what a load cell's noise adds
+  if (!(strongest > beyond * *device.actuator.force_limit)) return std::nullopt;
+  const std::string_view unit = units_of(device.motion).force;
+  return fmt::format(
+      "{} reaches {} where the structure's actuator.force_limit is {}: less acted than the record says; "
+      "record with less, or correct the limit",
+      recording.channels[0].name, quantity(strongest, unit), quantity(*device.actuator.force_limit, unit));
+}
+
+std::optional<std::string> doubt_of_thinned_rows(const Recording& recording, const Device& fitted) {
+  const double period = fitted.loop().sampling_period;
+  const double ratio = recording.sampling_period / period;
+  constexpr double close = 0.01;
+  const double whole = std::round(ratio);
+  if (whole < 2.0 || std::abs(ratio - whole) > close * whole) return std::nullopt;
+  return fmt::format(
+      "a row stands for {:.0f} periods of the loop, {} and {}: where rows were left out of the log, so is the force "
+      "between them, and the fit lacks delay; log every period, or, where the force was held from row to row, identify "
+      "with the rows' period and set loop.sampling_period in the device file",
+      whole, quantity(recording.sampling_period, "s"), quantity(period, "s"));
+}
+}  // namespace
+
+std::vector<std::string> doubts_of_recording(const Recording& recording, OutputQuantity output, const Device& fitted) {
+  std::vector<std::string> doubts;
+  for (auto& doubt : {doubt_of_units(recording, output), doubt_of_force_limit(recording, fitted),
+                      doubt_of_thinned_rows(recording, fitted)}) {
+    if (doubt) doubts.push_back(*doubt);
+  }
+  return doubts;
 }
 
 std::optional<std::string> doubt_of_weight(const Device& fitted) {

@@ -46,6 +46,16 @@ Signal rubbing(const Signal& stretch, double length) {
   return force;
 }
 
+/// Of a damping that is 1 N s/m or N m s/rad more after the share of the record than before, and 0 in the mean.
+Signal changing_damping(const Signal& motion, double share, double period) {
+  Signal force(motion.size(), 0.0);
+  const auto turn = static_cast<std::size_t>(share * static_cast<double>(motion.size()));
+  for (std::size_t k = 0; k + 1 < motion.size(); ++k) {
+    force[k] = (k < turn ? 1.0 - share : -share) * (motion[k + 1] - motion[k]) / period;
+  }
+  return force;
+}
+
 double rms(const Signal& signal) {
   double squares = 0.0;
   for (const double each : signal) squares += each * each;
@@ -68,6 +78,15 @@ std::vector<SuspectedMotion> suspected_motions(const Device& device, std::span<c
       suspects.push_back(
           {SuspectedMotion::Kind::link_friction, difference(motion_of(pushed_at(device, link.second), acting),
                                                             motion_of(pushed_at(device, link.first), acting))});
+    }
+  }
+  for (std::size_t body = 0; body < device.bodies().size(); ++body) {
+    const Signal motion = motion_of_body(device, body, force);
+    if (!(rms(motion) > 0.0)) continue;  // locked
+    for (const double share : {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9}) {
+      const Signal acting = changing_damping(motion, share, device.loop().sampling_period);
+      suspects.push_back({SuspectedMotion::Kind::changing_damping, motion_of(pushed_at(device, body), acting),
+                          device.bodies()[body].name, share});
     }
   }
   return suspects;

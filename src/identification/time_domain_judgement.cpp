@@ -178,7 +178,9 @@ class Judge {
   void judge_nonlinearity(std::size_t r) {
     const Recording& recording = judged_.recordings[r];
     const FittedMotion& motion = fit_.motions[r];
-    if (auto doubt = doubt_of_units(recording, OutputQuantity::position)) trust_.doubt(*std::move(doubt));
+    for (std::string& doubt : doubts_of_recording(recording, OutputQuantity::position, fit_.device)) {
+      trust_.doubt(std::move(doubt));
+    }
     if (auto doubt = doubt_of_lag(fit_.estimates, recording.sampling_period)) trust_.doubt(*std::move(doubt));
     std::vector<Shot> shots;
     std::ranges::copy_if(judged_.shots, std::back_inserter(shots), [r](const Shot& shot) { return shot.record == r; });
@@ -224,6 +226,7 @@ class Judge {
     if (auto doubt = doubt_of_hand(judged_.structure, fit_.estimates, judged_.options.locked)) {
       trust_.doubt(*std::move(doubt));
     }
+    if (auto doubt = doubt_of_lost_delay(judged_.structure, fit_.estimates)) trust_.doubt(*std::move(doubt));
   }
 
   void judge_delay() {

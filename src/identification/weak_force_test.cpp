@@ -1,7 +1,5 @@
 #include "identification/weak_force_test.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -10,14 +8,10 @@
 #include <utility>
 
 #include "identification/fit_judgement.hpp"
-#include "identification/friction_test.hpp"
-#include "identification/nonlinear_forces.hpp"
 #include "identification/shot_fit.hpp"
 #include "identification/suspected_motions.hpp"
-#include "percent.hpp"
 #include "simulation/continuous_motion.hpp"
 #include "zwidth/error.hpp"
-#include "zwidth/quantity.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -39,8 +33,33 @@ std::optional<double> ratio_of(const std::optional<LineRegression>& found, Kind 
   const Eigen::Index last = found->values.size() - 1;
   if (!(found->deviations(last) > 0.0)) return std::nullopt;
   const double ratio = found->values(last) / found->deviations(last);
-  if (kind == Kind::presliding || kind == Kind::clock_skew) return std::abs(ratio);
+  if (kind == Kind::presliding || kind == Kind::clock_skew || kind == Kind::changing_damping) return std::abs(ratio);
   return ratio > 0.0 ? std::optional(ratio) : std::nullopt;
+}
+
+Kind kind_of(SuspectedMotion::Kind kind) {
+  switch (kind) {
+    case SuspectedMotion::Kind::clock_skew:
+      return Kind::clock_skew;
+    case SuspectedMotion::Kind::link_friction:
+      return Kind::link_friction;
+    case SuspectedMotion::Kind::changing_damping:
+      return Kind::changing_damping;
+  }
+  return Kind::link_friction;
+}
+
+/// K_CR at the worse of the two dampings between which a body's changes.
+double softest(DeviceParameters parameters, const SuspectedMotion& suspect, double change) {
+  const auto at = std::ranges::find(parameters.bodies, suspect.body, &Body::name);
+  if (at == parameters.bodies.end()) return std::numeric_limits<double>::quiet_NaN();
+  const double mean = at->damping;
+  double least = std::numeric_limits<double>::quiet_NaN();
+  for (const double end : {suspect.share - 1.0, suspect.share}) {
+    at->damping = std::max(0.0, mean + end * change);
+    least = std::fmin(least, stiffness_of(parameters));
+  }
+  return least;
 }
 
 using Beside = std::function<DeviceParameters(const LineRegression&)>;  ///< the numbers beside what was found
@@ -67,15 +86,24 @@ std::vector<WeakForceEvidence> suspects_in(const RestLines& rest, const Device& 
   if (const auto mode = mode_in(rest, question, beside)) found.push_back(*mode);
   for (const SuspectedMotion& suspect : suspected_motions(device, question.force, position)) {
     const auto regressed = regress_lines(rest.known, rest.lines(suspect.motion), rest.target, rest.stretches);
-    const bool is_skew = suspect.kind == SuspectedMotion::Kind::clock_skew;
-    const Kind kind = is_skew ? Kind::clock_skew : Kind::link_friction;
+    const Kind kind = kind_of(suspect.kind);
     const auto ratio = ratio_of(regressed, kind);
     if (!ratio) continue;
-    WeakForceEvidence evidence{kind, *ratio, stiffness_of(beside(*regressed))};
-    const double duration = static_cast<double>(position.size()) * question.sampling_period;
-    if (is_skew) evidence.drift = regressed->values(rest.known.cols()) * duration;
+    const double size = regressed->values(rest.known.cols());
+    WeakForceEvidence evidence{kind, *ratio};
+    if (kind == Kind::changing_damping) {
+      evidence.body = suspect.body;
+      evidence.change = size;
+      evidence.stiffness_beside = softest(beside(*regressed), suspect, size);
+    } else {
+      evidence.stiffness_beside = stiffness_of(beside(*regressed));
+    }
     constexpr double notable = 0.05;  // sampling periods
-    if (!is_skew || std::abs(evidence.drift) > notable * question.sampling_period) found.push_back(evidence);
+    if (kind == Kind::clock_skew) {
+      evidence.change = size * static_cast<double>(position.size()) * question.sampling_period;
+      if (!(std::abs(evidence.change) > notable * question.sampling_period)) continue;
+    }
+    found.push_back(std::move(evidence));
   }
   return found;
 }
@@ -241,85 +269,6 @@ class RecordLines {
   Eigen::VectorXcd target_;
 };
 
-// Deviations: the most of hundreds of frequencies. Of 137 right fits 5.6 were seen, and one of 7.3 that moved nothing.
-constexpr double clear_suspect = 6.0;
-
-std::string about(double stiffness, Motion motion) {
-  return fmt::format("the critical stiffness is about {}", quantity(stiffness, units_of(motion).stiffness));
-}
-
-std::optional<Nonlinearity> doubt_of_mode(const WeakForceEvidence& mode, double lower, Motion motion,
-                                          const std::string& source) {
-  // One mode may not be all that lacks, where it is large and plain.
-  constexpr double large = 0.1;    // of the response
-  constexpr double plain = 20.0;   // 13 were seen at the upper end of a right fit's band, of an encoder's counts
-  constexpr double least = 0.003;  // smaller ones stand for what drifts, at the low end of the band
-  // What moves the answer far needs to be less clear: of right fits one of 4.9 was seen.
-  constexpr double far = 0.9;
-  constexpr double clear_and_far = 5.5;
-  const double clear = mode.stiffness_beside < far * lower ? clear_and_far : clear_suspect;
-  constexpr double notable = 0.99;
-  const bool lowers = mode.stiffness_beside < notable * lower && mode.share > least;
-  const bool is_large = mode.share > large && mode.ratio > plain;
-  if (!(mode.ratio > clear) || !(lowers || is_large)) return std::nullopt;
-  return Nonlinearity{fmt::format("{} shows a mode near {:.4g} Hz that the structure lacks, {} the response there{}",
-                                  source, mode.frequency / (2.0 * std::numbers::pi),
-                                  mode.share > 1.0 ? "larger than" : percent(mode.share) + " of",
-                                  lowers ? ": with it " + about(mode.stiffness_beside, motion) : ""),
-                      "give the structure one more body (a frame that shakes is one), or hold the device firmly",
-                      {}};
-}
-
-std::optional<Nonlinearity> doubt_of_skew(const WeakForceEvidence& skew, const std::string& source) {
-  if (!(skew.ratio > clear_suspect)) return std::nullopt;
-  return Nonlinearity{fmt::format("{} shows a delay that changes by {} from its beginning to its end: the clocks of "
-                                  "force and position run apart, or under a sweep something delays some frequencies "
-                                  "more than others",
-                                  source, quantity(std::abs(skew.drift), "s")),
-                      "record both by one clock, under noise or a multisine",
-                      {}};
-}
-
-struct Words {
-  const char* what;
-  const char* remedy;
-};
-
-Words words_of(Kind kind) {
-  if (kind == Kind::drag) return {force_not_in_proportion_to_the_speed, slow_motion_remedy};
-  if (kind == Kind::presliding) return {friction_not_coulombs, strong_motion_remedy};
-  return {"friction in a link: a belt, cable or gear that rubs, or gives before it slips", strong_motion_remedy};
-}
-
-std::optional<Nonlinearity> doubt_of(const WeakForceEvidence& force, const Analysis& analysis, Motion motion,
-                                     const std::string& source) {
-  const double value = analysis.critical.stiffness;
-  const double lower = analysis.interval ? analysis.interval->lower : value;
-  const double upper = analysis.interval ? analysis.interval->upper : value;
-  if (force.kind == Kind::mode) return doubt_of_mode(force, lower, motion, source);
-  if (force.kind == Kind::clock_skew) return doubt_of_skew(force, source);
-  // Without friction: of 70 linear records 1.8 at most. With friction, fitted in time: drag of 98 right fits of linear records
-  // 4.4 at most, above 3 in four; friction as the motion turns 3.2 at most of 28. Of drag that made an answer 6 to 19 % too high 3.4 and
-  // more; of friction that bends before it slips, 23 to 580 % too high, 10 and more; in a link, 24 to 90 % too high, 20 and more.
-  constexpr double possible = 3.0;
-  if (force.ratio < possible) return std::nullopt;
-  const auto [what, remedy] = words_of(force.kind);
-  const double beside = force.stiffness_beside;
-  if (force.ratio < significant_friction) {
-    const double notable = force.kind == Kind::link_friction ? 0.97 : 1.0;  // a link that does not limit hardly counts
-    if (!(beside < notable * lower)) return std::nullopt;
-    return Nonlinearity{
-        fmt::format("{} hardly tells damping from {}: beside it {}", source, what, about(beside, motion)), remedy, {}};
-  }
-  // Of friction of another kind one step does not tell how far away the device is. In a link it makes intervals wide.
-  const double far_beside = force.kind == Kind::link_friction ? std::max(lower, 0.9 * value) : lower;
-  if (force.kind != Kind::presliding && far_beside <= beside && beside <= upper) return std::nullopt;
-  return Nonlinearity{
-      fmt::format("{} shows {}{}", source, what, beside < value ? " (beside it " + about(beside, motion) + ")" : ""),
-      remedy,
-      {}};
-}
-
 }  // namespace
 
 std::vector<WeakForceEvidence> find_weak_forces(const MotionQuestion& question, std::span<const double> force,
@@ -384,16 +333,6 @@ std::vector<std::vector<WeakForceEvidence>> find_weak_forces(const FittedDevice&
     found[r].insert(found[r].end(), suspects.begin(), suspects.end());
   }
   return found;
-}
-
-std::optional<Nonlinearity> doubt_of_weak_forces(std::span<const WeakForceEvidence> forces, const Analysis& analysis,
-                                                 Motion motion, const std::string& source) {
-  std::vector<WeakForceEvidence> clearest(forces.begin(), forces.end());
-  std::ranges::sort(clearest, std::ranges::greater{}, &WeakForceEvidence::ratio);
-  for (const WeakForceEvidence& each : clearest) {  // one that does not matter hides no other
-    if (auto doubt = doubt_of(each, analysis, motion, source)) return doubt;
-  }
-  return std::nullopt;
 }
 
 }  // namespace zwidth::internal

@@ -14,14 +14,24 @@
 namespace zwidth::internal {
 
 /// What no number of the structure is, beside all numbers of a fit: a force that no device has, a mode that it lacks, clocks of
-/// force and position that run apart.
+/// force and position that run apart, a damping that changes while it is recorded.
 struct WeakForceEvidence {
-  enum class Kind : std::uint8_t { drag, presliding, mode, clock_skew, link_friction } kind = Kind::drag;
-  double ratio = 0.0;             ///< its size in deviations, > 0
-  double stiffness_beside = 0.0;  ///< K_CR of the numbers fitted beside it, friction left out; NaN: no device has them
-  double frequency = 0.0;         ///< of a mode, rad/s
-  double share = 0.0;             ///< of the response there, that the mode has
-  double drift = 0.0;             ///< of a delay over the record, s
+  enum class Kind : std::uint8_t {
+    drag,
+    presliding,
+    mode,
+    clock_skew,
+    link_friction,
+    changing_damping
+  } kind = Kind::drag;
+  double ratio = 0.0;  ///< its size in deviations, > 0
+  /// K_CR of the numbers fitted beside it, friction left out, and of a damping that changes at the worse end; NaN: no device
+  /// has them.
+  double stiffness_beside = 0.0;
+  double frequency = 0.0;  ///< of a mode, rad/s
+  double share = 0.0;      ///< of the response there, that the mode has
+  double change = 0.0;     ///< of a delay (s) or a damping (N s/m or N m s/rad) over the record
+  std::string body = {};   ///< of a damping
 };
 
 /// Drag in proportion to the square of a body's speed, in a record that a linear device was fitted to, at each body at which
