@@ -32,7 +32,8 @@ bool is_in_counts(const std::vector<double>& samples) {
 /// But for rests without a force.
 bool has_two_values(const std::vector<double>& samples) {
   if (samples.empty()) return false;
-  const auto [least, most] = std::ranges::minmax(samples);
+  const double least = std::ranges::min(samples);
+  const double most = std::ranges::max(samples);
   constexpr double share = 0.9;
   const auto extreme = std::ranges::count_if(samples, [&](double each) { return each == least || each == most; });
   const auto moving = std::ranges::count_if(samples, [](double each) { return each != 0.0; });
