@@ -34,10 +34,11 @@ bool has_two_values(const std::vector<double>& samples) {
   if (samples.empty()) return false;
   const double least = std::ranges::min(samples);
   const double most = std::ranges::max(samples);
+  if (least == most) return false;
   constexpr double share = 0.9;
   const auto extreme = std::ranges::count_if(samples, [&](double each) { return each == least || each == most; });
   const auto moving = std::ranges::count_if(samples, [](double each) { return each != 0.0; });
-  return least<most&& static_cast<double>(extreme)> share * static_cast<double>(moving);
+  return static_cast<double>(extreme) > share * static_cast<double>(moving);
 }
 
 const char* counts_of(const std::vector<double>& samples) {

@@ -64,7 +64,7 @@ std::optional<Nonlinearity> doubt_of_change(const WeakForceEvidence& change, dou
   constexpr double notable = 0.97;
   if (!(change.ratio > clear_suspect) || !(change.stiffness_beside < notable * lower)) return std::nullopt;
   return Nonlinearity{fmt::format("{} shows that the damping of {} changes by {} while it is recorded, of which "
-                                  "the fit is a mean: at the softest {}",
+                                  "the fit is a mean: at the softest {} or less",
                                   source, change.body, quantity(std::abs(change.change), units_of(motion).damping),
                                   about(change.stiffness_beside, motion)),
                       "record the device when it is warm, or as cold as it will be used",
