@@ -9,11 +9,13 @@
 #include <utility>
 
 #include "identification/contradicted_number.hpp"
+#include "identification/fit_comparison.hpp"
 #include "identification/fit_judgement.hpp"
 #include "identification/friction_in_time.hpp"
 #include "identification/friction_test.hpp"
 #include "identification/interval_narrowing.hpp"
 #include "identification/lateness.hpp"
+#include "identification/misfit_doubt.hpp"
 #include "identification/period_choice.hpp"
 #include "identification/recording_agreement.hpp"
 #include "identification/response_choice.hpp"
@@ -54,7 +56,9 @@ class Fitting {
     } else {
       look_for_delay();
     }
+    go_on();
     leave_side_minimum();
+    go_on();
   }
 
   /// A delay that the record shows, which was not to be fitted; s.
@@ -178,22 +182,28 @@ class Fitting {
     }
   }
 
-  /// A search that was stopped goes on. What is left beyond the noise may be a side minimum's, or one that a delay alone
-  /// led into where there is a lag as well.
-  void leave_side_minimum() {
-    if (!fit_->fit.settled) {
+  /// A search that was stopped goes on. Along what the data leave open it hardly ends, nor needs to.
+  void go_on() {
+    constexpr int most_rounds = 3;
+    for (int round = 0; round < most_rounds && !fit_->fit.settled; ++round) {
       auto further = with_free({}, ParameterFitOptions::Start::from_structure);
-      if (further && further->fit.model_error <= fit_->fit.model_error) fit_ = std::move(further);
+      if (!further || further->fit.model_error > fit_->fit.model_error) return;
+      further->fit.settled = further->fit.settled || stands_still(fit_->fit, further->fit);
+      fit_ = std::move(further);
     }
+  }
+
+  /// What is left beyond the noise may be a side minimum's, or one that a delay alone led into where there is a lag as well.
+  void leave_side_minimum() {
     if (fit_options_.start != ParameterFitOptions::Start::from_data) return;
-    constexpr double poor = 1.25;  // residuals over the noise: a right structure hardly leaves more
+    const auto is_poor = [&] { return leaves_too_much(fit_->fit, fit_->response); };
     std::vector<std::string> free = fit_options_.free;
-    if (fit_->fit.misfit > poor) search_anew(free);
+    if (is_poor()) search_anew(free);
     if (!may_free()) return;
     for (const char* key : {delay_key, lag_key}) {
       if (!is_free(key)) free.emplace_back(key);
     }
-    if (fit_->fit.misfit > poor && free.size() > fit_options_.free.size()) search_anew(free);
+    if (is_poor() && free.size() > fit_options_.free.size()) search_anew(free);
   }
 
   void search_anew(const std::vector<std::string>& free) {
@@ -203,7 +213,8 @@ class Fitting {
     try {
       RecordFit other = whole_fit(fit_->fit.device, fit_->response, options);
       constexpr double much = 0.9;
-      if (!(other.fit.misfit < much * *fit_->fit.misfit && other.fit.model_error <= fit_->fit.model_error)) return;
+      const bool is_better = other.fit.misfit < much * *fit_->fit.misfit || !leaves_too_much(other.fit, other.response);
+      if (!is_better || other.fit.model_error > fit_->fit.model_error) return;
       fit_ = std::move(other);
       fit_options_.free = free;
     } catch (const Error&) {  // then there is no other

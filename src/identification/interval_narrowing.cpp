@@ -95,7 +95,9 @@ void narrow_interval(Identification& result) {
   }
   constexpr double safe = 0.9;
   constexpr double many = 0.25;
-  if (is_open(*analysis.interval) || analysis.interval->lower <= result.analysis.interval->lower) return;
+  const StiffnessInterval& narrow = *analysis.interval;
+  const StiffnessInterval& wide = *result.analysis.interval;
+  if (is_open(narrow) || (narrow.lower <= wide.lower && narrow.upper >= wide.upper)) return;
   if (share_limited_elsewhere(result.fit.device, result.fit.frequencies, safe * analysis.interval->lower) > many)
     return;
   result.fit.device = std::move(device);

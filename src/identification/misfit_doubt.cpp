@@ -64,6 +64,12 @@ bool stands_out(const ClearMisfit& left, const FrequencyResponse& response) {
          left.local.misfit > most_misfit(response, lines_of_local_misfit, deviations_anywhere);
 }
 
+bool leaves_too_much(const ParameterFit& fit, const FrequencyResponse& response) {
+  constexpr double poor = 1.25;  // residuals over the noise: a right structure hardly leaves more
+  if (fit.misfit && *fit.misfit > poor) return true;
+  return fit.clear_misfit && response.averages >= few_averages && stands_out(*fit.clear_misfit, response);
+}
+
 std::optional<std::string> doubt_of_misfit(const ParameterFit& fit, const FrequencyResponse& response) {
   constexpr const char* causes = "friction, backlash, or a body that it lacks";
   const double noise = median_noise(response);

@@ -14,6 +14,9 @@ namespace zwidth::internal {
 /// Whether what a fit leaves is more than the noise of a right structure, over all lines or anywhere.
 [[nodiscard]] bool stands_out(const ClearMisfit& left, const FrequencyResponse& response);
 
+/// Whether a fit leaves more than a right structure's noise: perhaps that of a side minimum.
+[[nodiscard]] bool leaves_too_much(const ParameterFit& fit, const FrequencyResponse& response);
+
 /// Why a fit leaves more of the response than its noise, over all lines or anywhere; nothing where it does not.
 [[nodiscard]] std::optional<std::string> doubt_of_misfit(const ParameterFit& fit, const FrequencyResponse& response);
 

@@ -181,9 +181,10 @@ std::vector<double> mode_frequencies(const Device& device, const std::vector<std
 }
 
 /// A mode that is missing from the fit may be missing from a side minimum alone: a link whose ends move as one, or that
-/// hardly holds them, or two links for one mode.
-Solution with_missing_mode(const FitModel& model, const std::vector<ResponsePoint>& points, Solution found,
+/// hardly holds them, or two links for one mode. What stands out of the noise anywhere may be such a mode too.
+Solution with_missing_mode(const FitModel& model, const FrequencyResponse& response, Solution found,
                            double robust_threshold) {
+  const std::vector<ResponsePoint>& points = response.points;
   constexpr double overdamped = 0.5;
   std::vector<double> modes;
   for (const Mode& mode : modal_form(locked_device(Device(model.parameters_at(found.x)), model.locked())).modes) {
@@ -195,7 +196,11 @@ Solution with_missing_mode(const FitModel& model, const std::vector<ResponsePoin
   for (std::size_t i = 0; i < points.size(); ++i) {
     residuals.push_back(points[i].value - fitted(static_cast<Eigen::Index>(i)));
   }
-  const std::optional<double> missing = missing_mode(residuals, points, modes);
+  std::optional<double> missing = missing_mode(residuals, points, modes);
+  if (!missing) {
+    const auto left = misfit_where_clear(points, fitted);
+    if (left && stands_out(*left, response)) missing = std::sqrt(left->local.lowest * left->local.highest);
+  }
   if (!missing) return found;
   modes.push_back(*missing);
   return searched_near(modes, model, points, std::move(found), robust_threshold);
@@ -321,7 +326,7 @@ ParameterFit fit_parameters(const Device& structure, const FrequencyResponse& re
   Solution solution = solve(model, points, starts, options.robust_threshold);
   if (from_data && options.search_widely) {
     solution = searched_widely(model, points, std::move(solution), options.robust_threshold);
-    solution = with_missing_mode(model, points, std::move(solution), options.robust_threshold);
+    solution = with_missing_mode(model, in_band, std::move(solution), options.robust_threshold);
   }
   const Identifiability known = identifiability_at(model, points, solution);
   if (std::ranges::count(known.determined, false) > 0) {

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "identification/fit_comparison.hpp"
 #include "identification/misfit_doubt.hpp"
 #include "identification/motion_residuals.hpp"
 #include "identification/pooled_response.hpp"
@@ -54,24 +55,6 @@ std::optional<FrequencyResponse> corrected_response(const FrequencyResponse& las
   return response;
 }
 
-/// Whether no parameter has moved by a notable part of its standard deviation.
-bool stands_still(const ParameterFit& before, const ParameterFit& after) {
-  constexpr double notable = 0.1;
-  for (std::size_t i = 0; i < after.estimates.size(); ++i) {
-    const ParameterEstimate& estimate = after.estimates[i];
-    const double moved = std::abs(estimate.value - before.estimates[i].value);
-    if (estimate.standard_deviation && moved > notable * *estimate.standard_deviation) return false;
-  }
-  return true;
-}
-
-/// Root mean square of residuals over the noise: a right structure leaves less.
-constexpr double poor_misfit = 1.25;
-
-bool explains_more(const ParameterFit& one, const ParameterFit& other) {
-  return std::pair(one.model_error, one.misfit) < std::pair(other.model_error, other.misfit);
-}
-
 }  // namespace
 
 namespace internal {
@@ -111,7 +94,7 @@ RecordFit without_leakage(RecordFit first, std::span<const Recording> recordings
     }
     FrequencyResponse& response = *corrected;
     ParameterFit fit = fit_parameters(best.fit.device, response, options);
-    if (may_search && fit.misfit && *fit.misfit > poor_misfit) {
+    if (may_search && leaves_too_much(fit, response)) {
       // The leakage may have hidden that this is a side minimum.
       may_search = false;
       ParameterFit other = fit_parameters(best.fit.device, response, anew);

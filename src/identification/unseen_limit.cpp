@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "identification/fit_comparison.hpp"
 #include "identification/fit_judgement.hpp"
-#include "identification/student_t.hpp"
 #include "percent.hpp"
 #include "stability/device_draws.hpp"
 #include "zwidth/error.hpp"
@@ -42,49 +42,63 @@ std::optional<Device> moved(const Device& device, std::size_t i, double deviatio
   }
 }
 
-/// Whether another fit leaves no more than chance may: by Student's t, of as many degrees of freedom as independent
-/// residuals exceed the free parameters,
-///
-///     (chi^2 / chi_first^2 - 1) nu <= t_nu^2
-bool explains_as_much(const ParameterFit& other, const ParameterFit& first, double line_correlation) {
-  if (other.model_error > 1.02 * first.model_error + 1e-9) return false;
-  if (!other.misfit || !first.misfit) return true;
-  constexpr double least_freedom = 2.0;
-  const double independent = 2.0 * static_cast<double>(first.frequencies.size()) / line_correlation;
-  const double freedom = std::max(least_freedom, independent - static_cast<double>(first.estimates.size()));
-  const double t = student_t_quantile(freedom);
-  const double ratio = *other.misfit / *first.misfit;
-  return (ratio * ratio - 1.0) * freedom <= t * t;
-}
-
-constexpr double well_known = 0.2;  // deviations of the value: what is known better moves K_CR as the draws show
-
 /// A limit where the record shows nothing.
 struct UnseenLimit {
   std::string why;  ///< what the record leaves open
   CriticalStiffness critical;
 };
 
-/// One number at either end of its 95 % interval.
-std::optional<UnseenLimit> at_an_end(const Device& device, const ParameterEstimate& each, const auto& limits) {
+/// The fit that starts from a device, with the result's numbers free but for those that stay. Nothing of numbers that make no
+/// device.
+std::optional<ParameterFit> fitted_from(DeviceParameters start, const Identification& result,
+                                        const IdentifyOptions& options, const std::set<std::string>& kept = {}) try {
+  ParameterFitOptions fit_options = options.fit;
+  fit_options.start = ParameterFitOptions::Start::from_structure;
+  fit_options.free.clear();
+  for (const ParameterEstimate& each : result.fit.estimates) {
+    if (!kept.contains(each.key)) fit_options.free.push_back(each.key);
+  }
+  if (fit_options.free.empty()) return std::nullopt;
+  return fit_parameters(Device(std::move(start)), result.response, fit_options);
+} catch (const Error&) {
+  return std::nullopt;
+}
+
+/// Whether the data hardly show a number: what is known better moves K_CR as the draws show.
+bool is_open(const ParameterEstimate& each) {
+  constexpr double well_known = 0.2;  // deviations of the value
+  return !each.standard_deviation || *each.standard_deviation > well_known * each.value;
+}
+
+/// One number towards either end of its 95 % interval, as far as others make up for it: that interval is one of slopes, and
+/// at its ends numbers may be negative. The others are those that the data show, or all.
+std::optional<UnseenLimit> at_an_end(const Device& device, const ParameterEstimate& each, const Identification& result,
+                                     const IdentifyOptions& options, const auto& limits) {
   const auto& uncertainty = device.parameters().uncertainty;
   const auto at = std::ranges::find(uncertainty->parameters, each.key);
-  if (at == uncertainty->parameters.end() || !each.standard_deviation) return std::nullopt;
-  if (*each.standard_deviation <= well_known * each.value) return std::nullopt;
+  if (at == uncertainty->parameters.end() || !each.standard_deviation || !is_open(each)) return std::nullopt;
   if (*each.standard_deviation > each.value) return std::nullopt;  // the draws show what having none of it does
-  for (const double deviations : {-1.96, 1.96}) {
+  std::set<std::string> open;
+  for (const ParameterEstimate& other : result.fit.estimates) {
+    if (is_open(other)) open.insert(other.key);
+  }
+  for (const double deviations : {-1.96, 1.96, -1.8, 1.8, -1.6, 1.6, -1.3, 1.3, -0.8, 0.8}) {
     const auto other = moved(device, static_cast<std::size_t>(at - uncertainty->parameters.begin()), deviations);
-    if (!other) continue;
-    CriticalStiffness critical = limit_of(*other);
-    if (!limits(critical)) continue;
-    return UnseenLimit{
-        fmt::format("{} is known to {} only: within that", each.key, percent(*each.standard_deviation / each.value)),
-        std::move(critical)};
+    if (!other || !limits(limit_of(*other))) continue;
+    for (const std::set<std::string>& kept : {open, {each.key}}) {
+      const auto fit = fitted_from(other->parameters(), result, options, kept);
+      if (!fit || !explains_as_much(*fit, result.fit, result.response.line_correlation)) continue;
+      CriticalStiffness critical = limit_of(fit->device);
+      if (!limits(critical)) continue;
+      return UnseenLimit{
+          fmt::format("{} is known to {} only: within that", each.key, percent(*each.standard_deviation / each.value)),
+          std::move(critical)};
+    }
   }
   return std::nullopt;
 }
 
-/// Devices with other values of what the data do not show to a factor of less than 2: masses, stiffnesses, delay and lag
+/// Numbers of devices with other values of what the data do not show to a factor of less than 2: masses, stiffnesses, delay and lag
 /// by a factor, dampings of links from 0.5 to 10 % of the critical one, dampings to ground in other shares of their sum.
 class OtherValues {
  public:
@@ -98,7 +112,7 @@ class OtherValues {
 
   [[nodiscard]] bool exist() const { return !open_.empty(); }
 
-  Device next() {
+  DeviceParameters next() {
     DeviceParameters other = device_;
     double mass = 0.0;
     double damping = 0.0;
@@ -123,7 +137,7 @@ class OtherValues {
     }
     vary(other.loop.delay, "loop.delay");
     vary(other.actuator.time_constant, "actuator.time_constant");
-    return Device(std::move(other));
+    return other;
   }
 
  private:
@@ -144,19 +158,12 @@ std::optional<UnseenLimit> from_other_values(const Identification& result, const
   constexpr int starts = 24;  // of 60 tried on one such record 17 came to another limit, none of the first 12
   OtherValues values(result);
   if (!values.exist()) return std::nullopt;
-  ParameterFitOptions fit_options = options.fit;
-  fit_options.start = ParameterFitOptions::Start::from_structure;
-  fit_options.free.clear();
-  for (const ParameterEstimate& each : result.fit.estimates) fit_options.free.push_back(each.key);
   for (int start = 0; start < starts; ++start) {
-    try {
-      const ParameterFit fit = fit_parameters(values.next(), result.response, fit_options);
-      CriticalStiffness critical = limit_of(fit.device);
-      if (!explains_as_much(fit, result.fit, result.response.line_correlation) || !limits(critical)) continue;
-      return UnseenLimit{"the record leaves numbers open: with others that explain it as well", std::move(critical)};
-    } catch (const Error&) {  // no device has such numbers
-      continue;
-    }
+    const auto fit = fitted_from(values.next(), result, options);
+    if (!fit || !explains_as_much(*fit, result.fit, result.response.line_correlation)) continue;
+    CriticalStiffness critical = limit_of(fit->device);
+    if (!limits(critical)) continue;
+    return UnseenLimit{"the record leaves numbers open: with others that explain it as well", std::move(critical)};
   }
   return std::nullopt;
 }
@@ -175,7 +182,7 @@ void judge_unseen_limit(Identification& result, const Device& as_fitted, const I
   };
   std::optional<UnseenLimit> unseen;
   for (const ParameterEstimate& each : result.fit.estimates) {
-    if (!unseen) unseen = at_an_end(as_fitted, each, limits);
+    if (!unseen) unseen = at_an_end(as_fitted, each, result, options, limits);
   }
   if (!unseen) unseen = from_other_values(result, options, limits);
   if (!unseen) return;

@@ -1,0 +1,36 @@
+#include "identification/fit_comparison.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "identification/student_t.hpp"
+
+namespace zwidth::internal {
+
+bool stands_still(const ParameterFit& before, const ParameterFit& after) {
+  constexpr double notable = 0.1;
+  for (std::size_t i = 0; i < after.estimates.size(); ++i) {
+    const ParameterEstimate& estimate = after.estimates[i];
+    const double moved = std::abs(estimate.value - before.estimates[i].value);
+    if (estimate.standard_deviation && moved > notable * *estimate.standard_deviation) return false;
+  }
+  return true;
+}
+
+bool explains_more(const ParameterFit& one, const ParameterFit& other) {
+  return std::pair(one.model_error, one.misfit) < std::pair(other.model_error, other.misfit);
+}
+
+bool explains_as_much(const ParameterFit& other, const ParameterFit& first, double line_correlation) {
+  if (other.model_error > 1.02 * first.model_error + 1e-9) return false;
+  if (!other.misfit || !first.misfit) return true;
+  constexpr double least_freedom = 2.0;
+  const double independent = 2.0 * static_cast<double>(first.frequencies.size()) / line_correlation;
+  const double freedom = std::max(least_freedom, independent - static_cast<double>(first.estimates.size()));
+  const double t = student_t_quantile(freedom);
+  const double ratio = *other.misfit / *first.misfit;
+  return (ratio * ratio - 1.0) * freedom <= t * t;
+}
+
+}  // namespace zwidth::internal
