@@ -2,10 +2,9 @@
 // campaign is benchmarks/identification_campaign.cpp.
 #include <gtest/gtest.h>
 
-#include <span>
 #include <string>
 
-#include "identification/friction_in_time.hpp"
+#include "property/identified_recordings.hpp"
 #include "property/random_recordings.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/identification/identification.hpp"
@@ -13,11 +12,10 @@
 namespace zwidth {
 namespace {
 
-void expect_interval_holds(const Identification& found, double stiffness, std::uint64_t seed) {
-  ASSERT_TRUE(found.analysis.interval) << "seed " << seed;
-  EXPECT_LE(found.analysis.interval->lower, stiffness) << "seed " << seed;
-  EXPECT_GE(found.analysis.interval->upper, stiffness) << "seed " << seed;
-}
+using test::expect_doubtful;
+using test::expect_interval_holds;
+using test::expect_sound_and_right;
+using test::identified;
 
 TEST(IdentificationProperty, WhatIsCalledSoundIsSafe) {
   int sound = 0;
@@ -48,98 +46,7 @@ TEST(IdentificationProperty, WhatIsCalledSoundIsSafe) {
   EXPECT_LE(unsafe, 2);
 }
 
-Identification identified(const test::RandomRecording& made) {
-  IdentifyOptions options;
-  options.structure_values = IdentifyOptions::StructureValues::placeholders;
-  return identify(made.recording, Device(made.structure), options);
-}
-
-void expect_sound_and_right(const Identification& found, const test::RandomRecording& made) {
-  EXPECT_TRUE(found.trust.sound()) << "seed " << made.seed << ": " << found.trust.reasons.front();
-  expect_interval_holds(found, made.stiffness, made.seed);
-}
-
-/// The answer, and the device for any other purpose.
-void expect_doubtful(const Identification& found, const test::RandomRecording& made) {
-  EXPECT_FALSE(found.trust.sound()) << "seed " << made.seed;
-  EXPECT_FALSE(found.analysis.trust.sound()) << "seed " << made.seed;
-}
-
 // Seeds of benchmarks/identification_campaign that were answered wrongly.
-
-// Friction whose effect the linear device explains as next to nothing, since it hardly moves while stuck: called sound,
-// and 1 to 30 % too high.
-TEST(IdentificationProperty, FrictionThatShowsIsNeverSound) {
-  for (const std::uint64_t seed : {500003U, 500221U, 500324U}) {
-    const auto made = test::random_recording(seed);
-    ASSERT_TRUE(made && made->has_friction);
-    const Identification found = identified(*made);
-    EXPECT_FALSE(found.trust.sound()) << "seed " << seed;
-    EXPECT_TRUE(found.friction) << "seed " << seed;
-  }
-}
-
-// Friction that no small disturbance of the linear fit's motion shows, since the device drifts until friction stops it, or
-// has modes above the band: 39, 18, 7 and 53 % too high at the interval's lower end, called sound.
-TEST(IdentificationProperty, FrictionThatTheLinearFitHidesIsFoundInTime) {
-  for (const std::uint64_t seed : {1000413U, 910134U, 1000307U, 1000868U}) {
-    const auto made = test::random_recording(seed);
-    ASSERT_TRUE(made && made->has_friction);
-    const Identification found = identified(*made);
-    expect_doubtful(found, *made);
-    ASSERT_TRUE(found.friction) << "seed " << seed;
-    double friction = 0.0;
-    for (const Body& body : made->truth.bodies) friction += body.coulomb;
-    // As near as it says: the likelihood itself is greatest 16 % away in the third, where 17 % are two deviations.
-    EXPECT_NEAR(found.friction->force, friction, 2.0 * found.friction->deviation) << "seed " << seed;
-    EXPECT_LT(found.friction->deviation, 0.25 * friction) << "seed " << seed;
-    ASSERT_TRUE(found.friction->stiffness_beside) << "seed " << seed;
-    EXPECT_NEAR(*found.friction->stiffness_beside, made->stiffness, 0.02 * made->stiffness) << "seed " << seed;
-  }
-}
-
-// Friction of 0.021 N, of which a fit in time finds 0.0124 +- 0.0038 N: the interval began 18 % above the truth, sound.
-TEST(IdentificationProperty, FrictionThatIsSuspectedMovesTheInterval) {
-  const auto made = test::random_recording(600200);
-  ASSERT_TRUE(made && made->has_friction);
-  const Identification found = identified(*made);
-  expect_doubtful(found, *made);
-}
-
-// Noise to 410 Hz makes of friction a damper of 7 N s/m beside 0.4; below 41 Hz, where the device moves, it shows. Was sound,
-// and 20 times too high.
-TEST(IdentificationProperty, FrictionUnderNoiseShowsWhereTheDeviceMoves) {
-  const auto made = test::random_recording(900783);
-  ASSERT_TRUE(made && made->has_friction);
-  const Identification found = identified(*made);
-  expect_doubtful(found, *made);
-  EXPECT_TRUE(found.friction);
-}
-
-// Friction of the lighter body, of a device excited to 270 Hz: over all lines the residuals are 1.3 times the noise, from
-// 32 to 43 Hz 2.7 times. Was sound, and 1.6 times too high at its lower end.
-TEST(IdentificationProperty, FrictionThatAFewLinesShowIsNeverSound) {
-  const auto made = test::random_recording(1300194);
-  ASSERT_TRUE(made && made->has_friction);
-  const Identification found = identified(*made);
-  expect_doubtful(found, *made);
-  ASSERT_FALSE(found.trust.reasons.empty());
-  EXPECT_TRUE(found.trust.reasons.front().starts_with("from 32.23 to 43.46 Hz")) << found.trust.reasons.front();
-}
-
-// The same record: the fit in time looks at the lighter body too.
-TEST(IdentificationProperty, FrictionOfTheLighterBodyIsFoundInTime) {
-  const auto made = test::random_recording(1300194);
-  ASSERT_TRUE(made && made->has_friction);
-  Identification found = identified(*made);
-  found.trust = {};
-  internal::judge_friction_in_time(found, std::span(&made->recording, 1), {});
-  EXPECT_FALSE(found.trust.sound());
-  ASSERT_TRUE(found.friction);
-  EXPECT_EQ(found.friction->body, "body1");
-  EXPECT_NEAR(found.friction->force, made->truth.bodies[1].coulomb, 2.0 * found.friction->deviation);
-  EXPECT_NEAR(*found.friction->stiffness_beside, made->stiffness, 0.1 * made->stiffness);
-}
 
 // A body too few, excited to 8.5 Hz: the response shows 1284 N/m at 2.8 Hz, but nothing of the damping of a mode near
 // 31 Hz, where half of the devices that the data allow are limited; the true one is, at 633 N/m. Was sound, with
@@ -317,15 +224,6 @@ TEST(IdentificationProperty, OpenNumbersThatTheLimitDoesNotHangOnAreNoDoubt) {
   }
 }
 
-// The friction test's own spread is 1.2 of the deviations that it gives: what came to 4.0 of them was no friction.
-TEST(IdentificationProperty, ARecordWithoutFrictionShowsNone) {
-  const auto made = test::random_recording(910064);
-  ASSERT_TRUE(made && !made->has_friction);
-  const Identification found = identified(*made);
-  EXPECT_FALSE(found.friction);
-  EXPECT_TRUE(found.trust.sound());
-}
-
 // What drifts more slowly than the test's autoregression sees passed for cogging: bodies that drift under a chirp. In the
 // others up to 1.35 % of what is left goes with some wave of the position: of 578 records four did.
 TEST(IdentificationProperty, ALinearRecordShowsNoCogging) {
@@ -407,18 +305,6 @@ TEST(IdentificationProperty, ALagThatTheDelayHidIsFound) {
     const Identification found = identified(*made);
     ASSERT_NO_FATAL_FAILURE(expect_sound_and_right(found, *made));
     EXPECT_LT(*found.fit.misfit, 1.5) << "seed " << seed;
-  }
-}
-
-// A fit with friction in time that ends in a side minimum, its friction a third of a deviation, tells nothing.
-// In 2064 all searches did, one of them with a friction of five deviations.
-TEST(IdentificationProperty, FrictionThatIsNoneCastsNoDoubt) {
-  for (const std::uint64_t seed : {1000006U, 2064U}) {
-    const auto made = test::random_recording(seed);
-    ASSERT_TRUE(made && !made->has_friction);
-    const Identification found = identified(*made);
-    EXPECT_FALSE(found.friction) << "seed " << seed;
-    EXPECT_TRUE(found.trust.sound()) << "seed " << seed;
   }
 }
 
