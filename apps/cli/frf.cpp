@@ -21,10 +21,18 @@ namespace {
 
 struct FrfArguments {
   ResponseArguments response;
-  results::FrfUnits units;
+  std::string force_unit;     ///< empty: as the column's name states it
+  std::string position_unit;  ///< likewise
   OutputArguments output;
   bool points = false;
 };
+
+results::FrfUnits units_of(const FrfArguments& arguments, const MeasuredResponse& frf) {
+  results::FrfUnits units = results::frf_units(frf);
+  if (!arguments.force_unit.empty()) units.force = arguments.force_unit;
+  if (!arguments.position_unit.empty()) units.position = arguments.position_unit;
+  return units;
+}
 
 void run_frf(const FrfArguments& arguments) {
   const RecordingArguments& recording = arguments.response.recording;
@@ -36,15 +44,16 @@ void run_frf(const FrfArguments& arguments) {
   for (const std::string& file : recording.more) outputs.keep(file, "recording");
 
   const MeasuredResponse frf = measured_response(response_source(arguments.response));
+  const results::FrfUnits units = units_of(arguments, frf);
   outputs.put("--csv", [&] { return results::frf_csv(frf); });
-  outputs.draw("--output", [&](report::FigureFormat format) { return report::draw_frf(frf, arguments.units, format); });
+  outputs.draw("--output", [&](report::FigureFormat format) { return report::draw_frf(frf, units, format); });
   outputs.commit();
   if (arguments.output.json) {
     write_warnings(frf.remarks);
     const auto content = arguments.points ? results::FrfContent::with_lines : results::FrfContent::summary;
-    write_standard_output(results::line(results::frf_json(frf, arguments.units, content)));
+    write_standard_output(results::line(results::frf_json(frf, units, content)));
   } else {
-    write_text(report::frf_text(frf, arguments.units));
+    write_text(report::frf_text(frf, units));
   }
 }
 
@@ -55,12 +64,10 @@ void add_frf(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("frf", "Measured frequency response of a recording, and the critical stiffness it shows");
   add_response_arguments(*command, arguments->response);
-  command->add_option("--force-unit", arguments->units.force, "Unit of the force, for the report")
-      ->type_name("UNIT")
-      ->capture_default_str();
-  command->add_option("--position-unit", arguments->units.position, "Unit of the position")
-      ->type_name("UNIT")
-      ->capture_default_str();
+  command->add_option("--force-unit", arguments->force_unit, "For the report; else of the column's name, else N")
+      ->type_name("UNIT");
+  command->add_option("--position-unit", arguments->position_unit, "Likewise; else of the column's name, else m")
+      ->type_name("UNIT");
   add_output_options(
       *command, arguments->output,
       {.csv = "Also write the lines of the response", .figure = "Also draw a figure: .svg, .png or .pdf"});

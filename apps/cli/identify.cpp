@@ -120,7 +120,7 @@ auto fitted(const std::string& name, const Work& work) {
 
 Identification identified_device(const IdentifyArguments& arguments) {
   const ResponseSource source = response_source(arguments.response);
-  const Structure fitted_structure = structure(arguments.structure, source.sampling_period());
+  const Structure fitted_structure = structure(arguments.structure, source.sampling_period(), source.recordings);
   const IdentifyOptions options = identify_options(arguments, source.options, fitted_structure.values);
   return fitted(source.recordings.size() > 1 ? "" : source.name, [&](const Progress& progress) {
     return !source.recordings.empty() ? identify(source.recordings, fitted_structure.device, options, progress)
@@ -131,7 +131,7 @@ Identification identified_device(const IdentifyArguments& arguments) {
 TimeDomainIdentification device_fitted_in_time(const IdentifyArguments& arguments) {
   const StructureArguments& given = arguments.structure;
   const std::vector<Recording> recordings = read_motions(arguments.response.recording).recordings;
-  const Structure fitted_structure = structure(given, recordings.front().sampling_period);
+  const Structure fitted_structure = structure(given, recordings.front().sampling_period, recordings);
   TimeDomainOptions options = arguments.in_time;
   options.free = given.free;
   options.locked = given.locked;
@@ -145,8 +145,7 @@ TimeDomainIdentification device_fitted_in_time(const IdentifyArguments& argument
 }
 
 RigidBodyIdentification fitted_rigid_body(const IdentifyArguments& arguments) {
-  const RigidBodyOptions options{arguments.inverse_dynamics,
-                                 arguments.structure.motion == "rotary" ? Motion::rotary : Motion::linear,
+  const RigidBodyOptions options{arguments.inverse_dynamics, asked_motion(arguments.structure),
                                  arguments.structure.sampling_period};
   constexpr std::pair<std::string_view, std::string_view> own_options[] = {
       {"sampling_period", "--sampling-period"},

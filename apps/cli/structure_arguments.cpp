@@ -31,9 +31,11 @@ void check(const NamedStructureOptions& options) {
   if (const auto problem = find_problem(options)) refuse(*problem, own_options);
 }
 
-Structure structure_by_name(const StructureArguments& arguments, std::optional<double> record_period) {
-  const NamedStructureOptions options{arguments.motion == "rotary" ? Motion::rotary : Motion::linear,
-                                      arguments.sampling_period, record_period};
+Structure structure_by_name(const StructureArguments& arguments, std::optional<double> record_period,
+                            std::span<const Recording> recordings) {
+  const std::optional<Motion> asked = asked_motion(arguments);
+  const std::optional<Motion> motion = asked ? asked : stated_motion(recordings);
+  const NamedStructureOptions options{motion.value_or(Motion::linear), arguments.sampling_period, record_period};
   check(options);
   const NamedStructure named = named_structure(arguments.structure, options).value();
   auto device = parse_device(write_device(named.parameters), "--structure " + arguments.structure, arguments.overrides);
@@ -60,6 +62,11 @@ Device structure_from_file(const StructureArguments& arguments) {
 
 }  // namespace
 
+std::optional<Motion> asked_motion(const StructureArguments& arguments) {
+  if (arguments.motion.empty()) return std::nullopt;
+  return arguments.motion == "rotary" ? Motion::rotary : Motion::linear;
+}
+
 void add_structure_arguments(CLI::App& command, StructureArguments& arguments) {
   command.add_option("--structure", arguments.structure, "Device file to fit, or rigid, two-body or three-body")
       ->type_name("DEVICE")
@@ -83,7 +90,9 @@ void add_structure_arguments(CLI::App& command, StructureArguments& arguments) {
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false)
       ->group(structure_group);
-  command.add_option("--motion", arguments.motion, "Of a named structure: linear (the default) or rotary")
+  command
+      .add_option("--motion", arguments.motion,
+                  "Of a named structure: linear or rotary; else by\nthe columns' units, else linear")
       ->type_name("KIND")
       ->check(CLI::IsMember({"linear", "rotary"}))
       ->group(structure_group);
@@ -94,8 +103,9 @@ void add_structure_arguments(CLI::App& command, StructureArguments& arguments) {
       ->group(structure_group);
 }
 
-Structure structure(const StructureArguments& arguments, std::optional<double> record_period) {
-  Structure structure = names_structure(arguments.structure) ? structure_by_name(arguments, record_period)
+Structure structure(const StructureArguments& arguments, std::optional<double> record_period,
+                    std::span<const Recording> recordings) {
+  Structure structure = names_structure(arguments.structure) ? structure_by_name(arguments, record_period, recordings)
                                                              : Structure{structure_from_file(arguments)};
   const Device& device = structure.device;
   std::vector<std::string> names;

@@ -2,11 +2,13 @@
 
 #include <CLI/App.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "zwidth/identification/identification.hpp"
 #include "zwidth/model/device.hpp"
+#include "zwidth/signal/recording.hpp"
 
 namespace zwidth::cli {
 
@@ -14,7 +16,7 @@ namespace zwidth::cli {
 struct StructureArguments {
   std::string structure;                  ///< a device file, "-", or rigid, two-body, three-body
   std::vector<std::string> overrides;     ///< KEY=VALUE of every --set
-  std::string motion;                     ///< of a named structure; empty: linear
+  std::string motion;                     ///< of a named structure; empty: by the record
   std::optional<double> sampling_period;  ///< s, of the loop to judge; else the structure's, else the record's
   std::vector<std::string> free;          ///< keys, or "all"
   std::vector<std::string> locked;        ///< names of bodies
@@ -23,6 +25,9 @@ struct StructureArguments {
 /// Declares --structure, --set, --motion, --sampling-period, --free and --locked; `arguments` must outlive the parsing.
 void add_structure_arguments(CLI::App& command, StructureArguments& arguments);
 
+/// --motion; nothing where it was not given.
+[[nodiscard]] std::optional<Motion> asked_motion(const StructureArguments& arguments);
+
 /// A structure to fit, and whether its numbers are known.
 struct Structure {
   Device device;
@@ -30,7 +35,9 @@ struct Structure {
 };
 
 /// The structure as asked for, its parameters and bodies checked to be those that --free and --locked name.
-/// `record_period` is the record's sampling period, where it has one. Throws BadInput.
-[[nodiscard]] Structure structure(const StructureArguments& arguments, std::optional<double> record_period);
+/// `record_period` is the record's sampling period, where it has one; a named structure moves as the recordings' columns
+/// state, unless it is asked for. Throws BadInput.
+[[nodiscard]] Structure structure(const StructureArguments& arguments, std::optional<double> record_period,
+                                  std::span<const Recording> recordings);
 
 }  // namespace zwidth::cli

@@ -30,6 +30,13 @@ std::optional<double> in_degrees(std::optional<double> angle) {
 
 }  // namespace
 
+FrfUnits frf_units(const MeasuredResponse& measured) {
+  FrfUnits units;
+  if (!measured.force_unit.empty()) units.force = measured.force_unit;
+  if (!measured.length_unit.empty()) units.position = measured.length_unit;
+  return units;
+}
+
 FrfUnits frf_units(const Device& device) {
   const Units units = units_of(device.parameters().motion);
   return {std::string(units.force), std::string(units.length)};

@@ -23,6 +23,9 @@ struct FrfUnits {
   [[nodiscard]] std::string compliance() const;  ///< "m/N", "rad/(N m)"
 };
 
+/// Those that the columns' names state; N and m where they state none.
+[[nodiscard]] FrfUnits frf_units(const MeasuredResponse& measured);
+
 /// Those of what is recorded of a device.
 [[nodiscard]] FrfUnits frf_units(const Device& device);
 

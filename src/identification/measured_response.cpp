@@ -101,6 +101,17 @@ void check(std::span<const Recording> recordings, const FrequencyResponseOptions
   }
 }
 
+/// In which a channel's samples are, by its name in all recordings; empty where they state none, or several.
+std::string stated_unit(std::span<const Recording> recordings, std::size_t channel) {
+  const auto unit_of = [&](const Recording& recording) {
+    const Channel& each = recording.channels[channel];
+    return each.base_unit.empty() ? each.unit : each.base_unit;
+  };
+  const std::string unit = unit_of(recordings.front());
+  const bool is_same = std::ranges::all_of(recordings, [&](const auto& each) { return unit_of(each) == unit; });
+  return is_same ? unit : "";
+}
+
 /// What a recording's signals show before any estimate.
 struct RecordChecks {
   std::vector<Remark> remarks;
@@ -331,6 +342,9 @@ MeasuredResponse frequency_response(std::span<const Recording> recordings, const
   judge_friction(measured, recordings, each, decided);
   if (measured.dependence) judge_dependence(measured, recordings, each);
   for (const std::string& doubt : doubts) measured.trust.doubt(doubt);
+  measured.force_unit = stated_unit(recordings, 0);
+  measured.length_unit = stated_unit(recordings, 1);
+  measured.length_unit.resize(std::min(measured.length_unit.size(), measured.length_unit.find("/s")));
   return measured;
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "model/implausible_numbers.hpp"
+#include "zwidth/identification/identification.hpp"
 #include "zwidth/model/parameter.hpp"
 #include "zwidth/quantity.hpp"
 
@@ -158,6 +159,31 @@ std::optional<std::string> doubt_of_force_limit(const Recording& recording, cons
       recording.channels[0].name, quantity(strongest, unit), quantity(*device.actuator.force_limit, unit));
 }
 
+std::optional<std::string> doubt_of_motion(const Recording& recording, const Device& fitted) {
+  const Channel& force = recording.channels[0];
+  const Channel& motion = recording.channels[1];
+  const auto motion_in = [](const Channel& channel) {
+    return stated_motion(std::vector{Recording{.source = {}, .channels = {channel}, .remarks = {}}});
+  };
+  const std::optional<Motion> of_force = motion_in(force);
+  const std::optional<Motion> of_motion = motion_in(motion);
+  if (of_force && of_motion && *of_force != *of_motion) {
+    return fmt::format(
+        "{} is in {} and {} in {} by their names, one of a linear motion and one of a rotary: give the scale that "
+        "makes "
+        "them of one, by the radius",
+        force.name, force.base_unit, motion.name, motion.base_unit);
+  }
+  const bool is_rotary = fitted.parameters().motion == Motion::rotary;
+  const std::optional<Motion> stated = of_force ? of_force : of_motion;
+  if (!stated || (*stated == Motion::rotary) == is_rotary) return std::nullopt;
+  return fmt::format(
+      "{} is in {} by its name, of a {} motion, and the structure's is {}: every number has the wrong unit; "
+      "set the structure's motion, or give the scale from one to the other",
+      (of_force ? force : motion).name, (of_force ? force : motion).base_unit, is_rotary ? "linear" : "rotary",
+      is_rotary ? "rotary" : "linear");
+}
+
 std::optional<std::string> doubt_of_thinned_rows(const Recording& recording, const Device& fitted) {
   const double period = fitted.loop().sampling_period;
   const double ratio = recording.sampling_period / period;
@@ -174,8 +200,8 @@ std::optional<std::string> doubt_of_thinned_rows(const Recording& recording, con
 
 std::vector<std::string> doubts_of_recording(const Recording& recording, OutputQuantity output, const Device& fitted) {
   std::vector<std::string> doubts;
-  for (auto& doubt : {doubt_of_units(recording, output), doubt_of_force_limit(recording, fitted),
-                      doubt_of_thinned_rows(recording, fitted)}) {
+  for (auto& doubt : {doubt_of_units(recording, output), doubt_of_motion(recording, fitted),
+                      doubt_of_force_limit(recording, fitted), doubt_of_thinned_rows(recording, fitted)}) {
     if (doubt) doubts.push_back(*doubt);
   }
   return doubts;

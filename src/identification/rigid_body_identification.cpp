@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -19,6 +20,7 @@
 #include "require_valid.hpp"
 #include "signal/clipping.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/identification/identification.hpp"
 #include "zwidth/quantity.hpp"
 #include "zwidth/stability/analysis.hpp"
 
@@ -61,12 +63,12 @@ struct Place {
   Eigen::Index row;
 };
 
-DeviceParameters device_of(const RigidBodyFit& fit, const RigidBodyOptions& options, double recorded_period,
-                           std::vector<Remark>& remarks) {
+DeviceParameters device_of(const RigidBodyFit& fit, const RigidBodyOptions& options, Motion motion,
+                           double recorded_period, std::vector<Remark>& remarks) {
   const LaterBody found = later_body(fit, recorded_period);
   DeviceParameters parameters;
   parameters.name = "rigid body";
-  parameters.motion = options.motion;
+  parameters.motion = motion;
   parameters.bodies.resize(1);
   parameters.loop.sampling_period = options.sampling_period.value_or(recorded_period);
   Body& body = parameters.bodies.front();
@@ -182,7 +184,9 @@ void judge_mode(RigidBodyIdentification& identified) {
 }
 
 void judge_nonlinearity(RigidBodyIdentification& identified, const Recording& recording, Motion motion) {
-  if (auto doubt = doubt_of_units(recording, OutputQuantity::position)) identified.trust.doubt(*std::move(doubt));
+  for (std::string& doubt : doubts_of_recording(recording, OutputQuantity::position, identified.device)) {
+    identified.trust.doubt(std::move(doubt));
+  }
   const auto found = find_nonlinearity_of_equations(identified.fit, recording.channels[0].samples,
                                                     recording.channels[1].samples, recording.sampling_period, motion);
   if (!found) return;
@@ -244,7 +248,9 @@ RigidBodyIdentification identify_rigid_body(const Recording& recording, const Ri
   for (Remark& remark : implausible_recording(recording)) remarks.push_back(std::move(remark));
   std::vector<Remark> own = std::exchange(fit.remarks, {});
   remarks.insert(remarks.end(), std::make_move_iterator(own.begin()), std::make_move_iterator(own.end()));
-  Device device(device_of(fit, options, period, remarks));
+  const auto stated = stated_motion(std::span(&recording, 1));
+  const Motion motion = options.motion.value_or(stated.value_or(Motion::linear));
+  Device device(device_of(fit, options, motion, period, remarks));
   for (Remark& remark : implausible_device(device, nullptr, period)) remarks.push_back(std::move(remark));
   RigidBodyIdentification identified{recording.source, std::move(fit), std::move(device), std::move(remarks),
                                      std::move(trust)};
@@ -253,7 +259,7 @@ RigidBodyIdentification identify_rigid_body(const Recording& recording, const Ri
   judge_mode(identified);
   judge_delay(identified, period);
   judge_limit(identified);
-  judge_nonlinearity(identified, recording, options.motion);
+  judge_nonlinearity(identified, recording, motion);
   identified.device = with_trust(identified.device, identified.trust);
   return identified;
 }

@@ -100,7 +100,7 @@ ColumnUnit known_unit(std::string_view text) {
       {"rad/s", velocity}, {"m/s^2", acceleration}, {"rad/s^2", acceleration}, {"A", other},      {"V", other}};
   for (const auto& [si, quantity] : quantities) {
     const auto factor = unit_factor(*ascii, si);
-    if (factor) return {text, quantity, *factor};
+    if (factor) return {text, quantity, si, *factor};
   }
   return result;
 }
@@ -129,7 +129,8 @@ ColumnUnit unit_at_end(std::string_view name) {
     const std::string_view end = name.substr(begin);
     if (end == "nm") {  // a torque in lower case, or nanometres
       const bool is_torque = contains(lower, {"torq", "tau", "mom", "force"});
-      return {end, is_torque ? StatedQuantity::force : StatedQuantity::position, is_torque ? 1.0 : 1e-9};
+      return is_torque ? ColumnUnit{end, StatedQuantity::force, "N m", 1.0}
+                       : ColumnUnit{end, StatedQuantity::position, "m", 1e-9};
     }
     const bool is_electric = (end == "A" || end == "V") && contains(lower, {"cur", "amp", "volt", "cmd", "command"});
     std::string word(end);

@@ -17,7 +17,8 @@ namespace zwidth::internal {
 struct ColumnUnit {
   std::string_view text = {};  ///< as it is written; empty: nothing for sure
   StatedQuantity quantity = StatedQuantity::nothing;
-  double factor = 1.0;  ///< base units (N, N m, m, rad, A, V and their rates) per unit; 1 where it is not known
+  std::string_view base = {};  ///< the base unit: "N", "N m", "rad", "m/s"; empty where it is not known
+  double factor = 1.0;         ///< base units (N, N m, m, rad, A, V and their rates) per unit; 1 where it is not known
 };
 
 /// Of a unit in brackets or parentheses, or at the end after one of "_ .:,/": "x [mm]", "F (in mN)", "angle_deg", "force/mN".

@@ -22,6 +22,7 @@ double scale_of(const ColumnRequest& request, Channel& channel, std::vector<Rema
   if (std::abs(asked) != 1.0) return asked;
   const ColumnUnit unit = unit_of_column(channel.name);
   if (unit.text.empty()) return asked;
+  channel.base_unit = unit.base;
   if (!request.scale || *request.scale != 1.0) {
     channel.unit = unit.text;
     channel.quantity = unit.quantity;

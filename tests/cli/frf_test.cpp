@@ -82,6 +82,31 @@ TEST_F(Frf, ScalesAndUnitsGoIntoTheStiffness) {
   EXPECT_NEAR(found["critical_stiffness"].get<double>() * 1000.0, example_stiffness, 0.01 * example_stiffness);
 }
 
+// A torque and an angle were labelled N and m, although the columns were read by the units in their names.
+TEST_F(Frf, TheUnitsAreThoseOfTheColumns) {
+  const std::string linear = contents("recordings/locked_chirp.csv");
+  const std::string samples = linear.substr(linear.find('\n'));
+  write("rotary.csv", "time,torque [mNm],angle_rad" + samples);
+  const std::string rotary = "rotary.csv --force 'torque [mNm]' --position angle_rad --json";
+  const json found = document("zwidth frf " + rotary);
+  EXPECT_EQ(found["units"]["force"], "N m");
+  EXPECT_EQ(found["units"]["position"], "rad");
+  EXPECT_EQ(found["units"]["stiffness"], "N m/rad");
+  EXPECT_NEAR(found["critical_stiffness"].get<double>(), 1e-3 * example_stiffness, 1e-5 * example_stiffness);
+  EXPECT_EQ(document("zwidth frf " + rotary + " --position-unit turn")["units"]["stiffness"], "N m/turn");
+  const json named = json::parse(run("zwidth identify " + rotary + " --structure two-body").output);
+  EXPECT_EQ(named["parameters"][0]["unit"], "kg m²");
+  for (const std::string structure : {"two-body --motion linear", "devices/lhifam.toml"}) {
+    const json other = json::parse(run("zwidth identify " + rotary + " --structure " + structure).output);
+    EXPECT_NE(other["trust"]["verdict"], "sound") << structure;
+    EXPECT_THAT(other["trust"]["reasons"].dump(), HasSubstr("every number has the wrong unit")) << structure;
+  }
+  write("mixed.csv", "time,torque_Nm,x_mm" + samples);
+  const json mixed = json::parse(
+      run("zwidth identify mixed.csv --force torque_Nm --position x_mm --structure two-body --json").output);
+  EXPECT_THAT(mixed["trust"]["reasons"].dump(), HasSubstr("give the scale that makes them of one"));
+}
+
 TEST_F(Frf, ABandWithoutTheCrossoverIsSaidNotGuessed) {
   const Outcome outcome = run(example + "--highest-hz 70 --json");
   EXPECT_EQ(outcome.status, 0);

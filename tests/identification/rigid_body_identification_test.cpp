@@ -181,6 +181,19 @@ TEST(RigidBodyIdentification, AReversedPositionIsRefused) {
   EXPECT_THROW((void)identify_rigid_body(recording), Error);
 }
 
+TEST(RigidBodyIdentification, MovesAsItsColumnsState) {
+  Recording recording = recorded(body_of_one_kilogram(0.0), 20.0, 1);
+  EXPECT_EQ(identify_rigid_body(recording).device.parameters().motion, Motion::linear);
+  recording.channels[1].base_unit = "rad";
+  EXPECT_EQ(identify_rigid_body(recording).device.parameters().motion, Motion::rotary);
+  RigidBodyOptions options;
+  options.motion = Motion::linear;
+  const RigidBodyIdentification other = identify_rigid_body(recording, options);
+  EXPECT_EQ(other.device.parameters().motion, Motion::linear);
+  EXPECT_FALSE(other.trust.sound());
+  EXPECT_NE(other.trust.reasons.front().find("every number has the wrong unit"), std::string::npos);
+}
+
 TEST(RigidBodyIdentification, NamesTheMemberOfAnImpossibleOption) {
   RigidBodyOptions options;
   EXPECT_FALSE(find_problem(options));

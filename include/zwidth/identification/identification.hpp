@@ -45,10 +45,14 @@ struct NamedStructure {
 
 /// How a named structure moves, and the loop to judge.
 struct NamedStructureOptions {
-  Motion motion = Motion::linear;              ///< linear or rotary
+  Motion motion = Motion::linear;              ///< linear or rotary: stated_motion(), where it states one
   std::optional<double> sampling_period = {};  ///< s, of the loop; absent: record_period
   std::optional<double> record_period = {};    ///< s, of the recording; absent: it has none, as a table of a response
 };
+
+/// The motion whose units the columns' names state, by Channel::base_unit: rotary of torques and angles. Nothing where they
+/// state none, or both.
+[[nodiscard]] std::optional<Motion> stated_motion(std::span<const Recording> recordings);
 
 /// Whether a structure is called so: "rigid", "two-body" or "three-body".
 [[nodiscard]] bool names_structure(std::string_view name);

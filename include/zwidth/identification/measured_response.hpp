@@ -35,6 +35,9 @@ struct MeasuredResponse {
   std::vector<Remark> remarks;                 ///< all: of reading, of the signals, of the estimate, of the stiffness
   /// Of the critical stiffness, which is that of the bare loop (no virtual damper): refused unless it is found.
   Trust trust;
+  std::string force_unit =
+      {};  ///< in which the force is, by its column's name (Channel::base_unit, or unit); empty: none stated
+  std::string length_unit = {};                        ///< of the position, "m" or "rad", by that of the motion
   std::optional<AmplitudeDependence> dependence = {};  ///< absent for one record, and where the records agree
 };
 

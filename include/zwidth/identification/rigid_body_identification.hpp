@@ -17,7 +17,7 @@ namespace zwidth {
 /// How a rigid body is identified from forces computed back from motion.
 struct RigidBodyOptions {
   InverseDynamicsOptions inverse_dynamics;  ///< of the forces
-  Motion motion = Motion::linear;           ///< whose units the answer has
+  std::optional<Motion> motion;             ///< whose units the answer has; absent: stated_motion(), else linear
   std::optional<double> sampling_period;    ///< s, of the loop to judge; absent: the recording's
 };
 

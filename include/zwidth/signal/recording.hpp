@@ -17,6 +17,7 @@ struct Channel {
   std::vector<double> samples;                        ///< finite, in the unit that the user asked for (already scaled)
   std::string unit = {};                              ///< in its name; empty: none, or a scale was given that says more
   StatedQuantity quantity = StatedQuantity::nothing;  ///< of that unit: a force or torque, a length or angle, ...
+  std::string base_unit = {};  ///< the samples' own, where that unit is known: "N", "N m", "m", "rad", "m/s", ...
 };
 
 /// Signals sampled together at one rate.
