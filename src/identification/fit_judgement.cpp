@@ -272,6 +272,7 @@ void judge_nonlinearity(Identification& result, std::span<const Recording> recor
   if (options.response.window == Window::rectangular && !is_of_lines(recordings, options.response)) {
     result.trust.doubt("segments under a rectangular window leak from the strongest lines into all others; take hann");
   }
+  if (options.scrutiny == IdentifyOptions::Scrutiny::of_fit) return;
   if (!result.trust.sound() || options.response.output != OutputQuantity::position) return;
   const std::vector<std::string> keys = keys_of(result.fit);
   const std::vector<double>& lines = result.fit.frequencies;

@@ -167,7 +167,7 @@ std::optional<ShownFriction> lowering_friction(const Identification& result, std
 void judge_friction_in_time(Identification& result, std::span<const Recording> recordings,
                             const IdentifyOptions& options) {
   if (!result.trust.sound() || !result.analysis.interval) return;
-  if (options.friction_search == IdentifyOptions::FrictionSearch::brief) return;
+  if (options.scrutiny != IdentifyOptions::Scrutiny::thorough) return;
   if (options.response.output != OutputQuantity::position) return;
   const std::optional<ShownFriction> friction = lowering_friction(result, recordings, options.fit.locked);
   if (!friction) return;

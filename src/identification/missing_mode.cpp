@@ -1,5 +1,7 @@
 #include "identification/missing_mode.hpp"
 
+#include <tbb/parallel_for.h>
+
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
@@ -209,25 +211,33 @@ class Scan {
 ModeGuess best_of(const Scan& scan, const ModeQuestion& question) {
   ModeGuess best;
   double most = 0.0;
-  const auto look_at = [&](ModeGuess mode) {
-    if (!(mode.frequency >= question.lowest && mode.frequency <= question.highest)) return;
-    const double gain = scan.gain(mode);
-    if (!(gain > most)) return;
-    most = gain;
-    best = mode;
+  const auto look_at = [&](const std::vector<ModeGuess>& modes) {
+    std::vector<double> gains(modes.size(), 0.0);
+    tbb::parallel_for(std::size_t{0}, modes.size(), [&](std::size_t i) {
+      const double w = modes[i].frequency;
+      if (w >= question.lowest && w <= question.highest) gains[i] = scan.gain(modes[i]);
+    });
+    for (std::size_t i = 0; i < modes.size(); ++i) {
+      if (!(gains[i] > most)) continue;
+      most = gains[i];
+      best = modes[i];
+    }
   };
+  std::vector<ModeGuess> modes;
   for (const double damping : {0.015, 0.08}) {
     const double step = 1.0 + 2.0 * damping;
-    for (double w = question.lowest; w <= question.highest; w *= step) look_at({w, damping});
+    for (double w = question.lowest; w <= question.highest; w *= step) modes.push_back({w, damping});
   }
+  look_at(modes);
   if (most == 0.0) return best;
   for (double share = 1.0; share > 0.1; share /= 2.0) {
-    const ModeGuess from = best;
+    modes.clear();
     for (const double width : {1.0 - 0.5 * share, 1.0, 1.0 + share}) {
       for (const double shift : {-share, -0.5 * share, 0.0, 0.5 * share, share}) {
-        look_at({from.frequency * (1.0 + shift * from.damping_ratio), from.damping_ratio * width});
+        modes.push_back({best.frequency * (1.0 + shift * best.damping_ratio), best.damping_ratio * width});
       }
     }
+    look_at(modes);
   }
   return best;
 }

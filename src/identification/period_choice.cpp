@@ -1,5 +1,7 @@
 #include "identification/period_choice.hpp"
 
+#include <tbb/parallel_invoke.h>
+
 #include <algorithm>
 #include <limits>
 #include <optional>
@@ -56,12 +58,15 @@ Identification with_periods_chosen(
     }
   };
   std::optional<Identification> later;
-  if (options.response.skip_periods == 0 && found.fit.model_error >= clear) {
-    IdentifyOptions skipping = options;
-    skipping.response.skip_periods = 1;
-    later = better(skipping);
-  }
-  std::optional<Identification> other = better(windowed);
+  std::optional<Identification> other;
+  tbb::parallel_invoke(
+      [&] {
+        if (options.response.skip_periods != 0 || found.fit.model_error < clear) return;
+        IdentifyOptions skipping = options;
+        skipping.response.skip_periods = 1;
+        later = better(skipping);
+      },
+      [&] { other = better(windowed); });
   if (later && !(other && is_better(*other, *later))) return *std::move(later);
   if (!other) return found;
   other->remarks.push_back({Remark::Severity::note,

@@ -1,6 +1,7 @@
 #include "zwidth/identification/time_domain.hpp"
 
 #include <fmt/format.h>
+#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <cmath>
@@ -286,10 +287,12 @@ TimeDomainIdentification identify_in_time(std::span<const Recording> recordings,
     }
   }
   const FittedDevice fitted{model, shots, found->fitted, found->known};
-  judge_in_time(result, {recordings, structure, options, shots, start.is_turned, other, start.linear,
-                         doubt_of_agreement(devices_of_recordings(fitted, recordings), result.device),
-                         contradicted_numbers(fitted, structure, recordings, options.locked, start.lowest),
-                         find_weak_forces(fitted, options.locked, start.lowest, start.highest)});
+  JudgedTimeFit judged{recordings, structure, options, shots, start.is_turned, other, start.linear};
+  tbb::parallel_invoke(
+      [&] { judged.disagreement = doubt_of_agreement(devices_of_recordings(fitted, recordings), result.device); },
+      [&] { judged.contradicted = contradicted_numbers(fitted, structure, recordings, options.locked, start.lowest); },
+      [&] { judged.weak_forces = find_weak_forces(fitted, options.locked, start.lowest, start.highest); });
+  judge_in_time(result, judged);
   done(1.0);
   return result;
 }

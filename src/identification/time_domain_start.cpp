@@ -110,7 +110,7 @@ TimeDomainStart time_domain_start(std::span<const Recording> recordings, const D
   linear.loop_delay = options.loop_delay;
   linear.fit.locked = options.locked;
   linear.fit.critical_point = ParameterFitOptions::CriticalPoint::free;
-  linear.friction_search = IdentifyOptions::FrictionSearch::brief;
+  linear.scrutiny = IdentifyOptions::Scrutiny::of_fit;
   const bool takes_all = frees_all(options.free);
   std::vector<std::string> given;
   for (const std::string& key : options.free) {

@@ -172,6 +172,7 @@ std::optional<UnseenLimit> from_other_values(const Identification& result, const
 
 void judge_unseen_limit(Identification& result, const Device& as_fitted, const IdentifyOptions& options) {
   const DeviceParameters& parameters = as_fitted.parameters();
+  if (options.scrutiny == IdentifyOptions::Scrutiny::of_fit) return;
   if (!result.trust.sound() || !parameters.uncertainty || !result.analysis.interval) return;
   const std::vector<double>& lines = result.fit.frequencies;
   const double lower = result.analysis.interval->lower;

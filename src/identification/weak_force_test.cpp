@@ -1,5 +1,7 @@
 #include "identification/weak_force_test.hpp"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -78,32 +80,42 @@ std::optional<WeakForceEvidence> mode_in(const RestLines& rest, const ModeQuesti
   }
 }
 
+/// A suspected motion beside all numbers; nothing where it has the sign of a motor, or is too small to matter.
+std::optional<WeakForceEvidence> suspect_in(const RestLines& rest, const SuspectedMotion& suspect,
+                                            const ModeQuestion& question, const Beside& beside) {
+  const auto regressed = regress_lines(rest.known, rest.lines(suspect.motion), rest.target, rest.stretches);
+  const Kind kind = kind_of(suspect.kind);
+  const auto ratio = ratio_of(regressed, kind);
+  if (!ratio) return std::nullopt;
+  const double size = regressed->values(rest.known.cols());
+  WeakForceEvidence evidence{kind, *ratio};
+  if (kind == Kind::changing_damping) {
+    evidence.body = suspect.body;
+    evidence.change = size;
+    evidence.stiffness_beside = softest(beside(*regressed), suspect, size);
+  } else {
+    evidence.stiffness_beside = stiffness_of(beside(*regressed));
+  }
+  constexpr double notable = 0.05;  // sampling periods
+  if (kind == Kind::clock_skew) {
+    evidence.change = size * static_cast<double>(suspect.motion.size()) * question.sampling_period;
+    if (!(std::abs(evidence.change) > notable * question.sampling_period)) return std::nullopt;
+  }
+  return evidence;
+}
+
 /// A mode and suspected motions. `device`: the fitted one, without friction, as it was in the experiment.
 std::vector<WeakForceEvidence> suspects_in(const RestLines& rest, const Device& device,
                                            std::span<const double> position, const ModeQuestion& question,
                                            const Beside& beside) {
+  const std::vector<SuspectedMotion> suspects = suspected_motions(device, question.force, position);
+  std::vector<std::optional<WeakForceEvidence>> each(suspects.size() + 1);
+  each.front() = mode_in(rest, question, beside);
+  tbb::parallel_for(std::size_t{0}, suspects.size(),
+                    [&](std::size_t i) { each[i + 1] = suspect_in(rest, suspects[i], question, beside); });
   std::vector<WeakForceEvidence> found;
-  if (const auto mode = mode_in(rest, question, beside)) found.push_back(*mode);
-  for (const SuspectedMotion& suspect : suspected_motions(device, question.force, position)) {
-    const auto regressed = regress_lines(rest.known, rest.lines(suspect.motion), rest.target, rest.stretches);
-    const Kind kind = kind_of(suspect.kind);
-    const auto ratio = ratio_of(regressed, kind);
-    if (!ratio) continue;
-    const double size = regressed->values(rest.known.cols());
-    WeakForceEvidence evidence{kind, *ratio};
-    if (kind == Kind::changing_damping) {
-      evidence.body = suspect.body;
-      evidence.change = size;
-      evidence.stiffness_beside = softest(beside(*regressed), suspect, size);
-    } else {
-      evidence.stiffness_beside = stiffness_of(beside(*regressed));
-    }
-    constexpr double notable = 0.05;  // sampling periods
-    if (kind == Kind::clock_skew) {
-      evidence.change = size * static_cast<double>(position.size()) * question.sampling_period;
-      if (!(std::abs(evidence.change) > notable * question.sampling_period)) continue;
-    }
-    found.push_back(std::move(evidence));
+  for (std::optional<WeakForceEvidence>& evidence : each) {
+    if (evidence) found.push_back(*std::move(evidence));
   }
   return found;
 }

@@ -255,8 +255,9 @@ FrequencyResponse welch_response(std::span<const double> force, std::span<const 
   Cut cut{force, output, {}, form_of(options)};
   const std::size_t samples = samples_left(force.size(), cut.form);
   if (options.segment_length && (*options.segment_length < shortest_segment || *options.segment_length > samples)) {
-    throw Error(ErrorCode::invalid_argument, fmt::format("segments of {} samples; {} to {}, the record's length",
-                                                         *options.segment_length, shortest_segment, samples));
+    throw Error(ErrorCode::invalid_argument,
+                fmt::format("segments of {} samples; {} to {}, the record's length{}", *options.segment_length,
+                            shortest_segment, samples, samples < force.size() ? " less what differences take" : ""));
   }
   cut.segments = options.segment_length ? segments_of(samples, *options.segment_length, options.window, options.overlap)
                                         : chosen_segments(samples, options);

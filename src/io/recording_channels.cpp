@@ -47,9 +47,13 @@ tl::expected<Channel, InputError> make_channel(RawColumn column, const ColumnReq
   const double scale = scale_of(request, channel, remarks);
   for (std::size_t i = 0; i < column.values.size(); ++i) {
     column.values[i] *= scale;
-    if (!std::isfinite(column.values[i])) {
-      return tl::unexpected(refused_sample(column, i, fmt::format("is too large for the scale {:.6g}", scale),
-                                           "must be below 1e308 after scaling"));
+    constexpr double largest = 1e100;  // squares of more, summed, are no numbers
+    if (!(std::abs(column.values[i]) < largest)) {
+      return tl::unexpected(
+          refused_sample(column, i,
+                         fmt::format("is {:.6g}{}", column.values[i],
+                                     scale == 1.0 ? "" : fmt::format(" with the scale {:.6g}", scale)),
+                         "must be below 1e100 in magnitude, as any force and motion is; a damaged cell?"));
     }
   }
   channel.samples = std::move(column.values);

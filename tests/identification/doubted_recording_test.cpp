@@ -77,7 +77,7 @@ Recording warming_up(double share, std::vector<double> force) {
 }
 
 Identification fit_of_lines(const Recording& recording, const Device& structure, IdentifyOptions options = {}) {
-  options.friction_search = IdentifyOptions::FrictionSearch::brief;
+  options.scrutiny = IdentifyOptions::Scrutiny::brief;
   return identify(recording, structure, options);
 }
 

@@ -42,7 +42,7 @@ TEST(RingingMode, DiesOutOverLongerSegments) {
   const DeviceParameters device = on_a_hand();
   const double truth = critical_stiffness(Device(device)).stiffness;
   IdentifyOptions options;
-  options.friction_search = IdentifyOptions::FrictionSearch::brief;
+  options.scrutiny = IdentifyOptions::Scrutiny::brief;
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const Identification found = identify(swept(device, 16.0, seed), Device(device), options);
     ASSERT_TRUE(found.analysis.interval) << "seed " << seed;
@@ -54,7 +54,7 @@ TEST(RingingMode, DiesOutOverLongerSegments) {
 TEST(RingingMode, OfARecordTooShortForItIsDoubtful) {
   DeviceParameters device = on_a_hand();
   IdentifyOptions options;
-  options.friction_search = IdentifyOptions::FrictionSearch::brief;
+  options.scrutiny = IdentifyOptions::Scrutiny::brief;
   Identification found = identify(swept(device, 16.0, 1), Device(device), options);
   const Recording recording = swept(device, 16.0, 1);
   ASSERT_TRUE(found.trust.sound());

@@ -29,6 +29,7 @@ TEST_F(TextRecording, RefusesCellsThatAreNoNumbers) {
   EXPECT_EQ(cell("1.5 N"), "3:1: F: \"1.5 N\" is no number");
   EXPECT_EQ(cell("+-1"), "3:1: F: \"+-1\" is no number");
   EXPECT_EQ(cell("1e999"), "3:1: F: \"1e999\" is too large");
+  EXPECT_EQ(cell("-1e300"), "3:1: F: is -1e+300");
   EXPECT_EQ(cell("1.5D-3"), "3:1: F: \"1.5D-3\" has the exponent of Fortran");
   EXPECT_EQ(cell("1,234.5"), "3:1: F: \"1,234.5\" groups its thousands");
   EXPECT_EQ(cell("1,5"), "3:1: F: \"1,5\" is no number: the decimal mark is a point");

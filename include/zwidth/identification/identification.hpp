@@ -32,9 +32,12 @@ struct IdentifyOptions {
     from_data,
     as_given
   } loop_delay = LoopDelay::by_free;  ///< by what fit.free says
-  /// Whether friction is looked for in the rest of the linear fit only (brief), or, where the answer would be sound, by a
-  /// fit in time too (thorough), which takes about as long as all else.
-  enum class FrictionSearch { thorough, brief } friction_search = FrictionSearch::thorough;  ///< in time too
+  /// What would make a sound answer doubtful is looked for beside it.
+  enum class Scrutiny {
+    thorough,  ///< friction by a fit in time too, which takes about as long as all else
+    brief,     ///< friction in the rest of the linear fit only
+    of_fit     ///< nor what else moves the device or limits it unseen: for identify_in_time(), which looks itself
+  } scrutiny = Scrutiny::thorough;  ///< all of it
 };
 
 /// A structure for which there is no device file.
