@@ -1,5 +1,7 @@
 #include "identification/fit_solution.hpp"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -65,13 +67,16 @@ Solution searched_from(const ResponseFeatures& features, const std::vector<Respo
       .robust_threshold = robust_threshold, .most_iterations = most_iterations, .tolerance = 1e-4};
   const FitData data = fit_data(some, found.model_error);
   const LeastSquares own = least_squares(model, data, found.x, weighted);
-  std::vector<LeastSquares> fits;
-  for (const Eigen::VectorXd& x : different_positions(model, some, features, most_starts)) {
+  const std::vector<Eigen::VectorXd> positions = different_positions(model, some, features, most_starts);
+  std::vector<LeastSquares> fits(positions.size());
+  tbb::parallel_for(std::size_t{0}, positions.size(), [&](std::size_t i) {
+    const Eigen::VectorXd& x = positions[i];
     // Unpulled a body that moves as one with the next would vanish.
     const LeastSquares near = least_squares(model, fit_data(some, 0.0), x, rough_fit, start_at(model, x).pull);
-    LeastSquares fit = least_squares(model, data, near.x, weighted, start_at(model, near.x).pull);
-    if (fit.x.allFinite() && fit.cost < promising * own.cost) fits.push_back(std::move(fit));
-  }
+    fits[i] = least_squares(model, data, near.x, weighted, start_at(model, near.x).pull);
+  });
+  std::erase_if(fits,
+                [&](const LeastSquares& fit) { return !fit.x.allFinite() || !(fit.cost < promising * own.cost); });
   if (fits.empty()) return found;
   std::ranges::stable_sort(fits, {}, &LeastSquares::cost);
   std::vector<Start> starts{{found.x, found.pull}};
@@ -134,13 +139,18 @@ Solution solve(const FitModel& model, const std::vector<ResponsePoint>& points, 
   Solution best;
   best.model_error = std::numeric_limits<double>::infinity();
   double best_cost = best.model_error;
-  for (const Start& start : starts) {  // the one that explains the data best
+  std::vector<LeastSquares> fits(starts.size());
+  std::vector<double> errors(starts.size());
+  tbb::parallel_for(std::size_t{0}, starts.size(), [&](std::size_t i) {
+    const Start& start = starts[i];
     const double error = model_error_of(points, model.response_at(start.x, all.frequencies));
-    const LeastSquares fit = least_squares(model, fit_data(points, error), start.x, rough, start.pull);
-    const double left = model_error_of(points, model.response_at(fit.x, all.frequencies));
-    if (std::pair(left, fit.cost) < std::pair(best.model_error, best_cost)) {
-      best = {fit.x, left, start.pull, fit.converged};
-      best_cost = fit.cost;
+    fits[i] = least_squares(model, fit_data(points, error), start.x, rough, start.pull);
+    errors[i] = model_error_of(points, model.response_at(fits[i].x, all.frequencies));
+  });
+  for (std::size_t i = 0; i < starts.size(); ++i) {  // the one that explains the data best
+    if (std::pair(errors[i], fits[i].cost) < std::pair(best.model_error, best_cost)) {
+      best = {fits[i].x, errors[i], starts[i].pull, fits[i].converged};
+      best_cost = fits[i].cost;
     }
   }
   if (best.x.size() == 0) throw no_convergence();

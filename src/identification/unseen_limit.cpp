@@ -1,6 +1,7 @@
 #include "identification/unseen_limit.hpp"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -155,17 +156,21 @@ class OtherValues {
 /// A fit from other values of what is open, as good as the first, that limits elsewhere.
 std::optional<UnseenLimit> from_other_values(const Identification& result, const IdentifyOptions& options,
                                              const auto& limits) {
-  constexpr int starts = 24;  // of 60 tried on one such record 17 came to another limit, none of the first 12
+  constexpr std::size_t starts = 24;  // of 60 tried on one such record 17 came to another limit, none of the first 12
   OtherValues values(result);
   if (!values.exist()) return std::nullopt;
-  for (int start = 0; start < starts; ++start) {
-    const auto fit = fitted_from(values.next(), result, options);
-    if (!fit || !explains_as_much(*fit, result.fit, result.response.line_correlation)) continue;
+  std::vector<DeviceParameters> others;
+  for (std::size_t i = 0; i < starts; ++i) others.push_back(values.next());
+  std::vector<std::optional<CriticalStiffness>> found(starts);
+  tbb::parallel_for(std::size_t{0}, starts, [&](std::size_t i) {
+    const auto fit = fitted_from(others[i], result, options);
+    if (!fit || !explains_as_much(*fit, result.fit, result.response.line_correlation)) return;
     CriticalStiffness critical = limit_of(fit->device);
-    if (!limits(critical)) continue;
-    return UnseenLimit{"the record leaves numbers open: with others that explain it as well", std::move(critical)};
-  }
-  return std::nullopt;
+    if (limits(critical)) found[i] = std::move(critical);
+  });
+  const auto first = std::ranges::find_if(found, [](const auto& each) { return each.has_value(); });
+  if (first == found.end()) return std::nullopt;
+  return UnseenLimit{"the record leaves numbers open: with others that explain it as well", **std::move(first)};
 }
 
 }  // namespace
