@@ -27,10 +27,25 @@ struct FrfArguments {
   bool points = false;
 };
 
+/// A name of a unit that the user gives, for columns whose own say none. Throws BadInput.
+void name_unit(const char* option, const std::string& given, const std::string& stated, std::string& unit) {
+  if (given.empty()) return;
+  constexpr std::size_t longest = 24;
+  const bool is_plain = given.size() <= longest && std::ranges::none_of(given, [](unsigned char c) { return c < ' '; });
+  if (!is_plain)
+    throw BadInput(fmt::format("{}: must be a unit of at most {} characters, on one line", option, longest));
+  if (!stated.empty() && given != stated) {
+    throw BadInput(
+        fmt::format("{}: is {}, but the column is read in {} by its name; leave it out, or give the scale too", option,
+                    given, stated));
+  }
+  unit = given;
+}
+
 results::FrfUnits units_of(const FrfArguments& arguments, const MeasuredResponse& frf) {
   results::FrfUnits units = results::frf_units(frf);
-  if (!arguments.force_unit.empty()) units.force = arguments.force_unit;
-  if (!arguments.position_unit.empty()) units.position = arguments.position_unit;
+  name_unit("--force-unit", arguments.force_unit, frf.force_unit, units.force);
+  name_unit("--position-unit", arguments.position_unit, frf.length_unit, units.position);
   return units;
 }
 

@@ -22,15 +22,35 @@ bool explains_more(const ParameterFit& one, const ParameterFit& other) {
   return std::pair(one.model_error, one.misfit) < std::pair(other.model_error, other.misfit);
 }
 
+namespace {
+
+/// Independent residuals less the free parameters.
+double freedom_of(const ParameterFit& fit, double line_correlation) {
+  constexpr double least_freedom = 2.0;
+  const double independent = 2.0 * static_cast<double>(fit.frequencies.size()) / line_correlation;
+  return std::max(least_freedom, independent - static_cast<double>(fit.estimates.size()));
+}
+
+/// Of chi^2, by the first's own residuals.
+double growth(const ParameterFit& other, const ParameterFit& first, double freedom) {
+  const double ratio = *other.misfit / *first.misfit;
+  return (ratio * ratio - 1.0) * freedom;
+}
+
+}  // namespace
+
 bool explains_as_much(const ParameterFit& other, const ParameterFit& first, double line_correlation) {
   if (other.model_error > 1.02 * first.model_error + 1e-9) return false;
   if (!other.misfit || !first.misfit) return true;
-  constexpr double least_freedom = 2.0;
-  const double independent = 2.0 * static_cast<double>(first.frequencies.size()) / line_correlation;
-  const double freedom = std::max(least_freedom, independent - static_cast<double>(first.estimates.size()));
+  const double freedom = freedom_of(first, line_correlation);
   const double t = student_t_quantile(freedom);
-  const double ratio = *other.misfit / *first.misfit;
-  return (ratio * ratio - 1.0) * freedom <= t * t;
+  return growth(other, first, freedom) <= t * t;
+}
+
+bool is_contradicted(const ParameterFit& other, const ParameterFit& first, double line_correlation) {
+  if (!other.misfit || !first.misfit) return other.model_error > 1.02 * first.model_error + 1e-9;
+  constexpr double deviations = 5.0;
+  return growth(other, first, freedom_of(first, line_correlation)) > deviations * deviations;
 }
 
 }  // namespace zwidth::internal

@@ -15,4 +15,7 @@ namespace zwidth::internal {
 ///     (chi^2 / chi_first^2 - 1) nu <= t_nu^2
 [[nodiscard]] bool explains_as_much(const ParameterFit& other, const ParameterFit& first, double line_correlation);
 
+/// Whether another fit leaves so much more that not even five deviations of what tells them apart account for it.
+[[nodiscard]] bool is_contradicted(const ParameterFit& other, const ParameterFit& first, double line_correlation);
+
 }  // namespace zwidth::internal

@@ -18,6 +18,7 @@
 #include "percent.hpp"
 #include "signal/clipping.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/identification/identification.hpp"
 #include "zwidth/quantity.hpp"
 
 namespace zwidth {
@@ -107,7 +108,9 @@ std::string stated_unit(std::span<const Recording> recordings, std::size_t chann
     const Channel& each = recording.channels[channel];
     return each.base_unit.empty() ? each.unit : each.base_unit;
   };
+  constexpr std::size_t longest = 24;  // of a unit that is one
   const std::string unit = unit_of(recordings.front());
+  if (unit.size() > longest) return "";
   const bool is_same = std::ranges::all_of(recordings, [&](const auto& each) { return unit_of(each) == unit; });
   return is_same ? unit : "";
 }
@@ -345,6 +348,10 @@ MeasuredResponse frequency_response(std::span<const Recording> recordings, const
   measured.force_unit = stated_unit(recordings, 0);
   measured.length_unit = stated_unit(recordings, 1);
   measured.length_unit.resize(std::min(measured.length_unit.size(), measured.length_unit.find("/s")));
+  if (stated_motion(recordings) == Motion::rotary) {
+    if (measured.force_unit.empty()) measured.force_unit = "N m";
+    if (measured.length_unit.empty()) measured.length_unit = "rad";
+  }
   return measured;
 }
 

@@ -120,6 +120,25 @@ std::optional<std::string> doubt_of_counts(const Recording& recording) {
   }
   return std::nullopt;
 }
+std::optional<Motion> motion_of(const Channel& channel) {
+  Recording alone;
+  alone.channels.push_back({.name = "", .samples = {}, .base_unit = channel.base_unit});
+  return stated_motion(std::span(&alone, 1));
+}
+
+/// A torque beside a length, or a force beside an angle.
+std::optional<std::string> doubt_of_mixed_motion(const Recording& recording) {
+  const Channel& force = recording.channels[0];
+  const Channel& motion = recording.channels[1];
+  const auto of_force = motion_of(force);
+  const auto of_motion = motion_of(motion);
+  if (!of_force || !of_motion || *of_force == *of_motion) return std::nullopt;
+  return fmt::format(
+      "{} is in {} and {} in {} by their names, of a {} motion and of a {}: give the scale that makes them "
+      "of one, by the radius",
+      force.name, force.base_unit, motion.name, motion.base_unit, *of_force == Motion::rotary ? "rotary" : "linear",
+      *of_force == Motion::rotary ? "linear" : "rotary");
+}
 }  // namespace
 
 std::optional<std::string> doubt_of_units(const Recording& recording, OutputQuantity output) {
@@ -141,6 +160,7 @@ std::optional<std::string> doubt_of_units(const Recording& recording, OutputQuan
         "scale, {} per unit of it (1 says that it is in SI units)",
         channel.name, channel.unit, wanted, i == 0 ? "newtons or newton metres" : "metres or radians");
   }
+  if (auto doubt = doubt_of_mixed_motion(recording)) return doubt;
   return doubt_of_counts(recording);
 }
 
@@ -160,28 +180,16 @@ std::optional<std::string> doubt_of_force_limit(const Recording& recording, cons
 }
 
 std::optional<std::string> doubt_of_motion(const Recording& recording, const Device& fitted) {
-  const Channel& force = recording.channels[0];
-  const Channel& motion = recording.channels[1];
-  const auto motion_in = [](const Channel& channel) {
-    return stated_motion(std::vector{Recording{.source = {}, .channels = {channel}, .remarks = {}}});
-  };
-  const std::optional<Motion> of_force = motion_in(force);
-  const std::optional<Motion> of_motion = motion_in(motion);
-  if (of_force && of_motion && *of_force != *of_motion) {
-    return fmt::format(
-        "{} is in {} and {} in {} by their names, one of a linear motion and one of a rotary: give the scale that "
-        "makes "
-        "them of one, by the radius",
-        force.name, force.base_unit, motion.name, motion.base_unit);
-  }
+  const auto of_force = motion_of(recording.channels[0]);
+  const auto of_motion = motion_of(recording.channels[1]);
   const bool is_rotary = fitted.parameters().motion == Motion::rotary;
   const std::optional<Motion> stated = of_force ? of_force : of_motion;
   if (!stated || (*stated == Motion::rotary) == is_rotary) return std::nullopt;
+  const Channel& stating = recording.channels[of_force ? 0 : 1];
   return fmt::format(
       "{} is in {} by its name, of a {} motion, and the structure's is {}: every number has the wrong unit; "
       "set the structure's motion, or give the scale from one to the other",
-      (of_force ? force : motion).name, (of_force ? force : motion).base_unit, is_rotary ? "linear" : "rotary",
-      is_rotary ? "rotary" : "linear");
+      stating.name, stating.base_unit, is_rotary ? "linear" : "rotary", is_rotary ? "rotary" : "linear");
 }
 
 std::optional<std::string> doubt_of_thinned_rows(const Recording& recording, const Device& fitted) {

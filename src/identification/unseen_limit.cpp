@@ -99,6 +99,83 @@ std::optional<UnseenLimit> at_an_end(const Device& device, const ParameterEstima
   return std::nullopt;
 }
 
+/// A start, and the numbers that stay as they are in it.
+struct HeldStart {
+  DeviceParameters device;
+  std::set<std::string> held;
+};
+
+/// A link with its mode at w, as lightly damped as hardly any joint is, in two divisions of the damping to ground: as it is,
+/// and in proportion to the masses. Far below the mode a record shows of a link from m_1 to m_2 no more than the sum of the
+/// masses and (m_2 / (m_1 + m_2))^2 / k.
+std::vector<HeldStart> light_modes(const DeviceParameters& fitted, std::size_t i, double w,
+                                   const std::set<std::string>& free) {
+  constexpr double lightest = 0.001;  // of the critical damping
+  DeviceParameters light = fitted;
+  light.uncertainty.reset();
+  Link& link = light.links[i];
+  double& first = light.bodies[link.first].mass;
+  double& second = light.bodies[link.second].mass;
+  const double sum = first + second;
+  const double compliance = std::pow(second / sum, 2) / link.stiffness;
+  first = sum / (1.0 + compliance * sum * w * w);
+  second = sum - first;
+  const double reduced = first * second / sum;
+  link.stiffness = w * w * reduced;
+  link.damping = std::min(link.damping, 2.0 * lightest * w * reduced);
+  const std::string key = fmt::format("link.{}", i);
+  std::vector<HeldStart> starts{{light, {key + ".damping", key + ".stiffness"}},
+                                {light, {key + ".damping", key + ".stiffness"}}};
+  double mass = 0.0;
+  double damping = 0.0;
+  for (const Body& body : light.bodies) {
+    mass += body.mass;
+    damping += body.damping;
+  }
+  auto& [evenly, held] = starts.back();
+  for (std::size_t k = 0; k < evenly.bodies.size(); ++k) {
+    Body& body = evenly.bodies[k];
+    const std::string own = fmt::format("body.{}.damping", body.name);
+    if (!free.contains(own)) continue;
+    body.damping = damping * body.mass / mass;
+    if (k > 0) held.insert(own);
+  }
+  return starts;
+}
+
+/// A mode above the band of which the record shows neither the damping nor where it is.
+std::optional<UnseenLimit> of_a_light_mode(const Identification& result, const IdentifyOptions& options,
+                                           const auto& limits) {
+  std::set<std::string> free;
+  for (const ParameterEstimate& each : result.fit.estimates) free.insert(each.key);
+  const DeviceParameters& fitted = result.fit.device.parameters();
+  const double highest = result.fit.frequencies.back();
+  std::vector<HeldStart> starts;
+  for (std::size_t i = 0; i < fitted.links.size(); ++i) {
+    if (!free.contains(fmt::format("link.{}.damping", i))) continue;
+    const double first = fitted.bodies[fitted.links[i].first].mass;
+    const double second = fitted.bodies[fitted.links[i].second].mass;
+    const double own = std::sqrt(fitted.links[i].stiffness * (first + second) / (first * second));
+    std::vector<double> modes{own};
+    for (const double above : {1.3, 2.0, 3.0, 4.5}) {
+      if (above * highest < own) modes.push_back(above * highest);
+    }
+    for (const double w : modes) {
+      for (HeldStart& each : light_modes(fitted, i, w, free)) starts.push_back(std::move(each));
+    }
+  }
+  std::vector<std::optional<CriticalStiffness>> found(starts.size());
+  tbb::parallel_for(std::size_t{0}, starts.size(), [&](std::size_t i) {
+    const auto fit = fitted_from(starts[i].device, result, options, starts[i].held);
+    if (!fit || is_contradicted(*fit, result.fit, result.response.line_correlation)) return;
+    CriticalStiffness critical = limit_of(fit->device);
+    if (limits(critical)) found[i] = std::move(critical);
+  });
+  const auto least = std::ranges::find_if(found, [](const auto& each) { return each.has_value(); });
+  if (least == found.end()) return std::nullopt;
+  return UnseenLimit{"the record does not show how much a mode above it is damped: hardly at all,", **std::move(least)};
+}
+
 /// Numbers of devices with other values of what the data do not show to a factor of less than 2: masses, stiffnesses, delay and lag
 /// by a factor, dampings of links from 0.5 to 10 % of the critical one, dampings to ground in other shares of their sum.
 class OtherValues {
@@ -190,6 +267,7 @@ void judge_unseen_limit(Identification& result, const Device& as_fitted, const I
   for (const ParameterEstimate& each : result.fit.estimates) {
     if (!unseen) unseen = at_an_end(as_fitted, each, result, options, limits);
   }
+  if (!unseen) unseen = of_a_light_mode(result, options, limits);
   if (!unseen) unseen = from_other_values(result, options, limits);
   if (!unseen) return;
   const double frequency = unseen->critical.limit->frequency;

@@ -54,15 +54,17 @@ constexpr Spelling spellings[] = {
 
 /// At the end of a name, where "force_in", "x_m" or "channel_A" would say something else.
 constexpr std::array clear_ends{
-    "mm"sv,      "cm"sv,      "um"sv,     "\u00b5m"sv, "\u03bcm"sv, "mrad"sv,   "urad"sv, "rad"sv,    "deg"sv,
-    "degrees"sv, "\u00b0"sv,  "rev"sv,    "turn"sv,    "turns"sv,   "arcmin"sv, "inch"sv, "inches"sv, "mils"sv,
-    "micron"sv,  "microns"sv, "N"sv,      "uN"sv,      "mN"sv,      "cN"sv,     "kN"sv,   "Nm"sv,     "uNm"sv,
-    "mNm"sv,     "kNm"sv,     "Nmm"sv,    "Ncm"sv,     "N-m"sv,     "N mm"sv,   "N m"sv,  "gf"sv,     "kgf"sv,
-    "lbf"sv,     "ozf"sv,     "ozin"sv,   "oz-in"sv,   "lbin"sv,    "lb-in"sv,  "lbft"sv, "lb-ft"sv,  "ft-lb"sv,
-    "lb"sv,      "lbs"sv,     "oz"sv,     "kg"sv,      "gcm"sv,     "kgcm"sv,   "mA"sv,   "mV"sv,     "amps"sv,
-    "volts"sv,   "counts"sv,  "count"sv,  "ticks"sv,   "cnt"sv,     "lsb"sv,    "LSB"sv,  "bits"sv,   "%"sv,
-    "percent"sv, "m/s"sv,     "mm/s"sv,   "rad/s"sv,   "deg/s"sv,   "rpm"sv,    "m/s2"sv, "m/s^2"sv,  "mm/s2"sv,
-    "mm/s^2"sv,  "rad/s2"sv,  "rad/s^2"sv};
+    "mm"sv,       "cm"sv,      "um"sv,      "\u00b5m"sv, "\u03bcm"sv, "mrad"sv,   "urad"sv,      "rad"sv,    "deg"sv,
+    "degrees"sv,  "\u00b0"sv,  "rev"sv,     "turn"sv,    "turns"sv,   "arcmin"sv, "inch"sv,      "inches"sv, "mils"sv,
+    "micron"sv,   "microns"sv, "N"sv,       "uN"sv,      "mN"sv,      "cN"sv,     "kN"sv,        "Nm"sv,     "uNm"sv,
+    "mNm"sv,      "kNm"sv,     "Nmm"sv,     "Ncm"sv,     "N-m"sv,     "N mm"sv,   "N m"sv,       "gf"sv,     "kgf"sv,
+    "lbf"sv,      "ozf"sv,     "ozin"sv,    "oz-in"sv,   "lbin"sv,    "lb-in"sv,  "lbft"sv,      "lb-ft"sv,  "ft-lb"sv,
+    "lb"sv,       "lbs"sv,     "oz"sv,      "kg"sv,      "gcm"sv,     "kgcm"sv,   "mA"sv,        "mV"sv,     "amps"sv,
+    "volts"sv,    "counts"sv,  "count"sv,   "ticks"sv,   "cnt"sv,     "lsb"sv,    "LSB"sv,       "bits"sv,   "%"sv,
+    "percent"sv,  "m/s"sv,     "mm/s"sv,    "rad/s"sv,   "deg/s"sv,   "rpm"sv,    "m/s2"sv,      "m/s^2"sv,  "mm/s2"sv,
+    "mm/s^2"sv,   "rad/s2"sv,  "rad/s^2"sv, "mN m"sv,    "mN.m"sv,    "mN*m"sv,   "mN\u00b7m"sv, "N.m"sv,    "N*m"sv,
+    "N\u00b7m"sv, "kN m"sv,    "cN m"sv,    "ozf in"sv,  "lbf in"sv,  "lbf ft"sv, "kgf cm"sv,    "kgf m"sv,  "gf cm"sv,
+    "mdeg"sv,     "rot"sv,     "dyn"sv,     "nN"sv,      "pN"sv};
 
 std::string_view without_brackets(std::string_view word) {
   word = trimmed(word);
@@ -92,7 +94,8 @@ ColumnUnit known_unit(std::string_view text) {
     if (spelt->unit == nullptr) return result;
     unit = spelt->unit;
   }
-  const auto ascii = ascii_unit(unit);
+  auto ascii = ascii_unit(unit);
+  if (ascii && !is_unit(*ascii)) std::erase(*ascii, '-');  // "milli-newton"
   if (!ascii) return result;
   using enum StatedQuantity;
   constexpr std::pair<const char*, StatedQuantity> quantities[] = {
@@ -106,10 +109,14 @@ ColumnUnit known_unit(std::string_view text) {
 }
 
 ColumnUnit unit_in_brackets(std::string_view name) {
-  for (const auto& [open, close] : {std::pair{'[', ']'}, std::pair{'(', ')'}}) {
+  for (const auto& [open, close] : {std::pair{'[', ']'}, std::pair{'(', ')'}, std::pair{'{', '}'}}) {
     for (std::size_t begin = name.find(open); begin != std::string_view::npos; begin = name.find(open, begin + 1)) {
       const std::size_t end = name.find(close, begin);
-      if (begin == 0 || end == std::string_view::npos) break;
+      if (begin == 0) break;
+      if (end == std::string_view::npos) {  // "force [N"
+        const std::string_view rest = trimmed(name.substr(begin + 1));
+        return open == '[' && !rest.empty() ? ColumnUnit{rest, StatedQuantity::other} : ColumnUnit{};
+      }
       const std::string_view text = trimmed(name.substr(begin + 1, end - begin - 1));
       const bool is_index = std::ranges::all_of(text, [](char c) { return (c >= '0' && c <= '9') || c == ','; });
       if (is_index) continue;  // "q[0]"
@@ -140,6 +147,22 @@ ColumnUnit unit_at_end(std::string_view name) {
   return {};
 }
 
+/// "x_mm_rel": perhaps a unit, perhaps a word that looks like one. Nothing of what is no unit of its own elsewhere.
+ColumnUnit unit_in_the_middle(std::string_view name) {
+  constexpr std::array plain{"mm"sv, "cm"sv, "um"sv,  "mrad"sv, "deg"sv,   "degrees"sv,
+                             "mN"sv, "kN"sv, "mNm"sv, "Nmm"sv,  "counts"sv};
+  constexpr std::string_view separators = "_ .:,/";
+  for (std::size_t begin = 0; begin < name.size();) {
+    const std::size_t end = std::min(name.find_first_of(separators, begin), name.size());
+    const std::string_view word = name.substr(begin, end - begin);
+    if (begin > 0 && end < name.size() && std::ranges::find(plain, word) != plain.end()) {
+      return {word, StatedQuantity::other};
+    }
+    begin = end + 1;
+  }
+  return {};
+}
+
 }  // namespace
 
 bool is_unit(std::string_view word) {
@@ -154,7 +177,9 @@ std::optional<double> seconds_per(std::string_view unit) {
 
 ColumnUnit unit_of_column(std::string_view name) {
   const ColumnUnit in_brackets = unit_in_brackets(name);
-  return in_brackets.text.empty() ? unit_at_end(trimmed(name)) : in_brackets;
+  if (!in_brackets.text.empty()) return in_brackets;
+  const ColumnUnit at_end = unit_at_end(trimmed(name));
+  return at_end.text.empty() ? unit_in_the_middle(name) : at_end;
 }
 
 }  // namespace zwidth::internal

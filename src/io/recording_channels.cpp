@@ -19,8 +19,12 @@ namespace {
 /// unit in its name, which is said. The channel states that unit where no scale was asked for.
 double scale_of(const ColumnRequest& request, Channel& channel, std::vector<Remark>& remarks) {
   const double asked = request.scale.value_or(1.0);
-  if (std::abs(asked) != 1.0) return asked;
   const ColumnUnit unit = unit_of_column(channel.name);
+  if (std::abs(asked) != 1.0) {  // that of the name's unit: then its quantity is the name's too
+    constexpr double close = 1e-3;
+    if (std::abs(std::abs(asked) - unit.factor) < close * unit.factor) channel.base_unit = unit.base;
+    return asked;
+  }
   if (unit.text.empty()) return asked;
   channel.base_unit = unit.base;
   if (!request.scale || *request.scale != 1.0) {

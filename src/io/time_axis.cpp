@@ -39,7 +39,7 @@ std::string in_seconds(double time) {
 
 /// "t_ms" is t in ms; without such an ending, no unit.
 NameAndUnit name_and_suffix(std::string_view name) {
-  const std::size_t mark = name.rfind('_');
+  const std::size_t mark = name.find_last_of("_/");
   if (mark == std::string_view::npos || !seconds_per(name.substr(mark + 1))) return {name, {}};
   return {name.substr(0, mark), name.substr(mark + 1)};
 }

@@ -93,7 +93,12 @@ TEST_F(Frf, TheUnitsAreThoseOfTheColumns) {
   EXPECT_EQ(found["units"]["position"], "rad");
   EXPECT_EQ(found["units"]["stiffness"], "N m/rad");
   EXPECT_NEAR(found["critical_stiffness"].get<double>(), 1e-3 * example_stiffness, 1e-5 * example_stiffness);
-  EXPECT_EQ(document("zwidth frf " + rotary + " --position-unit turn")["units"]["stiffness"], "N m/turn");
+  expect_refusal(
+      "zwidth frf " + rotary + " --position-unit turn",
+      "--position-unit: is turn, but the column is read in rad by its name; leave it out, or give the scale too");
+  expect_refusal(example + "--force-unit $'N\\nm'",
+                 "--force-unit: must be a unit of at most 24 characters, on one line");
+  EXPECT_EQ(document("zwidth frf " + rotary + " --force-scale 1e-3")["units"]["stiffness"], "N m/rad");
   const json named = json::parse(run("zwidth identify " + rotary + " --structure two-body").output);
   EXPECT_EQ(named["parameters"][0]["unit"], "kg m²");
   for (const std::string structure : {"two-body --motion linear", "devices/lhifam.toml"}) {
@@ -105,6 +110,7 @@ TEST_F(Frf, TheUnitsAreThoseOfTheColumns) {
   const json mixed = json::parse(
       run("zwidth identify mixed.csv --force torque_Nm --position x_mm --structure two-body --json").output);
   EXPECT_THAT(mixed["trust"]["reasons"].dump(), HasSubstr("give the scale that makes them of one"));
+  EXPECT_NE(document("zwidth frf mixed.csv --force torque_Nm --position x_mm --json")["trust"]["verdict"], "sound");
 }
 
 TEST_F(Frf, ABandWithoutTheCrossoverIsSaidNotGuessed) {

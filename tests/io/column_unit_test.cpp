@@ -45,6 +45,14 @@ TEST(ColumnUnit, OfForces) {
                             Named{"torque_ozin", force, ounce_inch},
                             Named{"torque [oz-in]", force, ounce_inch},
                             Named{"torque_lbft", force, 4.4482216152605 * 0.3048},
+                            Named{"torque_mN_m", force, 1e-3},
+                            Named{"torque_mN.m", force, 1e-3},
+                            Named{"torque mN*m", force, 1e-3},
+                            Named{"torque {mN m}", force, 1e-3},
+                            Named{"torque_ozf_in", force, ounce_inch},
+                            Named{"torque_lbf_ft", force, 4.4482216152605 * 0.3048},
+                            Named{"f_cmd (milli-newton)", force, 1e-3},
+
                             Named{"torque_nm", force, 1.0}}) {
     const ColumnUnit unit = unit_of_column(each.name);
     EXPECT_EQ(unit.quantity, each.quantity) << each.name;
@@ -69,7 +77,8 @@ TEST(ColumnUnit, OfMotions) {
 
 TEST(ColumnUnit, OfWhatIsNoForceOrMotion) {
   for (const char* name : {"current_A", "cmd [V]", "force_counts", "force [degC]", "force_lb", "force [oz]",
-                           "force [kg]", "a [g]", "x_ticks", "x [counts]", "pwm_%", "force [quark]", "i_mA"}) {
+                           "force [kg]", "a [g]", "x_mm_rel", "pos_deg_filtered", "force [N", "angle_rot", "f_dyn",
+                           "x_ticks", "x [counts]", "pwm_%", "force [quark]", "i_mA"}) {
     EXPECT_EQ(unit_of_column(name).quantity, other) << name;
     EXPECT_FALSE(unit_of_column(name).text.empty()) << name;
   }
