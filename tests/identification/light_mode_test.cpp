@@ -43,14 +43,14 @@ std::vector<LightMode> light_modes() {
 }
 
 Identification identified(const DeviceParameters& device, double highest_hz) {
-  ExcitationOptions multisine;
-  multisine.kind = ExcitationKind::multisine;
-  multisine.amplitude = 6.0;
-  multisine.lowest_hz = 1.0;
-  multisine.highest_hz = highest_hz;
-  multisine.duration = 20.0;
-  multisine.periods = 5;
-  std::vector<double> force = excite(multisine).samples;
+  ExcitationOptions noise;
+  noise.kind = ExcitationKind::noise;
+  noise.amplitude = 6.0;
+  noise.lowest_hz = 1.0;
+  noise.highest_hz = highest_hz;
+  noise.duration = 20.0;
+  noise.seed = 1;
+  std::vector<double> force = excite(noise).samples;
   std::vector<double> position = test::synthetic_position(Device(device), force, {0.02, 1e-6, 1});
   const Recording recording{"", 1e-3, {{"force", std::move(force)}, {"position", std::move(position)}}, {}};
   IdentifyOptions options;
