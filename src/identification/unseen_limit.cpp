@@ -106,7 +106,8 @@ struct HeldStart {
 };
 
 /// A link with its mode at w, as lightly damped as hardly any joint is, in two divisions of the damping to ground: as it is,
-/// and in proportion to the masses. Far below the mode a record shows of a link from m_1 to m_2 no more than the sum of the
+/// and in proportion to the masses; and where a search from there ends. Far below the mode a record shows of a link from m_1 to
+/// m_2 no more than the sum of the
 /// masses and (m_2 / (m_1 + m_2))^2 / k.
 std::vector<HeldStart> light_modes(const DeviceParameters& fitted, std::size_t i, double w,
                                    const std::set<std::string>& free) {
@@ -124,8 +125,8 @@ std::vector<HeldStart> light_modes(const DeviceParameters& fitted, std::size_t i
   link.stiffness = w * w * reduced;
   link.damping = std::min(link.damping, 2.0 * lightest * w * reduced);
   const std::string key = fmt::format("link.{}", i);
-  std::vector<HeldStart> starts{{light, {key + ".damping", key + ".stiffness"}},
-                                {light, {key + ".damping", key + ".stiffness"}}};
+  const std::set<std::string> held_link{key + ".damping", key + ".stiffness"};
+  std::vector<HeldStart> starts{{light, {}}, {light, held_link}, {light, held_link}};
   double mass = 0.0;
   double damping = 0.0;
   for (const Body& body : light.bodies) {
