@@ -38,8 +38,8 @@ std::optional<InputError> problem_of_text(std::string_view text, std::string_vie
     return InputError{std::string(source), line.number, line.column, "", std::move(what), std::move(allowed)};
   };
   const std::size_t first = text.find_first_not_of(" \t\r\n");
-  if (first != std::string_view::npos && text[first] == '{') {  // which no TOML text begins with
-    return refusal({1, 1}, "is JSON, or another text in braces", fmt::format("must be the TOML text of {}", of));
+  if (first != std::string_view::npos && text[first] == '{') {
+    return refusal({1, 1}, "begins with a brace, as no TOML text does", fmt::format("must be the TOML text of {}", of));
   }
   std::size_t number = 1;
   for (std::size_t begin = 0; begin <= text.size(); ++number) {

@@ -42,7 +42,7 @@ const BadText texts[] = {
     {"byte_order_mark_only", "\xEF\xBB\xBF", no_device},
     {"only_loop", loop(), no_device},
     {"zero_byte", std::string("a\nb\0c", 5), "2:2: is not text: it has a zero byte; must be the TOML text of a device"},
-    {"json", "\n {\"a.b.c\": 1}", "1:1: is JSON, or another text in braces; must be the TOML text of a device"},
+    {"json", "\n {\"a.b.c\": 1}", "1:1: begins with a brace, as no TOML text does; must be the TOML text of a device"},
     {"not_utf8", "\xFF\xFE", "1:1: is not TOML: Encountered invalid utf-8 sequence; must be the TOML text of a device"},
     {"not_toml", "name = \"x\"\n= 1",
      "2:1: is not TOML: Error while parsing root table: expected keys, tables, whitespace or comments, saw '='; must "
