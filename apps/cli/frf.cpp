@@ -1,11 +1,13 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cctype>
 #include <memory>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include "cli/device_arguments.hpp"
+#include "cli/option_refusal.hpp"
 #include "cli/outputs.hpp"
 #include "cli/remark_lines.hpp"
 #include "cli/response_arguments.hpp"
@@ -27,25 +29,14 @@ struct FrfArguments {
   bool points = false;
 };
 
-/// A name of a unit that the user gives, for columns whose own say none. Throws BadInput.
-void name_unit(const char* option, const std::string& given, const std::string& stated, std::string& unit) {
-  if (given.empty()) return;
-  constexpr std::size_t longest = 24;
-  const bool is_plain = given.size() <= longest && std::ranges::none_of(given, [](unsigned char c) { return c < ' '; });
-  if (!is_plain)
-    throw BadInput(fmt::format("{}: must be a unit of at most {} characters, on one line", option, longest));
-  if (!stated.empty() && given != stated) {
-    throw BadInput(
-        fmt::format("{}: is {}, but the column is read in {} by its name; leave it out, or give the scale too", option,
-                    given, stated));
-  }
-  unit = given;
-}
-
 results::FrfUnits units_of(const FrfArguments& arguments, const MeasuredResponse& frf) {
+  constexpr std::pair<std::string_view, std::string_view> own_options[] = {{"force_unit", "--force-unit"},
+                                                                           {"length_unit", "--position-unit"}};
+  if (const auto problem = find_problem(arguments.force_unit, arguments.position_unit, frf))
+    refuse(*problem, own_options);
   results::FrfUnits units = results::frf_units(frf);
-  name_unit("--force-unit", arguments.force_unit, frf.force_unit, units.force);
-  name_unit("--position-unit", arguments.position_unit, frf.length_unit, units.position);
+  if (!arguments.force_unit.empty()) units.force = arguments.force_unit;
+  if (!arguments.position_unit.empty()) units.position = arguments.position_unit;
   return units;
 }
 

@@ -33,9 +33,8 @@ void check(const NamedStructureOptions& options) {
 
 Structure structure_by_name(const StructureArguments& arguments, std::optional<double> record_period,
                             std::span<const Recording> recordings) {
-  const std::optional<Motion> asked = asked_motion(arguments);
-  const std::optional<Motion> motion = asked ? asked : stated_motion(recordings);
-  const NamedStructureOptions options{motion.value_or(Motion::linear), arguments.sampling_period, record_period};
+  const NamedStructureOptions options{asked_motion(arguments), arguments.sampling_period, record_period,
+                                      stated_motion(recordings)};
   check(options);
   const NamedStructure named = named_structure(arguments.structure, options).value();
   auto device = parse_device(write_device(named.parameters), "--structure " + arguments.structure, arguments.overrides);

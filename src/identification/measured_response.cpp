@@ -102,15 +102,16 @@ void check(std::span<const Recording> recordings, const FrequencyResponseOptions
   }
 }
 
+constexpr std::size_t longest_unit = 24;  // characters, of what is one
+
 /// In which a channel's samples are, by its name in all recordings; empty where they state none, or several.
 std::string stated_unit(std::span<const Recording> recordings, std::size_t channel) {
   const auto unit_of = [&](const Recording& recording) {
     const Channel& each = recording.channels[channel];
     return each.base_unit.empty() ? each.unit : each.base_unit;
   };
-  constexpr std::size_t longest = 24;  // of a unit that is one
   const std::string unit = unit_of(recordings.front());
-  if (unit.size() > longest) return "";
+  if (unit.size() > longest_unit) return "";
   const bool is_same = std::ranges::all_of(recordings, [&](const auto& each) { return unit_of(each) == unit; });
   return is_same ? unit : "";
 }
@@ -308,6 +309,22 @@ std::vector<FrequencyResponse> responses(std::span<const Recording> recordings, 
 }
 
 }  // namespace internal
+
+std::optional<OptionProblem> find_problem(const std::string& force_unit, const std::string& length_unit,
+                                          const MeasuredResponse& measured) {
+  const auto check = [](const char* member, const std::string& given,
+                        const std::string& stated) -> std::optional<OptionProblem> {
+    const bool is_plain =
+        given.size() <= longest_unit && std::ranges::none_of(given, [](unsigned char c) { return c < ' '; });
+    if (!is_plain)
+      return OptionProblem{member, "is no unit", fmt::format("at most {} characters, on one line", longest_unit)};
+    if (given.empty() || stated.empty() || given == stated) return std::nullopt;
+    return OptionProblem{member, fmt::format("is {}, but the column is read in {} by its name", given, stated),
+                         "leave it out, or give the scale too"};
+  };
+  auto problem = check("force_unit", force_unit, measured.force_unit);
+  return problem ? problem : check("length_unit", length_unit, measured.length_unit);
+}
 
 MeasuredResponse frequency_response(const Recording& recording, const FrequencyResponseOptions& options,
                                     const Progress& progress) {

@@ -52,7 +52,7 @@ std::optional<NamedStructure> named_structure(std::string_view name, const Named
   internal::require_valid(find_problem(options));
   DeviceParameters device;
   device.name = name;
-  device.motion = options.motion;
+  device.motion = options.motion.value_or(options.record_motion.value_or(Motion::linear));
   for (const std::string& body : named->second) {
     if (!device.bodies.empty()) device.links.push_back({device.bodies.size() - 1, device.bodies.size(), 1.0, 1.0});
     device.bodies.push_back({body, 1.0, 1.0, 0.0, 0.0});

@@ -120,6 +120,7 @@ std::optional<std::string> doubt_of_counts(const Recording& recording) {
   }
   return std::nullopt;
 }
+
 std::optional<Motion> motion_of(const Channel& channel) {
   Recording alone;
   alone.channels.push_back({.name = "", .samples = {}, .base_unit = channel.base_unit});

@@ -19,9 +19,9 @@ namespace zwidth::internal {
 /// else than the column is taken for; or it holds whole numbers, or these and a half, as an encoder counts.
 [[nodiscard]] std::optional<std::string> doubt_of_units(const Recording& recording, OutputQuantity output);
 
-/// Why no answer of this recording is one of the fitted device's loop: doubt_of_units(); its columns are of a linear motion by their names and the
-/// device is rotary, or the other way round; the force goes beyond the actuator's limit,
-/// where less acted; or the loop's period is a half, a third, ... of the rows': where those between were left out, so is the
+/// Why no answer of this recording is one of the fitted device's loop: doubt_of_units(); its columns are of a linear motion
+/// by their names and the device is rotary, or the other way round; the force goes beyond the actuator's limit, where less
+/// acted; or the loop's period is a half, a third, ... of the rows': where those between were left out, so is the
 /// force between, and delay is missing from the fit.
 [[nodiscard]] std::vector<std::string> doubts_of_recording(const Recording& recording, OutputQuantity output,
                                                            const Device& fitted);

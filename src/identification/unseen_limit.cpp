@@ -106,9 +106,8 @@ struct HeldStart {
 };
 
 /// A link with its mode at w, as lightly damped as hardly any joint is, in two divisions of the damping to ground: as it is,
-/// and in proportion to the masses; and where a search from there ends. Far below the mode a record shows of a link from m_1 to
-/// m_2 no more than the sum of the
-/// masses and (m_2 / (m_1 + m_2))^2 / k.
+/// and in proportion to the masses; and where a search from there ends. Far below the mode a record shows of a link from
+/// m_1 to m_2 no more than the sum of the masses and (m_2 / (m_1 + m_2))^2 / k.
 std::vector<HeldStart> light_modes(const DeviceParameters& fitted, std::size_t i, double w,
                                    const std::set<std::string>& free) {
   constexpr double lightest = 0.001;  // of the critical damping
@@ -147,19 +146,22 @@ std::vector<HeldStart> light_modes(const DeviceParameters& fitted, std::size_t i
 /// A mode above the band of which the record shows neither the damping nor where it is.
 std::optional<UnseenLimit> of_a_light_mode(const Identification& result, const IdentifyOptions& options,
                                            const auto& limits) {
-  std::set<std::string> free;
-  for (const ParameterEstimate& each : result.fit.estimates) free.insert(each.key);
+  const std::vector<std::string> keys = keys_of(result.fit);
+  const std::set<std::string> free(keys.begin(), keys.end());
   const DeviceParameters& fitted = result.fit.device.parameters();
   const double highest = result.fit.frequencies.back();
   std::vector<HeldStart> starts;
   for (std::size_t i = 0; i < fitted.links.size(); ++i) {
     if (!free.contains(fmt::format("link.{}.damping", i))) continue;
-    const double first = fitted.bodies[fitted.links[i].first].mass;
-    const double second = fitted.bodies[fitted.links[i].second].mass;
-    const double own = std::sqrt(fitted.links[i].stiffness * (first + second) / (first * second));
+    const Body& first = fitted.bodies[fitted.links[i].first];
+    const Body& second = fitted.bodies[fitted.links[i].second];
+    const double own = std::sqrt(fitted.links[i].stiffness * (first.mass + second.mass) / (first.mass * second.mass));
+    const bool may_move = free.contains(fmt::format("link.{}.stiffness", i)) &&
+                          free.contains(fmt::format("body.{}.mass", first.name)) &&
+                          free.contains(fmt::format("body.{}.mass", second.name));
     std::vector<double> modes{own};
     for (const double above : {1.3, 2.0, 3.0, 4.5}) {
-      if (above * highest < own) modes.push_back(above * highest);
+      if (may_move && above * highest < own) modes.push_back(above * highest);
     }
     for (const double w : modes) {
       for (HeldStart& each : light_modes(fitted, i, w, free)) starts.push_back(std::move(each));
@@ -172,9 +174,9 @@ std::optional<UnseenLimit> of_a_light_mode(const Identification& result, const I
     CriticalStiffness critical = limit_of(fit->device);
     if (limits(critical)) found[i] = std::move(critical);
   });
-  const auto least = std::ranges::find_if(found, [](const auto& each) { return each.has_value(); });
-  if (least == found.end()) return std::nullopt;
-  return UnseenLimit{"the record does not show how much a mode above it is damped: hardly at all,", **std::move(least)};
+  const auto first = std::ranges::find_if(found, [](const auto& each) { return each.has_value(); });
+  if (first == found.end()) return std::nullopt;
+  return UnseenLimit{"the record does not show how much a mode above it is damped: hardly at all,", **std::move(first)};
 }
 
 /// Numbers of devices with other values of what the data do not show to a factor of less than 2: masses, stiffnesses, delay and lag

@@ -96,8 +96,7 @@ TEST_F(Frf, TheUnitsAreThoseOfTheColumns) {
   expect_refusal(
       "zwidth frf " + rotary + " --position-unit turn",
       "--position-unit: is turn, but the column is read in rad by its name; leave it out, or give the scale too");
-  expect_refusal(example + "--force-unit $'N\\nm'",
-                 "--force-unit: must be a unit of at most 24 characters, on one line");
+  expect_refusal(example + "--force-unit $'N\\nm'", "--force-unit: is no unit; at most 24 characters, on one line");
   EXPECT_EQ(document("zwidth frf " + rotary + " --force-scale 1e-3")["units"]["stiffness"], "N m/rad");
   const json named = json::parse(run("zwidth identify " + rotary + " --structure two-body").output);
   EXPECT_EQ(named["parameters"][0]["unit"], "kg m²");

@@ -151,14 +151,7 @@ TEST(IdentificationProperty, OtherNumbersThatExplainTheRecordAsWellAreLookedFor)
 }
 
 // A link of 7e-66 N/m on the way ended all, and a search that was stopped was not continued.
-TEST(IdentificationProperty, ASearchThatWasStoppedGoesOn) {
-  for (const std::uint64_t seed : {3137U, 3117U, 3100335U}) {
-    const auto made = test::random_recording(seed);
-    ASSERT_TRUE(made && made->right_structure && !made->has_friction);
-    const Identification found = identified(*made);
-    ASSERT_NO_FATAL_FAILURE(expect_sound_and_right(found, *made));
-  }
-}
+TEST(IdentificationProperty, ASearchThatWasStoppedGoesOn) { expect_sound_and_right({3137U, 3117U, 3100335U}); }
 
 // Draws of a link that the data hardly show contradict them: [139.83, 2308] where the response itself shows 139.6.
 TEST(IdentificationProperty, AnIntervalIsNoWiderThanTheResponseShows) {
@@ -174,13 +167,9 @@ TEST(IdentificationProperty, AnIntervalIsNoWiderThanTheResponseShows) {
 // Draws along a combination that does not show leave it: [234.6, 690] and [2321, 10690] where the response itself shows
 // 234.6 and 2308. Only a lower end that rose was taken.
 TEST(IdentificationProperty, AnUpperEndThatTheResponseDoesNotShowIsNone) {
-  for (const std::uint64_t seed : {3100549U, 3100379U}) {
-    const auto made = test::random_recording(seed);
-    ASSERT_TRUE(made && made->right_structure && !made->has_friction);
-    const Identification found = identified(*made);
-    ASSERT_NO_FATAL_FAILURE(expect_sound_and_right(found, *made));
-    EXPECT_LE(found.analysis.interval->upper, 1.02 * made->stiffness) << "seed " << seed;
-  }
+  expect_sound_and_right({3100549U, 3100379U}, [](const Identification& found, const test::RandomRecording& made) {
+    EXPECT_LE(found.analysis.interval->upper, 1.02 * made.stiffness) << "seed " << made.seed;
+  });
 }
 
 // Three bodies fitted with two of them as one: 24 of 1333 lines stood out, 2.5 times their noise, the rest hid it.
@@ -193,46 +182,29 @@ TEST(IdentificationProperty, WhatStandsOutOfAFewLinesIsASideMinimumToo) {
 // At the ends of their 95 % intervals, which are those of slopes, the numbers explained the record 2 to 380 times worse: a
 // mode above the band that would limit there was no doubt.
 TEST(IdentificationProperty, AnEndOfAnIntervalThatNoDeviceReachesIsNoDoubt) {
-  for (const std::uint64_t seed : {3100330U, 3100449U}) {
-    const auto made = test::random_recording(seed);
-    ASSERT_TRUE(made && made->right_structure && !made->has_friction);
-    ASSERT_NO_FATAL_FAILURE(expect_sound_and_right(identified(*made), *made));
-  }
+  expect_sound_and_right({3100330U, 3100449U});
 }
 
 // A light body on a soft spring, resonant at the lowest line, is a side minimum of two bodies that move as one in the
 // band: 28 times the noise was left, 2 % too low. 910182 was refused: nothing by itself was determined there.
 TEST(IdentificationProperty, ASideMinimumIsLeft) {
-  for (const std::uint64_t seed : {910027U, 910182U, 920062U}) {
-    const auto made = test::random_recording(seed);
-    ASSERT_TRUE(made && made->right_structure && !made->has_friction);
-    const Identification found = identified(*made);
-    ASSERT_NO_FATAL_FAILURE(expect_sound_and_right(found, *made));
-    EXPECT_LE(found.analysis.interval->upper, 1.01 * found.analysis.interval->lower) << "seed " << seed;
-  }
+  expect_sound_and_right(
+      {910027U, 910182U, 920062U}, [](const Identification& found, const test::RandomRecording& made) {
+        EXPECT_LE(found.analysis.interval->upper, 1.01 * found.analysis.interval->lower) << "seed " << made.seed;
+      });
 }
 
 // Along numbers that the data leave open the response does not change: what it says of the critical stiffness within the
 // band does not hang on them. 0.1 and 0.25 % off within the interval, and called doubtful.
 TEST(IdentificationProperty, OpenNumbersThatTheLimitDoesNotHangOnAreNoDoubt) {
-  for (const std::uint64_t seed : {920001U, 920066U}) {
-    const auto made = test::random_recording(seed);
-    ASSERT_TRUE(made && made->right_structure && !made->has_friction);
-    const Identification found = identified(*made);
-    ASSERT_NO_FATAL_FAILURE(expect_sound_and_right(found, *made));
+  expect_sound_and_right({920001U, 920066U}, [](const Identification& found, const test::RandomRecording&) {
     EXPECT_FALSE(found.analysis.trust.sound()) << "the device itself has open numbers";
-  }
+  });
 }
 
 // What drifts more slowly than the test's autoregression sees passed for cogging: bodies that drift under a chirp. In the
 // others up to 1.35 % of what is left goes with some wave of the position: of 578 records four did.
-TEST(IdentificationProperty, ALinearRecordShowsNoCogging) {
-  for (const std::uint64_t seed : {3028U, 3030U, 500191U, 600030U}) {
-    const auto made = test::random_recording(seed);
-    ASSERT_TRUE(made && !made->has_friction && made->right_structure);
-    ASSERT_NO_FATAL_FAILURE(expect_sound_and_right(identified(*made), *made));
-  }
-}
+TEST(IdentificationProperty, ALinearRecordShowsNoCogging) { expect_sound_and_right({3028U, 3030U, 500191U, 600030U}); }
 
 // Of all devices that the data allow the fitted one has the least limit, or nearly: its own value was the lower end, and
 // 0.01 to 0.05 % too high.
@@ -279,11 +251,7 @@ TEST(IdentificationProperty, AWideIntervalOfLinesElsewhereIsDoubtful) {  // 16 %
 
 // Where a sweep ends, and on lines of which the noise is most, the noise itself is hardly known.
 TEST(IdentificationProperty, LinesThatNoiseHidesAreNotHeldAgainstTheStructure) {
-  for (const std::uint64_t seed : {2000171U, 2000452U}) {
-    const auto made = test::random_recording(seed);
-    ASSERT_TRUE(made && made->right_structure && !made->has_friction);
-    ASSERT_NO_FATAL_FAILURE(expect_sound_and_right(identified(*made), *made));
-  }
+  expect_sound_and_right({2000171U, 2000452U});
 }
 
 // A search that ran away, to a damping of 1e13: no number had a deviation, and none an interval; was sound, 0.09 % too high.

@@ -48,9 +48,10 @@ struct NamedStructure {
 
 /// How a named structure moves, and the loop to judge.
 struct NamedStructureOptions {
-  Motion motion = Motion::linear;              ///< linear or rotary: stated_motion(), where it states one
+  std::optional<Motion> motion = {};           ///< linear or rotary; absent: record_motion
   std::optional<double> sampling_period = {};  ///< s, of the loop; absent: record_period
   std::optional<double> record_period = {};    ///< s, of the recording; absent: it has none, as a table of a response
+  std::optional<Motion> record_motion = {};    ///< stated_motion() of the recordings; absent: linear
 };
 
 /// The motion whose units the columns' names state, by Channel::base_unit: rotary of torques and angles. Nothing where they

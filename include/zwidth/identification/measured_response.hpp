@@ -41,6 +41,11 @@ struct MeasuredResponse {
   std::optional<AmplitudeDependence> dependence = {};  ///< absent for one record, and where the records agree
 };
 
+/// Checks the names of units that a user gives a response; empty: none. A unit has at most 24 characters, on one line, and is no
+/// other than the one that the column's name states. The members are named as MeasuredResponse's.
+[[nodiscard]] std::optional<OptionProblem> find_problem(const std::string& force_unit, const std::string& length_unit,
+                                                        const MeasuredResponse& measured);
+
 /// Checks what the options say by themselves; whether a record can meet them shows with the record.
 [[nodiscard]] std::optional<OptionProblem> find_problem(const FrequencyResponseOptions& options);
 
