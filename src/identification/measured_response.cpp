@@ -14,11 +14,11 @@
 #include "identification/plausibility.hpp"
 #include "identification/pooled_response.hpp"
 #include "identification/response_choice.hpp"
+#include "identification/stated_units.hpp"
 #include "identification/welch.hpp"
 #include "percent.hpp"
 #include "signal/clipping.hpp"
 #include "zwidth/error.hpp"
-#include "zwidth/identification/identification.hpp"
 #include "zwidth/quantity.hpp"
 
 namespace zwidth {
@@ -100,20 +100,6 @@ void check(std::span<const Recording> recordings, const FrequencyResponseOptions
                           recordings[before].source));
     }
   }
-}
-
-constexpr std::size_t longest_unit = 24;  // characters, of what is one
-
-/// In which a channel's samples are, by its name in all recordings; empty where they state none, or several.
-std::string stated_unit(std::span<const Recording> recordings, std::size_t channel) {
-  const auto unit_of = [&](const Recording& recording) {
-    const Channel& each = recording.channels[channel];
-    return each.base_unit.empty() ? each.unit : each.base_unit;
-  };
-  const std::string unit = unit_of(recordings.front());
-  if (unit.size() > longest_unit) return "";
-  const bool is_same = std::ranges::all_of(recordings, [&](const auto& each) { return unit_of(each) == unit; });
-  return is_same ? unit : "";
 }
 
 /// What a recording's signals show before any estimate.
@@ -310,22 +296,6 @@ std::vector<FrequencyResponse> responses(std::span<const Recording> recordings, 
 
 }  // namespace internal
 
-std::optional<OptionProblem> find_problem(const std::string& force_unit, const std::string& length_unit,
-                                          const MeasuredResponse& measured) {
-  const auto check = [](const char* member, const std::string& given,
-                        const std::string& stated) -> std::optional<OptionProblem> {
-    const bool is_plain =
-        given.size() <= longest_unit && std::ranges::none_of(given, [](unsigned char c) { return c < ' '; });
-    if (!is_plain)
-      return OptionProblem{member, "is no unit", fmt::format("at most {} characters, on one line", longest_unit)};
-    if (given.empty() || stated.empty() || given == stated) return std::nullopt;
-    return OptionProblem{member, fmt::format("is {}, but the column is read in {} by its name", given, stated),
-                         "leave it out, or give the scale too"};
-  };
-  auto problem = check("force_unit", force_unit, measured.force_unit);
-  return problem ? problem : check("length_unit", length_unit, measured.length_unit);
-}
-
 MeasuredResponse frequency_response(const Recording& recording, const FrequencyResponseOptions& options,
                                     const Progress& progress) {
   return frequency_response(std::span(&recording, 1), options, progress);
@@ -362,13 +332,7 @@ MeasuredResponse frequency_response(std::span<const Recording> recordings, const
   judge_friction(measured, recordings, each, decided);
   if (measured.dependence) judge_dependence(measured, recordings, each);
   for (const std::string& doubt : doubts) measured.trust.doubt(doubt);
-  measured.force_unit = stated_unit(recordings, 0);
-  measured.length_unit = stated_unit(recordings, 1);
-  measured.length_unit.resize(std::min(measured.length_unit.size(), measured.length_unit.find("/s")));
-  if (stated_motion(recordings) == Motion::rotary) {
-    if (measured.force_unit.empty()) measured.force_unit = "N m";
-    if (measured.length_unit.empty()) measured.length_unit = "rad";
-  }
+  state_units(measured, recordings);
   return measured;
 }
 

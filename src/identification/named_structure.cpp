@@ -17,20 +17,6 @@ const std::map<std::string_view, std::vector<std::string>>& bodies_by_name() {
 
 }  // namespace
 
-std::optional<Motion> stated_motion(std::span<const Recording> recordings) {
-  bool is_linear = false;
-  bool is_rotary = false;
-  for (const Recording& recording : recordings) {
-    for (const Channel& channel : recording.channels) {
-      const std::string& unit = channel.base_unit;
-      is_rotary = is_rotary || unit == "N m" || unit.starts_with("rad");
-      is_linear = is_linear || unit == "N" || unit == "m" || unit.starts_with("m/");
-    }
-  }
-  if (is_linear == is_rotary) return std::nullopt;
-  return is_rotary ? Motion::rotary : Motion::linear;
-}
-
 bool names_structure(std::string_view name) { return bodies_by_name().contains(name); }
 
 std::optional<OptionProblem> find_problem(const NamedStructureOptions& options) {
