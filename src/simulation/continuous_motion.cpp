@@ -69,7 +69,7 @@ ContinuousMotion::ContinuousMotion(const Device& device, OutsideForce outside, s
   }
   if (!friction_.empty() && !lengths_.empty()) {
     const double longest = *std::max_element(lengths_.begin(), lengths_.end());
-    const double parts = std::log2(std::max(1.0, rate() * longest));
+    const double parts = std::log2(std::max(1.0, 2.0 * rate() * longest));
     halvings_ = static_cast<std::size_t>(std::clamp(std::ceil(parts), least_halvings, most_halvings));
   }
   for (unsigned stuck = 0; stuck < 1u << friction_.size(); ++stuck) add_steps(patterns_[stuck], stuck);
@@ -194,9 +194,11 @@ void ContinuousMotion::advance_part(std::size_t which, std::size_t halvings) noe
     advance_part(which, halvings + 1);
     advance_part(which, halvings + 1);
   } else {
-    advance(std::ldexp(lengths_[which], -static_cast<int>(halvings)));
+    advance_by_series(std::ldexp(lengths_[which], -static_cast<int>(halvings)), which * (halvings_ + 1) + halvings);
   }
 }
+
+void ContinuousMotion::advance(double duration) noexcept { advance_by_series(duration, no_step); }
 
 void ContinuousMotion::expand(double length) noexcept {
   const Pattern& now = pattern();
@@ -264,7 +266,7 @@ double ContinuousMotion::first_event(std::size_t& body) noexcept {
   return first;
 }
 
-void ContinuousMotion::advance(double duration) noexcept {
+void ContinuousMotion::advance_by_series(double duration, std::size_t whole_step) noexcept {
   break_away();
   double remaining = duration;
   for (int count = 0; remaining > 0.0;) {
@@ -273,7 +275,13 @@ void ContinuousMotion::advance(double duration) noexcept {
     expand(length);
     std::size_t body = 0;
     const double fraction = friction_.empty() || count >= max_events ? 2.0 : first_event(body);
-    if (tangent_ != nullptr) tangent_->move(pattern(), stuck_, series_, terms_, length, std::min(fraction, 1.0));
+    if (tangent_ != nullptr) {
+      if (fraction > 1.0 && length == duration && whole_step != no_step) {
+        tangent_->step(stuck_, whole_step, state_.data());
+      } else {
+        tangent_->move(pattern(), stuck_, series_, terms_, length, std::min(fraction, 1.0));
+      }
+    }
     if (fraction <= 1.0) {
       evaluate_series(fraction);
       for (FrictionBody& each : friction_) each.fresh = each.fresh && fraction == 0.0;

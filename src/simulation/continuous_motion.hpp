@@ -80,7 +80,8 @@ class ContinuousMotion {
   [[nodiscard]] std::size_t events() const noexcept { return events_; }
   [[nodiscard]] std::size_t overloaded() const noexcept { return overloaded_; }
 
-  /// Of a recurring length, before an event within it is looked for by a series: down to the device's fastest motion.
+  /// Of a recurring length, before an event within it is looked for by a series: down to half the device's fastest
+  /// motion.
   [[nodiscard]] std::size_t halvings() const noexcept { return halvings_; }
   /// A step of recurring length, or of half, a quarter, ... of one, in one pattern of sticking bodies.
   struct RecurringStep {
@@ -119,6 +120,8 @@ class ContinuousMotion {
   void add_steps(Pattern& pattern, unsigned stuck) const;
   [[nodiscard]] const Pattern& pattern() const noexcept { return patterns_[stuck_]; }
   void advance_part(std::size_t which, std::size_t halvings) noexcept;
+  /// `whole_step`: the recurring step of this duration, or no_step.
+  void advance_by_series(double duration, std::size_t whole_step) noexcept;
   [[nodiscard]] double output() const noexcept;
   [[nodiscard]] bool nothing_happens(const RecurringStep& step) noexcept;
   void expand(double length) noexcept;                           // series_ of the state over `length`
@@ -131,6 +134,7 @@ class ContinuousMotion {
   [[nodiscard]] double acceleration(const FrictionBody& body) const noexcept;
 
   static constexpr std::size_t no_state = static_cast<std::size_t>(-1);
+  static constexpr std::size_t no_step = static_cast<std::size_t>(-1);
 
   std::size_t bodies_ = 0;  // 0: a transfer function
   std::size_t sensed_ = 0;

@@ -1,9 +1,9 @@
 #include "simulation/first_root.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 
 namespace zwidth::internal {
 namespace {
@@ -12,6 +12,7 @@ constexpr std::size_t max_coefficients = 32;
 constexpr int max_depth = 50;  // halvings: below that the interval is one point of double
 constexpr int max_iterations = 100;
 constexpr double none = 2.0;
+constexpr double near = 1e-8;  // a step of Newton's, relative: the next is its square
 
 using Coefficients = std::array<double, max_coefficients>;
 
@@ -34,9 +35,12 @@ constexpr std::array<Weights, max_coefficients + 1> make_bernstein_weights() noe
 }
 constexpr std::array<Weights, max_coefficients + 1> bernstein_weights = make_bernstein_weights();
 
-/// The one root in [lower, upper], where the polynomial falls from >= 0 to negative: Newton, kept in its bracket.
-double polish(std::span<const double> power, double lower, double upper) noexcept {
-  double s = 0.5 * (lower + upper);
+/// The one root in [lower, upper], where the polynomial falls from `first` >= 0 to `last` < 0: Newton, kept in its
+/// bracket, from where the chord crosses zero.
+double polish(std::span<const double> power, double lower, double upper, double first, double last) noexcept {
+  double s = lower + (upper - lower) * (first / (first - last));
+  if (!(s > lower && s < upper)) s = 0.5 * (lower + upper);
+  bool was_near = false;
   for (int i = 0; i < max_iterations; ++i) {
     double value = 0.0;
     double slope = 0.0;
@@ -45,10 +49,13 @@ double polish(std::span<const double> power, double lower, double upper) noexcep
       value = value * s + power[k];
     }
     (value >= 0.0 ? lower : upper) = s;
-    double next = s - value / slope;
-    if (!(next > lower && next < upper)) next = 0.5 * (lower + upper);
-    if (std::abs(next - s) <= std::numeric_limits<double>::epsilon() * s) return next;
-    s = next;
+    const double step = value / slope;
+    const bool is_near = std::abs(step) <= near * s;
+    // The second near step is of rounding alone: which side of the root it is on says nothing.
+    if (is_near && was_near) return std::clamp(s - step, lower, upper);
+    was_near = is_near;
+    s -= step;
+    if (!(s > lower && s < upper)) s = 0.5 * (lower + upper);
   }
   return s;
 }
@@ -66,7 +73,7 @@ double search(std::span<const double> power, const Coefficients& bernstein, doub
   }
   if (changes == 0) return none;
   if (depth == max_depth) return lower;
-  if (changes == 1) return polish(power, lower, upper);
+  if (changes == 1) return polish(power, lower, upper, bernstein[0], bernstein[count - 1]);
   // de Casteljau at the middle
   Coefficients left{};
   Coefficients right = bernstein;
@@ -97,7 +104,8 @@ double first_turn_negative(std::span<const double> coefficients) noexcept {
   if (coefficients[0] < 0.0) return 0.0;
   if (coefficients[0] >= others) return none;
   if (count > 1 && std::abs(coefficients[1]) > slopes) {
-    return coefficients[0] + sum >= 0.0 ? none : polish(coefficients, 0.0, 1.0);
+    const double last = coefficients[0] + sum;
+    return last >= 0.0 ? none : polish(coefficients, 0.0, 1.0, coefficients[0], last);
   }
   Coefficients bernstein{};
   const double* weight = bernstein_weights[count].data();
