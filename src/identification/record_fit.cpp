@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "identification/encoder_rounding.hpp"
 #include "identification/fit_comparison.hpp"
 #include "identification/misfit_doubt.hpp"
 #include "identification/motion_residuals.hpp"
@@ -42,9 +43,15 @@ std::optional<FrequencyResponse> corrected_response(const FrequencyResponse& las
   });
   options.lines_at_ends = *options.begins_at_rest;
   std::vector<FrequencyResponse> each = responses(rests, options);
+  const SampledPlant plant = sampled_plant(device);
+  for (std::size_t i = 0; i < each.size(); ++i) {
+    const SweepRounding rounding(recordings[i].channels[0].samples, recordings[i].channels[1].samples);
+    for (ResponsePoint& point : each[i].points) {
+      point.variance += rounding.variance(point.value + zwidth::response(plant, point.frequency));
+    }
+  }
   FrequencyResponse response = each.size() == 1 ? std::move(each[0]) : pooled_response(each).response;
   response.remarks = last.remarks;
-  const SampledPlant plant = sampled_plant(device);
   for (ResponsePoint& point : response.points) {
     point.value += zwidth::response(plant, point.frequency);
     // The coherence of an output with this noise: |P|^2 against n variance.

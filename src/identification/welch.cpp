@@ -10,6 +10,7 @@
 #include <numeric>
 #include <vector>
 
+#include "identification/encoder_rounding.hpp"
 #include "signal/averaged_spectra.hpp"
 #include "signal/window_function.hpp"
 #include "zwidth/error.hpp"
@@ -274,6 +275,8 @@ FrequencyResponse welch_response(std::span<const double> force, std::span<const 
   }
   const AveragedSpectra sums = averaged_spectra(cut.force, cut.output, cut.segments, cut.form, progress);
   Points points = points_of(sums, cut, sampling_period, options);
+  const SweepRounding rounding(force, output);
+  for (ResponsePoint& point : points.points) point.variance += rounding.variance(point.value);
   FrequencyResponse response;
   response.sampling_period = sampling_period;
   response.averages = cut.segments.averages;
