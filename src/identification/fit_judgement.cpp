@@ -146,11 +146,14 @@ class Judge {
     recorded.wall = {};
     recorded.uncertainty.reset();
     const double fitted = limit_of(Device(std::move(recorded))).stiffness;
-    is_measured_ = judged_.options.fit.locked.empty() && measured.status == MeasuredStiffnessStatus::found &&
-                   std::abs(fitted / measured.limit->stiffness - 1.0) < tolerated - 1.0;
-    constexpr double widest = 2.0;
-    result_.is_measured =
-        is_measured_ && measured.limit->stiffness_interval.upper < widest * measured.limit->stiffness_interval.lower;
+    const bool is_found = judged_.options.fit.locked.empty() && measured.status == MeasuredStiffnessStatus::found;
+    is_measured_ = is_found && std::abs(fitted / measured.limit->stiffness - 1.0) < tolerated - 1.0;
+    if (is_found) {
+      constexpr double widest = 2.0;
+      const auto& shown = measured.limit->stiffness_interval;
+      const bool agrees = is_measured_ || (fitted > shown.lower && fitted < shown.upper);
+      result_.is_measured = agrees && shown.upper < widest * shown.lower;
+    }
     if (!(fitted > tolerated * proven)) return;
     const Remark unsafe{
         Remark::Severity::warning,

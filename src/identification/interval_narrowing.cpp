@@ -10,7 +10,6 @@
 
 #include "identification/fit_judgement.hpp"
 #include "model/uncertainty_problem.hpp"
-#include "stability/device_draws.hpp"
 #include "zwidth/quantity.hpp"
 #include "zwidth/stability/stiffness_interval.hpp"
 
@@ -26,21 +25,6 @@ std::optional<Device> without_least_known(const Device& device) {
   if (least.share < well * well) return std::nullopt;
   parameters.uncertainty = given(*std::move(parameters.uncertainty), least.i);
   return Device(std::move(parameters));
-}
-
-/// The share of the draws that a crossover beyond the lines limits, and below a stiffness; the response says nothing there.
-double share_limited_elsewhere(const Device& device, const std::vector<double>& lines, double below) {
-  constexpr std::size_t count = 400;
-  constexpr double beyond = 1.1;
-  DeviceDraws drawn(device, 1);
-  std::size_t limited = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const CriticalStiffness critical = limit_of(drawn.next());
-    if (!critical.limit || critical.stiffness >= below) continue;
-    const double frequency = critical.limit->frequency;
-    if (frequency > beyond * lines.back() || beyond * frequency < lines.front()) ++limited;
-  }
-  return static_cast<double>(limited) / static_cast<double>(count);
 }
 
 }  // namespace
@@ -93,13 +77,9 @@ void narrow_interval(Identification& result) {
     analysis = analyze(device, {.any_user = false});
     if (!analysis.interval) return;
   }
-  constexpr double safe = 0.9;
-  constexpr double many = 0.25;
   const StiffnessInterval& narrow = *analysis.interval;
   const StiffnessInterval& wide = *result.analysis.interval;
   if (is_open(narrow) || (narrow.lower <= wide.lower && narrow.upper >= wide.upper)) return;
-  if (share_limited_elsewhere(result.fit.device, result.fit.frequencies, safe * analysis.interval->lower) > many)
-    return;
   result.fit.device = std::move(device);
   result.analysis = std::move(analysis);
 }

@@ -16,8 +16,8 @@ namespace zwidth::internal {
 [[nodiscard]] std::optional<std::string> doubt_of_interval(const Identification& result);
 
 /// A normal distribution around a parameter that the data hardly show draws devices that contradict them. Where the
-/// response shows the critical stiffness by itself, which does not hang on such parameters, they are taken as known;
-/// unless many of those devices are limited by a softer crossover outside the lines, where the response shows nothing.
+/// response shows the critical stiffness by itself, which does not hang on such parameters, they are taken as known.
+/// Whether a softer crossover outside the lines may limit is judged by devices that explain the record (unseen_limit.hpp).
 void narrow_interval(Identification& result);
 
 }  // namespace zwidth::internal
