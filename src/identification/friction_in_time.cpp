@@ -178,11 +178,15 @@ void judge_friction_in_time(Identification& result, std::span<const Recording> r
                                        friction->force, motion == Motion::rotary ? "N m" : "N", friction->body);
   const std::string meaning = fmt::format("beside it the critical stiffness is about {:.3g} {}",
                                           *friction->stiffness_beside, units_of(motion).stiffness);
-  result.trust.doubt(what + ": " + meaning);
-  result.remarks.push_back(
-      {Remark::Severity::warning, what, meaning,
-       "fit the friction too, in time; or excite more strongly: its share falls with the amplitude"});
   if (shows) result.friction = friction;
+  const StiffnessInterval& interval = *result.analysis.interval;
+  const bool changes_the_answer =
+      *friction->stiffness_beside < interval.lower || *friction->stiffness_beside > interval.upper;
+  if (changes_the_answer) result.trust.doubt(what + ": " + meaning);
+  result.remarks.push_back(
+      {changes_the_answer ? Remark::Severity::warning : Remark::Severity::note, what,
+       changes_the_answer ? meaning : meaning + ", within the interval",
+       "fit the friction too, in time; or excite more strongly: its share falls with the amplitude"});
 }
 
 }  // namespace zwidth::internal

@@ -2,6 +2,7 @@
 // benchmarks/identification_campaign.cpp.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <span>
 
 #include "identification/friction_in_time.hpp"
@@ -108,6 +109,18 @@ TEST(IdentificationProperty, FrictionThatIsNoneCastsNoDoubt) {
     EXPECT_FALSE(found.friction) << "seed " << seed;
     EXPECT_TRUE(found.trust.sound()) << "seed " << seed;
   }
+}
+
+// Friction that a fit in time finds, or finds where none is, but beside which the critical stiffness lies within the
+// interval: with it or without it the answer is the same.
+TEST(IdentificationProperty, FrictionThatDoesNotChangeTheAnswerIsNoDoubt) {
+  test::expect_sound_and_right(
+      {3200689U, 3300232U}, [](const Identification& found, const test::RandomRecording& made) {
+        const bool is_said = std::ranges::any_of(found.remarks, [](const Remark& each) {
+          return each.severity == Remark::Severity::note && each.consequence.ends_with("within the interval");
+        });
+        EXPECT_TRUE(is_said) << "seed " << made.seed;
+      });
 }
 
 }  // namespace
