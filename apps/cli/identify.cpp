@@ -72,7 +72,8 @@ void check_method(const CLI::App& command, const IdentifyArguments& arguments) {
       if (group == of_group && method != only) throw BadInput(fmt::format("{}: is for --method {}", name, only));
     }
     if (const auto why = why_not(*option, method)) {
-      throw BadInput(fmt::format("{}: is not for --method {}, which {}", name, method, *why));
+      throw BadInput(
+          fmt::format("{}: is not for --method {}, which {}; leave it out, or the method", name, method, *why));
     }
   }
   if (method == "inverse-dynamics") {

@@ -10,8 +10,8 @@
 
 #include "identification/response_choice.hpp"
 #include "identification/response_friction.hpp"
+#include "identification/stated_units.hpp"
 #include "zwidth/identification/excitation.hpp"
-#include "zwidth/quantity.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -34,8 +34,6 @@ bool are_of_one_force(std::span<const Recording> recordings) {
   for (const Recording& each : recordings) sizes.push_back(crest_factor(each.channels[0].samples).rms);
   return std::ranges::max(sizes) < different * std::ranges::min(sizes);
 }
-
-std::string in_units(double force) { return fmt::format("{:.2g} N (N m where it turns)", force); }
 
 /// What the motion of a body shows.
 struct Slidings {
@@ -104,7 +102,7 @@ class FrictionDoubt {
       measured_.trust.doubt(
           fmt::format("the motion shows dry friction, which the response takes for damping: about {} at least; larger "
                       "motions have less of it, and a lower critical stiffness; {}",
-                      in_units(found->friction.force), remedy));
+                      force_in_words(found->friction.force, measured_), remedy));
       return;
     }
     for (const Slidings& slidings : slidings_) {
@@ -127,11 +125,11 @@ class FrictionDoubt {
     }
     if (!least || (of_lines_ && of_one_force_)) return unknown();
     const auto without = stiffness_without(slidings, most_of(*least));
-    return fmt::format("dry friction of {} would pass unseen, and {}; {}", in_units(most_of(*least)),
-                       without ? fmt::format("the critical stiffness without it would be {} (where it turns {})",
-                                             quantity(*without, "N/m"), quantity(*without, "N m/rad"))
-                               : "the critical stiffness without it is not known",
-                       remedy);
+    return fmt::format(
+        "dry friction of {} would pass unseen, and {}; {}", force_in_words(most_of(*least), measured_),
+        without ? fmt::format("the critical stiffness without it would be {}", stiffness_in_words(*without, measured_))
+                : "the critical stiffness without it is not known",
+        remedy);
   }
 
   /// The critical stiffness without so much friction; nothing where the response does not say.

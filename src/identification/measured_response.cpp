@@ -143,10 +143,9 @@ void judge_dependence(MeasuredResponse& measured, std::span<const Recording> rec
   if (by_force && found.grows_with_force) {
     remark.consequence = "so dry friction does: it holds a weak force more, and looks like damping";
     if (found.friction) {
-      remark.consequence = fmt::format(
-          "so dry friction of about {:.2g} N (N m where it turns) does: it holds a weak force more, and "
-          "looks like damping",
-          *found.friction);
+      remark.consequence =
+          fmt::format("so dry friction of about {} does: it holds a weak force more, and looks like damping",
+                      force_in_words(*found.friction, measured));
     }
     remark.remedy = "fit in time with free friction";
   } else {
@@ -329,10 +328,10 @@ MeasuredResponse frequency_response(std::span<const Recording> recordings, const
                       std::move(pooled.response), std::move(remarks));
     measured.dependence = pooled.dependence;
   }
+  state_units(measured, recordings);
   judge_friction(measured, recordings, each, decided);
   if (measured.dependence) judge_dependence(measured, recordings, each);
   for (const std::string& doubt : doubts) measured.trust.doubt(doubt);
-  state_units(measured, recordings);
   return measured;
 }
 

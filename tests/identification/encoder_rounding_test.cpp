@@ -62,8 +62,8 @@ double simulated_share(double amplitude, double noise, int samples_of_turn) {
 TEST(EncoderRounding, IsThatOfSinesRoundedOverAllOffsets) {
   for (const double amplitude : {1.0, 2.0, 4.0, 10.0}) {
     const Swept record = swept(amplitude * step, 0.0);
-    const double share = SweepRounding(record.force, record.position).variance({0.0, amplitude * step}) /
-                         std::pow(amplitude * step, 2);
+    const double share =
+        SweepRounding(record.force, record.position).variance({0.0, amplitude * step}) / std::pow(amplitude * step, 2);
     EXPECT_NEAR(share / simulated_share(amplitude, 0.0, 2000), 1.0, 0.3) << amplitude << " steps";
   }
 }

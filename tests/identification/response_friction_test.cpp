@@ -174,7 +174,10 @@ TEST(ResponseFriction, OfADependenceOnTheForceHasASize) {
     const MeasuredResponse found = frequency_response(two);
     ASSERT_TRUE(found.dependence && found.dependence->friction);
     EXPECT_NEAR(*found.dependence->friction, coulomb, 0.25 * coulomb);
-    EXPECT_THAT(found.remarks, Contains(::testing::Field(&Remark::consequence, HasSubstr("dry friction of about"))));
+    EXPECT_THAT(found.remarks, Contains(::testing::Field(&Remark::consequence, HasSubstr("N (N m where it turns)"))));
+    for (Recording& each : two) each.channels[0].base_unit = "N m";
+    const MeasuredResponse turning = frequency_response(two);
+    EXPECT_THAT(turning.remarks, Contains(::testing::Field(&Remark::consequence, HasSubstr("N m does: it holds"))));
   }
 }
 
