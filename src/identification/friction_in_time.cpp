@@ -185,7 +185,7 @@ void judge_friction_in_time(Identification& result, std::span<const Recording> r
   if (shows) result.friction = friction;
   const StiffnessInterval& interval = *result.analysis.interval;
   const bool changes_the_answer =
-      *friction->stiffness_beside < interval.lower || *friction->stiffness_beside > interval.upper;
+      shows || *friction->stiffness_beside < interval.lower || *friction->stiffness_beside > interval.upper;
   if (changes_the_answer) result.trust.doubt(what + ": " + meaning);
   result.remarks.push_back(
       {changes_the_answer ? Remark::Severity::warning : Remark::Severity::note, what,

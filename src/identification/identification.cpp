@@ -287,13 +287,20 @@ void judge_delay(const Fitting& fitting, Judgement& judgement) {
   judgement.remarks.push_back(remark);
 }
 
-/// `as_fitted`: the device with all that the fit leaves open.
-void judge_interval(Identification& result, const Device& as_fitted, std::span<const Recording> recordings,
+/// `is_measured`: the response shows the limit by itself.
+void judge_interval(Identification& result, bool is_measured, std::span<const Recording> recordings,
                     const IdentifyOptions& options) {
+  const Device as_fitted = result.fit.device;
+  const Analysis as_analysed = result.analysis;
+  if (is_measured) narrow_interval(result);
   if (auto ringing = doubt_of_ringing(result, recordings, options)) result.trust.doubt(*std::move(ringing));
-  const std::optional<std::string> doubt = doubt_of_interval(result);
-  if (!doubt) return judge_unseen_limit(result, as_fitted, options);
-  result.trust.doubt(*doubt);
+  if (const std::optional<std::string> doubt = doubt_of_interval(result)) return result.trust.doubt(*doubt);
+  const bool was_sound = result.trust.sound();
+  judge_unseen_limit(result, as_fitted, options);
+  if (!was_sound || result.trust.sound()) return;
+  // Another crossover may limit: what is open is open.
+  result.fit.device = as_fitted;
+  result.analysis = as_analysed;
 }
 
 void judge_what_was_given(const Fitting& fitting, Judgement& judgement) {
@@ -349,9 +356,7 @@ Identification identified(const MeasuredResponse& measured, std::span<const Reco
   if (!result.trust.refused() && result.analysis.critical.trust.refused()) {
     result.trust.inherit(result.analysis.critical.trust);
   }
-  const Device as_fitted = result.fit.device;
-  if (judgement.is_measured) narrow_interval(result);
-  judge_interval(result, as_fitted, recordings, options);
+  judge_interval(result, judgement.is_measured, recordings, options);
   judge_agreement(result, recordings, options);
   judge_friction_in_time(result, recordings, options);
   judge_nonlinearity(result, recordings, options);

@@ -161,7 +161,7 @@ std::optional<UnseenLimit> of_a_light_mode(const Identification& result, const I
                           free.contains(fmt::format("body.{}.mass", second.name));
     std::vector<double> modes{own};
     for (const double above : {1.3, 2.0, 3.0, 4.5}) {
-      if (may_move && above * highest < own) modes.push_back(above * highest);
+      if (may_move) modes.push_back(above * highest);
     }
     for (const double w : modes) {
       for (HeldStart& each : light_modes(fitted, i, w, free)) starts.push_back(std::move(each));
