@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <iterator>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -39,10 +40,10 @@ double stiffness_beside(DeviceParameters parameters) {
   return limit_of(Device(std::move(parameters))).stiffness;
 }
 
-/// Whether a fit with friction, the last coordinate of the model, explains the shots better than the linear device does: a side
-/// minimum explains them less.
-bool explains_more(const ShotSearch& search, const ShotModel& model, const std::vector<Shot>& shots,
-                   const Eigen::VectorXd& linear, const FittedShots& with_friction) {
+/// What the log-likelihood of a fit with friction, the last coordinate of the model, gains over the linear device's: a side
+/// minimum loses.
+double gain_of(const ShotSearch& search, const ShotModel& model, const std::vector<Shot>& shots,
+               const Eigen::VectorXd& linear, const FittedShots& with_friction) {
   ShotFit start{linear, model.recorded_states(shots),
                 std::vector<bool>(static_cast<std::size_t>(linear.size()), false)};
   const auto friction = static_cast<Eigen::Index>(model.coordinates().size()) - 1;
@@ -53,15 +54,19 @@ bool explains_more(const ShotSearch& search, const ShotModel& model, const std::
   for (int round = 0; round < rounds; ++round) {
     without =
         search.with_noise(without ? without->fit : start, shots, linear, {.most_iterations = 8, .tolerance = 1e-3});
-    if (!without) return true;
+    if (!without) return std::numeric_limits<double>::infinity();
   }
-  constexpr double least_gain = 2.0;  // of the log-likelihood: two deviations
-  return search.badness(with_friction, shots) < search.badness(*without, shots) - least_gain;
+  return search.badness(*without, shots) - search.badness(with_friction, shots);
 }
 
-/// Friction of a body beside all numbers of the fit; nothing where no such motion can be followed.
-std::optional<ShownFriction> friction_beside(const ParameterFit& fit, const Body& body,
-                                             const std::vector<std::string>& locked, const Recording& recording) {
+struct FrictionBeside {
+  ShownFriction friction;
+  double gain = 0.0;  ///< of the log-likelihood, over the linear device's
+};
+
+/// Friction of a body beside all numbers of the fit; nothing where no such motion can be followed, or it explains less.
+std::optional<FrictionBeside> friction_beside(const ParameterFit& fit, const Body& body,
+                                              const std::vector<std::string>& locked, const Recording& recording) {
   const std::span one(&recording, 1);
   const MotionRecord record{recording.channels[0].samples, recording.channels[1].samples, recording.sampling_period};
   constexpr std::size_t shortest = 512;
@@ -112,7 +117,10 @@ std::optional<ShownFriction> friction_beside(const ParameterFit& fit, const Body
   if (!best) return std::nullopt;
   const Eigen::VectorXd towards = best->fit.x;
   best = search.with_noise(best->fit, shots, towards, {.most_iterations = 12, .tolerance = 1e-5});
-  if (!best || !explains_more(search, model, shots, model.position_of(linear.parameters()), *best)) return std::nullopt;
+  if (!best) return std::nullopt;
+  const double gain = gain_of(search, model, shots, model.position_of(linear.parameters()), *best);
+  constexpr double as_much = -4.0;
+  if (!(gain > as_much)) return std::nullopt;
   const auto slopes = shot_slopes(model, shots, best->noise, best->fit.x, best->fit.states);
   if (!slopes) return std::nullopt;
   const Eigen::VectorXd& x = best->fit.x;
@@ -125,38 +133,43 @@ std::optional<ShownFriction> friction_beside(const ParameterFit& fit, const Body
   const auto [least, most] = std::ranges::minmax(record.force);
   const double strongest = std::max(std::abs(least), std::abs(most));
   if (device.bodies().size() == 1 && x(at) * unit >= strongest) return std::nullopt;
-  return ShownFriction{body.name, x(at) * unit, std::sqrt(known.covariance(at, at)) * unit,
-                       stiffness_beside(model.parameters_at(x))};
+  return FrictionBeside{
+      {body.name, x(at) * unit, std::sqrt(known.covariance(at, at)) * unit, stiffness_beside(model.parameters_at(x))},
+      gain};
 }
 
 /// What a friction found in time says of a fit.
 enum class Meaning : std::uint8_t { nothing, may_matter, shows };
 
-Meaning meaning_of(const ShownFriction& friction, const Analysis& analysis) {
+Meaning meaning_of(const FrictionBeside& beside, const Analysis& analysis) {
+  const ShownFriction& friction = beside.friction;
+  // Where damping and friction look alike, as under a force that repeats, no deviation tells how much is which. Of 114 right
+  // answers none came so far below its interval; of six that began 15 to 190 % above the truth all did.
+  constexpr double far = 0.9;  // of the lower end
+  const bool is_far = *friction.stiffness_beside < far * analysis.interval->lower;
+  constexpr double least_gain = 2.0;  // two deviations; a side minimum gains less
+  if (beside.gain < least_gain) return is_far ? Meaning::may_matter : Meaning::nothing;
   if (friction.force > significant_friction * friction.deviation) return Meaning::shows;
   // Below, the fit in time may as well have ended in a side minimum.
   constexpr double suspected = 2.0;  // deviations
   constexpr double notable = 0.95;   // of the linear fit's: an interval beside the friction moves by as much
   const bool matters = friction.force > suspected * friction.deviation &&
                        *friction.stiffness_beside < notable * analysis.critical.stiffness;
-  // Where damping and friction look alike, as under a force that repeats, no deviation tells how much is which. Of 70 right
-  // answers none came so far below its interval; of five that began 15 to 190 % above the truth all did.
-  constexpr double far = 0.9;  // of the lower end
-  return matters || *friction.stiffness_beside < far * analysis.interval->lower ? Meaning::may_matter
-                                                                                : Meaning::nothing;
+  return matters || is_far ? Meaning::may_matter : Meaning::nothing;
 }
 
 /// Of the friction of the heaviest body that any recording shows or leaves open, else of the next, that beside which the
 /// critical stiffness is lowest.
-std::optional<ShownFriction> lowering_friction(const Identification& result, std::span<const Recording> recordings,
-                                               const std::vector<std::string>& locked) {
-  std::optional<ShownFriction> lowest;
+std::optional<FrictionBeside> lowering_friction(const Identification& result, std::span<const Recording> recordings,
+                                                const std::vector<std::string>& locked) {
+  std::optional<FrictionBeside> lowest;
   for (const Body& body : moving_bodies(result.fit.device, locked)) {
     for (const Recording& each : recordings) {
       try {
         auto found = friction_beside(result.fit, body, locked, each);
         if (!found || meaning_of(*found, result.analysis) == Meaning::nothing) continue;
-        if (!lowest || *found->stiffness_beside < *lowest->stiffness_beside) lowest = std::move(found);
+        if (!lowest || *found->friction.stiffness_beside < *lowest->friction.stiffness_beside)
+          lowest = std::move(found);
       } catch (const Error&) {  // no device has such numbers
         continue;
       }
@@ -173,16 +186,17 @@ void judge_friction_in_time(Identification& result, std::span<const Recording> r
   if (!result.trust.sound() || !result.analysis.interval) return;
   if (options.scrutiny != IdentifyOptions::Scrutiny::thorough) return;
   if (options.response.output != OutputQuantity::position) return;
-  const std::optional<ShownFriction> friction = lowering_friction(result, recordings, options.fit.locked);
-  if (!friction) return;
-  const bool shows = meaning_of(*friction, result.analysis) == Meaning::shows;
+  const std::optional<FrictionBeside> lowering = lowering_friction(result, recordings, options.fit.locked);
+  if (!lowering) return;
+  const ShownFriction* const friction = &lowering->friction;
+  const bool shows = meaning_of(*lowering, result.analysis) == Meaning::shows;
   const Motion motion = result.fit.device.parameters().motion;
   const std::string what = fmt::format("{} dry friction of about {:.3g} {} on {}",
                                        shows ? "the record shows" : "the record does not tell damping from",
                                        friction->force, motion == Motion::rotary ? "N m" : "N", friction->body);
   const std::string meaning = fmt::format("beside it the critical stiffness is about {:.3g} {}",
                                           *friction->stiffness_beside, units_of(motion).stiffness);
-  if (shows) result.friction = friction;
+  if (shows) result.friction = *friction;
   const StiffnessInterval& interval = *result.analysis.interval;
   const bool changes_the_answer =
       shows || *friction->stiffness_beside < interval.lower || *friction->stiffness_beside > interval.upper;
