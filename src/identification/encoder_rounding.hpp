@@ -11,7 +11,8 @@ namespace zwidth::internal {
 ///
 ///     sum_n 2 J_1(2 pi n a)^2 / (pi n a)^2 exp(-(2 pi n s)^2),   at most 1
 ///
-/// with J_1(z)^2 by its envelope, min(z^2 / 4, 1 / (pi z)). Source: Widrow & Kollar, Quantization Noise, 2008, ch. 20.
+/// with J_1(z)^2 by its envelope, min(z^2 / 4, 1 / (pi z)): the rounding error is a Fourier series of the position, and the
+/// sine's part of each term is a Bessel function (Jacobi-Anger). On such errors: Widrow & Kollar, Quantization Noise, 2008.
 class SweepRounding {
  public:
   /// Of a force that is one sine at any time and a position in whole steps; of others there is none.

@@ -59,6 +59,7 @@ double gain_of(const ShotSearch& search, const ShotModel& model, const std::vect
   return search.badness(*without, shots) - search.badness(with_friction, shots);
 }
 
+/// A friction, and what it explains.
 struct FrictionBeside {
   ShownFriction friction;
   double gain = 0.0;  ///< of the log-likelihood, over the linear device's
@@ -119,7 +120,7 @@ std::optional<FrictionBeside> friction_beside(const ParameterFit& fit, const Bod
   best = search.with_noise(best->fit, shots, towards, {.most_iterations = 12, .tolerance = 1e-5});
   if (!best) return std::nullopt;
   const double gain = gain_of(search, model, shots, model.position_of(linear.parameters()), *best);
-  constexpr double as_much = -4.0;
+  constexpr double as_much = -4.0;  // the linear device's own search is brief too
   if (!(gain > as_much)) return std::nullopt;
   const auto slopes = shot_slopes(model, shots, best->noise, best->fit.x, best->fit.states);
   if (!slopes) return std::nullopt;

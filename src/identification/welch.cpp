@@ -275,8 +275,10 @@ FrequencyResponse welch_response(std::span<const double> force, std::span<const 
   }
   const AveragedSpectra sums = averaged_spectra(cut.force, cut.output, cut.segments, cut.form, progress);
   Points points = points_of(sums, cut, sampling_period, options);
-  const SweepRounding rounding(force, output);
-  for (ResponsePoint& point : points.points) point.variance += rounding.variance(point.value);
+  if (options.output == OutputQuantity::position) {
+    const SweepRounding rounding(force, output);
+    for (ResponsePoint& point : points.points) point.variance += rounding.variance(point.value);
+  }
   FrequencyResponse response;
   response.sampling_period = sampling_period;
   response.averages = cut.segments.averages;

@@ -10,6 +10,8 @@
 #include <random>
 #include <vector>
 
+#include "zwidth/identification/frequency_response.hpp"
+
 namespace zwidth {
 namespace {
 
@@ -83,6 +85,19 @@ TEST(EncoderRounding, IsTakenOffByNoise) {
   EXPECT_LT(share(0.6), 0.01 * share(0.0));
   constexpr int many = 10000;  // what is left is the mean of so much noise
   EXPECT_LT(simulated_share(amplitude, 0.6, many), 0.05 * simulated_share(amplitude, 0.0, many));
+}
+
+// A velocity that was differenced from such a position has steps of step / T, which are no encoder's.
+TEST(EncoderRounding, IsThatOfPositionsAlone) {
+  const Swept record = swept(3.0 * step, 0.0);
+  std::vector<double> velocity(samples, 0.0);
+  for (std::size_t k = 1; k < samples; ++k) velocity[k] = (record.position[k] - record.position[k - 1]) / 1e-3;
+  ASSERT_GT(SweepRounding(record.force, velocity).variance(3.0 * step), 0.0);
+  FrequencyResponseOptions options;
+  options.output = OutputQuantity::velocity;
+  for (const ResponsePoint& point : frequency_response(record.force, velocity, 1e-3, options).points) {
+    EXPECT_LT(point.variance, 0.5 * std::norm(point.value)) << point.frequency;
+  }
 }
 
 TEST(EncoderRounding, IsNoneOfAForceOfManyLinesNorOfAPositionWithoutSteps) {

@@ -42,8 +42,9 @@ TEST(IdentificationProperty, FrictionThatTheLinearFitHidesIsFoundInTime) {
     ASSERT_TRUE(found.friction) << "seed " << seed;
     double friction = 0.0;
     for (const Body& body : made->truth.bodies) friction += body.coulomb;
-    // The likelihood itself is greatest 14 % away in the third, three of its deviations: those of slopes are too small there.
-    EXPECT_NEAR(found.friction->force, friction, 0.16 * friction) << "seed " << seed;
+    // As near as it says; of the third the likelihood itself is greatest 14 % away, which is three of its deviations.
+    const double near = seed == 1000307U ? 0.15 * friction : 2.0 * found.friction->deviation;
+    EXPECT_NEAR(found.friction->force, friction, near) << "seed " << seed;
     EXPECT_LT(found.friction->deviation, 0.25 * friction) << "seed " << seed;
     ASSERT_TRUE(found.friction->stiffness_beside) << "seed " << seed;
     EXPECT_NEAR(*found.friction->stiffness_beside, made->stiffness, 0.02 * made->stiffness) << "seed " << seed;
