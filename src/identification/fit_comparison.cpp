@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <functional>
+#include <numeric>
 #include <utility>
+#include <vector>
 
 #include "identification/student_t.hpp"
 
@@ -51,6 +55,27 @@ bool is_contradicted(const ParameterFit& other, const ParameterFit& first, doubl
   if (!other.misfit || !first.misfit) return other.model_error > 1.02 * first.model_error + 1e-9;
   constexpr double deviations = 5.0;
   return growth(other, first, freedom_of(first, line_correlation)) > deviations * deviations;
+}
+
+bool explains_notably_more(const ParameterFit& other, const ParameterFit& first, const FrequencyResponse& response) {
+  constexpr std::size_t outliers = 3;
+  const std::size_t lines = first.residuals.size();
+  if (!other.misfit || !first.misfit || other.residuals.size() != lines || lines <= outliers) return false;
+  std::vector<double> gains(lines);
+  double left = 0.0;
+  auto point = response.points.begin();
+  for (std::size_t i = 0; i < lines; ++i) {
+    point = std::ranges::lower_bound(point, response.points.end(), first.frequencies[i], {}, &ResponsePoint::frequency);
+    if (point == response.points.end()) return false;
+    const double variance = point->variance + std::norm(first.model_error * first.fitted[i]);
+    left += std::norm(first.residuals[i]) / variance;
+    gains[i] = (std::norm(first.residuals[i]) - std::norm(other.residuals[i])) / variance;
+  }
+  std::ranges::nth_element(gains, gains.begin() + outliers, std::greater{});
+  const double gain = std::accumulate(gains.begin() + outliers, gains.end(), 0.0);
+  constexpr double deviations = 5.0;
+  constexpr double share = 0.1;
+  return gain > left * std::max(share, deviations * deviations / freedom_of(first, response.line_correlation));
 }
 
 }  // namespace zwidth::internal

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "zwidth/identification/parameter_fit.hpp"
+#include "zwidth/signal/frequency_response.hpp"
 
 namespace zwidth::internal {
 
@@ -14,6 +15,12 @@ namespace zwidth::internal {
 ///
 ///     (chi^2 / chi_first^2 - 1) nu <= t_nu^2
 [[nodiscard]] bool explains_as_much(const ParameterFit& other, const ParameterFit& first, double line_correlation);
+
+/// Whether another fit of a response leaves so much less that not even five deviations of what tells them apart account for it:
+/// of chi^2 by the first's own residuals, with what it leaves unexplained counted as noise. The three lines that gain most do
+/// not count (of few periods the variance of a line is a guess), nor does less than a tenth of all.
+[[nodiscard]] bool explains_notably_more(const ParameterFit& other, const ParameterFit& first,
+                                         const FrequencyResponse& response);
 
 /// Whether another fit leaves so much more that not even five deviations of what tells them apart account for it.
 [[nodiscard]] bool is_contradicted(const ParameterFit& other, const ParameterFit& first, double line_correlation);

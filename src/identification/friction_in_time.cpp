@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -40,34 +41,101 @@ double stiffness_beside(DeviceParameters parameters) {
   return limit_of(Device(std::move(parameters))).stiffness;
 }
 
-/// What the log-likelihood of a fit with friction, the last coordinate of the model, gains over the linear device's: a side
-/// minimum loses.
-double gain_of(const ShotSearch& search, const ShotModel& model, const std::vector<Shot>& shots,
-               const Eigen::VectorXd& linear, const FittedShots& with_friction) {
-  ShotFit start{linear, model.recorded_states(shots),
-                std::vector<bool>(static_cast<std::size_t>(linear.size()), false)};
-  const auto friction = static_cast<Eigen::Index>(model.coordinates().size()) - 1;
-  start.x(friction) = 0.0;
+/// With one element of x, the friction, that stays. Nothing where no such device can be followed.
+std::optional<FittedShots> with_held_friction(const ShotSearch& search, const std::vector<Shot>& shots, ShotFit start,
+                                              Eigen::Index friction, double value, const Eigen::VectorXd& towards) {
+  start.x(friction) = value;
+  start.held.assign(static_cast<std::size_t>(start.x.size()), false);
   start.held[static_cast<std::size_t>(friction)] = true;
-  std::optional<FittedShots> without;
-  constexpr int rounds = 2;  // the noise of the first is that of states that were not fitted
+  std::optional<FittedShots> found;
+  constexpr int rounds = 2;  // the noise of the first may be that of states that were not fitted
   for (int round = 0; round < rounds; ++round) {
-    without =
-        search.with_noise(without ? without->fit : start, shots, linear, {.most_iterations = 8, .tolerance = 1e-3});
-    if (!without) return std::numeric_limits<double>::infinity();
+    found = search.with_noise(found ? found->fit : start, shots, towards, {.most_iterations = 8, .tolerance = 1e-3});
+    if (!found) return std::nullopt;
   }
-  return search.badness(*without, shots) - search.badness(with_friction, shots);
+  return found;
 }
 
 /// A friction, and what it explains.
 struct FrictionBeside {
   ShownFriction friction;
-  double gain = 0.0;  ///< of the log-likelihood, over the linear device's
+  double gain = 0.0;     ///< of the log-likelihood, over the linear device's: a side minimum loses
+  bool is_held = false;  ///< not the best one: more of it, that the record does not exclude
 };
 
+/// A gain above this: it explains about as much as the linear device, whose own search is brief too.
+constexpr double as_much = -4.0;
+
+bool is_far_below(double stiffness, const Analysis& analysis) {
+  constexpr double far = 0.9;
+  return stiffness < far * analysis.interval->lower;
+}
+
+/// What a friction found in time says of a fit.
+enum class Meaning : std::uint8_t { nothing, may_matter, shows };
+
+Meaning meaning_of(const FrictionBeside& beside, const Analysis& analysis) {
+  const ShownFriction& friction = beside.friction;
+  // Where damping and friction look alike, as under a force that repeats, no deviation tells how much is which. Of 114 right
+  // answers none came so far below its interval; of six that began 15 to 190 % above the truth all did.
+  const bool is_far = is_far_below(*friction.stiffness_beside, analysis);
+  if (beside.is_held) return is_far ? Meaning::may_matter : Meaning::nothing;
+  constexpr double least_gain = 2.0;  // two deviations; a side minimum gains less
+  if (beside.gain < least_gain) return is_far ? Meaning::may_matter : Meaning::nothing;
+  if (friction.force > significant_friction * friction.deviation) return Meaning::shows;
+  // Below, the fit in time may as well have ended in a side minimum.
+  constexpr double suspected = 2.0;  // deviations
+  constexpr double notable = 0.95;   // of the linear fit's: an interval beside the friction moves by as much
+  const bool matters = friction.force > suspected * friction.deviation &&
+                       *friction.stiffness_beside < notable * analysis.critical.stiffness;
+  return matters || is_far ? Meaning::may_matter : Meaning::nothing;
+}
+
+/// What a friction was found in.
+struct FrictionFit {
+  const ShotSearch& search;
+  const ShotModel& model;
+  const std::vector<Shot>& shots;
+  const FittedShots& best;
+  Eigen::Index at;  ///< its element of x
+  double linear_badness;
+};
+
+/// More friction than the best that explains about as much, where K_CR beside it lies far below the interval. The fit is
+/// repeated: slopes, which point out where to look, hold for a small way only near stick and slip. `known`: of the best.
+std::optional<FrictionBeside> more_friction(const FrictionFit& fit, const FrictionBeside& best,
+                                            const Eigen::MatrixXd& known, const Analysis& analysis) {
+  const Eigen::VectorXd& x = fit.best.fit.x;
+  const double deviation = std::sqrt(known(fit.at, fit.at));
+  const double unit = best.friction.deviation / deviation;
+  constexpr std::array shares{0.1, 0.3, 1.0, 2.0};  // of the deviation
+  const bool may_be_far = std::ranges::any_of(shares, [&](double share) {
+    try {
+      const Eigen::VectorXd along = known.col(fit.at) * share / deviation;
+      return is_far_below(stiffness_beside(fit.model.parameters_at(x + along)), analysis);
+    } catch (const Error&) {  // so far that a damping is negative
+      return true;
+    }
+  });
+  if (!may_be_far) return std::nullopt;
+  for (const double share : shares) {
+    const auto held = with_held_friction(fit.search, fit.shots, fit.best.fit, fit.at, x(fit.at) + share * deviation, x);
+    if (!held) continue;
+    const double gain = fit.linear_badness - fit.search.badness(*held, fit.shots);
+    const double stiffness = stiffness_beside(fit.model.parameters_at(held->fit.x));
+    if (!(gain > as_much) || !(stiffness > 0.0) || !is_far_below(stiffness, analysis)) continue;
+    return FrictionBeside{
+        {best.friction.body, best.friction.force + share * deviation * unit, best.friction.deviation, stiffness},
+        gain,
+        true};
+  }
+  return std::nullopt;
+}
+
 /// Friction of a body beside all numbers of the fit; nothing where no such motion can be followed, or it explains less.
-std::optional<FrictionBeside> friction_beside(const ParameterFit& fit, const Body& body,
+std::optional<FrictionBeside> friction_beside(const Identification& result, const Body& body,
                                               const std::vector<std::string>& locked, const Recording& recording) {
+  const ParameterFit& fit = result.fit;
   const std::span one(&recording, 1);
   const MotionRecord record{recording.channels[0].samples, recording.channels[1].samples, recording.sampling_period};
   constexpr std::size_t shortest = 512;
@@ -119,44 +187,30 @@ std::optional<FrictionBeside> friction_beside(const ParameterFit& fit, const Bod
   const Eigen::VectorXd towards = best->fit.x;
   best = search.with_noise(best->fit, shots, towards, {.most_iterations = 12, .tolerance = 1e-5});
   if (!best) return std::nullopt;
-  const double gain = gain_of(search, model, shots, model.position_of(linear.parameters()), *best);
-  constexpr double as_much = -4.0;  // the linear device's own search is brief too
+  const std::size_t last = start.free.size() - 1;
+  const auto at = static_cast<Eigen::Index>(last);
+  const Eigen::VectorXd of_linear = model.position_of(linear.parameters());
+  const auto without = with_held_friction(search, shots, {of_linear, model.recorded_states(shots)}, at, 0.0, of_linear);
+  const double linear_badness = without ? search.badness(*without, shots) : std::numeric_limits<double>::infinity();
+  const double gain = linear_badness - search.badness(*best, shots);
   if (!(gain > as_much)) return std::nullopt;
   const auto slopes = shot_slopes(model, shots, best->noise, best->fit.x, best->fit.states);
   if (!slopes) return std::nullopt;
   const Eigen::VectorXd& x = best->fit.x;
   const ShotCovariance known = shot_covariance(*slopes, std::vector<bool>(static_cast<std::size_t>(x.size()), false));
-  const std::size_t last = start.free.size() - 1;
-  const auto at = static_cast<Eigen::Index>(last);
   if (!(known.covariance(at, at) > 0.0)) return std::nullopt;
   const double unit = model.coordinates()[last].slope(x(at));
   // A body alone that rubs as strongly as it is pushed would not have moved.
   const auto [least, most] = std::ranges::minmax(record.force);
   const double strongest = std::max(std::abs(least), std::abs(most));
   if (device.bodies().size() == 1 && x(at) * unit >= strongest) return std::nullopt;
-  return FrictionBeside{
-      {body.name, x(at) * unit, std::sqrt(known.covariance(at, at)) * unit, stiffness_beside(model.parameters_at(x))},
-      gain};
-}
-
-/// What a friction found in time says of a fit.
-enum class Meaning : std::uint8_t { nothing, may_matter, shows };
-
-Meaning meaning_of(const FrictionBeside& beside, const Analysis& analysis) {
-  const ShownFriction& friction = beside.friction;
-  // Where damping and friction look alike, as under a force that repeats, no deviation tells how much is which. Of 114 right
-  // answers none came so far below its interval; of six that began 15 to 190 % above the truth all did.
-  constexpr double far = 0.9;  // of the lower end
-  const bool is_far = *friction.stiffness_beside < far * analysis.interval->lower;
-  constexpr double least_gain = 2.0;  // two deviations; a side minimum gains less
-  if (beside.gain < least_gain) return is_far ? Meaning::may_matter : Meaning::nothing;
-  if (friction.force > significant_friction * friction.deviation) return Meaning::shows;
-  // Below, the fit in time may as well have ended in a side minimum.
-  constexpr double suspected = 2.0;  // deviations
-  constexpr double notable = 0.95;   // of the linear fit's: an interval beside the friction moves by as much
-  const bool matters = friction.force > suspected * friction.deviation &&
-                       *friction.stiffness_beside < notable * analysis.critical.stiffness;
-  return matters || is_far ? Meaning::may_matter : Meaning::nothing;
+  const double deviation = std::sqrt(known.covariance(at, at)) * unit;
+  FrictionBeside found{{body.name, x(at) * unit, deviation, stiffness_beside(model.parameters_at(x))}, gain};
+  if (meaning_of(found, result.analysis) == Meaning::shows) return found;
+  if (is_far_below(*found.friction.stiffness_beside, result.analysis)) return found;
+  const auto more =
+      more_friction({search, model, shots, *best, at, linear_badness}, found, known.covariance, result.analysis);
+  return more ? more : found;
 }
 
 /// Of the friction of the heaviest body that any recording shows or leaves open, else of the next, that beside which the
@@ -167,7 +221,7 @@ std::optional<FrictionBeside> lowering_friction(const Identification& result, st
   for (const Body& body : moving_bodies(result.fit.device, locked)) {
     for (const Recording& each : recordings) {
       try {
-        auto found = friction_beside(result.fit, body, locked, each);
+        auto found = friction_beside(result, body, locked, each);
         if (!found || meaning_of(*found, result.analysis) == Meaning::nothing) continue;
         if (!lowest || *found->friction.stiffness_beside < *lowest->friction.stiffness_beside)
           lowest = std::move(found);

@@ -13,6 +13,7 @@
 #include "identification/fit_judgement.hpp"
 #include "identification/friction_in_time.hpp"
 #include "identification/friction_test.hpp"
+#include "identification/further_body.hpp"
 #include "identification/interval_narrowing.hpp"
 #include "identification/lateness.hpp"
 #include "identification/misfit_doubt.hpp"
@@ -357,6 +358,7 @@ Identification identified(const MeasuredResponse& measured, std::span<const Reco
     result.trust.inherit(result.analysis.critical.trust);
   }
   judge_interval(result, judgement.is_measured, recordings, options);
+  judge_further_body(result, options);
   judge_agreement(result, recordings, options);
   judge_friction_in_time(result, recordings, options);
   judge_nonlinearity(result, recordings, options);

@@ -1,0 +1,84 @@
+#include "identification/further_body.hpp"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "identification/fit_comparison.hpp"
+#include "identification/fit_judgement.hpp"
+#include "zwidth/error.hpp"
+#include "zwidth/quantity.hpp"
+
+namespace zwidth::internal {
+namespace {
+
+/// A fifth of a body on a link to the rest of it, with their mode at w: the last body and the last link.
+DeviceParameters with_further_body(DeviceParameters device, std::size_t at, double w) {
+  device.uncertainty.reset();
+  constexpr double share = 0.2;
+  constexpr double lightest = 0.001;  // of the critical damping
+  Body further{"further"};
+  const auto is_taken = [&] {
+    return std::ranges::find(device.bodies, further.name, &Body::name) != device.bodies.end();
+  };
+  while (is_taken()) further.name += "_";
+  further.mass = share * device.bodies[at].mass;
+  device.bodies[at].mass -= further.mass;
+  const double reduced = (1.0 - share) * further.mass;
+  device.bodies.push_back(std::move(further));
+  device.links.push_back({at, device.bodies.size() - 1, w * w * reduced, 2.0 * lightest * w * reduced});
+  return device;
+}
+
+/// The fit with the further body. Nothing of numbers that make no device.
+std::optional<ParameterFit> fit_of(const DeviceParameters& start, const Identification& result,
+                                   const IdentifyOptions& options) try {
+  ParameterFitOptions fit_options = options.fit;
+  fit_options.start = ParameterFitOptions::Start::from_structure;
+  fit_options.free = keys_of(result.fit);
+  fit_options.free.push_back(fmt::format("body.{}.mass", start.bodies.back().name));
+  fit_options.free.push_back(fmt::format("link.{}.stiffness", start.links.size() - 1));
+  return fit_parameters(Device(start), result.response, fit_options);
+} catch (const Error&) {
+  return std::nullopt;
+}
+
+}  // namespace
+
+void judge_further_body(Identification& result, const IdentifyOptions& options) {
+  if (options.scrutiny == IdentifyOptions::Scrutiny::of_fit || !result.trust.sound() || !result.fit.misfit) return;
+  const DeviceParameters& fitted = result.fit.device.parameters();
+  const double highest = result.fit.frequencies.back();
+  std::vector<DeviceParameters> starts;
+  for (std::size_t i = 0; i < fitted.bodies.size(); ++i) {
+    if (std::ranges::count(options.fit.locked, fitted.bodies[i].name) > 0) continue;
+    for (const double above : {1.3, 3.0}) starts.push_back(with_further_body(fitted, i, above * highest));
+  }
+  std::vector<std::optional<ParameterFit>> fits(starts.size());
+  tbb::parallel_for(std::size_t{0}, starts.size(), [&](std::size_t i) {
+    auto fit = fit_of(starts[i], result, options);
+    if (fit && explains_notably_more(*fit, result.fit, result.response)) fits[i] = std::move(fit);
+  });
+  const ParameterFit* best = nullptr;
+  for (const std::optional<ParameterFit>& each : fits) {
+    if (each && (!best || explains_more(*each, *best))) best = &*each;
+  }
+  if (!best) return;
+  const Link& link = best->device.links().back();
+  const Body& body = best->device.bodies()[link.first];
+  const double further = best->device.bodies().back().mass;
+  const double mode = std::sqrt(link.stiffness * (body.mass + further) / (body.mass * further));
+  result.trust.doubt(fmt::format(
+      "one body more, on {} with a mode near {:.3g} Hz, explains the record better ({:.3g} times the noise instead of {:.3g}): "
+      "the structure lacks a body, or the search ended beside the device; name one with it",
+      body.name, hertz(mode), *best->misfit, *result.fit.misfit));
+}
+
+}  // namespace zwidth::internal
