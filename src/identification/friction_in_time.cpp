@@ -59,8 +59,9 @@ std::optional<FittedShots> with_held_friction(const ShotSearch& search, const st
 /// A friction, and what it explains.
 struct FrictionBeside {
   ShownFriction friction;
-  double gain = 0.0;     ///< of the log-likelihood, over the linear device's: a side minimum loses
-  bool is_held = false;  ///< not the best one: more of it, that the record does not exclude
+  double gain = 0.0;          ///< of the log-likelihood, over the linear device's: a side minimum loses
+  bool is_held = false;       ///< not the best one: more of it, that the record does not exclude
+  bool is_of_a_part = false;  ///< of the record, the rest of which may exclude it
 };
 
 /// A gain above this: it explains about as much as the linear device, whose own search is brief too.
@@ -108,7 +109,7 @@ std::optional<FrictionBeside> more_friction(const FrictionFit& fit, const Fricti
   const Eigen::VectorXd& x = fit.best.fit.x;
   const double deviation = std::sqrt(known(fit.at, fit.at));
   const double unit = best.friction.deviation / deviation;
-  constexpr std::array shares{0.1, 0.3, 1.0, 2.0};  // of the deviation
+  constexpr std::array shares{0.0, 0.1, 0.3, 1.0, 2.0};  // of the deviation
   const bool may_be_far = std::ranges::any_of(shares, [&](double share) {
     try {
       const Eigen::VectorXd along = known.col(fit.at) * share / deviation;
@@ -118,23 +119,32 @@ std::optional<FrictionBeside> more_friction(const FrictionFit& fit, const Fricti
     }
   });
   if (!may_be_far) return std::nullopt;
+  double most = -std::numeric_limits<double>::infinity();  // of the gains so far
   for (const double share : shares) {
     const auto held = with_held_friction(fit.search, fit.shots, fit.best.fit, fit.at, x(fit.at) + share * deviation, x);
     if (!held) continue;
     const double gain = fit.linear_badness - fit.search.badness(*held, fit.shots);
+    most = std::max(most, gain);
     const double stiffness = stiffness_beside(fit.model.parameters_at(held->fit.x));
-    if (!(gain > as_much) || !(stiffness > 0.0) || !is_far_below(stiffness, analysis)) continue;
+    if (!(gain > as_much) || !(gain > most + as_much) || !(stiffness > 0.0) || !is_far_below(stiffness, analysis))
+      continue;
     return FrictionBeside{
         {best.friction.body, best.friction.force + share * deviation * unit, best.friction.deviation, stiffness},
         gain,
-        true};
+        true,
+        best.is_of_a_part};
   }
   return std::nullopt;
 }
 
+/// How much of a record is played: what most records need, and what one needs of which a part leaves friction open.
+constexpr double cost_of_a_part = 2.5e6;
+constexpr double cost_of_the_whole = 16.0 * cost_of_a_part;
+
 /// Friction of a body beside all numbers of the fit; nothing where no such motion can be followed, or it explains less.
 std::optional<FrictionBeside> friction_beside(const Identification& result, const Body& body,
-                                              const std::vector<std::string>& locked, const Recording& recording) {
+                                              const std::vector<std::string>& locked, const Recording& recording,
+                                              double most_cost) {
   const ParameterFit& fit = result.fit;
   const std::span one(&recording, 1);
   const MotionRecord record{recording.channels[0].samples, recording.channels[1].samples, recording.sampling_period};
@@ -153,7 +163,6 @@ std::optional<FrictionBeside> friction_beside(const Identification& result, cons
   if (parts > most_parts) return std::nullopt;
   const auto states = static_cast<double>(2 * device.bodies().size());
   const double cost = std::max(1.0, parts) * states * (static_cast<double>(start.free.size()) + 1.0 + states);
-  constexpr double most_cost = 2.5e6;
   const double affordable = std::max(static_cast<double>(shortest), most_cost / cost);
   constexpr double stiffer = 2.0;  // a device that the search comes to
   const ShotModel model(start.device, {record}, time_domain_coordinates(start, one), locked,
@@ -165,7 +174,8 @@ std::optional<FrictionBeside> friction_beside(const Identification& result, cons
                                            std::min(length, 0.5 * affordable * record.sampling_period), shortest);
   const double share = affordable / static_cast<double>(record.force.size());
   const double kept = std::max(1.0, std::round(share * static_cast<double>(shots.size())));
-  if (kept < static_cast<double>(shots.size())) shots.resize(static_cast<std::size_t>(kept));
+  const bool is_of_a_part = kept < static_cast<double>(shots.size());
+  if (is_of_a_part) shots.resize(static_cast<std::size_t>(kept));
   // Of long shots some searches end in side minima without friction, of short ones others.
   constexpr double part = 0.1;
   constexpr std::size_t few = 3;
@@ -205,7 +215,8 @@ std::optional<FrictionBeside> friction_beside(const Identification& result, cons
   const double strongest = std::max(std::abs(least), std::abs(most));
   if (device.bodies().size() == 1 && x(at) * unit >= strongest) return std::nullopt;
   const double deviation = std::sqrt(known.covariance(at, at)) * unit;
-  FrictionBeside found{{body.name, x(at) * unit, deviation, stiffness_beside(model.parameters_at(x))}, gain};
+  FrictionBeside found{
+      {body.name, x(at) * unit, deviation, stiffness_beside(model.parameters_at(x))}, gain, false, is_of_a_part};
   if (meaning_of(found, result.analysis) == Meaning::shows) return found;
   if (is_far_below(*found.friction.stiffness_beside, result.analysis)) return found;
   const auto more =
@@ -221,7 +232,10 @@ std::optional<FrictionBeside> lowering_friction(const Identification& result, st
   for (const Body& body : moving_bodies(result.fit.device, locked)) {
     for (const Recording& each : recordings) {
       try {
-        auto found = friction_beside(result, body, locked, each);
+        auto found = friction_beside(result, body, locked, each, cost_of_a_part);
+        if (found && found->is_of_a_part && meaning_of(*found, result.analysis) == Meaning::may_matter) {
+          found = friction_beside(result, body, locked, each, cost_of_the_whole);
+        }
         if (!found || meaning_of(*found, result.analysis) == Meaning::nothing) continue;
         if (!lowest || *found->friction.stiffness_beside < *lowest->friction.stiffness_beside)
           lowest = std::move(found);

@@ -75,10 +75,11 @@ void judge_further_body(Identification& result, const IdentifyOptions& options) 
   const Body& body = best->device.bodies()[link.first];
   const double further = best->device.bodies().back().mass;
   const double mode = std::sqrt(link.stiffness * (body.mass + further) / (body.mass * further));
-  result.trust.doubt(fmt::format(
-      "one body more, on {} with a mode near {:.3g} Hz, explains the record better ({:.3g} times the noise instead of {:.3g}): "
-      "the structure lacks a body, or the search ended beside the device; name one with it",
-      body.name, hertz(mode), *best->misfit, *result.fit.misfit));
+  result.trust.doubt(
+      fmt::format("one body more, on {} with a mode near {:.3g} Hz, explains the record better ({:.3g} times the noise "
+                  "instead of {:.3g}): "
+                  "the structure lacks a body, or the search ended beside the device; name one with it",
+                  body.name, hertz(mode), *best->misfit, *result.fit.misfit));
 }
 
 }  // namespace zwidth::internal

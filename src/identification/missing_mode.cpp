@@ -242,6 +242,25 @@ ModeGuess best_of(const Scan& scan, const ModeQuestion& question) {
   return best;
 }
 
+/// Lines of accelerations: each of positions by the square of its number.
+Eigen::VectorXd rise_of(const std::vector<RestPart>& parts, Eigen::Index rows) {
+  Eigen::VectorXd rise(rows);
+  Eigen::Index row = 0;
+  for (const RestPart& part : parts) {
+    for (std::size_t k = part.band.first; k < part.band.last; ++k) {
+      const double share = static_cast<double>(k) / static_cast<double>(part.band.last);
+      rise(row++) = share * share;
+    }
+  }
+  return rise;
+}
+
+/// The size of the last two columns, in deviations.
+double ratio_of_last_two(const LineRegression& found) {
+  const Eigen::Index last = found.values.size() - 1;
+  return std::hypot(found.values(last - 1) / found.deviations(last - 1), found.values(last) / found.deviations(last));
+}
+
 }  // namespace
 
 std::optional<ModeBeside> find_missing_mode(const RestLines& rest, const ModeQuestion& question) {
@@ -273,7 +292,12 @@ std::optional<ModeBeside> find_missing_mode(const RestLines& rest, const ModeQue
   mode.term.numerator[1] = b * w;
   mode.term.denominator[0] = w * w;
   mode.term.denominator[1] = 2.0 * best.damping_ratio * w;
-  mode.ratio = std::hypot(a / found->deviations(known), b / found->deviations(known + 1));
+  mode.ratio = ratio_of_last_two(*found);
+  // What pushes a body moves it less at each line than at the one below: of positions the lowest lines stand out of what lies
+  // around them. A mode does of accelerations too.
+  const auto rise = rise_of(rest.parts, rest.target.size()).asDiagonal();
+  const auto also = regress_lines(rise * rest.known, rise * motions, rise * rest.target, rest.stretches);
+  if (also) mode.ratio = std::fmin(mode.ratio, ratio_of_last_two(*also));
   mode.found = *std::move(found);
   return mode;
 }

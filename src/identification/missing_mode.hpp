@@ -44,7 +44,7 @@ struct ModeBeside {
   double frequency = 0.0;  ///< w, rad/s
   double damping_ratio = 0.0;
   ModalTerm term;
-  double ratio = 0.0;    ///< its size in deviations
+  double ratio = 0.0;    ///< its size in deviations, of positions or of accelerations: the smaller one
   LineRegression found;  ///< the known columns, then the mode's two
 };
 

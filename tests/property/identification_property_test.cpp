@@ -236,6 +236,26 @@ TEST(IdentificationProperty, ASearchThatRanAwayComesToTheDevice) {
   ASSERT_NO_FATAL_FAILURE(expect_sound_and_right(identified(*made), *made));
 }
 
+// Two bodies of three named, of which the third bends the response below its mode: 961 to 1090 N/m for 999, at 1.49 times the
+// noise, and 644 to 700 for 671. Both were sound.
+TEST(IdentificationProperty, ABodyThatTheStructureLacksAboveTheBandIsSeen) {
+  for (const std::uint64_t seed : {3402262U, 3400146U}) {
+    const auto made = test::random_recording(seed);
+    ASSERT_TRUE(made && !made->right_structure && !made->has_friction);
+    const Identification found = identified(*made);
+    expect_doubtful(found, *made);
+    EXPECT_NE(found.trust.reasons.front().find("one body more"), std::string::npos) << found.trust.reasons.front();
+  }
+}
+
+// The right structure, but the search ended beside the device, 0.6 % above it at 0.82 times the noise: with one body more 0.58.
+// Was sound.
+TEST(IdentificationProperty, ASearchThatEndedBesideTheDeviceIsSeen) {
+  const auto made = test::random_recording(3402763);
+  ASSERT_TRUE(made && made->right_structure && !made->has_friction);
+  expect_doubtful(identified(*made), *made);
+}
+
 // 11 free numbers and 16 lines: another minimum, of residuals 18 % larger, is as good, and there a mode at 25 Hz limits, as it
 // does in truth. Was sound, and 2.08 times too high.
 TEST(IdentificationProperty, OfFewLinesAnotherFitExplainsAsMuch) {
