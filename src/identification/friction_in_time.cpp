@@ -119,12 +119,12 @@ std::optional<FrictionBeside> more_friction(const FrictionFit& fit, const Fricti
     }
   });
   if (!may_be_far) return std::nullopt;
-  double most = -std::numeric_limits<double>::infinity();  // of the gains so far
+  double most = -std::numeric_limits<double>::infinity();  // of the gains so far; of a part the whole will tell
   for (const double share : shares) {
     const auto held = with_held_friction(fit.search, fit.shots, fit.best.fit, fit.at, x(fit.at) + share * deviation, x);
     if (!held) continue;
     const double gain = fit.linear_badness - fit.search.badness(*held, fit.shots);
-    most = std::max(most, gain);
+    if (!best.is_of_a_part) most = std::max(most, gain);
     const double stiffness = stiffness_beside(fit.model.parameters_at(held->fit.x));
     if (!(gain > as_much) || !(gain > most + as_much) || !(stiffness > 0.0) || !is_far_below(stiffness, analysis))
       continue;
