@@ -30,9 +30,12 @@ std::optional<Device> without_least_known(const Device& device) {
 }  // namespace
 
 std::string open_interval_reason(const StiffnessInterval& interval) {
-  return fmt::format("the data leave the critical stiffness open {}; excite more strongly or for longer",
-                     interval.lower > 0.0 ? fmt::format("within a factor of {:.2g}", interval.upper / interval.lower)
-                                          : std::string("down to 0, where not even the softest wall is stable"));
+  constexpr double unknown = 1000.0;
+  const double factor = interval.upper / interval.lower;
+  const std::string open = !(interval.lower > 0.0) ? "down to 0, where not even the softest wall is stable"
+                           : factor > unknown      ? fmt::format("by more than a factor of {:.0f}", unknown)
+                                                   : fmt::format("within a factor of {:.2g}", factor);
+  return fmt::format("the data leave the critical stiffness open {}; excite more strongly or for longer", open);
 }
 
 std::optional<std::string> doubt_of_interval(const Identification& result) {

@@ -244,7 +244,7 @@ void judge(MeasuredStiffness& result, const Findings& findings, std::span<const 
     result.status = MeasuredStiffnessStatus::undetermined;
     result.doubtful_bands.push_back(findings.band);
     warn(result, "the phase cannot be told from -180 degrees anywhere in the band",
-         "the critical stiffness is unknown; excite more strongly or for longer");
+         "the response alone leaves the critical stiffness open; excite more strongly or for longer");
     return;
   }
   if (begins_unstable(result, findings)) {
@@ -348,7 +348,7 @@ MeasuredStiffness measured_stiffness(const FrequencyResponse& response) {
     result.measured_band = {response.points.front().frequency, response.points.back().frequency};
     result.doubtful_bands.push_back(result.measured_band);
     warn(result, "the noise leaves the phase open by more than 30 degrees " + band_text(result.measured_band),
-         "the critical stiffness is unknown; excite more strongly or for longer");
+         "the response alone leaves the critical stiffness open; excite more strongly or for longer");
     return result;
   }
   Findings findings = find_crossings(lines, phase_verdicts(lines, response.line_correlation),

@@ -295,8 +295,9 @@ std::optional<ModeBeside> find_missing_mode(const RestLines& rest, const ModeQue
   mode.ratio = ratio_of_last_two(*found);
   // What pushes a body moves it less at each line than at the one below: of positions the lowest lines stand out of what lies
   // around them. A mode does of accelerations too.
-  const auto rise = rise_of(rest.parts, rest.target.size()).asDiagonal();
-  const auto also = regress_lines(rise * rest.known, rise * motions, rise * rest.target, rest.stretches);
+  const Eigen::VectorXd rise = rise_of(rest.parts, rest.target.size());
+  const auto also = regress_lines(rise.asDiagonal() * rest.known, rise.asDiagonal() * motions,
+                                  rise.cwiseProduct(rest.target), rest.stretches);
   if (also) mode.ratio = std::fmin(mode.ratio, ratio_of_last_two(*also));
   mode.found = *std::move(found);
   return mode;
