@@ -9,8 +9,20 @@
 #include <vector>
 
 #include "identification/student_t.hpp"
+#include "zwidth/error.hpp"
 
 namespace zwidth::internal {
+
+std::optional<ParameterFit> fitted_from(DeviceParameters start, std::vector<std::string> free,
+                                        const Identification& result, const IdentifyOptions& options) try {
+  if (free.empty()) return std::nullopt;
+  ParameterFitOptions fit_options = options.fit;
+  fit_options.start = ParameterFitOptions::Start::from_structure;
+  fit_options.free = std::move(free);
+  return fit_parameters(Device(std::move(start)), result.response, fit_options);
+} catch (const Error&) {
+  return std::nullopt;
+}
 
 bool stands_still(const ParameterFit& before, const ParameterFit& after) {
   constexpr double notable = 0.1;

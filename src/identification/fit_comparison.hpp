@@ -1,9 +1,19 @@
 #pragma once
 
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "zwidth/identification/identification.hpp"
 #include "zwidth/identification/parameter_fit.hpp"
 #include "zwidth/signal/frequency_response.hpp"
 
 namespace zwidth::internal {
+
+/// Another fit of an answer's response, which starts from a device. Nothing where no number is free, or of numbers that make no
+/// device.
+[[nodiscard]] std::optional<ParameterFit> fitted_from(DeviceParameters start, std::vector<std::string> free,
+                                                      const Identification& result, const IdentifyOptions& options);
 
 /// Whether no parameter has moved by a notable part of its standard deviation, from one fit of a structure to another.
 [[nodiscard]] bool stands_still(const ParameterFit& before, const ParameterFit& after);

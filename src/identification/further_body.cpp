@@ -13,7 +13,6 @@
 
 #include "identification/fit_comparison.hpp"
 #include "identification/fit_judgement.hpp"
-#include "zwidth/error.hpp"
 #include "zwidth/quantity.hpp"
 
 namespace zwidth::internal {
@@ -37,17 +36,12 @@ DeviceParameters with_further_body(DeviceParameters device, std::size_t at, doub
   return device;
 }
 
-/// The fit with the further body. Nothing of numbers that make no device.
-std::optional<ParameterFit> fit_of(const DeviceParameters& start, const Identification& result,
-                                   const IdentifyOptions& options) try {
-  ParameterFitOptions fit_options = options.fit;
-  fit_options.start = ParameterFitOptions::Start::from_structure;
-  fit_options.free = keys_of(result.fit);
-  fit_options.free.push_back(fmt::format("body.{}.mass", start.bodies.back().name));
-  fit_options.free.push_back(fmt::format("link.{}.stiffness", start.links.size() - 1));
-  return fit_parameters(Device(start), result.response, fit_options);
-} catch (const Error&) {
-  return std::nullopt;
+/// The numbers of the fit, and of the further body its mass and its link's stiffness.
+std::vector<std::string> free_with(const DeviceParameters& start, const Identification& result) {
+  std::vector<std::string> free = keys_of(result.fit);
+  free.push_back(fmt::format("body.{}.mass", start.bodies.back().name));
+  free.push_back(fmt::format("link.{}.stiffness", start.links.size() - 1));
+  return free;
 }
 
 }  // namespace
@@ -63,7 +57,7 @@ void judge_further_body(Identification& result, const IdentifyOptions& options) 
   }
   std::vector<std::optional<ParameterFit>> fits(starts.size());
   tbb::parallel_for(std::size_t{0}, starts.size(), [&](std::size_t i) {
-    auto fit = fit_of(starts[i], result, options);
+    auto fit = fitted_from(starts[i], free_with(starts[i], result), result, options);
     if (fit && explains_notably_more(*fit, result.fit, result.response)) fits[i] = std::move(fit);
   });
   const ParameterFit* best = nullptr;
@@ -75,11 +69,10 @@ void judge_further_body(Identification& result, const IdentifyOptions& options) 
   const Body& body = best->device.bodies()[link.first];
   const double further = best->device.bodies().back().mass;
   const double mode = std::sqrt(link.stiffness * (body.mass + further) / (body.mass * further));
-  result.trust.doubt(
-      fmt::format("one body more, on {} with a mode near {:.3g} Hz, explains the record better ({:.3g} times the noise "
-                  "instead of {:.3g}): "
-                  "the structure lacks a body, or the search ended beside the device; name one with it",
-                  body.name, hertz(mode), *best->misfit, *result.fit.misfit));
+  result.trust.doubt(fmt::format(
+      "one body more, on {} with a mode near {:.3g} Hz, explains the record better ({:.3g} times the noise instead of "
+      "{:.3g}): the structure lacks a body, or the search ended beside the device; name a structure with it",
+      body.name, hertz(mode), *best->misfit, *result.fit.misfit));
 }
 
 }  // namespace zwidth::internal

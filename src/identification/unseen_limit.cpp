@@ -49,20 +49,11 @@ struct UnseenLimit {
   CriticalStiffness critical;
 };
 
-/// The fit that starts from a device, with the result's numbers free but for those that stay. Nothing of numbers that make no
-/// device.
-std::optional<ParameterFit> fitted_from(DeviceParameters start, const Identification& result,
-                                        const IdentifyOptions& options, const std::set<std::string>& kept = {}) try {
-  ParameterFitOptions fit_options = options.fit;
-  fit_options.start = ParameterFitOptions::Start::from_structure;
-  fit_options.free.clear();
-  for (const ParameterEstimate& each : result.fit.estimates) {
-    if (!kept.contains(each.key)) fit_options.free.push_back(each.key);
-  }
-  if (fit_options.free.empty()) return std::nullopt;
-  return fit_parameters(Device(std::move(start)), result.response, fit_options);
-} catch (const Error&) {
-  return std::nullopt;
+/// The numbers of the fit but for those that stay.
+std::vector<std::string> free_beside(const std::set<std::string>& kept, const Identification& result) {
+  std::vector<std::string> free = keys_of(result.fit);
+  std::erase_if(free, [&](const std::string& key) { return kept.contains(key); });
+  return free;
 }
 
 /// Whether the data hardly show a number: what is known better moves K_CR as the draws show.
@@ -87,7 +78,7 @@ std::optional<UnseenLimit> at_an_end(const Device& device, const ParameterEstima
     const auto other = moved(device, static_cast<std::size_t>(at - uncertainty->parameters.begin()), deviations);
     if (!other || !limits(limit_of(*other))) continue;
     for (const std::set<std::string>& kept : {open, {each.key}}) {
-      const auto fit = fitted_from(other->parameters(), result, options, kept);
+      const auto fit = fitted_from(other->parameters(), free_beside(kept, result), result, options);
       if (!fit || !explains_as_much(*fit, result.fit, result.response.line_correlation)) continue;
       CriticalStiffness critical = limit_of(fit->device);
       if (!limits(critical)) continue;
@@ -169,7 +160,7 @@ std::optional<UnseenLimit> of_a_light_mode(const Identification& result, const I
   }
   std::vector<std::optional<CriticalStiffness>> found(starts.size());
   tbb::parallel_for(std::size_t{0}, starts.size(), [&](std::size_t i) {
-    const auto fit = fitted_from(starts[i].device, result, options, starts[i].held);
+    const auto fit = fitted_from(starts[i].device, free_beside(starts[i].held, result), result, options);
     if (!fit || is_contradicted(*fit, result.fit, result.response.line_correlation)) return;
     CriticalStiffness critical = limit_of(fit->device);
     if (limits(critical)) found[i] = std::move(critical);
@@ -243,7 +234,7 @@ std::optional<UnseenLimit> from_other_values(const Identification& result, const
   for (std::size_t i = 0; i < starts; ++i) others.push_back(values.next());
   std::vector<std::optional<CriticalStiffness>> found(starts);
   tbb::parallel_for(std::size_t{0}, starts, [&](std::size_t i) {
-    const auto fit = fitted_from(others[i], result, options);
+    const auto fit = fitted_from(others[i], keys_of(result.fit), result, options);
     if (!fit || !explains_as_much(*fit, result.fit, result.response.line_correlation)) return;
     CriticalStiffness critical = limit_of(fit->device);
     if (limits(critical)) found[i] = std::move(critical);

@@ -31,25 +31,21 @@ DeviceParameters chain(Body motor, Body handle, Link link) {
   return device;
 }
 
-/// Up to 250 Hz, 12 times a second of it.
-ExcitationOptions multisine(double peak) {
+ExcitationOptions excitation(ExcitationKind kind, double peak, double lowest_hz, double highest_hz, double duration) {
   ExcitationOptions options;
-  options.kind = ExcitationKind::multisine;
+  options.kind = kind;
   options.amplitude = peak;
-  options.lowest_hz = 1.0;
-  options.highest_hz = 250.0;
-  options.duration = 12.0;
-  options.periods = 12;
+  options.lowest_hz = lowest_hz;
+  options.highest_hz = highest_hz;
+  options.duration = duration;
   return options;
 }
 
-ExcitationOptions sweep(double peak) {
-  ExcitationOptions options;
-  options.kind = ExcitationKind::logarithmic_chirp;
-  options.amplitude = peak;
-  options.lowest_hz = 0.565;
-  options.highest_hz = 8.28;
-  options.duration = 30.0;
+ExcitationOptions sweep(double peak) { return excitation(ExcitationKind::logarithmic_chirp, peak, 0.565, 8.28, 30.0); }
+
+ExcitationOptions multisine(double peak) {
+  ExcitationOptions options = excitation(ExcitationKind::multisine, peak, 1.0, 250.0, 12.0);
+  options.periods = 12;
   return options;
 }
 
