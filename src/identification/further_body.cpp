@@ -13,6 +13,7 @@
 
 #include "identification/fit_comparison.hpp"
 #include "identification/fit_judgement.hpp"
+#include "zwidth/model/parameter.hpp"
 #include "zwidth/quantity.hpp"
 
 namespace zwidth::internal {
@@ -36,18 +37,34 @@ DeviceParameters with_further_body(DeviceParameters device, std::size_t at, doub
   return device;
 }
 
+std::string mass_key(const Body& body) { return fmt::format("body.{}.mass", body.name); }
+
 /// The numbers of the fit, and of the further body its mass and its link's stiffness.
 std::vector<std::string> free_with(const DeviceParameters& start, const Identification& result) {
   std::vector<std::string> free = keys_of(result.fit);
-  free.push_back(fmt::format("body.{}.mass", start.bodies.back().name));
+  free.push_back(mass_key(start.bodies.back()));
   free.push_back(fmt::format("link.{}.stiffness", start.links.size() - 1));
   return free;
 }
 
+/// The structure of the fit with the numbers beside the further body, whose mass is that of the body it hangs on.
+DeviceParameters merged(const Device& further, const Identification& result) {
+  DeviceParameters device = result.fit.device.parameters();
+  device.uncertainty.reset();
+  const Link& link = further.links().back();
+  for (const std::string& key : keys_of(result.fit)) {
+    double value = parameter(further.parameters(), key).value_or(0.0);
+    if (key == mass_key(further.bodies()[link.first])) value += further.bodies().back().mass;
+    set_parameter(device, key, value);
+  }
+  return device;
+}
+
 }  // namespace
 
-void judge_further_body(Identification& result, const IdentifyOptions& options) {
-  if (options.scrutiny == IdentifyOptions::Scrutiny::of_fit || !result.trust.sound() || !result.fit.misfit) return;
+std::optional<FurtherBody> find_further_body(const Identification& result, const IdentifyOptions& options) {
+  if (options.scrutiny == IdentifyOptions::Scrutiny::of_fit || !result.trust.sound() || !result.fit.misfit)
+    return std::nullopt;
   const DeviceParameters& fitted = result.fit.device.parameters();
   const double highest = result.fit.frequencies.back();
   std::vector<DeviceParameters> starts;
@@ -64,15 +81,22 @@ void judge_further_body(Identification& result, const IdentifyOptions& options) 
   for (const std::optional<ParameterFit>& each : fits) {
     if (each && (!best || explains_more(*each, *best))) best = &*each;
   }
-  if (!best) return;
-  const Link& link = best->device.links().back();
-  const Body& body = best->device.bodies()[link.first];
-  const double further = best->device.bodies().back().mass;
-  const double mode = std::sqrt(link.stiffness * (body.mass + further) / (body.mass * further));
-  result.trust.doubt(fmt::format(
+  if (!best) return std::nullopt;
+  auto anew = fitted_from(merged(best->device, result), keys_of(result.fit), result, options);
+  const bool is_better = anew && explains_notably_more(*anew, result.fit, result.response);
+  return FurtherBody{*best, is_better ? std::optional(std::move(anew->device)) : std::nullopt};
+}
+
+std::string doubt_of_further_body(const FurtherBody& further, const Identification& result) {
+  const Device& device = further.fit.device;
+  const Link& link = device.links().back();
+  const Body& body = device.bodies()[link.first];
+  const double mass = device.bodies().back().mass;
+  const double mode = std::sqrt(link.stiffness * (body.mass + mass) / (body.mass * mass));
+  return fmt::format(
       "one body more, on {} with a mode near {:.3g} Hz, explains the record better ({:.3g} times the noise instead of "
       "{:.3g}): the structure lacks a body, or the search ended beside the device; name a structure with it",
-      body.name, hertz(mode), *best->misfit, *result.fit.misfit));
+      body.name, hertz(mode), *further.fit.misfit, *result.fit.misfit);
 }
 
 }  // namespace zwidth::internal

@@ -36,9 +36,10 @@ namespace {
 class Fitting {
  public:
   Fitting(const MeasuredResponse& measured, std::span<const Recording> recordings, const Device& structure,
-          const IdentifyOptions& options)
+          const IdentifyOptions& options, const Device* start)
       : recordings_(recordings), options_(options), fit_options_(options.fit) {
     fit_options_.free = free_parameters(structure, fit_options_.free, fit_options_.locked);
+    if (start) fit_options_.start = ParameterFitOptions::Start::from_structure;
     const bool is_unknown = options.structure_values == IdentifyOptions::StructureValues::placeholders;
     if (may_free() && is_unknown && !is_free(delay_key) &&
         measured.response.points.size() > fit_options_.free.size() + 1) {
@@ -49,7 +50,7 @@ class Fitting {
       is_hopeless_ = true;
       return;
     }
-    fit_ = whole_fit(structure, measured.response, fit_options_);
+    fit_ = whole_fit(start ? *start : structure, measured.response, fit_options_);
     is_hopeless_ = fit_->fit.model_error_if_turned.has_value();
     if (is_hopeless_) return;
     if (may_free()) {
@@ -309,8 +310,9 @@ void judge_what_was_given(const Fitting& fitting, Judgement& judgement) {
   judgement.device_trust.inherit(judgement.trust);
 }
 
+/// `start`: a device of the structure near which the numbers are, where one is known.
 Identification identified(const MeasuredResponse& measured, std::span<const Recording> recordings,
-                          const Device& structure, const IdentifyOptions& options);
+                          const Device& structure, const IdentifyOptions& options, const Device* start = nullptr);
 
 /// The same with longer segments, where a mode of the fitted device rings on from one to the next.
 std::optional<Identification> with_longer_segments(const RecordFit& fit, std::span<const Recording> recordings,
@@ -329,8 +331,8 @@ std::optional<Identification> with_longer_segments(const RecordFit& fit, std::sp
 }
 
 Identification identified(const MeasuredResponse& measured, std::span<const Recording> recordings,
-                          const Device& structure, const IdentifyOptions& options) {
-  Fitting fitting(measured, recordings, structure, options);
+                          const Device& structure, const IdentifyOptions& options, const Device* start) {
+  Fitting fitting(measured, recordings, structure, options, start);
   if (auto longer = with_longer_segments(fitting.fit(), recordings, structure, options)) return *std::move(longer);
   fitting.widen_above_the_band();
   fitting.open_ignored_delay();
@@ -358,7 +360,10 @@ Identification identified(const MeasuredResponse& measured, std::span<const Reco
     result.trust.inherit(result.analysis.critical.trust);
   }
   judge_interval(result, judgement.is_measured, recordings, options);
-  judge_further_body(result, options);
+  if (const auto further = find_further_body(result, options)) {
+    if (further->without && !start) return identified(measured, recordings, structure, options, &*further->without);
+    result.trust.doubt(doubt_of_further_body(*further, result));
+  }
   judge_agreement(result, recordings, options);
   judge_friction_in_time(result, recordings, options);
   judge_nonlinearity(result, recordings, options);
