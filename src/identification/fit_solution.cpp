@@ -17,6 +17,7 @@ namespace zwidth::internal {
 namespace {
 
 constexpr std::size_t points_for_starts = 40;
+constexpr std::size_t points_for_search = 120;
 // Nepers: a logarithmic fit as close as this on average has found its minimum.
 constexpr double close_start = 0.1;
 constexpr LeastSquaresOptions rough_fit{
@@ -56,13 +57,42 @@ double mean_misfit(const FitModel& model, const std::vector<ResponsePoint>& poin
   return sum / static_cast<double>(points.size());
 }
 
+/// Whether what is left of neighbouring lines is alike, which a search that ended at the device does not leave, however little it
+/// is: the mean correlation of lines 3 to 8 apart, further than a window makes them share, beyond three of its deviations.
+bool are_alike(const std::vector<std::complex<double>>& left, double line_correlation) {
+  constexpr std::size_t nearest = 3;
+  constexpr std::size_t farthest = 8;
+  constexpr double clear = 3.0;
+  const auto lines = static_cast<double>(left.size());
+  double squares = 0.0;
+  for (const std::complex<double>& each : left) squares += std::norm(each);
+  double products = 0.0;
+  for (std::size_t apart = nearest; apart <= farthest; ++apart) {
+    for (std::size_t i = apart; i < left.size(); ++i) products += std::real(left[i] * std::conj(left[i - apart]));
+  }
+  constexpr auto means = static_cast<double>(farthest - nearest + 1);
+  return products / means > clear * squares * std::sqrt(line_correlation / (2.0 * means * lines));
+}
+
+/// Of the noise's deviations.
+std::vector<std::complex<double>> left_by(const FitModel& model, const std::vector<ResponsePoint>& points,
+                                          const Eigen::VectorXd& x) {
+  const FitData data = fit_data(points, 0.0);
+  const Eigen::VectorXcd values = model.response_at(x, data.frequencies);
+  std::vector<std::complex<double>> left(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    left[i] = (data.measured[i] - values(static_cast<Eigen::Index>(i))) / data.deviations[i];
+  }
+  return left;
+}
+
 /// The best of a solution and those reached from different positions, as it shows at some of the points.
 Solution searched_from(const ResponseFeatures& features, const std::vector<ResponsePoint>& some, const FitModel& model,
                        const std::vector<ResponsePoint>& points, Solution found, double robust_threshold) {
   constexpr std::size_t most_starts = 12;
   constexpr std::size_t most_solved = 2;
   constexpr int most_iterations = 80;
-  constexpr double promising = 0.8;  // of the cost at some of the points
+  constexpr double promising = 0.95;  // of the cost at some of the points
   const LeastSquaresOptions weighted{
       .robust_threshold = robust_threshold, .most_iterations = most_iterations, .tolerance = 1e-4};
   const FitData data = fit_data(some, found.model_error);
@@ -167,13 +197,17 @@ Solution solve(const FitModel& model, const std::vector<ResponsePoint>& points, 
   return best;
 }
 
-Solution searched_widely(const FitModel& model, const std::vector<ResponsePoint>& points, Solution found,
+Solution searched_widely(const FitModel& model, const FrequencyResponse& response, Solution found,
                          double robust_threshold) {
+  const std::vector<ResponsePoint>& points = response.points;
   constexpr double poor = 1.5;  // mean square of the residuals, in variances of the noise
   const bool is_noise_known = std::ranges::all_of(points, [](const ResponsePoint& p) { return p.variance > 0.0; });
-  if (!is_noise_known || mean_misfit(model, points, found.x, 0.0) < poor) return found;
+  if (!is_noise_known) return found;
+  const bool is_explained = mean_misfit(model, points, found.x, 0.0) < poor &&
+                            !are_alike(left_by(model, points, found.x), response.line_correlation);
+  if (is_explained) return found;
   const ResponseFeatures features = response_features(points);
-  return searched_from(features, thinned(points, features, points_for_starts), model, points, std::move(found),
+  return searched_from(features, thinned(points, features, points_for_search), model, points, std::move(found),
                        robust_threshold);
 }
 

@@ -189,7 +189,7 @@ class Fitting {
     constexpr int most_rounds = 3;
     for (int round = 0; round < most_rounds && !fit_->fit.settled; ++round) {
       auto further = with_free({}, ParameterFitOptions::Start::from_structure);
-      if (!further || further->fit.model_error > fit_->fit.model_error) return;
+      if (!further || is_contradicted(further->fit, fit_->fit, fit_->response.line_correlation)) return;
       further->fit.settled = further->fit.settled || stands_still(fit_->fit, further->fit);
       fit_ = std::move(further);
     }
@@ -244,8 +244,10 @@ class Fitting {
       const ParameterEstimate& estimate = wider->fit.estimates.back();
       const double given = parameter(fit_->fit.device.parameters(), key).value_or(0.0);
       constexpr double significant = 3.0;
-      const bool shows = estimate.identifiable && estimate.standard_deviation &&
-                         std::abs(estimate.value - given) > significant * *estimate.standard_deviation;
+      // Beside other numbers that are open a lag may have no deviation, and yet explain what nothing else does.
+      const bool shows = (estimate.identifiable && estimate.standard_deviation &&
+                          std::abs(estimate.value - given) > significant * *estimate.standard_deviation) ||
+                         is_contradicted(fit_->fit, wider->fit, fit_->response.line_correlation);
       if (!shows || wider->fit.model_error > 1.02 * fit_->fit.model_error + 1e-9) return;
       remarks_.push_back({Remark::Severity::note,
                           fmt::format("{} is fitted too: the record shows {:.4g} s, the structure has {:.4g} s", key,

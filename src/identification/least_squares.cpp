@@ -2,6 +2,7 @@
 
 #include <ceres/ceres.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -14,18 +15,18 @@
 namespace zwidth::internal {
 namespace {
 
-// A coordinate that may be 0 starts no nearer to it: from 0 itself the search could not leave.
-constexpr double least_start = 1e-4;
-
 /// The search is for y: x itself where that is a logarithm, else log x, or log x / (bound - x) where x is bounded above.
 /// So there are no bounds, at which Ceres is slow.
 class SearchCoordinates {
  public:
   SearchCoordinates(const FitModel& model, Eigen::VectorXd start) : model_(model), y(std::move(start)) {
     for (Eigen::Index i = 0; i < y.size(); ++i) {
-      if (may_be_zero(i)) y(i) = searched(std::max(y(i), least_start), bound(i));
+      if (may_be_zero(i)) put(i, y(i));
     }
   }
+
+  /// x of a coordinate that may be 0.
+  void put(Eigen::Index i, double x) { y(i) = searched(x, bound(i)); }
 
   [[nodiscard]] bool may_be_zero(Eigen::Index i) const {
     return model_.coordinates()[static_cast<std::size_t>(i)].kind == Coordinate::Kind::not_negative;
@@ -173,18 +174,40 @@ class PullMisfit : public ceres::CostFunction {
   const SearchCoordinates& position_;
 };
 
+double cost_at(ceres::Problem& problem) {
+  double cost = 0.0;
+  const bool is_valid = problem.Evaluate({}, &cost, nullptr, nullptr, nullptr);
+  return is_valid ? cost : std::numeric_limits<double>::infinity();
+}
+
+/// From 0 itself the search could not leave: each coordinate near it starts as far away as costs nothing. Of a start that
+/// is a minimum already the largest distance would make another one.
+void leave_zero(ceres::Problem& problem, SearchCoordinates& position) {
+  constexpr double farthest = 1e-4;
+  constexpr double nearest = 1e-10;
+  constexpr double nothing = 0.01;
+  const double most = (1.0 + nothing) * cost_at(problem);
+  for (Eigen::Index i = 0; i < position.y.size(); ++i) {
+    if (!position.may_be_zero(i) || position.x(i) >= farthest) continue;
+    const double own = position.x(i);
+    double x = farthest;
+    for (; x > std::max(own, nearest); x *= 0.1) {
+      position.put(i, x);
+      if (cost_at(problem) <= most) break;
+    }
+    position.put(i, std::max({x, own, nearest}));
+  }
+}
+
 /// Puts each coordinate that has come close to 0 onto it, where that costs nothing.
 void settle_on_zero(ceres::Problem& problem, SearchCoordinates& position) {
   constexpr double close = 1e-2;
   constexpr double nothing = 1e-6;
-  double cost = 0.0;
-  problem.Evaluate({}, &cost, nullptr, nullptr, nullptr);
+  const double cost = cost_at(problem);
   for (Eigen::Index i = 0; i < position.y.size(); ++i) {
     if (!position.may_be_zero(i) || position.x(i) > close) continue;
     const double y = std::exchange(position.y(i), -std::numeric_limits<double>::infinity());
-    double cost_at_zero = 0.0;
-    const bool is_valid = problem.Evaluate({}, &cost_at_zero, nullptr, nullptr, nullptr);
-    if (!is_valid || cost_at_zero > (1.0 + nothing) * cost) position.y(i) = y;
+    if (!(cost_at(problem) <= (1.0 + nothing) * cost)) position.y(i) = y;
   }
 }
 
@@ -223,6 +246,7 @@ LeastSquares least_squares(const FitModel& model, const FitData& data, const Eig
   solver.function_tolerance = options.tolerance;
   solver.parameter_tolerance = 1e-8;
   solver.gradient_tolerance = 1e-12;
+  leave_zero(problem, position);
   const ceres::Solver::Summary summary = quiet_solve(solver, problem);
   settle_on_zero(problem, position);
   return {position.x(), summary.final_cost, summary.termination_type == ceres::CONVERGENCE || hardly_gains(summary)};
