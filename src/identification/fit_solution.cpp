@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <utility>
 
 #include "identification/fit_weights.hpp"
 #include "identification/identifiability.hpp"
 #include "identification/initial_values.hpp"
+#include "identification/lateness.hpp"
 #include "identification/response_features.hpp"
 #include "zwidth/error.hpp"
 
@@ -137,6 +139,20 @@ Start start_at(const FitModel& model, const Eigen::VectorXd& x, const Eigen::Vec
     if (!determined[k]) start.pull.towards(i) = towards(i);
   }
   return start;
+}
+
+std::vector<Start> starts_near(const FitModel& model, const Eigen::VectorXd& x) {
+  std::vector<Start> starts{start_at(model, x)};
+  const auto at = [&](const char* key) {
+    return std::ranges::find(model.coordinates(), std::string(key), &Coordinate::key) - model.coordinates().begin();
+  };
+  const Eigen::Index delay = at(delay_key);
+  const Eigen::Index lag = at(lag_key);
+  if (delay == x.size() || lag == x.size()) return starts;
+  Eigen::VectorXd shared = x;
+  shared(delay) = shared(lag) = 0.5 * (x(delay) + x(lag));  // of the same unit
+  starts.push_back(start_at(model, shared));
+  return starts;
 }
 
 std::vector<Start> promising_starts(const FitModel& model, const std::vector<ResponsePoint>& points) {

@@ -22,6 +22,10 @@ struct Start {
 [[nodiscard]] Start start_at(const FitModel& model, const Eigen::VectorXd& x, const Eigen::VectorXd& towards,
                              const std::vector<bool>& determined);
 
+/// A position, and where delay and lag are free, the same with half of their sum on each: a lag near 0 is a delay, and from
+/// there the search does not tell them apart.
+[[nodiscard]] std::vector<Start> starts_near(const FitModel& model, const Eigen::VectorXd& x);
+
 /// A fit and the model error that goes with it.
 struct Solution {
   Eigen::VectorXd x;

@@ -244,15 +244,15 @@ class Fitting {
       const ParameterEstimate& estimate = wider->fit.estimates.back();
       const double given = parameter(fit_->fit.device.parameters(), key).value_or(0.0);
       constexpr double significant = 3.0;
+      const bool shows = estimate.identifiable && estimate.standard_deviation &&
+                         std::abs(estimate.value - given) > significant * *estimate.standard_deviation;
       // Beside other numbers that are open a lag may have no deviation, and yet explain what nothing else does.
-      const bool shows = (estimate.identifiable && estimate.standard_deviation &&
-                          std::abs(estimate.value - given) > significant * *estimate.standard_deviation) ||
-                         is_contradicted(fit_->fit, wider->fit, fit_->response.line_correlation);
-      if (!shows || wider->fit.model_error > 1.02 * fit_->fit.model_error + 1e-9) return;
-      remarks_.push_back({Remark::Severity::note,
-                          fmt::format("{} is fitted too: the record shows {:.4g} s, the structure has {:.4g} s", key,
-                                      estimate.value, given),
-                          ""});
+      const bool explains = is_contradicted(fit_->fit, wider->fit, fit_->response.line_correlation);
+      if (!(shows || explains) || wider->fit.model_error > 1.02 * fit_->fit.model_error + 1e-9) return;
+      const std::string why =
+          shows ? fmt::format("the record shows {:.4g} s, the structure has {:.4g} s", estimate.value, given)
+                : fmt::format("with {:.4g} s it explains the record better", estimate.value);
+      remarks_.push_back({Remark::Severity::note, fmt::format("{} is fitted too: {}", key, why), ""});
       fit_options_.free.emplace_back(key);
       fit_ = std::move(wider);
     }
@@ -266,22 +266,6 @@ class Fitting {
   std::optional<double> ignored_delay_;
   bool is_hopeless_ = false;  ///< to be refused, whatever else is fitted
 };
-
-/// Recordings that show another critical stiffness each fit no linear device.
-void judge_dependence(const MeasuredResponse& measured, Judgement& judgement) {
-  if (!measured.dependence || measured.trust.sound()) return;
-  judgement.trust.doubt("the recordings differ by more than their noise: a linear device is an average of them");
-  judgement.device_trust.inherit(judgement.trust);
-}
-
-/// A table that says what its own critical stiffness is worth.
-void judge_table(const MeasuredResponse& measured, Judgement& judgement) {
-  if (!measured.response.trust || measured.response.trust->sound()) return;
-  for (const std::string& reason : measured.trust.reasons) {
-    judgement.trust.doubt(fmt::format("of the table's own critical stiffness: {}", reason));
-  }
-  judgement.device_trust.inherit(judgement.trust);
-}
 
 void judge_delay(const Fitting& fitting, Judgement& judgement) {
   if (!fitting.ignored_delay()) return;
@@ -343,8 +327,7 @@ Identification identified(const MeasuredResponse& measured, std::span<const Reco
   Judgement judgement = judge({fitting.fit(), structure, options, critical, friction});
   judge_delay(fitting, judgement);
   judge_what_was_given(fitting, judgement);
-  judge_dependence(measured, judgement);
-  judge_table(measured, judgement);
+  judge_measured(measured, judgement);
   Identification result{.source = measured.source,
                         .response = fitting.fit().response,
                         .fit = fitting.fit().fit,

@@ -12,7 +12,6 @@
 #include "identification/fit_solution.hpp"
 #include "identification/fit_weights.hpp"
 #include "identification/identifiability.hpp"
-#include "identification/lateness.hpp"
 #include "identification/misfit_doubt.hpp"
 #include "identification/residual_checks.hpp"
 #include "model/uncertainty_problem.hpp"
@@ -205,22 +204,6 @@ Solution with_missing_mode(const FitModel& model, const FrequencyResponse& respo
   if (!missing) return found;
   modes.push_back(*missing);
   return searched_near(modes, model, points, std::move(found), robust_threshold);
-}
-
-/// A position, and where delay and lag are free, the same with half of their sum on each: a lag near 0 is a delay, and from
-/// there the search does not tell them apart.
-std::vector<Start> starts_near(const FitModel& model, const Eigen::VectorXd& x) {
-  std::vector<Start> starts{start_at(model, x)};
-  const auto at = [&](const char* key) {
-    return std::ranges::find(model.coordinates(), std::string(key), &Coordinate::key) - model.coordinates().begin();
-  };
-  const Eigen::Index delay = at(delay_key);
-  const Eigen::Index lag = at(lag_key);
-  if (delay == x.size() || lag == x.size()) return starts;
-  Eigen::VectorXd shared = x;
-  shared(delay) = shared(lag) = 0.5 * (x(delay) + x(lag));  // of the same unit
-  starts.push_back(start_at(model, shared));
-  return starts;
 }
 
 /// K_CR at the record's sampling period.

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "identification/fit_judgement.hpp"
 #include "identification/pooled_response.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/identification/record_fit.hpp"
@@ -75,6 +74,18 @@ void judge_agreement(Identification& result, std::span<const Recording> recordin
   }
   const std::optional<std::string> doubt = doubt_of_agreement(devices, result.fit.device);
   if (doubt) result.trust.doubt(*doubt);
+}
+
+void judge_measured(const MeasuredResponse& measured, Judgement& judgement) {
+  if (measured.dependence && !measured.trust.sound()) {
+    judgement.trust.doubt("the recordings differ by more than their noise: a linear device is an average of them");
+  }
+  if (measured.response.trust && !measured.response.trust->sound()) {
+    for (const std::string& reason : measured.trust.reasons) {
+      judgement.trust.doubt(fmt::format("of the table's own critical stiffness: {}", reason));
+    }
+  }
+  judgement.device_trust.inherit(judgement.trust);
 }
 
 }  // namespace zwidth::internal

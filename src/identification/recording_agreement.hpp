@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "identification/fit_judgement.hpp"
 #include "zwidth/identification/identification.hpp"
 #include "zwidth/model/device.hpp"
 #include "zwidth/trust.hpp"
@@ -25,5 +26,8 @@ struct OwnDevice {
 /// Doubts an answer otherwise sound that is an average of recordings that disagree: each alone is fitted from the answer
 /// on.
 void judge_agreement(Identification& result, std::span<const Recording> recordings, const IdentifyOptions& options);
+
+/// Recordings that show another critical stiffness each fit no linear device; and a table may say what its own is worth.
+void judge_measured(const MeasuredResponse& measured, Judgement& judgement);
 
 }  // namespace zwidth::internal

@@ -23,6 +23,9 @@ using Kind = WeakForceEvidence::Kind;
 // Deviations: the most of hundreds of frequencies. Of 137 right fits 5.6 were seen, and one of 7.3 that moved nothing.
 constexpr double clear_suspect = 6.0;
 
+// Of an interval's lower end: a force beside which the critical stiffness lies hardly below it does not matter.
+constexpr double notable = 0.99;
+
 std::string about(double stiffness, Motion motion) {
   return fmt::format("the critical stiffness is about {}", quantity(stiffness, units_of(motion).stiffness));
 }
@@ -37,7 +40,6 @@ std::optional<Nonlinearity> doubt_of_mode(const WeakForceEvidence& mode, double 
   constexpr double far = 0.9;
   constexpr double clear_and_far = 5.5;
   const double clear = mode.stiffness_beside < far * lower ? clear_and_far : clear_suspect;
-  constexpr double notable = 0.99;
   const bool lowers = mode.stiffness_beside < notable * lower && mode.share > least;
   const bool is_large = mode.share > large && mode.ratio > plain;
   if (!(mode.ratio > clear) || !(lowers || is_large)) return std::nullopt;
@@ -61,8 +63,8 @@ std::optional<Nonlinearity> doubt_of_skew(const WeakForceEvidence& skew, const s
 
 std::optional<Nonlinearity> doubt_of_change(const WeakForceEvidence& change, double lower, Motion motion,
                                             const std::string& source) {
-  constexpr double notable = 0.97;
-  if (!(change.ratio > clear_suspect) || !(change.stiffness_beside < notable * lower)) return std::nullopt;
+  constexpr double far = 0.97;
+  if (!(change.ratio > clear_suspect) || !(change.stiffness_beside < far * lower)) return std::nullopt;
   return Nonlinearity{fmt::format("{} shows that the damping of {} changes by {} while it is recorded, of which "
                                   "the fit is a mean: at the softest {} or less",
                                   source, change.body, quantity(std::abs(change.change), units_of(motion).damping),
@@ -98,13 +100,13 @@ std::optional<Nonlinearity> doubt_of(const WeakForceEvidence& force, const Analy
   const auto [what, remedy] = words_of(force.kind);
   const double beside = force.stiffness_beside;
   if (force.ratio < significant_friction) {
-    const double notable = force.kind == Kind::link_friction ? 0.97 : 1.0;  // a link that does not limit hardly counts
-    if (!(beside < notable * lower)) return std::nullopt;
+    constexpr double little_of_a_link = 0.97;  // one that does not limit hardly counts
+    if (!(beside < (force.kind == Kind::link_friction ? little_of_a_link : notable) * lower)) return std::nullopt;
     return Nonlinearity{
         fmt::format("{} hardly tells damping from {}: beside it {}", source, what, about(beside, motion)), remedy, {}};
   }
   // Of friction of another kind one step does not tell how far away the device is. In a link it makes intervals wide.
-  const double far_beside = force.kind == Kind::link_friction ? std::max(lower, 0.9 * value) : lower;
+  const double far_beside = force.kind == Kind::link_friction ? std::max(lower, 0.9 * value) : notable * lower;
   if (force.kind != Kind::presliding && far_beside <= beside && beside <= upper) return std::nullopt;
   return Nonlinearity{
       fmt::format("{} shows {}{}", source, what, beside < value ? " (beside it " + about(beside, motion) + ")" : ""),

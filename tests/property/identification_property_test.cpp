@@ -132,13 +132,12 @@ TEST(IdentificationProperty, ACombinationThatShowsVariesAsTheDataLeaveIt) {
   ASSERT_TRUE(made && made->right_structure && !made->has_friction);
   const Identification found = identified(*made);
   ASSERT_NO_FATAL_FAILURE(expect_interval_holds(found, made->stiffness, made->seed));
-  // Friction moves this one 0.6 % up, which no interval of a linear fit holds: it is doubtful for that.
+  // Was 0.6 % up, and doubtful for friction: its lag had been found as delay.
   const auto rubbing = test::random_recording(620055);
   ASSERT_TRUE(rubbing && rubbing->right_structure && rubbing->has_friction);
-  const Identification doubtful = identified(*rubbing);
-  EXPECT_FALSE(doubtful.trust.sound());
-  EXPECT_TRUE(doubtful.friction);
-  EXPECT_NEAR(doubtful.analysis.critical.stiffness, rubbing->stiffness, 0.01 * rubbing->stiffness);
+  const Identification sound = identified(*rubbing);
+  EXPECT_TRUE(sound.trust.sound());
+  ASSERT_NO_FATAL_FAILURE(expect_interval_holds(sound, rubbing->stiffness, rubbing->seed));
 }
 
 // Two bodies excited to 10 Hz, whose mode near 94 Hz limits at 3402 N/m: was sound, with [4354, 4426].
@@ -200,7 +199,8 @@ TEST(IdentificationProperty, AnEndOfAnIntervalThatNoDeviceReachesIsNoDoubt) {
 TEST(IdentificationProperty, ASideMinimumIsLeft) {
   expect_sound_and_right(
       {910027U, 910182U, 920062U}, [](const Identification& found, const test::RandomRecording& made) {
-        EXPECT_LE(found.analysis.interval->upper, 1.01 * found.analysis.interval->lower) << "seed " << made.seed;
+        // The lag of 910182, which hardly shows, is open.
+        EXPECT_LE(found.analysis.interval->upper, 1.03 * found.analysis.interval->lower) << "seed " << made.seed;
       });
 }
 
@@ -248,12 +248,28 @@ TEST(IdentificationProperty, ABodyThatTheStructureLacksAboveTheBandIsSeen) {
   }
 }
 
-// The right structure, but the search ended beside the device, 0.6 % above it at 0.82 times the noise: with one body more 0.58.
-// Was sound.
-TEST(IdentificationProperty, ASearchThatEndedBesideTheDeviceIsSeen) {
-  const auto made = test::random_recording(3402763);
-  ASSERT_TRUE(made && made->right_structure && !made->has_friction);
-  expect_doubtful(identified(*made), *made);
+// A search that went on from the device moved a damping of nearly nothing to where it costs much, and ended 1.4 % above it.
+TEST(IdentificationProperty, ASearchThatStartsAtTheDeviceStaysThere) {
+  expect_sound_and_right({3402763U}, [](const Identification& found, const test::RandomRecording& made) {
+    EXPECT_NEAR(found.analysis.critical.stiffness, made.stiffness, 0.005 * made.stiffness);
+  });
+}
+
+// Less than the noise was left, but alike from line to line: two bodies that move as one in the band, found as one with a
+// light one on a soft spring.
+TEST(IdentificationProperty, WhatIsAlikeFromLineToLineIsNoNoise) {
+  expect_sound_and_right({3500107U, 3502568U, 3502428U});
+}
+
+// A search from no lag took it for a delay.
+TEST(IdentificationProperty, ALagIsToldFromADelay) {
+  expect_sound_and_right(
+      {3500923U, 3502951U, 3500299U}, [](const Identification& found, const test::RandomRecording& made) {
+        const auto lag = std::ranges::find(found.fit.estimates, "actuator.time_constant", &ParameterEstimate::key);
+        ASSERT_NE(lag, found.fit.estimates.end()) << "seed " << made.seed;
+        const double truth = made.truth.actuator.time_constant;
+        EXPECT_NEAR(lag->value, truth, 0.25 * truth) << "seed " << made.seed;
+      });
 }
 
 // 11 free numbers and 16 lines: another minimum, of residuals 18 % larger, is as good, and there a mode at 25 Hz limits, as it
