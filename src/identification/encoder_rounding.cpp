@@ -65,4 +65,10 @@ double SweepRounding::variance(std::complex<double> value) const {
   return std::norm(value) * share_of(force_ * std::abs(value) / step_, noise_);
 }
 
+double largest_rounding(std::span<const double> position) {
+  constexpr double dithers = 0.4;
+  const double step = encoder_step(position);
+  return step > 0.0 && dither_of(position, step) < dithers ? 0.5 * step : 0.0;
+}
+
 }  // namespace zwidth::internal

@@ -199,14 +199,19 @@ void leave_zero(ceres::Problem& problem, SearchCoordinates& position) {
   }
 }
 
-/// Puts each coordinate that has come close to 0 onto it, where that costs nothing.
-void settle_on_zero(ceres::Problem& problem, SearchCoordinates& position) {
+/// Puts each coordinate that has come close to 0 onto it, where that costs nothing; and one that ran away, as a damper that
+/// holds two bodies together does, to where it is as good: a device of 1e10 times its other numbers cannot be judged.
+void settle_at_ends(ceres::Problem& problem, SearchCoordinates& position) {
   constexpr double close = 1e-2;
+  constexpr double far = 1e5;
   constexpr double nothing = 1e-6;
   const double cost = cost_at(problem);
   for (Eigen::Index i = 0; i < position.y.size(); ++i) {
-    if (!position.may_be_zero(i) || position.x(i) > close) continue;
-    const double y = std::exchange(position.y(i), -std::numeric_limits<double>::infinity());
+    if (!position.may_be_zero(i)) continue;
+    const double x = position.x(i);
+    if (x > close && x <= far) continue;
+    const double y = position.y(i);
+    position.put(i, x > far ? far : 0.0);
     if (!(cost_at(problem) <= (1.0 + nothing) * cost)) position.y(i) = y;
   }
 }
@@ -248,7 +253,7 @@ LeastSquares least_squares(const FitModel& model, const FitData& data, const Eig
   solver.gradient_tolerance = 1e-12;
   leave_zero(problem, position);
   const ceres::Solver::Summary summary = quiet_solve(solver, problem);
-  settle_on_zero(problem, position);
+  settle_at_ends(problem, position);
   return {position.x(), summary.final_cost, summary.termination_type == ceres::CONVERGENCE || hardly_gains(summary)};
 }
 

@@ -293,6 +293,9 @@ std::optional<ModeBeside> find_missing_mode(const RestLines& rest, const ModeQue
   mode.term.denominator[0] = w * w;
   mode.term.denominator[1] = 2.0 * best.damping_ratio * w;
   mode.ratio = ratio_of_last_two(*found);
+  for (std::size_t k = 0; k < position.size(); ++k) {
+    mode.peak = std::max(mode.peak, std::abs(a * position[k] + b * velocity[k]));
+  }
   // What pushes a body moves it less at each line than at the one below: of positions the lowest lines stand out of what lies
   // around them. A mode does of accelerations too.
   const Eigen::VectorXd rise = rise_of(rest.parts, rest.target.size());

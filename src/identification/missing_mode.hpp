@@ -45,6 +45,7 @@ struct ModeBeside {
   double damping_ratio = 0.0;
   ModalTerm term;
   double ratio = 0.0;    ///< its size in deviations, of positions or of accelerations: the smaller one
+  double peak = 0.0;     ///< of its motion in the record
   LineRegression found;  ///< the known columns, then the mode's two
 };
 

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <utility>
 
+#include "identification/encoder_rounding.hpp"
 #include "identification/fit_judgement.hpp"
 #include "identification/shot_fit.hpp"
 #include "identification/suspected_motions.hpp"
@@ -66,9 +67,11 @@ double softest(DeviceParameters parameters, const SuspectedMotion& suspect, doub
 
 using Beside = std::function<DeviceParameters(const LineRegression&)>;  ///< the numbers beside what was found
 
-std::optional<WeakForceEvidence> mode_in(const RestLines& rest, const ModeQuestion& question, const Beside& beside) {
+/// Nothing where its motion may be the encoder's rounding alone.
+std::optional<WeakForceEvidence> mode_in(const RestLines& rest, std::span<const double> position,
+                                         const ModeQuestion& question, const Beside& beside) {
   const auto mode = find_missing_mode(rest, question);
-  if (!mode) return std::nullopt;
+  if (!mode || mode->peak < largest_rounding(position)) return std::nullopt;
   DeviceParameters parameters = beside(mode->found);
   for (Body& body : parameters.bodies) body.coulomb = 0.0;
   try {
@@ -110,7 +113,7 @@ std::vector<WeakForceEvidence> suspects_in(const RestLines& rest, const Device& 
                                            const Beside& beside) {
   const std::vector<SuspectedMotion> suspects = suspected_motions(device, question.force, position);
   std::vector<std::optional<WeakForceEvidence>> each(suspects.size() + 1);
-  each.front() = mode_in(rest, question, beside);
+  each.front() = mode_in(rest, position, question, beside);
   tbb::parallel_for(std::size_t{0}, suspects.size(),
                     [&](std::size_t i) { each[i + 1] = suspect_in(rest, suspects[i], question, beside); });
   std::vector<WeakForceEvidence> found;

@@ -87,6 +87,12 @@ TEST(EncoderRounding, IsTakenOffByNoise) {
   EXPECT_LT(simulated_share(amplitude, 0.6, many), 0.05 * simulated_share(amplitude, 0.0, many));
 }
 
+TEST(EncoderRounding, MayBeAMotionOfHalfAStepWhereNothingDithersIt) {
+  EXPECT_NEAR(internal::largest_rounding(swept(3.0 * step, 0.1).position), 0.5 * step, 1e-9 * step);
+  EXPECT_EQ(internal::largest_rounding(swept(3.0 * step, 0.6).position), 0.0);
+  EXPECT_EQ(internal::largest_rounding(swept(3.0 * step, 0.0).force), 0.0);  // no steps
+}
+
 // A velocity that was differenced from such a position has steps of step / T, which are no encoder's.
 TEST(EncoderRounding, IsThatOfPositionsAlone) {
   const Swept record = swept(3.0 * step, 0.0);

@@ -261,6 +261,9 @@ TEST(IdentificationProperty, WhatIsAlikeFromLineToLineIsNoNoise) {
   expect_sound_and_right({3500107U, 3502568U, 3502428U});
 }
 
+// Modes of 0.07 to 0.31 of an encoder's step in the record: its rounding follows the motion where no noise dithers it.
+TEST(IdentificationProperty, AnEncodersRoundingIsNoMode) { expect_sound_and_right({3502627U, 3602034U, 3502013U}); }
+
 // A search from no lag took it for a delay.
 TEST(IdentificationProperty, ALagIsToldFromADelay) {
   expect_sound_and_right(

@@ -55,6 +55,20 @@ TEST(TimeDomainProperty, ASearchPassesTheKinksOfItsMisfit) {
   EXPECT_LE(found.analysis.interval->upper, 1.25 * made.stiffness);
 }
 
+// Two bodies that move as one in the band: the linear fit joins them by a damper of 1700 N s/m, which cannot be played. Ended
+// in an error. (1700046 and 1700123 were refused.)
+TEST(TimeDomainProperty, ALinkThatOnlyDampsIsNoStart) {
+  const test::FrictionRecordings made = test::friction_recordings(1700076);
+  TimeDomainOptions options;
+  options.structure_values = IdentifyOptions::StructureValues::placeholders;
+  const TimeDomainIdentification found = identify_in_time(made.recordings, Device(made.structure), options);
+  EXPECT_TRUE(found.trust.sound());
+  EXPECT_NEAR(found.analysis.critical.stiffness, made.stiffness, 0.01 * made.stiffness);
+  ASSERT_TRUE(found.analysis.interval);
+  EXPECT_LE(found.analysis.interval->lower, made.stiffness);
+  EXPECT_GE(found.analysis.interval->upper, made.stiffness);
+}
+
 // Driven at one body and sensed at the other: a linear fit does not tell how the masses are divided between them (10:1, the
 // device's are 1:3.4), and from there a search ended without friction. Was sound in the lines, its interval 41 % above the
 // truth, and 58 % too high in time.
