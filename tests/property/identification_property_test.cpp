@@ -309,6 +309,8 @@ TEST(IdentificationProperty, WhatASearchRanAwayFromIsBounded) {
   expect_sound_and_right({900104U}, [](const Identification& found, const test::RandomRecording& made) {
     EXPECT_LE(found.analysis.interval->upper, 1.01 * made.stiffness);
   });
+  // Two bodies that move as one, held together by a damper of 1e11 N s/m: K_CR was refused.
+  expect_sound_and_right({3600162U});
 }
 
 // With the delay alone free the search ends where the residuals are 15 times their noise: the device has a lag, no delay.
