@@ -59,8 +59,9 @@ double mean_misfit(const FitModel& model, const std::vector<ResponsePoint>& poin
   return sum / static_cast<double>(points.size());
 }
 
-/// Whether what is left of neighbouring lines is alike, which a search that ended at the device does not leave, however little it
-/// is: the mean correlation of lines 3 to 8 apart, further than a window makes them share, beyond three of its deviations.
+/// Whether what is left of neighbouring lines is alike, which a search that ended at the device does not leave, however
+/// little it is: the mean correlation of lines 3 to 8 apart, further than a window makes them share, beyond three of its
+/// deviations.
 bool are_alike(const std::vector<std::complex<double>>& left, double line_correlation) {
   constexpr std::size_t nearest = 3;
   constexpr std::size_t farthest = 8;

@@ -42,9 +42,9 @@ struct Solution {
 [[nodiscard]] Solution solve(const FitModel& model, const std::vector<ResponsePoint>& points,
                              const std::vector<Start>& starts, double robust_threshold);
 
-/// A solution that leaves more than the noise, or what is no noise, may be a side minimum: the best of it and of those that the search reaches
-/// with each link's resonance elsewhere, in the band, below or above. One that explains the response to its noise, and
-/// leaves nothing alike from line to line, is returned as it is.
+/// A solution that leaves more than the noise, or what is no noise, may be a side minimum: the best of it and of those that
+/// the search reaches with each link's resonance elsewhere, in the band, below or above. One that explains the response to
+/// its noise, and leaves nothing alike from line to line, is returned as it is.
 [[nodiscard]] Solution searched_widely(const FitModel& model, const FrequencyResponse& response, Solution found,
                                        double robust_threshold);
 

@@ -203,7 +203,7 @@ void leave_zero(ceres::Problem& problem, SearchCoordinates& position) {
 /// holds two bodies together does, to where it is as good: a device of 1e10 times its other numbers cannot be judged.
 void settle_at_ends(ceres::Problem& problem, SearchCoordinates& position) {
   constexpr double close = 1e-2;
-  constexpr double far = 1e5;
+  constexpr double far = 1e8;
   constexpr double nothing = 1e-6;
   const double cost = cost_at(problem);
   for (Eigen::Index i = 0; i < position.y.size(); ++i) {

@@ -225,8 +225,7 @@ TEST(Identification, ADelayAloneIsNoDevice) {
     const bool nothing_else = std::ranges::none_of(found.fit.estimates, [](const ParameterEstimate& each) {
       return each.identifiable && each.key.starts_with("body.");
     });
-    if (!nothing_else) continue;
-    ++alone;
+    alone += nothing_else;
     EXPECT_TRUE(found.trust.refused()) << "seed " << seed << "\n" << all_reasons(found.trust);
   }
   EXPECT_GE(alone, 1);
