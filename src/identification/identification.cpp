@@ -36,10 +36,9 @@ namespace {
 class Fitting {
  public:
   Fitting(const MeasuredResponse& measured, std::span<const Recording> recordings, const Device& structure,
-          const IdentifyOptions& options, const Device* start)
+          const IdentifyOptions& options)
       : recordings_(recordings), options_(options), fit_options_(options.fit) {
     fit_options_.free = free_parameters(structure, fit_options_.free, fit_options_.locked);
-    if (start) fit_options_.start = ParameterFitOptions::Start::from_structure;
     const bool is_unknown = options.structure_values == IdentifyOptions::StructureValues::placeholders;
     if (may_free() && is_unknown && !is_free(delay_key) &&
         measured.response.points.size() > fit_options_.free.size() + 1) {
@@ -50,7 +49,7 @@ class Fitting {
       is_hopeless_ = true;
       return;
     }
-    fit_ = whole_fit(start ? *start : structure, measured.response, fit_options_);
+    fit_ = whole_fit(structure, measured.response, fit_options_);
     is_hopeless_ = fit_->fit.model_error_if_turned.has_value();
     if (is_hopeless_) return;
     if (may_free()) {
@@ -68,6 +67,16 @@ class Fitting {
 
   [[nodiscard]] const RecordFit& fit() const { return *fit_; }
   [[nodiscard]] std::vector<Remark>& remarks() { return remarks_; }
+
+  /// The same numbers from a device near which they are; whether that is possible.
+  [[nodiscard]] bool begin_anew(const Device& start) try {
+    fit_options_.start = ParameterFitOptions::Start::from_structure;
+    fit_ = whole_fit(start, fit_->response, fit_options_);
+    go_on();
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
 
   /// Where the limit lies above the band, delay and lag count with what the data leave open of them.
   void widen_above_the_band() {
@@ -267,14 +276,6 @@ class Fitting {
   bool is_hopeless_ = false;  ///< to be refused, whatever else is fitted
 };
 
-void judge_delay(const Fitting& fitting, Judgement& judgement) {
-  if (!fitting.ignored_delay()) return;
-  const Remark remark = ignored_delay_remark(*fitting.ignored_delay(), fitting.fit().fit.device.loop().delay);
-  judgement.trust.doubt(fmt::format("{}; {}", remark.what, remark.remedy));
-  judgement.device_trust.inherit(judgement.trust);
-  judgement.remarks.push_back(remark);
-}
-
 /// `is_measured`: the response shows the limit by itself.
 void judge_interval(Identification& result, bool is_measured, std::span<const Recording> recordings,
                     const IdentifyOptions& options) {
@@ -292,13 +293,17 @@ void judge_interval(Identification& result, bool is_measured, std::span<const Re
 }
 
 void judge_what_was_given(const Fitting& fitting, Judgement& judgement) {
+  if (fitting.ignored_delay()) {
+    const Remark remark = ignored_delay_remark(*fitting.ignored_delay(), fitting.fit().fit.device.loop().delay);
+    judgement.trust.doubt(fmt::format("{}; {}", remark.what, remark.remedy));
+    judgement.remarks.push_back(remark);
+  }
   for (const ContradictedNumber& each : fitting.contradicted()) judgement.trust.doubt(contradiction_reason(each));
   judgement.device_trust.inherit(judgement.trust);
 }
 
-/// `start`: a device of the structure near which the numbers are, where one is known.
 Identification identified(const MeasuredResponse& measured, std::span<const Recording> recordings,
-                          const Device& structure, const IdentifyOptions& options, const Device* start = nullptr);
+                          const Device& structure, const IdentifyOptions& options);
 
 /// The same with longer segments, where a mode of the fitted device rings on from one to the next.
 std::optional<Identification> with_longer_segments(const RecordFit& fit, std::span<const Recording> recordings,
@@ -316,16 +321,13 @@ std::optional<Identification> with_longer_segments(const RecordFit& fit, std::sp
   return std::nullopt;
 }
 
-Identification identified(const MeasuredResponse& measured, std::span<const Recording> recordings,
-                          const Device& structure, const IdentifyOptions& options, const Device* start) {
-  Fitting fitting(measured, recordings, structure, options, start);
-  if (auto longer = with_longer_segments(fitting.fit(), recordings, structure, options)) return *std::move(longer);
+Identification judged(Fitting& fitting, const MeasuredResponse& measured, std::span<const Recording> recordings,
+                      const Device& structure, const IdentifyOptions& options, bool has_begun_anew) {
   fitting.widen_above_the_band();
   fitting.open_ignored_delay();
   const CriticalStiffness critical = limit_of(fitting.fit().fit.device);
   std::optional<ShownFriction> friction = fitting.friction();
   Judgement judgement = judge({fitting.fit(), structure, options, critical, friction});
-  judge_delay(fitting, judgement);
   judge_what_was_given(fitting, judgement);
   judge_measured(measured, judgement);
   Identification result{.source = measured.source,
@@ -346,7 +348,9 @@ Identification identified(const MeasuredResponse& measured, std::span<const Reco
   }
   judge_interval(result, judgement.is_measured, recordings, options);
   if (const auto further = find_further_body(result, options)) {
-    if (further->without && !start) return identified(measured, recordings, structure, options, &*further->without);
+    if (further->without && !has_begun_anew && fitting.begin_anew(*further->without)) {
+      return judged(fitting, measured, recordings, structure, options, true);
+    }
     result.trust.doubt(doubt_of_further_body(*further, result));
   }
   judge_agreement(result, recordings, options);
@@ -359,6 +363,13 @@ Identification identified(const MeasuredResponse& measured, std::span<const Reco
                        unseen_placeholders(options.fit.locked, options.structure_values), result.fit.device,
                        {&result.trust, &result.analysis.trust});
   return result;
+}
+
+Identification identified(const MeasuredResponse& measured, std::span<const Recording> recordings,
+                          const Device& structure, const IdentifyOptions& options) {
+  Fitting fitting(measured, recordings, structure, options);
+  if (auto longer = with_longer_segments(fitting.fit(), recordings, structure, options)) return *std::move(longer);
+  return judged(fitting, measured, recordings, structure, options, false);
 }
 
 }  // namespace

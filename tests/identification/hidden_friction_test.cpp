@@ -19,8 +19,9 @@ namespace {
 struct Rubbing {
   DeviceParameters device;
   ExcitationOptions force;
-  double step;      ///< of the encoder
-  double too_high;  ///< the critical stiffness as fitted, by how much at least
+  double step;            ///< of the encoder
+  double too_high;        ///< the critical stiffness as fitted, by how much at least
+  double lower_too_high;  ///< the interval's lower end; 0: it reaches down to the truth
 };
 
 DeviceParameters chain(Body motor, Body handle, Link link) {
@@ -53,15 +54,15 @@ std::vector<Rubbing> rubbing() {
   return {{chain({"motor", 0.32411896126597667, 0.07195077787930944, 0.0, 0.001472},
                  {"handle", 3.7208879853744237, 0.028810431661753243, 0.0, 0.0},
                  {0, 1, 729578.6613690768, 10.879713314081704}),
-           multisine(1.0114282432149815), 3.4553412195059206e-05, 1.5},
+           multisine(1.0114282432149815), 3.4553412195059206e-05, 1.5, 1.5},
           {chain({"motor", 0.07303962481229523, 0.07283808099794709, 0.0, 0.005834},
                  {"handle", 0.7311071496406494, 0.006005763121724623, 0.0, 0.0},
                  {0, 1, 28773.10887995031, 6.261506682424102}),
-           multisine(4.181761420681698), 0.00045196393370117394, 1.5},
+           multisine(4.181761420681698), 0.00045196393370117394, 1.5, 1.5},
           {chain({"motor", 0.25273898960638724, 0.09093787632168049, 0.0, 0.0014826},
                  {"handle", 0.8549590056318525, 0.0028643622883453073, 0.0, 0.0},
                  {0, 1, 381346.5578037801, 30.742982639699214}),
-           sweep(0.8072979144073471), 1.9211271110408682e-05, 1.05}};
+           sweep(0.8072979144073471), 1.9211271110408682e-05, 1.05, 0.0}};
 }
 
 Recording recorded(const Rubbing& rubbing) {
@@ -81,6 +82,7 @@ TEST(HiddenFriction, OfAThousandthOfTheForceIsNeverSound) {
     const double truth = critical_stiffness(Device(std::move(linear))).stiffness;
     const Identification found = identify(recorded(each), structure, options);
     ASSERT_GT(found.analysis.critical.stiffness, each.too_high * truth) << "what is doubted";
+    ASSERT_GT(found.analysis.interval->lower, each.lower_too_high * truth) << "what is doubted";
     ASSERT_FALSE(found.trust.sound()) << found.analysis.critical.stiffness << " for " << truth;
     EXPECT_NE(found.trust.reasons.front().find("dry friction"), std::string::npos) << found.trust.reasons.front();
   }

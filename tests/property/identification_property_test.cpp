@@ -199,8 +199,8 @@ TEST(IdentificationProperty, AnEndOfAnIntervalThatNoDeviceReachesIsNoDoubt) {
 TEST(IdentificationProperty, ASideMinimumIsLeft) {
   expect_sound_and_right(
       {910027U, 910182U, 920062U}, [](const Identification& found, const test::RandomRecording& made) {
-        // The lag of 910182, which hardly shows, is open.
-        EXPECT_LE(found.analysis.interval->upper, 1.03 * found.analysis.interval->lower) << "seed " << made.seed;
+        const double widest = made.seed == 910182 ? 1.03 : 1.01;  // its lag, which hardly shows, is open
+        EXPECT_LE(found.analysis.interval->upper, widest * found.analysis.interval->lower) << "seed " << made.seed;
       });
 }
 
@@ -263,6 +263,10 @@ TEST(IdentificationProperty, WhatIsAlikeFromLineToLineIsNoNoise) {
 
 // Modes of 0.07 to 0.31 of an encoder's step in the record: its rounding follows the motion where no noise dithers it.
 TEST(IdentificationProperty, AnEncodersRoundingIsNoMode) { expect_sound_and_right({3502627U, 3602034U, 3502013U}); }
+
+// With one body more the record was explained better (0.97 times the noise instead of 1.07), and the answer doubtful: from there
+// the search comes to the device.
+TEST(IdentificationProperty, AFurtherBodyLeadsBackToTheDevice) { expect_sound_and_right({3502038U}); }
 
 // A search from no lag took it for a delay.
 TEST(IdentificationProperty, ALagIsToldFromADelay) {
