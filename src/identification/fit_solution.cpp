@@ -12,6 +12,7 @@
 #include "identification/identifiability.hpp"
 #include "identification/initial_values.hpp"
 #include "identification/lateness.hpp"
+#include "identification/link_mode.hpp"
 #include "identification/response_features.hpp"
 #include "zwidth/error.hpp"
 
@@ -142,17 +143,24 @@ Start start_at(const FitModel& model, const Eigen::VectorXd& x, const Eigen::Vec
   return start;
 }
 
-std::vector<Start> starts_near(const FitModel& model, const Eigen::VectorXd& x) {
-  std::vector<Start> starts{start_at(model, x)};
-  const auto at = [&](const char* key) {
-    return std::ranges::find(model.coordinates(), std::string(key), &Coordinate::key) - model.coordinates().begin();
-  };
-  const Eigen::Index delay = at(delay_key);
-  const Eigen::Index lag = at(lag_key);
-  if (delay == x.size() || lag == x.size()) return starts;
-  Eigen::VectorXd shared = x;
-  shared(delay) = shared(lag) = 0.5 * (x(delay) + x(lag));  // of the same unit
-  starts.push_back(start_at(model, shared));
+std::vector<Start> starts_near(const FitModel& model, const Eigen::VectorXd& x, double highest) {
+  std::vector<std::string> keys;
+  for (const Coordinate& coordinate : model.coordinates()) keys.push_back(coordinate.key);
+  std::vector<Eigen::VectorXd> positions{x};
+  constexpr double above = 2.0;
+  if (const auto springs = with_springs(model.parameters_at(x), keys, above * highest)) {
+    positions.push_back(model.position_of(*springs));
+  }
+  const Eigen::Index delay = std::ranges::find(keys, delay_key) - keys.begin();
+  const Eigen::Index lag = std::ranges::find(keys, lag_key) - keys.begin();
+  std::vector<Start> starts;
+  for (const Eigen::VectorXd& each : positions) {
+    starts.push_back(start_at(model, each));
+    if (delay == x.size() || lag == x.size()) continue;
+    Eigen::VectorXd shared = each;
+    shared(delay) = shared(lag) = 0.5 * (x(delay) + x(lag));  // of the same unit
+    starts.push_back(start_at(model, shared));
+  }
   return starts;
 }
 
@@ -189,10 +197,16 @@ Solution solve(const FitModel& model, const std::vector<ResponsePoint>& points, 
   std::vector<LeastSquares> fits(starts.size());
   std::vector<double> errors(starts.size());
   tbb::parallel_for(std::size_t{0}, starts.size(), [&](std::size_t i) {
-    const Start& start = starts[i];
-    const double error = model_error_of(points, model.response_at(start.x, all.frequencies));
-    fits[i] = least_squares(model, fit_data(points, error), start.x, rough, start.pull);
-    errors[i] = model_error_of(points, model.response_at(fits[i].x, all.frequencies));
+    // Weighted by what a start is off, lines tell little: what it comes to is compared with others under its own error.
+    constexpr int rough_rounds = 3;
+    fits[i].x = starts[i].x;
+    double error = model_error_of(points, model.response_at(fits[i].x, all.frequencies));
+    for (int round = 0; round < rough_rounds; ++round) {
+      fits[i] = least_squares(model, fit_data(points, error), fits[i].x, rough, starts[i].pull);
+      errors[i] = model_error_of(points, model.response_at(fits[i].x, all.frequencies));
+      if (std::abs(errors[i] - error) <= close_enough * errors[i]) break;
+      error = errors[i];
+    }
   });
   for (std::size_t i = 0; i < starts.size(); ++i) {  // the one that explains the data best
     if (std::pair(errors[i], fits[i].cost) < std::pair(best.model_error, best_cost)) {

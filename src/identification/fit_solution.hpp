@@ -22,9 +22,10 @@ struct Start {
 [[nodiscard]] Start start_at(const FitModel& model, const Eigen::VectorXd& x, const Eigen::VectorXd& towards,
                              const std::vector<bool>& determined);
 
-/// A position, and where delay and lag are free, the same with half of their sum on each: a lag near 0 is a delay, and from
-/// there the search does not tell them apart.
-[[nodiscard]] std::vector<Start> starts_near(const FitModel& model, const Eigen::VectorXd& x);
+/// A position, and others that a search does not reach from there: links that hardly spring with their modes at twice
+/// `highest` (with_springs()), since they take the phase of a lag; and where delay and lag are free, either with half of
+/// their sum on each, since a lag near 0 is a delay.
+[[nodiscard]] std::vector<Start> starts_near(const FitModel& model, const Eigen::VectorXd& x, double highest);
 
 /// A fit and the model error that goes with it.
 struct Solution {

@@ -41,19 +41,29 @@ double stiffness_beside(DeviceParameters parameters) {
   return limit_of(Device(std::move(parameters))).stiffness;
 }
 
-/// With one element of x, the friction, that stays. Nothing where no such device can be followed.
-std::optional<FittedShots> with_held_friction(const ShotSearch& search, const std::vector<Shot>& shots, ShotFit start,
-                                              Eigen::Index friction, double value, const Eigen::VectorXd& towards) {
+/// What is followed, and how.
+struct Follower {
+  const ShotModel& model;
+  const ShotSearch& search;
+  const std::vector<Shot>& shots;
+};
+
+/// With one element of x, the friction, that stays; at first under `noise`, since that of states that were not fitted would
+/// pass for drift. Nothing where no such device can be followed.
+std::optional<FittedShots> with_held_friction(const Follower& follower, ShotFit start, Eigen::Index friction,
+                                              double value, const std::vector<ShotNoise>& noise,
+                                              const Eigen::VectorXd& towards) {
+  const auto& [model, search, shots] = follower;
   start.x(friction) = value;
   start.held.assign(static_cast<std::size_t>(start.x.size()), false);
   start.held[static_cast<std::size_t>(friction)] = true;
-  std::optional<FittedShots> found;
-  constexpr int rounds = 2;  // the noise of the first may be that of states that were not fitted
-  for (int round = 0; round < rounds; ++round) {
-    found = search.with_noise(found ? found->fit : start, shots, towards, {.most_iterations = 8, .tolerance = 1e-3});
-    if (!found) return std::nullopt;
-  }
-  return found;
+  auto states = search.states_alone(start.x, shots, noise);
+  if (!states) return std::nullopt;
+  start.states = *std::move(states);
+  constexpr ShotFitOptions brief{.most_iterations = 12, .tolerance = 1e-5};
+  const auto fit = fit_shots(model, shots, noise, start, towards, brief);
+  if (!fit) return std::nullopt;
+  return search.with_noise(*fit, shots, towards, brief);
 }
 
 /// A friction, and what it explains.
@@ -94,9 +104,7 @@ Meaning meaning_of(const FrictionBeside& beside, const Analysis& analysis) {
 
 /// What a friction was found in.
 struct FrictionFit {
-  const ShotSearch& search;
-  const ShotModel& model;
-  const std::vector<Shot>& shots;
+  Follower follower;
   const FittedShots& best;
   Eigen::Index at;  ///< its element of x
   double linear_badness;
@@ -113,7 +121,7 @@ std::optional<FrictionBeside> more_friction(const FrictionFit& fit, const Fricti
   const bool may_be_far = std::ranges::any_of(shares, [&](double share) {
     try {
       const Eigen::VectorXd along = known.col(fit.at) * share / deviation;
-      return is_far_below(stiffness_beside(fit.model.parameters_at(x + along)), analysis);
+      return is_far_below(stiffness_beside(fit.follower.model.parameters_at(x + along)), analysis);
     } catch (const Error&) {  // so far that a damping is negative
       return true;
     }
@@ -121,11 +129,12 @@ std::optional<FrictionBeside> more_friction(const FrictionFit& fit, const Fricti
   if (!may_be_far) return std::nullopt;
   double most = -std::numeric_limits<double>::infinity();  // of the gains so far; of a part the whole will tell
   for (const double share : shares) {
-    const auto held = with_held_friction(fit.search, fit.shots, fit.best.fit, fit.at, x(fit.at) + share * deviation, x);
+    const auto held =
+        with_held_friction(fit.follower, fit.best.fit, fit.at, x(fit.at) + share * deviation, fit.best.noise, x);
     if (!held) continue;
-    const double gain = fit.linear_badness - fit.search.badness(*held, fit.shots);
+    const double gain = fit.linear_badness - fit.follower.search.badness(*held, fit.follower.shots);
     if (!best.is_of_a_part) most = std::max(most, gain);
-    const double stiffness = stiffness_beside(fit.model.parameters_at(held->fit.x));
+    const double stiffness = stiffness_beside(fit.follower.model.parameters_at(held->fit.x));
     if (!(gain > as_much) || !(gain > most + as_much) || !(stiffness > 0.0) || !is_far_below(stiffness, analysis))
       continue;
     return FrictionBeside{
@@ -200,7 +209,7 @@ std::optional<FrictionBeside> friction_beside(const Identification& result, cons
   const std::size_t last = start.free.size() - 1;
   const auto at = static_cast<Eigen::Index>(last);
   const Eigen::VectorXd of_linear = model.position_of(linear.parameters());
-  const auto without = with_held_friction(search, shots, {of_linear, model.recorded_states(shots)}, at, 0.0, of_linear);
+  const auto without = with_held_friction({model, search, shots}, {of_linear}, at, 0.0, best->noise, of_linear);
   const double linear_badness = without ? search.badness(*without, shots) : std::numeric_limits<double>::infinity();
   const double gain = linear_badness - search.badness(*best, shots);
   if (!(gain > as_much)) return std::nullopt;
@@ -220,15 +229,16 @@ std::optional<FrictionBeside> friction_beside(const Identification& result, cons
   if (meaning_of(found, result.analysis) == Meaning::shows) return found;
   if (is_far_below(*found.friction.stiffness_beside, result.analysis)) return found;
   const auto more =
-      more_friction({search, model, shots, *best, at, linear_badness}, found, known.covariance, result.analysis);
+      more_friction({{model, search, shots}, *best, at, linear_badness}, found, known.covariance, result.analysis);
   return more ? more : found;
 }
 
-/// Of the friction of the heaviest body that any recording shows or leaves open, else of the next, that beside which the
-/// critical stiffness is lowest.
+/// Of the friction of the heaviest body that any recording shows, else of the next, that beside which the critical stiffness
+/// is lowest; where none shows, of what the records leave open.
 std::optional<FrictionBeside> lowering_friction(const Identification& result, std::span<const Recording> recordings,
                                                 const std::vector<std::string>& locked) {
   std::optional<FrictionBeside> lowest;
+  bool shows = false;
   for (const Body& body : moving_bodies(result.fit.device, locked)) {
     for (const Recording& each : recordings) {
       try {
@@ -236,14 +246,17 @@ std::optional<FrictionBeside> lowering_friction(const Identification& result, st
         if (found && found->is_of_a_part && meaning_of(*found, result.analysis) == Meaning::may_matter) {
           found = friction_beside(result, body, locked, each, cost_of_the_whole);
         }
-        if (!found || meaning_of(*found, result.analysis) == Meaning::nothing) continue;
-        if (!lowest || *found->friction.stiffness_beside < *lowest->friction.stiffness_beside)
+        const Meaning meaning = found ? meaning_of(*found, result.analysis) : Meaning::nothing;
+        if (meaning == Meaning::nothing || (shows && meaning != Meaning::shows)) continue;
+        const bool is_first = !lowest || (!shows && meaning == Meaning::shows);
+        shows = shows || meaning == Meaning::shows;
+        if (is_first || *found->friction.stiffness_beside < *lowest->friction.stiffness_beside)
           lowest = std::move(found);
       } catch (const Error&) {  // no device has such numbers
         continue;
       }
     }
-    if (lowest) break;
+    if (shows) break;
   }
   return lowest;
 }

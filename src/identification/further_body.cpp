@@ -13,6 +13,7 @@
 
 #include "identification/fit_comparison.hpp"
 #include "identification/fit_judgement.hpp"
+#include "identification/link_mode.hpp"
 #include "zwidth/model/parameter.hpp"
 #include "zwidth/quantity.hpp"
 
@@ -31,9 +32,11 @@ DeviceParameters with_further_body(DeviceParameters device, std::size_t at, doub
   while (is_taken()) further.name += "_";
   further.mass = share * device.bodies[at].mass;
   device.bodies[at].mass -= further.mass;
-  const double reduced = (1.0 - share) * further.mass;
   device.bodies.push_back(std::move(further));
-  device.links.push_back({at, device.bodies.size() - 1, w * w * reduced, 2.0 * lightest * w * reduced});
+  Link link{at, device.bodies.size() - 1};
+  link.stiffness = w * w * reduced_mass(device, link);
+  link.damping = link_damping(device, link, lightest);
+  device.links.push_back(link);
   return device;
 }
 

@@ -14,14 +14,13 @@
 #include "identification/friction_in_time.hpp"
 #include "identification/friction_test.hpp"
 #include "identification/further_body.hpp"
-#include "identification/interval_narrowing.hpp"
+#include "identification/interval_judgement.hpp"
 #include "identification/lateness.hpp"
 #include "identification/misfit_doubt.hpp"
 #include "identification/period_choice.hpp"
 #include "identification/recording_agreement.hpp"
 #include "identification/response_choice.hpp"
 #include "identification/ringing_mode.hpp"
-#include "identification/unseen_limit.hpp"
 #include "model/uncertainty_problem.hpp"
 #include "require_valid.hpp"
 #include "zwidth/error.hpp"
@@ -276,22 +275,6 @@ class Fitting {
   bool is_hopeless_ = false;  ///< to be refused, whatever else is fitted
 };
 
-/// `is_measured`: the response shows the limit by itself.
-void judge_interval(Identification& result, bool is_measured, std::span<const Recording> recordings,
-                    const IdentifyOptions& options) {
-  const Device as_fitted = result.fit.device;
-  const Analysis as_analysed = result.analysis;
-  if (is_measured) narrow_interval(result);
-  if (auto ringing = doubt_of_ringing(result, recordings, options)) result.trust.doubt(*std::move(ringing));
-  if (const std::optional<std::string> doubt = doubt_of_interval(result)) return result.trust.doubt(*doubt);
-  const bool was_sound = result.trust.sound();
-  judge_unseen_limit(result, as_fitted, options);
-  if (!was_sound || result.trust.sound()) return;
-  // Another crossover may limit: what is open is open.
-  result.fit.device = as_fitted;
-  result.analysis = as_analysed;
-}
-
 void judge_what_was_given(const Fitting& fitting, Judgement& judgement) {
   if (fitting.ignored_delay()) {
     const Remark remark = ignored_delay_remark(*fitting.ignored_delay(), fitting.fit().fit.device.loop().delay);
@@ -346,12 +329,15 @@ Identification judged(Fitting& fitting, const MeasuredResponse& measured, std::s
   if (!result.trust.refused() && result.analysis.critical.trust.refused()) {
     result.trust.inherit(result.analysis.critical.trust);
   }
-  judge_interval(result, judgement.is_measured, recordings, options);
-  if (const auto further = find_further_body(result, options)) {
-    if (further->without && !has_begun_anew && fitting.begin_anew(*further->without)) {
-      return judged(fitting, measured, recordings, structure, options, true);
+  std::optional<Device> better = judge_interval(result, judgement.is_measured, recordings, options);
+  if (!better || has_begun_anew) {
+    if (const auto further = find_further_body(result, options)) {
+      better = further->without;
+      result.trust.doubt(doubt_of_further_body(*further, result));
     }
-    result.trust.doubt(doubt_of_further_body(*further, result));
+  }
+  if (better && !has_begun_anew && fitting.begin_anew(*better)) {
+    return judged(fitting, measured, recordings, structure, options, true);
   }
   judge_agreement(result, recordings, options);
   judge_friction_in_time(result, recordings, options);

@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "identification/link_mode.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/parameter.hpp"
 
@@ -15,7 +16,6 @@ namespace {
 
 constexpr std::size_t most_candidates = 1200;
 constexpr std::size_t most_starts = 5;
-constexpr double starting_damping_ratio = 0.03;
 
 /// One thing that a candidate chooses, with the choices.
 using Choices = std::vector<double>;
@@ -181,19 +181,17 @@ class Candidates {
     }
   }
 
-  [[nodiscard]] double reduced_mass(const DeviceParameters& device, const Link& link) const {
-    const double first = device.bodies[link.first].mass;
-    const double second = device.bodies[link.second].mass;
-    if (!moves(link.first)) return second;
-    if (!moves(link.second)) return first;
-    return first * second / (first + second);
+  [[nodiscard]] double moving_mass(const DeviceParameters& device, const Link& link) const {
+    if (!moves(link.first)) return device.bodies[link.second].mass;
+    if (!moves(link.second)) return device.bodies[link.first].mass;
+    return reduced_mass(device, link);
   }
 
   void set_springs(DeviceParameters& device, const std::vector<std::size_t>& picked) const {
     for (const auto& [index, choice] : link_choices_) {
       Link& link = device.links[index];
       const double frequency = choices_[choice][picked[choice]];
-      link.stiffness = frequency * frequency * reduced_mass(device, link);
+      link.stiffness = frequency * frequency * moving_mass(device, link);
     }
     for (const auto& [index, choice] : ground_choices_) {
       device.bodies[index].stiffness = choices_[choice][picked[choice]];
@@ -204,11 +202,11 @@ class Candidates {
     for (std::size_t i = 0; i < device.links.size(); ++i) {
       if (!is_free("link." + std::to_string(i) + ".damping")) continue;
       Link& link = device.links[i];
-      link.damping = 2.0 * starting_damping_ratio * std::sqrt(link.stiffness * reduced_mass(device, link));
+      link.damping = 2.0 * typical_damping_ratio * std::sqrt(link.stiffness * moving_mass(device, link));
     }
     for (std::size_t i = 0; i < device.bodies.size(); ++i) {
       if (!is_free(body_key(i, "damping")) || !moves(i)) continue;
-      device.bodies[i].damping = starting_damping_ratio * lowest_ * device.bodies[i].mass;
+      device.bodies[i].damping = typical_damping_ratio * lowest_ * device.bodies[i].mass;
     }
   }
 

@@ -322,7 +322,8 @@ ParameterFit fit_parameters(const Device& structure, const FrequencyResponse& re
 
   const Eigen::VectorXd own = model.position_of(structure.parameters());
   const bool from_data = options.start == ParameterFitOptions::Start::from_data;
-  const std::vector<Start> starts = from_data ? promising_starts(model, points) : starts_near(model, own);
+  const std::vector<Start> starts =
+      from_data ? promising_starts(model, points) : starts_near(model, own, points.back().frequency);
   Solution solution = solve(model, points, starts, options.robust_threshold);
   if (from_data && options.search_widely) {
     solution = searched_widely(model, in_band, std::move(solution), options.robust_threshold);

@@ -96,10 +96,12 @@ ShotCovariance shot_covariance(const ShotSlopes& slopes, const std::vector<bool>
   }
   ShotCovariance result{.known = {},
                         .covariance = Eigen::MatrixXd::Zero(size, size),
+                        .varies = std::vector<bool>(static_cast<std::size_t>(size), false),
                         .pull = {},
                         .pulled_deviation = {},
                         .step = Eigen::VectorXd::Zero(size)};
   const std::vector<Eigen::Index> varied = not_known(regressors, held);
+  for (const Eigen::Index i : varied) result.varies[static_cast<std::size_t>(i)] = true;
   const Eigen::MatrixXd of_varied = regressors(Eigen::all, varied);
   const ResponseWithSlopes at_solution{Eigen::VectorXcd::Ones(rows), of_varied.cast<std::complex<double>>()};
   FitData data;
@@ -108,7 +110,7 @@ ShotCovariance shot_covariance(const ShotSlopes& slopes, const std::vector<bool>
   // Of dampings that nearly make up for each other, one held at 0 shows in what the other cannot follow alone.
   result.pull = result.pulled_deviation = Eigen::VectorXd::Zero(size);
   for (Eigen::Index i = 0; i < size; ++i) {
-    if (!held[static_cast<std::size_t>(i)] || std::ranges::binary_search(varied, i)) continue;
+    if (result.varies[static_cast<std::size_t>(i)]) continue;
     const Eigen::VectorXd own = outside(regressors.col(i), of_varied);
     const double norm = own.norm();
     if (!(norm > 0.0)) continue;

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <optional>
 #include <utility>
 
 #include "identification/motion_residuals.hpp"
 #include "identification/time_domain_start.hpp"
 #include "simulation/continuous_motion.hpp"
+#include "stability/device_draws.hpp"
 #include "zwidth/identification/parameter_fit.hpp"
 #include "zwidth/model/parameter.hpp"
 #include "zwidth/sampling/sampled_plant.hpp"
@@ -39,7 +41,7 @@ ParameterEstimate estimate(const Coordinate& coordinate, double x, bool determin
 }
 
 /// The numbers that the records determine, with their covariance.
-std::vector<Eigen::Index> kept_of(const ShotModel& model, const ShotFit& fit, const ShotCovariance& known) {
+std::vector<Eigen::Index> kept_of(const ShotModel& model, const ShotCovariance& known) {
   std::vector<Eigen::Index> kept;
   for (std::size_t i = 0; i < model.coordinates().size(); ++i) {
     const auto at = static_cast<Eigen::Index>(i);
@@ -47,7 +49,7 @@ std::vector<Eigen::Index> kept_of(const ShotModel& model, const ShotFit& fit, co
     const Coordinate& coordinate = model.coordinates()[i];
     const bool is_of_a_combination = !known.known.determined[i] && variance > 0.0;
     const bool shows = (known.known.determined[i] || is_of_a_combination) && !is_open(coordinate, variance);
-    if (!fit.held[i] && shows) kept.push_back(at);
+    if (known.varies[i] && shows) kept.push_back(at);
   }
   return kept;
 }
@@ -55,7 +57,7 @@ std::vector<Eigen::Index> kept_of(const ShotModel& model, const ShotFit& fit, co
 /// The device at x, known as well as that.
 Device device_at(const ShotModel& model, const ShotFit& fit, const ShotCovariance& known) {
   DeviceParameters fitted = model.parameters_at(fit.x);
-  const std::vector<Eigen::Index> kept = kept_of(model, fit, known);
+  const std::vector<Eigen::Index> kept = kept_of(model, known);
   if (kept.empty() || kept.size() > max_uncertain_parameters) return Device(std::move(fitted));
   Uncertainty uncertainty;
   for (const Eigen::Index i : kept) {
@@ -72,11 +74,10 @@ Device device_at(const ShotModel& model, const ShotFit& fit, const ShotCovarianc
 }
 
 /// Pairs that are known together only.
-std::vector<StrongCorrelation> correlations_of(const ShotModel& model, const ShotFit& fit,
-                                               const ShotCovariance& known) {
+std::vector<StrongCorrelation> correlations_of(const ShotModel& model, const ShotCovariance& known) {
   constexpr double strong = 0.95;
   std::vector<StrongCorrelation> found;
-  std::vector<Eigen::Index> kept = kept_of(model, fit, known);
+  std::vector<Eigen::Index> kept = kept_of(model, known);
   std::erase_if(kept, [&](Eigen::Index i) { return !known.known.determined[static_cast<std::size_t>(i)]; });
   const auto key = [&](Eigen::Index i) { return model.coordinates()[static_cast<std::size_t>(i)].key; };
   for (const Eigen::Index i : kept) {
@@ -87,14 +88,6 @@ std::vector<StrongCorrelation> correlations_of(const ShotModel& model, const Sho
     }
   }
   return found;
-}
-
-/// Within the bounds of what may not be negative.
-void move(const ShotModel& model, Eigen::VectorXd& x, const Eigen::VectorXd& step) {
-  x += step;
-  for (Eigen::Index i = 0; i < x.size(); ++i) {
-    if (model.is_bounded(i)) x(i) = std::max(0.0, x(i));
-  }
 }
 
 /// The model with more numbers to vary than were free, held where they are.
@@ -142,6 +135,16 @@ WiderFit wider_fit(const FittedDevice& fitted, std::vector<std::string> keys, st
 
 }  // namespace
 
+Eigen::VectorXd moved(const ShotModel& model, const Eigen::VectorXd& x, Eigen::VectorXd step,
+                      const Eigen::MatrixXd& covariance) {
+  Eigen::VectorXd bounds = Eigen::VectorXd::Constant(x.size(), -std::numeric_limits<double>::infinity());
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    if (model.is_bounded(i)) bounds(i) = -x(i);
+  }
+  bring_within(step, bounds, covariance);
+  return x + step.cwiseMax(bounds);
+}
+
 void describe_parameters(TimeDomainIdentification& result, const ShotModel& model, const ShotFit& fit,
                          const ShotCovariance& known) {
   for (std::size_t i = 0; i < model.coordinates().size(); ++i) {
@@ -149,7 +152,7 @@ void describe_parameters(TimeDomainIdentification& result, const ShotModel& mode
     result.estimates.push_back(
         estimate(model.coordinates()[i], fit.x(at), known.known.determined[i], known.covariance(at, at)));
   }
-  result.correlations = correlations_of(model, fit, known);
+  result.correlations = correlations_of(model, known);
   for (const std::vector<std::size_t>& combination : known.known.combinations) {
     UnidentifiableCombination each;
     for (const std::size_t k : combination) {
@@ -179,7 +182,7 @@ std::vector<OwnDevice> devices_of_recordings(const FittedDevice& fitted, std::sp
     const auto slopes = shot_slopes(fitted.model, own, fitted.fitted.noise, alone.x, alone.states);
     if (!slopes) continue;
     const ShotCovariance known = shot_covariance(*slopes, alone.held);
-    move(fitted.model, alone.x, known.step);
+    alone.x = moved(fitted.model, alone.x, known.step, known.covariance);
     devices.push_back({recordings[r].source, device_at(fitted.model, alone, known)});
   }
   return devices;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <span>
 #include <string>
 #include <vector>
@@ -16,6 +17,10 @@ namespace zwidth::internal {
 /// Estimates, correlations, what is not identifiable, and the device with its uncertainty.
 void describe_parameters(TimeDomainIdentification& result, const ShotModel& model, const ShotFit& fit,
                          const ShotCovariance& known);
+
+/// x after a step, within the bounds of what may not be negative (bring_within()).
+[[nodiscard]] Eigen::VectorXd moved(const ShotModel& model, const Eigen::VectorXd& x, Eigen::VectorXd step,
+                                    const Eigen::MatrixXd& covariance);
 
 /// Where a fit of shots came to rest.
 struct FittedDevice {

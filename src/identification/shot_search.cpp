@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -52,19 +53,26 @@ std::optional<FittedShots> least_bad(std::vector<std::optional<SearchEnd>> ends)
 
 std::vector<std::optional<SearchEnd>> ShotSearch::from_each(const std::vector<SearchStart>& starts,
                                                             const std::vector<Shot>& shots) const {
-  std::vector<std::optional<SearchEnd>> ends(starts.size());
-  tbb::parallel_for(std::size_t{0}, starts.size(), [&](std::size_t i) {
+  constexpr std::array ways{From::recorded_states, From::fitted_states};
+  std::vector<std::optional<SearchEnd>> all(starts.size() * ways.size());
+  tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
+    const SearchStart& start = starts[i / ways.size()];
     const ShotModel model = model_;  // it keeps the motions that it played last
     const ShotSearch search(model, steps_, order_);
-    auto found = search.from(starts[i].x, shots);
+    auto found = search.from(start.x, shots, ways[i % ways.size()]);
     if (!found) return;
-    const double badness = search.badness(*found, shots) + starts[i].handicap;
-    ends[i] = SearchEnd{*std::move(found), badness};
+    const double badness = search.badness(*found, shots) + start.handicap;
+    all[i] = SearchEnd{*std::move(found), badness};
   });
+  std::vector<std::optional<SearchEnd>> ends(starts.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    std::optional<SearchEnd>& end = ends[i / ways.size()];
+    if (all[i] && (!end || all[i]->badness < end->badness)) end = std::move(all[i]);
+  }
   return ends;
 }
 
-std::optional<FittedShots> ShotSearch::from(const Eigen::VectorXd& x, const std::vector<Shot>& shots) const {
+std::optional<FittedShots> ShotSearch::from(const Eigen::VectorXd& x, const std::vector<Shot>& shots, From from) const {
   // Friction in the place of damping changes slow motion, which white noise weighs most: masses and links would follow it.
   ShotFit start{x, model_.recorded_states(shots), std::vector<bool>(static_cast<std::size_t>(x.size()), false)};
   for (std::size_t i = 0; i < model_.coordinates().size(); ++i) {
@@ -78,6 +86,11 @@ std::optional<FittedShots> ShotSearch::from(const Eigen::VectorXd& x, const std:
     double squares = 0.0;
     for (std::size_t k = 1; k < position.size(); ++k) squares += std::pow(position[k] - position[k - 1], 2);
     white[r].deviation = std::sqrt(squares / static_cast<double>(position.size())) + 1e-300;
+  }
+  if (from == From::fitted_states) {
+    auto states = states_alone(x, shots, white);
+    if (!states) return std::nullopt;
+    start.states = *std::move(states);
   }
   constexpr int few = 8;
   constexpr double coarse = 1e-3;
@@ -97,14 +110,24 @@ std::optional<FittedShots> ShotSearch::with_noise(const ShotFit& start, const st
   return FittedShots{*std::move(fit), std::move(noise)};
 }
 
+std::optional<std::vector<Eigen::VectorXd>> ShotSearch::states_alone(const Eigen::VectorXd& x,
+                                                                     const std::vector<Shot>& shots,
+                                                                     const std::vector<ShotNoise>& noise) const try {
+  const Eigen::VectorXd constants = x.tail(static_cast<Eigen::Index>(model_.records().size()));
+  auto fit = fit_shots(model_.at(x), shots, noise, {constants, model_.recorded_states(shots)}, constants,
+                       {.most_iterations = 20, .tolerance = 1e-4});
+  if (!fit) return std::nullopt;
+  return std::move(fit->states);
+} catch (const Error&) {  // no device has these numbers
+  return std::nullopt;
+}
+
 double ShotSearch::restart_states(ShotFit& fit, const std::vector<Shot>& shots,
-                                  const std::vector<ShotNoise>& noise) const try {
-  const Eigen::VectorXd constants = fit.x.tail(static_cast<Eigen::Index>(model_.records().size()));
-  const auto again = fit_shots(model_.at(fit.x), shots, noise, {constants, model_.recorded_states(shots)}, constants,
-                               {.most_iterations = 20, .tolerance = 1e-4});
+                                  const std::vector<ShotNoise>& noise) const {
+  const auto again = states_alone(fit.x, shots, noise);
   if (!again) return 0.0;
   const auto before = shot_residuals(model_, shots, fit.x, fit.states);
-  const auto after = shot_residuals(model_, shots, fit.x, again->states);
+  const auto after = shot_residuals(model_, shots, fit.x, *again);
   if (!before || !after) return 0.0;
   double gain = 0.0;
   for (std::size_t i = 0; i < shots.size(); ++i) {
@@ -112,11 +135,9 @@ double ShotSearch::restart_states(ShotFit& fit, const std::vector<Shot>& shots,
     const double fall = misfit(*before) - misfit(*after);
     if (!(fall > 0.0)) continue;
     gain += 0.5 * fall;
-    fit.states[i] = again->states[i];
+    fit.states[i] = (*again)[i];
   }
   return gain;
-} catch (const Error&) {  // no device has these numbers
-  return 0.0;
 }
 
 double ShotSearch::badness(const FittedShots& fitted, const std::vector<Shot>& shots) const {

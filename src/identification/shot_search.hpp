@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -48,8 +49,9 @@ class ShotSearch {
   ShotSearch(const ShotModel& model, std::vector<double> steps, std::size_t order)
       : model_(model), steps_(std::move(steps)), order_(order) {}
 
-  /// From each, side by side, with states from the record: as if the noise were white, what a linear fit does not tell from
-  /// friction alone, then all under the noise of the residuals. In the order of the starts; each as if it were alone.
+  /// From each, side by side: as if the noise were white, what a linear fit does not tell from friction alone, then all
+  /// under the noise of the residuals. With the states of the record, and with those fitted alone: of either some searches
+  /// end in side minima, and the better one counts. In the order of the starts; each as if it were alone.
   [[nodiscard]] std::vector<std::optional<SearchEnd>> from_each(const std::vector<SearchStart>& starts,
                                                                 const std::vector<Shot>& shots) const;
 
@@ -57,6 +59,12 @@ class ShotSearch {
   [[nodiscard]] std::optional<FittedShots> with_noise(const ShotFit& start, const std::vector<Shot>& shots,
                                                       const Eigen::VectorXd& towards,
                                                       const ShotFitOptions& options) const;
+
+  /// The states while the parameters stay: from the record, fitted alone. Those of the record are a poor start where all is
+  /// free at once: the parameters follow the states' error, and between kinks of friction they do not come back.
+  [[nodiscard]] std::optional<std::vector<Eigen::VectorXd>> states_alone(const Eigen::VectorXd& x,
+                                                                         const std::vector<Shot>& shots,
+                                                                         const std::vector<ShotNoise>& noise) const;
 
   /// For each shot its states, or those found from the record again while the parameters stay: the better ones. By how
   /// much the log-likelihood grows.
@@ -66,7 +74,9 @@ class ShotSearch {
   [[nodiscard]] double badness(const FittedShots& fitted, const std::vector<Shot>& shots) const;
 
  private:
-  [[nodiscard]] std::optional<FittedShots> from(const Eigen::VectorXd& x, const std::vector<Shot>& shots) const;
+  enum class From : std::uint8_t { recorded_states, fitted_states };
+  [[nodiscard]] std::optional<FittedShots> from(const Eigen::VectorXd& x, const std::vector<Shot>& shots,
+                                                From from) const;
 
   const ShotModel& model_;
   std::vector<double> steps_;

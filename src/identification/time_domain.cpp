@@ -129,10 +129,7 @@ bool asks_for_more(const Round& round) {
 /// Where the slopes point to, past the kinks.
 ShotFit beyond(const ShotModel& model, const Round& round) {
   ShotFit fit = round.fitted.fit;
-  fit.x += round.known.step;
-  for (Eigen::Index i = 0; i < fit.x.size(); ++i) {
-    if (model.is_bounded(i)) fit.x(i) = std::max(0.0, fit.x(i));
-  }
+  fit.x = moved(model, fit.x, round.known.step, round.known.covariance);
   return fit;
 }
 
@@ -225,16 +222,23 @@ TimeDomainIdentification identify_in_time(std::span<const Recording> recordings,
   const std::vector<Shot> shots = cut_into_shots(records, start.device, options.segment, least);
   const Eigen::VectorXd towards = best->fit.x;
   // The noise of a few short shots is not yet that of the whole: what a longer search under it finds, the next undoes.
-  std::optional<ShotFit> whole = fit_shots(model, shots, best->noise, {towards, model.recorded_states(shots)}, towards,
-                                           {.most_iterations = 6, .tolerance = 5e-4});
+  std::optional<ShotFit> whole;
+  if (const auto states = search.states_alone(towards, shots, best->noise)) {
+    whole =
+        fit_shots(model, shots, best->noise, {towards, *states}, towards, {.most_iterations = 6, .tolerance = 5e-4});
+  }
   std::optional<Round> found;  // the best
   constexpr int most_rounds = 5;
+  constexpr int most_rounds_downhill = 20;
+  constexpr double steep = 50.0;  // of the log-likelihood, in a round: along a valley of kinks
   constexpr int most_leaps = 2;
   constexpr double notable = 2.0;  // of the log-likelihood
   int leaps = 0;
+  double fall = 0.0;
   bool is_at_rest = false;
   if (whole) take_short_lag_for_delay(model, *whole);
-  for (int round = 0; whole && round < most_rounds + leaps; ++round) {
+  for (int round = 0; whole && (round < most_rounds + leaps || (fall > steep && round < most_rounds_downhill));
+       ++round) {
     if (is_at_rest) {
       const bool leaps_on = asks_for_more(*found);
       if (leaps_on) whole = beyond(model, *found);
@@ -250,6 +254,7 @@ TimeDomainIdentification identify_in_time(std::span<const Recording> recordings,
     whole = now->fitted.fit;
     is_at_rest = !release(*whole, now->known) && stands_still(before, whole->x, now->known.covariance);
     now->is_at_rest = is_at_rest;
+    fall = found ? found->badness - now->badness : 0.0;
     const double allowed = found && is_at_rest && !found->is_at_rest ? notable : 0.0;
     if (!found || now->badness < found->badness + allowed) found = std::move(now);
   }

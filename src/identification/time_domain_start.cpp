@@ -10,6 +10,7 @@
 #include "identification/alike_devices.hpp"
 #include "identification/fit_judgement.hpp"
 #include "identification/lateness.hpp"
+#include "identification/link_mode.hpp"
 #include "simulation/continuous_motion.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/parameter.hpp"
@@ -47,43 +48,9 @@ const Recording& strongest(std::span<const Recording> recordings) {
   return *std::ranges::max_element(recordings, {}, [](const Recording& each) { return sizes_of(each).force; });
 }
 
-double reduced_mass(const DeviceParameters& device, const Link& link) {
-  const double first = device.bodies[link.first].mass;
-  const double second = device.bodies[link.second].mass;
-  return first * second / (first + second);
-}
-
-/// Of a damping ratio of 3 % between the link's bodies.
-double typical_damping(const DeviceParameters& device, const Link& link) {
-  constexpr double ratio = 0.03;
-  return 2.0 * ratio * std::sqrt(link.stiffness * reduced_mass(device, link));
-}
-
 double typical_link_damping(const Device& device, const std::string& key) {
   const auto dot = key.find('.');
-  return typical_damping(device.parameters(), device.links().at(std::stoul(key.substr(dot + 1))));
-}
-
-/// Links that damp and hardly spring, as a fit has them where bodies move as one in the band, with their mode at twice
-/// `highest`: the first is too stiff to be played, and a search in time does not leave it.
-Device with_springs(const Device& device, const std::vector<std::string>& free, double highest) {
-  DeviceParameters parameters = device.parameters();
-  parameters.uncertainty.reset();
-  bool is_changed = false;
-  for (std::size_t i = 0; i < parameters.links.size(); ++i) {
-    const std::string stiffness = fmt::format("link.{}.stiffness", i);
-    const std::string damping = fmt::format("link.{}.damping", i);
-    if (std::ranges::count(free, stiffness) == 0 || std::ranges::count(free, damping) == 0) continue;
-    Link& link = parameters.links[i];
-    const double mass = reduced_mass(parameters, link);
-    constexpr double hardly_springs = 1.0;  // damping ratio
-    if (link.damping < 2.0 * hardly_springs * std::sqrt(link.stiffness * mass)) continue;
-    constexpr double above = 2.0;
-    link.stiffness = std::pow(above * highest, 2) * mass;
-    link.damping = typical_damping(parameters, link);
-    is_changed = true;
-  }
-  return is_changed ? Device(std::move(parameters)) : device;
+  return link_damping(device.parameters(), device.links().at(std::stoul(key.substr(dot + 1))), typical_damping_ratio);
 }
 
 /// A part of the delay as lag where there is none: from 0 itself a search does not see it.
@@ -162,7 +129,11 @@ TimeDomainStart time_domain_start(std::span<const Recording> recordings, const D
     }
     start.shows_other_delay = found.ignored_delay.has_value();
     if (takes_all) start.free = keys_of(found.fit);
-    start.device = with_springs(start.device, start.free, start.highest);
+    constexpr double above = 2.0;  // the band
+    // A link that only damps is too stiff to be played, and a search in time does not leave it.
+    if (auto springs = with_springs(start.device.parameters(), start.free, above * start.highest)) {
+      start.device = Device(*std::move(springs));
+    }
   }
   if (takes_all) {
     const auto add = [&](const std::string& key) {

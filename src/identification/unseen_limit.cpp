@@ -13,6 +13,7 @@
 
 #include "identification/fit_comparison.hpp"
 #include "identification/fit_judgement.hpp"
+#include "identification/link_mode.hpp"
 #include "percent.hpp"
 #include "stability/device_draws.hpp"
 #include "zwidth/error.hpp"
@@ -111,9 +112,8 @@ std::vector<HeldStart> light_modes(const DeviceParameters& fitted, std::size_t i
   const double compliance = std::pow(second / sum, 2) / link.stiffness;
   first = sum / (1.0 + compliance * sum * w * w);
   second = sum - first;
-  const double reduced = first * second / sum;
-  link.stiffness = w * w * reduced;
-  link.damping = std::min(link.damping, 2.0 * lightest * w * reduced);
+  link.stiffness = w * w * reduced_mass(light, link);
+  link.damping = std::min(link.damping, link_damping(light, link, lightest));
   const std::string key = fmt::format("link.{}", i);
   const std::set<std::string> held_link{key + ".damping", key + ".stiffness"};
   std::vector<HeldStart> starts{{light, {}}, {light, held_link}, {light, held_link}};
@@ -134,9 +134,37 @@ std::vector<HeldStart> light_modes(const DeviceParameters& fitted, std::size_t i
   return starts;
 }
 
-/// A mode above the band of which the record shows neither the damping nor where it is.
-std::optional<UnseenLimit> of_a_light_mode(const Identification& result, const IdentifyOptions& options,
-                                           const auto& limits) {
+/// Where searches from elsewhere end.
+struct Elsewhere {
+  std::optional<CriticalStiffness> limit;  ///< the first that one comes to
+  std::optional<ParameterFit> best;        ///< that explains the record best
+};
+
+/// Of those fits that may be the device.
+Elsewhere searched_elsewhere(const std::vector<HeldStart>& starts, const Identification& result,
+                             const IdentifyOptions& options, const auto& limits, const auto& may_be) {
+  struct End {
+    ParameterFit fit;
+    CriticalStiffness critical;
+  };
+  std::vector<std::optional<End>> ends(starts.size());
+  tbb::parallel_for(std::size_t{0}, starts.size(), [&](std::size_t i) {
+    auto fit = fitted_from(starts[i].device, free_beside(starts[i].held, result), result, options);
+    if (!fit || !may_be(*fit)) return;
+    CriticalStiffness critical = limit_of(fit->device);
+    ends[i] = {*std::move(fit), std::move(critical)};
+  });
+  Elsewhere elsewhere;
+  for (std::optional<End>& end : ends) {
+    if (!end) continue;
+    if (!elsewhere.limit && limits(end->critical)) elsewhere.limit = std::move(end->critical);
+    if (!elsewhere.best || explains_more(end->fit, *elsewhere.best)) elsewhere.best = std::move(end->fit);
+  }
+  return elsewhere;
+}
+
+/// Starts with a mode above the band of which the record shows neither the damping nor where it is.
+std::vector<HeldStart> all_light_modes(const Identification& result) {
   const std::vector<std::string> keys = keys_of(result.fit);
   const std::set<std::string> free(keys.begin(), keys.end());
   const DeviceParameters& fitted = result.fit.device.parameters();
@@ -144,9 +172,10 @@ std::optional<UnseenLimit> of_a_light_mode(const Identification& result, const I
   std::vector<HeldStart> starts;
   for (std::size_t i = 0; i < fitted.links.size(); ++i) {
     if (!free.contains(fmt::format("link.{}.damping", i))) continue;
-    const Body& first = fitted.bodies[fitted.links[i].first];
-    const Body& second = fitted.bodies[fitted.links[i].second];
-    const double own = std::sqrt(fitted.links[i].stiffness * (first.mass + second.mass) / (first.mass * second.mass));
+    const Link& link = fitted.links[i];
+    const Body& first = fitted.bodies[link.first];
+    const Body& second = fitted.bodies[link.second];
+    const double own = std::sqrt(link.stiffness / reduced_mass(fitted, link));
     const bool may_move = free.contains(fmt::format("link.{}.stiffness", i)) &&
                           free.contains(fmt::format("body.{}.mass", first.name)) &&
                           free.contains(fmt::format("body.{}.mass", second.name));
@@ -158,16 +187,7 @@ std::optional<UnseenLimit> of_a_light_mode(const Identification& result, const I
       for (HeldStart& each : light_modes(fitted, i, w, free)) starts.push_back(std::move(each));
     }
   }
-  std::vector<std::optional<CriticalStiffness>> found(starts.size());
-  tbb::parallel_for(std::size_t{0}, starts.size(), [&](std::size_t i) {
-    const auto fit = fitted_from(starts[i].device, free_beside(starts[i].held, result), result, options);
-    if (!fit || is_contradicted(*fit, result.fit, result.response.line_correlation)) return;
-    CriticalStiffness critical = limit_of(fit->device);
-    if (limits(critical)) found[i] = std::move(critical);
-  });
-  const auto first = std::ranges::find_if(found, [](const auto& each) { return each.has_value(); });
-  if (first == found.end()) return std::nullopt;
-  return UnseenLimit{"the record does not show how much a mode above it is damped: hardly at all,", **std::move(first)};
+  return starts;
 }
 
 /// Numbers of devices with other values of what the data do not show to a factor of less than 2: masses, stiffnesses, delay and lag
@@ -202,10 +222,7 @@ class OtherValues {
       Link& link = other.links[i];
       vary(link.stiffness, fmt::format("link.{}.stiffness", i));
       if (!is_open(fmt::format("link.{}.damping", i))) continue;
-      const double first = other.bodies[link.first].mass;
-      const double second = other.bodies[link.second].mass;
-      const double ratio = 0.022 * std::pow(4.5, std::clamp(normal_.next(), -1.0, 1.0));
-      link.damping = 2.0 * ratio * std::sqrt(link.stiffness * first * second / (first + second));
+      link.damping = link_damping(other, link, 0.022 * std::pow(4.5, std::clamp(normal_.next(), -1.0, 1.0)));
     }
     vary(other.loop.delay, "loop.delay");
     vary(other.actuator.time_constant, "actuator.time_constant");
@@ -224,32 +241,34 @@ class OtherValues {
   NormalDraws normal_{1};
 };
 
-/// A fit from other values of what is open, as good as the first, that limits elsewhere.
-std::optional<UnseenLimit> from_other_values(const Identification& result, const IdentifyOptions& options,
-                                             const auto& limits) {
-  constexpr std::size_t starts = 24;  // of 60 tried on one such record 17 came to another limit, none of the first 12
+/// Starts from other values of what is open.
+std::vector<HeldStart> other_values(const Identification& result) {
+  constexpr std::size_t many = 24;  // of 60 tried on one such record 17 came to another limit, none of the first 12
   OtherValues values(result);
-  if (!values.exist()) return std::nullopt;
-  std::vector<DeviceParameters> others;
-  for (std::size_t i = 0; i < starts; ++i) others.push_back(values.next());
-  std::vector<std::optional<CriticalStiffness>> found(starts);
-  tbb::parallel_for(std::size_t{0}, starts, [&](std::size_t i) {
-    const auto fit = fitted_from(others[i], keys_of(result.fit), result, options);
-    if (!fit || !explains_as_much(*fit, result.fit, result.response.line_correlation)) return;
-    CriticalStiffness critical = limit_of(fit->device);
-    if (limits(critical)) found[i] = std::move(critical);
-  });
-  const auto first = std::ranges::find_if(found, [](const auto& each) { return each.has_value(); });
-  if (first == found.end()) return std::nullopt;
-  return UnseenLimit{"the record leaves numbers open: with others that explain it as well", **std::move(first)};
+  std::vector<HeldStart> starts;
+  while (values.exist() && starts.size() < many) starts.push_back({values.next(), {}});
+  return starts;
+}
+
+/// The device of a fit, all its numbers fitted anew, where the answer's fit cannot stand beside it.
+std::optional<Device> better_device(const ParameterFit& fit, const Identification& result,
+                                    const IdentifyOptions& options) {
+  const auto is_better = [&](const ParameterFit& other) {
+    return is_contradicted(result.fit, other, result.response.line_correlation);
+  };
+  if (!is_better(fit)) return std::nullopt;
+  auto all = fitted_from(fit.device.parameters(), keys_of(result.fit), result, options);
+  if (!all || !is_better(*all)) return std::nullopt;
+  return std::move(all->device);
 }
 
 }  // namespace
 
-void judge_unseen_limit(Identification& result, const Device& as_fitted, const IdentifyOptions& options) {
+std::optional<Device> judge_unseen_limit(Identification& result, const Device& as_fitted,
+                                         const IdentifyOptions& options) {
   const DeviceParameters& parameters = as_fitted.parameters();
-  if (options.scrutiny == IdentifyOptions::Scrutiny::of_fit) return;
-  if (!result.trust.sound() || !parameters.uncertainty || !result.analysis.interval) return;
+  if (options.scrutiny == IdentifyOptions::Scrutiny::of_fit) return std::nullopt;
+  if (!result.trust.sound() || !parameters.uncertainty || !result.analysis.interval) return std::nullopt;
   const std::vector<double>& lines = result.fit.frequencies;
   const double lower = result.analysis.interval->lower;
   const auto limits = [&](const CriticalStiffness& critical) {
@@ -261,15 +280,26 @@ void judge_unseen_limit(Identification& result, const Device& as_fitted, const I
   for (const ParameterEstimate& each : result.fit.estimates) {
     if (!unseen) unseen = at_an_end(as_fitted, each, result, options, limits);
   }
-  if (!unseen) unseen = of_a_light_mode(result, options, limits);
-  if (!unseen) unseen = from_other_values(result, options, limits);
-  if (!unseen) return;
+  const double correlation = result.response.line_correlation;
+  const auto is_as_good = [&](const ParameterFit& fit) { return explains_as_much(fit, result.fit, correlation); };
+  const auto may_be = [&](const ParameterFit& fit) { return !is_contradicted(fit, result.fit, correlation); };
+  std::optional<Device> better;
+  const auto look = [&](const std::vector<HeldStart>& starts, const auto& is_allowed, const char* why) {
+    if (unseen || better) return;
+    Elsewhere elsewhere = searched_elsewhere(starts, result, options, limits, is_allowed);
+    if (elsewhere.best) better = better_device(*elsewhere.best, result, options);
+    if (elsewhere.limit) unseen = UnseenLimit{why, *std::move(elsewhere.limit)};
+  };
+  look(all_light_modes(result), may_be, "the record does not show how much a mode above it is damped: hardly at all,");
+  look(other_values(result), is_as_good, "the record leaves numbers open: with others that explain it as well");
+  if (!unseen) return better;
   const double frequency = unseen->critical.limit->frequency;
   const bool is_above = frequency > lines.back();
   result.trust.doubt(
       fmt::format("{} a crossover near {:.4g} Hz, {} the measured band, may limit at {:.4g} {}; excite {} frequencies",
                   unseen->why, hertz(frequency), is_above ? "above" : "below", unseen->critical.stiffness,
                   units_of(parameters.motion).stiffness, is_above ? "higher" : "lower"));
+  return better;
 }
 
 }  // namespace zwidth::internal

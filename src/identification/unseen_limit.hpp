@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "zwidth/identification/identification.hpp"
 #include "zwidth/trust.hpp"
 
@@ -11,6 +13,10 @@ namespace zwidth::internal {
 /// the band, that is damped by 0.1 % of the critical damping; or in one of 24 fits that begin with other values of what the data do not
 /// show and explain the response as well. Within the band the response itself says that there is none. `as_fitted`: the
 /// device with all that the fit leaves open, of which the response may have narrowed result's.
-void judge_unseen_limit(Identification& result, const Device& as_fitted, const IdentifyOptions& options);
+///
+/// Returns another device near which the same numbers explain the record by so much more that the answer's cannot be the
+/// device's, where these searches come to one: the answer's had ended beside it.
+[[nodiscard]] std::optional<Device> judge_unseen_limit(Identification& result, const Device& as_fitted,
+                                                       const IdentifyOptions& options);
 
 }  // namespace zwidth::internal

@@ -47,10 +47,8 @@ Eigen::MatrixXd square_root(Eigen::MatrixXd matrix) {
   return deviation.asDiagonal() * eigen.vectors * eigen.values.cwiseMax(0.0).cwiseSqrt().asDiagonal();
 }
 
-/// The shifts' nearest within their bounds, as the covariance measures distance: where one number goes to its bound,
-/// the others follow by regression, so that what is known of them together stays so.
-///
-///     d + C_i (b_i - d_i) / C_ii        and of the others C - C_i C_i' / C_ii, until none is beyond its bound
+}  // namespace
+
 void bring_within(Eigen::VectorXd& shifts, const Eigen::VectorXd& bounds, const Eigen::MatrixXd& of_draws) {
   if ((shifts.array() >= bounds.array()).all()) return;
   Eigen::MatrixXd covariance = of_draws;
@@ -71,8 +69,6 @@ void bring_within(Eigen::VectorXd& shifts, const Eigen::VectorXd& bounds, const 
     covariance.col(farthest).setZero();
   }
 }
-
-}  // namespace
 
 double NormalDraws::next() {
   if (has_spare_) {
