@@ -80,7 +80,7 @@ bool explains_notably_more(const ParameterFit& other, const ParameterFit& first,
     point = std::ranges::lower_bound(point, response.points.end(), first.frequencies[i], {}, &ResponsePoint::frequency);
     if (point == response.points.end()) return false;
     const double variance = point->variance + std::norm(first.model_error * first.fitted[i]);
-    left += std::norm(first.residuals[i]) / variance;
+    left += std::norm(other.residuals[i]) / variance;
     gains[i] = (std::norm(first.residuals[i]) - std::norm(other.residuals[i])) / variance;
   }
   std::ranges::nth_element(gains, gains.begin() + outliers, std::greater{});

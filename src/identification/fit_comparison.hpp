@@ -27,7 +27,7 @@ namespace zwidth::internal {
 [[nodiscard]] bool explains_as_much(const ParameterFit& other, const ParameterFit& first, double line_correlation);
 
 /// Whether another fit of a response leaves so much less that not even five deviations of what tells them apart account for it:
-/// of chi^2 by the first's own residuals, with what it leaves unexplained counted as noise. The three lines that gain most do
+/// of chi^2 by the other's residuals, with what the first leaves unexplained counted as noise. The three lines that gain most do
 /// not count (of few periods the variance of a line is a guess), nor does less than a tenth of all.
 [[nodiscard]] bool explains_notably_more(const ParameterFit& other, const ParameterFit& first,
                                          const FrequencyResponse& response);

@@ -42,11 +42,13 @@ DeviceParameters with_further_body(DeviceParameters device, std::size_t at, doub
 
 std::string mass_key(const Body& body) { return fmt::format("body.{}.mass", body.name); }
 
-/// The numbers of the fit, and of the further body its mass and its link's stiffness.
+/// The numbers of the fit, and of the further body its mass and its link's.
 std::vector<std::string> free_with(const DeviceParameters& start, const Identification& result) {
   std::vector<std::string> free = keys_of(result.fit);
   free.push_back(mass_key(start.bodies.back()));
-  free.push_back(fmt::format("link.{}.stiffness", start.links.size() - 1));
+  for (const char* what : {"stiffness", "damping"}) {
+    free.push_back(fmt::format("link.{}.{}", start.links.size() - 1, what));
+  }
   return free;
 }
 
