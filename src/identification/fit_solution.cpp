@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <string>
 #include <utility>
@@ -46,16 +47,26 @@ Error no_convergence() {
           "bodies, free fewer parameters, or start from values that are nearly right"};
 }
 
-/// Mean square of the misfit over the deviations that go with a model error, each point's share bounded.
+/// What the fit at x leaves of each point, over the deviations that go with a model error.
+std::vector<std::complex<double>> left_by(const FitModel& model, const std::vector<ResponsePoint>& points,
+                                          const Eigen::VectorXd& x, double model_error) {
+  const FitData data = fit_data(points, model_error);
+  const Eigen::VectorXcd values = model.response_at(x, data.frequencies);
+  std::vector<std::complex<double>> left(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    left[i] = (data.measured[i] - values(static_cast<Eigen::Index>(i))) / data.deviations[i];
+  }
+  return left;
+}
+
+/// Mean square of that, each point's share bounded.
 double mean_misfit(const FitModel& model, const std::vector<ResponsePoint>& points, const Eigen::VectorXd& x,
                    double model_error) {
   constexpr double most = 100.0;
-  const FitData data = fit_data(points, model_error);
-  const Eigen::VectorXcd values = model.response_at(x, data.frequencies);
   double sum = 0.0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const double off = std::abs(values(static_cast<Eigen::Index>(i)) - data.measured[i]) / data.deviations[i];
-    sum += std::isfinite(off) ? std::min(off * off, most) : most;
+  for (const std::complex<double>& each : left_by(model, points, x, model_error)) {
+    const double square = std::norm(each);
+    sum += std::isfinite(square) ? std::min(square, most) : most;
   }
   return sum / static_cast<double>(points.size());
 }
@@ -76,18 +87,6 @@ bool are_alike(const std::vector<std::complex<double>>& left, double line_correl
   }
   constexpr auto means = static_cast<double>(farthest - nearest + 1);
   return products / means > clear * squares * std::sqrt(line_correlation / (2.0 * means * lines));
-}
-
-/// Of the noise's deviations.
-std::vector<std::complex<double>> left_by(const FitModel& model, const std::vector<ResponsePoint>& points,
-                                          const Eigen::VectorXd& x) {
-  const FitData data = fit_data(points, 0.0);
-  const Eigen::VectorXcd values = model.response_at(x, data.frequencies);
-  std::vector<std::complex<double>> left(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    left[i] = (data.measured[i] - values(static_cast<Eigen::Index>(i))) / data.deviations[i];
-  }
-  return left;
 }
 
 /// The best of a solution and those reached from different positions, as it shows at some of the points.
@@ -193,11 +192,11 @@ Solution solve(const FitModel& model, const std::vector<ResponsePoint>& points, 
   rough.tolerance = 1e-5;
   Solution best;
   best.model_error = std::numeric_limits<double>::infinity();
-  double best_cost = best.model_error;
+  double best_misfit = best.model_error;
   std::vector<LeastSquares> fits(starts.size());
   std::vector<double> errors(starts.size());
   tbb::parallel_for(std::size_t{0}, starts.size(), [&](std::size_t i) {
-    // Weighted by what a start is off, lines tell little: what it comes to is compared with others under its own error.
+    // Weighted by what a start is off, lines tell little.
     constexpr int rough_rounds = 3;
     fits[i].x = starts[i].x;
     double error = model_error_of(points, model.response_at(fits[i].x, all.frequencies));
@@ -209,9 +208,11 @@ Solution solve(const FitModel& model, const std::vector<ResponsePoint>& points, 
     }
   });
   for (std::size_t i = 0; i < starts.size(); ++i) {  // the one that explains the data best
-    if (std::pair(errors[i], fits[i].cost) < std::pair(best.model_error, best_cost)) {
+    if (!fits[i].x.allFinite()) continue;
+    const double misfit = mean_misfit(model, points, fits[i].x, errors[i]);
+    if (std::pair(errors[i], misfit) < std::pair(best.model_error, best_misfit)) {
       best = {fits[i].x, errors[i], starts[i].pull, fits[i].converged};
-      best_cost = fits[i].cost;
+      best_misfit = misfit;
     }
   }
   if (best.x.size() == 0) throw no_convergence();
@@ -235,7 +236,7 @@ Solution searched_widely(const FitModel& model, const FrequencyResponse& respons
   const bool is_noise_known = std::ranges::all_of(points, [](const ResponsePoint& p) { return p.variance > 0.0; });
   if (!is_noise_known) return found;
   const bool is_explained = mean_misfit(model, points, found.x, 0.0) < poor &&
-                            !are_alike(left_by(model, points, found.x), response.line_correlation);
+                            !are_alike(left_by(model, points, found.x, 0.0), response.line_correlation);
   if (is_explained) return found;
   const ResponseFeatures features = response_features(points);
   return searched_from(features, thinned(points, features, points_for_search), model, points, std::move(found),

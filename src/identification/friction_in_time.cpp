@@ -18,6 +18,8 @@
 #include "identification/fit_judgement.hpp"
 #include "identification/friction_test.hpp"
 #include "identification/shot_covariance.hpp"
+#include "identification/shot_fit.hpp"
+#include "identification/shot_noise.hpp"
 #include "identification/shot_search.hpp"
 #include "identification/time_domain_start.hpp"
 #include "simulation/continuous_motion.hpp"
@@ -50,18 +52,17 @@ struct Follower {
 
 /// With one element of x, the friction, that stays; at first under `noise`, since that of states that were not fitted would
 /// pass for drift. Nothing where no such device can be followed.
-std::optional<FittedShots> with_held_friction(const Follower& follower, ShotFit start, Eigen::Index friction,
-                                              double value, const std::vector<ShotNoise>& noise,
-                                              const Eigen::VectorXd& towards) {
+std::optional<FittedShots> with_held_friction(const Follower& follower, Eigen::VectorXd x, Eigen::Index friction,
+                                              double value, const std::vector<ShotNoise>& noise) {
   const auto& [model, search, shots] = follower;
-  start.x(friction) = value;
-  start.held.assign(static_cast<std::size_t>(start.x.size()), false);
-  start.held[static_cast<std::size_t>(friction)] = true;
-  auto states = search.states_alone(start.x, shots, noise);
-  if (!states) return std::nullopt;
-  start.states = *std::move(states);
+  const Eigen::VectorXd towards = x;
+  x(friction) = value;
+  auto start = search.with_fitted_states(x, shots, noise, ShotSearch::Constants::fitted);
+  if (!start) return std::nullopt;
+  start->held.assign(static_cast<std::size_t>(x.size()), false);
+  start->held[static_cast<std::size_t>(friction)] = true;
   constexpr ShotFitOptions brief{.most_iterations = 12, .tolerance = 1e-5};
-  const auto fit = fit_shots(model, shots, noise, start, towards, brief);
+  const auto fit = fit_shots(model, shots, noise, *std::move(start), towards, brief);
   if (!fit) return std::nullopt;
   return search.with_noise(*fit, shots, towards, brief);
 }
@@ -129,8 +130,7 @@ std::optional<FrictionBeside> more_friction(const FrictionFit& fit, const Fricti
   if (!may_be_far) return std::nullopt;
   double most = -std::numeric_limits<double>::infinity();  // of the gains so far; of a part the whole will tell
   for (const double share : shares) {
-    const auto held =
-        with_held_friction(fit.follower, fit.best.fit, fit.at, x(fit.at) + share * deviation, fit.best.noise, x);
+    const auto held = with_held_friction(fit.follower, x, fit.at, x(fit.at) + share * deviation, fit.best.noise);
     if (!held) continue;
     const double gain = fit.linear_badness - fit.follower.search.badness(*held, fit.follower.shots);
     if (!best.is_of_a_part) most = std::max(most, gain);
@@ -209,7 +209,7 @@ std::optional<FrictionBeside> friction_beside(const Identification& result, cons
   const std::size_t last = start.free.size() - 1;
   const auto at = static_cast<Eigen::Index>(last);
   const Eigen::VectorXd of_linear = model.position_of(linear.parameters());
-  const auto without = with_held_friction({model, search, shots}, {of_linear}, at, 0.0, best->noise, of_linear);
+  const auto without = with_held_friction({model, search, shots}, of_linear, at, 0.0, best->noise);
   const double linear_badness = without ? search.badness(*without, shots) : std::numeric_limits<double>::infinity();
   const double gain = linear_badness - search.badness(*best, shots);
   if (!(gain > as_much)) return std::nullopt;

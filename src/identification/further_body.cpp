@@ -96,8 +96,7 @@ std::string doubt_of_further_body(const FurtherBody& further, const Identificati
   const Device& device = further.fit.device;
   const Link& link = device.links().back();
   const Body& body = device.bodies()[link.first];
-  const double mass = device.bodies().back().mass;
-  const double mode = std::sqrt(link.stiffness * (body.mass + mass) / (body.mass * mass));
+  const double mode = std::sqrt(link.stiffness / reduced_mass(device.parameters(), link));
   return fmt::format(
       "one body more, on {} with a mode near {:.3g} Hz, explains the record better ({:.3g} times the noise instead of "
       "{:.3g}): the structure lacks a body, or the search ended beside the device; name a structure with it",

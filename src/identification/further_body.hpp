@@ -18,7 +18,7 @@ struct FurtherBody {
 
 /// Of an answer otherwise sound: a mode above the band bends the response within it before what is left stands out of the noise
 /// at any line. The mode begins at 1.3 and at 3 times the highest line, damped by 0.1 % of the critical damping; its mass and
-/// stiffness are free beside the numbers of the fit. Nothing of a response without variances.
+/// its link are free beside the numbers of the fit. Nothing of a response without variances.
 [[nodiscard]] std::optional<FurtherBody> find_further_body(const Identification& result,
                                                            const IdentifyOptions& options);
 

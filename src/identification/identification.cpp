@@ -51,11 +51,7 @@ class Fitting {
     fit_ = whole_fit(structure, measured.response, fit_options_);
     is_hopeless_ = fit_->fit.model_error_if_turned.has_value();
     if (is_hopeless_) return;
-    if (may_free()) {
-      free_what_shows();
-    } else {
-      look_for_delay();
-    }
+    look_for_lateness();
     go_on();
     leave_side_minimum();
     go_on();
@@ -69,8 +65,10 @@ class Fitting {
 
   /// The same numbers from a device near which they are; whether that is possible.
   [[nodiscard]] bool begin_anew(const Device& start) try {
+    fit_options_.free = keys_of(fit_->fit);
     fit_options_.start = ParameterFitOptions::Start::from_structure;
     fit_ = whole_fit(start, fit_->response, fit_options_);
+    look_for_lateness();
     go_on();
     return true;
   } catch (const Error&) {
@@ -231,8 +229,17 @@ class Fitting {
     }
   }
 
+  void look_for_lateness() {
+    if (may_free()) {
+      free_what_shows();
+    } else {
+      look_for_delay();
+    }
+  }
+
   /// Whether the structure's delay is the record's.
   void look_for_delay() {
+    ignored_delay_.reset();
     if (is_free(delay_key)) return;
     const std::optional<RecordFit> wider = with_free({delay_key}, ParameterFitOptions::Start::from_structure);
     if (!wider) return;
@@ -257,9 +264,8 @@ class Fitting {
       // Beside other numbers that are open a lag may have no deviation, and yet explain what nothing else does.
       const bool explains = is_contradicted(fit_->fit, wider->fit, fit_->response.line_correlation);
       if (!(shows || explains) || wider->fit.model_error > 1.02 * fit_->fit.model_error + 1e-9) return;
-      const std::string why =
-          shows ? fmt::format("the record shows {:.4g} s, the structure has {:.4g} s", estimate.value, given)
-                : fmt::format("with {:.4g} s it explains the record better", estimate.value);
+      const std::string why = shows ? fmt::format("the record shows another than the structure's {:.4g} s", given)
+                                    : "the record is explained better with it";
       remarks_.push_back({Remark::Severity::note, fmt::format("{} is fitted too: {}", key, why), ""});
       fit_options_.free.emplace_back(key);
       fit_ = std::move(wider);
@@ -338,6 +344,12 @@ Identification judged(Fitting& fitting, const MeasuredResponse& measured, std::s
   }
   if (better && !has_begun_anew && fitting.begin_anew(*better)) {
     return judged(fitting, measured, recordings, structure, options, true);
+  }
+  if (better && result.trust.sound()) {
+    result.trust.doubt(
+        "other values of its numbers explain the record better: the search ended beside the device; excite more "
+        "strongly "
+        "or for longer, or give values that are nearly right");
   }
   judge_agreement(result, recordings, options);
   judge_friction_in_time(result, recordings, options);

@@ -9,7 +9,7 @@
 namespace zwidth::internal {
 
 /// A damping ratio for links of which nothing is known.
-constexpr double typical_damping_ratio = 0.03;
+inline constexpr double typical_damping_ratio = 0.03;
 
 /// m_1 m_2 / (m_1 + m_2) of the bodies that a link joins: with its stiffness k they vibrate at sqrt(k / mu), the rest aside.
 [[nodiscard]] double reduced_mass(const DeviceParameters& device, const Link& link);

@@ -59,6 +59,10 @@ double median_noise(const FrequencyResponse& response) {
   return *middle;
 }
 
+bool is_rounding(const ParameterFit& fit, const FrequencyResponse& response) {
+  return fit.model_error <= rounding_error && fit.misfit.value_or(0.0) * median_noise(response) <= rounding_error;
+}
+
 bool stands_out(const ClearMisfit& left, const FrequencyResponse& response) {
   return left.misfit > most_misfit(response, left.lines, deviations_over_all) ||
          left.local.misfit > most_misfit(response, lines_of_local_misfit, deviations_anywhere);

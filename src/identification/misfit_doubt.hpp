@@ -11,6 +11,9 @@ namespace zwidth::internal {
 /// Median over the lines of the noise's deviation as a share of the response.
 [[nodiscard]] double median_noise(const FrequencyResponse& response);
 
+/// Whether what a fit leaves is the arithmetic's, of a record without noise: a millionth of the response.
+[[nodiscard]] bool is_rounding(const ParameterFit& fit, const FrequencyResponse& response);
+
 /// Whether what a fit leaves is more than the noise of a right structure, over all lines or anywhere.
 [[nodiscard]] bool stands_out(const ClearMisfit& left, const FrequencyResponse& response);
 

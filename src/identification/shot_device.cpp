@@ -49,7 +49,7 @@ std::vector<Eigen::Index> kept_of(const ShotModel& model, const ShotCovariance& 
     const Coordinate& coordinate = model.coordinates()[i];
     const bool is_of_a_combination = !known.known.determined[i] && variance > 0.0;
     const bool shows = (known.known.determined[i] || is_of_a_combination) && !is_open(coordinate, variance);
-    if (known.varies[i] && shows) kept.push_back(at);
+    if (known.varies[i] && known.known.shows(i) && shows) kept.push_back(at);
   }
   return kept;
 }

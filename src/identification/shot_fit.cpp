@@ -275,7 +275,9 @@ bool search(const ShotModel& model, const std::vector<Shot>& shots, const std::v
   for (std::size_t i = 0; i < fit.held.size(); ++i) {
     if (fit.held[i]) held.push_back(static_cast<int>(i));
   }
-  if (!held.empty()) {
+  if (held.size() == static_cast<std::size_t>(shared.x.size())) {
+    problem.SetParameterBlockConstant(shared.x.data());
+  } else if (!held.empty()) {
     problem.SetManifold(shared.x.data(), new ceres::SubsetManifold(static_cast<int>(shared.x.size()), held));
   }
   StopAtBound stop(model, shared.x, fit.held);

@@ -23,7 +23,7 @@ struct ShotSlopes {
 
 struct ShotFit {
   Eigen::VectorXd x;
-  std::vector<Eigen::VectorXd> states = {};
+  std::vector<Eigen::VectorXd> states;
   std::vector<bool> held = {};  ///< elements of x that stay (at 0, their bound); empty: none
   bool settled = false;         ///< false: the iterations ran out
 };

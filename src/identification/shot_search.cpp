@@ -88,9 +88,10 @@ std::optional<FittedShots> ShotSearch::from(const Eigen::VectorXd& x, const std:
     white[r].deviation = std::sqrt(squares / static_cast<double>(position.size())) + 1e-300;
   }
   if (from == From::fitted_states) {
-    auto states = states_alone(x, shots, white);
-    if (!states) return std::nullopt;
-    start.states = *std::move(states);
+    auto fitted = with_fitted_states(x, shots, white, Constants::fitted);
+    if (!fitted) return std::nullopt;
+    start.x = std::move(fitted->x);
+    start.states = std::move(fitted->states);
   }
   constexpr int few = 8;
   constexpr double coarse = 1e-3;
@@ -110,24 +111,28 @@ std::optional<FittedShots> ShotSearch::with_noise(const ShotFit& start, const st
   return FittedShots{*std::move(fit), std::move(noise)};
 }
 
-std::optional<std::vector<Eigen::VectorXd>> ShotSearch::states_alone(const Eigen::VectorXd& x,
-                                                                     const std::vector<Shot>& shots,
-                                                                     const std::vector<ShotNoise>& noise) const try {
-  const Eigen::VectorXd constants = x.tail(static_cast<Eigen::Index>(model_.records().size()));
-  auto fit = fit_shots(model_.at(x), shots, noise, {constants, model_.recorded_states(shots)}, constants,
+std::optional<ShotFit> ShotSearch::with_fitted_states(const Eigen::VectorXd& x, const std::vector<Shot>& shots,
+                                                      const std::vector<ShotNoise>& noise, Constants constants) const
+    try {
+  const auto records = static_cast<Eigen::Index>(model_.records().size());
+  const Eigen::VectorXd own = x.tail(records);
+  const std::vector<bool> held(model_.records().size(), constants == Constants::held);
+  auto fit = fit_shots(model_.at(x), shots, noise, {own, model_.recorded_states(shots), held}, own,
                        {.most_iterations = 20, .tolerance = 1e-4});
   if (!fit) return std::nullopt;
-  return std::move(fit->states);
+  ShotFit found{x, std::move(fit->states)};
+  found.x.tail(records) = fit->x;
+  return found;
 } catch (const Error&) {  // no device has these numbers
   return std::nullopt;
 }
 
 double ShotSearch::restart_states(ShotFit& fit, const std::vector<Shot>& shots,
                                   const std::vector<ShotNoise>& noise) const {
-  const auto again = states_alone(fit.x, shots, noise);
+  const auto again = with_fitted_states(fit.x, shots, noise, Constants::held);
   if (!again) return 0.0;
   const auto before = shot_residuals(model_, shots, fit.x, fit.states);
-  const auto after = shot_residuals(model_, shots, fit.x, *again);
+  const auto after = shot_residuals(model_, shots, fit.x, again->states);
   if (!before || !after) return 0.0;
   double gain = 0.0;
   for (std::size_t i = 0; i < shots.size(); ++i) {
@@ -135,7 +140,7 @@ double ShotSearch::restart_states(ShotFit& fit, const std::vector<Shot>& shots,
     const double fall = misfit(*before) - misfit(*after);
     if (!(fall > 0.0)) continue;
     gain += 0.5 * fall;
-    fit.states[i] = (*again)[i];
+    fit.states[i] = again->states[i];
   }
   return gain;
 }

@@ -60,11 +60,13 @@ class ShotSearch {
                                                       const Eigen::VectorXd& towards,
                                                       const ShotFitOptions& options) const;
 
-  /// The states while the parameters stay: from the record, fitted alone. Those of the record are a poor start where all is
-  /// free at once: the parameters follow the states' error, and between kinks of friction they do not come back.
-  [[nodiscard]] std::optional<std::vector<Eigen::VectorXd>> states_alone(const Eigen::VectorXd& x,
-                                                                         const std::vector<Shot>& shots,
-                                                                         const std::vector<ShotNoise>& noise) const;
+  enum class Constants : std::uint8_t { held, fitted };
+  /// x with states from the record that are fitted while the parameters stay, with or without the constant forces. Those of
+  /// the record are a poor start where all is free at once: the parameters follow the states' error, and between kinks of
+  /// friction they do not come back.
+  [[nodiscard]] std::optional<ShotFit> with_fitted_states(const Eigen::VectorXd& x, const std::vector<Shot>& shots,
+                                                          const std::vector<ShotNoise>& noise,
+                                                          Constants constants) const;
 
   /// For each shot its states, or those found from the record again while the parameters stay: the better ones. By how
   /// much the log-likelihood grows.

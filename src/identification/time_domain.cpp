@@ -223,9 +223,8 @@ TimeDomainIdentification identify_in_time(std::span<const Recording> recordings,
   const Eigen::VectorXd towards = best->fit.x;
   // The noise of a few short shots is not yet that of the whole: what a longer search under it finds, the next undoes.
   std::optional<ShotFit> whole;
-  if (const auto states = search.states_alone(towards, shots, best->noise)) {
-    whole =
-        fit_shots(model, shots, best->noise, {towards, *states}, towards, {.most_iterations = 6, .tolerance = 5e-4});
+  if (auto begun = search.with_fitted_states(towards, shots, best->noise, ShotSearch::Constants::fitted)) {
+    whole = fit_shots(model, shots, best->noise, *std::move(begun), towards, {.most_iterations = 6, .tolerance = 5e-4});
   }
   std::optional<Round> found;  // the best
   constexpr int most_rounds = 5;
@@ -247,7 +246,7 @@ TimeDomainIdentification identify_in_time(std::span<const Recording> recordings,
     }
     const Eigen::VectorXd before = whole->x;
     std::optional<Round> now = next_round(search, model, shots, *whole, towards);
-    if (!now && leaps > 0) break;
+    if (!now && (leaps > 0 || round >= most_rounds)) break;
     if (!now) found.reset();
     if (!now) break;
     done(0.5 + 0.1 * (std::min(round, most_rounds - 1) + 1));
@@ -275,7 +274,7 @@ TimeDomainIdentification identify_in_time(std::span<const Recording> recordings,
   TimeDomainIdentification result{.device = structure};
   result.lowest = start.lowest;
   result.highest = start.highest;
-  result.settled = found->fitted.fit.settled || found->is_at_rest;
+  result.settled = (found->fitted.fit.settled || found->is_at_rest) && fall <= steep;
   result.remarks = start.remarks;
   describe_parameters(result, model, found->fitted.fit, found->known);
   describe_motions(result, recordings, model, shots, found->fitted, found->known.covariance);

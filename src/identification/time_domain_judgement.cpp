@@ -266,6 +266,15 @@ class Judge {
     if (!linear || !interval) return;
     const double value = fit_.analysis.critical.stiffness;
     const double apart = std::hypot(value - interval->lower, linear->upper - linear->value);  // that chance allows
+    const bool shows_friction = std::ranges::any_of(fit_.estimates, [](const ParameterEstimate& each) {
+      return each.key.ends_with(".coulomb") && each.lower.value_or(0.0) > 0.0;
+    });
+    if (linear->leaves_too_much && !shows_friction && value > linear->value) {
+      trust_.doubt(
+          "a linear fit of the same record leaves more than its noise, and no friction is found that explains it: a "
+          "spring "
+          "to the ground, or a body, that the structure lacks passes for noise; name it");
+    }
     if (value - linear->value <= apart) return;
     const auto unit = units_of(fit_.device.parameters().motion).stiffness;
     trust_.doubt(fmt::format(

@@ -11,6 +11,7 @@
 #include "identification/fit_judgement.hpp"
 #include "identification/lateness.hpp"
 #include "identification/link_mode.hpp"
+#include "identification/misfit_doubt.hpp"
 #include "simulation/continuous_motion.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/parameter.hpp"
@@ -125,7 +126,8 @@ TimeDomainStart time_domain_start(std::span<const Recording> recordings, const D
     start.highest = found.fit.frequencies.back();
     start.is_turned = found.fit.model_error_if_turned.has_value();
     if (const auto& interval = found.analysis.interval; interval && !found.trust.refused() && found.fit.settled) {
-      start.linear = LinearStiffness{found.analysis.critical.stiffness, interval->upper};
+      start.linear = LinearStiffness{found.analysis.critical.stiffness, interval->upper,
+                                     leaves_too_much(found.fit, found.response)};
     }
     start.shows_other_delay = found.ignored_delay.has_value();
     if (takes_all) start.free = keys_of(found.fit);

@@ -13,7 +13,8 @@ namespace zwidth::internal {
 /// The critical stiffness of the linear fit of the same record.
 struct LinearStiffness {
   double value = 0.0;
-  double upper = 0.0;  ///< of its 95 % interval
+  double upper = 0.0;            ///< of its 95 % interval
+  bool leaves_too_much = false;  ///< more than noise: friction, or something that the structure lacks
 };
 
 /// Where a fit in time begins.

@@ -14,6 +14,7 @@
 #include "identification/fit_comparison.hpp"
 #include "identification/fit_judgement.hpp"
 #include "identification/link_mode.hpp"
+#include "identification/misfit_doubt.hpp"
 #include "percent.hpp"
 #include "stability/device_draws.hpp"
 #include "zwidth/error.hpp"
@@ -256,7 +257,7 @@ std::optional<Device> better_device(const ParameterFit& fit, const Identificatio
   const auto is_better = [&](const ParameterFit& other) {
     return is_contradicted(result.fit, other, result.response.line_correlation);
   };
-  if (!is_better(fit)) return std::nullopt;
+  if (is_rounding(result.fit, result.response) || !is_better(fit)) return std::nullopt;
   auto all = fitted_from(fit.device.parameters(), keys_of(result.fit), result, options);
   if (!all || !is_better(*all)) return std::nullopt;
   return std::move(all->device);

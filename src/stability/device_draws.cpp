@@ -49,24 +49,24 @@ Eigen::MatrixXd square_root(Eigen::MatrixXd matrix) {
 
 }  // namespace
 
-void bring_within(Eigen::VectorXd& shifts, const Eigen::VectorXd& bounds, const Eigen::MatrixXd& of_draws) {
+void bring_within(Eigen::VectorXd& shifts, const Eigen::VectorXd& bounds, const Eigen::MatrixXd& covariance) {
   if ((shifts.array() >= bounds.array()).all()) return;
-  Eigen::MatrixXd covariance = of_draws;
+  Eigen::MatrixXd left = covariance;
   for (Eigen::Index round = 0; round < shifts.size(); ++round) {
     Eigen::Index farthest = -1;
     double most = 0.0;
     for (Eigen::Index i = 0; i < shifts.size(); ++i) {
-      if (covariance(i, i) <= rounding * of_draws(i, i)) continue;  // at its bound, or follows from those
-      const double beyond = (bounds(i) - shifts(i)) / std::sqrt(covariance(i, i));
+      if (left(i, i) <= rounding * covariance(i, i)) continue;  // at its bound, or follows from those
+      const double beyond = (bounds(i) - shifts(i)) / std::sqrt(left(i, i));
       if (beyond > most) farthest = i;
       most = std::max(most, beyond);
     }
     if (farthest < 0) break;
-    const Eigen::VectorXd column = covariance.col(farthest) / covariance(farthest, farthest);
+    const Eigen::VectorXd column = left.col(farthest) / left(farthest, farthest);
     shifts += column * (bounds(farthest) - shifts(farthest));
-    covariance -= column * covariance.row(farthest);
-    covariance.row(farthest).setZero();
-    covariance.col(farthest).setZero();
+    left -= column * left.row(farthest);
+    left.row(farthest).setZero();
+    left.col(farthest).setZero();
   }
 }
 

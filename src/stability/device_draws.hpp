@@ -24,11 +24,11 @@ class NormalDraws {
   bool has_spare_ = false;
 };
 
-/// The shifts' nearest within their lower bounds, as the covariance C measures distance: where one number goes to its bound
-/// the others follow by regression, so that what is known of them together stays so.
-///
-///     d + C_i (b_i - d_i) / C_ii        and of the others C - C_i C_i' / C_ii, until none is beyond its bound
-void bring_within(Eigen::VectorXd& shifts, const Eigen::VectorXd& bounds, const Eigen::MatrixXd& of_draws);
+// The shifts' nearest within their lower bounds, as the covariance C measures distance: where one number goes to its bound
+// the others follow by regression, so that what is known of them together stays so.
+//
+//     d + C_i (b_i - d_i) / C_ii        and of the others C - C_i C_i' / C_ii, until none is beyond its bound
+void bring_within(Eigen::VectorXd& shifts, const Eigen::VectorXd& bounds, const Eigen::MatrixXd& covariance);
 
 // Devices drawn from the uncertainty of one: impossible values, such as a negative damping, are brought to the
 // nearest possible ones, near as the covariance measures it. They carry no uncertainty themselves.
