@@ -100,7 +100,9 @@ Meaning meaning_of(const FrictionBeside& beside, const Analysis& analysis) {
   constexpr double notable = 0.95;   // of the linear fit's: an interval beside the friction moves by as much
   const bool matters = friction.force > suspected * friction.deviation &&
                        *friction.stiffness_beside < notable * analysis.critical.stiffness;
-  return matters || is_far ? Meaning::may_matter : Meaning::nothing;
+  constexpr double clear_gain = 8.0;  // four deviations
+  const bool is_beside_the_answer = beside.gain > clear_gain && *friction.stiffness_beside < analysis.interval->lower;
+  return matters || is_beside_the_answer || is_far ? Meaning::may_matter : Meaning::nothing;
 }
 
 /// What a friction was found in.

@@ -21,6 +21,7 @@
 #include "identification/recording_agreement.hpp"
 #include "identification/response_choice.hpp"
 #include "identification/ringing_mode.hpp"
+#include "identification/unseen_limit.hpp"
 #include "model/uncertainty_problem.hpp"
 #include "require_valid.hpp"
 #include "zwidth/error.hpp"
@@ -39,9 +40,9 @@ class Fitting {
       : recordings_(recordings), options_(options), fit_options_(options.fit) {
     fit_options_.free = free_parameters(structure, fit_options_.free, fit_options_.locked);
     const bool is_unknown = options.structure_values == IdentifyOptions::StructureValues::placeholders;
-    if (may_free() && is_unknown && !is_free(delay_key) &&
-        measured.response.points.size() > fit_options_.free.size() + 1) {
-      fit_options_.free.emplace_back(delay_key);
+    if (may_free() && is_unknown && !is_free(delay_key)) {
+      hides_delay_ = measured.response.points.size() <= fit_options_.free.size() + 1;
+      if (!hides_delay_) fit_options_.free.emplace_back(delay_key);
     }
     if (is_drowned(measured.response, fit_options_.free.size())) {  // then nothing is worth a second fit
       fit_ = RecordFit{fit_parameters(structure, measured.response, fit_options_), measured.response};
@@ -60,6 +61,7 @@ class Fitting {
   /// A delay that the record shows, which was not to be fitted; s.
   [[nodiscard]] std::optional<double> ignored_delay() const { return ignored_delay_; }
 
+  [[nodiscard]] bool hides_delay() const { return hides_delay_; }
   [[nodiscard]] const RecordFit& fit() const { return *fit_; }
   [[nodiscard]] std::vector<Remark>& remarks() { return remarks_; }
 
@@ -278,6 +280,7 @@ class Fitting {
   std::optional<RecordFit> fit_;
   std::vector<Remark> remarks_;
   std::optional<double> ignored_delay_;
+  bool hides_delay_ = false;  ///< too few lines to tell one, of a structure that states none
   bool is_hopeless_ = false;  ///< to be refused, whatever else is fitted
 };
 
@@ -287,6 +290,9 @@ void judge_what_was_given(const Fitting& fitting, Judgement& judgement) {
     judgement.trust.doubt(fmt::format("{}; {}", remark.what, remark.remedy));
     judgement.remarks.push_back(remark);
   }
+  const RecordFit& fit = fitting.fit();
+  if (fitting.hides_delay())
+    judgement.trust.doubt(hidden_delay_reason(fit.response.points.size(), fit.fit.estimates.size()));
   for (const ContradictedNumber& each : fitting.contradicted()) judgement.trust.doubt(contradiction_reason(each));
   judgement.device_trust.inherit(judgement.trust);
 }
@@ -345,12 +351,7 @@ Identification judged(Fitting& fitting, const MeasuredResponse& measured, std::s
   if (better && !has_begun_anew && fitting.begin_anew(*better)) {
     return judged(fitting, measured, recordings, structure, options, true);
   }
-  if (better && result.trust.sound()) {
-    result.trust.doubt(
-        "other values of its numbers explain the record better: the search ended beside the device; excite more "
-        "strongly "
-        "or for longer, or give values that are nearly right");
-  }
+  if (better && result.trust.sound()) result.trust.doubt(side_minimum_reason);
   judge_agreement(result, recordings, options);
   judge_friction_in_time(result, recordings, options);
   judge_nonlinearity(result, recordings, options);

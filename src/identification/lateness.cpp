@@ -112,6 +112,13 @@ Remark ignored_delay_remark(double shown, double given) {
           "the critical stiffness depends on it", "free loop.delay, or give it"};
 }
 
+std::string hidden_delay_reason(std::size_t lines, std::size_t numbers) {
+  return fmt::format(
+      "the response has {} lines, too few to tell a delay beside the {} numbers that are fitted, and a delay makes the "
+      "critical stiffness lower; excite more lines, or state loop.delay in a device file",
+      lines, numbers);
+}
+
 std::string outside_band_reason(double limiting, double lowest, double highest) {
   const bool is_above = limiting > highest;
   return fmt::format(

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,6 +31,9 @@ inline constexpr const char* lag_key = "actuator.time_constant";
 
 /// That the record shows another delay than the structure has.
 [[nodiscard]] Remark ignored_delay_remark(double shown, double given);
+
+/// Why no delay was looked for of a structure that states none: so few lines determine no more numbers.
+[[nodiscard]] std::string hidden_delay_reason(std::size_t lines, std::size_t numbers);
 
 /// Why a critical stiffness is not in the data whose crossover lies outside the band that was excited, with the remedy.
 /// All in rad/s.
