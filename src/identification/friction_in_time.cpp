@@ -50,21 +50,21 @@ struct Follower {
   const std::vector<Shot>& shots;
 };
 
-/// With one element of x, the friction, that stays; at first under `noise`, since that of states that were not fitted would
-/// pass for drift. Nothing where no such device can be followed.
-std::optional<FittedShots> with_held_friction(const Follower& follower, Eigen::VectorXd x, Eigen::Index friction,
+constexpr ShotFitOptions brief{.most_iterations = 12, .tolerance = 1e-5};
+constexpr ShotFitOptions thorough{.most_iterations = 40, .tolerance = 1e-6};
+
+/// With one element of x, the friction, that stays; at first under `noise`, since what the rest has yet to follow would pass
+/// for drift. Nothing where no such device can be followed.
+std::optional<FittedShots> with_held_friction(const Follower& follower, ShotFit start, Eigen::Index friction,
                                               double value, const std::vector<ShotNoise>& noise) {
   const auto& [model, search, shots] = follower;
-  const Eigen::VectorXd towards = x;
-  x(friction) = value;
-  auto start = search.with_fitted_states(x, shots, noise, ShotSearch::Constants::fitted);
-  if (!start) return std::nullopt;
-  start->held.assign(static_cast<std::size_t>(x.size()), false);
-  start->held[static_cast<std::size_t>(friction)] = true;
-  constexpr ShotFitOptions brief{.most_iterations = 12, .tolerance = 1e-5};
-  const auto fit = fit_shots(model, shots, noise, *std::move(start), towards, brief);
+  const Eigen::VectorXd towards = start.x;
+  start.x(friction) = value;
+  start.held.assign(static_cast<std::size_t>(start.x.size()), false);
+  start.held[static_cast<std::size_t>(friction)] = true;
+  const auto fit = fit_shots(model, shots, noise, std::move(start), towards, thorough);
   if (!fit) return std::nullopt;
-  return search.with_noise(*fit, shots, towards, brief);
+  return search.with_noise(*fit, shots, towards, thorough);
 }
 
 /// A friction, and what it explains.
@@ -78,10 +78,8 @@ struct FrictionBeside {
 /// A gain above this: it explains about as much as the linear device, whose own search is brief too.
 constexpr double as_much = -4.0;
 
-bool is_far_below(double stiffness, const Analysis& analysis) {
-  constexpr double far = 0.9;
-  return stiffness < far * analysis.interval->lower;
-}
+constexpr double far = 0.9;  // below the interval
+bool is_far_below(double stiffness, const Analysis& analysis) { return stiffness < far * analysis.interval->lower; }
 
 /// What a friction found in time says of a fit.
 enum class Meaning : std::uint8_t { nothing, may_matter, shows };
@@ -96,14 +94,15 @@ Meaning meaning_of(const FrictionBeside& beside, const Analysis& analysis) {
   if (beside.gain < least_gain) return is_far ? Meaning::may_matter : Meaning::nothing;
   if (friction.force > significant_friction * friction.deviation) return Meaning::shows;
   // Below, the fit in time may as well have ended in a side minimum.
-  constexpr double suspected = 2.0;  // deviations
-  constexpr double notable = 0.95;   // of the linear fit's: an interval beside the friction moves by as much
+  constexpr double suspected = 2.0;   // deviations
+  constexpr double clear_gain = 8.0;  // four deviations
+  const bool is_clear = beside.gain > clear_gain;
+  const double notable =
+      is_clear ? 0.96 : 0.95;  // of the linear fit's: an interval beside the friction moves by as much
   const bool matters = friction.force > suspected * friction.deviation &&
                        *friction.stiffness_beside < notable * analysis.critical.stiffness;
-  constexpr double clear_gain = 8.0;  // four deviations
-  constexpr double below = 0.99;      // a drift passes for a friction that moves the limit by less
-  const bool is_beside_the_answer =
-      beside.gain > clear_gain && *friction.stiffness_beside < below * analysis.interval->lower;
+  constexpr double below = 0.99;  // a drift passes for a friction that moves the limit by less
+  const bool is_beside_the_answer = is_clear && *friction.stiffness_beside < below * analysis.interval->lower;
   return matters || is_beside_the_answer || is_far ? Meaning::may_matter : Meaning::nothing;
 }
 
@@ -123,19 +122,23 @@ std::optional<FrictionBeside> more_friction(const FrictionFit& fit, const Fricti
   const double deviation = std::sqrt(known(fit.at, fit.at));
   const double unit = best.friction.deviation / deviation;
   constexpr std::array shares{0.0, 0.1, 0.3, 1.0, 2.0};  // of the deviation
-  const bool may_be_far = std::ranges::any_of(shares, [&](double share) {
+  const auto may_be_far = [&](double share) {
     try {
       const Eigen::VectorXd along = known.col(fit.at) * share / deviation;
-      return is_far_below(stiffness_beside(fit.follower.model.parameters_at(x + along)), analysis);
+      constexpr double nearly = 0.95;  // slopes hold for a small way only
+      return stiffness_beside(fit.follower.model.parameters_at(x + along)) < nearly * analysis.interval->lower;
     } catch (const Error&) {  // so far that a damping is negative
       return true;
     }
-  });
-  if (!may_be_far) return std::nullopt;
-  double most = -std::numeric_limits<double>::infinity();  // of the gains so far; of a part the whole will tell
+  };
+  // Of the gains so far; of a part the whole will tell.
+  double most = best.is_of_a_part ? -std::numeric_limits<double>::infinity() : best.gain;
+  ShotFit from = fit.best.fit;
   for (const double share : shares) {
-    const auto held = with_held_friction(fit.follower, x, fit.at, x(fit.at) + share * deviation, fit.best.noise);
+    if (!may_be_far(share)) continue;
+    const auto held = with_held_friction(fit.follower, from, fit.at, x(fit.at) + share * deviation, fit.best.noise);
     if (!held) continue;
+    from = held->fit;  // a small way on, states and all: from those of the record a search ends in side minima
     const double gain = fit.linear_badness - fit.follower.search.badness(*held, fit.follower.shots);
     if (!best.is_of_a_part) most = std::max(most, gain);
     const double stiffness = stiffness_beside(fit.follower.model.parameters_at(held->fit.x));
@@ -154,10 +157,13 @@ std::optional<FrictionBeside> more_friction(const FrictionFit& fit, const Fricti
 constexpr double cost_of_a_part = 2.5e6;
 constexpr double cost_of_the_whole = 16.0 * cost_of_a_part;
 
+/// Whether more than the best friction is asked after.
+enum class AsksMore : std::uint8_t { no, yes };
+
 /// Friction of a body beside all numbers of the fit; nothing where no such motion can be followed, or it explains less.
 std::optional<FrictionBeside> friction_beside(const Identification& result, const Body& body,
                                               const std::vector<std::string>& locked, const Recording& recording,
-                                              double most_cost) {
+                                              double most_cost, AsksMore asks_more) {
   const ParameterFit& fit = result.fit;
   const std::span one(&recording, 1);
   const MotionRecord record{recording.channels[0].samples, recording.channels[1].samples, recording.sampling_period};
@@ -208,14 +214,24 @@ std::optional<FrictionBeside> friction_beside(const Identification& result, cons
   std::optional<FittedShots> best = least_bad(std::move(ends));
   if (!best) return std::nullopt;
   const Eigen::VectorXd towards = best->fit.x;
-  best = search.with_noise(best->fit, shots, towards, {.most_iterations = 12, .tolerance = 1e-5});
+  best = search.with_noise(best->fit, shots, towards, brief);
   if (!best) return std::nullopt;
   const std::size_t last = start.free.size() - 1;
   const auto at = static_cast<Eigen::Index>(last);
   const Eigen::VectorXd of_linear = model.position_of(linear.parameters());
-  const auto without = with_held_friction({model, search, shots}, of_linear, at, 0.0, best->noise);
+  const auto alone = search.with_fitted_states(of_linear, shots, best->noise, ShotSearch::Constants::fitted);
+  std::optional<FittedShots> without;
+  if (alone) without = with_held_friction({model, search, shots}, *alone, at, 0.0, best->noise);
   const double linear_badness = without ? search.badness(*without, shots) : std::numeric_limits<double>::infinity();
-  const double gain = linear_badness - search.badness(*best, shots);
+  double gain = linear_badness - search.badness(*best, shots);
+  if (gain < 0.0 && without) {  // more numbers explain no less: a side minimum
+    ShotFit start = without->fit;
+    start.held.assign(start.held.size(), false);
+    auto near = search.with_noise(start, shots, of_linear, thorough);
+    const double near_gain = near ? linear_badness - search.badness(*near, shots) : gain;
+    if (near_gain > gain) best = std::move(near);
+    gain = std::max(gain, near_gain);
+  }
   if (!(gain > as_much)) return std::nullopt;
   const auto slopes = shot_slopes(model, shots, best->noise, best->fit.x, best->fit.states);
   if (!slopes) return std::nullopt;
@@ -231,7 +247,7 @@ std::optional<FrictionBeside> friction_beside(const Identification& result, cons
   FrictionBeside found{
       {body.name, x(at) * unit, deviation, stiffness_beside(model.parameters_at(x))}, gain, false, is_of_a_part};
   if (meaning_of(found, result.analysis) == Meaning::shows) return found;
-  if (is_far_below(*found.friction.stiffness_beside, result.analysis)) return found;
+  if (asks_more == AsksMore::no || is_far_below(*found.friction.stiffness_beside, result.analysis)) return found;
   const auto more =
       more_friction({{model, search, shots}, *best, at, linear_badness}, found, known.covariance, result.analysis);
   return more ? more : found;
@@ -245,10 +261,11 @@ std::optional<FrictionBeside> lowering_friction(const Identification& result, st
   bool shows = false;
   for (const Body& body : moving_bodies(result.fit.device, locked)) {
     for (const Recording& each : recordings) {
+      const AsksMore asks_more = lowest ? AsksMore::no : AsksMore::yes;  // one that is left open is a doubt
       try {
-        auto found = friction_beside(result, body, locked, each, cost_of_a_part);
+        auto found = friction_beside(result, body, locked, each, cost_of_a_part, asks_more);
         if (found && found->is_of_a_part && meaning_of(*found, result.analysis) == Meaning::may_matter) {
-          found = friction_beside(result, body, locked, each, cost_of_the_whole);
+          found = friction_beside(result, body, locked, each, cost_of_the_whole, asks_more);
         }
         const Meaning meaning = found ? meaning_of(*found, result.analysis) : Meaning::nothing;
         if (meaning == Meaning::nothing || (shows && meaning != Meaning::shows)) continue;

@@ -42,7 +42,7 @@ DeviceParameters with_further_body(DeviceParameters device, std::size_t at, doub
 
 std::string mass_key(const Body& body) { return fmt::format("body.{}.mass", body.name); }
 
-/// The numbers of the fit, and of the further body its mass and its link's.
+/// The numbers of the fit, the further body's mass, and its link's stiffness and damping.
 std::vector<std::string> free_with(const DeviceParameters& start, const Identification& result) {
   std::vector<std::string> free = keys_of(result.fit);
   free.push_back(mass_key(start.bodies.back()));

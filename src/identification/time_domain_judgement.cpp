@@ -272,8 +272,7 @@ class Judge {
     if (linear->leaves_too_much && !shows_friction && value > linear->value) {
       trust_.doubt(
           "a linear fit of the same record leaves more than its noise, and no friction is found that explains it: a "
-          "spring "
-          "to the ground, or a body, that the structure lacks passes for noise; name it");
+          "spring to the ground, or a body, that the structure lacks passes for noise; name it");
     }
     if (value - linear->value <= apart) return;
     const auto unit = units_of(fit_.device.parameters().motion).stiffness;

@@ -5,8 +5,8 @@
 
 #include <cmath>
 #include <cstddef>
+#include <fstream>
 #include <numbers>
-#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -91,38 +91,69 @@ TEST(HiddenFriction, OfAThousandthOfTheForceIsNeverSound) {
   }
 }
 
-// A device that does not settle while it is recorded (m/b is 21 s): from the states of the record, all free at once, a search
-// did not come to what the record leaves open. Was sound, its lower end 21 % above the truth.
-TEST(HiddenFriction, OfADeviceThatNeverSettlesIsNeverSound) {
-  constexpr double step = 9.02275050922809e-05;
-  constexpr std::size_t period = 2000;
-  std::mt19937_64 random(12033);
-  std::vector<double> phases(456);
-  for (double& each : phases) each = std::uniform_real_distribution(0.0, 2.0 * std::numbers::pi)(random);
-  std::vector<double> force(15 * period, 0.0);
-  for (std::size_t k = 0; k < force.size(); ++k) {
-    for (std::size_t line = 1; line < phases.size(); ++line) {
-      const double turns = static_cast<double>((k * line) % period) / static_cast<double>(period);
-      force[k] += 0.07 * std::cos(2.0 * std::numbers::pi * turns + phases[line]);
-    }
-  }
-  const DeviceParameters device = chain({"motor", 0.2765151300412433, 0.0787298123606785, 0.0, 0.0015028},
-                                        {"handle", 1.505547330192414, 0.0066528136075986516, 0.0, 0.0},
-                                        {0, 1, 282635.8284996154, 1.4970721079840146});
-  constexpr double truth = 170.781;
-  std::vector<double> position = test::FrictionChain(device).positions(force);
-  for (double& each : position) {
-    each = step * std::round(each / step + std::normal_distribution(0.0, 0.45)(random));
-  }
-  const Recording record{"run", 1e-3, {{"force", std::move(force)}, {"position", std::move(position)}}, {}};
+/// A column of a record of another simulator (Moreau's steps, 40 a sample), in tests/identification/records.
+std::vector<double> column_of(const std::string& name) {
+  std::ifstream file(std::string(ZWIDTH_SOURCE_DIR "/tests/identification/records/") + name);
+  std::string header;
+  std::getline(file, header);
+  std::vector<double> values;
+  for (double value = 0.0; file >> value;) values.push_back(value);
+  return values;
+}
+
+void expect_doubt_of_friction(std::vector<double> force, const std::string& counts, double step,
+                              const std::string& structure, double truth) {
+  std::vector<double> position = column_of(counts);
+  ASSERT_EQ(position.size(), force.size());
+  for (double& each : position) each *= step;
   IdentifyOptions options;
   options.structure_values = IdentifyOptions::StructureValues::placeholders;
-  const Device structure(named_structure("two-body", {.record_period = 1e-3}).value().parameters);
-  const Identification found = identify(record, structure, options);
+  const Recording record{"run", 1e-3, {{"force", std::move(force)}, {"position", std::move(position)}}, {}};
+  const Identification found =
+      identify(record, Device(named_structure(structure, {.record_period = 1e-3}).value().parameters), options);
   ASSERT_TRUE(found.analysis.interval);
-  ASSERT_GT(found.analysis.interval->lower, 1.1 * truth) << "what is doubted";
+  ASSERT_GT(found.analysis.interval->lower, truth) << "what is doubted";
   ASSERT_FALSE(found.trust.sound());
   EXPECT_NE(found.trust.reasons.front().find("dry friction"), std::string::npos) << found.trust.reasons.front();
+}
+
+// 0.27652 and 1.50555 kg, 0.07873 and 0.00665 N s/m, 282 636 N/m, 1.497 N s/m, friction of 1.5 mN on the motor under a multisine of
+// 4 N: it does not settle while it is recorded, and from the states of the record, all free at once, no search came to
+// what the record leaves open. Was sound, its lower end 21 % above the truth.
+TEST(HiddenFriction, OfADeviceThatNeverSettlesIsNeverSound) {
+  const std::vector<double> period = column_of("slow_device_force.csv");
+  ASSERT_EQ(period.size(), 2000U);
+  std::vector<double> force(15 * period.size());
+  for (std::size_t k = 0; k < force.size(); ++k) force[k] = period[k % period.size()];
+  expect_doubt_of_friction(std::move(force), "slow_device_multisine.csv", 9.02275050922809e-05, "two-body", 170.781);
+}
+
+// 0.1292 kg, 0.00866 N s/m, friction of 0.228 mN under a chirp of 0.934 N: in time it explains the record by 43 of the log-likelihood,
+// and was passed over since its deviation is as large as half of it. Was sound, its lower end 3 % above the truth.
+TEST(HiddenFriction, ThatExplainsTheRecordClearlyCountsWhateverItsDeviation) {
+  constexpr double duration = 16.0;
+  constexpr double lowest = 0.5875032659719687;
+  constexpr double highest = 7.369991720349708;
+  std::vector<double> force(16000);
+  for (std::size_t k = 0; k < force.size(); ++k) {
+    const double t = 1e-3 * static_cast<double>(k);
+    const double turns = lowest * t + 0.5 * (highest - lowest) * t * t / duration;
+    force[k] = 0.9339760071787465 * std::sin(2.0 * std::numbers::pi * turns);
+  }
+  expect_doubt_of_friction(std::move(force), "light_body_chirp.csv", 0.004398777809894018, "rigid", 17.3158);
+}
+
+// 0.23568 kg, 0.03395 N s/m, 0.25 ms late, friction of 1.57 mN under three sines: beside it the critical stiffness is 4.6 % lower than the
+// linear fit's. Was sound, its lower end 7 % above the truth.
+TEST(HiddenFriction, UnderThreeLinesIsNeverSound) {
+  std::vector<double> force(30000);
+  for (std::size_t k = 0; k < force.size(); ++k) {
+    const double t = 1e-3 * static_cast<double>(k);
+    const auto line = [&](double hz, double phase) { return std::sin(2.0 * std::numbers::pi * hz * t + phase); };
+    force[k] = 1.2913023796591896 *
+               (line(1.5, 1.866106336939593) + line(2.0, 1.444985986191354) + line(2.5, 4.190883904463815));
+  }
+  expect_doubt_of_friction(std::move(force), "one_body_three_lines.csv", 0.002337020368406416, "rigid", 45.2678);
 }
 
 }  // namespace

@@ -230,9 +230,7 @@ TEST(GivenNumber, ASpringToTheGroundThatTheStructureLacksIsLookedFor) {
   EXPECT_NE(weak.find("body.motor.stiffness was not fitted"), std::string::npos) << weak;
   // A strong one the noise's autoregression takes up: 38 % too high at the lower end.
   const std::string strong = reasons_with_free(record_of({.spring = 100.0}, 7), body(), {});
-  EXPECT_NE(strong.find("shows a mode near"), std::string::npos) << strong;
-  const std::string stronger = reasons_with_free(record_of({.spring = 200.0}, 7), body(), {});
-  EXPECT_NE(stronger.find("a linear fit of the same record gives"), std::string::npos) << stronger;
+  EXPECT_NE(strong.find("a linear fit of the same record gives"), std::string::npos) << strong;
   const std::string strongest = reasons_with_free(record_of({.spring = 400.0}, 7), body(), {});
   EXPECT_NE(strongest.find("unexplained beyond the noise: a body that it lacks"), std::string::npos) << strongest;
   // Was sound, 18 % too high at the lower end: the linear fit's interval is too wide to contradict it.
