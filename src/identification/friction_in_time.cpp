@@ -106,27 +106,63 @@ Meaning meaning_of(const FrictionBeside& beside, const Analysis& analysis) {
   return matters || is_beside_the_answer || is_far ? Meaning::may_matter : Meaning::nothing;
 }
 
-/// What a friction was found in.
+/// With the friction free, and what the linear device leaves.
 struct FrictionFit {
-  Follower follower;
-  const FittedShots& best;
-  Eigen::Index at;  ///< its element of x
+  FittedShots best;
+  double badness;
   double linear_badness;
+  [[nodiscard]] double gain() const { return linear_badness - badness; }
 };
+
+/// The least bad of the searches from each start. Of long shots some end in side minima without friction, of short ones others.
+std::optional<FittedShots> best_from(const Follower& follower, const std::vector<SearchStart>& starts,
+                                     const std::vector<Shot>& short_shots) {
+  const auto& [model, search, shots] = follower;
+  auto ends = search.from_each(starts, shots);
+  const auto of_short = search.from_each(starts, short_shots);
+  std::vector<SearchStart> next;
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    if (of_short[i]) next.push_back({of_short[i]->fitted.fit.x, starts[i].handicap});
+  }
+  std::ranges::move(search.from_each(next, shots), std::back_inserter(ends));
+  const std::optional<FittedShots> best = least_bad(std::move(ends));
+  return best ? search.with_noise(best->fit, shots, best->fit.x, brief) : std::nullopt;
+}
+
+/// `best` beside the device without friction, its element `friction` of x 0; from there where that explains more: a side minimum.
+FrictionFit beside_linear(const Follower& follower, FittedShots best, const Eigen::VectorXd& linear,
+                          Eigen::Index friction) {
+  const auto& [model, search, shots] = follower;
+  FrictionFit found{std::move(best), 0.0, std::numeric_limits<double>::infinity()};
+  found.badness = search.badness(found.best, shots);
+  const auto alone = search.with_fitted_states(linear, shots, found.best.noise, ShotSearch::Constants::fitted);
+  if (!alone) return found;
+  auto without = with_held_friction(follower, *alone, friction, 0.0, found.best.noise);
+  if (!without) return found;
+  found.linear_badness = search.badness(*without, shots);
+  if (found.gain() >= 0.0) return found;
+  without->fit.held.assign(without->fit.held.size(), false);
+  auto near = search.with_noise(without->fit, shots, linear, thorough);
+  const double badness = near ? search.badness(*near, shots) : found.badness;
+  if (badness < found.badness) found = {*std::move(near), badness, found.linear_badness};
+  return found;
+}
 
 /// More friction than the best that explains about as much, where K_CR beside it lies far below the interval. The fit is
 /// repeated: slopes, which point out where to look, hold for a small way only near stick and slip. `known`: of the best.
-std::optional<FrictionBeside> more_friction(const FrictionFit& fit, const FrictionBeside& best,
-                                            const Eigen::MatrixXd& known, const Analysis& analysis) {
+std::optional<FrictionBeside> more_friction(const Follower& follower, const FrictionFit& fit, Eigen::Index at,
+                                            const FrictionBeside& best, const Eigen::MatrixXd& known,
+                                            const Analysis& analysis) {
+  const auto& [model, search, shots] = follower;
   const Eigen::VectorXd& x = fit.best.fit.x;
-  const double deviation = std::sqrt(known(fit.at, fit.at));
+  const double deviation = std::sqrt(known(at, at));
   const double unit = best.friction.deviation / deviation;
   constexpr std::array shares{0.0, 0.1, 0.3, 1.0, 2.0};  // of the deviation
   const auto may_be_far = [&](double share) {
     try {
-      const Eigen::VectorXd along = known.col(fit.at) * share / deviation;
+      const Eigen::VectorXd along = known.col(at) * share / deviation;
       constexpr double nearly = 0.95;  // slopes hold for a small way only
-      return stiffness_beside(fit.follower.model.parameters_at(x + along)) < nearly * analysis.interval->lower;
+      return stiffness_beside(model.parameters_at(x + along)) < nearly * analysis.interval->lower;
     } catch (const Error&) {  // so far that a damping is negative
       return true;
     }
@@ -136,12 +172,12 @@ std::optional<FrictionBeside> more_friction(const FrictionFit& fit, const Fricti
   ShotFit from = fit.best.fit;
   for (const double share : shares) {
     if (!may_be_far(share)) continue;
-    const auto held = with_held_friction(fit.follower, from, fit.at, x(fit.at) + share * deviation, fit.best.noise);
+    const auto held = with_held_friction(follower, from, at, x(at) + share * deviation, fit.best.noise);
     if (!held) continue;
     from = held->fit;  // a small way on, states and all: from those of the record a search ends in side minima
-    const double gain = fit.linear_badness - fit.follower.search.badness(*held, fit.follower.shots);
+    const double gain = fit.linear_badness - search.badness(*held, shots);
     if (!best.is_of_a_part) most = std::max(most, gain);
-    const double stiffness = stiffness_beside(fit.follower.model.parameters_at(held->fit.x));
+    const double stiffness = stiffness_beside(model.parameters_at(held->fit.x));
     if (!(gain > as_much) || !(gain > most + as_much) || !(stiffness > 0.0) || !is_far_below(stiffness, analysis))
       continue;
     return FrictionBeside{
@@ -195,7 +231,6 @@ std::optional<FrictionBeside> friction_beside(const Identification& result, cons
   const double kept = std::max(1.0, std::round(share * static_cast<double>(shots.size())));
   const bool is_of_a_part = kept < static_cast<double>(shots.size());
   if (is_of_a_part) shots.resize(static_cast<std::size_t>(kept));
-  // Of long shots some searches end in side minima without friction, of short ones others.
   constexpr double part = 0.1;
   constexpr std::size_t few = 3;
   const std::vector<Shot> short_shots =
@@ -204,38 +239,18 @@ std::optional<FrictionBeside> friction_beside(const Identification& result, cons
   for (const FrictionStart& each : starting_frictions(start, one)) {
     starts.push_back({model.position_of(each.device), each.handicap});
   }
-  auto ends = search.from_each(starts, shots);
-  const auto of_short = search.from_each(starts, short_shots);
-  std::vector<SearchStart> next;
-  for (std::size_t i = 0; i < starts.size(); ++i) {
-    if (of_short[i]) next.push_back({of_short[i]->fitted.fit.x, starts[i].handicap});
-  }
-  std::ranges::move(search.from_each(next, shots), std::back_inserter(ends));
-  std::optional<FittedShots> best = least_bad(std::move(ends));
-  if (!best) return std::nullopt;
-  const Eigen::VectorXd towards = best->fit.x;
-  best = search.with_noise(best->fit, shots, towards, brief);
-  if (!best) return std::nullopt;
+  const Follower follower{model, search, shots};
+  auto found_best = best_from(follower, starts, short_shots);
+  if (!found_best) return std::nullopt;
   const std::size_t last = start.free.size() - 1;
   const auto at = static_cast<Eigen::Index>(last);
-  const Eigen::VectorXd of_linear = model.position_of(linear.parameters());
-  const auto alone = search.with_fitted_states(of_linear, shots, best->noise, ShotSearch::Constants::fitted);
-  std::optional<FittedShots> without;
-  if (alone) without = with_held_friction({model, search, shots}, *alone, at, 0.0, best->noise);
-  const double linear_badness = without ? search.badness(*without, shots) : std::numeric_limits<double>::infinity();
-  double gain = linear_badness - search.badness(*best, shots);
-  if (gain < 0.0 && without) {  // more numbers explain no less: a side minimum
-    ShotFit start = without->fit;
-    start.held.assign(start.held.size(), false);
-    auto near = search.with_noise(start, shots, of_linear, thorough);
-    const double near_gain = near ? linear_badness - search.badness(*near, shots) : gain;
-    if (near_gain > gain) best = std::move(near);
-    gain = std::max(gain, near_gain);
-  }
-  if (!(gain > as_much)) return std::nullopt;
-  const auto slopes = shot_slopes(model, shots, best->noise, best->fit.x, best->fit.states);
+  const FrictionFit friction =
+      beside_linear(follower, *std::move(found_best), model.position_of(linear.parameters()), at);
+  if (!(friction.gain() > as_much)) return std::nullopt;
+  const FittedShots& best = friction.best;
+  const auto slopes = shot_slopes(model, shots, best.noise, best.fit.x, best.fit.states);
   if (!slopes) return std::nullopt;
-  const Eigen::VectorXd& x = best->fit.x;
+  const Eigen::VectorXd& x = best.fit.x;
   const ShotCovariance known = shot_covariance(*slopes, std::vector<bool>(static_cast<std::size_t>(x.size()), false));
   if (!(known.covariance(at, at) > 0.0)) return std::nullopt;
   const double unit = model.coordinates()[last].slope(x(at));
@@ -244,12 +259,13 @@ std::optional<FrictionBeside> friction_beside(const Identification& result, cons
   const double strongest = std::max(std::abs(least), std::abs(most));
   if (device.bodies().size() == 1 && x(at) * unit >= strongest) return std::nullopt;
   const double deviation = std::sqrt(known.covariance(at, at)) * unit;
-  FrictionBeside found{
-      {body.name, x(at) * unit, deviation, stiffness_beside(model.parameters_at(x))}, gain, false, is_of_a_part};
+  FrictionBeside found{{body.name, x(at) * unit, deviation, stiffness_beside(model.parameters_at(x))},
+                       friction.gain(),
+                       false,
+                       is_of_a_part};
   if (meaning_of(found, result.analysis) == Meaning::shows) return found;
   if (asks_more == AsksMore::no || is_far_below(*found.friction.stiffness_beside, result.analysis)) return found;
-  const auto more =
-      more_friction({{model, search, shots}, *best, at, linear_badness}, found, known.covariance, result.analysis);
+  const auto more = more_friction(follower, friction, at, found, known.covariance, result.analysis);
   return more ? more : found;
 }
 
