@@ -50,7 +50,6 @@ struct Follower {
   const std::vector<Shot>& shots;
 };
 
-constexpr ShotFitOptions brief{.most_iterations = 12, .tolerance = 1e-5};
 constexpr ShotFitOptions thorough{.most_iterations = 40, .tolerance = 1e-6};
 
 /// With one element of x, the friction, that stays; at first under `noise`, since what the rest has yet to follow would pass
@@ -75,11 +74,21 @@ struct FrictionBeside {
   bool is_of_a_part = false;  ///< of the record, the rest of which may exclude it
 };
 
-/// A gain above this: it explains about as much as the linear device, whose own search is brief too.
+/// A gain above this: it explains about as much as the linear device.
 constexpr double as_much = -4.0;
 
-constexpr double far = 0.9;  // below the interval
-bool is_far_below(double stiffness, const Analysis& analysis) { return stiffness < far * analysis.interval->lower; }
+bool is_far_below(double stiffness, const Analysis& analysis) {
+  constexpr double far = 0.9;
+  return stiffness < far * analysis.interval->lower;
+}
+
+bool is_suspected(const ShownFriction& friction) {
+  constexpr double deviations = 2.0;
+  return friction.force > deviations * friction.deviation;
+}
+
+/// By four deviations.
+bool is_clear(const FrictionBeside& beside) { return beside.gain > 8.0; }
 
 /// What a friction found in time says of a fit.
 enum class Meaning : std::uint8_t { nothing, may_matter, shows };
@@ -94,16 +103,17 @@ Meaning meaning_of(const FrictionBeside& beside, const Analysis& analysis) {
   if (beside.gain < least_gain) return is_far ? Meaning::may_matter : Meaning::nothing;
   if (friction.force > significant_friction * friction.deviation) return Meaning::shows;
   // Below, the fit in time may as well have ended in a side minimum.
-  constexpr double suspected = 2.0;   // deviations
-  constexpr double clear_gain = 8.0;  // four deviations
-  const bool is_clear = beside.gain > clear_gain;
-  const double notable =
-      is_clear ? 0.96 : 0.95;  // of the linear fit's: an interval beside the friction moves by as much
-  const bool matters = friction.force > suspected * friction.deviation &&
-                       *friction.stiffness_beside < notable * analysis.critical.stiffness;
+  const double notable = is_clear(beside) ? 0.96 : 0.95;  // of the linear fit's: its interval moves by as much
+  const bool matters = is_suspected(friction) && *friction.stiffness_beside < notable * analysis.critical.stiffness;
   constexpr double below = 0.99;  // a drift passes for a friction that moves the limit by less
-  const bool is_beside_the_answer = is_clear && *friction.stiffness_beside < below * analysis.interval->lower;
+  const bool is_beside_the_answer = is_clear(beside) && *friction.stiffness_beside < below * analysis.interval->lower;
   return matters || is_beside_the_answer || is_far ? Meaning::may_matter : Meaning::nothing;
+}
+
+/// Of a friction that may matter or shows: whether the answer is another with it than without.
+bool changes_the_answer(const FrictionBeside& beside, const Analysis& analysis) {
+  return meaning_of(beside, analysis) == Meaning::shows || (is_clear(beside) && is_suspected(beside.friction)) ||
+         *beside.friction.stiffness_beside < analysis.interval->lower;
 }
 
 /// With the friction free, and what the linear device leaves.
@@ -126,25 +136,26 @@ std::optional<FittedShots> best_from(const Follower& follower, const std::vector
   }
   std::ranges::move(search.from_each(next, shots), std::back_inserter(ends));
   const std::optional<FittedShots> best = least_bad(std::move(ends));
-  return best ? search.with_noise(best->fit, shots, best->fit.x, brief) : std::nullopt;
+  return best ? search.with_noise(best->fit, shots, best->fit.x, thorough) : std::nullopt;
 }
 
-/// `best` beside the device without friction, its element `friction` of x 0; from there where that explains more: a side minimum.
-FrictionFit beside_linear(const Follower& follower, FittedShots best, const Eigen::VectorXd& linear,
-                          Eigen::Index friction) {
+/// `best` beside the device without friction, its element `friction` of x 0; the search goes on from there where `best` explains
+/// clearly less: it is a side minimum. Nothing where the linear device cannot be followed.
+std::optional<FrictionFit> beside_linear(const Follower& follower, FittedShots best, const Eigen::VectorXd& linear,
+                                         Eigen::Index friction) {
   const auto& [model, search, shots] = follower;
-  FrictionFit found{std::move(best), 0.0, std::numeric_limits<double>::infinity()};
-  found.badness = search.badness(found.best, shots);
-  const auto alone = search.with_fitted_states(linear, shots, found.best.noise, ShotSearch::Constants::fitted);
-  if (!alone) return found;
-  auto without = with_held_friction(follower, *alone, friction, 0.0, found.best.noise);
-  if (!without) return found;
-  found.linear_badness = search.badness(*without, shots);
-  if (found.gain() >= 0.0) return found;
+  const auto alone = search.with_fitted_states(linear, shots, best.noise, ShotSearch::Constants::fitted);
+  if (!alone) return std::nullopt;
+  auto without = with_held_friction(follower, *alone, friction, 0.0, best.noise);
+  if (!without) return std::nullopt;
+  const double badness = search.badness(best, shots);
+  FrictionFit found{std::move(best), badness, search.badness(*without, shots)};
+  if (found.gain() > as_much) return found;
   without->fit.held.assign(without->fit.held.size(), false);
   auto near = search.with_noise(without->fit, shots, linear, thorough);
-  const double badness = near ? search.badness(*near, shots) : found.badness;
-  if (badness < found.badness) found = {*std::move(near), badness, found.linear_badness};
+  if (!near) return std::nullopt;
+  found.badness = search.badness(*near, shots);
+  found.best = *std::move(near);
   return found;
 }
 
@@ -157,29 +168,29 @@ std::optional<FrictionBeside> more_friction(const Follower& follower, const Fric
   const Eigen::VectorXd& x = fit.best.fit.x;
   const double deviation = std::sqrt(known(at, at));
   const double unit = best.friction.deviation / deviation;
-  constexpr std::array shares{0.0, 0.1, 0.3, 1.0, 2.0};  // of the deviation
+  constexpr std::array shares{0.1, 0.3, 1.0, 2.0};  // of the deviation
   const auto may_be_far = [&](double share) {
     try {
       const Eigen::VectorXd along = known.col(at) * share / deviation;
       constexpr double nearly = 0.95;  // slopes hold for a small way only
-      return stiffness_beside(model.parameters_at(x + along)) < nearly * analysis.interval->lower;
+      return stiffness_beside(follower.model.parameters_at(x + along)) < nearly * analysis.interval->lower;
     } catch (const Error&) {  // so far that a damping is negative
       return true;
     }
   };
-  // Of the gains so far; of a part the whole will tell.
-  double most = best.is_of_a_part ? -std::numeric_limits<double>::infinity() : best.gain;
+  if (std::ranges::none_of(shares, may_be_far)) return std::nullopt;
+  double most = std::max(0.0, best.gain);
   ShotFit from = fit.best.fit;
   for (const double share : shares) {
-    if (!may_be_far(share)) continue;
     const auto held = with_held_friction(follower, from, at, x(at) + share * deviation, fit.best.noise);
     if (!held) continue;
-    from = held->fit;  // a small way on, states and all: from those of the record a search ends in side minima
     const double gain = fit.linear_badness - search.badness(*held, shots);
-    if (!best.is_of_a_part) most = std::max(most, gain);
+    if (!best.is_of_a_part) most = std::max(most, gain);  // of a part the whole will tell
+    const bool is_as_good = gain > as_much && (best.is_of_a_part || gain > most + as_much);
+    if (!is_as_good) continue;
+    from = held->fit;  // a small way on, states and all: from those of the record a search ends in side minima
     const double stiffness = stiffness_beside(model.parameters_at(held->fit.x));
-    if (!(gain > as_much) || !(gain > most + as_much) || !(stiffness > 0.0) || !is_far_below(stiffness, analysis))
-      continue;
+    if (!is_far_below(stiffness, analysis)) continue;
     return FrictionBeside{
         {best.friction.body, best.friction.force + share * deviation * unit, best.friction.deviation, stiffness},
         gain,
@@ -229,8 +240,9 @@ std::optional<FrictionBeside> friction_beside(const Identification& result, cons
                                            std::min(length, 0.5 * affordable * record.sampling_period), shortest);
   const double share = affordable / static_cast<double>(record.force.size());
   const double kept = std::max(1.0, std::round(share * static_cast<double>(shots.size())));
-  const bool is_of_a_part = kept < static_cast<double>(shots.size());
-  if (is_of_a_part) shots.resize(static_cast<std::size_t>(kept));
+  const bool is_cut = kept < static_cast<double>(shots.size());
+  if (is_cut) shots.resize(static_cast<std::size_t>(kept));
+  const bool is_of_a_part = is_cut && most_cost < cost_of_the_whole;
   constexpr double part = 0.1;
   constexpr std::size_t few = 3;
   const std::vector<Shot> short_shots =
@@ -244,10 +256,9 @@ std::optional<FrictionBeside> friction_beside(const Identification& result, cons
   if (!found_best) return std::nullopt;
   const std::size_t last = start.free.size() - 1;
   const auto at = static_cast<Eigen::Index>(last);
-  const FrictionFit friction =
-      beside_linear(follower, *std::move(found_best), model.position_of(linear.parameters()), at);
-  if (!(friction.gain() > as_much)) return std::nullopt;
-  const FittedShots& best = friction.best;
+  const auto friction = beside_linear(follower, *std::move(found_best), model.position_of(linear.parameters()), at);
+  if (!friction || !(friction->gain() > as_much)) return std::nullopt;
+  const FittedShots& best = friction->best;
   const auto slopes = shot_slopes(model, shots, best.noise, best.fit.x, best.fit.states);
   if (!slopes) return std::nullopt;
   const Eigen::VectorXd& x = best.fit.x;
@@ -260,24 +271,25 @@ std::optional<FrictionBeside> friction_beside(const Identification& result, cons
   if (device.bodies().size() == 1 && x(at) * unit >= strongest) return std::nullopt;
   const double deviation = std::sqrt(known.covariance(at, at)) * unit;
   FrictionBeside found{{body.name, x(at) * unit, deviation, stiffness_beside(model.parameters_at(x))},
-                       friction.gain(),
+                       friction->gain(),
                        false,
                        is_of_a_part};
   if (meaning_of(found, result.analysis) == Meaning::shows) return found;
   if (asks_more == AsksMore::no || is_far_below(*found.friction.stiffness_beside, result.analysis)) return found;
-  const auto more = more_friction(follower, friction, at, found, known.covariance, result.analysis);
+  const auto more = more_friction(follower, *friction, at, found, known.covariance, result.analysis);
   return more ? more : found;
 }
 
 /// Of the friction of the heaviest body that any recording shows, else of the next, that beside which the critical stiffness
-/// is lowest; where none shows, of what the records leave open.
+/// is lowest; where none shows, of what the records leave open: more than the best only until that is a doubt.
 std::optional<FrictionBeside> lowering_friction(const Identification& result, std::span<const Recording> recordings,
                                                 const std::vector<std::string>& locked) {
   std::optional<FrictionBeside> lowest;
   bool shows = false;
   for (const Body& body : moving_bodies(result.fit.device, locked)) {
     for (const Recording& each : recordings) {
-      const AsksMore asks_more = lowest ? AsksMore::no : AsksMore::yes;  // one that is left open is a doubt
+      const bool is_doubtful = lowest && changes_the_answer(*lowest, result.analysis);
+      const AsksMore asks_more = is_doubtful ? AsksMore::no : AsksMore::yes;
       try {
         auto found = friction_beside(result, body, locked, each, cost_of_a_part, asks_more);
         if (found && found->is_of_a_part && meaning_of(*found, result.analysis) == Meaning::may_matter) {
@@ -307,22 +319,24 @@ void judge_friction_in_time(Identification& result, std::span<const Recording> r
   if (options.response.output != OutputQuantity::position) return;
   const std::optional<FrictionBeside> lowering = lowering_friction(result, recordings, options.fit.locked);
   if (!lowering) return;
-  const ShownFriction* const friction = &lowering->friction;
+  const ShownFriction& friction = lowering->friction;
   const bool shows = meaning_of(*lowering, result.analysis) == Meaning::shows;
   const Motion motion = result.fit.device.parameters().motion;
-  const std::string what = fmt::format("{} dry friction of about {:.3g} {} on {}",
-                                       shows ? "the record shows" : "the record does not tell damping from",
-                                       friction->force, motion == Motion::rotary ? "N m" : "N", friction->body);
+  // Of one hardly told from none only what lies beside it is known.
+  const bool has_size = shows || lowering->is_held || is_suspected(friction);
+  const std::string size =
+      has_size ? fmt::format(" of about {:.3g} {}", friction.force, motion == Motion::rotary ? "N m" : "N") : "";
+  const std::string what =
+      fmt::format("{} dry friction{} on {}", shows ? "the record shows" : "the record does not tell damping from", size,
+                  friction.body);
   const std::string meaning = fmt::format("beside it the critical stiffness is about {:.3g} {}",
-                                          *friction->stiffness_beside, units_of(motion).stiffness);
-  if (shows) result.friction = *friction;
-  const StiffnessInterval& interval = *result.analysis.interval;
-  const bool changes_the_answer =
-      shows || *friction->stiffness_beside < interval.lower || *friction->stiffness_beside > interval.upper;
-  if (changes_the_answer) result.trust.doubt(what + ": " + meaning);
+                                          *friction.stiffness_beside, units_of(motion).stiffness);
+  if (shows) result.friction = friction;
+  const bool is_doubtful = changes_the_answer(*lowering, result.analysis);
+  if (is_doubtful) result.trust.doubt(what + ": " + meaning);
   result.remarks.push_back(
-      {changes_the_answer ? Remark::Severity::warning : Remark::Severity::note, what,
-       changes_the_answer ? meaning : meaning + ", within the interval",
+      {is_doubtful ? Remark::Severity::warning : Remark::Severity::note, what,
+       is_doubtful ? meaning : meaning + ", within the interval",
        "fit the friction too, in time; or excite more strongly: its share falls with the amplitude"});
 }
 

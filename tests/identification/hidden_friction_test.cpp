@@ -102,7 +102,7 @@ std::vector<double> column_of(const std::string& name) {
 }
 
 void expect_doubt_of_friction(std::vector<double> force, const std::string& counts, double step,
-                              const std::string& structure, double truth) {
+                              const std::string& structure, double too_high) {
   std::vector<double> position = column_of(counts);
   ASSERT_EQ(position.size(), force.size());
   for (double& each : position) each *= step;
@@ -112,9 +112,10 @@ void expect_doubt_of_friction(std::vector<double> force, const std::string& coun
   const Identification found =
       identify(record, Device(named_structure(structure, {.record_period = 1e-3}).value().parameters), options);
   ASSERT_TRUE(found.analysis.interval);
-  ASSERT_GT(found.analysis.interval->lower, truth) << "what is doubted";
-  ASSERT_FALSE(found.trust.sound());
-  EXPECT_NE(found.trust.reasons.front().find("dry friction"), std::string::npos) << found.trust.reasons.front();
+  ASSERT_GT(found.analysis.interval->lower, too_high) << "what is doubted";
+  ASSERT_EQ(found.trust.reasons.size(), 1U);
+  const std::string& reason = found.trust.reasons.front();
+  EXPECT_EQ(reason.find("the record does not tell damping from dry friction"), 0U) << reason;
 }
 
 // 0.27652 and 1.50555 kg, 0.07873 and 0.00665 N s/m, 282 636 N/m, 1.497 N s/m, friction of 1.5 mN on the motor under a multisine of
@@ -125,7 +126,8 @@ TEST(HiddenFriction, OfADeviceThatNeverSettlesIsNeverSound) {
   ASSERT_EQ(period.size(), 2000U);
   std::vector<double> force(15 * period.size());
   for (std::size_t k = 0; k < force.size(); ++k) force[k] = period[k % period.size()];
-  expect_doubt_of_friction(std::move(force), "slow_device_multisine.csv", 9.02275050922809e-05, "two-body", 170.781);
+  expect_doubt_of_friction(std::move(force), "slow_device_multisine.csv", 9.02275050922809e-05, "two-body",
+                           1.2 * 170.781);
 }
 
 // 0.1292 kg, 0.00866 N s/m, friction of 0.228 mN under a chirp of 0.934 N: in time it explains the record by 43 of the log-likelihood,
@@ -140,7 +142,7 @@ TEST(HiddenFriction, ThatExplainsTheRecordClearlyCountsWhateverItsDeviation) {
     const double turns = lowest * t + 0.5 * (highest - lowest) * t * t / duration;
     force[k] = 0.9339760071787465 * std::sin(2.0 * std::numbers::pi * turns);
   }
-  expect_doubt_of_friction(std::move(force), "light_body_chirp.csv", 0.004398777809894018, "rigid", 17.3158);
+  expect_doubt_of_friction(std::move(force), "light_body_chirp.csv", 0.004398777809894018, "rigid", 1.02 * 17.3158);
 }
 
 // 0.23568 kg, 0.03395 N s/m, 0.25 ms late, friction of 1.57 mN under three sines: beside it the critical stiffness is 4.6 % lower than the
@@ -153,7 +155,7 @@ TEST(HiddenFriction, UnderThreeLinesIsNeverSound) {
     force[k] = 1.2913023796591896 *
                (line(1.5, 1.866106336939593) + line(2.0, 1.444985986191354) + line(2.5, 4.190883904463815));
   }
-  expect_doubt_of_friction(std::move(force), "one_body_three_lines.csv", 0.002337020368406416, "rigid", 45.2678);
+  expect_doubt_of_friction(std::move(force), "one_body_three_lines.csv", 0.002337020368406416, "rigid", 1.06 * 45.2678);
 }
 
 }  // namespace
