@@ -8,9 +8,9 @@
 #include <cstdint>
 #include <functional>
 #include <iterator>
-#include <limits>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -87,6 +87,9 @@ bool is_suspected(const ShownFriction& friction) {
   return friction.force > deviations * friction.deviation;
 }
 
+/// Two deviations; a side minimum gains less.
+constexpr double least_gain = 2.0;
+
 /// By four deviations.
 bool is_clear(const FrictionBeside& beside) { return beside.gain > 8.0; }
 
@@ -99,7 +102,6 @@ Meaning meaning_of(const FrictionBeside& beside, const Analysis& analysis) {
   // answers none came so far below its interval; of six that began 15 to 190 % above the truth all did.
   const bool is_far = is_far_below(*friction.stiffness_beside, analysis);
   if (beside.is_held) return is_far ? Meaning::may_matter : Meaning::nothing;
-  constexpr double least_gain = 2.0;  // two deviations; a side minimum gains less
   if (beside.gain < least_gain) return is_far ? Meaning::may_matter : Meaning::nothing;
   if (friction.force > significant_friction * friction.deviation) return Meaning::shows;
   // Below, the fit in time may as well have ended in a side minimum.
@@ -139,6 +141,18 @@ std::optional<FittedShots> best_from(const Follower& follower, const std::vector
   return best ? search.with_noise(best->fit, shots, best->fit.x, thorough) : std::nullopt;
 }
 
+/// The search goes on from where friction was held.
+std::optional<FrictionFit> with_free_friction(const Follower& follower, const FittedShots& held,
+                                              double linear_badness) {
+  const auto& [model, search, shots] = follower;
+  ShotFit start = held.fit;
+  start.held.assign(start.held.size(), false);
+  auto found = search.with_noise(start, shots, start.x, thorough);
+  if (!found) return std::nullopt;
+  const double badness = search.badness(*found, shots);
+  return FrictionFit{*std::move(found), badness, linear_badness};
+}
+
 /// `best` beside the device without friction, its element `friction` of x 0; the search goes on from there where `best` explains
 /// clearly less: it is a side minimum. Nothing where the linear device cannot be followed.
 std::optional<FrictionFit> beside_linear(const Follower& follower, FittedShots best, const Eigen::VectorXd& linear,
@@ -151,53 +165,86 @@ std::optional<FrictionFit> beside_linear(const Follower& follower, FittedShots b
   const double badness = search.badness(best, shots);
   FrictionFit found{std::move(best), badness, search.badness(*without, shots)};
   if (found.gain() > as_much) return found;
-  without->fit.held.assign(without->fit.held.size(), false);
-  auto near = search.with_noise(without->fit, shots, linear, thorough);
-  if (!near) return std::nullopt;
-  found.badness = search.badness(*near, shots);
-  found.best = *std::move(near);
-  return found;
+  return with_free_friction(follower, *without, found.linear_badness);
 }
 
-/// More friction than the best that explains about as much, where K_CR beside it lies far below the interval. The fit is
-/// repeated: slopes, which point out where to look, hold for a small way only near stick and slip. `known`: of the best.
-std::optional<FrictionBeside> more_friction(const Follower& follower, const FrictionFit& fit, Eigen::Index at,
-                                            const FrictionBeside& best, const Eigen::MatrixXd& known,
-                                            const Analysis& analysis) {
+/// The best friction of a fit, and what else the fit tells of it.
+struct DescribedFriction {
+  FrictionBeside found;
+  Eigen::VectorXd along;  ///< of x, for a deviation of the friction
+};
+
+/// Of `body`, element `at` of x. Nothing where the friction is not determined, or would have held the device.
+std::optional<DescribedFriction> describe(const Follower& follower, const FrictionFit& fit, Eigen::Index at,
+                                          const std::string& body, bool is_of_a_part) {
+  const ShotModel& model = follower.model;
+  const FittedShots& best = fit.best;
+  const Eigen::VectorXd& x = best.fit.x;
+  const auto slopes = shot_slopes(model, follower.shots, best.noise, x, best.fit.states);
+  if (!slopes) return std::nullopt;
+  const ShotCovariance known = shot_covariance(*slopes, std::vector<bool>(static_cast<std::size_t>(x.size()), false));
+  const double variance = known.covariance(at, at);
+  if (!(variance > 0.0)) return std::nullopt;
+  const double unit = model.coordinates()[static_cast<std::size_t>(at)].slope(x(at));
+  // A body alone that rubs as strongly as it is pushed would not have moved.
+  const auto [least, most] = std::ranges::minmax(model.records().front().force);
+  const double strongest = std::max(std::abs(least), std::abs(most));
+  if (model.states() == 2 && x(at) * unit >= strongest) return std::nullopt;
+  const double deviation = std::sqrt(variance);
+  return DescribedFriction{{{body, x(at) * unit, deviation * unit, stiffness_beside(model.parameters_at(x))},
+                            fit.gain(),
+                            false,
+                            is_of_a_part},
+                           known.covariance.col(at) / deviation};
+}
+
+/// What more friction than the best showed: one that the record does not exclude and beside which K_CR lies far below the
+/// interval, or else a better fit than the best.
+struct MoreFriction {
+  std::optional<FrictionBeside> far;
+  std::optional<FrictionFit> better;
+};
+
+/// Up to two deviations more. The fit is repeated: slopes, which point out where to look, hold for a small way only near stick
+/// and slip.
+MoreFriction more_friction(const Follower& follower, const FrictionFit& fit, Eigen::Index at,
+                           const DescribedFriction& best, const Analysis& analysis) {
   const auto& [model, search, shots] = follower;
   const Eigen::VectorXd& x = fit.best.fit.x;
-  const double deviation = std::sqrt(known(at, at));
-  const double unit = best.friction.deviation / deviation;
+  const bool is_of_a_part = best.found.is_of_a_part;
   constexpr std::array shares{0.1, 0.3, 1.0, 2.0};  // of the deviation
   const auto may_be_far = [&](double share) {
     try {
-      const Eigen::VectorXd along = known.col(at) * share / deviation;
       constexpr double nearly = 0.95;  // slopes hold for a small way only
-      return stiffness_beside(follower.model.parameters_at(x + along)) < nearly * analysis.interval->lower;
+      return stiffness_beside(follower.model.parameters_at(x + share * best.along)) < nearly * analysis.interval->lower;
     } catch (const Error&) {  // so far that a damping is negative
       return true;
     }
   };
-  if (std::ranges::none_of(shares, may_be_far)) return std::nullopt;
-  double most = std::max(0.0, best.gain);
-  ShotFit from = fit.best.fit;
+  MoreFriction more;
+  if (std::ranges::none_of(shares, may_be_far)) return more;
+  double most = std::max(0.0, best.found.gain);
+  FittedShots from = fit.best;
   for (const double share : shares) {
-    const auto held = with_held_friction(follower, from, at, x(at) + share * deviation, fit.best.noise);
+    auto held = with_held_friction(follower, from.fit, at, x(at) + share * best.along(at), fit.best.noise);
     if (!held) continue;
     const double gain = fit.linear_badness - search.badness(*held, shots);
-    if (!best.is_of_a_part) most = std::max(most, gain);  // of a part the whole will tell
-    const bool is_as_good = gain > as_much && (best.is_of_a_part || gain > most + as_much);
+    if (!is_of_a_part) most = std::max(most, gain);  // of a part the whole will tell
+    const bool is_as_good = gain > as_much && (is_of_a_part || gain > most + as_much);
     if (!is_as_good) continue;
-    from = held->fit;  // a small way on, states and all: from those of the record a search ends in side minima
-    const double stiffness = stiffness_beside(model.parameters_at(held->fit.x));
+    from = *std::move(held);  // a small way on, states and all: from those of the record a search ends in side minima
+    const double stiffness = stiffness_beside(model.parameters_at(from.fit.x));
     if (!is_far_below(stiffness, analysis)) continue;
-    return FrictionBeside{
-        {best.friction.body, best.friction.force + share * deviation * unit, best.friction.deviation, stiffness},
-        gain,
-        true,
-        best.is_of_a_part};
+    ShownFriction friction = best.found.friction;
+    friction.force += share * friction.deviation;
+    friction.stiffness_beside = stiffness;
+    more.far = FrictionBeside{std::move(friction), gain, true, is_of_a_part};
+    return more;
   }
-  return std::nullopt;
+  if (most > std::max(0.0, best.found.gain) + least_gain) {
+    more.better = with_free_friction(follower, from, fit.linear_badness);
+  }
+  return more;
 }
 
 /// How much of a record is played: what most records need, and what one needs of which a part leaves friction open.
@@ -223,7 +270,7 @@ std::optional<FrictionBeside> friction_beside(const Identification& result, cons
   start.free.push_back("body." + body.name + ".coulomb");
 
   // Of what takes long to play, the first part: the steps through it times what is followed in each.
-  const Device device = device_in_experiment(start.device, locked, record.sampling_period);
+  const Device device = without_short_lag(device_in_experiment(start.device, locked, record.sampling_period));
   const double parts = ContinuousMotion(device, {}, {}).rate() * record.sampling_period;
   constexpr double most_parts = 60.0;
   if (parts > most_parts) return std::nullopt;
@@ -254,58 +301,58 @@ std::optional<FrictionBeside> friction_beside(const Identification& result, cons
   const Follower follower{model, search, shots};
   auto found_best = best_from(follower, starts, short_shots);
   if (!found_best) return std::nullopt;
-  const std::size_t last = start.free.size() - 1;
-  const auto at = static_cast<Eigen::Index>(last);
-  const auto friction = beside_linear(follower, *std::move(found_best), model.position_of(linear.parameters()), at);
+  const auto at = static_cast<Eigen::Index>(start.free.size()) - 1;
+  auto friction = beside_linear(follower, *std::move(found_best), model.position_of(linear.parameters()), at);
   if (!friction || !(friction->gain() > as_much)) return std::nullopt;
-  const FittedShots& best = friction->best;
-  const auto slopes = shot_slopes(model, shots, best.noise, best.fit.x, best.fit.states);
-  if (!slopes) return std::nullopt;
-  const Eigen::VectorXd& x = best.fit.x;
-  const ShotCovariance known = shot_covariance(*slopes, std::vector<bool>(static_cast<std::size_t>(x.size()), false));
-  if (!(known.covariance(at, at) > 0.0)) return std::nullopt;
-  const double unit = model.coordinates()[last].slope(x(at));
-  // A body alone that rubs as strongly as it is pushed would not have moved.
-  const auto [least, most] = std::ranges::minmax(record.force);
-  const double strongest = std::max(std::abs(least), std::abs(most));
-  if (device.bodies().size() == 1 && x(at) * unit >= strongest) return std::nullopt;
-  const double deviation = std::sqrt(known.covariance(at, at)) * unit;
-  FrictionBeside found{{body.name, x(at) * unit, deviation, stiffness_beside(model.parameters_at(x))},
-                       friction->gain(),
-                       false,
-                       is_of_a_part};
-  if (meaning_of(found, result.analysis) == Meaning::shows) return found;
-  if (asks_more == AsksMore::no || is_far_below(*found.friction.stiffness_beside, result.analysis)) return found;
-  const auto more = more_friction(follower, *friction, at, found, known.covariance, result.analysis);
-  return more ? more : found;
+  auto best = describe(follower, *friction, at, body.name, is_of_a_part);
+  const auto is_decided = [&] {
+    return asks_more == AsksMore::no || meaning_of(best->found, result.analysis) == Meaning::shows ||
+           is_far_below(*best->found.friction.stiffness_beside, result.analysis);
+  };
+  if (!best) return std::nullopt;
+  if (is_decided()) return best->found;
+  MoreFriction more = more_friction(follower, *friction, at, *best, result.analysis);
+  if (more.better) {  // the best was a side minimum
+    auto better = describe(follower, *more.better, at, body.name, is_of_a_part);
+    if (!better) return best->found;
+    friction = std::move(more.better);
+    best = std::move(better);
+    if (is_decided()) return best->found;
+    more = more_friction(follower, *friction, at, *best, result.analysis);
+  }
+  return more.far ? more.far : best->found;
 }
 
 /// Of the friction of the heaviest body that any recording shows, else of the next, that beside which the critical stiffness
-/// is lowest; where none shows, of what the records leave open: more than the best only until that is a doubt.
+/// is lowest; where none shows, of what the records leave open what changes the answer: more than the best is asked after until
+/// something does.
 std::optional<FrictionBeside> lowering_friction(const Identification& result, std::span<const Recording> recordings,
                                                 const std::vector<std::string>& locked) {
+  const auto ask = [&](const Body& body, const Recording& recording, double most_cost,
+                       AsksMore asks_more) -> std::optional<FrictionBeside> {
+    try {
+      return friction_beside(result, body, locked, recording, most_cost, asks_more);
+    } catch (const Error&) {  // no device has such numbers
+      return std::nullopt;
+    }
+  };
+  const auto rank = [&](const FrictionBeside& each) {
+    return std::tuple(meaning_of(each, result.analysis) != Meaning::shows, !changes_the_answer(each, result.analysis),
+                      *each.friction.stiffness_beside);
+  };
   std::optional<FrictionBeside> lowest;
-  bool shows = false;
   for (const Body& body : moving_bodies(result.fit.device, locked)) {
     for (const Recording& each : recordings) {
       const bool is_doubtful = lowest && changes_the_answer(*lowest, result.analysis);
       const AsksMore asks_more = is_doubtful ? AsksMore::no : AsksMore::yes;
-      try {
-        auto found = friction_beside(result, body, locked, each, cost_of_a_part, asks_more);
-        if (found && found->is_of_a_part && meaning_of(*found, result.analysis) == Meaning::may_matter) {
-          found = friction_beside(result, body, locked, each, cost_of_the_whole, asks_more);
-        }
-        const Meaning meaning = found ? meaning_of(*found, result.analysis) : Meaning::nothing;
-        if (meaning == Meaning::nothing || (shows && meaning != Meaning::shows)) continue;
-        const bool is_first = !lowest || (!shows && meaning == Meaning::shows);
-        shows = shows || meaning == Meaning::shows;
-        if (is_first || *found->friction.stiffness_beside < *lowest->friction.stiffness_beside)
-          lowest = std::move(found);
-      } catch (const Error&) {  // no device has such numbers
-        continue;
+      auto found = ask(body, each, cost_of_a_part, asks_more);
+      if (found && found->is_of_a_part && meaning_of(*found, result.analysis) == Meaning::may_matter) {
+        if (auto whole = ask(body, each, cost_of_the_whole, asks_more)) found = std::move(whole);
       }
+      if (!found || meaning_of(*found, result.analysis) == Meaning::nothing) continue;
+      if (!lowest || rank(*found) < rank(*lowest)) lowest = std::move(found);
     }
-    if (shows) break;
+    if (lowest && meaning_of(*lowest, result.analysis) == Meaning::shows) break;
   }
   return lowest;
 }

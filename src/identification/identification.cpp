@@ -39,10 +39,12 @@ class Fitting {
           const IdentifyOptions& options)
       : recordings_(recordings), options_(options), fit_options_(options.fit) {
     fit_options_.free = free_parameters(structure, fit_options_.free, fit_options_.locked);
-    const bool is_unknown = options.structure_values == IdentifyOptions::StructureValues::placeholders;
-    if (may_free() && is_unknown && !is_free(delay_key)) {
-      hides_delay_ = measured.response.points.size() <= fit_options_.free.size() + 1;
-      if (!hides_delay_) fit_options_.free.emplace_back(delay_key);
+    if (!is_free(delay_key)) {
+      const bool is_unknown = options.structure_values == IdentifyOptions::StructureValues::placeholders;
+      const bool tells_none = measured.response.points.size() <= fit_options_.free.size() + 1;
+      if (may_free() && is_unknown && !tells_none) fit_options_.free.emplace_back(delay_key);
+      const bool is_assumed = is_unknown || structure.loop().delay == 0.0;
+      hides_delay_ = tells_none && is_assumed && options.loop_delay != IdentifyOptions::LoopDelay::as_given;
     }
     if (is_drowned(measured.response, fit_options_.free.size())) {  // then nothing is worth a second fit
       fit_ = RecordFit{fit_parameters(structure, measured.response, fit_options_), measured.response};
@@ -60,7 +62,6 @@ class Fitting {
 
   /// A delay that the record shows, which was not to be fitted; s.
   [[nodiscard]] std::optional<double> ignored_delay() const { return ignored_delay_; }
-
   [[nodiscard]] bool hides_delay() const { return hides_delay_; }
   [[nodiscard]] const RecordFit& fit() const { return *fit_; }
   [[nodiscard]] std::vector<Remark>& remarks() { return remarks_; }

@@ -20,15 +20,6 @@ namespace {
 /// Sampling periods.
 constexpr double shortest_lag = 0.05;
 
-/// A lag far below the sampling period is too fast to follow, and no other than that much delay.
-Device without_short_lag(const Device& device) {
-  DeviceParameters parameters = device.parameters();
-  double& lag = parameters.actuator.time_constant;
-  if (lag >= shortest_lag * parameters.loop.sampling_period || lag == 0.0) return device;
-  parameters.loop.delay += std::exchange(lag, 0.0);
-  return Device(std::move(parameters));
-}
-
 double rms_change(std::span<const double> samples) {
   double sum = 0.0;
   for (std::size_t k = 1; k < samples.size(); ++k) sum += std::pow(samples[k] - samples[k - 1], 2);
@@ -58,6 +49,14 @@ std::vector<std::size_t> batches(const std::vector<Shot>& shots) {
 }
 
 }  // namespace
+
+Device without_short_lag(const Device& device) {
+  DeviceParameters parameters = device.parameters();
+  double& lag = parameters.actuator.time_constant;
+  if (lag >= shortest_lag * parameters.loop.sampling_period || lag == 0.0) return device;
+  parameters.loop.delay += std::exchange(lag, 0.0);
+  return Device(std::move(parameters));
+}
 
 ShotModel::ShotModel(Device structure, std::vector<MotionRecord> records, std::vector<Coordinate> coordinates,
                      std::vector<std::string> locked, double most_parts)

@@ -79,6 +79,9 @@ class PlayedShots {
   Motions motions_;
 };
 
+/// As ShotModel plays it: a lag far below the sampling period is too fast to follow, and no other than that much delay.
+[[nodiscard]] Device without_short_lag(const Device& device);
+
 /// A force on a body beside what a device has: drag -c |v| v, or what friction has more, c e^{-s/length} against the motion,
 /// after the body turned and went s. |v| and s are held over each sampling period.
 struct WeakForce {

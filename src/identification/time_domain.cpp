@@ -242,7 +242,9 @@ TimeDomainIdentification identify_in_time(std::span<const Recording> recordings,
       const bool leaps_on = asks_for_more(*found);
       if (leaps_on) whole = beyond(model, *found);
       const double gain = search.restart_states(*whole, shots, found->fitted.noise);
-      if ((!leaps_on && gain < notable) || leaps++ == most_leaps) break;
+      const bool rests = !leaps_on && gain < notable;
+      if (rests) fall = 0.0;  // whatever led there
+      if (rests || leaps++ == most_leaps) break;
     }
     const Eigen::VectorXd before = whole->x;
     std::optional<Round> now = next_round(search, model, shots, *whole, towards);

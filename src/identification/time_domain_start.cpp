@@ -127,7 +127,7 @@ TimeDomainStart time_domain_start(std::span<const Recording> recordings, const D
     start.is_turned = found.fit.model_error_if_turned.has_value();
     if (const auto& interval = found.analysis.interval; interval && !found.trust.refused() && found.fit.settled) {
       start.linear = LinearStiffness{found.analysis.critical.stiffness, interval->upper,
-                                     leaves_too_much(found.fit, found.response)};
+                                     doubt_of_misfit(found.fit, found.response).has_value()};
     }
     start.shows_other_delay = found.ignored_delay.has_value();
     if (takes_all) start.free = keys_of(found.fit);

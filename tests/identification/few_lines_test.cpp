@@ -31,14 +31,19 @@ std::vector<double> lines_of(std::size_t first, std::size_t last, std::mt19937_6
   return force;
 }
 
-Identification identified_at(std::size_t first, std::size_t last, const DeviceParameters& device) {
+IdentifyOptions of_nobody() {
+  IdentifyOptions options;
+  options.structure_values = IdentifyOptions::StructureValues::placeholders;
+  return options;
+}
+
+Identification identified_at(std::size_t first, std::size_t last, const DeviceParameters& device,
+                             const IdentifyOptions& options = of_nobody()) {
   constexpr double step = 2e-3;
   std::mt19937_64 random(5);
   std::vector<double> force = lines_of(first, last, random);
   std::vector<double> position = test::FrictionChain(device).positions(force);
   for (double& each : position) each = step * std::round(each / step + std::normal_distribution()(random));
-  IdentifyOptions options;
-  options.structure_values = IdentifyOptions::StructureValues::placeholders;
   return identify({"run", 1e-3, {{"force", std::move(force)}, {"position", std::move(position)}}, {}},
                   Device(named_structure("rigid", {.record_period = 1e-3}).value().parameters), options);
 }
@@ -54,6 +59,13 @@ TEST(FewLines, ThatDoNotTellADelayAreDoubtful) {
   ASSERT_FALSE(few.trust.sound());
   EXPECT_NE(few.trust.reasons.front().find("3 lines, too few to tell a delay"), std::string::npos)
       << few.trust.reasons.front();
+  // The same fit: was sound.
+  EXPECT_FALSE(identified_at(3, 5, device, {}).trust.sound()) << "a file that states no delay";
+  IdentifyOptions named = of_nobody();
+  named.fit.free = {"body.body.mass", "body.body.damping"};
+  EXPECT_FALSE(identified_at(3, 5, device, named).trust.sound()) << "named free numbers";
+  named.loop_delay = IdentifyOptions::LoopDelay::as_given;
+  EXPECT_TRUE(identified_at(3, 5, device, named).trust.sound()) << "a delay that is stated to be none";
   const Identification more = identified_at(1, 8, device);
   ASSERT_TRUE(more.analysis.interval);
   EXPECT_LE(more.analysis.interval->lower, truth);

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <fstream>
 #include <numbers>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -156,6 +157,31 @@ TEST(HiddenFriction, UnderThreeLinesIsNeverSound) {
                (line(1.5, 1.866106336939593) + line(2.0, 1.444985986191354) + line(2.5, 4.190883904463815));
   }
   expect_doubt_of_friction(std::move(force), "one_body_three_lines.csv", 0.002337020368406416, "rigid", 1.06 * 45.2678);
+}
+
+// A lag far below the sampling period was too fast to be played, and nobody asked.
+TEST(HiddenFriction, BesideAShortLagIsAskedFor) {
+  DeviceParameters device;
+  device.bodies = {{"body", 0.5, 2.0, 0.0, 0.04}};
+  device.loop = {0, 0, 0, 1e-3, 0.0};
+  std::mt19937_64 random(5);
+  std::vector<double> force;
+  double slow = 0.0;
+  for (int k = 0; k < 12000; ++k) force.push_back(slow = 0.9 * slow + std::normal_distribution()(random));
+  std::vector<double> position = test::FrictionChain(device).positions(force);
+  for (double& each : position) each += std::normal_distribution(0.0, 1e-3)(random);
+  device.bodies.front().coulomb = 0.0;
+  const double truth = critical_stiffness(Device(device)).stiffness;
+  device.actuator.time_constant = 1e-5;
+  IdentifyOptions options;
+  options.fit.free = {"body.body.mass", "body.body.damping"};
+  const Identification found = identify(
+      {"run", 1e-3, {{"force", std::move(force)}, {"position", std::move(position)}}, {}}, Device(device), options);
+  ASSERT_TRUE(found.analysis.interval);
+  ASSERT_GT(found.analysis.interval->lower, 1.03 * truth) << "what is doubted";
+  ASSERT_EQ(found.trust.reasons.size(), 1U);
+  const std::string& reason = found.trust.reasons.front();
+  EXPECT_NE(reason.find("on body: beside it the critical stiffness"), std::string::npos) << reason;
 }
 
 }  // namespace
