@@ -112,10 +112,13 @@ Meaning meaning_of(const FrictionBeside& beside, const Analysis& analysis) {
   return matters || is_beside_the_answer || is_far ? Meaning::may_matter : Meaning::nothing;
 }
 
-/// Of a friction that may matter or shows: whether the answer is another with it than without.
+/// Of a friction that may matter or shows: whether the answer is another with it than without. Within the interval, where it
+/// explains the record clearly and moves the interval by more than half of its lower part.
 bool changes_the_answer(const FrictionBeside& beside, const Analysis& analysis) {
-  return meaning_of(beside, analysis) == Meaning::shows || (is_clear(beside) && is_suspected(beside.friction)) ||
-         *beside.friction.stiffness_beside < analysis.interval->lower;
+  const double lower = analysis.interval->lower;
+  const double middle = 0.5 * (lower + analysis.critical.stiffness);
+  const double most = is_clear(beside) && is_suspected(beside.friction) ? middle : lower;
+  return meaning_of(beside, analysis) == Meaning::shows || *beside.friction.stiffness_beside < most;
 }
 
 /// With the friction free, and what the linear device leaves.

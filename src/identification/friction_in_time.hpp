@@ -17,8 +17,8 @@ namespace zwidth::internal {
 /// not known. Doubtful:
 ///
 /// - the friction shows, by 4.8 deviations;
-/// - one of more than two deviations would make the critical stiffness 5 % lower, and lower than its interval; 4 %, within it
-///   too, where it explains the record clearly (by 8 of the log-likelihood);
+/// - one of more than two deviations would make the critical stiffness 5 % lower, and lower than its interval; 4 %, and lower
+///   than the middle of the interval's lower part, where it explains the record clearly (by 8 of the log-likelihood);
 /// - one that explains the record clearly puts it more than 1 % below its interval;
 /// - one of any size that explains it about as well as none puts it more than 10 % below: the best one, or up to two
 ///   deviations more.
