@@ -57,6 +57,7 @@ int MoteusDriver::mode() {
 
 void MoteusDriver::arm() {
   const std::int64_t until = clock_now() + arming_patience;
+  std::int64_t pause = between_looks;
   do {
     tell(line(moteus_stop(id_)).view());  // each time: its watchdog may bite while an answer is under way
     tell(torque_frame(0.0).view());
@@ -64,7 +65,8 @@ void MoteusDriver::arm() {
       tell(torque_frame(0.0).view());
       return forget_input();
     }
-    sleep_until(clock_now() + between_looks);
+    sleep_until(clock_now() + pause);
+    pause *= 2;  // an answer that is late passes for that of the next question, until a pause lets all of them in
   } while (clock_now() < until);
   throw DriverFailed(fmt::format(
       "moteus {} does not go into its position mode but stays in mode {}; calibrate it first", id_, mode()));
