@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
-#include <iterator>
 #include <optional>
 #include <string>
 #include <tuple>
@@ -16,6 +15,7 @@
 
 #include "identification/encoder_step.hpp"
 #include "identification/fit_judgement.hpp"
+#include "identification/friction_fit.hpp"
 #include "identification/friction_test.hpp"
 #include "identification/shot_covariance.hpp"
 #include "identification/shot_fit.hpp"
@@ -43,29 +43,6 @@ double stiffness_beside(DeviceParameters parameters) {
   return limit_of(Device(std::move(parameters))).stiffness;
 }
 
-/// What is followed, and how.
-struct Follower {
-  const ShotModel& model;
-  const ShotSearch& search;
-  const std::vector<Shot>& shots;
-};
-
-constexpr ShotFitOptions thorough{.most_iterations = 40, .tolerance = 1e-6};
-
-/// With one element of x, the friction, that stays; at first under `noise`, since what the rest has yet to follow would pass
-/// for drift. Nothing where no such device can be followed.
-std::optional<FittedShots> with_held_friction(const Follower& follower, ShotFit start, Eigen::Index friction,
-                                              double value, const std::vector<ShotNoise>& noise) {
-  const auto& [model, search, shots] = follower;
-  const Eigen::VectorXd towards = start.x;
-  start.x(friction) = value;
-  start.held.assign(static_cast<std::size_t>(start.x.size()), false);
-  start.held[static_cast<std::size_t>(friction)] = true;
-  const auto fit = fit_shots(model, shots, noise, std::move(start), towards, thorough);
-  if (!fit) return std::nullopt;
-  return search.with_noise(*fit, shots, towards, thorough);
-}
-
 /// A friction, and what it explains.
 struct FrictionBeside {
   ShownFriction friction;
@@ -73,9 +50,6 @@ struct FrictionBeside {
   bool is_held = false;       ///< not the best one: more of it, that the record does not exclude
   bool is_of_a_part = false;  ///< of the record, the rest of which may exclude it
 };
-
-/// A gain above this: it explains about as much as the linear device.
-constexpr double as_much = -4.0;
 
 bool is_far_below(double stiffness, const Analysis& analysis) {
   constexpr double far = 0.9;
@@ -119,56 +93,6 @@ bool changes_the_answer(const FrictionBeside& beside, const Analysis& analysis) 
   const double middle = 0.5 * (lower + analysis.critical.stiffness);
   const double most = is_clear(beside) && is_suspected(beside.friction) ? middle : lower;
   return meaning_of(beside, analysis) == Meaning::shows || *beside.friction.stiffness_beside < most;
-}
-
-/// With the friction free, and what the linear device leaves.
-struct FrictionFit {
-  FittedShots best;
-  double badness;
-  double linear_badness;
-  [[nodiscard]] double gain() const { return linear_badness - badness; }
-};
-
-/// The least bad of the searches from each start. Of long shots some end in side minima without friction, of short ones others.
-std::optional<FittedShots> best_from(const Follower& follower, const std::vector<SearchStart>& starts,
-                                     const std::vector<Shot>& short_shots) {
-  const auto& [model, search, shots] = follower;
-  auto ends = search.from_each(starts, shots);
-  const auto of_short = search.from_each(starts, short_shots);
-  std::vector<SearchStart> next;
-  for (std::size_t i = 0; i < starts.size(); ++i) {
-    if (of_short[i]) next.push_back({of_short[i]->fitted.fit.x, starts[i].handicap});
-  }
-  std::ranges::move(search.from_each(next, shots), std::back_inserter(ends));
-  const std::optional<FittedShots> best = least_bad(std::move(ends));
-  return best ? search.with_noise(best->fit, shots, best->fit.x, thorough) : std::nullopt;
-}
-
-/// The search goes on from where friction was held.
-std::optional<FrictionFit> with_free_friction(const Follower& follower, const FittedShots& held,
-                                              double linear_badness) {
-  const auto& [model, search, shots] = follower;
-  ShotFit start = held.fit;
-  start.held.assign(start.held.size(), false);
-  auto found = search.with_noise(start, shots, start.x, thorough);
-  if (!found) return std::nullopt;
-  const double badness = search.badness(*found, shots);
-  return FrictionFit{*std::move(found), badness, linear_badness};
-}
-
-/// `best` beside the device without friction, its element `friction` of x 0; the search goes on from there where `best` explains
-/// clearly less: it is a side minimum. Nothing where the linear device cannot be followed.
-std::optional<FrictionFit> beside_linear(const Follower& follower, FittedShots best, const Eigen::VectorXd& linear,
-                                         Eigen::Index friction) {
-  const auto& [model, search, shots] = follower;
-  const auto alone = search.with_fitted_states(linear, shots, best.noise, ShotSearch::Constants::fitted);
-  if (!alone) return std::nullopt;
-  auto without = with_held_friction(follower, *alone, friction, 0.0, best.noise);
-  if (!without) return std::nullopt;
-  const double badness = search.badness(best, shots);
-  FrictionFit found{std::move(best), badness, search.badness(*without, shots)};
-  if (found.gain() > as_much) return found;
-  return with_free_friction(follower, *without, found.linear_badness);
 }
 
 /// The best friction of a fit, and what else the fit tells of it.
@@ -254,6 +178,21 @@ MoreFriction more_friction(const Follower& follower, const FrictionFit& fit, Eig
 constexpr double cost_of_a_part = 2.5e6;
 constexpr double cost_of_the_whole = 16.0 * cost_of_a_part;
 
+constexpr std::size_t shortest = 512;  // samples
+constexpr double most_steps = 60.0;    // a sample
+
+/// Of the motion of a device through each sample.
+double steps_per_sample(const Device& device, const std::vector<std::string>& locked, double sampling_period) {
+  const Device played = without_short_lag(device_in_experiment(device, locked, sampling_period));
+  return ContinuousMotion(played, {}, {}).rate() * sampling_period;
+}
+
+/// Whether the motion can be followed at all.
+bool can_be_asked(const Identification& result, const std::vector<std::string>& locked, const Recording& recording) {
+  return recording.channels[0].samples.size() >= shortest &&
+         steps_per_sample(result.fit.device, locked, recording.sampling_period) <= most_steps;
+}
+
 /// Whether more than the best friction is asked after.
 enum class AsksMore : std::uint8_t { no, yes };
 
@@ -264,27 +203,23 @@ std::optional<FrictionBeside> friction_beside(const Identification& result, cons
   const ParameterFit& fit = result.fit;
   const std::span one(&recording, 1);
   const MotionRecord record{recording.channels[0].samples, recording.channels[1].samples, recording.sampling_period};
-  constexpr std::size_t shortest = 512;
-  if (record.force.size() < shortest) return std::nullopt;
   DeviceParameters parameters = fit.device.parameters();
   parameters.uncertainty.reset();
   const Device linear(std::move(parameters));
   TimeDomainStart start{.device = linear, .free = keys_of(fit)};
   start.free.push_back("body." + body.name + ".coulomb");
 
-  // Of what takes long to play, the first part: the steps through it times what is followed in each.
-  const Device device = without_short_lag(device_in_experiment(start.device, locked, record.sampling_period));
-  const double parts = ContinuousMotion(device, {}, {}).rate() * record.sampling_period;
-  constexpr double most_parts = 60.0;
-  if (parts > most_parts) return std::nullopt;
-  const auto states = static_cast<double>(2 * device.bodies().size());
-  const double cost = std::max(1.0, parts) * states * (static_cast<double>(start.free.size()) + 1.0 + states);
-  const double affordable = std::max(static_cast<double>(shortest), most_cost / cost);
+  const double steps = steps_per_sample(start.device, locked, record.sampling_period);
   constexpr double stiffer = 2.0;  // a device that the search comes to
   const ShotModel model(start.device, {record}, time_domain_coordinates(start, one), locked,
-                        std::min(most_parts, stiffer * parts + 1.0));
+                        std::min(most_steps, stiffer * steps + 1.0));
+  // The steps times what is followed in each.
+  const auto states = static_cast<double>(model.states());
+  const double cost = std::max(1.0, steps) * states * (static_cast<double>(start.free.size()) + 1.0 + states);
+  const double affordable = std::max(static_cast<double>(shortest), most_cost / cost);
   constexpr std::size_t noise_terms = 24;
   const ShotSearch search(model, {encoder_step(record.position)}, noise_terms);
+  // Of what takes long to play, the first part.
   constexpr double length = 5.0;  // s
   std::vector<Shot> shots = cut_into_shots(model.records(), start.device,
                                            std::min(length, 0.5 * affordable * record.sampling_period), shortest);
@@ -346,6 +281,7 @@ std::optional<FrictionBeside> lowering_friction(const Identification& result, st
   std::optional<FrictionBeside> lowest;
   for (const Body& body : moving_bodies(result.fit.device, locked)) {
     for (const Recording& each : recordings) {
+      if (!can_be_asked(result, locked, each)) continue;
       const bool is_doubtful = lowest && changes_the_answer(*lowest, result.analysis);
       const AsksMore asks_more = is_doubtful ? AsksMore::no : AsksMore::yes;
       auto found = ask(body, each, cost_of_a_part, asks_more);
@@ -367,6 +303,17 @@ void judge_friction_in_time(Identification& result, std::span<const Recording> r
   if (!result.trust.sound() || !result.analysis.interval) return;
   if (options.scrutiny != IdentifyOptions::Scrutiny::thorough) return;
   if (options.response.output != OutputQuantity::position) return;
+  const auto is_open = [&](const Recording& each) { return !can_be_asked(result, options.fit.locked, each); };
+  if (!recordings.empty() && std::ranges::all_of(recordings, is_open)) {
+    result.remarks.push_back(
+        {Remark::Severity::note, "dry friction was not looked for in time",
+         fmt::format(
+             "that takes {} samples, and a device that moves through each in {} steps or fewer; friction that the "
+             "response does not show makes the critical stiffness too high",
+             shortest, most_steps),
+         "record for longer; or fit a structure without the stiffest link"});
+    return;
+  }
   const std::optional<FrictionBeside> lowering = lowering_friction(result, recordings, options.fit.locked);
   if (!lowering) return;
   const ShownFriction& friction = lowering->friction;

@@ -1,7 +1,6 @@
 #include "zwidth/identification/identification.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -41,10 +40,11 @@ class Fitting {
     fit_options_.free = free_parameters(structure, fit_options_.free, fit_options_.locked);
     if (!is_free(delay_key)) {
       const bool is_unknown = options.structure_values == IdentifyOptions::StructureValues::placeholders;
-      const bool tells_none = measured.response.points.size() <= fit_options_.free.size() + 1;
+      const std::size_t lines = measured.response.points.size();
+      const bool tells_none = lines <= fit_options_.free.size() + 1;
       if (may_free() && is_unknown && !tells_none) fit_options_.free.emplace_back(delay_key);
-      const bool is_assumed = is_unknown || structure.loop().delay == 0.0;
-      hides_delay_ = tells_none && is_assumed && options.loop_delay != IdentifyOptions::LoopDelay::as_given;
+      assumes_delay_ = assumes_delay(structure, options.structure_values, options.loop_delay);
+      if (assumes_delay_ && tells_none) open_delay_ = hidden_delay_reason(lines, fit_options_.free.size());
     }
     if (is_drowned(measured.response, fit_options_.free.size())) {  // then nothing is worth a second fit
       fit_ = RecordFit{fit_parameters(structure, measured.response, fit_options_), measured.response};
@@ -60,9 +60,9 @@ class Fitting {
     go_on();
   }
 
-  /// A delay that the record shows, which was not to be fitted; s.
+  /// A delay that the record shows, which was not to be fitted, in s; and why one that nobody stated may lower K_CR.
   [[nodiscard]] std::optional<double> ignored_delay() const { return ignored_delay_; }
-  [[nodiscard]] bool hides_delay() const { return hides_delay_; }
+  [[nodiscard]] const std::optional<std::string>& open_delay() const { return open_delay_; }
   [[nodiscard]] const RecordFit& fit() const { return *fit_; }
   [[nodiscard]] std::vector<Remark>& remarks() { return remarks_; }
 
@@ -247,6 +247,7 @@ class Fitting {
     const std::optional<RecordFit> wider = with_free({delay_key}, ParameterFitOptions::Start::from_structure);
     if (!wider) return;
     ignored_delay_ = other_delay(wider->fit.estimates.back(), fit_->fit.device.loop());
+    if (assumes_delay_ && !ignored_delay_) open_delay_ = doubt_of_open_delay(wider->fit.device, fit_->fit.device);
   }
 
   /// Delay, then lag, where the record shows them.
@@ -281,7 +282,8 @@ class Fitting {
   std::optional<RecordFit> fit_;
   std::vector<Remark> remarks_;
   std::optional<double> ignored_delay_;
-  bool hides_delay_ = false;  ///< too few lines to tell one, of a structure that states none
+  bool assumes_delay_ = false;  // nobody states it
+  std::optional<std::string> open_delay_;
   bool is_hopeless_ = false;  ///< to be refused, whatever else is fitted
 };
 
@@ -291,9 +293,7 @@ void judge_what_was_given(const Fitting& fitting, Judgement& judgement) {
     judgement.trust.doubt(fmt::format("{}; {}", remark.what, remark.remedy));
     judgement.remarks.push_back(remark);
   }
-  const RecordFit& fit = fitting.fit();
-  if (fitting.hides_delay())
-    judgement.trust.doubt(hidden_delay_reason(fit.response.points.size(), fit.fit.estimates.size()));
+  if (fitting.open_delay()) judgement.trust.doubt(*fitting.open_delay());
   for (const ContradictedNumber& each : fitting.contradicted()) judgement.trust.doubt(contradiction_reason(each));
   judgement.device_trust.inherit(judgement.trust);
 }

@@ -11,6 +11,7 @@
 
 #include "model/uncertainty_problem.hpp"
 #include "zwidth/quantity.hpp"
+#include "zwidth/stability/analysis.hpp"
 
 namespace zwidth::internal {
 
@@ -112,11 +113,31 @@ Remark ignored_delay_remark(double shown, double given) {
           "the critical stiffness depends on it", "free loop.delay, or give it"};
 }
 
+bool assumes_delay(const Device& structure, IdentifyOptions::StructureValues values,
+                   IdentifyOptions::LoopDelay loop_delay) {
+  const bool is_of_file = values == IdentifyOptions::StructureValues::known && structure.loop().delay > 0.0;
+  return !is_of_file && loop_delay != IdentifyOptions::LoopDelay::as_given;
+}
+
 std::string hidden_delay_reason(std::size_t lines, std::size_t numbers) {
   return fmt::format(
       "the response has {} lines, too few to tell a delay beside the {} numbers that are fitted, and a delay makes the "
       "critical stiffness lower; excite more lines, or state loop.delay in a device file",
       lines, numbers);
+}
+
+std::optional<std::string> doubt_of_open_delay(const Device& with, const Device& without) {
+  const auto least = [](const Device& device) {
+    const Analysis analysis = analyze(device, {.any_user = false});
+    return analysis.interval ? analysis.interval->lower : 0.0;
+  };
+  constexpr double notable = 0.9;
+  const double open = least(with);
+  if (open >= notable * least(without)) return std::nullopt;
+  return fmt::format(
+      "no delay was to be fitted, and the record does not exclude one with which the critical stiffness is {:.3g} {}; "
+      "free loop.delay, state it in a device file, or excite higher frequencies",
+      open, units_of(with.parameters().motion).stiffness);
 }
 
 std::string outside_band_reason(double limiting, double lowest, double highest) {

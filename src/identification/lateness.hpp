@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "zwidth/identification/identification.hpp"
 #include "zwidth/identification/parameter_fit.hpp"
 #include "zwidth/model/device.hpp"
 #include "zwidth/remark.hpp"
@@ -32,8 +33,16 @@ inline constexpr const char* lag_key = "actuator.time_constant";
 /// That the record shows another delay than the structure has.
 [[nodiscard]] Remark ignored_delay_remark(double shown, double given);
 
+/// Whether nobody states the delay: neither a device file nor who takes the structure's as it is.
+[[nodiscard]] bool assumes_delay(const Device& structure, IdentifyOptions::StructureValues values,
+                                 IdentifyOptions::LoopDelay loop_delay);
+
 /// Why no delay was looked for of a structure that states none: so few lines determine no more numbers.
 [[nodiscard]] std::string hidden_delay_reason(std::size_t lines, std::size_t numbers);
+
+/// Where a delay that nobody stated was not to be fitted, and the interval of the same fit with it begins more than 10 % lower, or
+/// has none: the record does not tell that there is no delay.
+[[nodiscard]] std::optional<std::string> doubt_of_open_delay(const Device& with, const Device& without);
 
 /// Why a critical stiffness is not in the data whose crossover lies outside the band that was excited, with the remedy.
 /// All in rad/s.

@@ -281,7 +281,8 @@ TimeDomainIdentification identify_in_time(std::span<const Recording> recordings,
   describe_parameters(result, model, found->fitted.fit, found->known);
   describe_motions(result, recordings, model, shots, found->fitted, found->known.covariance);
   std::optional<double> other;
-  if (start.shows_other_delay) {  // or friction does, as the fit in time tells
+  std::optional<std::string> open_delay;
+  if (start.may_be_late) {  // or friction is there, as the fit in time tells
     TimeDomainOptions wider = options;
     wider.free = start.free;
     wider.free.emplace_back(delay_key);
@@ -290,10 +291,12 @@ TimeDomainIdentification identify_in_time(std::span<const Recording> recordings,
     if (other) {
       const double beyond = *other - structure.loop().delay;
       result.device = with_open_delay(result.device, beyond * beyond);
+    } else if (assumes_delay(structure, options.structure_values, options.loop_delay)) {
+      open_delay = doubt_of_open_delay(freed.device, result.device);
     }
   }
   const FittedDevice fitted{model, shots, found->fitted, found->known};
-  JudgedTimeFit judged{recordings, structure, options, shots, start.is_turned, other, start.linear};
+  JudgedTimeFit judged{recordings, structure, options, shots, start.is_turned, other, open_delay, start.linear};
   tbb::parallel_invoke(
       [&] { judged.disagreement = doubt_of_agreement(devices_of_recordings(fitted, recordings), result.device); },
       [&] { judged.contradicted = contradicted_numbers(fitted, structure, recordings, options.locked, start.lowest); },

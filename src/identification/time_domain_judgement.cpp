@@ -230,6 +230,7 @@ class Judge {
   }
 
   void judge_delay() {
+    if (judged_.open_delay) trust_.doubt(*judged_.open_delay);
     if (!judged_.other_delay) return;
     const Remark remark = ignored_delay_remark(*judged_.other_delay, judged_.structure.loop().delay);
     trust_.doubt(fmt::format("{}; {}", remark.what, remark.remedy));

@@ -129,7 +129,7 @@ TimeDomainStart time_domain_start(std::span<const Recording> recordings, const D
       start.linear = LinearStiffness{found.analysis.critical.stiffness, interval->upper,
                                      doubt_of_misfit(found.fit, found.response).has_value()};
     }
-    start.shows_other_delay = found.ignored_delay.has_value();
+    start.may_be_late = found.ignored_delay.has_value();
     if (takes_all) start.free = keys_of(found.fit);
     constexpr double above = 2.0;  // the band
     // A link that only damps is too stiff to be played, and a search in time does not leave it.
@@ -137,6 +137,8 @@ TimeDomainStart time_domain_start(std::span<const Recording> recordings, const D
       start.device = Device(*std::move(springs));
     }
   }
+  const bool is_fitted = takes_all || std::ranges::count(given, delay_key) > 0;
+  if (!is_fitted && assumes_delay(structure, options.structure_values, options.loop_delay)) start.may_be_late = true;
   if (takes_all) {
     const auto add = [&](const std::string& key) {
       if (std::ranges::count(start.free, key) == 0) start.free.push_back(key);

@@ -24,7 +24,7 @@ struct TimeDomainStart {
   double lowest = 0.0;            ///< rad/s: band of that recording's response
   double highest = 0.0;
   bool is_turned = false;                   ///< the position falls as the force rises
-  bool shows_other_delay = false;           ///< than the given one, to the linear fit
+  bool may_be_late = false;                 ///< more than the structure says: the fit in time tells
   std::optional<LinearStiffness> linear{};  ///< unless that fit is refused
   std::vector<Remark> remarks{};
 };

@@ -3,6 +3,7 @@
 // lower ends.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <fstream>
@@ -123,11 +124,11 @@ void expect_doubt_of_friction(std::vector<double> force, const std::string& coun
 // 4 N: it does not settle while it is recorded, and from the states of the record, all free at once, no search came to
 // what the record leaves open. Was sound, its lower end 21 % above the truth.
 TEST(HiddenFriction, OfADeviceThatNeverSettlesIsNeverSound) {
-  const std::vector<double> period = column_of("slow_device_force.csv");
+  const std::vector<double> period = column_of("slow_device_force.txt");
   ASSERT_EQ(period.size(), 2000U);
   std::vector<double> force(15 * period.size());
   for (std::size_t k = 0; k < force.size(); ++k) force[k] = period[k % period.size()];
-  expect_doubt_of_friction(std::move(force), "slow_device_multisine.csv", 9.02275050922809e-05, "two-body",
+  expect_doubt_of_friction(std::move(force), "slow_device_multisine.txt", 9.02275050922809e-05, "two-body",
                            1.2 * 170.781);
 }
 
@@ -143,7 +144,7 @@ TEST(HiddenFriction, ThatExplainsTheRecordClearlyCountsWhateverItsDeviation) {
     const double turns = lowest * t + 0.5 * (highest - lowest) * t * t / duration;
     force[k] = 0.9339760071787465 * std::sin(2.0 * std::numbers::pi * turns);
   }
-  expect_doubt_of_friction(std::move(force), "light_body_chirp.csv", 0.004398777809894018, "rigid", 1.02 * 17.3158);
+  expect_doubt_of_friction(std::move(force), "light_body_chirp.txt", 0.004398777809894018, "rigid", 1.02 * 17.3158);
 }
 
 // 0.23568 kg, 0.03395 N s/m, 0.25 ms late, friction of 1.57 mN under three sines: beside it the critical stiffness is 4.6 % lower than the
@@ -156,7 +157,7 @@ TEST(HiddenFriction, UnderThreeLinesIsNeverSound) {
     force[k] = 1.2913023796591896 *
                (line(1.5, 1.866106336939593) + line(2.0, 1.444985986191354) + line(2.5, 4.190883904463815));
   }
-  expect_doubt_of_friction(std::move(force), "one_body_three_lines.csv", 0.002337020368406416, "rigid", 1.06 * 45.2678);
+  expect_doubt_of_friction(std::move(force), "one_body_three_lines.txt", 0.002337020368406416, "rigid", 1.06 * 45.2678);
 }
 
 // A lag far below the sampling period was too fast to be played, and nobody asked.
@@ -182,6 +183,24 @@ TEST(HiddenFriction, BesideAShortLagIsAskedFor) {
   ASSERT_EQ(found.trust.reasons.size(), 1U);
   const std::string& reason = found.trust.reasons.front();
   EXPECT_NE(reason.find("on body: beside it the critical stiffness"), std::string::npos) << reason;
+}
+
+TEST(HiddenFriction, OfARecordTooShortToAskItIsSaid) {
+  DeviceParameters device;
+  device.bodies = {{"body", 0.5, 2.0}};
+  device.loop = {0, 0, 0, 1e-3, 0.0};
+  std::mt19937_64 random(1);
+  std::vector<double> force;
+  for (int k = 0; k < 500; ++k) force.push_back(std::normal_distribution()(random));
+  std::vector<double> position = test::FrictionChain(device).positions(force);
+  for (double& each : position) each += std::normal_distribution(0.0, 1e-9)(random);
+  IdentifyOptions options;
+  options.fit.free = {"body.body.mass", "body.body.damping"};
+  const Identification found = identify(
+      {"run", 1e-3, {{"force", std::move(force)}, {"position", std::move(position)}}, {}}, Device(device), options);
+  const auto is_said = [](const Remark& each) { return each.what.starts_with("dry friction was not looked for"); };
+  EXPECT_EQ(std::ranges::any_of(found.remarks, is_said), found.trust.sound());
+  EXPECT_TRUE(found.trust.sound()) << found.trust.reasons.front();
 }
 
 }  // namespace
