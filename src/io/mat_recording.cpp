@@ -290,14 +290,8 @@ tl::expected<Recording, InputError> read_mat_recording(const std::string& path, 
     times = std::move(columns.back());
     columns.pop_back();
   }
-  std::optional<Remark> contradicting;
-  if (options.rate && times && !times->values.empty()) {
-    contradicting = contradiction(
-        *options.rate, {times->name, times->values.front(), times->values.back(), times->values.size()}, options);
-  }
   auto recording = make_recording(std::move(columns), std::move(times), options);
   if (recording) {
-    if (contradicting) add_contradiction(*contradicting, *recording);
     auto skipped = remarks_on_skipped(table->file.contents.skipped);
     recording->remarks.insert(recording->remarks.end(), skipped.begin(), skipped.end());
   }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -51,8 +52,22 @@ std::optional<InputError> find_problem(const RecordedColumns& recorded) {
     return refused(recorded, "sampling_period", fmt::format("is {} s", *period), "must be above 0");
   }
   if (recorded.columns.empty()) return refused(recorded, "", "has no columns", "must have one at least");
-  const RecordedColumn& first = recorded.columns.front();
+  const std::size_t count = recorded.columns.size();
   for (const RecordedColumn& each : recorded.columns) {
+    if (!each.times || (*each.times < count && recorded.columns[*each.times].samples.size() == each.samples.size()))
+      continue;
+    return refused(recorded, shortened(each.name), "has no times, or other than as many",
+                   "its times must be a column of as many samples");
+  }
+  const auto has_own = [&recorded](const RecordedColumn& column) {
+    return column.times || std::ranges::any_of(recorded.columns, [&](const RecordedColumn& each) {
+             return each.times && &recorded.columns[*each.times] == &column;
+           });
+  };
+  const auto shares = std::ranges::find_if_not(recorded.columns, has_own);
+  const RecordedColumn& first = shares == recorded.columns.end() ? recorded.columns.front() : *shares;
+  for (const RecordedColumn& each : recorded.columns) {
+    if (has_own(each) && each.samples.size() >= 2) continue;
     if (each.samples.size() == first.samples.size()) continue;
     return refused(
         recorded, shortened(each.name),
@@ -71,25 +86,48 @@ tl::expected<Recording, InputError> read_recording(const RecordedColumns& record
                                   "a column of times is asked for beside a rate", "must be one of the two"));
   }
   if (auto problem = find_problem(recorded)) return tl::unexpected(*std::move(problem));
-  std::vector<RawColumn> columns;
+  std::vector<const RecordedColumn*> asked;
   for (const ColumnRequest& request : options.columns) {
     const auto found = find_column(names_of(recorded), request.name, recorded.source);
     if (!found) return tl::unexpected(found.error());
-    columns.push_back(raw(recorded, recorded.columns[*found]));
+    asked.push_back(&recorded.columns[*found]);
+  }
+  const auto has_own_times = [](const RecordedColumn* column) { return column->times.has_value(); };
+  const auto times_of = [&recorded](const RecordedColumn* column) {
+    return column->times ? &recorded.columns[*column->times] : nullptr;
+  };
+  const RecordedColumn* common = times_of(asked.front());  // times of all
+  const bool has_common = common != nullptr && std::ranges::all_of(asked, [&](const RecordedColumn* each) {
+                            return times_of(each) != nullptr && times_of(each)->samples == common->samples;
+                          });
+  if (std::ranges::any_of(asked, has_own_times) && !has_common && !options.rate && !options.time_column) {
+    std::vector<TimedColumn> timed;
+    for (const RecordedColumn* each : asked) {
+      if (!each->times) {
+        return tl::unexpected(refused(recorded, shortened(each->name), "has no times of its own beside one that has",
+                                      "all columns asked for must have their times, or none"));
+      }
+      timed.push_back({raw(recorded, *each), raw(recorded, recorded.columns[*each->times])});
+    }
+    return make_recording(std::move(timed), options);
+  }
+  std::vector<RawColumn> columns;
+  for (const RecordedColumn* each : asked) {
+    columns.push_back(raw(recorded, *each));
+    if (columns.back().values.size() == columns.front().values.size()) continue;
+    return tl::unexpected(refused(recorded, shortened(each->name),
+                                  fmt::format("has {} samples, {} has {}", columns.back().values.size(),
+                                              shortened(columns.front().name), columns.front().values.size()),
+                                  "without their times, signals must have equally many"));
   }
   const auto found_times = find_times(recorded, options);
   if (!found_times) return tl::unexpected(found_times.error());
-  const RecordedColumn* times = *found_times;
-  std::optional<Remark> contradicting;
-  if (options.rate && times != nullptr) {
-    contradicting = contradiction(
-        *options.rate, {times->name, times->samples.front(), times->samples.back(), times->samples.size()}, options);
-  }
+  const RecordedColumn* times = has_common && !options.time_column ? common : *found_times;
   const auto& period = recorded.sampling_period;
-  const bool uses_times = times != nullptr && !options.rate && (options.time_column || !period);
+  const bool uses_times = times != nullptr && times->samples.size() == columns.front().values.size() &&
+                          (has_common || options.rate || options.time_column || !period);
   auto recording = make_recording(std::move(columns), uses_times ? std::optional(raw(recorded, *times)) : std::nullopt,
                                   options, period);
-  if (recording && contradicting) add_contradiction(*contradicting, *recording);
   return recording;
 }
 

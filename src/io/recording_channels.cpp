@@ -2,13 +2,18 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
+#include <string>
 #include <utility>
 
 #include "io/column_unit.hpp"
 #include "io/prose.hpp"
 #include "io/time_axis.hpp"
 #include "require_valid.hpp"
+#include "signal/restored_rows.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/io/message_words.hpp"
 
@@ -64,12 +69,80 @@ tl::expected<Channel, InputError> make_channel(RawColumn column, const ColumnReq
   return channel;
 }
 
-tl::expected<TimeAxis, InputError> find_axis(std::optional<RawColumn> times, const RecordingOptions& options,
-                                             std::optional<double> period, const std::string& source) {
-  if (options.rate) return axis_of_rate(*options.rate);
-  if (times) return time_axis(std::move(*times), options);
-  if (period) return axis_of_rate(1.0 / *period);
-  return tl::unexpected(no_time_axis(source));
+tl::expected<std::vector<Channel>, InputError> make_channels(std::vector<RawColumn> columns,
+                                                             const RecordingOptions& options,
+                                                             std::vector<Remark>& remarks) {
+  std::vector<Channel> channels;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    auto channel = make_channel(std::move(columns[i]), options.columns[i], remarks);
+    if (!channel) return tl::unexpected(std::move(channel.error()));
+    channels.push_back(std::move(*channel));
+  }
+  return channels;
+}
+
+/// Leaves out rows that say again what the row before says, times included.
+void leave_out_repeated(std::vector<Channel>& channels, RawColumn& times, std::vector<Remark>& remarks) {
+  std::vector<std::size_t> kept;
+  std::optional<std::size_t> first;
+  const std::size_t rows = times.values.size();
+  for (std::size_t i = 0; i < rows; ++i) {
+    const bool repeats =
+        i > 0 && times.values[i] == times.values[i - 1] &&
+        std::ranges::all_of(channels, [i](const Channel& each) { return each.samples[i] == each.samples[i - 1]; });
+    if (!repeats) kept.push_back(i);
+    if (repeats && !first) first = i;
+  }
+  if (!first || kept.size() < 2) return;
+  remarks.push_back({Remark::Severity::warning,
+                     fmt::format("{} of {} rows are repeated ({:.2g} %), the first at {}", rows - kept.size(), rows,
+                                 100.0 * static_cast<double>(rows - kept.size()) / static_cast<double>(rows),
+                                 place_of(times, *first)),
+                     "they are left out"});
+  const auto keep = [&kept](std::vector<double>& values) {
+    for (std::size_t k = 0; k < kept.size(); ++k) values[k] = values[kept[k]];
+    values.resize(kept.size());
+  };
+  for (Channel& each : channels) keep(each.samples);
+  keep(times.values);
+  if (times.line) times.line = [line = times.line, kept](std::size_t sample) { return line(kept[sample]); };
+}
+
+/// Equal steps, with what was found.
+void restore(const TimeAxis& axis, Recording& recording) {
+  std::vector<std::span<const double>> signals;
+  for (const Channel& each : recording.channels) signals.emplace_back(each.samples);
+  RestoredRows rows = restored_rows(axis.column.values, axis.grid, signals);
+  recording.sampling_period = rows.period;
+  for (std::size_t i = 0; i < recording.channels.size(); ++i) {
+    recording.channels[i].samples = std::move(rows.signals[i]);
+  }
+  add_row_findings(axis, rows, recording);
+}
+
+/// A column on its own times.
+struct OwnSteps {
+  Recording recording;
+  double start = 0.0;  ///< s
+};
+
+tl::expected<OwnSteps, InputError> own_steps(TimedColumn timed, const ColumnRequest& request,
+                                             const RecordingOptions& options) {
+  OwnSteps own;
+  auto channel = make_channel(std::move(timed.column), request, own.recording.remarks);
+  if (!channel) return tl::unexpected(std::move(channel.error()));
+  own.recording.channels.push_back(std::move(*channel));
+  leave_out_repeated(own.recording.channels, timed.times, own.recording.remarks);
+  auto axis = time_axis(std::move(timed.times), options);
+  if (!axis) return tl::unexpected(std::move(axis.error()));
+  own.recording.remarks.insert(own.recording.remarks.begin(), axis->remarks.begin(), axis->remarks.end());
+  const std::array<std::span<const double>, 1> signal{own.recording.channels[0].samples};
+  RestoredRows rows = restored_rows(axis->column.values, axis->grid, signal);
+  own.recording.sampling_period = rows.period;
+  own.start = rows.start;
+  own.recording.channels[0].samples = std::move(rows.signals[0]);
+  add_row_findings(*axis, rows, own.recording);
+  return own;
 }
 
 }  // namespace
@@ -94,14 +167,75 @@ tl::expected<Recording, InputError> make_recording(std::vector<RawColumn> column
                                                    const RecordingOptions& options, std::optional<double> period) {
   Recording recording;
   recording.source = columns.front().source;
-  auto axis = find_axis(std::move(times), options, period, recording.source);
-  if (!axis) return tl::unexpected(std::move(axis.error()));
-  recording.sampling_period = axis->sampling_period;
-  recording.remarks = std::move(axis->remarks);
+  if (options.rate) recording.sampling_period = period_of_rate(*options.rate);
+  if (!options.rate && !times && period) recording.sampling_period = period_of_rate(1.0 / *period);
+  if (!options.rate && !times && !period) return tl::unexpected(no_time_axis(recording.source));
+  std::vector<Remark> remarks;
+  auto channels = make_channels(std::move(columns), options, remarks);
+  if (!channels) return tl::unexpected(std::move(channels.error()));
+  recording.channels = std::move(*channels);
+  if (times) {
+    leave_out_repeated(recording.channels, *times, remarks);
+    auto axis = time_axis(std::move(*times), options);
+    if (!axis && !options.rate) return tl::unexpected(std::move(axis.error()));
+    if (axis) {
+      if (!options.rate) recording.remarks = axis->remarks;
+      const auto contradicting = options.rate ? contradiction(*options.rate, *axis, options) : std::nullopt;
+      restore(*axis, recording);
+      if (options.rate) recording.sampling_period = period_of_rate(*options.rate);
+      if (contradicting) add_contradiction(*contradicting, recording);
+    }
+  }
+  recording.remarks.insert(recording.remarks.end(), remarks.begin(), remarks.end());
+  return recording;
+}
+
+tl::expected<Recording, InputError> make_recording(std::vector<TimedColumn> columns, const RecordingOptions& options) {
+  const std::string source = columns.front().column.source;
+  std::vector<OwnSteps> all;
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    auto channel = make_channel(std::move(columns[i]), options.columns[i], recording.remarks);
-    if (!channel) return tl::unexpected(std::move(channel.error()));
-    recording.channels.push_back(std::move(*channel));
+    auto own = own_steps(std::move(columns[i]), options.columns[i], options);
+    if (!own) return tl::unexpected(std::move(own.error()));
+    all.push_back(std::move(*own));
+  }
+  const OwnSteps& motion = all.back();
+  const double period = motion.recording.sampling_period;
+  double first = motion.start;
+  double end = motion.start + period * static_cast<double>(motion.recording.channels[0].samples.size());
+  for (const OwnSteps& each : all) {
+    first = std::max(first, each.start);
+    end = std::min(end, each.start + each.recording.sampling_period *
+                                         static_cast<double>(each.recording.channels[0].samples.size()));
+  }
+  constexpr double rounding = 1e-3;  // periods
+  const double skipped = std::ceil((first - motion.start) / period - rounding);
+  const double count = std::floor((end - motion.start) / period + rounding) - skipped;
+  if (!(count >= 2.0)) {
+    return tl::unexpected(InputError{source, 0, 0, "", "has columns whose times do not overlap",
+                                     "force and motion must be recorded at the same time"});
+  }
+  Recording recording;
+  recording.source = source;
+  recording.sampling_period = period;
+  for (OwnSteps& each : all) {
+    Channel channel = each.recording.channels[0];
+    std::vector<double> held_from;
+    for (std::size_t k = 0; k < channel.samples.size(); ++k) {
+      held_from.push_back(each.start - motion.start + each.recording.sampling_period * static_cast<double>(k));
+    }
+    const double start = skipped * period;
+    if (&each == &all.back()) {
+      const auto begin = channel.samples.begin() + static_cast<std::ptrdiff_t>(skipped);
+      channel.samples = {begin, begin + static_cast<std::ptrdiff_t>(count)};
+    } else {
+      channel.samples = averaged_hold(held_from, channel.samples, start, period, static_cast<std::size_t>(count));
+    }
+    recording.channels.push_back(std::move(channel));
+    for (Remark& remark : each.recording.remarks) {
+      if (std::ranges::find(recording.remarks, remark.what, &Remark::what) == recording.remarks.end())
+        recording.remarks.push_back(std::move(remark));
+    }
+    for (std::string& doubt : each.recording.doubts) recording.doubts.push_back(std::move(doubt));
   }
   return recording;
 }

@@ -10,13 +10,26 @@
 
 namespace zwidth::internal {
 
-/// Makes the recording of the asked-for columns (one per request, in order) and the column of times, where one is used:
-/// fills what little is missing, scales, finds the sampling period, and adds remarks on all of it.
+/// Makes the recording of the asked-for columns (one per request, in order) and the column of times that they share:
+/// fills what little is missing, scales, leaves out rows that are repeated, restores equal steps (restored_rows()), and
+/// adds remarks on all of it. Beside `options.rate` the times say which rows were lost, and whether they contradict it.
 /// `period`: what the file itself states, s, where there is no rate and no column of times.
 [[nodiscard]] tl::expected<Recording, InputError> make_recording(std::vector<RawColumn> columns,
                                                                  std::optional<RawColumn> times,
                                                                  const RecordingOptions& options,
                                                                  std::optional<double> period = {});
+
+/// A column with the times at which it was sampled, as many.
+struct TimedColumn {
+  RawColumn column;
+  RawColumn times;
+};
+
+/// The same of columns that have times of their own, which may be more or fewer, at other rates, and begin and end at
+/// other times. The last one, the motion, keeps its steps; the others, held between their times, are averaged over them.
+/// `options.rate` is not used. Refused where they do not overlap.
+[[nodiscard]] tl::expected<Recording, InputError> make_recording(std::vector<TimedColumn> columns,
+                                                                 const RecordingOptions& options);
 
 /// The refusal of a recording that has neither a rate nor a column of times.
 [[nodiscard]] InputError no_time_axis(const std::string& source);

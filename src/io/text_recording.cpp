@@ -45,7 +45,7 @@ class RowLines {
 struct Selection {
   std::vector<std::size_t> asked;  ///< one per request
   std::optional<std::size_t> time;
-  std::optional<std::size_t> unused_time;  ///< a column of times beside a given rate
+  bool may_lack_times = false;  ///< beside a given rate: then a time that is no number is no error
 };
 
 tl::expected<Selection, InputError> select_columns(const TextTable& table, const RecordingOptions& options) {
@@ -64,7 +64,8 @@ tl::expected<Selection, InputError> select_columns(const TextTable& table, const
   }
   const auto time = std::find_if(names.begin(), names.end(), names_a_time);
   if (options.rate) {
-    if (time != names.end()) selection.unused_time = static_cast<std::size_t>(time - names.begin());
+    if (time != names.end()) selection.time = static_cast<std::size_t>(time - names.begin());
+    selection.may_lack_times = true;
     return selection;
   }
   if (time == names.end()) {
@@ -102,24 +103,16 @@ tl::expected<Recording, InputError> read_text_recording(TextLines lines, const R
     columns.back().values.reserve(table->likely_rows());
   }
 
-  std::optional<UnusedTimes> unused;
-  if (selection->unused_time) unused = UnusedTimes{names[*selection->unused_time]};
   const auto add_row = [&](const TextRow& row) -> tl::expected<void, InputError> {
     row_lines->add(columns.front().values.size(), row.line.number);
     for (std::size_t k = 0; k < indices.size(); ++k) {
       const NumberCell number = table->number(row.cells[indices[k]]);
-      if (number.kind == NumberCell::Kind::text) {
+      const bool may_be_text = selection->may_lack_times && indices[k] == selection->time && k + 1 == indices.size();
+      if (number.kind == NumberCell::Kind::text && !may_be_text) {
         InputError refusal = table->no_number(row, indices[k]);
         return tl::unexpected(indices[k] == selection->time ? no_time(std::move(refusal)) : std::move(refusal));
       }
       columns[k].values.push_back(number.value);
-    }
-    if (unused) {
-      const NumberCell time = table->number(row.cells[*selection->unused_time]);
-      if (time.kind == NumberCell::Kind::number) {
-        if (unused->samples++ == 0) unused->first = time.value;
-        unused->last = time.value;
-      }
     }
     return {};
   };
@@ -133,9 +126,6 @@ tl::expected<Recording, InputError> read_text_recording(TextLines lines, const R
   auto recording = make_recording(std::move(columns), std::move(times), options);
   if (recording) {
     recording->remarks.insert(recording->remarks.begin(), table->remarks().begin(), table->remarks().end());
-    if (const auto remark = unused ? contradiction(*options.rate, *unused, options) : std::nullopt) {
-      add_contradiction(*remark, *recording);
-    }
   }
   return recording;
 }

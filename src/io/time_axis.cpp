@@ -13,19 +13,15 @@
 #include "io/column_names.hpp"
 #include "io/column_unit.hpp"
 #include "io/prose.hpp"
-#include "signal/median.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/io/message_words.hpp"
 
 namespace zwidth::internal {
 namespace {
 
-constexpr unsigned most_timer_bits = 52;         // whole numbers that a double holds exactly
-constexpr double shortest_gap = 1.5;             // median periods
-constexpr double largest_jitter = 0.01;          // of the mean period
-constexpr double slowest_likely_period = 0.1;    // s
-constexpr double fastest_likely_period = 1e-7;   // s
-constexpr std::size_t most_for_median = 100001;  // periods; all of them in shorter records
+constexpr unsigned most_timer_bits = 52;        // whole numbers that a double holds exactly
+constexpr double slowest_likely_period = 0.1;   // s
+constexpr double fastest_likely_period = 1e-7;  // s
 
 using Refusal = tl::unexpected<InputError>;
 
@@ -87,35 +83,6 @@ unsigned bits_of_wrap(double before, double after, double period) {
   return 0;
 }
 
-/// Checked column of times in s, its periods seen as differences.
-class Periods {
- public:
-  explicit Periods(const std::vector<double>& times) : times_(times), median_(median()) {}
-
-  [[nodiscard]] std::size_t size() const { return times_.size() - 1; }
-  [[nodiscard]] double operator[](std::size_t i) const { return times_[i + 1] - times_[i]; }
-
-  /// A long period that its neighbours do not make up: a sample that was only late is no gap.
-  [[nodiscard]] bool is_gap(std::size_t i) const {
-    if ((*this)[i] < shortest_gap * median_) return false;
-    double excess = (*this)[i] - median_;
-    if (i > 0) excess += (*this)[i - 1] - median_;
-    if (i + 1 < size()) excess += (*this)[i + 1] - median_;
-    return excess >= (shortest_gap - 1.0) * median_;
-  }
-
-  [[nodiscard]] double median() const {
-    const std::size_t stride = (size() + most_for_median - 1) / most_for_median;
-    std::vector<double> sample;
-    for (std::size_t i = 0; i < size(); i += stride) sample.push_back((*this)[i]);
-    return internal::median(std::move(sample));
-  }
-
- private:
-  const std::vector<double>& times_;
-  double median_;
-};
-
 tl::expected<void, InputError> refuse_times_that_do_not_rise(const RawColumn& times) {
   const auto& t = times.values;
   const auto rises = [](double before, double after) { return after > before; };
@@ -141,74 +108,60 @@ tl::expected<void, InputError> refuse_times_that_do_not_rise(const RawColumn& ti
   return {};
 }
 
-/// Where the periods leave the uniform axis.
-struct Irregularity {
-  std::size_t gaps = 0;
-  std::size_t first_gap = 0;    ///< index of a period
-  double longest_gap = 0.0;     ///< s
-  double time_in_gaps = 0.0;    ///< s
-  double worst_period = 0.0;    ///< s; among those that are no gaps, the one farthest from the mean
-  std::size_t worst_place = 0;  ///< its index
-  double drift = 0.0;           ///< s; largest distance of two times' errors against the uniform axis between gaps
-};
-
-void find_gaps(const Periods& periods, Irregularity& found) {
-  for (std::size_t i = 0; i < periods.size(); ++i) {
-    if (!periods.is_gap(i)) continue;
-    if (found.gaps++ == 0) found.first_gap = i;
-    found.longest_gap = std::max(found.longest_gap, periods[i]);
-    found.time_in_gaps += periods[i];
-  }
-}
-
-void find_jitter(const Periods& periods, double mean, Irregularity& found) {
-  double error = 0.0;
-  double least = 0.0;
-  double most = 0.0;
-  found.worst_period = mean;
-  for (std::size_t i = 0; i < periods.size(); ++i) {
-    if (periods.is_gap(i)) {
-      error = least = most = 0.0;
-      continue;
-    }
-    if (std::abs(periods[i] - mean) > std::abs(found.worst_period - mean)) {
-      found.worst_period = periods[i];
-      found.worst_place = i;
-    }
-    error += periods[i] - mean;
-    least = std::min(least, error);
-    most = std::max(most, error);
-    found.drift = std::max(found.drift, most - least);
-  }
-}
-
-Remark gap_remark(const RawColumn& times, const Irregularity& found, double period) {
-  const double lost = std::round(found.time_in_gaps / period) - static_cast<double>(found.gaps);
-  return {
+Remark lost_rows_remark(const TimeAxis& axis, const RestoredRows& rows) {
+  const std::size_t all = axis.grid.slots.back() + 1;
+  const double share = static_cast<double>(rows.lost) / static_cast<double>(all);
+  Remark remark{
       Remark::Severity::warning,
-      fmt::format("{} in the time axis, the first before {} ({} after the start), the longest {}: about {:.0f} "
-                  "samples are lost",
-                  found.gaps == 1 ? "a gap" : fmt::format("{} gaps", found.gaps), place_of(times, found.first_gap + 1),
-                  in_seconds(times.values[found.first_gap] - times.values[0]), in_seconds(found.longest_gap), lost),
-      "the samples are used as if nothing were lost: each gap shifts what follows and smears the response; "
-      "better cut the record there"};
+      fmt::format(
+          "{} of {} rows are lost ({:.2g} %) in {}, the first before {} ({} after the start), the longest of {} "
+          "row{}",
+          rows.lost, all, 100.0 * share, rows.gaps == 1 ? "one gap" : fmt::format("{} gaps", rows.gaps),
+          place_of(axis.column, rows.first_gap + 1),
+          in_seconds(axis.column.values[rows.first_gap] - axis.column.values[0]), rows.longest_gap,
+          rows.longest_gap == 1 ? "" : "s"),
+      "", "log every row"};
+  if (rows.filled > 0) {
+    remark.consequence =
+        fmt::format("{} are filled in from the rows around them, which tell the first signal to {:.2g} % of its size",
+                    rows.filled, 100.0 * rows.filling_error);
+  }
+  if (rows.used_rows < axis.column.values.size()) {
+    if (!remark.consequence.empty()) remark.consequence += "; ";
+    remark.consequence += fmt::format(
+        "what happened in {} gaps is not known: used is the longest stretch without such a gap alone, {} from {} on",
+        rows.filled > 0 ? "the other" : "the", in_seconds(static_cast<double>(rows.used_rows - 1) * rows.period),
+        place_of(axis.column, rows.first_row));
+  }
+  return remark;
 }
 
-Remark jitter_remark(const RawColumn& times, const Irregularity& found, double period) {
-  constexpr double share_of_rate = 0.1;
-  const double degrees = 360.0 * share_of_rate * found.drift / period;
-  return {Remark::Severity::warning,
-          fmt::format("the sampling period varies by up to {:.3g} % of its mean ({} before {}); the times stay within "
-                      "{} of a uniform axis",
-                      100.0 * std::abs(found.worst_period - period) / period, in_seconds(found.worst_period),
-                      place_of(times, found.worst_place + 1), in_seconds(found.drift)),
-          fmt::format("the samples are used as if equally spaced: at a tenth of the rate, {:.4g} Hz, the phase may err "
-                      "by {:.2g} degrees",
-                      share_of_rate / period, degrees)};
+Remark jitter_remark(const RestoredRows& rows) {
+  using enum RestoredRows::Jitter;
+  Remark remark{Remark::Severity::note,
+                fmt::format("the times are up to {:.2g} % of a period off equal steps (rms {:.2g} %)",
+                            100.0 * rows.largest_jitter, 100.0 * rows.jitter_rms),
+                ""};
+  switch (rows.jitter) {
+    case of_rows:
+      remark.consequence =
+          "the rows were sampled so, as the motion shows: it is interpolated at equal steps, and the "
+          "force that was held is averaged over each";
+      break;
+    case of_stamps:
+      remark.consequence = "the rows were sampled at equal steps, as the motion shows: the stamps alone are off";
+      break;
+    default:
+      remark.severity = Remark::Severity::warning;
+      remark.consequence = fmt::format(
+          "whether the rows or their stamps alone are off does not show in the motion: the delay is known "
+          "to {:.2g} periods",
+          rows.jitter_rms * rows.jitter_rms);
+  }
+  return remark;
 }
 
-std::vector<Remark> axis_remarks(const RawColumn& times, const Irregularity& found, double period,
-                                 const RecordingOptions& options) {
+std::vector<Remark> axis_remarks(const RawColumn& times, double period, const RecordingOptions& options) {
   std::vector<Remark> remarks;
   const bool from_name = !options.time_scale && named_scale(times.name).has_value();
   const double scale = time_scale_of(times.name, options);
@@ -219,10 +172,6 @@ std::vector<Remark> axis_remarks(const RawColumn& times, const Irregularity& fou
   if (period > slowest_likely_period || period < fastest_likely_period) {
     remarks.push_back({Remark::Severity::warning, fmt::format("a sampling period of {} is unusual", in_seconds(period)),
                        "if the times are not in the unit above, state the unit (`time_scale`; milliseconds: 1e-3)"});
-  }
-  if (found.gaps > 0) remarks.push_back(gap_remark(times, found, period));
-  if (std::abs(found.worst_period - period) > largest_jitter * period) {
-    remarks.push_back(jitter_remark(times, found, period));
   }
   return remarks;
 }
@@ -252,15 +201,15 @@ tl::expected<TimeAxis, InputError> time_axis(RawColumn times, const RecordingOpt
     return Refusal(InputError{times.source, 0, 0, shortened(times.name),
                               "the times are too large or too small for a sampling period", "must be times in s"});
   };
-  if (!std::isfinite(span)) return no_period();
-  const Periods periods(times.values);
-  Irregularity found;
-  find_gaps(periods, found);
-  axis.sampling_period = (span - found.time_in_gaps) / static_cast<double>(periods.size() - found.gaps);
+  if (!std::isfinite(span) || !(span > 0.0) || !std::isfinite(static_cast<double>(times.values.size()) / span)) {
+    return no_period();
+  }
+  axis.grid = row_grid(times.values);
+  axis.sampling_period = axis.grid.period;
   if (!std::isfinite(1.0 / axis.sampling_period) || axis.sampling_period <= 0.0) return no_period();
-  find_jitter(periods, axis.sampling_period, found);
-  const auto remarks = axis_remarks(times, found, axis.sampling_period, options);
+  const auto remarks = axis_remarks(times, axis.sampling_period, options);
   axis.remarks.insert(axis.remarks.begin(), remarks.begin(), remarks.end());
+  axis.column = std::move(times);
   return axis;
 }
 
@@ -277,29 +226,39 @@ bool names_a_time(const std::string& column) {
   return is_unit_of_time || std::find(words.begin(), words.end(), plain) != words.end();
 }
 
-TimeAxis axis_of_rate(double rate) {
+double period_of_rate(double rate) {
   if (!std::isfinite(rate) || rate <= 0.0 || !std::isfinite(1.0 / rate)) {
     throw Error(ErrorCode::invalid_argument, fmt::format("rate is {} Hz; it must be positive", rate));
   }
-  return {1.0 / rate, {}};
+  return 1.0 / rate;
 }
 
-std::optional<Remark> contradiction(double rate, const UnusedTimes& times, const RecordingOptions& options) {
-  constexpr double most_difference = 0.01;
-  const bool is_unit_known = options.time_scale || named_scale(times.column);
-  const double span = (times.last - times.first) * time_scale_of(times.column, options);
-  if (times.samples < 2 || !std::isfinite(span) || span <= 0.0) return std::nullopt;
-  const double stated = static_cast<double>(times.samples - 1) / span;
+std::optional<Remark> contradiction(double rate, const TimeAxis& axis, const RecordingOptions& options) {
+  constexpr double most_difference = 1e-3;  // a force is hardly known better
+  const double rows = static_cast<double>(axis.column.values.size());
+  const bool is_unit_known = options.time_scale || named_scale(axis.column.name);
+  const double stated = 1.0 / axis.sampling_period;
   // Times without a unit in their name may be in ms, us or ns.
   const std::vector<double> units = is_unit_known ? std::vector{1.0} : std::vector{1.0, 1e3, 1e6, 1e9};
   const bool agrees = std::any_of(units.begin(), units.end(), [&](double per_second) {
-    return std::abs(rate - stated * per_second) <= most_difference * rate;
+    return std::abs(rate - stated * per_second) <= (most_difference + 1.0 / rows) * rate;
   });
   if (agrees) return std::nullopt;
   return Remark{Remark::Severity::warning,
                 fmt::format("the rate is given as {:.7g} Hz; the times in column {} say {:.7g} Hz", rate,
-                            shortened(times.column), stated),
+                            shortened(axis.column.name), stated),
                 "the given rate is used; leave it out to use the times, or give their scale"};
+}
+
+void add_row_findings(const TimeAxis& axis, const RestoredRows& rows, Recording& recording) {
+  if (rows.lost > 0) recording.remarks.push_back(lost_rows_remark(axis, rows));
+  if (rows.jitter == RestoredRows::Jitter::none) return;
+  recording.remarks.push_back(jitter_remark(rows));
+  constexpr double large = 0.1;  // periods, rms: then it matters by 1 % of a period's delay
+  if (rows.jitter != RestoredRows::Jitter::unknown || rows.jitter_rms <= large) return;
+  const Remark& remark = recording.remarks.back();
+  recording.doubts.push_back(fmt::format("{}; {}; log the time at which a row is sampled, or state the rate",
+                                         remark.what, remark.consequence));
 }
 
 void add_contradiction(const Remark& remark, Recording& recording) {

@@ -14,6 +14,8 @@ namespace zwidth {
 struct RecordedColumn {
   std::string name;             ///< as its header has it
   std::vector<double> samples;  ///< NaN or infinite where there is none
+  /// The column, from 0, that holds the times of these samples, as many; absent: the times of the recording.
+  std::optional<std::size_t> times = {};
 };
 
 /// Signals that were recorded together and lie in memory, not in a file.
@@ -24,7 +26,8 @@ struct RecordedColumns {
 };
 
 /// The first impossible thing about them, with its column or "sampling_period": a period that is not finite and > 0, no
-/// column, columns of fewer than two samples or of different sizes.
+/// column, columns of fewer than two samples, columns that share their times of different sizes, times that are no such
+/// column.
 [[nodiscard]] std::optional<InputError> find_problem(const RecordedColumns& recorded);
 
 /// Reads the asked-for columns as read_recording() reads those of a file: the same choice of columns and of the time
