@@ -268,7 +268,7 @@ bool is_drowned(const FrequencyResponse& response, std::size_t numbers) {
 
 void judge_nonlinearity(Identification& result, std::span<const Recording> recordings, const IdentifyOptions& options) {
   for (const Recording& each : recordings) {
-    for (std::string& doubt : doubts_of_recording(each, options.response.output, result.fit.device)) {
+    for (std::string& doubt : doubts_of_recording(each, recordings, options.response.output, result.fit.device)) {
       result.trust.doubt(std::move(doubt));
     }
   }

@@ -8,8 +8,11 @@
 #include <cmath>
 #include <complex>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <numeric>
+#include <tuple>
+#include <utility>
 
 #include "identification/line_scatter.hpp"
 #include "signal/fitted_sine.hpp"
@@ -119,9 +122,111 @@ Blocks fitted_blocks(std::span<const double> force, std::span<const double> outp
 
 }  // namespace
 
+namespace {
+
+double energy_of(std::span<const double> signal) {
+  const auto n = static_cast<double>(signal.size());
+  const double mean = std::accumulate(signal.begin(), signal.end(), 0.0) / n;
+  return std::accumulate(signal.begin(), signal.end(), 0.0,
+                         [&](double sum, double s) { return sum + (s - mean) * (s - mean); });
+}
+
+Complex amplitude_of(const FittedSine& sine) { return {sine.cosine, -sine.sine}; }
+
+/// A sine of a few periods, in one piece. What its neighbours, half a period of the record and more away, have in what is
+/// left of the motion is its noise: free motion that dies out, drift, rounding.
+FrequencyResponse short_sine_response(std::span<const double> force, std::span<const double> output,
+                                      double sampling_period, double angle) {
+  const FittedSine of_force = fit_sine(force, angle);
+  const FittedSine of_output = fit_sine(output, angle);
+  const Complex f = amplitude_of(of_force);
+  const Complex h = amplitude_of(of_output) / f;
+  std::vector<double> rest = without(of_output, output);
+  const std::vector<double> rest_of_force = without(of_force, force);
+  const double step = turn / static_cast<double>(force.size());
+  double noise = 0.0;
+  double count = 0.0;
+  for (const double away : {-2.0, -1.5, -1.0, -0.5, 0.5, 1.0, 1.5, 2.0}) {
+    const double other = angle + away * step;
+    if (!(other > 0.5 * step && other < std::numbers::pi)) continue;
+    noise += std::norm(amplitude_of(fit_sine(rest, other)) - h * amplitude_of(fit_sine(rest_of_force, other)));
+    count += 1.0;
+  }
+  constexpr double independent = 0.5;  // of neighbours half a line apart
+  FrequencyResponse response;
+  response.sampling_period = sampling_period;
+  response.averages = 1.0 + std::max(1.0, std::floor(independent * count));
+  ResponsePoint point;
+  point.frequency = angle / sampling_period;
+  point.value = h;
+  point.variance = noise / (count * std::norm(f));
+  point.coherence = std::norm(h) / (std::norm(h) + point.variance);
+  point.force = std::abs(f);
+  response.points.push_back(point);
+  response.remarks.push_back({Remark::Severity::note,
+                              fmt::format("a sine of {:.6g} Hz fitted to {:.3g} periods in one piece",
+                                          point.frequency / turn, angle * static_cast<double>(force.size()) / turn),
+                              "its noise is what the motion has at the frequencies beside it; record for longer"});
+  return response;
+}
+
+/// Whether two blocks of one sine do not fit.
+bool is_short_for(double angle, std::size_t samples) {
+  return 2.0 * std::max(std::ceil(least_beats * turn / std::min(angle, 2.0 * (std::numbers::pi - angle))), 6.0) >
+         static_cast<double>(samples);
+}
+
+/// Of the lines asked for, the one that a force of a single sine holds; all of any other.
+std::vector<double> lines_in(std::span<const double> force, const std::vector<double>& angles) {
+  if (angles.size() < 2) return angles;
+  const auto tone = only_tone(force);
+  if (!tone) return angles;
+  const double nearest = *std::ranges::min_element(angles, {}, [&](double each) { return std::abs(each - *tone); });
+  const double resolved = 0.25 * turn / static_cast<double>(force.size());
+  if (std::abs(nearest - *tone) > std::max(resolved, 1e-3 * *tone)) return angles;
+  return {nearest};
+}
+
+/// A sine of one period to eight, which is all but nothing of the force: too slow for its power to stand out.
+std::optional<double> short_tone(std::span<const double> force) {
+  constexpr double nothing_is_left = 1e-3;
+  constexpr double most_periods = 9.0;
+  constexpr double periods_apart = 0.1;
+  constexpr std::size_t fewest = 16;
+  constexpr std::size_t enough = 300;  // samples for the search: the sine is slow
+  constexpr int bits = 40;
+  if (force.size() < fewest) return std::nullopt;
+  const std::size_t thinning = (force.size() + enough - 1) / enough;
+  std::vector<double> used;
+  for (std::size_t i = 0; i < force.size(); i += thinning) used.push_back(force[i]);
+  const auto n = static_cast<double>(used.size());
+  const auto left = [&](double periods) { return energy_of(without(fit_sine(used, turn * periods / n), used)); };
+  double best = 0.0;
+  double least = std::numeric_limits<double>::infinity();
+  for (double periods = 1.0 - periods_apart; periods <= most_periods && periods < 0.25 * n; periods += periods_apart) {
+    const double energy = left(periods);
+    if (energy < least) std::tie(least, best) = std::pair(energy, periods);
+  }
+  std::uintmax_t steps = 60;
+  const auto [periods, energy] =
+      boost::math::tools::brent_find_minima(left, best - periods_apart, best + periods_apart, bits, steps);
+  constexpr double rounding = 0.01;
+  if (periods < 1.0 - rounding || !(energy < nothing_is_left * energy_of(used))) return std::nullopt;
+  const double angle = turn * periods / (n * static_cast<double>(thinning));
+  // The samples between tell as well.
+  return energy_of(without(fit_sine(force, angle), force)) < nothing_is_left * energy_of(force) ? std::optional(angle)
+                                                                                                : std::nullopt;
+}
+
+}  // namespace
+
 FrequencyResponse line_response(std::span<const double> force, std::span<const double> output, double sampling_period,
-                                const std::vector<double>& angles, const FrequencyResponseOptions& options,
+                                const std::vector<double>& asked, const FrequencyResponseOptions& options,
                                 const Progress& progress) {
+  const std::vector<double> angles = lines_in(force, asked);
+  if (angles.size() == 1 && is_short_for(angles[0], force.size())) {
+    return short_sine_response(force, output, sampling_period, angles[0]);
+  }
   const std::size_t length = block_length(force.size(), angles, sampling_period);
   const Blocks blocks = fitted_blocks(force, output, BlockFit(length, angles, options.detrend), length, progress);
   const std::size_t skipped = transient_repetitions(blocks.distances());
@@ -158,23 +263,17 @@ std::optional<double> only_tone(std::span<const double> force) {
   constexpr std::uintmax_t most_steps = 100;
   constexpr std::size_t most_samples = std::size_t{1} << 16U;
   const auto found = dominant_oscillation(force, 1.0);
-  if (!found || found->share < least_share) return std::nullopt;
+  if (!found || found->share < least_share) return short_tone(force);
   const std::span<const double> used = force.last(std::min(force.size(), most_samples));
   const auto left = [&](double angle) { return without(fit_sine(used, angle), used); };
-  const auto energy = [](const std::vector<double>& signal) {
-    const auto n = static_cast<double>(signal.size());
-    const double mean = std::accumulate(signal.begin(), signal.end(), 0.0) / n;
-    return std::accumulate(signal.begin(), signal.end(), 0.0,
-                           [&](double sum, double s) { return sum + (s - mean) * (s - mean); });
-  };
   std::uintmax_t steps = most_steps;
   const double nearest = std::max(found->frequency - found->resolution, 0.5 * found->frequency);
-  const double angle = boost::math::tools::brent_find_minima([&](double each) { return energy(left(each)); }, nearest,
-                                                             found->frequency + found->resolution, bits, steps)
+  const double angle = boost::math::tools::brent_find_minima([&](double each) { return energy_of(left(each)); },
+                                                             nearest, found->frequency + found->resolution, bits, steps)
                            .first;
   if (angle >= std::numbers::pi) return std::nullopt;
   const std::vector<double> rest = left(angle);
-  if (energy(rest) < nothing_is_left * energy(std::vector<double>(used.begin(), used.end()))) return angle;
+  if (energy_of(rest) < nothing_is_left * energy_of(used)) return angle;
   const auto next = dominant_oscillation(rest, 1.0);
   return !next || next->share < another_line ? std::optional(angle) : std::nullopt;
 }

@@ -88,11 +88,8 @@ void check(std::span<const Recording> recordings, const FrequencyResponseOptions
     const Recording& each = recordings[r];
     require(each.channels.size() == 2,
             fmt::format("the recording has {} channels; two, the force and the motion", each.channels.size()));
-    constexpr double rounding = 1e-6;
-    const double period = recordings[0].sampling_period;
-    require(std::abs(each.sampling_period - period) <= rounding * period,
-            fmt::format("{}: is sampled at {:.6g} Hz, and {} at {:.6g} Hz; must be of one rate", each.source,
-                        1.0 / each.sampling_period, recordings[0].source, 1.0 / period));
+    require(std::isfinite(each.sampling_period) && each.sampling_period > 0.0,
+            fmt::format("{}: has a sampling period of {} s; above 0", each.source, each.sampling_period));
     for (std::size_t before = 0; before < r; ++before) {
       require(each.channels[1].samples.empty() || each.channels[0].samples != recordings[before].channels[0].samples ||
                   each.channels[1].samples != recordings[before].channels[1].samples,
@@ -264,14 +261,26 @@ namespace internal {
 std::vector<FrequencyResponse> responses(std::span<const Recording> recordings, const FrequencyResponseOptions& options,
                                          const Progress& progress) {
   check(recordings, options);
-  FrequencyResponseOptions alike = options;  // segments of one length have lines in common
+  const double first_period = recordings.front().sampling_period;
+  std::optional<double> segment;  // samples of the first: segments of one duration have lines in common
+  if (options.segment_length) segment = static_cast<double>(*options.segment_length);
   if (recordings.size() > 1 && !options.segment_length) {
     for (const Recording& each : recordings) {
       const std::size_t samples = each.channels[0].samples.size();
       if (samples < fewest_samples) continue;  // refused below
-      alike.segment_length = std::min(alike.segment_length.value_or(samples), welch_segment_length(samples, options));
+      const double own =
+          static_cast<double>(welch_segment_length(samples, options)) * (each.sampling_period / first_period);
+      segment = std::min(segment.value_or(own), own);
     }
   }
+  const auto options_of = [&](const Recording& each) {  // lengths in samples are those of the first
+    FrequencyResponseOptions own = options;
+    const double samples = first_period / each.sampling_period;
+    if (segment) own.segment_length = static_cast<std::size_t>(std::lround(*segment * samples));
+    if (options.period)
+      own.period = static_cast<std::size_t>(std::lround(static_cast<double>(*options.period) * samples));
+    return own;
+  };
   std::vector<FrequencyResponse> found;
   const auto count = static_cast<double>(recordings.size());
   for (std::size_t r = 0; r < recordings.size(); ++r) {
@@ -281,7 +290,7 @@ std::vector<FrequencyResponse> responses(std::span<const Recording> recordings, 
     };
     try {
       found.push_back(frequency_response(each.channels[0].samples, each.channels[1].samples, each.sampling_period,
-                                         recordings.size() > 1 ? alike : options, part));
+                                         recordings.size() > 1 ? options_of(each) : options, part));
       if (found.back().points.empty()) {
         throw Error(ErrorCode::invalid_argument, nothing_left(each, options));
       }

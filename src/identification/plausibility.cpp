@@ -193,10 +193,16 @@ std::optional<std::string> doubt_of_motion(const Recording& recording, const Dev
       stating.name, stating.base_unit, is_rotary ? "linear" : "rotary", is_rotary ? "rotary" : "linear");
 }
 
-std::optional<std::string> doubt_of_thinned_rows(const Recording& recording, const Device& fitted) {
+/// Where another recording has a row for each period, the two disagree if force is missing in this one.
+std::optional<std::string> doubt_of_thinned_rows(const Recording& recording, std::span<const Recording> all,
+                                                 const Device& fitted) {
   const double period = fitted.loop().sampling_period;
   const double ratio = recording.sampling_period / period;
   constexpr double close = 0.01;
+  if (std::ranges::any_of(
+          all, [&](const Recording& each) { return std::abs(each.sampling_period - period) <= close * period; })) {
+    return std::nullopt;
+  }
   const double whole = std::round(ratio);
   if (whole < 2.0 || std::abs(ratio - whole) > close * whole) return std::nullopt;
   return fmt::format(
@@ -207,10 +213,11 @@ std::optional<std::string> doubt_of_thinned_rows(const Recording& recording, con
 }
 }  // namespace
 
-std::vector<std::string> doubts_of_recording(const Recording& recording, OutputQuantity output, const Device& fitted) {
+std::vector<std::string> doubts_of_recording(const Recording& recording, std::span<const Recording> all,
+                                             OutputQuantity output, const Device& fitted) {
   std::vector<std::string> doubts;
   for (auto& doubt : {doubt_of_units(recording, output), doubt_of_motion(recording, fitted),
-                      doubt_of_force_limit(recording, fitted), doubt_of_thinned_rows(recording, fitted)}) {
+                      doubt_of_force_limit(recording, fitted), doubt_of_thinned_rows(recording, all, fitted)}) {
     if (doubt) doubts.push_back(*doubt);
   }
   return doubts;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,10 +22,10 @@ namespace zwidth::internal {
 
 /// Why no answer of this recording is one of the fitted device's loop: doubt_of_units(); its columns are of a linear motion
 /// by their names and the device is rotary, or the other way round; the force goes beyond the actuator's limit, where less
-/// acted; or the loop's period is a half, a third, ... of the rows': where those between were left out, so is the
-/// force between, and delay is missing from the fit.
-[[nodiscard]] std::vector<std::string> doubts_of_recording(const Recording& recording, OutputQuantity output,
-                                                           const Device& fitted);
+/// acted; or the loop's period is a half, a third, ... of the rows' of all recordings: where those between were left
+/// out, so is the force between, and delay is missing from the fit.
+[[nodiscard]] std::vector<std::string> doubts_of_recording(const Recording& recording, std::span<const Recording> all,
+                                                           OutputQuantity output, const Device& fitted);
 
 /// Why the masses of a device of which nothing was known are not in SI units: no haptic device has such.
 [[nodiscard]] std::optional<std::string> doubt_of_weight(const Device& fitted);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <numbers>
 #include <vector>
 
 #include "signal/median.hpp"
@@ -21,9 +22,51 @@ struct Share {
 };
 using Line = std::vector<Share>;
 
+/// Of a rigid body under a force that is held for T, -1/(m w^2) as it is sampled, times m:
+///
+///     (T^2/2) (z + 1)/(z - 1)^2 = -(T^2/4) cos(x) e^{-jx} / sin(x)^2,  x = w T/2
+std::complex<double> sampled_rigid_body(double frequency, double period) {
+  const double x = 0.5 * frequency * period;
+  return -0.25 * period * period * std::cos(x) * std::polar(1.0, -x) / (std::sin(x) * std::sin(x));
+}
+
+/// The response as if the force were held for `period`. By a rigid body's ratio, which is exact to what the other bodies
+/// do to the images above half the rate: that counts as noise.
+FrequencyResponse held_for(double period, FrequencyResponse response) {
+  if (!response.sampling_period || *response.sampling_period == period) return response;
+  const double own = *response.sampling_period;
+  constexpr double most = 0.9;  // of half the rate
+  std::erase_if(response.points, [&](const ResponsePoint& point) {
+    return point.frequency * std::max(own, period) > most * std::numbers::pi;
+  });
+  for (ResponsePoint& point : response.points) {
+    const std::complex<double> factor =
+        sampled_rigid_body(point.frequency, period) / sampled_rigid_body(point.frequency, own);
+    const auto images = [&](double each) { return std::pow(0.5 * point.frequency * each, 4) / 15.0; };
+    const double open = images(own) - images(period);
+    point.value *= factor;
+    point.variance = std::norm(factor) * point.variance + open * open * std::norm(point.value);
+  }
+  response.sampling_period = period;
+  return response;
+}
+
+/// By which lines may differ that are one: a small part of the least spacing of a record's lines.
+double tolerance_of(std::span<const FrequencyResponse> measured) {
+  constexpr double small = 0.02;
+  double spacing = std::numeric_limits<double>::infinity();
+  for (const FrequencyResponse& record : measured) {
+    for (std::size_t i = 1; i < record.points.size(); ++i) {
+      spacing = std::min(spacing, record.points[i].frequency - record.points[i - 1].frequency);
+    }
+  }
+  return std::isfinite(spacing) ? small * spacing : 0.0;
+}
+
 /// The shares of each line, by rising frequency.
 std::vector<Line> lines_of(std::span<const FrequencyResponse> measured) {
   constexpr double rounding = 1e-9;
+  const double close = tolerance_of(measured);
   constexpr double between_tones = 1e-3;  // of a single sine whose frequency is measured too
   std::vector<Share> shares;
   for (const FrequencyResponse& record : measured) {
@@ -35,8 +78,9 @@ std::vector<Line> lines_of(std::span<const FrequencyResponse> measured) {
   for (const Share& share : shares) {
     if (!lines.empty()) {
       const Share& first = lines.back().front();
-      const double tolerance = is_tone(first) && is_tone(share) ? between_tones : rounding;
-      if (share.point->frequency <= (1.0 + tolerance) * first.point->frequency) {
+      const double relative = is_tone(first) && is_tone(share) ? between_tones : rounding;
+      const double tolerance = std::max(close, relative * first.point->frequency);
+      if (share.point->frequency <= first.point->frequency + tolerance) {
         lines.back().push_back(share);
         continue;
       }
@@ -127,7 +171,11 @@ std::optional<AmplitudeDependence> compare(const std::vector<Line>& lines, doubl
 
 }  // namespace
 
-PooledResponse pooled_response(std::span<const FrequencyResponse> measured) {
+PooledResponse pooled_response(std::span<const FrequencyResponse> own) {
+  std::vector<FrequencyResponse> measured;
+  for (const FrequencyResponse& each : own) {
+    measured.push_back(own.front().sampling_period ? held_for(*own.front().sampling_period, each) : each);
+  }
   const std::vector<Line> lines = lines_of(measured);
   PooledResponse result;
   FrequencyResponse& response = result.response;

@@ -14,7 +14,8 @@ namespace zwidth::internal {
 ///     H = sum w_r H_r / sum w_r,  variance = sum w_r^2 v_r / (sum w_r)^2
 ///
 /// and the degrees of freedom of that sum (Satterthwaite's) as averages. Where the records differ by more than their
-/// noise the variance is that of H between them, where it is larger.
+/// noise the variance is that of H between them, where it is larger. Records of other rates count as if the force had been
+/// held for the first one's period; lines within 2 % of their spacing are one.
 struct PooledResponse {
   FrequencyResponse response;
   std::optional<AmplitudeDependence> dependence;

@@ -27,10 +27,10 @@ using Excitation = FrequencyResponseOptions::Excitation;
 std::optional<FrequencyResponse> corrected_response(const FrequencyResponse& last, const Device& device,
                                                     std::span<const Recording> recordings,
                                                     FrequencyResponseOptions options) {
-  const double period = device.loop().sampling_period;
-  const DiscreteStateSpace sampled = sample(state_space(device), {period, device.loop().delay});
   std::vector<Recording> rests;
   for (const Recording& recording : recordings) {
+    const double period = recording.sampling_period;
+    const DiscreteStateSpace sampled = sample(state_space(device), {period, device.loop().delay});
     rests.push_back({recording.source, period, recording.channels, {}});
     const std::vector<double> motion = forced_response(sampled, recording.channels[0].samples);
     std::vector<double>& rest = rests.back().channels[1].samples;

@@ -184,7 +184,8 @@ void judge_mode(RigidBodyIdentification& identified) {
 }
 
 void judge_nonlinearity(RigidBodyIdentification& identified, const Recording& recording, Motion motion) {
-  for (std::string& doubt : doubts_of_recording(recording, OutputQuantity::position, identified.device)) {
+  for (std::string& doubt :
+       doubts_of_recording(recording, std::span(&recording, 1), OutputQuantity::position, identified.device)) {
     identified.trust.doubt(std::move(doubt));
   }
   const auto found = find_nonlinearity_of_equations(identified.fit, recording.channels[0].samples,

@@ -178,7 +178,8 @@ class Judge {
   void judge_nonlinearity(std::size_t r) {
     const Recording& recording = judged_.recordings[r];
     const FittedMotion& motion = fit_.motions[r];
-    for (std::string& doubt : doubts_of_recording(recording, OutputQuantity::position, fit_.device)) {
+    for (std::string& doubt :
+         doubts_of_recording(recording, judged_.recordings, OutputQuantity::position, fit_.device)) {
       trust_.doubt(std::move(doubt));
     }
     if (auto doubt = doubt_of_lag(fit_.estimates, recording.sampling_period)) trust_.doubt(*std::move(doubt));

@@ -13,8 +13,8 @@
 namespace zwidth::internal {
 namespace {
 
-constexpr std::size_t most_filled = 8;      // rows of a gap
-constexpr double told = 0.1;                // relative error of the force up to which a gap is filled
+constexpr std::size_t most_filled = 12;     // rows of a gap
+constexpr double most_error = 0.01;         // rms of the force over the whole record that filling may make, relative
 constexpr double least_jitter = 0.01;       // periods: less is no finding
 constexpr std::size_t examined_gaps = 200;  // of each length
 using Signals = std::span<const std::span<const double>>;
@@ -101,14 +101,26 @@ class Restoring {
     }
   }
 
+  /// In gaps of that length.
+  [[nodiscard]] std::size_t rows_lost_by(std::size_t length) const {
+    std::size_t rows = 0;
+    for (std::size_t i = 0; i + 1 < times_.size(); ++i) rows += missing_after(i) == length ? length : 0;
+    return rows;
+  }
+
   /// Cuts at gaps that cannot be filled, and keeps the longest stretch.
   void cut() {
     std::size_t longest = 0;  // gap that is filled
-    for (std::size_t length = 1; length <= std::min(most_filled, result_.longest_gap); ++length) {
-      const double error = std::sqrt(errors_of_filling(signals_, places_, length, band_, powers_).front());
-      if (error > told) break;
+    double squares = 0.0;
+    for (std::size_t length = 1; length <= most_filled; ++length) {
+      const std::size_t rows = rows_lost_by(length);
+      if (rows > 0) {
+        squares += static_cast<double>(rows) * errors_of_filling(signals_, places_, length, band_, powers_).front();
+        const double error = std::sqrt(squares / static_cast<double>(times_.size()));
+        if (!(error <= most_error)) break;
+        result_.filling_error = error;
+      }
       longest = length;
-      result_.filling_error = error;
     }
     RowRange best;
     for (std::size_t first = 0; first < times_.size();) {

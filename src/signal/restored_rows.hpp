@@ -28,7 +28,7 @@ struct RestoredRows {
   std::size_t first_gap = 0;    ///< row before it
   std::size_t longest_gap = 0;  ///< rows
   std::size_t filled = 0;       ///< of the lost ones, interpolated
-  double filling_error = 0.0;   ///< of the first signal where filled, relative to its rms
+  double filling_error = 0.0;   ///< rms that this adds to the first signal, relative to its own
   std::size_t first_row = 0;    ///< of those that are used
   std::size_t used_rows = 0;
   enum class Jitter { none, of_stamps, of_rows, unknown } jitter = Jitter::none;  ///< what was off its time

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
+#include <tuple>
 #include <utility>
 
 #include "signal/median.hpp"
@@ -18,6 +21,49 @@ double median_period(std::span<const double> times) {
   std::vector<double> sample;
   for (std::size_t i = 0; i < periods; i += stride) sample.push_back(times[i + 1] - times[i]);
   return median(std::move(sample));
+}
+
+/// How well the times so many rows apart are whole periods: the mean cosine of their phase.
+double rhythm(std::span<const double> times, std::size_t apart, double period) {
+  constexpr std::size_t most = 2000;
+  const std::size_t stride = std::max<std::size_t>(1, times.size() / most);
+  double sum = 0.0;
+  for (std::size_t i = 0; i + apart < times.size(); i += stride) {
+    sum += std::cos(2.0 * std::numbers::pi * (times[i + apart] - times[i]) / period);
+  }
+  return sum;
+}
+
+/// The period near the median one in whose rhythm rows follow each other: first neighbours, then rows further and further
+/// apart. Where rows are lost and others jitter, the median is too long.
+double period_of_rhythm(std::span<const double> times, double median) {
+  double period = median;
+  double reach = 0.2;
+  for (std::size_t apart = 1; apart <= 64 && 2 * apart < times.size(); apart *= 4) {
+    constexpr int steps = 40;
+    double best = period;
+    double most = -std::numeric_limits<double>::infinity();
+    for (int k = -steps; k <= steps; ++k) {
+      const double tried = period * (1.0 + reach * k / steps);
+      const double found = rhythm(times, apart, tried);
+      if (found > most) std::tie(most, best) = std::pair(found, tried);
+    }
+    period = best;
+    reach /= 4.0;
+  }
+  return period;
+}
+
+/// Whether nearly all rows follow each other by whole periods as they are.
+bool keeps_time(std::span<const double> times, double period) {
+  constexpr double rounding = 0.02;
+  constexpr double most_exceptions = 0.02;
+  std::size_t exceptions = 0;
+  for (std::size_t i = 0; i + 1 < times.size(); ++i) {
+    const double steps = (times[i + 1] - times[i]) / period;
+    if (std::abs(steps - std::round(steps)) > rounding) ++exceptions;
+  }
+  return static_cast<double>(exceptions) <= most_exceptions * static_cast<double>(times.size());
 }
 
 /// Slots by a clock that follows the times slowly.
@@ -68,7 +114,8 @@ class LineSums {
 }  // namespace
 
 RowGrid row_grid(std::span<const double> times) {
-  const double typical = median_period(times);
+  const double middle = median_period(times);
+  const double typical = keeps_time(times, middle) ? middle : period_of_rhythm(times, middle);
   RowGrid grid{typical, slots_of(times, typical)};
   std::vector<bool> is_far(times.size(), false);
   for (int round = 0; round < 2; ++round) {
@@ -88,13 +135,13 @@ RowGrid row_grid(std::span<const double> times) {
       for (std::size_t i = first; i < end; ++i) {
         off.push_back(times[i] - times[first] - grid.period * static_cast<double>(grid.slots[i] - grid.slots[first]));
       }
-      const double middle = median(off);
+      const double usual = median(off);
       std::vector<double> sizes;
-      for (const double each : off) sizes.push_back(std::abs(each - middle));
+      for (const double each : off) sizes.push_back(std::abs(each - usual));
       constexpr double far = 8.0;
       constexpr double rounding = 0.01;  // periods
       const double allowed = far * median(sizes) + rounding * typical;
-      for (std::size_t i = first; i < end; ++i) is_far[i] = std::abs(off[i - first] - middle) > allowed;
+      for (std::size_t i = first; i < end; ++i) is_far[i] = std::abs(off[i - first] - usual) > allowed;
     }
   }
   return grid;

@@ -188,9 +188,9 @@ TEST(TimeAxis, RefusesBugsOfTheCaller) {
   RecordingOptions options;
   options.time_scale = 0.0;
   EXPECT_THROW((void)time_axis(times_of({0.0, 1.0}), options), Error);
-  EXPECT_THROW((void)axis_of_rate(0.0), Error);
-  EXPECT_THROW((void)axis_of_rate(nan_value), Error);
-  EXPECT_EQ(axis_of_rate(2500.0).sampling_period, 1.0 / 2500.0);
+  EXPECT_THROW((void)period_of_rate(0.0), Error);
+  EXPECT_THROW((void)period_of_rate(nan_value), Error);
+  EXPECT_EQ(period_of_rate(2500.0), 1.0 / 2500.0);
 }
 
 }  // namespace

@@ -58,14 +58,14 @@ struct MeasuredResponse {
                                                   const FrequencyResponseOptions& options = {},
                                                   const Progress& progress = {});
 
-/// The response of one device from several recordings of it, pooled and judged: of one rate, two channels each as
-/// above.
+/// The response of one device from several recordings of it, pooled and judged: two channels each as above, each at its
+/// own rate. The response is that of the first one's sampling period; lengths in samples of the options are its too.
 ///
 /// Lines that several hold are averaged, weighted by the power of their force; the others stand side by side (a sine
 /// per recording makes a line each). Recordings that differ by more than their noise are said to, with the size; the
 /// trust is doubtful where that moves the critical stiffness beyond its interval, or may. Sound, here as for one
 /// recording, only where the recordings bound what dry friction may have made of it. Throws Error as for one
-/// recording, naming it by its source; for different rates; for the same samples twice.
+/// recording, naming it by its source; for the same samples twice.
 [[nodiscard]] MeasuredResponse frequency_response(std::span<const Recording> recordings,
                                                   const FrequencyResponseOptions& options = {},
                                                   const Progress& progress = {});
