@@ -273,10 +273,15 @@ std::vector<FrequencyResponse> responses(std::span<const Recording> recordings, 
       segment = std::min(segment.value_or(own), own);
     }
   }
+  const double least_period = std::ranges::min(recordings, {}, &Recording::sampling_period).sampling_period;
   const auto options_of = [&](const Recording& each) {  // lengths in samples are those of the first
     FrequencyResponseOptions own = options;
     const double samples = first_period / each.sampling_period;
     if (segment) own.segment_length = static_cast<std::size_t>(std::lround(*segment * samples));
+    // A line that only the faster recordings can hold.
+    std::erase_if(own.lines, [&](double line) {
+      return line * each.sampling_period >= std::numbers::pi && line * least_period < std::numbers::pi;
+    });
     if (options.period)
       own.period = static_cast<std::size_t>(std::lround(static_cast<double>(*options.period) * samples));
     return own;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <span>
 #include <string>
@@ -108,16 +107,29 @@ void leave_out_repeated(std::vector<Channel>& channels, RawColumn& times, std::v
   if (times.line) times.line = [line = times.line, kept](std::size_t sample) { return line(kept[sample]); };
 }
 
-/// Equal steps, with what was found.
-void restore(const TimeAxis& axis, Recording& recording) {
+/// Equal steps, with what was found; s, the time of the first. Refused where the stretches between gaps are too short.
+tl::expected<double, InputError> restore(const TimeAxis& axis, Recording& recording) {
   std::vector<std::span<const double>> signals;
   for (const Channel& each : recording.channels) signals.emplace_back(each.samples);
+  const std::size_t all = axis.column.values.size();
   RestoredRows rows = restored_rows(axis.column.values, axis.grid, signals);
+  constexpr double least_used = 0.1;
+  if (static_cast<double>(rows.used_rows) < least_used * static_cast<double>(all)) {
+    InputError refusal = refused_sample(
+        axis.column, rows.first_gap + 1,
+        fmt::format(
+            "{} of {} rows are lost, the first before this one, and the signals change too much from row to row "
+            "to tell what they held; the longest stretch without such a gap has {} rows",
+            rows.lost, axis.grid.slots.back() + 1, rows.used_rows),
+        "log every row, or excite more slowly: a chirp or a multisine below a fifth of the rate");
+    return tl::unexpected(std::move(refusal));
+  }
   recording.sampling_period = rows.period;
   for (std::size_t i = 0; i < recording.channels.size(); ++i) {
     recording.channels[i].samples = std::move(rows.signals[i]);
   }
   add_row_findings(axis, rows, recording);
+  return rows.start;
 }
 
 /// A column on its own times.
@@ -136,12 +148,9 @@ tl::expected<OwnSteps, InputError> own_steps(TimedColumn timed, const ColumnRequ
   auto axis = time_axis(std::move(timed.times), options);
   if (!axis) return tl::unexpected(std::move(axis.error()));
   own.recording.remarks.insert(own.recording.remarks.begin(), axis->remarks.begin(), axis->remarks.end());
-  const std::array<std::span<const double>, 1> signal{own.recording.channels[0].samples};
-  RestoredRows rows = restored_rows(axis->column.values, axis->grid, signal);
-  own.recording.sampling_period = rows.period;
-  own.start = rows.start;
-  own.recording.channels[0].samples = std::move(rows.signals[0]);
-  add_row_findings(*axis, rows, own.recording);
+  const auto start = restore(*axis, own.recording);
+  if (!start) return tl::unexpected(start.error());
+  own.start = *start;
   return own;
 }
 
@@ -181,7 +190,7 @@ tl::expected<Recording, InputError> make_recording(std::vector<RawColumn> column
     if (axis) {
       if (!options.rate) recording.remarks = axis->remarks;
       const auto contradicting = options.rate ? contradiction(*options.rate, *axis, options) : std::nullopt;
-      restore(*axis, recording);
+      if (const auto restored = restore(*axis, recording); !restored) return tl::unexpected(restored.error());
       if (options.rate) recording.sampling_period = period_of_rate(*options.rate);
       if (contradicting) add_contradiction(*contradicting, recording);
     }
