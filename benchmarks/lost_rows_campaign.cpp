@@ -1,7 +1,9 @@
 // What lost rows, jitter and several rates do to identify(): simulated recordings, as they were and as a recorder wrote
 // them.
 //
-//   lost_rows_campaign [FIRST_SEED [COUNT]]
+//   lost_rows_campaign [FIRST_SEED [COUNT [thorough]]]
+//
+// `thorough`: friction is looked for in time too, which takes most of the time.
 //
 // One line per recording and, at the end, by damage: of the recordings that are sound as they were, how many stay sound;
 // and how many of the sound answers hold the truth.
@@ -29,11 +31,13 @@ struct Answer {
   [[nodiscard]] bool holds(double stiffness) const { return lower <= stiffness && stiffness <= upper; }
 };
 
-Answer answer_of(const std::vector<Recording>& recordings, const Device& structure) {
+Answer answer_of(const std::vector<Recording>& recordings, const Device& structure,
+                 IdentifyOptions::Scrutiny scrutiny) {
   Answer answer;
   try {
     IdentifyOptions options;
     options.structure_values = IdentifyOptions::StructureValues::placeholders;
+    options.scrutiny = scrutiny;
     const Identification found = identify(recordings, structure, options);
     answer.verdict = found.trust.sound() ? "sound" : found.trust.refused() ? "refused" : "doubtful";
     if (found.analysis.interval) {
@@ -72,6 +76,7 @@ struct Count {
 int main(int argc, char** argv) {
   const auto first = static_cast<std::uint64_t>(argc > 1 ? std::atoll(argv[1]) : 1);
   const int count = argc > 2 ? std::atoi(argv[2]) : 300;
+  const auto scrutiny = argc > 3 ? IdentifyOptions::Scrutiny::thorough : IdentifyOptions::Scrutiny::brief;
   std::map<std::string, Count> counts;
   int done = 0;
   for (std::uint64_t seed = first; done < count; ++seed) {
@@ -79,10 +84,10 @@ int main(int argc, char** argv) {
     if (!made) continue;
     ++done;
     const Device structure(made->structure);
-    const Answer whole = answer_of(made->whole, structure);
+    const Answer whole = answer_of(made->whole, structure, scrutiny);
     const std::vector<Recording> read = test::read_back(*made);
     Answer damaged;
-    if (read.size() == made->recorded.size()) damaged = answer_of(read, structure);
+    if (read.size() == made->recorded.size()) damaged = answer_of(read, structure, scrutiny);
     std::printf("%5llu %-8s [%.5g, %.5g] -> %-8s [%.5g, %.5g] true %.5g%s: %s\n", static_cast<unsigned long long>(seed),
                 whole.verdict.c_str(), whole.lower, whole.upper, damaged.verdict.c_str(), damaged.lower, damaged.upper,
                 made->stiffness, damaged.sound() && !damaged.holds(made->stiffness) ? " MISSED" : "",
