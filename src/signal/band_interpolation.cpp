@@ -2,8 +2,8 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <vector>
 
 namespace zwidth::internal {
 namespace {
@@ -37,13 +37,15 @@ RowWeights weights_around(std::span<const double> places, double at, SignalBand 
   after = std::min(places.size() - right, 2 * rows_aside - before);
   result.before = {left - before, left};
   result.after = {right, right + after};
-  std::vector<double> around;
+  std::array<double, 2 * rows_aside> around{};
+  std::size_t rows = 0;
   for (const RowRange& range : {result.before, result.after}) {
-    for (std::size_t i = range.first; i < range.end; ++i) around.push_back(places[i]);
+    for (std::size_t i = range.first; i < range.end; ++i) around[rows++] = places[i];
   }
-  const auto count = static_cast<Eigen::Index>(around.size());
-  Eigen::MatrixXd between(count, count);
-  Eigen::MatrixXd right_sides(count, 2);
+  const auto count = static_cast<Eigen::Index>(rows);
+  constexpr int most = 2 * static_cast<int>(rows_aside);
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most, most> between(count, count);
+  Eigen::Matrix<double, Eigen::Dynamic, 2, 0, most, 2> right_sides(count, 2);
   for (Eigen::Index i = 0; i < count; ++i) {
     const double place = around[static_cast<std::size_t>(i)];
     for (Eigen::Index j = 0; j <= i; ++j) {
@@ -53,7 +55,8 @@ RowWeights weights_around(std::span<const double> places, double at, SignalBand 
     right_sides(i, 0) = covariance(band.width * (place - at));
     right_sides(i, 1) = 1.0;
   }
-  const Eigen::MatrixXd solved = between.selfadjointView<Eigen::Lower>().ldlt().solve(right_sides);
+  const Eigen::Matrix<double, Eigen::Dynamic, 2, 0, most, 2> solved =
+      between.selfadjointView<Eigen::Lower>().ldlt().solve(right_sides);
   const double lacking = (1.0 - solved.col(0).sum()) / solved.col(1).sum();
   result.weights = solved.col(0) + lacking * solved.col(1);
   return result;

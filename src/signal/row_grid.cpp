@@ -54,10 +54,9 @@ double period_of_rhythm(std::span<const double> times, double median) {
   return period;
 }
 
-/// Whether nearly all rows follow each other by whole periods as they are.
-bool keeps_time(std::span<const double> times, double period) {
+/// Whether all rows but a share follow each other by whole periods as they are.
+bool keeps_time(std::span<const double> times, double period, double most_exceptions) {
   constexpr double rounding = 0.02;
-  constexpr double most_exceptions = 0.02;
   std::size_t exceptions = 0;
   for (std::size_t i = 0; i + 1 < times.size(); ++i) {
     const double steps = (times[i + 1] - times[i]) / period;
@@ -115,8 +114,13 @@ class LineSums {
 
 RowGrid row_grid(std::span<const double> times) {
   const double middle = median_period(times);
-  const double typical = keeps_time(times, middle) ? middle : period_of_rhythm(times, middle);
+  constexpr double nearly_all = 0.02;
+  const double typical = keeps_time(times, middle, nearly_all) ? middle : period_of_rhythm(times, middle);
   RowGrid grid{typical, slots_of(times, typical)};
+  if (grid.lost() == 0 && keeps_time(times, typical, 0.0)) {
+    grid.period = (times.back() - times.front()) / static_cast<double>(times.size() - 1);
+    return grid;
+  }
   std::vector<bool> is_far(times.size(), false);
   for (int round = 0; round < 2; ++round) {
     LineSums sums;
