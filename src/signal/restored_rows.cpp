@@ -233,20 +233,30 @@ RestoredRows restored_rows(std::span<const double> times, const RowGrid& grid,
 
 std::vector<double> averaged_hold(std::span<const double> times, std::span<const double> signal, double start,
                                   double period, std::size_t count) {
-  std::vector<double> result;
-  result.reserve(count);
+  std::vector<double> result(count, 0.0);
   std::size_t row = 0;
   for (std::size_t k = 0; k < count; ++k) {
-    double from = start + static_cast<double>(k) * period;
+    const double begin = start + static_cast<double>(k) * period;
     const double end = start + static_cast<double>(k + 1) * period;
     double sum = 0.0;
+    double moment = 0.0;  // about the middle
+    const auto add = [&](double value, double from, double to) {
+      sum += value * (to - from);
+      moment += value * (to - from) * (0.5 * (from + to) - 0.5 * (begin + end));
+    };
+    double from = begin;
     while (row + 1 < times.size() && times[row + 1] <= from) ++row;
     while (row + 1 < times.size() && times[row + 1] < end) {
-      sum += signal[row] * (std::max(times[row + 1], from) - from);
+      add(signal[row], from, std::max(times[row + 1], from));
       from = std::max(times[row + 1], from);
       ++row;
     }
-    result.push_back((sum + signal[row] * (end - from)) / period);
+    add(signal[row], from, end);
+    result[k] += sum / period;
+    if (k == 0 || k + 1 == count) continue;
+    const double aside = moment / (2.0 * period * period);
+    result[k - 1] -= aside;
+    result[k + 1] += aside;
   }
   return result;
 }

@@ -40,7 +40,9 @@ struct RestoredRows {
 [[nodiscard]] RestoredRows restored_rows(std::span<const double> times, const RowGrid& grid,
                                          std::span<const std::span<const double>> signals);
 
-/// A signal that is held from each time to the next, averaged over `count` steps of `period` from `start` on.
+/// A signal that is held from each time to the next, averaged over `count` steps of `period` from `start` on. What it does
+/// to a mass is left as it was: its integral in each step, and the moment in time about the step's middle, by its two
+/// neighbours.
 [[nodiscard]] std::vector<double> averaged_hold(std::span<const double> times, std::span<const double> signal,
                                                 double start, double period, std::size_t count);
 

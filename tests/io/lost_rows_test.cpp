@@ -249,8 +249,8 @@ TEST(OwnTimes, AForceAtTwiceTheRateIsAveragedOverTheMotionsSteps) {
   ASSERT_TRUE(recording) << recording.error().str();
   EXPECT_NEAR(recording->sampling_period, period, 1e-12);
   ASSERT_EQ(recording->channels[0].samples.size(), 1500U);
-  // From 0.10025 s on: half of row 200, row 201, half of row 202.
-  EXPECT_NEAR(recording->channels[0].samples[0], 0.25 * 200.0 + 0.5 * 201.0 + 0.25 * 202.0, 1e-9);
+  // From 0.10225 s on: half of row 204, row 205, half of row 206.
+  EXPECT_NEAR(recording->channels[0].samples[2], 0.25 * 204.0 + 0.5 * 205.0 + 0.25 * 206.0, 1e-9);
   EXPECT_EQ(recording->channels[1].samples, columns.columns[3].samples);
   columns.columns[3].times = 1;
   EXPECT_TRUE(find_problem(columns)) << "not as many";
@@ -266,12 +266,22 @@ TEST(OwnTimes, ThatAreTheSameAreThoseOfTheRecording) {
   expect_like(*recording, all);
 }
 
-TEST(AveragedHold, KeepsTheMean) {
+TEST(AveragedHold, KeepsTheIntegralAndItsMoment) {
   const std::vector<double> times{0.0, 0.7, 2.2, 3.0};
   const std::vector<double> held{1.0, 2.0, 3.0, 4.0};
-  const std::vector<double> expected{1.3, 2.0, 2.8, 4.0};
   const std::vector<double> found = averaged_hold(times, held, 0.0, 1.0, 4);
-  for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(found[k], expected[k], 1e-15);
+  double integral = 0.0;
+  double moment = 0.0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    integral += found[k];
+    moment += found[k] * (static_cast<double>(k) + 0.5);
+  }
+  EXPECT_NEAR(integral, 0.7 * 1.0 + 1.5 * 2.0 + 0.8 * 3.0 + 4.0, 1e-14);
+  // All but what the first step, which has no neighbour before it, has of its own.
+  const double first = 0.7 * 1.0 * -0.15 + 0.3 * 2.0 * 0.35;
+  EXPECT_NEAR(moment, 0.7 * 1.0 * 0.35 + 1.5 * 2.0 * 1.45 + 0.8 * 3.0 * 2.6 + 4.0 * 3.5 - first, 1e-14);
+  const std::vector<double> even{0.0, 1.0, 2.0, 3.0};
+  EXPECT_EQ(averaged_hold(even, held, 0.0, 1.0, 4), held);
 }
 
 }  // namespace
