@@ -1,6 +1,7 @@
 #include "identification/pooled_response.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <limits>
@@ -30,27 +31,6 @@ std::complex<double> sampled_rigid_body(double frequency, double period) {
   return -0.25 * period * period * std::cos(x) * std::polar(1.0, -x) / (std::sin(x) * std::sin(x));
 }
 
-/// The response as if the force were held for `period`. By a rigid body's ratio, which is exact to what the other bodies
-/// do to the images above half the rate: that counts as noise.
-FrequencyResponse held_for(double period, FrequencyResponse response) {
-  if (!response.sampling_period || *response.sampling_period == period) return response;
-  const double own = *response.sampling_period;
-  constexpr double most = 0.9;  // of half the rate
-  std::erase_if(response.points, [&](const ResponsePoint& point) {
-    return point.frequency * std::max(own, period) > most * std::numbers::pi;
-  });
-  for (ResponsePoint& point : response.points) {
-    const std::complex<double> factor =
-        sampled_rigid_body(point.frequency, period) / sampled_rigid_body(point.frequency, own);
-    const auto images = [&](double each) { return std::pow(0.5 * point.frequency * each, 4) / 15.0; };
-    const double open = images(own) - images(period);
-    point.value *= factor;
-    point.variance = std::norm(factor) * point.variance + open * open * std::norm(point.value);
-  }
-  response.sampling_period = period;
-  return response;
-}
-
 /// By which lines may differ that are one: a small part of the least spacing of a record's lines.
 double tolerance_of(std::span<const FrequencyResponse> measured) {
   constexpr double small = 0.02;
@@ -61,6 +41,46 @@ double tolerance_of(std::span<const FrequencyResponse> measured) {
     }
   }
   return std::isfinite(spacing) ? small * spacing : 0.0;
+}
+
+/// The response as if the force were held for the first one's period. By a rigid body's ratio, which is exact to what the
+/// other bodies do to the images above half the rate. All lines err alike by that, so that it counts as if one had the
+/// error of all; and where it is more than a small part of the noise, the first one's own line is enough.
+FrequencyResponse held_as(const FrequencyResponse& first, FrequencyResponse response) {
+  if (!first.sampling_period || !response.sampling_period || *response.sampling_period == *first.sampling_period) {
+    return response;
+  }
+  const double period = *first.sampling_period;
+  const double own = *response.sampling_period;
+  constexpr double most = 0.9;  // of half the rate
+  std::erase_if(response.points, [&](const ResponsePoint& point) {
+    return point.frequency * std::max(own, period) > most * std::numbers::pi;
+  });
+  const double close = tolerance_of(std::array{first, response});
+  const auto is_of_first = [&](double frequency) {
+    return std::ranges::any_of(first.points, [&](const ResponsePoint& point) {
+      return std::abs(point.frequency - frequency) <= std::max(close, 1e-9 * frequency);
+    });
+  };
+  const auto open_share = [&](double frequency) {
+    const auto images = [&](double each) { return std::pow(0.5 * frequency * each, 4) / 15.0; };
+    return images(own) - images(period);
+  };
+  std::erase_if(response.points, [&](const ResponsePoint& point) {
+    constexpr double small = 0.1;  // deviations
+    const double open = std::abs(open_share(point.frequency)) * std::abs(point.value);
+    return open > small * std::sqrt(point.variance) && is_of_first(point.frequency);
+  });
+  const auto lines = static_cast<double>(response.points.size());
+  for (ResponsePoint& point : response.points) {
+    const std::complex<double> factor =
+        sampled_rigid_body(point.frequency, period) / sampled_rigid_body(point.frequency, own);
+    const double open = open_share(point.frequency);
+    point.value *= factor;
+    point.variance = std::norm(factor) * point.variance + lines * open * open * std::norm(point.value);
+  }
+  response.sampling_period = period;
+  return response;
 }
 
 /// The shares of each line, by rising frequency.
@@ -173,9 +193,7 @@ std::optional<AmplitudeDependence> compare(const std::vector<Line>& lines, doubl
 
 PooledResponse pooled_response(std::span<const FrequencyResponse> own) {
   std::vector<FrequencyResponse> measured;
-  for (const FrequencyResponse& each : own) {
-    measured.push_back(own.front().sampling_period ? held_for(*own.front().sampling_period, each) : each);
-  }
+  for (const FrequencyResponse& each : own) measured.push_back(held_as(own.front(), each));
   const std::vector<Line> lines = lines_of(measured);
   PooledResponse result;
   FrequencyResponse& response = result.response;
