@@ -15,6 +15,7 @@
 
 #include "stability/damper_response.hpp"
 #include "stability/disc_stiffness.hpp"
+#include "stability/gain_crossings.hpp"
 #include "stability/wall_condition.hpp"
 #include "staged_progress.hpp"
 
@@ -96,12 +97,17 @@ AnyUserSearch::AnyUserSearch(const Device& device, const Progress& progress)
   for (const double frequency : frequencies_) discs_at_.push_back(pieces_.at(frequency));
 }
 
+WallResponse AnyUserSearch::response(VirtualDamper damper, double frequency) const {
+  const std::complex<double> velocity = damper_response(damper, period_, frequency);
+  return free_gain_ == FreeGain::damping ? WallResponse{velocity, 0.0} : WallResponse{1.0, velocity};
+}
+
 double AnyUserSearch::limit_at(VirtualDamper damper, double frequency) const {
-  return least_stiffness(discs_.at(frequency), damper_response(damper, period_, frequency));
+  return least_gain(discs_.at(frequency), response(damper, frequency));
 }
 
 double AnyUserSearch::quick_limit_at(VirtualDamper damper, double frequency) const {
-  return least_stiffness(pieces_.at(frequency), damper_response(damper, period_, frequency));
+  return least_gain(pieces_.at(frequency), response(damper, frequency));
 }
 
 /// By rising frequency. The free device's own crossovers lie on the discs: the limit is never above them, and the band
@@ -114,7 +120,7 @@ std::vector<AnyUserSearch::Sample> AnyUserSearch::scan(VirtualDamper damper, con
   double least = infinity;
   for (std::size_t i = 0; i < frequencies_.size(); ++i) {
     const double frequency = frequencies_[i];
-    samples.push_back({frequency, least_stiffness(discs_at_[i], damper_response(damper, period_, frequency))});
+    samples.push_back({frequency, least_gain(discs_at_[i], response(damper, frequency))});
     least = std::min(least, samples.back().stiffness);
   }
   const auto known = static_cast<std::ptrdiff_t>(samples.size());
@@ -219,11 +225,9 @@ double AnyUserSearch::prove(VirtualDamper damper, const Progress& progress, Samp
       continue;
     }
     const DiscPieces::Piece& piece = pieces_.sampled(index);
-    std::array<std::complex<double>, interpolation_points> dampers{};
-    for (std::size_t i = 0; i < interpolation_points; ++i) {
-      dampers[i] = damper_response(damper, period_, piece.nodes[i].frequency);
-    }
-    const WallCondition condition(piece, dampers);
+    std::array<WallResponse, interpolation_points> walls{};
+    for (std::size_t i = 0; i < interpolation_points; ++i) walls[i] = response(damper, piece.nodes[i].frequency);
+    const WallCondition condition(piece, walls);
     const auto answer_at = [&](double below) { return condition.up_to(least.stiffness * (1.0 - below)); };
     if (const auto at_zero = condition.least_stiffness_at_zero()) {
       if (*at_zero <= least.stiffness * (1.0 + same_stiffness)) least = {0.0, std::min(*at_zero, least.stiffness)};
@@ -257,8 +261,19 @@ double AnyUserSearch::prove(VirtualDamper damper, const Progress& progress, Samp
 }
 
 AnyUserLimit AnyUserSearch::limit(VirtualDamper damper, const Progress& progress) {
+  free_gain_ = FreeGain::stiffness;
+  return limit_of(damper, critical_stiffness(discs_.free_plant(), damper), progress);
+}
+
+AnyUserLimit AnyUserSearch::damping_limit(double velocity_filter_hz, const Progress& progress) {
+  free_gain_ = FreeGain::damping;
+  const VirtualDamper unit{1.0, velocity_filter_hz};
+  const FilteredPlant& plant = discs_.free_plant();
+  return limit_of(unit, critical_stiffness_of(plant, damping_crossings(plant, unit)), progress);
+}
+
+AnyUserLimit AnyUserSearch::limit_of(VirtualDamper damper, const CriticalStiffness& free, const Progress& progress) {
   AnyUserLimit limit;
-  const CriticalStiffness free = critical_stiffness(discs_.free_plant(), damper);
   if (free.status == StiffnessStatus::none_stable || discs_.is_undamped()) return limit;
   Sample least{0.0, infinity};
   const std::vector<Sample> samples = scan(damper, free);

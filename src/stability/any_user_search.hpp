@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "stability/damper_response.hpp"
 #include "stability/disc_pieces.hpp"
 #include "stability/user_discs.hpp"
 #include "zwidth/stability/any_user.hpp"
@@ -22,12 +23,19 @@ class AnyUserSearch {
 
   [[nodiscard]] AnyUserLimit limit(VirtualDamper damper, const Progress& progress = {});
 
+  /// any_user_damping(): AnyUserLimit::stiffness holds B.
+  [[nodiscard]] AnyUserLimit damping_limit(double velocity_filter_hz, const Progress& progress = {});
+
  private:
   /// The stiffness that the condition allows at one frequency, rad/s.
   struct Sample {
     double frequency = 0.0;
     double stiffness = 0.0;
   };
+  /// Which gain is free; VirtualDamper::damping is 1 N s/m where it is the damper's.
+  enum class FreeGain { stiffness, damping };
+  [[nodiscard]] AnyUserLimit limit_of(VirtualDamper damper, const CriticalStiffness& free, const Progress& progress);
+  [[nodiscard]] WallResponse response(VirtualDamper damper, double frequency) const;
   [[nodiscard]] double limit_at(VirtualDamper damper, double frequency) const;
   [[nodiscard]] double quick_limit_at(VirtualDamper damper, double frequency) const;
   [[nodiscard]] std::vector<Sample> scan(VirtualDamper damper, const CriticalStiffness& free) const;
@@ -36,6 +44,7 @@ class AnyUserSearch {
   [[nodiscard]] double prove(VirtualDamper damper, const Progress& progress, Sample& least);
 
   UserDiscs discs_;
+  FreeGain free_gain_ = FreeGain::stiffness;
   double period_ = 0.0;
   DiscPieces pieces_;
   std::vector<double> frequencies_;        // where the condition may be tightest with any damper, rising

@@ -85,9 +85,10 @@ WallCondition::Answer judge(const Bernstein& b, const Errors& errors, double beg
 
 }  // namespace
 
-WallCondition::Terms WallCondition::terms(const UserDiscs::Disc& disc, std::complex<double> damper) {
-  return {1.0 + 2.0 * (damper * disc.centre).real() + disc.power * std::norm(damper),
-          disc.centre.real() + disc.power * damper.real(), disc.power};
+WallCondition::Terms WallCondition::terms(const UserDiscs::Disc& disc, const WallResponse& wall) {
+  const auto& [unit, closed] = wall;
+  return {1.0 + 2.0 * (closed * disc.centre).real() + disc.power * std::norm(closed),
+          (unit * disc.centre).real() + disc.power * (unit * std::conj(closed)).real(), disc.power * std::norm(unit)};
 }
 
 /// Whether |a| <= 1e-11 b at all nodes: rounding.
@@ -154,10 +155,10 @@ void WallCondition::look_at_zero(const NearZero& terms) {
 }
 
 WallCondition::WallCondition(const DiscPieces::Piece& piece,
-                             const std::array<std::complex<double>, interpolation_points>& dampers)
-    : nodes_(piece.nodes), dampers_(dampers) {
-  is_undamped_ = std::all_of(dampers.begin(), dampers.end(), [](std::complex<double> each) { return each == 0.0; });
-  for (std::size_t i = 0; i < interpolation_points; ++i) terms_[i] = terms(nodes_[i].disc, dampers_[i]);
+                             const std::array<WallResponse, interpolation_points>& walls)
+    : nodes_(piece.nodes), walls_(walls) {
+  is_undamped_ = std::all_of(walls.begin(), walls.end(), [](const WallResponse& each) { return each.closed == 0.0; });
+  for (std::size_t i = 0; i < interpolation_points; ++i) terms_[i] = terms(nodes_[i].disc, walls_[i]);
   if (piece.begin != 0.0) return;
   InterpolationValues x{};
   InterpolationValues constant{};
@@ -187,7 +188,7 @@ WallCondition::WallCondition(const DiscPieces::Piece& piece,
 /// f(K1) at a node, by the difference of which less is lost: near a root of 1 + C c, and where c grows without bound.
 double WallCondition::last_at(std::size_t node, double stiffness) const {
   const UserDiscs::Disc& disc = nodes_[node].disc;
-  const std::complex<double> wall = stiffness + dampers_[node];
+  const std::complex<double> wall = stiffness * walls_[node].unit + walls_[node].closed;
   const double apart = std::abs(1.0 + wall * disc.centre);
   const double reach = std::abs(wall) * disc.radius;
   const auto& [constant, half, quadratic] = terms_[node];
@@ -211,19 +212,20 @@ WallCondition::Answer WallCondition::up_to(double stiffness) const {
     // What an error of centre and radius makes of them.
     const double error = node.factor * node.error;
     const double size = std::abs(node.disc.centre) + node.disc.radius;
-    const double damper = std::abs(dampers_[i]);
-    const std::complex<double> wall = stiffness + dampers_[i];
+    const double unit = std::abs(walls_[i].unit);
+    const double damper = std::abs(walls_[i].closed);
+    const std::complex<double> wall = stiffness * walls_[i].unit + walls_[i].closed;
     const double apart = std::abs(1.0 + wall * node.disc.centre) + std::abs(wall) * node.disc.radius;
     const double of_constant = 2.0 * error * damper * (1.0 + damper * size);
     errors.constant = std::max(errors.constant, of_constant);
-    errors.middle = std::max(errors.middle, of_constant + stiffness * error * (1.0 + 2.0 * damper * size));
+    errors.middle = std::max(errors.middle, of_constant + stiffness * error * unit * (1.0 + 2.0 * damper * size));
     errors.last = std::max(errors.last, 2.0 * error * std::abs(wall) * apart);
-    errors.quadratic = std::max(errors.quadratic, 2.0 * error * size);
+    errors.quadratic = std::max(errors.quadratic, 2.0 * error * size * unit * unit);
     values.discriminant[i] = node.factor * node.factor * (at.constant * at.quadratic - at.half * at.half);
     const double of_p = of_constant + rounding_of_terms * node.factor * (1.0 + damper * size) * (1.0 + damper * size);
     const double of_q =
-        error * (1.0 + 2.0 * damper * size) + rounding_of_terms * node.factor * size * (1.0 + damper * size);
-    const double of_a = 2.0 * error * size + rounding_of_terms * node.factor * size * size;
+        unit * (error * (1.0 + 2.0 * damper * size) + rounding_of_terms * node.factor * size * (1.0 + damper * size));
+    const double of_a = unit * unit * (2.0 * error * size + rounding_of_terms * node.factor * size * size);
     errors.discriminant = std::max(
         errors.discriminant,
         node.factor * (std::abs(at.constant) * of_a + std::abs(at.quadratic) * of_p + 2.0 * std::abs(at.half) * of_q) +
