@@ -22,6 +22,18 @@ export interface Crossover {
   limited_by: LimitedBy | null
   poles_leaving?: number
 }
+/** null: no limit, or none is given. */
+export interface HolderLimit {
+  critical_stiffness: number | null
+  frequency_rad_s: number | null
+  limited_by: LimitedBy | null
+  critical_damping: number | null
+}
+export interface StableFor {
+  nobody: boolean
+  user: boolean | null
+  any_user: boolean | null
+}
 export interface Margins {
   stable: boolean
   gain_margin_db: number | null
@@ -40,11 +52,13 @@ export interface Analysis extends Judged {
   critical_stiffness_db: number | null
   critical_frequency_hz: number | null
   limited_by: LimitedBy | null
+  limits: { nobody: HolderLimit; user: HolderLimit | null; any_user: HolderLimit | null }
   stable_intervals: [number, number | null][] | null
   crossovers: Crossover[] | null
   modes: { frequency_hz: number; damping_ratio: number }[]
   any_user: { critical_stiffness: number | null; frequency_rad_s: number | null; critical_stiffness_interval?: [number, number | null] | null } | null
-  wall: (Margins & { stiffness: number; damping: number }) | null
+  rigid_approximation: { mass: number } | null
+  wall: (Margins & { stiffness: number; damping: number; stable_for: StableFor }) | null
   force_per_count: { largest: number | null } | null
   critical_stiffness_interval: [number, number] | null
   assumed: string[]
@@ -75,6 +89,8 @@ export interface Region extends Judged {
   stiffest: WallPoint | null
   most_damped: WallPoint | null
   components: { area: number; outline: { boundary: string; points: WallPoint[] }[] }[]
+  /** With nobody holding, where the file has a user: the rest is with that one. */
+  nobody?: Pick<Region, 'stiffest' | 'most_damped' | 'components'> | null
   any_user: { stiffest: WallPoint | null; most_damped: WallPoint | null; limits: WallPoint[][] } | null
 }
 export interface Sensitivity {
