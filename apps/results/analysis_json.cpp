@@ -22,29 +22,12 @@ Json any_user_json(const Analysis& analysis) {
           {"worst_user", analysis.worst_user}};
 }
 
-Json limit_json(const HolderLimit& limit) {
-  return {{"critical_stiffness", limit.critical_stiffness},
-          {"frequency_rad_s", limit.frequency},
-          {"limited_by", limit.limited_by},
-          {"critical_damping", limit.critical_damping},
-          {"critical_damping_frequency_rad_s", limit.damping_frequency},
-          {"critical_damping_limited_by", limit.damping_limited_by}};
-}
-
-Json limits_json(const HoldingLimits& limits) {
-  return {{"nobody", limit_json(limits.nobody)},
-          {"user", limits.user ? limit_json(*limits.user) : Json(nullptr)},
-          {"any_user", limits.any_user ? limit_json(*limits.any_user) : Json(nullptr)}};
-}
-
 /// The wall's margins are those with the file's user; it is stable where it is with nobody too.
 Json wall_json(const Analysis& analysis) {
   Json json = analysis.wall;
   if (!analysis.wall) return json;
-  const StableFor& stable_for = *analysis.wall_stable_for;
-  json["stable"] = stability_of(stable_for) != WallStability::unstable;
-  json["stable_for"] = {
-      {"nobody", stable_for.nobody}, {"user", stable_for.user}, {"any_user", stable_for.any_user}};
+  json["stable"] = stability_of(*analysis.wall_stable_for) != WallStability::unstable;
+  json["stable_for"] = analysis.wall_stable_for;
   json["disk_margin"] = analysis.disk_margin;
   return json;
 }
@@ -91,7 +74,7 @@ Json analysis_json(const Device& analysed, const Analysis& analysis) {
   json["device"] = device.name;
   json["units"] = wall_units(device.motion);
   add_critical(json, analysis.critical);
-  json["limits"] = limits_json(analysis.limits);
+  json["limits"] = analysis.limits;
   json["stable_intervals"] = analysis.critical.stable_intervals;
   json["crossovers"] = analysis.critical.crossovers;
   json["modes"] = analysis.modes;

@@ -335,9 +335,14 @@ WallVerdict verdict_on_wall(const Analysis& analysis) {
                                                                              : WallVerdict::stable;
 }
 
-WallStability stability_of(const StableFor& wall) {
-  if (!wall.nobody || !wall.user.value_or(true)) return WallStability::unstable;
-  return wall.any_user.value_or(false) ? WallStability::anyone : WallStability::alone_only;
+HoldingLimits holding_limits(const Device& device, const HoldingOptions& options) {
+  DeviceParameters parameters = device.parameters();
+  parameters.wall.stiffness.reset();
+  return analyze(Device(std::move(parameters)), {.any_user = options.any_user,
+                                                 .critical_damping = options.critical_damping,
+                                                 .draws = 0,
+                                                 .progress = options.progress})
+      .limits;
 }
 
 }  // namespace zwidth

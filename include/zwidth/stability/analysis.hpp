@@ -107,6 +107,18 @@ struct Analysis {
 /// Throws Error (invalid_argument) where find_problem(options, device) finds one, (did_not_converge) as its parts do.
 [[nodiscard]] Analysis analyze(const Device& device, const AnalysisOptions& options = {});
 
+/// What of the limits is computed.
+struct HoldingOptions {
+  bool any_user = true;          ///< as AnalysisOptions::any_user
+  bool critical_damping = true;  ///< as AnalysisOptions::critical_damping
+  Progress progress = {};        ///< told how far the work is; ends it by throwing
+};
+
+/// Analysis::limits alone: with nobody, the file's user and any passive user, the wall's damper and filters closed.
+///
+/// Where the device is refused its limits are NaN. Throws as analyze() does.
+[[nodiscard]] HoldingLimits holding_limits(const Device& device, const HoldingOptions& options = {});
+
 /// Whether the wall given may be relied on, for who must decide by that alone.
 enum class WallVerdict {
   stable,    ///< with nobody holding and with the file's user, strictly, and the answer is sound
