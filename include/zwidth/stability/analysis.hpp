@@ -79,10 +79,19 @@ struct AnalysisOptions {
 /// most_bodies_for_any_user bodies.
 [[nodiscard]] std::optional<OptionProblem> find_problem(const AnalysisOptions& options, const Device& device);
 
+/// The answer with nobody holding where the file has a user: what HoldingLimits::nobody and StableFor::nobody rest on.
+struct AnswerAlone {
+  CriticalStiffness critical;                ///< the limit, and every crossover
+  std::vector<Mode> modes;                   ///< vibration modes, by rising frequency
+  std::optional<Mode> suspended_rigid_body;  ///< where springs tie the device to ground
+  std::optional<WallMargins> wall;           ///< absent without wall.stiffness
+};
+
 /// The whole answer for one device. Where it is refused (trust), no stiffness, margin or interval is held.
 struct Analysis {
   CriticalStiffness critical;                         ///< the limit with the file's user, and every crossover
   HoldingLimits limits;                               ///< with nobody, the file's user, any passive user
+  std::optional<AnswerAlone> alone;                   ///< with nobody holding; absent without an [operator]
   std::vector<Mode> modes;                            ///< vibration modes, by rising frequency
   std::optional<Mode> suspended_rigid_body;           ///< where springs tie the device to ground
   std::optional<RigidApproximation> rigid;            ///< absent for a transfer function
