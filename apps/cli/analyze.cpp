@@ -178,7 +178,8 @@ void run_analyze(const AnalyzeOptions& options) {
   if (options.output.json) {
     std::string lines;
     for (const report::AnalysedDevice& each : analysed)
-      lines += results::line(results::analysis_json(each.device, each.analysis, options.walls ? each.walls : std::nullopt));
+      lines +=
+          results::line(results::analysis_json(each.device, each.analysis, options.walls ? each.walls : std::nullopt));
     write_standard_output(lines);
   } else {
     write_text(report::analysis_text(analysed));

@@ -172,11 +172,13 @@ TEST_F(Analyze, RequireStableJudgesNobodyAndTheFilesUser) {
 // Nothing returns a damped wheel to a place: that is no instability.
 TEST_F(Analyze, RequireStableOfADamperAlone) {
   const std::string wheel = "motion = \"rotary\"\n[[body]]\nname = \"wheel\"\n";
-  write("wheel.toml", wheel + "inertia = 0.05\ndamping = 0.01\n[loop]\nsampling_period = 1e-3\n"
-                              "[wall]\nstiffness = 0\ndamping = 0.5\n");
+  write("wheel.toml", wheel +
+                          "inertia = 0.05\ndamping = 0.01\n[loop]\nsampling_period = 1e-3\n"
+                          "[wall]\nstiffness = 0\ndamping = 0.5\n");
   EXPECT_EQ(run("zwidth analyze wheel.toml --require-stable").status, 0);
-  write("rotor.toml", wheel + "inertia = 2e-6\ndamping = 2e-5\n[loop]\nsampling_period = 1e-3\ndelay = 1e-3\n"
-                              "[wall]\nstiffness = 0\ndamping = 0.006\n");
+  write("rotor.toml", wheel +
+                          "inertia = 2e-6\ndamping = 2e-5\n[loop]\nsampling_period = 1e-3\ndelay = 1e-3\n"
+                          "[wall]\nstiffness = 0\ndamping = 0.006\n");
   const Outcome rotor = run("zwidth analyze rotor.toml --require-stable --json");
   EXPECT_EQ(rotor.status, 1);
   const json document = json::parse(rotor.output);
@@ -296,7 +298,8 @@ TEST_F(Analyze, RotaryDevicesHaveRotaryUnits) {
         "1e-3\n");
   const json document = documents("zwidth analyze paddle.toml --json").front();
   EXPECT_EQ(document["units"], (json{{"stiffness", "N m/rad"}, {"damping", "N m s/rad"}}));
-  EXPECT_THAT(run("zwidth analyze paddle.toml").output, AllOf(HasSubstr(" N m/rad, then shakes at "), HasSubstr("damper alone ")));
+  EXPECT_THAT(run("zwidth analyze paddle.toml").output,
+              AllOf(HasSubstr(" N m/rad, then shakes at "), HasSubstr("damper alone ")));
 }
 
 TEST_F(Analyze, AnUndampedDeviceHasNoStableWall) {

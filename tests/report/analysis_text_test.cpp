@@ -32,10 +32,11 @@ std::string unwrapped(std::string text) {
 }
 
 TEST(AnalysisText, BeginsWithTheAnswer) {
-  EXPECT_THAT(text_of(lhifam()),
-              StartsWith("LHIfAM, translational axis" + std::string(61, ' ') +
-                         "sound\n"
-                         "  spring alone   nobody holding   8.849 kN/m, then shakes at 6.143 Hz: the rigid body and the\n"));
+  EXPECT_THAT(
+      text_of(lhifam()),
+      StartsWith("LHIfAM, translational axis" + std::string(61, ' ') +
+                 "sound\n"
+                 "  spring alone   nobody holding   8.849 kN/m, then shakes at 6.143 Hz: the rigid body and the\n"));
 }
 
 // One question, which wall, and the answers to it side by side: of every holder, and with a damper and margins.
@@ -63,7 +64,8 @@ TEST(AnalysisText, TheFirstLinesSayWhoHolds) {
   EXPECT_EQ(rows[2].answer, "up to 187.3 kN/m with B = 230.3 N s/m");
   EXPECT_EQ(rows[3].answer, "4.31 kN/m, B = 98.1 N s/m, velocity filter 18.5 Hz");
   EXPECT_EQ(rows[3].hint, "zwidth design FILE --recommend");
-  analysed.walls = WallSummary{.with_damper = {}, .why_no_damper = "takes long", .with_margins = {}, .why_no_margins = "x"};
+  analysed.walls =
+      WallSummary{.with_damper = {}, .why_no_damper = "takes long", .with_margins = {}, .why_no_margins = "x"};
   const std::vector<LimitRow> without = limit_rows(analysed);
   EXPECT_EQ(without[2].hint, "zwidth region FILE");
   EXPECT_EQ(without[3].answer, "left out: x");
@@ -108,10 +110,9 @@ TEST(AnalysisText, NamesEveryDelayThatLimits) {
   parameters.actuator.time_constant = 2e-3;
   analysed.device = Device(parameters);
   analysed.analysis.critical.limit->limited_by = {Mechanism::Kind::vibration_mode, 1};
-  EXPECT_THAT(
-      unwrapped(text_of(analysed)),
-      HasSubstr("then shakes at 6.143 Hz: vibration mode 1 (84.31 Hz, damping ratio 0.0507), the sampling delay of T/2 = 500 µs, "
-                "the added delay of 250 µs and the actuator's lag of 2 ms "));
+  EXPECT_THAT(unwrapped(text_of(analysed)), HasSubstr("then shakes at 6.143 Hz: vibration mode 1 (84.31 Hz, damping "
+                                                      "ratio 0.0507), the sampling delay of T/2 = 500 µs, "
+                                                      "the added delay of 250 µs and the actuator's lag of 2 ms "));
 }
 
 TEST(AnalysisText, ListsEveryCrossoverAndMarksTheLimit) {
@@ -175,8 +176,11 @@ TEST(AnalysisText, SaysWhyTheQCriterionIsSilent) {
 
 TEST(AnalysisText, JudgesTheWall) {
   const std::string stable = unwrapped(text_of(lhifam_with_wall()));
-  EXPECT_THAT(stable, HasSubstr("With nobody holding and the virtual damper of 5 N s/m (velocity low-pass at 100 Hz) closed"));
-  EXPECT_THAT(stable, HasSubstr("The wall of 5 kN/m and 5 N s/m is stable alone only: 56.5 % of the limit with nobody holding"));
+  EXPECT_THAT(stable,
+              HasSubstr("With nobody holding and the virtual damper of 5 N s/m (velocity low-pass at 100 Hz) closed"));
+  EXPECT_THAT(
+      stable,
+      HasSubstr("The wall of 5 kN/m and 5 N s/m is stable alone only: 56.5 % of the limit with nobody holding"));
   EXPECT_THAT(stable, HasSubstr("gain margin 6.02 dB"));
   EXPECT_THAT(stable, HasSubstr("phase margin 5.73° (0.1 rad)"));
   EXPECT_THAT(stable, HasSubstr("delay margin 1.5 ms of further delay"));

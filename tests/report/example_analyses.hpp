@@ -37,7 +37,8 @@ inline AnalysedDevice lhifam() {
   analysis.rigid->critical.stiffness = 7000.75625452837;
   analysis.rigid->error = RigidApproximation::Error::safe;
   analysis.q_criterion = QCriterion{8468.9, false, true};
-  analysis.limits.nobody = {.critical_stiffness = 8848.70869499712, .frequency = 38.5965268731856, .limited_by = rigid_body};
+  analysis.limits.nobody = {
+      .critical_stiffness = 8848.70869499712, .frequency = 38.5965268731856, .limited_by = rigid_body};
   return {Device(parameters), analysis};
 }
 

@@ -54,8 +54,8 @@ TEST(HtmlReport, AnswersOnTopWithFiguresAndNumbers) {
   EXPECT_LT(answer, figure);
   EXPECT_EQ(count_of(page, "<svg"), 2U);
   for (const char* text :
-       {"then shakes at 6.143 Hz: the rigid body", "140.4 kN/m", "33.9 kN/m", "135.2 MN/m", "84.31 Hz", "With rigid links",
-        "Q criterion", "Nobody holds", "motor to handle: stiffness", "79500 N/m",
+       {"then shakes at 6.143 Hz: the rigid body", "140.4 kN/m", "33.9 kN/m", "135.2 MN/m", "84.31 Hz",
+        "With rigid links", "Q criterion", "Nobody holds", "motor to handle: stiffness", "79500 N/m",
         "1   K = 78.94 dB (8.849 kN/m) at 38.6 rad/s (6.143 Hz), rigid body: critical, nobody holding",
         "3   K = 90.60 dB (33.9 kN/m) at 618.1 rad/s (98.37 Hz), vibration mode 1", "Magnitude (dB re 1 m/N)",
         "Phase (degrees)", "Frequency (Hz)", "Frequency (rad/s)", "Nyquist, 3142 rad/s (500 Hz)"}) {

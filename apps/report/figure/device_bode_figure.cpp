@@ -55,8 +55,9 @@ void add_marks(BodeFigure& figure, const AnalysedDevice& analysed, std::size_t c
     const std::string belongs_to = crossover.limited_by.kind == Mechanism::Kind::rigid_body
                                        ? "rigid body"
                                        : fmt::format("vibration mode {}", crossover.limited_by.mode);
-    figure.marks.push_back({curve, crossover, limits ? BodeMark::Rank::critical : BodeMark::Rank::other,
-                            fmt::format(", {}{}{}", belongs_to, limits ? fmt::format(": critical, {}", holder) : "", suffix)});
+    figure.marks.push_back(
+        {curve, crossover, limits ? BodeMark::Rank::critical : BodeMark::Rank::other,
+         fmt::format(", {}{}{}", belongs_to, limits ? fmt::format(": critical, {}", holder) : "", suffix)});
   }
 }
 

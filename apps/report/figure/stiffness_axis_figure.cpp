@@ -76,8 +76,8 @@ std::vector<Label> labels_of(const AnalysedDevice& analysed) {
   }
   if (analysis.alone && analysis.alone->critical.limit) {
     const double stiffness = analysis.alone->critical.stiffness;
-    labels.push_back({stiffness, fmt::format("{}, {}", words_of(Holder::nobody), quantity(stiffness, unit)),
-                      critical_leader});
+    labels.push_back(
+        {stiffness, fmt::format("{}, {}", words_of(Holder::nobody), quantity(stiffness, unit)), critical_leader});
   }
   if (has_any_user_limit(analysis)) {
     const double stiffness = analysis.any_user->stiffness;

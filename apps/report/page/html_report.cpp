@@ -35,14 +35,12 @@ std::string list(const std::vector<std::string>& texts) {
 /// The stiffest spring that stays stable when the user lets go, too.
 std::string headline(const AnalysedDevice& analysed) {
   const HoldingLimits& limits = analysed.analysis.limits;
-  const bool user_limits =
-      limits.user && limits.user->critical_stiffness < limits.nobody.critical_stiffness;
+  const bool user_limits = limits.user && limits.user->critical_stiffness < limits.nobody.critical_stiffness;
   const AnalysedDevice held = user_limits ? analysed : with_nobody_holding(analysed);
-  return element("p", fmt::format("Stiffest stable spring with {}",
-                                  words_of(user_limits ? Holder::user : Holder::nobody))) +
-         fmt::format("<p class=\"value\">{}</p>\n",
-                     escape_markup(critical_stiffness_text(held.analysis.critical,
-                                                           analysed.device.parameters().motion)));
+  return element("p",
+                 fmt::format("Stiffest stable spring with {}", words_of(user_limits ? Holder::user : Holder::nobody))) +
+         fmt::format("<p class=\"value\">{}</p>\n", escape_markup(critical_stiffness_text(
+                                                        held.analysis.critical, analysed.device.parameters().motion)));
 }
 
 std::string limit_table(const AnalysedDevice& analysed) {
@@ -74,9 +72,8 @@ TextTable numbered(TextTable table) {
 
 std::string crossover_section(const AnalysedDevice& analysed) {
   if (analysed.analysis.critical.trust.refused()) return "";
-  std::string text =
-      element("h2", fmt::format("Crossovers with {}",
-                                words_of(analysed.analysis.limits.user ? Holder::user : Holder::nobody)));
+  std::string text = element(
+      "h2", fmt::format("Crossovers with {}", words_of(analysed.analysis.limits.user ? Holder::user : Holder::nobody)));
   text += element("p", fmt::format("Every wall stiffness that puts a closed-loop pole on the unit circle, up to the "
                                    "Nyquist frequency of {}, that frequency included.",
                                    quantity(0.5 / analysed.device.loop().sampling_period, "Hz")));

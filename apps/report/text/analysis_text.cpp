@@ -102,8 +102,7 @@ std::string short_answer(const AnalysedDevice& analysed) {
 
 std::string analysis_text(std::span<const AnalysedDevice> devices) {
   if (devices.size() == 1) return full_answer(devices.front());
-  std::string text = fitted_comparison(devices) +
-                     wrap(comparison_legend(devices), line_width, 2) + "\n";
+  std::string text = fitted_comparison(devices) + wrap(comparison_legend(devices), line_width, 2) + "\n";
   for (std::size_t i = 0; i < devices.size(); ++i) text += fmt::format("{}. {}", i + 1, short_answer(devices[i]));
   text +=
       "Each device alone (zwidth analyze FILE) gives its walls with a damper and with margins, its crossovers,\n"

@@ -51,8 +51,7 @@ class LimitTable {
   /// "then shakes at 6.143 Hz: the rigid body and the sampling delay of T/2 = 500 us"
   [[nodiscard]] std::string then_what(const AnalysedDevice& held, const Mechanism& mechanism, double frequency) const {
     const double nyquist = std::numbers::pi / analysed_.device.loop().sampling_period;
-    const std::string cause =
-        what_turns_unstable(held.device, mechanism_name(held.analysis, mechanism), frequency);
+    const std::string cause = what_turns_unstable(held.device, mechanism_name(held.analysis, mechanism), frequency);
     if (frequency == 0.0) return "then drifts away: " + cause;
     return fmt::format("then shakes at {}{}: {}", quantity(hertz(frequency), "Hz"),
                        frequency < nyquist ? "" : " (Nyquist)", cause);
@@ -99,9 +98,9 @@ class LimitTable {
     if (limit.damping_limited_by) {
       return fmt::format("{}, {}", text, then_what(held, *limit.damping_limited_by, *limit.damping_frequency));
     }
-    return *limit.damping_frequency == 0.0 ? text
-                                           : fmt::format("{}, worst at {}", text,
-                                                         quantity(hertz(*limit.damping_frequency), "Hz"));
+    return *limit.damping_frequency == 0.0
+               ? text
+               : fmt::format("{}, worst at {}", text, quantity(hertz(*limit.damping_frequency), "Hz"));
   }
 
   void add_dampers() {

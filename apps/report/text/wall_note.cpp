@@ -106,9 +106,9 @@ void add_margins(const WallMargins& wall, std::vector<std::string>& margins) {
 
 /// The margins with nobody holding beside those with the file's user, in one line.
 std::string margins_alone(const WallMargins& wall) {
-  std::string text = fmt::format("with {}: gain margin {}", words_of(Holder::nobody),
-                                 wall.gain_margin ? fmt::format("{:.2f} dB", decibels(*wall.gain_margin))
-                                                  : std::string("without limit"));
+  std::string text = fmt::format(
+      "with {}: gain margin {}", words_of(Holder::nobody),
+      wall.gain_margin ? fmt::format("{:.2f} dB", decibels(*wall.gain_margin)) : std::string("without limit"));
   if (wall.phase_margin) text += ", " + phase_text(*wall.phase_margin);
   if (wall.delay_margin) text += ", delay margin " + quantity(*wall.delay_margin, "s");
   return text;
@@ -148,8 +148,8 @@ std::optional<std::string> wall_note(const AnalysedDevice& analysed) {
   std::string text = fmt::format("{} is {}{}.", name_of_wall(*wall, units_of(analysed.device.parameters().motion)),
                                  wall_verdict(analysis), shares.empty() ? "" : ": " + shares);
   if (!analysis.alone || !analysis.alone->wall) {
-    text += fmt::format(" With {} {}.", words_of(analysis.limits.user ? Holder::user : Holder::nobody),
-                        motion_text(*wall));
+    text +=
+        fmt::format(" With {} {}.", words_of(analysis.limits.user ? Holder::user : Holder::nobody), motion_text(*wall));
   } else {
     text += fmt::format(" With {} {}; with {} {}.", words_of(Holder::nobody), motion_text(*analysis.alone->wall),
                         words_of(Holder::user), motion_text(*wall));
