@@ -85,7 +85,7 @@ class Recommendation {
       result.status = WallRecommendation::Status::refused;
       return result;
     }
-    wall.bounded_by = bounds_of(*best);
+    if (options_.alternatives) wall.bounded_by = bounds_of(*best);
     result.status = WallRecommendation::Status::found;
     result.wall = std::move(wall);
     if (!options_.ripple && result.wall->force_per_count) {
@@ -96,7 +96,7 @@ class Recommendation {
            "ask for a ripple where that can be felt or heard"});
     }
     stages_.next(1.0);
-    add_alternatives(*best, plain, result);
+    if (options_.alternatives) add_alternatives(*best, plain, result);
     stages_.done();
     return result;
   }

@@ -171,16 +171,24 @@ void judge_holders(const Device& device, const AnalysisOptions& options, Analysi
     return;
   }
   const Device free = without_operator(device);
-  const Analysis alone = analyze(free, {.any_user = false, .critical_damping = options.critical_damping, .draws = 0});
+  Analysis alone = analyze(free, {.any_user = false, .critical_damping = options.critical_damping, .draws = 0});
   for (const std::string& reason : alone.trust.reasons) {
     analysis.trust.doubt(fmt::format("with nobody holding: {}", reason));
   }
   analysis.limits.nobody = alone.limits.nobody;
   analysis.limits.user = holder_limit(analysis.critical);
   if (options.critical_damping) add_critical_damping(device, *analysis.limits.user, analysis);
-  if (!analysis.wall) return;
-  analysis.wall_stable_for->user = analysis.wall->stable;
-  analysis.wall_stable_for->nobody = alone.wall && alone.wall->stable;
+  if (analysis.wall) {
+    analysis.wall_stable_for->user = analysis.wall->stable;
+    analysis.wall_stable_for->nobody = alone.wall && alone.wall->stable;
+    if (analysis.wall->stable && !analysis.wall_stable_for->nobody) {
+      analysis.remarks.push_back({Remark::Severity::warning, "the wall is unstable with nobody holding",
+                                  "the file's user alone keeps it stable: it shakes once the hand lets go",
+                                  "stay below the limit with nobody holding"});
+    }
+  }
+  analysis.alone = AnswerAlone{std::move(alone.critical), std::move(alone.modes),
+                               std::move(alone.suspended_rigid_body), std::move(alone.wall)};
 }
 
 /// Whether any passive user leaves the wall stable, with the damper alone where it has no spring.
@@ -194,9 +202,13 @@ void judge_wall_for_any_user(Analysis& analysis) {
     wall.any_user = wall.nobody && (analysis.wall->damping == 0.0 || analysis.wall->damping < *limit.critical_damping);
   }
   if (stability_of(wall) != WallStability::alone_only || wall.any_user.value_or(true)) return;
-  analysis.remarks.push_back({Remark::Severity::warning, "the wall is stiffer than the limit with any passive user",
-                              "alone it is stable, but some user's grasp makes it oscillate",
-                              "stay below that limit, or give the users whom you expect as a family"});
+  const bool has_spring = analysis.wall->stiffness > 0.0;
+  analysis.remarks.push_back({Remark::Severity::warning,
+                              has_spring ? "the wall is stiffer than the limit with any passive user"
+                                         : "the wall has more damping than the limit with any passive user",
+                              "stable alone only: some user's grasp makes it oscillate",
+                              has_spring ? "stay below that limit, or give the users whom you expect as a family"
+                                         : "stay below that limit"});
 }
 
 /// The limit over all passive users, of the stiffness and of the damper alone.
@@ -335,9 +347,14 @@ WallVerdict verdict_on_wall(const Analysis& analysis) {
                                                                              : WallVerdict::stable;
 }
 
-WallStability stability_of(const StableFor& wall) {
-  if (!wall.nobody || !wall.user.value_or(true)) return WallStability::unstable;
-  return wall.any_user.value_or(false) ? WallStability::anyone : WallStability::alone_only;
+HoldingLimits holding_limits(const Device& device, const HoldingOptions& options) {
+  DeviceParameters parameters = device.parameters();
+  parameters.wall.stiffness.reset();
+  return analyze(Device(std::move(parameters)), {.any_user = options.any_user,
+                                                 .critical_damping = options.critical_damping,
+                                                 .draws = 0,
+                                                 .progress = options.progress})
+      .limits;
 }
 
 }  // namespace zwidth

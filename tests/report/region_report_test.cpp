@@ -161,7 +161,7 @@ TEST(RegionCsv, OfARasterIsTheGrid) {
 
 TEST(RegionFigure, ShowsTheRegionAndTheFormulas) {
   const std::string svg = draw_region(lhifam_region());
-  for (const char* text : {"Stable walls of LHIfAM", "with any passive user", "Colgate &amp; Schenkel", "Gil, Hulin",
+  for (const char* text : {"Stable walls of LHIfAM", "stable for anyone", "Colgate &amp; Schenkel", "Gil, Hulin",
                            "Diolaiti", "Virtual damping B (N s/m)", "Stiffness K (kN/m)"}) {
     EXPECT_THAT(svg, HasSubstr(text));
   }

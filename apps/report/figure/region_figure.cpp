@@ -120,10 +120,10 @@ class RegionFigure {
   [[nodiscard]] std::vector<LegendEntry> legend() const {
     std::vector<LegendEntry> entries;
     if (walls_.region.stiffest) {
-      entries.push_back(
-          {fmt::format("stable: up to {} at {} {}", quantity(walls_.region.stiffest->stiffness, units_.stiffness),
-                       number(walls_.region.stiffest->damping), units_.damping),
-           boundary_style, region_colour});
+      entries.push_back({fmt::format("{}: up to {} at {} {}", words_of(WallStability::alone_only),
+                                     quantity(walls_.region.stiffest->stiffness, units_.stiffness),
+                                     number(walls_.region.stiffest->damping), units_.damping),
+                         boundary_style, region_colour});
     } else {
       entries.push_back({walls_.trust.refused()  ? "refused: no region is given"
                          : walls_.region.bounded ? "no wall is stable"
@@ -132,7 +132,7 @@ class RegionFigure {
                          {}});
     }
     if (walls_.any_user && walls_.any_user->stiffest) {
-      entries.push_back({fmt::format("with any passive user: up to {}",
+      entries.push_back({fmt::format("{}: up to {}", words_of(WallStability::anyone),
                                      quantity(walls_.any_user->stiffest->stiffness, units_.stiffness)),
                          any_user_style, any_user_colour});
     }

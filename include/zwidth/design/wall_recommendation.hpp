@@ -36,7 +36,8 @@ struct RecommendationOptions {
   /// 0.9; above 0 the device needs a link.
   double drift = 0.0;
   bool notch = true;        ///< a notch near a mode may be added to the wall's filters
-  std::size_t draws = 100;  ///< of the device's uncertainty, where it has one
+  bool alternatives = true;  ///< WallRecommendation::alternatives are searched, and what bounds the wall
+  std::size_t draws = 100;   ///< of the device's uncertainty, where it has one
   Progress progress = {};   ///< told how far the work is; ends it by throwing
 };
 

@@ -79,10 +79,19 @@ struct AnalysisOptions {
 /// most_bodies_for_any_user bodies.
 [[nodiscard]] std::optional<OptionProblem> find_problem(const AnalysisOptions& options, const Device& device);
 
+/// The answer with nobody holding where the file has a user: what HoldingLimits::nobody and StableFor::nobody rest on.
+struct AnswerAlone {
+  CriticalStiffness critical;                ///< the limit, and every crossover
+  std::vector<Mode> modes;                   ///< vibration modes, by rising frequency
+  std::optional<Mode> suspended_rigid_body;  ///< where springs tie the device to ground
+  std::optional<WallMargins> wall;           ///< absent without wall.stiffness
+};
+
 /// The whole answer for one device. Where it is refused (trust), no stiffness, margin or interval is held.
 struct Analysis {
   CriticalStiffness critical;                         ///< the limit with the file's user, and every crossover
   HoldingLimits limits;                               ///< with nobody, the file's user, any passive user
+  std::optional<AnswerAlone> alone;                   ///< with nobody holding; absent without an [operator]
   std::vector<Mode> modes;                            ///< vibration modes, by rising frequency
   std::optional<Mode> suspended_rigid_body;           ///< where springs tie the device to ground
   std::optional<RigidApproximation> rigid;            ///< absent for a transfer function
@@ -106,6 +115,18 @@ struct Analysis {
 /// critical_stiffness() and the wall are checked by a second route; see there.
 /// Throws Error (invalid_argument) where find_problem(options, device) finds one, (did_not_converge) as its parts do.
 [[nodiscard]] Analysis analyze(const Device& device, const AnalysisOptions& options = {});
+
+/// What of the limits is computed.
+struct HoldingOptions {
+  bool any_user = true;          ///< as AnalysisOptions::any_user
+  bool critical_damping = true;  ///< as AnalysisOptions::critical_damping
+  Progress progress = {};        ///< told how far the work is; ends it by throwing
+};
+
+/// Analysis::limits alone: with nobody, the file's user and any passive user, the wall's damper and filters closed.
+///
+/// Where the device is refused its limits are NaN. Throws as analyze() does.
+[[nodiscard]] HoldingLimits holding_limits(const Device& device, const HoldingOptions& options = {});
 
 /// Whether the wall given may be relied on, for who must decide by that alone.
 enum class WallVerdict {

@@ -3,10 +3,17 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <string_view>
 
 #include "zwidth/stability/critical_stiffness.hpp"
 
 namespace zwidth {
+
+/// Who holds the device. Every limit and verdict is of one of these, under the same name everywhere.
+enum class Holder : std::uint8_t { nobody, user, any_user };
+
+/// "nobody holding", "the file's user", "any passive user".
+[[nodiscard]] std::string_view words_of(Holder holder);
 
 /// The limits that one holder of the device leaves.
 struct HolderLimit {
@@ -42,5 +49,8 @@ enum class WallStability : std::uint8_t {
 
 /// anyone, alone_only or unstable.
 [[nodiscard]] WallStability stability_of(const StableFor& wall);
+
+/// "stable for anyone", "stable alone only", "unstable": the words of every text, figure and page.
+[[nodiscard]] std::string_view words_of(WallStability stability);
 
 }  // namespace zwidth

@@ -1,0 +1,160 @@
+// Dampers without a spring. Beside critical_damping() and any_user_damping(): closed forms of a rigid device, eigenvalues of
+// the matrix exponential, and users.
+
+#include "zwidth/stability/critical_damping.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string_view>
+
+#include "lhifam.hpp"
+#include "property/random_devices.hpp"
+#include "zwidth/design/any_user_region.hpp"
+#include "zwidth/design/stable_region.hpp"
+#include "zwidth/model/device_operator.hpp"
+#include "zwidth/model/state_space.hpp"
+#include "zwidth/stability/closed_loop.hpp"
+#include "zwidth/stability/wall_margins.hpp"
+
+namespace zwidth {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+DeviceParameters rigid(double mass, double damping, double period) {
+  DeviceParameters device;
+  device.bodies = {{"body", mass, damping, 0.0, 0.0}};
+  device.loop = {0, 0, 0, period, 0.0};
+  return device;
+}
+
+/// Of z (z - a) + (B/T) (c1 z + c0), a = e^{-bT/m}, by Jury: the loop of a rigid device and a damper, no delay.
+double critical_damping_of_rigid(double m, double b, double T) {
+  const double a = std::exp(-b * T / m);
+  const double travelled = -std::expm1(-b * T / m) * m / (b * b);
+  const double c1 = T / b - travelled;
+  const double c0 = travelled - a * T / b;
+  return T * std::min(1.0 / c0, c1 > c0 ? (1.0 + a) / (c1 - c0) : infinity);
+}
+
+/// Largest |z| - 1 at K = 0 with this damper, but the pole of the position that nothing holds.
+double excess(const Device& device, double damping) {
+  const Sampling sampling{device.loop().sampling_period, device.loop().delay};
+  Wall wall = device.parameters().wall;
+  wall.stiffness = 0.0;
+  wall.damping = damping;
+  return stability_excess(sample(state_space(device), sampling), wall, CountedPoles::but_free_position);
+}
+
+TEST(CriticalDamping, OfARigidDeviceHasAClosedForm) {
+  test::RandomDevices random(1);
+  for (int i = 0; i < 200; ++i) {
+    const double T = random.log_uniform(1e-4, 1e-2);
+    const double m = random.log_uniform(1e-3, 10.0);
+    const double b = m / T * random.log_uniform(1e-4, 3.0);
+    const CriticalDamping found = critical_damping(Device(rigid(m, b, T)));
+    ASSERT_TRUE(found.trust.sound()) << i;
+    ASSERT_EQ(found.status, StiffnessStatus::finite) << i;
+    EXPECT_NEAR(found.damping / critical_damping_of_rigid(m, b, T), 1.0, 1e-9) << i;
+    EXPECT_EQ(found.limit->limited_by.kind, Mechanism::Kind::rigid_body);
+  }
+}
+
+// Colgate and Schenkel: b > K T/2 + B with a user of any kind.
+TEST(CriticalDamping, WithAnyUserARigidDeviceBearsItsOwnDamping) {
+  test::RandomDevices random(2);
+  for (int i = 0; i < 50; ++i) {
+    const double T = random.log_uniform(1e-4, 1e-2);
+    const double m = random.log_uniform(1e-3, 10.0);
+    const double b = m / T * random.log_uniform(1e-4, 0.1);
+    const AnyUserDamping found = any_user_damping(Device(rigid(m, b, T)));
+    EXPECT_TRUE(found.trust.sound());
+    EXPECT_NEAR(found.damping / b, 1.0, 1e-6) << i;
+    EXPECT_LE(found.damping, b * (1.0 + 1e-9)) << i;
+  }
+}
+
+TEST(CriticalDamping, OfARotorWithADelay) {
+  DeviceParameters device = rigid(2e-6, 2e-5, 1e-3);
+  device.motion = Motion::rotary;
+  device.loop.delay = 1e-3;
+  const CriticalDamping found = critical_damping(Device(device));
+  ASSERT_TRUE(found.limit);
+  EXPECT_LT(found.damping, 0.006);
+  EXPECT_LT(excess(Device(device), found.damping * (1.0 - 1e-6)), 0.0);
+  EXPECT_GT(excess(Device(device), found.damping * (1.0 + 1e-6)), 0.0);
+  device.wall.stiffness = 0.0;
+  device.wall.damping = 0.006;
+  const WallMargins wall = wall_margins(Device(device));
+  EXPECT_FALSE(wall.stable);
+  EXPECT_NEAR(wall.spectral_radius, 1.569, 5e-4);
+}
+
+TEST(CriticalDamping, AFreePositionIsNoInstability) {
+  DeviceParameters device = rigid(0.05, 0.01, 1e-3);
+  device.wall.stiffness = 0.0;
+  device.wall.damping = 0.5;
+  const WallMargins wall = wall_margins(Device(device));
+  EXPECT_TRUE(wall.stable);
+  EXPECT_LT(wall.spectral_radius, 1.0);
+  ASSERT_TRUE(wall.gain_margin);
+  EXPECT_NEAR(*wall.gain_margin * 0.5 / critical_damping_of_rigid(0.05, 0.01, 1e-3), 1.0, 1e-9);
+}
+
+// Poles by the matrix exponential on both sides of every limit.
+TEST(CriticalDamping, EigenvaluesAgreeOnRandomDevices) {
+  int finite = 0;
+  for (std::size_t seed = 0; seed < 210; ++seed) {
+    test::RandomDevices random(seed + 700);
+    const std::string_view kind = test::device_kinds[seed % test::device_kinds.size()];
+    DeviceParameters parameters = random.device(kind);
+    parameters.wall.damping = 0.0;
+    if (parameters.transfer_function) continue;
+    const Device device(parameters);
+    const CriticalDamping found = critical_damping(device);
+    if (!found.trust.sound() || found.status != StiffnessStatus::finite) continue;
+    const double below = excess(device, 0.999 * found.damping);
+    const double above = excess(device, 1.001 * found.damping);
+    constexpr double rounding = 1e-9;
+    EXPECT_LT(below, rounding) << kind << ", seed " << seed;
+    if (found.limit->poles_leaving > 0) EXPECT_GT(above, -rounding) << kind << ", seed " << seed;
+    ++finite;
+  }
+  EXPECT_GT(finite, 100);
+}
+
+TEST(CriticalDamping, WithAnyUserIsWhereTheRegionEnds) {
+  const Device device(test::lhifam_parameters());
+  const AnyUserDamping found = any_user_damping(device);
+  const StableWalls walls(filtered_plant(device));
+  const AnyUserRegion region = any_user_region(device, walls, critical_damping(device).damping);
+  ASSERT_TRUE(region.most_damped);
+  EXPECT_NEAR(region.most_damped->damping / found.damping, 1.0, 1e-3);
+}
+
+// No user of those drawn needs less, and some mass or spring nearly as little.
+TEST(CriticalDamping, UsersProveTheLimit) {
+  const Device device(test::lhifam_parameters());
+  const double limit = any_user_damping(device).damping;
+  test::RandomDevices random(3);
+  double least = critical_damping(device).damping;
+  EXPECT_GE(least, limit);
+  for (int i = 0; i < 1500; ++i) {
+    Operator user;
+    const int kind = i % 4;
+    if (kind != 1) user.mass = random.log_uniform(1e-3, 1e3);
+    if (kind != 0) user.stiffness = random.log_uniform(1e2, 1e8);
+    if (kind == 3) user.damping = random.log_uniform(1e-2, 1e3);
+    const CriticalDamping held = critical_damping(with_operator(device, user));
+    if (!held.trust.sound()) continue;
+    EXPECT_GE(held.damping, limit * (1.0 - 1e-6)) << user.mass << ", " << user.damping << ", " << user.stiffness;
+    least = std::min(least, held.damping);
+  }
+  EXPECT_LT(least, limit * 1.05);
+}
+
+}  // namespace
+}  // namespace zwidth
