@@ -144,7 +144,7 @@ WallRegion region(const Device& device, const RegionOptions& options) {
     result.region = std::move(found.region);
     if (is_held && !result.trust.refused()) {
       holders.next(1.0);
-      add_nobody(without_operator(device), options.outline, result, holders.stage());
+      add_nobody(zwidth::without_operator(device), options.outline, result, holders.stage());
     }
   } catch (const Error& error) {
     if (error.code() != ErrorCode::did_not_converge) throw;

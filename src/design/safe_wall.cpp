@@ -197,7 +197,7 @@ void take_lower_end(const std::vector<HeldDevice>& held, const HeldDevice& least
 }
 
 /// The limits of all known holders; of each the status decides where there is none.
-std::vector<HeldDevice> limits_of(const std::vector<Device>& holders, bool own, SafeWall& wall) {
+std::vector<HeldDevice> limits_of_holders(const std::vector<Device>& holders, bool own, SafeWall& wall) {
   std::vector<HeldDevice> held;
   for (const Device& each : holders) {
     const Device closed = own ? each : with_damping(each, 0.0);
@@ -239,7 +239,7 @@ void choose(const Device& device, const SafeWallOptions& options, SafeWall& wall
   const double filter = device.parameters().wall.velocity_filter_hz;
   wall.damping = own ? device.parameters().wall.damping : 0.0;
   const std::vector<Device> holders = known_holders(device);
-  const std::vector<HeldDevice> held = limits_of(holders, own, wall);
+  const std::vector<HeldDevice> held = limits_of_holders(holders, own, wall);
   if (wall.trust.refused() || wall.status != SafeWall::Status::chosen) return;
   const HeldDevice& least =
       *std::ranges::min_element(held, {}, [](const HeldDevice& each) { return each.critical.stiffness; });

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -20,8 +21,8 @@ namespace {
 
 constexpr double as_good = 1.0 - 2e-3;  // of the stiffest: worth refining, for between vertices K may be larger
 constexpr double same_extreme = 1e-9;   // relative
-constexpr int halvings = 52;
-constexpr std::uintmax_t most_steps = 100;
+constexpr int tip_halvings = 52;
+constexpr std::uintmax_t most_refinements = 100;
 
 /// An edge of an outline, straight, from lower to upper B.
 struct Edge {
@@ -215,7 +216,7 @@ double damping_of_stiffest(const BothWalls& walls, const std::vector<double>& le
   const auto at = [&](std::size_t i) { return i < stiffest.size() ? stiffest[i] : -1.0; };
   for (std::size_t i = 0; i < dampings.size(); ++i) {
     if (stiffest[i] < worth_refining || stiffest[i] < at(i + 1) || (i > 0 && stiffest[i] < at(i - 1))) continue;
-    std::uintmax_t steps = most_steps;
+    std::uintmax_t steps = most_refinements;
     const double from = dampings[i > 0 ? i - 1 : 0];
     const double to = dampings[std::min(i + 1, dampings.size() - 1)];
     const auto [damping, negative] = boost::math::tools::brent_find_minima(
@@ -277,7 +278,7 @@ SharedWalls shared_walls(const StableWalls& nobody, const StableRegion& nobodys_
     out = levels[std::min(i + 1, levels.size() - 1)];
     break;
   }
-  for (int i = 0; i < halvings && in < out; ++i) {
+  for (int i = 0; i < tip_halvings && in < out; ++i) {
     const double middle = std::midpoint(in, out);
     (walls.at(middle).empty() ? out : in) = middle;
   }
