@@ -22,6 +22,9 @@ NLOHMANN_JSON_SERIALIZE_ENUM(WallStability, {{WallStability::anyone, "anyone"},
                                              {WallStability::alone_only, "alone_only"},
                                              {WallStability::unstable, "unstable"}})
 
+NLOHMANN_JSON_SERIALIZE_ENUM(Holder,
+                             {{Holder::nobody, "nobody"}, {Holder::user, "user"}, {Holder::any_user, "any_user"}})
+
 /// {"kind": "rigid_body"} or {"kind": "vibration_mode", "mode": 1}
 void to_json(Json& json, const Mechanism& mechanism);
 

@@ -144,6 +144,28 @@ TEST(SafeWall, IsAShareOfTheAnyUserLimitWithTheOwnDamperClosed) {
   EXPECT_TRUE(wall.trust.sound());
 }
 
+// Where some user destabilises every wall the limit with the file's user was taken, of which nothing is left when it lets go.
+TEST(SafeWall, IsAShareOfTheLesserLimitOfNobodyAndTheFilesUser) {
+  const Device alone(test::handle_sensed(test::lhifam_parameters()));
+  ASSERT_EQ(any_user_limit(alone, {}).stiffness, 0.0);
+  const double with_nobody = critical_stiffness(alone).stiffness;
+  bool better = false;
+  for (const Operator& user : {Operator{0.0, 60.0, 0.0}, Operator{2.0, 0.0, 1000.0}, Operator{0.0, 0.0, 3e4}}) {
+    const Device held = held_by(alone, user);
+    const double with_user = critical_stiffness(held).stiffness;
+    if (!(with_user > 0.0)) continue;
+    better = better || with_user > with_nobody;
+    for (const auto damping : {SafeWallOptions::Damping::own, SafeWallOptions::Damping::ceiling}) {
+      const SafeWall wall = safe_wall(held, {.safety_factor = 0.9, .damping = damping});
+      ASSERT_EQ(wall.status, SafeWall::Status::chosen);
+      EXPECT_EQ(wall.basis, SafeWall::Basis::device);
+      EXPECT_EQ(wall.limit, std::min(with_nobody, with_user));
+      for (const Device& each : {alone, held}) EXPECT_LT(excess(each, wall.stiffness, wall.damping), 0.0);
+    }
+  }
+  EXPECT_TRUE(better);
+}
+
 // A transfer function has no user.
 TEST(SafeWall, IsAShareOfTheCriticalStiffnessWhereThereIsNoUser) {
   const SafeWall wall = safe_wall(Device(test::transfer_function_parameters({1.0}, {1.0, 1.0}, 1.0)));

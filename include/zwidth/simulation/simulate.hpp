@@ -10,6 +10,7 @@
 #include "zwidth/remark.hpp"
 #include "zwidth/simulation/hybrid_loop.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
+#include "zwidth/stability/holding.hpp"
 #include "zwidth/trust.hpp"
 
 namespace zwidth {
@@ -93,10 +94,12 @@ enum class NonlinearPart {
 
 /// What linear analysis says of the same loop.
 struct LinearAnswer {
-  CriticalStiffness critical;  ///< with the wall's damper and filters
+  CriticalStiffness critical;  ///< of the device that moves, with its file's user, and the wall's damper and filters
+  HoldingLimits limits;        ///< with nobody and with the file's user
+  std::optional<StableFor> stable_for;  ///< of the wall; any passive user is left out. Absent as `wall_stable`
   // Absent where the wall has no stiffness, or the critical stiffness is refused:
   std::optional<double> wall_share;       ///< wall's stiffness over the critical one; absent unless that is finite
-  std::optional<bool> wall_stable;        ///< absent without a wall
+  std::optional<bool> wall_stable;        ///< with the file's user, as it moves; absent without a wall
   std::optional<double> spectral_radius;  ///< largest closed-loop |z|
   /// The run did what it says: absent where the wall has no stiffness, and of a verdict that is undecided.
   std::optional<bool> agrees;
