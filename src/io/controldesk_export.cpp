@@ -53,7 +53,7 @@ class DeskReader {
                              {Remark::Severity::note,
                               fmt::format("an export of dSPACE ControlDesk: {} signals in {} section{}, times in s",
                                           exported_.columns.size() - sections_, sections_, sections_ == 1 ? "" : "s"),
-                              "if this is wrong, pass the header over (`skip_rows`)"});
+                              ""});
     return std::move(exported_);
   }
 

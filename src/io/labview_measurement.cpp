@@ -163,10 +163,13 @@ class LvmReader {
                       ? "time of " + names_[c + 1]
                       : std::string("time"),
                   unit);
-    column.name = column.holds_times ? time
-                                     : with_unit(name.empty() ? std::to_string(c + 1) : name,
-                                                 labview_unit(segment_.cell("Y_Unit_Label", c)));
-    if (!column.holds_times && is_time(c)) column.time_name = with_unit("time", unit);
+    column.name = column.holds_times ? time : name.empty() ? std::to_string(c + 1) : name;
+    if (!column.holds_times && name_and_unit(name).unit.empty()) {
+      column.name = with_unit(column.name, labview_unit(segment_.cell("Y_Unit_Label", c)));
+    }
+    if (!column.holds_times && is_time(c)) {
+      column.time_name = exported_.columns[x_columns_ == LabviewX::multi ? c - 1 : 0].name;
+    }
     exported_.columns.push_back(std::move(column));
   }
 

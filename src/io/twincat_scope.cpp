@@ -297,7 +297,7 @@ class ScopeReader {
                      : *mark == ',' ? ", decimal comma"
                                     : ", decimal point",
                      rows_begin_),
-         "if this is wrong, pass the header over (`skip_rows`)"});
+         ""});
     if (repeated_ > 0) {
       exported_.remarks.push_back({Remark::Severity::note,
                                    fmt::format("{} rows of a group have the time and the values of the one above and "
