@@ -179,8 +179,7 @@ bool is_controldesk_export(std::string_view text) { return !first_values(text).e
 tl::expected<ExportedColumns, InputError> read_controldesk_export(TextLines text, const RecordingOptions& options,
                                                                   const Progress& progress) {
   const char delimiter = first_values(text.buffered()).front();
-  const auto mark = options.decimal_mark ? options.decimal_mark : delimiter == ',' ? std::optional('.') : std::nullopt;
-  ExportLines lines(std::move(text), delimiter, mark, progress);
+  ExportLines lines(std::move(text), delimiter, options.decimal_mark, progress);
   return DeskReader(lines).read();
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 #include <tl/expected.hpp>
+#include <utility>
 
 #include "io/cell_splitter.hpp"
 #include "io/number_cell.hpp"
@@ -29,8 +30,11 @@ struct ExportLine {
 /// The lines of the export of a measuring program, cut into cells.
 class ExportLines {
  public:
+  /// `decimal_mark`: where the user gives one; between commas it is a point.
   ExportLines(TextLines lines, char delimiter, std::optional<char> decimal_mark, const Progress& progress)
-      : lines_(std::move(lines)), splitter_(delimiter), decimal_mark_(decimal_mark), progress_(progress) {}
+      : lines_(std::move(lines)), splitter_(delimiter), decimal_mark_(decimal_mark), progress_(progress) {
+    if (!decimal_mark_ && delimiter == ',') decimal_mark_ = '.';
+  }
 
   /// The next line; nothing at the end. Refused: a line longer than 4 MiB.
   [[nodiscard]] tl::expected<std::optional<ExportLine>, InputError> next();

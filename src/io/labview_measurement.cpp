@@ -369,8 +369,7 @@ tl::expected<ExportedColumns, InputError> read_labview_measurement(TextLines tex
     return tl::unexpected(InputError{text.file().source(), 0, 0, "Separator", "is none of the known ones",
                                      "must be a tab, a comma or a semicolon"});
   }
-  const auto mark = options.decimal_mark ? options.decimal_mark : separator == ',' ? std::optional('.') : std::nullopt;
-  ExportLines lines(std::move(text), separator, mark, progress);
+  ExportLines lines(std::move(text), separator, options.decimal_mark, progress);
   return LvmReader(lines, options).read();
 }
 

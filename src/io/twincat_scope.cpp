@@ -342,8 +342,7 @@ tl::expected<ExportedColumns, InputError> read_twincat_scope(TextLines text, con
                    "must be separated by tabs or semicolons: names and times of day have blanks and "
                    "colons in them"});
   }
-  const auto mark = options.decimal_mark ? options.decimal_mark : delimiter == ',' ? std::optional('.') : std::nullopt;
-  ExportLines lines(std::move(text), delimiter, mark, progress);
+  ExportLines lines(std::move(text), delimiter, options.decimal_mark, progress);
   return ScopeReader(lines, options).read();
 }
 
