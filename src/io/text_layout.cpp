@@ -68,10 +68,14 @@ class Reading {
   [[nodiscard]] const Notation& notation() const { return notation_; }
   [[nodiscard]] std::size_t columns() const { return columns_; }
   [[nodiscard]] std::size_t first_row() const { return first_row_; }  ///< index of a line
-  /// Index of the first line that has no text in a column of numbers; what stands between first_row() and it is a row
+  /// Index of the first line with the cells of a row; what stands between first_row() and it is a row
   /// with a fault or a line of a header.
   [[nodiscard]] std::size_t first_clean_row() const { return std::max(first_row_, first_clean_row_); }
-  [[nodiscard]] bool is_column_of_numbers(std::size_t column) const { return balance_[column] > 0; }
+  /// Text in a column of numbers; or nothing at a line's beginning, where every row begins with a number.
+  [[nodiscard]] bool is_no_cell_of_a_row(const Line& line, std::size_t column) const {
+    if (line.kinds[column] == Kind::text) return balance_[column] > 0;
+    return column == 0 && line.cells[0].empty() && begins_with_numbers_;
+  }
   [[nodiscard]] const std::vector<Line>& lines() const { return lines_; }
   [[nodiscard]] std::optional<std::size_t> names() const { return names_; }  ///< index of the line of names
   [[nodiscard]] std::optional<std::size_t> units() const { return units_; }  ///< index of the line of units below
@@ -140,7 +144,7 @@ class Reading {
     if (delimiter_ends) --columns_;
   }
 
-  /// The first line that has a number in one column at least and text in none that mostly holds numbers.
+  /// The first line that has a number in one column at least, and in none what no row has there.
   void find_first_row() {
     std::vector<std::ptrdiff_t>& balance = balance_;
     balance.assign(columns_, 0);
@@ -150,11 +154,12 @@ class Reading {
         const Kind kind = lines_[i].kinds[c];
         balance[c] += kind == Kind::text ? -1 : kind == Kind::number ? 1 : 0;
       }
+      begins_with_numbers_ = begins_with_numbers_ && lines_[i].kinds[0] == Kind::number;
     }
     const auto is_row = [&](const Line& line) {
       if (!fits(line) || !line.has(Kind::number)) return false;
       for (std::size_t c = 0; c < columns_; ++c) {
-        if (balance[c] > 0 && line.kinds[c] == Kind::text) return false;
+        if (is_no_cell_of_a_row(line, c)) return false;
       }
       return true;
     };
@@ -189,6 +194,7 @@ class Reading {
   std::vector<Line> lines_;
   std::size_t columns_ = 0;
   std::vector<std::ptrdiff_t> balance_;  ///< of numbers over texts, by column
+  bool begins_with_numbers_ = true;      ///< every line of the second half
   std::size_t first_row_ = 0;
   std::size_t first_clean_row_ = 0;
   std::optional<std::size_t> names_;
@@ -284,7 +290,7 @@ std::optional<InputError> text_above_the_rows(const Reading& reading, const std:
   if (reading.first_row() == reading.first_clean_row()) return std::nullopt;
   const Line& line = reading.lines()[reading.first_row()];
   for (std::size_t c = 0; c < std::min(reading.columns(), line.cells.size()); ++c) {
-    if (line.kinds[c] != Kind::text || !reading.is_column_of_numbers(c)) continue;
+    if (!reading.is_no_cell_of_a_row(line, c)) continue;
     return InputError{source,
                       line.number,
                       1,

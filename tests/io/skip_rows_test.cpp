@@ -73,6 +73,17 @@ TEST_F(SkippedRows, ALineOfMetadataIsNoSample) {
   EXPECT_EQ(skipped->channels[0].samples, (Samples{0.5, 1.5, 2.5, 3.5, 4.5, 5.5}));
 }
 
+TEST_F(SkippedRows, NorIsOneThatBeginsWithAnEmptyCell) {
+  const std::string text = "t;F;x\ns;N;m\n;2;0,5\n0;1;2\n1;2;3\n2;3;4\n3;4;5\n";
+  const auto recording = read(text, at_1_khz({"F", "x"}));
+  ASSERT_FALSE(recording.has_value());
+  EXPECT_EQ(recording.error().line, 3U);
+  EXPECT_NE(recording.error().allowed.find("`skip_rows` 3"), std::string::npos);
+  // Where rows may begin with nothing, and where the number is missing elsewhere, it is one.
+  EXPECT_TRUE(read("x;F\n;1\n1;2\n;3\n2;3\n;4\n", at_1_khz({"F"})).has_value());
+  EXPECT_TRUE(read("t;F;x\n0;1;\n1;2;3\n2;3;4\n3;4;5\n", at_1_khz({"F"})).has_value());
+}
+
 TEST_F(SkippedRows, WhatIsNoTableProposesThem) {
   const auto allowed = [&](const std::string& text) { return read(text, at_1_khz({"1"})).error().allowed; };
   EXPECT_NE(allowed("Dear all,\nthe rig is broken.\n").find("`skip_rows`"), std::string::npos);
