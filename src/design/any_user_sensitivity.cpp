@@ -156,10 +156,18 @@ std::vector<double> slopes_at(const Device& free, const UserDiscs& discs, const 
   return result;
 }
 
-/// The limit itself, without what is taken off it.
-double moved_limit(const Device& free, const std::string& key, double value) {
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+
+DeviceParameters moved_parameters(const Device& free, const std::string& key, double value) {
   DeviceParameters moved = free.parameters();
   set_parameter(moved, key, value);
+  return moved;
+}
+
+/// The limit itself, without what is taken off it; NaN where the value makes no device.
+double moved_limit(const Device& free, const std::string& key, double value) {
+  DeviceParameters moved = moved_parameters(free, key, value);
+  if (find_problem(moved)) return no_number;
   const VirtualDamper damper{moved.wall.damping, moved.wall.velocity_filter_hz};
   const AnyUserLimit limit = any_user_limit(Device(std::move(moved)), damper);
   return limit.stiffness / (1.0 - limit.truncation);
@@ -173,17 +181,26 @@ double checked_slope(const Device& free, const DesignParameter& parameter, doubl
   constexpr double step = 1e-3;
   const double p = parameter.value;
   const auto at = [&](double change) { return moved_limit(free, parameter.key, p * (1.0 + change)); };
-  const auto middle = [&](double h) { return (at(h) - at(-h)) / (2.0 * h * p); };
+  // Of second order: about p, or to one side where the other makes no device, such as a longer period that puts a filter
+  // above Nyquist.
+  const auto makes_device = [&](double change) {
+    return !find_problem(moved_parameters(free, parameter.key, p * (1.0 + change)));
+  };
+  const double side = !makes_device(2.0 * step) ? -1.0 : makes_device(-2.0 * step) ? 0.0 : 1.0;
+  const auto difference = [&](double h) {
+    if (side == 0.0) return (at(h) - at(-h)) / (2.0 * h * p);
+    return side * (4.0 * at(side * h) - at(2.0 * side * h) - 3.0 * at(0.0)) / (2.0 * h * p);
+  };
   const double scale = std::max(limit / p, std::isfinite(slope) ? std::abs(slope) : 0.0);
-  const double coarse = middle(step);
+  const double coarse = difference(step);
   if (std::abs(coarse - slope) <= nearly * scale) return slope;
   // Richardson, twice
-  const double twice = middle(2.0 * step);
-  const double half = middle(0.5 * step);
+  const double twice = difference(2.0 * step);
+  const double half = difference(0.5 * step);
   const double finer = (4.0 * half - coarse) / 3.0;
   const double rougher = (4.0 * coarse - twice) / 3.0;
   const bool is_settled = std::abs(finer - rougher) <= settles * std::max(limit / p, std::abs(finer));
-  return is_settled ? finer : std::numeric_limits<double>::quiet_NaN();
+  return is_settled ? finer : no_number;
 }
 
 /// The same for a parameter that grows from 0: the slope where a difference confirms it, else NaN.
@@ -202,7 +219,7 @@ double checked_first_slope(const Device& free, const DesignParameter& parameter,
   const double second = moved_limit(free, parameter.key, 2.0 * h);
   const double difference = (4.0 * first - second - 3.0 * limit) / (2.0 * h);
   const bool is_confirmed = std::abs(difference - slope) <= roughly * std::max(std::abs(slope), 1e-3 * limit / unit);
-  return is_confirmed ? slope : std::numeric_limits<double>::quiet_NaN();
+  return is_confirmed ? slope : no_number;
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "model/device_matrices.hpp"
 #include "model/exact_partial_fractions.hpp"
@@ -52,7 +53,9 @@ std::vector<ComplexX> find_poles(const Pencil& pencil, const PencilX& extended, 
   }
   const double step = improve_roots(extended, roots, last_step, max_sweeps_in_extended);
   if (!(step <= unresolved_step)) {
-    throw Error(ErrorCode::did_not_converge, "the poles of the device could not be found: its values are too extreme");
+    throw Error(
+        ErrorCode::did_not_converge,
+        "the poles of the device could not be found: its numbers lie too many powers of ten apart; check their units");
   }
   return roots;
 }
@@ -137,17 +140,43 @@ bool is_carried(const ModalForm& form, const PencilX& pencil, double nyquist) {
          error_of_sum(form, pencil, nyquist) <= carried_error_at_nyquist;
 }
 
+// Whether double-double leaves open what the structure of a device of bodies decides: whether a mode is damped at all,
+// and which of several alike modes the path sees.
+bool asks_for_exact(const std::vector<ComplexX>& poles, const PoleLabels& labels) {
+  if (!labels.has_bodies) return false;
+  for (std::size_t i = 0; i < poles.size(); ++i) {
+    const double size = magnitude(poles[i]);
+    if (!(std::abs(leading(poles[i].im)) > cluster_tolerance * size)) continue;
+    if (labels.has_dampers && std::abs(leading(poles[i].re)) <= undamped_below * size) return true;
+    for (std::size_t j = 0; j < i; ++j) {
+      if (magnitude(poles[i] - poles[j]) <= cluster_tolerance * size) return true;
+    }
+  }
+  return false;
+}
+
 // The modal form in double-double, or by exact arithmetic where that does not carry. `exact` gives G as ExactFraction.
 template <typename Pencil, typename PencilX, typename Exact>
 ModalForm expand_poles(const Pencil& pencil, const PencilX& extended, std::vector<ComplexD> start,
                        const PoleLabels& labels, double nyquist, const Exact& exact) {
+  std::optional<ModalForm> carried;
   try {
-    ModalForm form = expand(extended, find_poles(pencil, extended, std::move(start)), labels);
-    if (is_carried(form, extended, nyquist)) return form;
+    std::vector<ComplexX> poles = find_poles(pencil, extended, std::move(start));
+    const bool asks = asks_for_exact(poles, labels);
+    ModalForm form = expand(extended, std::move(poles), labels);
+    if (is_carried(form, extended, nyquist)) {
+      if (!asks) return form;
+      carried = std::move(form);
+    }
   } catch (const Error& error) {
     if (error.code() != ErrorCode::did_not_converge) throw;
   }
-  return exact_modal_form(exact(), leading(extended.lag), labels);
+  try {
+    return exact_modal_form(exact(), leading(extended.lag), labels);
+  } catch (const Error& error) {  // too many bodies, or poles
+    if (error.code() != ErrorCode::did_not_converge || !carried) throw;
+    return *std::move(carried);
+  }
 }
 
 template <typename Real>
@@ -228,6 +257,7 @@ ModalForm expand_bodies(const Device& device, Path path, double lag) {
 
   PoleLabels labels;
   labels.has_bodies = true;
+  labels.has_dampers = std::ranges::any_of(matrices.damping, [](double each) { return each != 0.0; });
   labels.rigid_pole = damping / mass;
   std::vector<ComplexD> start;
   if (matrices.mass.size() == 1) {

@@ -79,8 +79,11 @@ void add_disk_margin(const FilteredPlant& plant, const Wall& wall, Analysis& ana
     analysis.disk_margin = disk_margin(plant, wall);
   } catch (const Error& error) {
     if (error.code() != ErrorCode::did_not_converge) throw;
-    analysis.remarks.push_back({Remark::Severity::note, "the disk margin is left out: its search did not settle",
-                                "the other margins of the wall stand", "take a wall nearer to the limits"});
+    analysis.remarks.push_back(
+        {Remark::Severity::note,
+         "the disk margin is left out: the wall is too far below every limit for its search to end",
+         "the gain, phase and delay margins of the wall stand",
+         "judge this wall by those, or give a stiffness nearer to the limits"});
   }
 }
 

@@ -37,8 +37,13 @@ std::vector<bool> undamped_poles(const FilteredPlant& plant, const GainLocus& lo
 }
 
 // P is zero to rounding (an undamped antiresonance, a numerator with a factor s): no gain, however large, has a pole
-// there.
-bool vanishes(const SampledPlant& plant, double angle) { return cancellation(plant, angle) >= 1e13; }
+// there. Where terms cancel by nature they were added up with more digits.
+bool vanishes(const FilteredPlant& plant, const GainLocus::TermSum& response) {
+  return plant.numerator.empty() && response.cancellation >= 1e13;
+}
+
+// A gain that rounding may move by more than this, relative, is found again in double-double.
+constexpr double closest = 1e-12;
 
 // Where the controller of a gain, K + B v or B v, is too small for |P C| = 1: every crossing there has a greater gain.
 class SmallerGains {
@@ -78,21 +83,27 @@ GainCrossings crossings_of(const FilteredPlant& plant, const GainLocus& locus, c
       if (poles_leaving > 0) result.initially_unstable += poles_leaving;
       continue;
     }
-    const double gain = locus.gain(root.angle);
-    // Where terms cancel by nature they were added up with more digits.
-    const bool lost = plant.numerator.empty() && vanishes(plant, root.angle);
-    if (gain > 0.0 && std::isfinite(gain) && !lost) {
-      result.crossings.push_back({root.angle, gain, poles_leaving});
+    const GainLocus::TermSum response = locus.by_terms(root.angle);
+    GainCrossing crossing{root.angle, locus.gain(root.angle), poles_leaving, response.gain_noise()};
+    if (!(crossing.noise <= closest * std::abs(crossing.gain)) && root.direction != 0) {
+      if (const auto again = locus.polished_root(root.angle)) {
+        crossing.angle = again->angle;
+        crossing.gain = again->gain;
+      }
+    }
+    if (crossing.gain > 0.0 && std::isfinite(crossing.gain) && !vanishes(plant, response)) {
+      result.crossings.push_back(crossing);
     }
   }
   // z = 1 and z = -1 are real: crossings where the gain is positive. At z = 1 that takes a negative static response.
   const double at_rest = locus.gain(0.0);
-  if (at_rest > 0.0 && std::isfinite(at_rest) && !vanishes(plant, 0.0)) {
-    result.crossings.insert(result.crossings.begin(), {0.0, at_rest, locus.value(0.0) < 0.0 ? 1 : -1});
+  if (at_rest > 0.0 && std::isfinite(at_rest) && !(cancellation(plant, 0.0) >= 1e13)) {
+    result.crossings.insert(result.crossings.begin(), {0.0, at_rest, locus.value(0.0) < 0.0 ? 1 : -1, 0.0});
   }
   const double gain = locus.gain(std::numbers::pi);
   if (gain > 0.0 && std::isfinite(gain)) {
-    result.crossings.push_back({std::numbers::pi, gain, locus.value(std::numbers::pi) > 0.0 ? 1 : -1});
+    result.crossings.push_back({std::numbers::pi, gain, locus.value(std::numbers::pi) > 0.0 ? 1 : -1,
+                                locus.by_terms(std::numbers::pi).gain_noise()});
   }
   return result;
 }

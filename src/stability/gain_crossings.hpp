@@ -11,6 +11,7 @@ struct GainCrossing {
   double angle = 0.0;  // [0, pi]; 0 for a real pole at z = 1, pi exactly at Nyquist
   double gain = 0.0;
   int poles_leaving = 0;  // as Crossover::poles_leaving
+  double noise = 0.0;     // bound of the gain's rounding, and of that of the plant's coefficients
 };
 
 struct GainCrossings {

@@ -27,13 +27,6 @@ struct CircleRoot {
 
 namespace root_isolation {
 
-// Rounding of f, relative to the sum of magnitudes of its terms (BoundedJet::weight): evaluation takes a few dozen
-// operations per modal term.
-template <typename Scalar>
-inline constexpr double rounding = 256.0 * std::numeric_limits<double>::epsilon();
-template <>
-inline constexpr double rounding<Extended> = 1e-28;
-
 // An interval this narrow, relative to its end, is not divided further.
 inline constexpr double narrowest = 1e-14;
 inline constexpr std::size_t max_intervals_per_piece = 100000;
@@ -49,7 +42,7 @@ enum class Content { none, at_most_one, undecided, zero_to_rounding };
 
 template <typename Scalar>
 Content content(const BoundedJet<Scalar>& f) {
-  const double noise = rounding<Scalar> * f.weight;
+  const double noise = rounding_of_jets<Scalar> * f.weight;
   const double value = std::abs(leading(f.value));
   const double slope = std::abs(leading(f.slope));
   if (value > slope + 0.5 * f.bend + noise) return Content::none;
@@ -61,7 +54,7 @@ Content content(const BoundedJet<Scalar>& f) {
 template <typename Function>
 bool is_positive(const Function& f, double x) {
   const BoundedJet<double> point = f.template model<double>(x, x);
-  if (std::abs(point.value) > rounding<double> * point.weight) return point.value > 0.0;
+  if (std::abs(point.value) > rounding_of_jets<double> * point.weight) return point.value > 0.0;
   return leading(f.template model<Extended>(x, x).value) > 0.0;
 }
 
@@ -129,7 +122,7 @@ RootsByTerms roots_by_terms(const Function& f, double begin, double end) {
   double last = 0.0;    // the last value whose sign is certain
   double touch = -1.0;  // an angle since then at which f may touch zero
   for (const double angle : angles) {
-    const auto [value, noise, size] = f.by_terms(angle);
+    const auto [value, noise, size, cancellation] = f.by_terms(angle);
     if (!(std::abs(value) > noise)) {
       found.is_certain = false;
       if (size > resolved * noise) touch = angle;
@@ -217,8 +210,9 @@ std::vector<CircleRoot> roots_on_circle(const Function& f, std::size_t pieces, R
   while (!stack.empty()) {
     if (intervals_left-- == 0)
       throw Error(ErrorCode::did_not_converge,
-                  "the crossovers could not be isolated: terms of the device cancel beyond 30 digits; merge "
-                  "bodies that hardly move against each other, or sense nearer to the actuator");
+                  "not every wall at which the loop begins to oscillate was found, so no limit is given: what reaches "
+                  "the sensed body of the device's modes cancels to its 30th digit; sense nearer to the actuator, or "
+                  "merge bodies that hardly move against each other");
     const Interval interval = stack.back();
     const auto [begin, end, extended] = interval;
     stack.pop_back();
