@@ -7,6 +7,10 @@
 
 namespace zwidth::results {
 
+static void to_json(Json& json, const OtherwiseNeeded& needed) {
+  json = {{"limit", needed.limit}, {"frequency", needed.frequency}, {"amplitude", needed.amplitude}};
+}
+
 static void to_json(Json& json, const OscillationCandidate& candidate) {
   const bool has_frequency = candidate.frequency > 0.0;
   json = {{"cause", candidate.cause},
@@ -16,7 +20,8 @@ static void to_json(Json& json, const OscillationCandidate& candidate) {
           {"stiffness", candidate.stiffness},
           {"amplitude", candidate.amplitude},
           {"limited_by", candidate.limited_by},
-          {"why", candidate.why}};
+          {"why", candidate.why},
+          {"otherwise", candidate.otherwise}};
 }
 
 static void to_json(Json& json, const DiagnosisChange& change) {
@@ -28,7 +33,9 @@ static void to_json(Json& json, const DiagnosisChange& change) {
           {"limit_then", change.limit_then},
           {"amplitude_now", change.amplitude_now},
           {"amplitude_then", change.amplitude_then},
-          {"ends_it", change.ends_it}};
+          {"ends_it", change.ends_it},
+          {"any_user_then", change.any_user_then},
+          {"safe", change.safe}};
 }
 
 Json diagnosis_json(const Device& device, const Diagnosis& diagnosis) {
@@ -41,6 +48,8 @@ Json diagnosis_json(const Device& device, const Diagnosis& diagnosis) {
   json["stiffness"] = diagnosis.stiffness;
   json["damping"] = diagnosis.damping;
   json["cause"] = diagnosis.cause;
+  json["nearest"] = diagnosis.nearest;
+  json["any_user_now"] = diagnosis.any_user_now;
   json["candidates"] = diagnosis.candidates;
   json["changes"] = diagnosis.changes;
   json["trust"] = diagnosis.trust;

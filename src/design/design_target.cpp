@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <functional>
 
+#include "design/any_user_judge.hpp"
 #include "design/design_parameter.hpp"
 #include "design/moved_limit.hpp"
 #include "infinity.hpp"
@@ -45,16 +46,13 @@ double natural_size(const Device& device, const DesignParameter& parameter, doub
   const double period = device.loop().sampling_period;
   switch (parameter.kind) {
     case Kind::body_mass:
-    case Kind::user_mass:
       return mass;
     case Kind::body_damping:
     case Kind::link_damping:
     case Kind::wall_damping:
-    case Kind::user_damping:
       return target * period;
     case Kind::body_stiffness:
     case Kind::link_stiffness:
-    case Kind::user_stiffness:
       return target;
     default:
       return period;
@@ -63,11 +61,12 @@ double natural_size(const Device& device, const DesignParameter& parameter, doub
 
 class Search {
  public:
-  Search(const Device& device, const DesignTargetOptions& options, double limit_now, SharedProgress& progress)
-      : device_(device), options_(options), limit_now_(limit_now), progress_(progress) {}
+  Search(const Device& device, const DesignTargetOptions& options, double limit_now, const AnyUserJudge& users,
+         SharedProgress& progress)
+      : device_(device), options_(options), limit_now_(limit_now), users_(users), progress_(progress) {}
 
   [[nodiscard]] DesignTarget target_of(const DesignParameter& parameter) const {
-    DesignTarget target{parameter.key, parameter.value, std::nullopt, {}};
+    DesignTarget target{parameter.key, parameter.value, std::nullopt, {}, {}, {}};
     MovedLimit moved(device_, parameter, options_.goal);
     const Point now{parameter.value, limit_now_};
     std::vector<Walk> walks;
@@ -85,12 +84,16 @@ class Search {
       target.why = reason_of_none(parameter, extremes);
       return target;
     }
-    const CriticalStiffness there = guarded_limit(parameter, *target.value_needed);
+    const Device changed = with(parameter, *target.value_needed);
+    const CriticalStiffness there = critical_stiffness(changed);
     if (there.trust.refused()) {
       target.value_needed.reset();
       target.why = "the limit at the value found is refused: " + there.trust.reasons.front();
     } else {
       target.why = reason_there(there, limit_at(moved, *target.value_needed, 2.0 * options_.stiffness).value_or(0.0));
+      const AnyUserJudge::Judgement judgement = users_.of(changed);
+      target.any_user_then = judgement.then;
+      target.safe = judgement.safe;
     }
     return target;
   }
@@ -209,10 +212,10 @@ class Search {
     return at_left >= 0.0 ? left : right;  // a jump
   }
 
-  [[nodiscard]] CriticalStiffness guarded_limit(const DesignParameter& parameter, double value) const {
+  [[nodiscard]] Device with(const DesignParameter& parameter, double value) const {
     DeviceParameters moved = device_.parameters();
     set_parameter(moved, parameter.key, value);
-    return critical_stiffness(Device(std::move(moved)));
+    return Device(std::move(moved));
   }
 
   [[nodiscard]] std::string reason_there(const CriticalStiffness& there, double limit) const {
@@ -239,19 +242,37 @@ class Search {
   const Device& device_;
   const DesignTargetOptions& options_;
   double limit_now_;
+  const AnyUserJudge& users_;
   SharedProgress& progress_;
 };
 
-// Where in the answer: relative change, then numbers that are 0 now, then those without a value.
-double cost(const DesignTarget& target) {
-  if (!target.value_needed) return infinity;
-  return target.value_now > 0.0 ? std::abs(std::log(*target.value_needed / target.value_now)) : 1e300;
+// Where in the answer: relative change, then numbers that are 0 now; what lowers the limit with any passive user after
+// those, and what has no value last.
+std::pair<int, double> cost(const DesignTarget& target) {
+  if (!target.value_needed) return {2, 0.0};
+  const double change = target.value_now > 0.0 ? std::abs(std::log(*target.value_needed / target.value_now)) : infinity;
+  return {target.safe.value_or(true) ? 0 : 1, change};
+}
+
+// The limit to reach, where there is one.
+std::optional<double> target_of(const DesignTargetOptions& options, double limit_now) {
+  if (!options.times_now) return options.stiffness;
+  const double target = *options.times_now * limit_now;
+  return target > 0.0 && std::isfinite(target) ? std::optional(target) : std::nullopt;
+}
+
+// As known already; where it is not found this says why.
+AnyUserLimit any_user_limit_of(const Device& device, const AnyUserJudge& users) {
+  return users.limit_now() ? *users.limit_now() : any_user_limit(device, virtual_damper(device));
 }
 
 }  // namespace
 
 std::optional<OptionProblem> find_problem(const DesignTargetOptions& options, const Device& device) {
-  if (!(options.stiffness > 0.0) || !std::isfinite(options.stiffness)) {
+  if (options.times_now && (!(*options.times_now > 0.0) || !std::isfinite(*options.times_now))) {
+    return OptionProblem{"times_now", fmt::format("is {} times", *options.times_now), "must be finite and > 0"};
+  }
+  if (!options.times_now && (!(options.stiffness > 0.0) || !std::isfinite(options.stiffness))) {
     return OptionProblem{"stiffness", fmt::format("is {}", options.stiffness), "must be finite and > 0"};
   }
   if (!(options.factor > 1.0) || !(options.factor <= 1e6)) {
@@ -275,22 +296,35 @@ DesignTargets design_targets(const Device& device, const DesignTargetOptions& op
   const CriticalStiffness own = critical_stiffness(device);
   result.trust = own.trust;
   if (result.trust.refused()) return result;
+  std::vector<DesignParameter> parameters = design_parameters(device);
+  // Who holds the device is no part of it.
+  std::erase_if(parameters, [](const DesignParameter& each) { return each.key.starts_with("operator."); });
+  SharedProgress progress(options.progress, parameters.size());
+  const Progress while_judging = [&progress](double) { progress.go_on(); };
+  const AnyUserJudge users(device, while_judging);
+  result.any_user_now = users.now();
   double limit = own.stiffness;
   if (options.goal == StiffnessGoal::any_user_limit) {
-    const Wall& wall = device.parameters().wall;
-    limit = std::min(limit, any_user_limit(device, {wall.damping, wall.velocity_filter_hz}).stiffness);
+    const AnyUserLimit any_user = any_user_limit_of(device, users);
+    result.trust.inherit(any_user.trust);
+    if (result.trust.refused()) return result;
+    limit = std::min(limit, any_user.stiffness);
   }
   result.limit_now = limit;
-  if (limit == options.stiffness) {
+  result.target = target_of(options, limit);
+  if (!result.target) {
+    result.remarks.push_back({Remark::Severity::warning,
+                              limit > 0.0 ? "every wall is stable as it is" : "no wall is stable as it is",
+                              "there is no limit of which a multiple could be asked", "ask for a stiffness"});
+    return result;
+  }
+  if (limit == *result.target) {
     result.remarks.push_back({Remark::Severity::note, "the limit is the target already", "nothing needs to change"});
   }
-  std::vector<DesignParameter> parameters = design_parameters(device);
-  if (options.goal == StiffnessGoal::any_user_limit) {  // which is over all users
-    std::erase_if(parameters, [](const DesignParameter& each) { return each.key.starts_with("operator."); });
-  }
   result.targets.resize(parameters.size());
-  SharedProgress progress(options.progress, parameters.size());
-  const Search search(device, options, limit, progress);
+  DesignTargetOptions absolute = options;
+  absolute.stiffness = *result.target;
+  const Search search(device, absolute, limit, users, progress);
   tbb::parallel_for(std::size_t{0}, parameters.size(), [&](std::size_t i) {
     result.targets[i] = search.target_of(parameters[i]);
     progress.add();

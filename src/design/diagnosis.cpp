@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "design/any_user_judge.hpp"
 #include "design/diagnosis_changes.hpp"
 #include "design/oscillation_causes.hpp"
 #include "design/wall_limits.hpp"
@@ -66,7 +67,7 @@ double mismatch(const OscillationCandidate& candidate, const ObservedLoop& loop)
 void rank(std::vector<OscillationCandidate>& candidates, const ObservedLoop& loop) {
   std::ranges::stable_sort(candidates, [&](const OscillationCandidate& a, const OscillationCandidate& b) {
     if (a.fits != b.fits) return a.fits;
-    return a.fits && mismatch(a, loop) < mismatch(b, loop);
+    return a.fits ? mismatch(a, loop) < mismatch(b, loop) : distance(a) < distance(b);
   });
 }
 
@@ -86,6 +87,7 @@ void collect(const ObservedLoop& loop, Diagnosis& diagnosis) {
     if (loop.stiffness && is_stable(loop.device) && candidates[0].fits) {
       candidates[0].fits = false;
       candidates[0].why += ", but the operator of the file keeps it stable";
+      candidates[0].otherwise = OtherwiseNeeded{};  // it fits once the operator lets go
     }
   } else {
     candidates.push_back(linear_candidate(loop, OscillationCause::device, loop.device));
@@ -107,6 +109,9 @@ void remark_on(const ObservedLoop& loop, Diagnosis& diagnosis) {
          "the mechanisms are told by frequency alone; cycles of friction and of the encoder are "
          "left out",
          "give the stiffness and the damping of the wall"});
+  }
+  if (!diagnosis.cause && diagnosis.nearest) {
+    diagnosis.trust.doubt("no cause fits the numbers of the device; what moves it is told of the nearest cause");
   }
   if (!diagnosis.cause) return;
   const bool is_linear =
@@ -215,9 +220,13 @@ Diagnosis diagnose(const Device& device, const DiagnosisOptions& options) {
   stages.next(0.3);
   collect(loop, diagnosis);
   stages.next(1.0);
-  if (!diagnosis.candidates.empty() && diagnosis.candidates.front().fits) {
-    diagnosis.cause = diagnosis.candidates.front().cause;
-    diagnosis.changes = changes_of(loop, diagnosis.candidates.front());
+  if (!diagnosis.candidates.empty() && is_near(diagnosis.candidates.front())) {
+    const OscillationCandidate& first = diagnosis.candidates.front();
+    if (first.fits) diagnosis.cause = first.cause;
+    diagnosis.nearest = first.cause;
+    const AnyUserJudge users(loop.device, loop.progress);
+    diagnosis.any_user_now = users.now();
+    diagnosis.changes = changes_of(loop, first, users);
   }
   remark_on(loop, diagnosis);
   stages.done();

@@ -52,8 +52,11 @@ double limit_of(OscillationCause cause, const Device& device, const Progress& pr
 
 class Changes {
  public:
-  Changes(const ObservedLoop& loop, const OscillationCandidate& cause) : loop_(loop), cause_(cause) {
-    if (!is_quantisation()) limit_ = limit_of(cause.cause, loop.device, loop.progress);
+  Changes(const ObservedLoop& loop, const OscillationCandidate& cause, const AnyUserJudge& users)
+      : loop_(loop), cause_(cause), users_(users), off_(cause.otherwise ? cause.otherwise->limit : 1.0) {
+    if (is_quantisation()) return;
+    const bool is_known = cause.cause == OscillationCause::passive_user && users.now();
+    limit_ = is_known ? *users.now() : limit_of(cause.cause, loop.device, loop.progress);
   }
 
   [[nodiscard]] std::vector<DiagnosisChange> all() {
@@ -95,6 +98,7 @@ class Changes {
           [](DeviceParameters& then) { then.sensor.resolution *= finer; });
     }
     std::ranges::stable_sort(changes_, [](const DiagnosisChange& a, const DiagnosisChange& b) {
+      if (is_safe(a) != is_safe(b)) return is_safe(a);
       if (a.limit_then && b.limit_then) return *a.limit_then > *b.limit_then;
       return a.amplitude_then.value_or(0.0) < b.amplitude_then.value_or(0.0);
     });
@@ -104,41 +108,66 @@ class Changes {
  private:
   [[nodiscard]] bool is_quantisation() const { return cause_.cause == OscillationCause::quantisation; }
 
-  /// The change, recomputed; left out where it makes no device.
+  static bool is_safe(const DiagnosisChange& change) { return change.safe.value_or(true); }
+
+  struct Recomputed {
+    DiagnosisChange change;
+    Device device;
+  };
+
+  /// The change, recomputed but not judged; nothing where it makes no device, or is worse than a cycle. `search`: of the
+  /// changed device, where it is known.
   template <typename Change>
-  void add(std::string what, std::string key, double now, double then, const Change& change) {
+  std::optional<Recomputed> recomputed(DiagnosisChange result, const Change& change, AnyUserSearch* search) {
     tell(loop_.progress, std::min(1.0, static_cast<double>(changes_.size()) / usual_changes));
     DeviceParameters parameters = loop_.device.parameters();
     change(parameters);
-    if (find_problem(parameters)) return;
-    DiagnosisChange result{std::move(what), std::move(key), now, then, {}, {}, {}, {}, {}};
-    const Device changed(std::move(parameters));
+    if (find_problem(parameters)) return std::nullopt;
+    Recomputed made{std::move(result), Device(std::move(parameters))};
     if (is_quantisation()) {
-      ObservedLoop with{changed, loop_.frequency, {}, changed.parameters().wall.stiffness};
+      ObservedLoop with{made.device, loop_.frequency, {}, made.device.parameters().wall.stiffness};
       const auto cycle = quantisation_candidate(with);
-      result.amplitude_now = cause_.amplitude;
-      if (cycle && cycle->amplitude) result.amplitude_then = cycle->amplitude;
-      result.ends_it = !cycle || !cycle->fits;
-      if (!is_stable(changed)) return;  // worse than the cycle
-    } else {
-      result.limit_now = limit_;
-      result.limit_then = limit_of(cause_.cause, changed, loop_.progress);
-      if (std::isnan(*result.limit_then)) return;
-      const std::optional<double> stiffness = changed.parameters().wall.stiffness;
-      if (loop_.stiffness) result.ends_it = *result.limit_then > *stiffness;
+      made.change.amplitude_now = cause_.amplitude;
+      if (cycle && cycle->amplitude) made.change.amplitude_then = cycle->amplitude;
+      made.change.ends_it = !cycle || !cycle->fits;
+      return is_stable(made.device) ? std::optional(std::move(made)) : std::nullopt;
     }
-    changes_.push_back(std::move(result));
+    made.change.limit_now = limit_;
+    if (cause_.cause == OscillationCause::passive_user) judge(made, search);
+    const std::optional<double>& any_user = made.change.any_user_then;
+    made.change.limit_then = cause_.cause == OscillationCause::passive_user && any_user
+                                 ? *any_user
+                                 : limit_of(cause_.cause, made.device, loop_.progress);
+    if (std::isnan(*made.change.limit_then)) return std::nullopt;
+    if (loop_.stiffness)
+      made.change.ends_it = off_ * *made.change.limit_then > *made.device.parameters().wall.stiffness;
+    return made;
+  }
+
+  void judge(Recomputed& made, AnyUserSearch* search) const {
+    if (made.change.safe) return;
+    const auto judgement = search != nullptr ? users_.of(made.device, *search) : users_.of(made.device);
+    made.change.any_user_then = judgement.then;
+    made.change.safe = judgement.safe;
+  }
+
+  template <typename Change>
+  void add(std::string what, std::string key, double now, double then, const Change& change) {
+    auto made = recomputed({std::move(what), std::move(key), now, then, {}, {}, {}, {}, {}}, change, nullptr);
+    if (!made) return;
+    judge(*made, nullptr);
+    changes_.push_back(std::move(made->change));
   }
 
   void soften() {
     if (!loop_.stiffness) return;
-    const double softened = is_quantisation() ? softer * *loop_.stiffness : softer * limit_;
+    const double softened = is_quantisation() ? softer * *loop_.stiffness : softer * off_ * limit_;
     if (!(softened > 0.0 && softened < *loop_.stiffness)) return;
     add(is_quantisation() ? "half the stiffness" : "a softer wall, 6 dB below the limit", "wall.stiffness",
         *loop_.stiffness, softened, [&](DeviceParameters& then) { then.wall.stiffness = softened; });
   }
 
-  /// The damper of the ladder with the highest limit (least amplitude).
+  /// The damper of the ladder with the highest limit (least amplitude), of those that lower no user's where there are any.
   void damp() {
     const Wall& wall = loop_.device.parameters().wall;
     double unit = wall.damping;
@@ -146,20 +175,28 @@ class Changes {
       for (const Body& body : loop_.device.bodies()) unit += body.damping;
       if (!(unit > 0.0)) return;
     }
-    const std::size_t before = changes_.size();
+    std::optional<AnyUserSearch> search;  // what users do does not depend on the damper
+    if (users_.now()) search.emplace(loop_.device, loop_.progress);
+    AnyUserSearch* const users = search ? &*search : nullptr;
+    std::vector<Recomputed> ladder;
     for (const double factor : dampers) {
-      add("another virtual damper", "wall.damping", wall.damping, factor * unit,
-          [&](DeviceParameters& then) { then.wall.damping = factor * unit; });
+      auto made = recomputed(
+          {"another virtual damper", "wall.damping", wall.damping, factor * unit, {}, {}, {}, {}, {}},
+          [&](DeviceParameters& then) { then.wall.damping = factor * unit; }, users);
+      if (made) ladder.push_back(*std::move(made));
     }
-    if (changes_.size() <= before + 1) return;
-    const auto first = changes_.begin() + static_cast<std::ptrdiff_t>(before);
-    const auto best = std::min_element(first, changes_.end(), [this](const auto& a, const auto& b) {
-      return is_quantisation() ? a.amplitude_then.value_or(0.0) < b.amplitude_then.value_or(0.0)
-                               : *a.limit_then > *b.limit_then;
+    if (ladder.empty()) return;
+    std::ranges::stable_sort(ladder, [this](const Recomputed& a, const Recomputed& b) {
+      return is_quantisation() ? a.change.amplitude_then.value_or(0.0) < b.change.amplitude_then.value_or(0.0)
+                               : *a.change.limit_then > *b.change.limit_then;
     });
-    const DiagnosisChange kept = *best;
-    changes_.erase(first, changes_.end());
-    changes_.push_back(kept);
+    for (Recomputed& each : ladder) {
+      judge(each, users);
+      if (!is_safe(each.change)) continue;
+      changes_.push_back(std::move(each.change));
+      return;
+    }
+    changes_.push_back(std::move(ladder.front().change));
   }
 
   void stop_mode() {
@@ -174,14 +211,17 @@ class Changes {
 
   const ObservedLoop& loop_;
   const OscillationCandidate& cause_;
+  const AnyUserJudge& users_;
+  double off_;  // the real limit of a cause that does not fit, of the one that the device's numbers give
   double limit_ = 0.0;
   std::vector<DiagnosisChange> changes_;
 };
 
 }  // namespace
 
-std::vector<DiagnosisChange> changes_of(const ObservedLoop& loop, const OscillationCandidate& cause) {
-  return Changes(loop, cause).all();
+std::vector<DiagnosisChange> changes_of(const ObservedLoop& loop, const OscillationCandidate& cause,
+                                        const AnyUserJudge& users) {
+  return Changes(loop, cause, users).all();
 }
 
 }  // namespace zwidth::internal

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -33,6 +34,8 @@ constexpr double least_of_amplitude = 0.1;
 constexpr double growing = 1e-9;     // |z| - 1 of a pole that grows
 constexpr double beside_user = 0.1;  // relative, frequencies around the one observed
 constexpr double of_user_limit = 0.98;
+constexpr double far = 2.0;          // factor of what would have to be otherwise, from which on it is another device
+constexpr int users_looked_at = 80;  // frequencies up to that factor around the one observed
 constexpr int shares = 80;
 constexpr int bisections = 40;
 
@@ -79,6 +82,40 @@ double largest_swing_of_steps(const FilteredPlant& open, double frequency, doubl
   return 2.0 * step / pi * std::abs(loop / (1.0 + loop));
 }
 
+/// By how much a predicted frequency would have to be another to be within `tolerance` of the one observed.
+double frequency_needed(const ObservedLoop& loop, double predicted, double tolerance) {
+  return apart(predicted, loop.frequency) <= tolerance ? 1.0 : loop.frequency / predicted;
+}
+
+/// Of a loop that is stable with this wall: the crossover that would be it with the least otherwise.
+void take_if_nearer(const ObservedLoop& loop, const Crossover& crossover, OscillationCandidate& candidate) {
+  OscillationCandidate other = candidate;
+  other.frequency = crossover.frequency;
+  other.stiffness = crossover.stiffness;
+  other.limited_by = crossover.limited_by;
+  other.otherwise = {.limit = *loop.stiffness / crossover.stiffness,
+                     .frequency = frequency_needed(loop, crossover.frequency, near)};
+  if (distance(other) < distance(candidate)) candidate = std::move(other);
+}
+
+/// The frequency at which some user could make it oscillate with the least otherwise, and what that is.
+void look_for_nearest_user(const ObservedLoop& loop, const UserDiscs& discs, OscillationCandidate& candidate) {
+  const VirtualDamper damper = virtual_damper(loop.device);
+  const double period = loop.device.loop().sampling_period;
+  for (int i = -users_looked_at; i <= users_looked_at; ++i) {
+    const double at = loop.frequency * std::pow(far, static_cast<double>(i) / users_looked_at);
+    if (at > pi / period) break;
+    const double least = least_stiffness(discs.at(at), damper_response(damper, period, at));
+    if (!std::isfinite(least) || least == 0.0) continue;
+    OscillationCandidate other = candidate;
+    other.frequency = at;
+    other.stiffness = least;
+    other.otherwise = {.limit = loop.stiffness ? std::min(1.0, *loop.stiffness / least) : 1.0,
+                       .frequency = frequency_needed(loop, at, beside_user)};
+    if (distance(other) < distance(candidate)) candidate = std::move(other);
+  }
+}
+
 /// Of the sensed position, where the bodies that rub move at V = 4/(pi share): by the ratio of the responses to the
 /// actuator; the geometric mean over the bodies that rub.
 double friction_amplitude(const Device& device, double share, double frequency) {
@@ -100,6 +137,21 @@ double friction_amplitude(const Device& device, double share, double frequency) 
 }
 
 }  // namespace
+
+double distance(const OscillationCandidate& candidate) {
+  if (candidate.fits) return 0.0;
+  if (!candidate.otherwise) return infinity;
+  const OtherwiseNeeded& needed = *candidate.otherwise;
+  return apart(needed.limit, 1.0) + apart(needed.frequency, 1.0) + apart(needed.amplitude, 1.0);
+}
+
+bool is_near(const OscillationCandidate& candidate) {
+  if (candidate.fits) return true;
+  if (!candidate.otherwise) return false;
+  const auto close = [](double factor) { return apart(factor, 1.0) <= std::log(far); };
+  const OtherwiseNeeded& needed = *candidate.otherwise;
+  return close(needed.limit) && close(needed.frequency) && close(needed.amplitude);
+}
 
 bool is_held(const Device& device) {
   const Operator& user = device.parameters().user;
@@ -157,6 +209,7 @@ OscillationCandidate linear_candidate(const ObservedLoop& loop, OscillationCause
       return candidate;
     }
     candidate.fits = apart(nearest->frequency, loop.frequency) <= near;
+    if (!candidate.fits) candidate.otherwise = {.frequency = loop.frequency / nearest->frequency};
     candidate.why = fmt::format("a phase crossover at {}: unstable from {} on", hertz_text(nearest->frequency),
                                 quantity(nearest->stiffness, units_of(device.parameters().motion).stiffness));
     if (critical.limit && critical.stiffness < nearest->stiffness) {
@@ -174,10 +227,8 @@ OscillationCandidate linear_candidate(const ObservedLoop& loop, OscillationCause
   }
   if (unstable == 0.0) {
     candidate.why = "the loop is stable with this wall";
-    if (!candidate.stiffness && critical.limit) {
-      candidate.frequency = critical.limit->frequency;
-      candidate.stiffness = critical.limit->stiffness;
-      candidate.limited_by = critical.limit->limited_by;
+    for (const Crossover& each : critical.crossovers) {
+      if (each.frequency > 0.0 && each.stiffness > 0.0) take_if_nearer(loop, each, candidate);
     }
     return candidate;
   }
@@ -212,6 +263,7 @@ OscillationCandidate user_candidate(const ObservedLoop& loop) {
   const std::string_view unit = units_of(loop.device.parameters().motion).stiffness;
   if (!std::isfinite(least)) {
     candidate.why = "no passive user can make a wall of any stiffness oscillate there";
+    look_for_nearest_user(loop, discs, candidate);
     return candidate;
   }
   candidate.stiffness = least;
@@ -220,6 +272,8 @@ OscillationCandidate user_candidate(const ObservedLoop& loop) {
   if (candidate.fits && loop.stiffness && !is_stable(without_operator(loop.device))) {
     candidate.fits = false;
     candidate.why += "; this one oscillates with nobody holding";
+  } else if (!candidate.fits) {
+    look_for_nearest_user(loop, discs, candidate);
   }
   return candidate;
 }
@@ -266,10 +320,12 @@ std::optional<OscillationCandidate> quantisation_candidate(const ObservedLoop& l
     candidate.why = fmt::format("it swings by {}, more than steps of {} keep up at this frequency, {}",
                                 quantity(*loop.amplitude, units.length), quantity(step, units.length),
                                 quantity(largest, units.length));
+    candidate.otherwise = {.amplitude = *loop.amplitude / largest};
     return candidate;
   }
   // Steps far from a sine swing far from the crossover, but not by more than a step or two.
   candidate.fits = loop.amplitude || apart(nearest->frequency, loop.frequency) <= near_harmonic;
+  if (!candidate.fits) candidate.otherwise = {.frequency = loop.frequency / nearest->frequency};
   candidate.why = fmt::format("at rest between two steps the encoder is a relay: a cycle at the phase crossover {}",
                               hertz_text(nearest->frequency));
   if (loop.amplitude && *loop.amplitude > counts_of_quantisation * step) {
@@ -318,9 +374,11 @@ std::optional<OscillationCandidate> friction_candidate(const ObservedLoop& loop)
     const std::string_view unit = units_of(loop.device.parameters().motion).length;
     candidate.why = fmt::format("its cycle at {} would swing by {}, not by {}", hertz_text(candidate.frequency),
                                 quantity(*candidate.amplitude, unit), quantity(*loop.amplitude, unit));
+    candidate.otherwise = {.frequency = frequency_needed(loop, candidate.frequency, near_harmonic), .amplitude = share};
     return candidate;
   }
   candidate.fits = apart(candidate.frequency, loop.frequency) <= near_harmonic;
+  if (!candidate.fits) candidate.otherwise = {.frequency = loop.frequency / candidate.frequency};
   candidate.why = fmt::format(
       "the loop is stable with its bodies sliding by this little and unstable where friction holds them: a cycle at "
       "about {}",

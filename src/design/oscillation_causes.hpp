@@ -34,6 +34,12 @@ struct ObservedLoop {
 // Absent without friction, or where K is not known.
 [[nodiscard]] std::optional<OscillationCandidate> friction_candidate(const ObservedLoop& loop);
 
+// How far a candidate that does not fit is from fitting: the sum of |ln| of what would have to be otherwise; infinite
+// where nothing helps.
+[[nodiscard]] double distance(const OscillationCandidate& candidate);
+// Whether it fits, or would with each number within a factor of 2.
+[[nodiscard]] bool is_near(const OscillationCandidate& candidate);
+
 // Shares of friction as damping from sliding to sticking, relative to the device's own damping or spring.
 [[nodiscard]] std::vector<double> friction_shares(const Device& device);
 

@@ -39,6 +39,13 @@ struct DiagnosisOptions {
 [[nodiscard]] std::optional<OptionProblem> find_problem(const DiagnosisOptions& options, const Device& device,
                                                         const Recording& recording);
 
+/// What would have to be otherwise for a candidate to fit; each a factor, 1 where nothing has to.
+struct OtherwiseNeeded {
+  double limit = 1.0;      ///< of the limit that the numbers of the device give: K / limit
+  double frequency = 1.0;  ///< of the frequency that they give
+  double amplitude = 1.0;  ///< of the amplitude that they give
+};
+
 /// One thing that the oscillation may be.
 struct OscillationCandidate {
   OscillationCause cause = OscillationCause::device;  ///< what it would be
@@ -48,6 +55,7 @@ struct OscillationCandidate {
   std::optional<double> amplitude;                    ///< of the sensed position; of quantisation and friction
   std::optional<Mechanism> limited_by;                ///< of a linear crossover
   std::string why;                                    ///< why it fits or not
+  std::optional<OtherwiseNeeded> otherwise = {};      ///< absent where it fits, and where no factor makes it fit
 };
 
 /// One change of the device or the wall alone, recomputed.
@@ -62,7 +70,12 @@ struct DiagnosisChange {
   std::optional<double> limit_then;      ///< infinite where unbounded
   std::optional<double> amplitude_now;   ///< m or rad, of a cycle; absent where its size is not known
   std::optional<double> amplitude_then;  ///< the same, after the change
-  std::optional<bool> ends_it;           ///< absent where K is not known
+  /// limit_then times the nearest cause's `otherwise.limit` is above K; absent where K is not known.
+  std::optional<bool> ends_it;
+  /// any_user_limit() after the change; infinite where nobody can destabilise a wall, absent where the device cannot be
+  /// held or the limit is not found.
+  std::optional<double> any_user_then = {};
+  std::optional<bool> safe = {};  ///< any_user_then is no lower than any_user_now; absent where one is not known
 };
 
 /// What an oscillation is, and what moves it.
@@ -71,11 +84,15 @@ struct Diagnosis {
   std::optional<double> amplitude;               ///< observed, where it is known
   std::optional<double> stiffness;               ///< K taken; absent: unknown
   double damping = 0.0;                          ///< B taken
-  std::vector<OscillationCandidate> candidates;  ///< the likeliest first
+  std::vector<OscillationCandidate> candidates;  ///< the likeliest first: those that fit, then the nearest
   std::optional<OscillationCause> cause;         ///< of the first, where it fits; absent: none does
-  std::vector<DiagnosisChange> changes;          ///< what moves it, by falling limit; none where there is no cause
-  Trust trust;                                   ///< where refused, nothing else is held
-  std::vector<Remark> remarks;                   ///< what is worth knowing beside it
+  /// Of the first, where it fits or would with each number within a factor of 2: devices are not known better in life.
+  std::optional<OscillationCause> nearest;
+  std::optional<double> any_user_now;  ///< any_user_limit() of the device as it is; absent as any_user_then
+  /// What moves the nearest cause, by falling limit, then what lowers any_user_now; none where there is no such cause.
+  std::vector<DiagnosisChange> changes;
+  Trust trust;                  ///< where refused, nothing else is held
+  std::vector<Remark> remarks;  ///< what is worth knowing beside it
 };
 
 /// Which mechanism an oscillation at a given frequency is, and what moves it.
