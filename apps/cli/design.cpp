@@ -191,7 +191,8 @@ void set_target(const std::string& text, Motion motion, DesignTargetOptions& opt
     options.times_now = plain_number(std::string_view(text).substr(0, text.size() - 1));
     if (options.times_now) *options.times_now /= 100.0;
   } else {
-    options.stiffness = measured_number("--target", text, Measure::stiffness, motion);
+    const bool is_stiffness = options.limit_of == WallNumber::stiffness;
+    options.stiffness = measured_number("--target", text, is_stiffness ? Measure::stiffness : Measure::damping, motion);
   }
   const bool is_multiple = text.ends_with('x') || text.ends_with('%');
   if (is_multiple && !options.times_now) {
@@ -202,12 +203,25 @@ void set_target(const std::string& text, Motion motion, DesignTargetOptions& opt
   }
 }
 
+/// Which limit is to reach it. Throws BadInput.
+void set_goal(const DesignArguments& arguments, DesignTargetOptions& options) {
+  if (arguments.any_user) options.goal = StiffnessGoal::any_user_limit;
+  const std::string goal = arguments.notch.goal.value_or("stiffness");
+  if (goal == "damper") {
+    options.limit_of = WallNumber::damping;
+  } else if (goal == "any-user") {
+    options.goal = StiffnessGoal::any_user_limit;
+  } else if (goal != "stiffness" && goal != "critical-stiffness") {
+    throw BadInput(fmt::format("--goal: {} is not for a target; stiffness, any-user or damper is", goal));
+  }
+}
+
 void run_target(const DesignArguments& arguments) {
   if (!arguments.output.figure.empty()) throw BadInput("--output: is for a sweep, not for --target");
   const Device device = only_device(arguments, "--target");
   DesignTargetOptions options;
+  set_goal(arguments, options);
   set_target(*arguments.target, device.parameters().motion, options);
-  if (arguments.any_user) options.goal = StiffnessGoal::any_user_limit;
   if (const auto problem = find_problem(options, device)) refuse(*problem, options_of_design);
   ProgressLine line("searching the numbers");
   options.progress = line.progress();
@@ -231,7 +245,7 @@ void run_design(const CLI::App& command, const DesignArguments& arguments) {
     if (arguments.target) throw BadInput("--notch: excludes --target");
     return run_notch(arguments.devices, arguments.notch, arguments.output);
   }
-  refuse_notch_options(command);
+  refuse_notch_options(command, arguments.target.has_value());
   if (!arguments.sweeps.empty()) return run_sweep(arguments);
   if (!arguments.compare.empty()) return run_comparison(arguments);
   if (arguments.target) return run_target(arguments);
@@ -279,6 +293,7 @@ void add_design(CLI::App& app) {
       "  zwidth design devices/lhifam.toml --compare sensed=motor,handle --operator 0.5,6,135\n"
       "  zwidth design devices/lhifam.toml --target 12000\n"
       "  zwidth design devices/lhifam.toml --target 2x --any-user\n"
+      "  zwidth design devices/lhifam.toml --target 2x --goal damper\n"
       "  zwidth design devices/lhifam.toml --recommend --ripple 0.1\n"
       "  zwidth design devices/lhifam_reduced_pretension.toml --notch --drift-percent 10 \\\n"
       "    --phase-margin-deg 0 --lower-any-user --output notch.svg");

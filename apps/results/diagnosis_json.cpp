@@ -18,6 +18,7 @@ static void to_json(Json& json, const OscillationCandidate& candidate) {
           {"frequency_rad_s", has_frequency ? std::optional(candidate.frequency) : std::nullopt},
           {"frequency_hz", has_frequency ? hertz(std::optional(candidate.frequency)) : std::nullopt},
           {"stiffness", candidate.stiffness},
+          {"damping", candidate.damping},
           {"amplitude", candidate.amplitude},
           {"limited_by", candidate.limited_by},
           {"why", candidate.why},
@@ -47,6 +48,7 @@ Json diagnosis_json(const Device& device, const Diagnosis& diagnosis) {
   json["amplitude"] = diagnosis.amplitude;
   json["stiffness"] = diagnosis.stiffness;
   json["damping"] = diagnosis.damping;
+  json["limit_of"] = diagnosis.limit_of == WallNumber::stiffness ? "stiffness" : "damping";
   json["cause"] = diagnosis.cause;
   json["nearest"] = diagnosis.nearest;
   json["any_user_now"] = diagnosis.any_user_now;

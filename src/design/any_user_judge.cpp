@@ -2,17 +2,20 @@
 
 #include "design/wall_limits.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/stability/critical_damping.hpp"
 
 namespace zwidth::internal {
 namespace {
 
-constexpr double rounding = 1e-9;  // relative, of two limits that are the same
+constexpr double same_for_users = 1e-9;  // relative, of two limits that are the same
+
+AnyUserJudge::Limit of_stiffness(const AnyUserLimit& limit) { return {limit.stiffness, limit.truncation, limit.trust}; }
 
 /// What `limit` gives; absent where it is not found or refused.
 template <typename Limit>
-std::optional<AnyUserLimit> found(const Limit& limit) {
+std::optional<AnyUserJudge::Limit> found(const Limit& limit) {
   try {
-    AnyUserLimit result = limit();
+    AnyUserJudge::Limit result = limit();
     if (result.trust.refused()) return std::nullopt;
     return result;
   } catch (const Error& error) {
@@ -23,26 +26,32 @@ std::optional<AnyUserLimit> found(const Limit& limit) {
 
 }  // namespace
 
-AnyUserJudge::AnyUserJudge(const Device& device, const Progress& progress) : progress_(progress) {
-  if (!can_be_held(device)) return;
-  now_ = found([&] { return any_user_limit(device, virtual_damper(device), progress_); });
+AnyUserJudge::Limit any_user_limit_of(const Device& device, WallNumber number, const Progress& progress) {
+  if (number == WallNumber::stiffness) return of_stiffness(any_user_limit(device, virtual_damper(device), progress));
+  const AnyUserDamping limit = any_user_damping(device, progress);
+  return {limit.damping, limit.truncation, limit.trust};
 }
 
-AnyUserJudge::Judgement AnyUserJudge::judged(const std::optional<AnyUserLimit>& limit) const {
+AnyUserJudge::AnyUserJudge(const Device& device, WallNumber number, const Progress& progress)
+    : number_(number), progress_(progress) {
+  if (can_be_held(device)) now_ = found([&] { return any_user_limit_of(device, number_, progress_); });
+}
+
+AnyUserJudge::Judgement AnyUserJudge::judged(const std::optional<Limit>& limit) const {
   if (!limit) return {};
   // What was taken off the limit for certainty lowers nothing.
-  const double most = limit->stiffness * (1.0 + limit->truncation);
-  return {limit->stiffness, most >= now_->stiffness * (1.0 - rounding)};
+  const double most = limit->value * (1.0 + limit->truncation);
+  return {limit->value, most >= now_->value * (1.0 - same_for_users)};
 }
 
 AnyUserJudge::Judgement AnyUserJudge::of(const Device& changed) const {
   if (!now_) return {};
-  return judged(found([&] { return any_user_limit(changed, virtual_damper(changed), progress_); }));
+  return judged(found([&] { return any_user_limit_of(changed, number_, progress_); }));
 }
 
 AnyUserJudge::Judgement AnyUserJudge::of(const Device& changed, AnyUserSearch& users) const {
   if (!now_) return {};
-  return judged(found([&] { return users.limit(virtual_damper(changed), progress_); }));
+  return judged(found([&] { return of_stiffness(users.limit(virtual_damper(changed), progress_)); }));
 }
 
 }  // namespace zwidth::internal

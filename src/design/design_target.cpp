@@ -12,6 +12,7 @@
 #include "design/any_user_judge.hpp"
 #include "design/design_parameter.hpp"
 #include "design/moved_limit.hpp"
+#include "design/number_limit.hpp"
 #include "infinity.hpp"
 #include "require_valid.hpp"
 #include "staged_progress.hpp"
@@ -38,7 +39,7 @@ struct Point {
   double limit = 0.0;
 };
 
-// The values that a number of 0 could take at all, by what stands beside it in the device.
+// The values that a number of 0 could take at all, by what stands beside it in the device: of stiffnesses K, or B/T.
 double natural_size(const Device& device, const DesignParameter& parameter, double target) {
   using Kind = DesignParameter::Kind;
   double mass = 0.0;
@@ -67,14 +68,14 @@ class Search {
 
   [[nodiscard]] DesignTarget target_of(const DesignParameter& parameter) const {
     DesignTarget target{parameter.key, parameter.value, std::nullopt, {}, {}, {}};
-    MovedLimit moved(device_, parameter, options_.goal);
+    MovedLimit moved(device_, parameter, options_.goal, options_.limit_of);
     const Point now{parameter.value, limit_now_};
     std::vector<Walk> walks;
     if (parameter.value > 0.0) {
       walks.push_back({now, parameter.value, parameter.value / options_.factor, 1});
       walks.push_back({now, parameter.value, parameter.value * options_.factor, 1});
     } else {
-      const double size = natural_size(device_, parameter, options_.stiffness);
+      const double size = natural_size(device_, parameter, target_stiffness());
       walks.push_back({now, first_share * size, options_.factor * size, 0});
     }
     Extremes extremes{limit_now_, limit_now_, {}};
@@ -85,7 +86,7 @@ class Search {
       return target;
     }
     const Device changed = with(parameter, *target.value_needed);
-    const CriticalStiffness there = critical_stiffness(changed);
+    const NumberLimit there = number_limit(changed, options_.limit_of);
     if (there.trust.refused()) {
       target.value_needed.reset();
       target.why = "the limit at the value found is refused: " + there.trust.reasons.front();
@@ -100,6 +101,11 @@ class Search {
 
  private:
   static constexpr int ended = -1;
+
+  [[nodiscard]] double target_stiffness() const {
+    return options_.limit_of == WallNumber::stiffness ? options_.stiffness
+                                                      : options_.stiffness / device_.loop().sampling_period;
+  }
 
   struct Extremes {
     double least = 0.0;
@@ -218,25 +224,29 @@ class Search {
     return Device(std::move(moved));
   }
 
-  [[nodiscard]] std::string reason_there(const CriticalStiffness& there, double limit) const {
+  [[nodiscard]] std::string reason_there(const NumberLimit& there, double limit) const {
     if (std::abs(excess(limit)) > reached * options_.stiffness) {
       return "the limit jumps across the target there: another mechanism takes over";
     }
     if (options_.goal == StiffnessGoal::any_user_limit) return "the limit with any passive user is the target there";
-    return there.limit->limited_by.kind == Mechanism::Kind::rigid_body
+    return there.at->limited_by.kind == Mechanism::Kind::rigid_body
                ? "the limit is the target there, set by the rigid body"
-               : fmt::format("the limit is the target there, set by vibration mode {}", there.limit->limited_by.mode);
+               : fmt::format("the limit is the target there, set by vibration mode {}", there.at->limited_by.mode);
   }
 
   [[nodiscard]] std::string reason_of_none(const DesignParameter& parameter, const Extremes& extremes) const {
     const bool below = extremes.most < options_.stiffness;
     const double nearest = below ? extremes.most : extremes.least;
-    if (!std::isfinite(nearest)) return "every wall is stable whatever it is";
+    const bool is_stiffness = options_.limit_of == WallNumber::stiffness;
+    if (!std::isfinite(nearest))
+      return fmt::format("every {} is stable whatever it is", is_stiffness ? "wall" : "damper");
     const std::string range = parameter.value > 0.0
                                   ? fmt::format("within a factor of {:g} of its value", options_.factor)
                                   : "at any value from 0 up to what is likely";
-    return fmt::format("{} the limit gets no {} than {}", range, below ? "higher" : "lower",
-                       quantity(nearest, units_of(device_.parameters().motion).stiffness));
+    const Units units = units_of(device_.parameters().motion);
+    return fmt::format(
+        "{} the limit gets no {} than {}", range, below ? "higher" : "lower",
+        is_stiffness ? quantity(nearest, units.stiffness) : fmt::format("{} {}", number(nearest), units.damping));
   }
 
   const Device& device_;
@@ -259,11 +269,6 @@ std::optional<double> target_of(const DesignTargetOptions& options, double limit
   if (!options.times_now) return options.stiffness;
   const double target = *options.times_now * limit_now;
   return target > 0.0 && std::isfinite(target) ? std::optional(target) : std::nullopt;
-}
-
-// As known already; where it is not found this says why.
-AnyUserLimit any_user_limit_of(const Device& device, const AnyUserJudge& users) {
-  return users.limit_now() ? *users.limit_now() : any_user_limit(device, virtual_damper(device));
 }
 
 }  // namespace
@@ -293,29 +298,36 @@ std::optional<OptionProblem> find_problem(const DesignTargetOptions& options, co
 DesignTargets design_targets(const Device& device, const DesignTargetOptions& options) {
   require_valid(find_problem(options, device));
   DesignTargets result;
-  const CriticalStiffness own = critical_stiffness(device);
+  const NumberLimit own = number_limit(device, options.limit_of);
   result.trust = own.trust;
   if (result.trust.refused()) return result;
   std::vector<DesignParameter> parameters = design_parameters(device);
   // Who holds the device is no part of it.
-  std::erase_if(parameters, [](const DesignParameter& each) { return each.key.starts_with("operator."); });
+  std::erase_if(parameters, [&](const DesignParameter& each) {
+    const bool is_the_limit =
+        each.kind == DesignParameter::Kind::wall_damping && options.limit_of == WallNumber::damping;
+    return is_the_limit || each.key.starts_with("operator.");
+  });
   SharedProgress progress(options.progress, parameters.size());
   const Progress while_judging = [&progress](double) { progress.go_on(); };
-  const AnyUserJudge users(device, while_judging);
+  const AnyUserJudge users(device, options.limit_of, while_judging);
   result.any_user_now = users.now();
-  double limit = own.stiffness;
+  double limit = own.value;
   if (options.goal == StiffnessGoal::any_user_limit) {
-    const AnyUserLimit any_user = any_user_limit_of(device, users);
+    // Where it is not found, this says why.
+    const AnyUserJudge::Limit any_user =
+        users.limit_now() ? *users.limit_now() : any_user_limit_of(device, options.limit_of, while_judging);
     result.trust.inherit(any_user.trust);
     if (result.trust.refused()) return result;
-    limit = std::min(limit, any_user.stiffness);
+    limit = std::min(limit, any_user.value);
   }
   result.limit_now = limit;
   result.target = target_of(options, limit);
   if (!result.target) {
-    result.remarks.push_back({Remark::Severity::warning,
-                              limit > 0.0 ? "every wall is stable as it is" : "no wall is stable as it is",
-                              "there is no limit of which a multiple could be asked", "ask for a stiffness"});
+    const std::string_view what = options.limit_of == WallNumber::stiffness ? "wall" : "damper";
+    result.remarks.push_back(
+        {Remark::Severity::warning, fmt::format("{} {} is stable as it is", limit > 0.0 ? "every" : "no", what),
+         "there is no limit of which a multiple could be asked", "ask for the limit to reach itself"});
     return result;
   }
   if (limit == *result.target) {

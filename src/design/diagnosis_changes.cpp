@@ -10,8 +10,9 @@
 #include <string>
 #include <utility>
 
+#include "design/number_limit.hpp"
 #include "staged_progress.hpp"
-#include "zwidth/stability/any_user.hpp"
+#include "zwidth/model/device_operator.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -25,22 +26,21 @@ constexpr double usual_changes = 16.0;                                          
 constexpr std::size_t most_links = 3;
 constexpr std::size_t shares_looked_at = 4;  // every fourth share of friction
 
-/// The stiffness up to which the cause is absent.
-double limit_of(OscillationCause cause, const Device& device, const Progress& progress) {
+/// The stiffness, or the damping of a damper alone, up to which the cause is absent.
+double limit_of(OscillationCause cause, const Device& device, WallNumber number, const Progress& progress) {
   switch (cause) {
     case OscillationCause::device:
-      return critical_stiffness(without_operator(device)).stiffness;
+      return number_limit(without_operator(device), number).value;
     case OscillationCause::with_operator:
-      return critical_stiffness(device).stiffness;
+      return number_limit(device, number).value;
     case OscillationCause::passive_user:
-      return any_user_limit(device, virtual_damper(device), progress).stiffness;
+      return any_user_limit_of(device, number, progress).value;
     case OscillationCause::friction: {
-      double least = critical_stiffness(device).stiffness;
+      double least = number_limit(device, number).value;
       const std::vector<double> shares = friction_shares(device);
       for (std::size_t i = 0; i < shares.size(); i += shares_looked_at) {
         tell(progress, 0.0);
-        const Device rubbing = with_friction_as_damping(device, shares[i]);
-        least = std::min(least, critical_stiffness(filtered_plant(rubbing), virtual_damper(rubbing)).stiffness);
+        least = std::min(least, unchecked_number_limit(with_friction_as_damping(device, shares[i]), number).value);
       }
       return least;
     }
@@ -50,13 +50,19 @@ double limit_of(OscillationCause cause, const Device& device, const Progress& pr
   return std::numeric_limits<double>::quiet_NaN();
 }
 
+/// The number of a wall that the limit is of.
+double gain_of(const Device& device, WallNumber number) {
+  const Wall& wall = device.parameters().wall;
+  return number == WallNumber::stiffness ? *wall.stiffness : wall.damping;
+}
+
 class Changes {
  public:
   Changes(const ObservedLoop& loop, const OscillationCandidate& cause, const AnyUserJudge& users)
       : loop_(loop), cause_(cause), users_(users), off_(cause.otherwise ? cause.otherwise->limit : 1.0) {
     if (is_quantisation()) return;
     const bool is_known = cause.cause == OscillationCause::passive_user && users.now();
-    limit_ = is_known ? *users.now() : limit_of(cause.cause, loop.device, loop.progress);
+    limit_ = is_known ? *users.now() : limit_of(cause.cause, loop.device, loop.number, loop.progress);
   }
 
   [[nodiscard]] std::vector<DiagnosisChange> all() {
@@ -125,7 +131,7 @@ class Changes {
     if (find_problem(parameters)) return std::nullopt;
     Recomputed made{std::move(result), Device(std::move(parameters))};
     if (is_quantisation()) {
-      ObservedLoop with{made.device, loop_.frequency, {}, made.device.parameters().wall.stiffness};
+      const ObservedLoop with{made.device, loop_.frequency, {}, made.device.parameters().wall.stiffness, loop_.number};
       const auto cycle = quantisation_candidate(with);
       made.change.amplitude_now = cause_.amplitude;
       if (cycle && cycle->amplitude) made.change.amplitude_then = cycle->amplitude;
@@ -137,7 +143,7 @@ class Changes {
     const std::optional<double>& any_user = made.change.any_user_then;
     made.change.limit_then = cause_.cause == OscillationCause::passive_user && any_user
                                  ? *any_user
-                                 : limit_of(cause_.cause, made.device, loop_.progress);
+                                 : limit_of(cause_.cause, made.device, loop_.number, loop_.progress);
     if (std::isnan(*made.change.limit_then)) return std::nullopt;
     if (loop_.stiffness)
       made.change.ends_it = off_ * *made.change.limit_then > *made.device.parameters().wall.stiffness;
@@ -161,14 +167,22 @@ class Changes {
 
   void soften() {
     if (!loop_.stiffness) return;
-    const double softened = is_quantisation() ? softer * *loop_.stiffness : softer * off_ * limit_;
-    if (!(softened > 0.0 && softened < *loop_.stiffness)) return;
-    add(is_quantisation() ? "half the stiffness" : "a softer wall, 6 dB below the limit", "wall.stiffness",
-        *loop_.stiffness, softened, [&](DeviceParameters& then) { then.wall.stiffness = softened; });
+    const bool is_damper = loop_.number == WallNumber::damping;
+    const double now = gain_of(loop_.device, loop_.number);
+    const double softened = is_quantisation() ? softer * now : softer * off_ * limit_;
+    if (!(softened > 0.0 && softened < now)) return;
+    if (is_damper) {
+      add(is_quantisation() ? "half the damper" : "a weaker damper, 6 dB below the limit", "wall.damping", now,
+          softened, [&](DeviceParameters& then) { then.wall.damping = softened; });
+    } else {
+      add(is_quantisation() ? "half the stiffness" : "a softer wall, 6 dB below the limit", "wall.stiffness", now,
+          softened, [&](DeviceParameters& then) { then.wall.stiffness = softened; });
+    }
   }
 
   /// The damper of the ladder with the highest limit (least amplitude), of those that lower no user's where there are any.
   void damp() {
+    if (loop_.number == WallNumber::damping) return;  // the damper is what oscillates
     const Wall& wall = loop_.device.parameters().wall;
     double unit = wall.damping;
     if (unit == 0.0) {

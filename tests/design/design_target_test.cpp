@@ -52,7 +52,9 @@ TEST(DesignTarget, EveryNeededValueIsConfirmed) {
                               : each.value_now > 0.0 ? std::abs(std::log(*each.value_needed / each.value_now))
                                                      : 1e300;
           const bool lowers = each.value_needed && !each.safe.value_or(true);
-          if (lowers == lowers_users) EXPECT_GE(cost, last_cost) << "cheapest first: " << each.key;
+          if (lowers == lowers_users) {
+            EXPECT_GE(cost, last_cost) << "cheapest first: " << each.key;
+          }
           last_cost = cost;
           lowers_users = lowers;
           EXPECT_FALSE(each.why.empty());

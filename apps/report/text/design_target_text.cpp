@@ -14,33 +14,45 @@ namespace {
 
 constexpr std::size_t target_width = 30;
 
-std::string limit_text(const std::optional<double>& limit, std::string_view unit) {
-  if (!limit) return "refused";
-  if (*limit == 0.0) return "none: no wall is stable from K = 0 on";
-  return std::isfinite(*limit) ? quantity(*limit, unit) : std::string("unbounded");
-}
+/// The limit's number in words: K, or B of a damper alone.
+class LimitWords {
+ public:
+  LimitWords(WallNumber number, Motion motion) : is_damper_(number == WallNumber::damping), units_(units_of(motion)) {}
 
-std::string asked_text(const DesignTargetOptions& options, const DesignTargets& targets, std::string_view unit) {
-  if (!options.times_now) return quantity(options.stiffness, unit);
-  const std::string multiple = fmt::format("{:.4g} times that", *options.times_now);
-  return targets.target ? fmt::format("{}, {}", multiple, quantity(*targets.target, unit)) : multiple;
-}
+  [[nodiscard]] std::string value(double limit) const {
+    return is_damper_ ? fmt::format("{} {}", number(limit), units_.damping) : quantity(limit, units_.stiffness);
+  }
+  [[nodiscard]] std::string limit(const std::optional<double>& limit) const {
+    if (!limit) return "refused";
+    if (*limit == 0.0) return is_damper_ ? "none: no damper is stable" : "none: no wall is stable from K = 0 on";
+    return std::isfinite(*limit) ? value(*limit) : std::string("unbounded");
+  }
+  [[nodiscard]] std::string asked(const DesignTargetOptions& options, const DesignTargets& targets) const {
+    if (!options.times_now) return value(options.stiffness);
+    const std::string multiple = fmt::format("{:.4g} times that", *options.times_now);
+    return targets.target ? fmt::format("{}, {}", multiple, value(*targets.target)) : multiple;
+  }
+  [[nodiscard]] std::string any_user(const std::optional<double>& limit) const {
+    if (!limit) return "-";
+    if (*limit == 0.0) return is_damper_ ? "no damper" : "no wall";
+    return std::isfinite(*limit) ? value(*limit) : std::string(is_damper_ ? "any damper" : "any wall");
+  }
+  [[nodiscard]] std::string_view nobody() const { return is_damper_ ? "critical damping  " : "critical stiffness"; }
+
+ private:
+  bool is_damper_;
+  Units units_;
+};
 
 std::string change_text(const DesignTarget& target) {
   if (!target.value_needed || target.value_now == 0.0) return "";
   return factor_text(*target.value_needed / target.value_now);
 }
 
-std::string any_user_text(const std::optional<double>& limit, std::string_view unit) {
-  if (!limit) return "-";
-  if (*limit == 0.0) return "no wall";
-  return std::isfinite(*limit) ? quantity(*limit, unit) : std::string("any wall");
-}
-
 /// A table of targets and a note on each, under its heading; nothing without any.
 class TargetTable {
  public:
-  TargetTable(Motion motion, bool judged) : motion_(motion) {
+  TargetTable(Motion motion, const LimitWords& words, bool judged) : motion_(motion), words_(words) {
     if (judged) {
       table_ = {{Align::left, Align::right, Align::right, Align::right, Align::right},
                 {{"one number alone", "now", "needed", "change", "any passive user then"}}};
@@ -52,7 +64,7 @@ class TargetTable {
     std::vector<std::string> row{key, parameter_text(each.key, each.value_now, motion_),
                                  parameter_text(each.key, *each.value_needed, motion_), change_text(each)};
     if (table_.alignment.size() > row.size()) {
-      row.push_back(any_user_text(each.any_user_then, units_of(motion_).stiffness));
+      row.push_back(words_.any_user(each.any_user_then));
     }
     table_.rows.push_back(std::move(row));
     notes_ += wrap(fmt::format("{}: {}", key, each.why), line_width, 4).replace(0, 4, "  - ");
@@ -64,6 +76,7 @@ class TargetTable {
 
  private:
   Motion motion_;
+  const LimitWords& words_;
   TextTable table_{{Align::left, Align::right, Align::right, Align::right},
                    {{"one number alone", "now", "needed", "change"}}};
   std::string notes_;
@@ -73,18 +86,18 @@ class TargetTable {
 
 std::string design_target_text(const Device& device, const DesignTargetOptions& options, const DesignTargets& targets) {
   const Motion motion = device.parameters().motion;
-  const std::string_view unit = units_of(motion).stiffness;
+  const LimitWords words(options.limit_of, motion);
   const bool any_user = options.goal == StiffnessGoal::any_user_limit;
   std::string text = shortened(display_name(device), line_width) + "\n";
   if (const auto trust = trust_note(targets.trust)) text += wrap(*trust, line_width, 22).replace(0, 7, "  trust");
-  text += fmt::format("  {}  {}, asked for {}\n", any_user ? "any passive user  " : "critical stiffness",
-                      limit_text(targets.limit_now, unit), asked_text(options, targets, unit));
+  text += fmt::format("  {}  {}, asked for {}\n", any_user ? "any passive user  " : words.nobody(),
+                      words.limit(targets.limit_now), words.asked(options, targets));
   if (!any_user && targets.any_user_now) {
-    text += fmt::format("  any passive user    {}\n", limit_text(targets.any_user_now, unit));
+    text += fmt::format("  any passive user    {}\n", words.limit(targets.any_user_now));
   }
   for (const Remark& remark : targets.remarks) text += wrap(remark_line(remark), line_width, 4).replace(0, 4, "  - ");
-  TargetTable reaching(motion, targets.any_user_now.has_value());
-  TargetTable lowering(motion, true);
+  TargetTable reaching(motion, words, targets.any_user_now.has_value());
+  TargetTable lowering(motion, words, true);
   std::string without;
   for (const DesignTarget& each : targets.targets) {
     if (each.value_needed) {
@@ -96,7 +109,7 @@ std::string design_target_text(const Device& device, const DesignTargetOptions& 
   }
   text += reaching.under("What reaches it, the smallest change first; numbers that are 0 now at the end");
   text += lowering.under(fmt::format("What reaches it, but lowers the limit with any passive user, now {}",
-                                     limit_text(targets.any_user_now, unit)));
+                                     words.limit(targets.any_user_now)));
   if (!without.empty()) text += "\nWhat does not\n" + without;
   return text;
 }

@@ -64,6 +64,8 @@ std::string otherwise_text(const OscillationCandidate& candidate, const Units& u
   if (needed.limit != 1.0) {
     parts.push_back(fmt::format("its limit is {}", moved_text(needed.limit)));
     if (candidate.stiffness) parts.back() += ", " + quantity(needed.limit * *candidate.stiffness, units.stiffness);
+    if (candidate.damping)
+      parts.back() += fmt::format(", {} {}", number(needed.limit * *candidate.damping), units.damping);
   }
   if (needed.frequency != 1.0) {
     parts.push_back(fmt::format("its frequency is {}, {} instead of {}", moved_text(needed.frequency),
@@ -79,9 +81,11 @@ std::string why_text(const OscillationCandidate& candidate, const Units& units) 
   return candidate.otherwise ? fmt::format("{}; {}", candidate.why, otherwise_text(candidate, units)) : candidate.why;
 }
 
-std::string limit_text(double limit, std::string_view unit) {
-  if (limit == 0.0) return "no wall";
-  return std::isfinite(limit) ? quantity(limit, unit) : std::string("no limit");
+std::string limit_text(double limit, const Diagnosis& diagnosis, const Units& units) {
+  const bool is_damper = diagnosis.limit_of == WallNumber::damping;
+  if (limit == 0.0) return is_damper ? "no damper" : "no wall";
+  if (!std::isfinite(limit)) return "no limit";
+  return is_damper ? fmt::format("{} {}", number(limit), units.damping) : quantity(limit, units.stiffness);
 }
 
 /// The three words, of the wall after a change: whether it ends the oscillation, and for whom.
@@ -89,17 +93,20 @@ std::string end_text(const Diagnosis& diagnosis, const DiagnosisChange& change) 
   if (!change.ends_it) return "-";
   if (!*change.ends_it) return "no";
   if (!diagnosis.stiffness || !change.any_user_then) return "yes";
-  const double stiffness = change.key == "wall.stiffness" ? change.value_then : *diagnosis.stiffness;
-  return *change.any_user_then > stiffness ? "yes" : "alone only";
+  const bool is_damper = diagnosis.limit_of == WallNumber::damping;
+  const double now = is_damper ? diagnosis.damping : *diagnosis.stiffness;
+  const double wall = change.key == (is_damper ? "wall.damping" : "wall.stiffness") ? change.value_then : now;
+  return *change.any_user_then > wall ? "yes" : "alone only";
 }
 
 std::string changes_text(const Device& device, const Diagnosis& diagnosis) {
   const Motion motion = device.parameters().motion;
   const Units units = units_of(motion);
+  const std::string limit_of = diagnosis.limit_of == WallNumber::damping ? "limit of B" : "limit of K";
   const bool by_amplitude = diagnosis.nearest == OscillationCause::quantisation;
   const bool judged = diagnosis.any_user_now.has_value();
   TextTable table{{Align::left, Align::right, Align::right, Align::right, Align::left},
-                  {{"change", "now", "then", by_amplitude ? "swing" : "limit of K", "ends it"}}};
+                  {{"change", "now", "then", by_amplitude ? "swing" : limit_of, "ends it"}}};
   if (judged) {
     table.alignment.push_back(Align::right);
     table.rows.front().push_back("any passive user");
@@ -107,24 +114,24 @@ std::string changes_text(const Device& device, const Diagnosis& diagnosis) {
   std::string lowering;
   for (const DiagnosisChange& each : diagnosis.changes) {
     std::string effect = "-";
-    if (each.limit_then) effect = limit_text(*each.limit_then, units.stiffness);
+    if (each.limit_then) effect = limit_text(*each.limit_then, diagnosis, units);
     if (by_amplitude && each.amplitude_then) effect = quantity(*each.amplitude_then, units.length);
     table.rows.push_back({each.what, value_text(each, each.value_now, motion),
                           value_text(each, each.value_then, motion), effect, end_text(diagnosis, each)});
     if (judged) {
-      table.rows.back().push_back(each.any_user_then ? limit_text(*each.any_user_then, units.stiffness) : "-");
+      table.rows.back().push_back(each.any_user_then ? limit_text(*each.any_user_then, diagnosis, units) : "-");
     }
     if (!each.safe.value_or(true)) lowering += (lowering.empty() ? "" : ", ") + each.what;
   }
   std::string now;
   if (!diagnosis.changes.empty()) {
     const DiagnosisChange& first = diagnosis.changes.front();
-    if (first.limit_now) now = fmt::format("limit of K now {}", limit_text(*first.limit_now, units.stiffness));
+    if (first.limit_now) now = fmt::format("{} now {}", limit_of, limit_text(*first.limit_now, diagnosis, units));
     if (first.amplitude_now) now = fmt::format("swing now {}", quantity(*first.amplitude_now, units.length));
   }
   if (judged) {
     now += fmt::format("{}with any passive user {}", now.empty() ? "" : ", ",
-                       limit_text(*diagnosis.any_user_now, units.stiffness));
+                       limit_text(*diagnosis.any_user_now, diagnosis, units));
   }
   std::string text = "\n" + wrap(fmt::format("What moves it, each change alone and recomputed{}",
                                              now.empty() ? "" : fmt::format(" ({})", now)),

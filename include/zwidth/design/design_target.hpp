@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "zwidth/design/notch_design.hpp"
+#include "zwidth/design/wall_number.hpp"
 #include "zwidth/model/device.hpp"
 #include "zwidth/option_problem.hpp"
 #include "zwidth/progress.hpp"
@@ -15,11 +16,12 @@ namespace zwidth {
 
 /// What is to be reached, and how far to look.
 struct DesignTargetOptions {
-  double stiffness = 0.0;                                  ///< the limit to reach, N/m or N m/rad; > 0
+  double stiffness = 0.0;                                  ///< the limit to reach, of a damper alone its B; > 0
   StiffnessGoal goal = StiffnessGoal::critical_stiffness;  ///< which limit is to reach it
   double factor = 1000.0;  ///< each number is followed from p / factor to p * factor; above 1, at most 1e6
-  std::optional<double> times_now = {};  ///< instead of a stiffness: so many times the limit of the device; > 0
-  Progress progress = {};                ///< told how far the work is; ends it by throwing
+  std::optional<double> times_now = {};         ///< instead of a stiffness: so many times the limit of the device; > 0
+  WallNumber limit_of = WallNumber::stiffness;  ///< damping: the largest damper alone is to reach it
+  Progress progress = {};                       ///< told how far the work is; ends it by throwing
 };
 
 /// Checks the stiffness (or times_now) and the factor; of the device: the any-user limit needs a body to hold, and not too many.
@@ -59,6 +61,7 @@ struct DesignTargets {
 /// target to 1e-10, or, where the limit jumps across it, to the jump's side that has the target. A scan: a limit that
 /// passes the target twice within one step is passed over. Each needed value is confirmed by critical_stiffness(Device)
 /// or any_user_limit(), and judged for any passive user.
+/// Of a damper alone (limit_of) K is its B: critical_damping() and any_user_damping().
 /// Throws Error (invalid_argument) where find_problem() finds one, (did_not_converge) as its parts do.
 [[nodiscard]] DesignTargets design_targets(const Device& device, const DesignTargetOptions& options);
 
