@@ -10,6 +10,7 @@
 #include "design/disc_slopes.hpp"
 #include "stability/disc_stiffness.hpp"
 #include "zwidth/design/sensitivity.hpp"
+#include "zwidth/model/device_operator.hpp"
 #include "zwidth/model/parameter.hpp"
 
 namespace zwidth {
@@ -17,13 +18,6 @@ using namespace internal;
 namespace {
 
 using Complex = std::complex<double>;
-
-Device without_operator(const Device& device) {
-  DeviceParameters parameters = device.parameters();
-  parameters.user = {};
-  parameters.uncertainty.reset();
-  return Device(std::move(parameters));
-}
 
 std::vector<DesignParameter> parameters_of(const Device& free) {
   using Kind = DesignParameter::Kind;

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "design/damper_limits.hpp"
 #include "design/notch_search.hpp"
 #include "design/wall_check.hpp"
 #include "design/wall_limits.hpp"
@@ -381,7 +382,8 @@ WallRecommendation recommend_wall(const Device& device, const RecommendationOpti
   try {
     trust.inherit(critical_stiffness(without_wall(device)).trust);
     if (trust.refused()) return refused(std::move(trust));
-    WallRecommendation result = Recommendation(device, options).answer();
+    WallRecommendation result = options.goal == WallGoal::damper ? recommend_damper(without_wall(device), options)
+                                                                 : Recommendation(device, options).answer();
     trust.inherit(result.trust);
     result.trust = trust;
     return result;

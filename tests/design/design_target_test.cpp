@@ -46,12 +46,17 @@ TEST(DesignTarget, EveryNeededValueIsConfirmed) {
       for (const double factor : {0.7, 1.6}) {
         const double target = factor * now.stiffness;
         double last_cost = 0.0;
+        bool lowers_users = false;
         for (const DesignTarget& each : design_targets(device, {.stiffness = target}).targets) {
           const double cost = !each.value_needed     ? std::numeric_limits<double>::infinity()
                               : each.value_now > 0.0 ? std::abs(std::log(*each.value_needed / each.value_now))
                                                      : 1e300;
-          EXPECT_GE(cost, last_cost) << "cheapest first: " << each.key;
+          const bool lowers = each.value_needed && !each.safe.value_or(true);
+          if (lowers == lowers_users) {
+            EXPECT_GE(cost, last_cost) << "cheapest first: " << each.key;
+          }
           last_cost = cost;
+          lowers_users = lowers;
           EXPECT_FALSE(each.why.empty());
           if (!each.value_needed) continue;
           const double there = critical_stiffness(with(device, each.key, *each.value_needed)).stiffness;
@@ -89,6 +94,71 @@ TEST(DesignTarget, OfTheLimitWithAnyUser) {
   EXPECT_GE(found, 3);
 }
 
+DeviceParameters two_bodies(double motor, double motor_damping, double handle, double handle_damping, double stiffness,
+                            double damping) {
+  DeviceParameters parameters;
+  parameters.name = "two bodies";
+  parameters.bodies = {{"motor", motor, motor_damping}, {"handle", handle, handle_damping}};
+  parameters.links = {{0, 1, stiffness, damping}};
+  parameters.loop = {0, 0, 1, 1e-3, 0.0};
+  return parameters;
+}
+
+// A cable of a tenth of its stiffness doubles the limit of the device that nobody holds, and gives no user anything.
+TEST(DesignTarget, EachProposalIsJudgedForAnyUserAndWhatLowersThatLimitComesLast) {
+  const Device device(two_bodies(0.145, 0.0102, 0.233, 0.268, 50.9e3, 8.79));
+  const double nobody = critical_stiffness(device).stiffness;
+  const double any_user = any_user_limit(device).stiffness;
+  const DesignTargets targets = design_targets(device, {.stiffness = 2.0 * nobody});
+  EXPECT_DOUBLE_EQ(targets.any_user_now.value(), any_user);
+  int lowering = 0;
+  bool lowers_before = false;
+  for (const DesignTarget& each : targets.targets) {
+    SCOPED_TRACE(each.key);
+    ASSERT_EQ(each.safe.has_value(), each.value_needed.has_value());
+    if (!each.value_needed) continue;
+    const Device changed = with(device, each.key, *each.value_needed);
+    const AnyUserLimit then = any_user_limit(changed, virtual_damper(changed));
+    EXPECT_NEAR(*each.any_user_then / then.stiffness, 1.0, 1e-9);
+    EXPECT_EQ(*each.safe, then.stiffness * (1.0 + then.truncation) >= any_user * (1.0 - 1e-9));
+    EXPECT_FALSE(lowers_before && *each.safe) << "what lowers it comes last";
+    lowers_before = lowers_before || !*each.safe;
+    if (each.key == "link.0.stiffness") {
+      EXPECT_NEAR(*each.value_needed / 50.9e3, 0.095, 0.001);
+      EXPECT_FALSE(*each.safe);
+      ++lowering;
+    }
+  }
+  EXPECT_EQ(lowering, 1);
+}
+
+// A hand of steel was offered.
+TEST(DesignTarget, WhoHoldsTheDeviceIsNoPartOfIt) {
+  DeviceParameters held = test::lhifam_parameters();
+  held.user = {0.5, 6.0, 135.0};
+  for (const DesignTarget& each : design_targets(Device(held), {.stiffness = 12e3}).targets) {
+    EXPECT_FALSE(each.key.starts_with("operator.")) << each.key;
+  }
+}
+
+TEST(DesignTarget, AMultipleIsOfTodaysLimit) {
+  const Device device(test::lhifam_parameters());
+  const DesignTargets twice = design_targets(device, {.times_now = 2.0});
+  EXPECT_DOUBLE_EQ(twice.target.value(), 2.0 * critical_stiffness(device).stiffness);
+  const DesignTargets same = design_targets(device, {.stiffness = *twice.target});
+  ASSERT_EQ(twice.targets.size(), same.targets.size());
+  for (std::size_t i = 0; i < same.targets.size(); ++i) {
+    EXPECT_EQ(twice.targets[i].key, same.targets[i].key);
+    EXPECT_EQ(twice.targets[i].value_needed, same.targets[i].value_needed);
+  }
+  // Nothing to multiply: without damping no wall is stable.
+  const DesignTargets none =
+      design_targets(Device(two_bodies(0.005, 0.0, 0.005, 0.0, 700.0, 0.01)), {.times_now = 2.0});
+  EXPECT_FALSE(none.target);
+  EXPECT_TRUE(none.targets.empty());
+  EXPECT_EQ(none.remarks.size(), 1U);
+}
+
 TEST(DesignTarget, SaysInItsUnitWhyNoValueIsEnough) {
   for (const DesignTarget& each : design_targets(Device(test::lhifam_parameters()), {.stiffness = 20e3}).targets) {
     if (each.key == "body.motor.mass") {
@@ -105,6 +175,8 @@ TEST(DesignTarget, RefusesWhatItCannotDo) {
   EXPECT_EQ(find_problem(DesignTargetOptions{.stiffness = -1.0}, device)->member, "stiffness");
   EXPECT_EQ(find_problem(DesignTargetOptions{.stiffness = std::nan("")}, device)->member, "stiffness");
   EXPECT_EQ(find_problem(DesignTargetOptions{.stiffness = 1.0, .factor = 1.0}, device)->member, "factor");
+  EXPECT_EQ(find_problem(DesignTargetOptions{.times_now = -2.0}, device)->member, "times_now");
+  EXPECT_FALSE(find_problem(DesignTargetOptions{.times_now = 2.0}, device));
   EXPECT_THROW((void)design_targets(device, {}), Error);
   const Device plant(test::transfer_function_parameters({1.0}, {1.0, 1.0}, 1.0));
   EXPECT_EQ(find_problem(DesignTargetOptions{.stiffness = 1.0, .goal = StiffnessGoal::any_user_limit}, plant)->member,

@@ -53,14 +53,92 @@ TEST(Diagnosis, BlamesNoUserForALoopThatIsUnstableByItself) {
   EXPECT_FALSE(user->fits);
 }
 
-TEST(Diagnosis, NamesNothingWhereNothingFits) {
-  // Softer than any user's limit, no encoder, no friction.
+// The limit with any user is 14 % away.
+TEST(Diagnosis, WhereNothingFitsTheNearestIsNamedAndWhatWouldHaveToBeOtherwise) {
   const Diagnosis diagnosis = diagnose(lhifam(), {.frequency = 259.9, .stiffness = 5000.0});
   EXPECT_FALSE(diagnosis.cause);
-  EXPECT_TRUE(diagnosis.changes.empty());
+  EXPECT_EQ(diagnosis.nearest, OscillationCause::passive_user);
+  EXPECT_EQ(diagnosis.trust.verdict, Trust::Verdict::doubtful);
   for (const OscillationCandidate& each : diagnosis.candidates) {
     EXPECT_FALSE(each.fits);
     EXPECT_FALSE(each.why.empty());
+  }
+  const OscillationCandidate& user = diagnosis.candidates.front();
+  EXPECT_NEAR(user.otherwise.value().limit, 5000.0 / 5776.09, 1e-4);
+  EXPECT_EQ(user.otherwise->frequency, 1.0);
+  EXPECT_NEAR(user.stiffness.value(), 5776.09, 1.0);
+  // The device itself: its own limit would have to be K.
+  const OscillationCandidate& device = diagnosis.candidates.at(1);
+  EXPECT_EQ(device.cause, OscillationCause::device);
+  EXPECT_NEAR(device.otherwise.value().limit * device.stiffness.value(), 5000.0, 1e-9);
+  // What moves it is told as if the limit were that much lower.
+  ASSERT_FALSE(diagnosis.changes.empty());
+  for (const DiagnosisChange& each : diagnosis.changes) {
+    const double stiffness = each.key == "wall.stiffness" ? each.value_then : 5000.0;
+    EXPECT_EQ(each.ends_it.value(), user.otherwise->limit * *each.limit_then > stiffness) << each.key;
+  }
+}
+
+TEST(Diagnosis, NamesNothingWhereNothingIsNear) {
+  // A sixth of any user's limit, no encoder, no friction.
+  const Diagnosis diagnosis = diagnose(lhifam(), {.frequency = 259.9, .stiffness = 1000.0});
+  EXPECT_FALSE(diagnosis.cause);
+  EXPECT_FALSE(diagnosis.nearest);
+  EXPECT_TRUE(diagnosis.changes.empty());
+  EXPECT_TRUE(diagnosis.trust.sound());
+}
+
+// A crossover a fifth higher than what was heard.
+TEST(Diagnosis, ANearFrequencyIsTheNearestCause) {
+  const Device plant(test::transfer_function_parameters({1.0}, {5.4, 3.5, 0.0}, 1e-3));
+  const Crossover crossover = critical_stiffness(plant).limit.value();
+  const Diagnosis diagnosis = diagnose(plant, {.frequency = 0.8 * crossover.frequency});
+  EXPECT_FALSE(diagnosis.cause);
+  EXPECT_EQ(diagnosis.nearest, OscillationCause::device);
+  EXPECT_NEAR(diagnosis.candidates.front().otherwise.value().frequency, 0.8, 1e-12);
+  EXPECT_FALSE(diagnosis.changes.empty());
+}
+
+// The operator of the file keeps stable what oscillates once he lets go.
+TEST(Diagnosis, WhatTheOperatorKeepsStableIsTheNearest) {
+  DeviceParameters held = test::lhifam_parameters();
+  held.user = {0.0, 6.0, 0.0};
+  const Diagnosis diagnosis = diagnose(Device(held), {.frequency = 39.5, .stiffness = 9200.0});
+  const OscillationCandidate& first = diagnosis.candidates.front();
+  ASSERT_FALSE(first.fits && first.cause == OscillationCause::device);
+  const auto device = std::ranges::find(diagnosis.candidates, OscillationCause::device, &OscillationCandidate::cause);
+  EXPECT_EQ(device->otherwise.value().limit, 1.0);
+  EXPECT_EQ(device->otherwise->frequency, 1.0);
+}
+
+// The damper that was proposed, "ends it: yes", lets some user destabilise every wall: 924 N/m became none.
+TEST(Diagnosis, NoDamperIsProposedWithWhichSomeUserDestabilisesEveryWall) {
+  DeviceParameters parameters;
+  parameters.name = "light";
+  parameters.bodies = {{"motor", 0.076, 0.976}, {"handle", 0.0629, 0.405}};
+  parameters.links = {{0, 1, 87.3e3, 2.49}};
+  parameters.loop = {0, 0, 1, 1e-3, 1e-3};
+  const Device device(parameters);
+  const CriticalStiffness now = critical_stiffness(device);
+  parameters.wall.damping = 13.81;
+  EXPECT_EQ(any_user_limit(Device(parameters), {13.81, 0.0}).stiffness, 0.0);
+  const double any_user = any_user_limit(device).stiffness;
+  const Diagnosis diagnosis = diagnose(device, {.frequency = now.limit->frequency, .stiffness = 1.05 * now.stiffness});
+  EXPECT_EQ(diagnosis.cause, OscillationCause::device);
+  EXPECT_DOUBLE_EQ(diagnosis.any_user_now.value(), any_user);
+  const auto damper = std::ranges::find(diagnosis.changes, "wall.damping", &DiagnosisChange::key);
+  ASSERT_NE(damper, diagnosis.changes.end());
+  EXPECT_TRUE(damper->safe.value());
+  bool lowers_before = false;
+  for (const DiagnosisChange& each : diagnosis.changes) {
+    SCOPED_TRACE(each.what);
+    EXPECT_EQ(each.safe.value(), each.any_user_then.value() >= any_user * (1.0 - 1e-9));
+    EXPECT_FALSE(lowers_before && *each.safe) << "what lowers it comes last";
+    lowers_before = !*each.safe;
+    if (each.key != "wall.damping") continue;
+    DeviceParameters then = device.parameters();
+    then.wall.damping = each.value_then;
+    EXPECT_DOUBLE_EQ(*each.any_user_then, any_user_limit(Device(then), virtual_damper(Device(then))).stiffness);
   }
 }
 
@@ -74,6 +152,7 @@ TEST(Diagnosis, ChangesAreWhatTheLibraryComputes) {
   EXPECT_EQ(*damped->ends_it, *damped->limit_then > 5900.0);
   EXPECT_TRUE(std::ranges::is_sorted(diagnosis.changes, std::greater<>(),
                                      [](const DiagnosisChange& each) { return *each.limit_then; }));
+  for (const DiagnosisChange& each : diagnosis.changes) EXPECT_EQ(each.any_user_then, each.limit_then) << each.what;
 }
 
 // A damper of 20 times was the first remedy, which makes the wall half as stiff as leaving the filter out.

@@ -163,9 +163,14 @@ class DesignTargets(_Limited):
     device = text("The device's name.")
     units = one(Record, "Names of the units.")
     goal = text('"critical_stiffness" or "any_user_limit".')
-    target = number("K asked for.")
+    target = maybe("K asked for.")
     stiffness_now = maybe("The limit of the device as it is.")
-    targets = many(Record, "Per parameter value_now, value_needed, why; the smallest change first.")
+    any_user_now = maybe("The same with any passive user.")
+    targets = many(
+        Record,
+        "Per parameter value_now, value_needed, why, any_user_then, safe; the smallest change first, then those that "
+        "are not safe: they lower the limit with any passive user.",
+    )
 
 
 class WallRecommendation(_Limited):
@@ -196,8 +201,10 @@ class Diagnosis(_Limited):
     stiffness = maybe("K of the wall.")
     damping = maybe("B of the wall.")
     cause = maybe_text("None: none fits.")
-    candidates = many(Record, "The likeliest first.")
-    changes = many(Record, "Each alone and recomputed.")
+    nearest = maybe_text("The cause, or else the one that fits with the least otherwise; what the changes move.")
+    any_user_now = maybe("The limit with any passive user.")
+    candidates = many(Record, "The likeliest first; of those that do not fit what would have to be otherwise.")
+    changes = many(Record, "Each alone and recomputed, with any_user_then and safe; those that are not safe last.")
 
 
 class Quantile(Record):

@@ -127,10 +127,16 @@ export interface Sweep {
   trust?: Trust
   remarks?: Remark[]
 }
+/** What a proposal does to the limit with any passive user; null: no limit, or not known where `safe` is null too. */
+export interface ForAnyUser {
+  any_user_then: number | null
+  safe: boolean | null // it does not lower that limit
+}
 export interface Target extends Judged {
-  target: number
+  target: number | null
   stiffness_now: number | null
-  targets: { parameter: string; value_now: number; value_needed: number | null; why: string }[]
+  any_user_now: number | null
+  targets: ({ parameter: string; value_now: number; value_needed: number | null; why: string } & ForAnyUser)[]
 }
 export interface WallToRender {
   stiffness: number
@@ -154,11 +160,20 @@ export interface Recommendation extends Judged, Omit<Option, 'what'> {
 }
 export interface Diagnosis extends Judged {
   cause: string | null
+  nearest: string | null // the cause, or else what would be it with the least otherwise; what the changes move
+  any_user_now: number | null
   oscillates_hz: number
   stiffness: number | null
   damping: number
-  candidates: { cause: string; fits: boolean; frequency_hz: number | null; stiffness: number | null; why: string }[]
-  changes: {
+  candidates: {
+    cause: string
+    fits: boolean
+    frequency_hz: number | null
+    stiffness: number | null
+    why: string
+    otherwise: { limit: number; frequency: number; amplitude: number } | null // factors; null: it fits, or no factor helps
+  }[]
+  changes: ({
     what: string
     parameter: string
     value_now: number
@@ -166,7 +181,7 @@ export interface Diagnosis extends Judged {
     limit_now: number | null
     limit_then: number | null
     ends_it: boolean | null
-  }[]
+  } & ForAnyUser)[]
 }
 export interface Simulation {
   device: string

@@ -1,6 +1,6 @@
 // The documents' enums as words, and what the terms mean.
 
-import type { Analysis, HolderLimit, LimitedBy, Trust } from '../api/documents'
+import type { Analysis, ForAnyUser, HolderLimit, LimitedBy, Trust } from '../api/documents'
 import { say } from './decimal'
 
 export const limiter = (limited: LimitedBy | null | undefined): string =>
@@ -66,6 +66,24 @@ export const causeWord: Record<string, string> = {
   quantisation: 'the steps of the encoder',
   friction: 'dry friction',
   force_limit: 'the force limit',
+}
+
+/** The limit with any passive user after a change; what lowers it is said. */
+export const anyUserWord = ({ any_user_then: then, safe }: ForAnyUser, unit: string): string =>
+  safe === null ? '–' : `${then === null ? 'no limit' : then === 0 ? 'no wall' : say(then, unit)}${safe ? '' : ', lower than now'}`
+
+/** "13 % lower", "2.5 times higher". */
+const movedWord = (factor: number): string => {
+  const way = factor < 1 ? 'lower' : 'higher'
+  const larger = Math.max(factor, 1 / factor)
+  return larger < 2 ? `${say(100 * Math.abs(factor - 1), '', 2)} % ${way}` : `${say(larger, '', 2)} times ${way}`
+}
+
+/** What would have to be otherwise for a cause to fit. */
+export const otherwiseWord = (factors: { limit: number; frequency: number; amplitude: number }): string => {
+  const names = { limit: 'its limit', frequency: 'its frequency', amplitude: 'its swing' } as const
+  const parts = (['limit', 'frequency', 'amplitude'] as const).filter((name) => factors[name] !== 1).map((name) => `${names[name]} is ${movedWord(factors[name])}`)
+  return `it fits where ${parts.length > 0 ? parts.join(' and ') : 'the user of the file lets go'}`
 }
 
 /** The numbers of a fit by inverse dynamics. */
