@@ -43,7 +43,7 @@ bool vanishes(const FilteredPlant& plant, const GainLocus::TermSum& response) {
 }
 
 // A gain that rounding may move by more than this, relative, is found again in double-double.
-constexpr double closest = 1e-12;
+constexpr double sure_gain = 1e-10;
 
 // Where the controller of a gain, K + B v or B v, is too small for |P C| = 1: every crossing there has a greater gain.
 class SmallerGains {
@@ -85,7 +85,7 @@ GainCrossings crossings_of(const FilteredPlant& plant, const GainLocus& locus, c
     }
     const GainLocus::TermSum response = locus.by_terms(root.angle);
     GainCrossing crossing{root.angle, locus.gain(root.angle), poles_leaving, response.gain_noise()};
-    if (!(crossing.noise <= closest * std::abs(crossing.gain)) && root.direction != 0) {
+    if (!(crossing.noise <= sure_gain * std::abs(crossing.gain)) && root.direction != 0) {
       if (const auto again = locus.polished_root(root.angle)) {
         crossing.angle = again->angle;
         crossing.gain = again->gain;

@@ -129,7 +129,8 @@ double rounding_of_filters(const FilteredPlant& plant, double angle, double delt
 
 // With P = z^-L S/D and positive factors left out, f = -Im[P W] + B Im[v] |P|², W = 1, v or K + B v.
 GainLocus::TermSum GainLocus::by_terms(double angle) const {
-  constexpr double unit = 16.0 * std::numeric_limits<double>::epsilon();
+  constexpr double coefficient_unit = std::numeric_limits<double>::epsilon();
+  constexpr double unit = 16.0 * coefficient_unit;
   const CirclePoint<double> point = circle_point(angle);
   const std::complex<double> delta(-0.5 * point.chord_squared, std::sin(angle));
   const double delta_size = std::sqrt(point.chord_squared);
@@ -149,8 +150,8 @@ GainLocus::TermSum GainLocus::by_terms(double angle) const {
     for (std::size_t i = 0; i < term.degree; ++i) leading *= delta_size;
     const double of_denominator = unit * (size_of(term.denominator, term.degree, delta_size) + leading) / below_size;
     plant += value;
-    noise += unit * (value_size + size_of(term.numerator, term.degree + 1, delta_size) / below_size) +
-             of_denominator * value_size;
+    noise += (unit + of_denominator) * value_size +
+             coefficient_unit * size_of(term.numerator, term.degree + 1, delta_size) / below_size;
     of_terms += value_size;
     of_factors += of_denominator;
   }

@@ -170,6 +170,21 @@ TEST(Sensitivity, OfTheAnyUserLimitWithALowPassNextToNyquist) {
   }
 }
 
+// A damping ratio of 1e-15: K there is known by a hundred digits, and no double is near enough to the frequency for slopes.
+TEST(Sensitivity, IsEmptyBesideAModeThatHardlyAnythingDamps) {
+  DeviceParameters device = test::lhifam_parameters();
+  device.bodies = {
+      {"b0", 0.1, 0, 0, 0}, {"b1", 1, 0, 0, 0}, {"b2", 0.2, 0, 0, 0}, {"b3", 1, 0.09, 0, 0}, {"b4", 2, 0, 0, 0}};
+  device.links = {{0, 1, 6e5, 0}, {1, 2, 1e3, 0}, {2, 3, 2e5, 0}, {0, 4, 4e3, 0}};
+  device.loop.actuated = device.loop.sensed = 4;
+  device.loop.held = 0;
+  device.loop.sampling_period = 2e-3;
+  device.loop.delay = 0.0;
+  const CriticalStiffness critical = critical_stiffness(Device(device));
+  ASSERT_TRUE(critical.limit.has_value());
+  EXPECT_TRUE(stiffness_sensitivities(Device(device), critical).empty());
+}
+
 TEST(Sensitivity, IsEmptyWithoutALimit) {
   EXPECT_TRUE(
       stiffness_sensitivities(Device(test::transfer_function_parameters({1.0}, {1.0, -8.0, 0.0}, 1.0))).empty());
