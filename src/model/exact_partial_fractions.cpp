@@ -277,10 +277,10 @@ std::vector<Fraction> group(const std::vector<ExactPole>& seen, const std::vecto
 
 // All terms at a given precision; nothing where it does not suffice.
 std::optional<ModalForm> expand(const ExactFraction& whole, const ExactFraction& seen, double lag,
-                                const PoleLabels& labels, slong precision) {
-  const std::optional<std::vector<ExactPole>> all = find_poles(whole.denominator, precision);
+                                const PoleLabels& labels, slong precision, KnownPoles& known) {
+  const std::optional<std::vector<ExactPole>>& all = known.of(whole.denominator, precision);
   const bool some_unseen = fmpz_poly_degree(seen.denominator) < fmpz_poly_degree(whole.denominator);
-  const std::optional<std::vector<ExactPole>> found = some_unseen ? find_poles(seen.denominator, precision) : all;
+  const std::optional<std::vector<ExactPole>>& found = some_unseen ? known.of(seen.denominator, precision) : all;
   if (!all || !found) return std::nullopt;
   const std::vector<ExactPole>& poles = *found;
   ModalForm form;
@@ -317,7 +317,7 @@ std::optional<ModalForm> expand(const ExactFraction& whole, const ExactFraction&
 
 }  // namespace
 
-ModalForm exact_modal_form(ExactFraction fraction, double lag, const PoleLabels& labels) {
+ModalForm exact_modal_form(ExactFraction fraction, double lag, const PoleLabels& labels, KnownPoles& known) {
   if (lag > 0.0) {  // times 1 / (lag s + 1)
     RealBallPolynomial factor;
     RealBall coefficient;
@@ -342,7 +342,7 @@ ModalForm exact_modal_form(ExactFraction fraction, double lag, const PoleLabels&
     fmpz_poly_div(seen.denominator, fraction.denominator, common);
   }
   for (slong precision = first_precision; precision <= most_precision; precision *= 2) {
-    std::optional<ModalForm> form = expand(fraction, seen, lag, labels, precision);
+    std::optional<ModalForm> form = expand(fraction, seen, lag, labels, precision, known);
     if (!form) continue;
     partial_fractions::share_lag(*form, lag);
     return *form;

@@ -8,6 +8,7 @@
 
 #include "model/device_matrices.hpp"
 #include "model/exact_partial_fractions.hpp"
+#include "model/modal_forms.hpp"
 #include "model/partial_fractions.hpp"
 #include "model/pencil.hpp"
 #include "model/pole_search.hpp"
@@ -156,23 +157,30 @@ bool asks_for_exact(const std::vector<ComplexX>& poles, const PoleLabels& labels
 }
 
 // The modal form in double-double, or by exact arithmetic where that does not carry. `exact` gives G as ExactFraction.
+// Poles that are found already are not sought again.
 template <typename Pencil, typename PencilX, typename Exact>
 ModalForm expand_poles(const Pencil& pencil, const PencilX& extended, std::vector<ComplexD> start,
-                       const PoleLabels& labels, double nyquist, const Exact& exact) {
+                       const PoleLabels& labels, double nyquist, FoundPoles& found, const Exact& exact) {
   std::optional<ModalForm> carried;
   try {
-    std::vector<ComplexX> poles = find_poles(pencil, extended, std::move(start));
-    const bool asks = asks_for_exact(poles, labels);
-    ModalForm form = expand(extended, std::move(poles), labels);
-    if (is_carried(form, extended, nyquist)) {
-      if (!asks) return form;
-      carried = std::move(form);
+    if (!found.poles && !found.do_not_converge) {
+      found.do_not_converge = true;
+      found.poles = find_poles(pencil, extended, std::move(start));
+      found.do_not_converge = false;
+    }
+    if (found.poles) {
+      const bool asks = asks_for_exact(*found.poles, labels);
+      ModalForm form = expand(extended, *found.poles, labels);
+      if (is_carried(form, extended, nyquist)) {
+        if (!asks) return form;
+        carried = std::move(form);
+      }
     }
   } catch (const Error& error) {
     if (error.code() != ErrorCode::did_not_converge) throw;
   }
   try {
-    return exact_modal_form(exact(), leading(extended.lag), labels);
+    return exact_modal_form(exact(), leading(extended.lag), labels, found.exact);
   } catch (const Error& error) {  // too many bodies, or poles
     if (error.code() != ErrorCode::did_not_converge || !carried) throw;
     return *std::move(carried);
@@ -246,7 +254,7 @@ ModalForm single_body(const DeviceMatrices<double>& matrices, std::size_t zeros)
   return form;
 }
 
-ModalForm expand_bodies(const Device& device, Path path, double lag) {
+ModalForm expand_bodies(const Device& device, Path path, double lag, FoundPoles& found) {
   const DeviceMatrices<double> matrices = device_matrices<double>(device);
   const std::size_t zeros = poles_at_zero(device);
   if (matrices.mass.size() == 1 && lag == 0.0) return single_body(matrices, zeros);
@@ -286,13 +294,13 @@ ModalForm expand_bodies(const Device& device, Path path, double lag) {
     if (!(magnitude(s) > 0.0)) s = ComplexD(-1e-3, 1e-3);
   }
   const double nyquist = std::numbers::pi / device.loop().sampling_period;
-  const auto exact = [&] { return exact_fraction(device, path); };
-  ModalForm form =
-      matrices.mass.size() <= 2
-          ? expand_poles(small_device_pencil<double>(device, path, lag),
-                         small_device_pencil<Extended>(device, path, lag), std::move(start), labels, nyquist, exact)
-          : expand_poles(body_pencil<double>(device, path, lag), body_pencil<Extended>(device, path, lag),
-                         std::move(start), labels, nyquist, exact);
+  const auto exact = [&] { return exact_fraction(device, path, found.exact_denominator); };
+  ModalForm form = matrices.mass.size() <= 2
+                       ? expand_poles(small_device_pencil<double>(device, path, lag),
+                                      small_device_pencil<Extended>(device, path, lag), std::move(start), labels,
+                                      nyquist, found, exact)
+                       : expand_poles(body_pencil<double>(device, path, lag), body_pencil<Extended>(device, path, lag),
+                                      std::move(start), labels, nyquist, found, exact);
   cancel_at_zero(form, poles_at_zero_seen(device, path));
   return form;
 }
@@ -325,31 +333,38 @@ ModalForm expand_transfer_function(const TransferFunction& transfer_function, do
   pencil.denominator = denominator;
   extended.numerator.assign(numerator.begin(), numerator.end());
   extended.denominator.assign(denominator.begin(), denominator.end());
-  return expand_poles(pencil, extended, newton_polygon_start(denominator), PoleLabels{}, nyquist,
+  FoundPoles found;
+  return expand_poles(pencil, extended, newton_polygon_start(denominator), PoleLabels{}, nyquist, found,
                       [&] { return exact_fraction(transfer_function); });
 }
 
 }  // namespace
 
 ModalForm modal_form(const Device& device) {
-  const double lag = device.parameters().actuator.time_constant;
   if (!device.has_bodies()) {
-    return expand_transfer_function(*device.parameters().transfer_function, lag,
+    return expand_transfer_function(*device.parameters().transfer_function, device.parameters().actuator.time_constant,
                                     std::numbers::pi / device.loop().sampling_period);
   }
-  return expand_bodies(device, {device.loop().actuated, device.loop().sensed}, lag);
+  return ModalForms(device, ActuatorLag::included).along({device.loop().actuated, device.loop().sensed});
 }
 
 ModalForm modal_form(const Device& device, Path path, ActuatorLag lag) {
   if (!device.has_bodies()) {
     throw Error(ErrorCode::needs_bodies, "a transfer-function device has no bodies to choose a path between");
   }
-  if (std::max(path.force_at, path.position_of) >= device.bodies().size()) {
+  return ModalForms(device, lag).along(path);
+}
+
+internal::ModalForms::ModalForms(const Device& device, ActuatorLag lag)
+    : device_(device), lag_(lag == ActuatorLag::included ? device.parameters().actuator.time_constant : 0.0) {}
+
+ModalForm internal::ModalForms::along(Path path) {
+  if (std::max(path.force_at, path.position_of) >= device_.bodies().size()) {
     throw Error(ErrorCode::no_such_body, "the path names body " +
                                              std::to_string(std::max(path.force_at, path.position_of)) + " of " +
-                                             std::to_string(device.bodies().size()));
+                                             std::to_string(device_.bodies().size()));
   }
-  return expand_bodies(device, path, lag == ActuatorLag::included ? device.parameters().actuator.time_constant : 0.0);
+  return expand_bodies(device_, path, lag_, found_);
 }
 
 std::complex<double> response(const ModalTerm& term, double frequency) {

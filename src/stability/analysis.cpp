@@ -75,8 +75,9 @@ std::optional<QCriterion> q_criterion(const Device& device, const RigidApproxima
 
 /// Of a wall many powers of ten below all limits its search does not settle: nothing else is lost by that.
 void add_disk_margin(const FilteredPlant& plant, const Wall& wall, Analysis& analysis) {
+  if (!analysis.wall->stable) return;
   try {
-    analysis.disk_margin = disk_margin(plant, wall);
+    analysis.disk_margin = disk_margin_of_stable(plant, wall);
   } catch (const Error& error) {
     if (error.code() != ErrorCode::did_not_converge) throw;
     analysis.remarks.push_back(

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "stability/confirmed_margins.hpp"
 #include "stability/delay_factor.hpp"
 #include "stability/plant_fraction.hpp"
 #include "stability/root_isolation.hpp"
@@ -155,6 +156,10 @@ Peak greatest_ratio(const LoopFraction& loop, const Wall& wall) {
 
 std::optional<DiskMargin> disk_margin(const FilteredPlant& plant, const Wall& wall) {
   if (!loop_margins(plant, wall).stable) return std::nullopt;
+  return disk_margin_of_stable(plant, wall);
+}
+
+DiskMargin internal::disk_margin_of_stable(const FilteredPlant& plant, const Wall& wall) {
   const LoopFraction loop(plant, wall);
   const Peak peak = greatest_ratio(loop, wall);
   DiskMargin margin;

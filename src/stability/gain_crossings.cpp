@@ -154,15 +154,21 @@ GainCrossings stiffness_crossings(const FilteredPlant& plant, const VirtualDampe
   return result;
 }
 
-double stiffness_limit(const FilteredPlant& plant, const VirtualDamper& damper, double most) {
-  int unstable = 0;
-  if (damper.damping > 0.0) {
-    const GainLocus locus(plant, GainLocus::Gain::damping, 0.0, damper);
-    unstable = left_by_damper(plant, damper, smaller_crossings(plant, locus, {plant, locus, 0.0, damper.damping}));
-  }
+GainCrossings stiffness_crossings_up_to(const FilteredPlant& plant, const VirtualDamper& damper, double most) {
   const GainLocus locus(plant, GainLocus::Gain::stiffness, 0.0, damper);
-  const GainCrossings found = smaller_crossings(plant, locus, {plant, locus, most, damper.damping});
-  if (unstable + found.initially_unstable > 0) return 0.0;
+  GainCrossings found = smaller_crossings(plant, locus, {plant, locus, most, damper.damping});
+  std::erase_if(found.crossings, [most](const GainCrossing& each) { return !(each.gain <= most); });
+  if (damper.damping > 0.0) {
+    const GainLocus by_damping(plant, GainLocus::Gain::damping, 0.0, damper);
+    found.initially_unstable +=
+        left_by_damper(plant, damper, smaller_crossings(plant, by_damping, {plant, by_damping, 0.0, damper.damping}));
+  }
+  return found;
+}
+
+double stiffness_limit(const FilteredPlant& plant, const VirtualDamper& damper, double most) {
+  const GainCrossings found = stiffness_crossings_up_to(plant, damper, most);
+  if (found.initially_unstable > 0) return 0.0;
   double least = most;
   for (const GainCrossing& crossing : found.crossings) least = std::min(least, crossing.gain);
   return least;

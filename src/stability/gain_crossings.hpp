@@ -31,11 +31,14 @@ GainCrossings stiffness_crossings(const FilteredPlant& plant, const VirtualDampe
 GainCrossings stiffness_crossings(const FilteredPlant& plant, const VirtualDamper& damper,
                                   const GainCrossings& by_damping);
 
+// Those of at most `most` > 0: only the frequencies are isolated at which so soft a wall can be critical.
+GainCrossings stiffness_crossings_up_to(const FilteredPlant& plant, const VirtualDamper& damper, double most);
+
 // The critical stiffness that these stiffness crossings say.
 CriticalStiffness critical_stiffness_of(const FilteredPlant& plant, const GainCrossings& crossings);
 
 // The end of the stable stiffnesses from 0 on where it is at most `most` > 0, else `most`; infinite where nothing bounds it
-// and `most` is. Only the frequencies are isolated at which so soft a wall can be critical.
+// and `most` is. By stiffness_crossings_up_to().
 [[nodiscard]] double stiffness_limit(const FilteredPlant& plant, const VirtualDamper& damper, double most);
 
 // Poles outside the circle at kappa = gain.

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "stability/plant_fraction.hpp"
+#include "stability/response_bound.hpp"
 #include "stability/root_isolation.hpp"
 
 namespace zwidth::internal {
@@ -51,6 +52,26 @@ class UnitGain {
   int integrators_ = 0;  // of the plant, where one cancels
 };
 
+// Where |C P| < 1 for certain there is no crossover.
+class SmallLoopGain {
+ public:
+  SmallLoopGain(const FilteredPlant& plant, double stiffness, double rate, double c)
+      : bound_(plant), stiffness_(stiffness), rate_(rate), c_(c) {}
+
+  [[nodiscard]] bool leaves_out(double begin, double end) const {
+    constexpr double certainly_less = 1.0 - 1e-9;
+    // |C| <= K + B |v|, |v| = (c/T) |delta/(delta + c)| rises with x.
+    const double controller = stiffness_ + rate_ * std::sqrt(end / (c_ * c_ + (1.0 - c_) * end));
+    return controller * bound_.greatest(begin, end) < certainly_less;
+  }
+
+ private:
+  ResponseBound bound_;
+  double stiffness_;
+  double rate_;  // B c / T
+  double c_;
+};
+
 // c of the velocity filter's pole 1 - c; 1 without one.
 double filter_gain(const Wall& wall, double period) {
   return wall.velocity_filter_hz > 0.0 ? -std::expm1(-2.0 * pi * wall.velocity_filter_hz * period) : 1.0;
@@ -72,7 +93,8 @@ std::vector<UnitGainPoint> unit_gain_points(const FilteredPlant& plant, const Wa
   const double rate = wall.damping * c / plant.period;
   std::vector<UnitGainPoint> points;
   if (stiffness == 0.0 && rate == 0.0) return points;
-  for (const CircleRoot& root : roots_on_circle(UnitGain(plant, stiffness, rate, c), 1)) {
+  for (const CircleRoot& root :
+       roots_on_circle(UnitGain(plant, stiffness, rate, c), 1, SmallLoopGain(plant, stiffness, rate, c))) {
     points.push_back({root.angle, std::arg(-loop_gain(plant, wall, root.angle))});
   }
   return points;

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "model/modal_forms.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
 
@@ -66,11 +67,11 @@ UserDiscs::UserDiscs(const Device& device, const Progress& progress)
       plant_(filtered_plant(without_operator(device))) {
   if (!device.has_bodies()) throw Error(ErrorCode::needs_bodies, "a transfer function has no body for a user to hold");
   const Device free = without_operator(device);
-  const auto motion_of = [&](std::size_t body) { return modal_form(free, {held_, body}, ActuatorLag::left_out); };
+  ModalForms forms(free, ActuatorLag::left_out);
   std::vector<ModalForm> motions;
   for (std::size_t i = 0; i < free.bodies().size(); ++i) {
     tell(progress, 0.0);
-    motions.push_back(motion_of(i));
+    motions.push_back(forms.along({held_, i}));
   }
   solved_ = SolvedMotions(free, held_);
   motions_.add(motions[sensed_]);
@@ -92,7 +93,7 @@ UserDiscs::UserDiscs(const Device& device, const Progress& progress)
   held_motion_ = motions[held_];
   sensed_motion_ = motions[sensed_];
   actuated_motion_ = motions[actuated_];
-  through_ = modal_form(free, {actuated_, sensed_}, ActuatorLag::left_out);
+  through_ = forms.along({actuated_, sensed_});
   matrices_ = device_matrices<long double>(free);
   poles_ = held_motion_.terms;
   for (const ModalForm* each : {&through_, &sensed_motion_, &actuated_motion_}) {
