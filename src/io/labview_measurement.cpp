@@ -222,25 +222,44 @@ class LvmReader {
     return {};
   }
 
-  /// When the segment began, after the first one.
+  /// When the channel's segment began, after the first segment of the first channel that is kept.
   LvmRead place(std::size_t c, LvmChannel& channel, const ExportLine& line) {
     const auto cell = [&](const char* tag) {
       const std::string own = segment_.cell(tag, c);
       return own.empty() ? file_.cell(tag, 1) : own;
     };
     const auto seconds = labview_seconds(cell("Date"), cell("Time"));
+    const double unit = seconds_per(segment_.cell("X_Unit_Label", c)).value_or(1.0);
     if (segments_ == 1) {
-      starts_.resize(names_.size());
-      starts_[c] = seconds;
-      return {};
+      begins_.resize(names_.size());
+      begins_[c] = first_begin(c, seconds, unit * channel.step);
     }
-    if (seconds && starts_[c]) {
-      channel.start = (*seconds - *starts_[c]) / seconds_per(segment_.cell("X_Unit_Label", c)).value_or(1.0);
-    } else if (!options_.rate) {
+    if (seconds && begins_[c]) {
+      channel.start = (*seconds - *begins_[c]) / unit;
+    } else if (segments_ > 1 && !options_.rate && exported_.columns[c].is_kept) {
       return tl::unexpected(lines_.refused(line, fmt::format("segment {} states no date and time", segments_),
                                            "must be such as 2013/02/19 and 09:51:40.7; or state the rate (`rate`)"));
     }
     return {};
+  }
+
+  /// From when on a channel's times count: a scanner takes one channel after the other, and so small a part of a period
+  /// is remarked; what began later lies later.
+  std::optional<double> first_begin(std::size_t c, std::optional<double> seconds, double period) {
+    constexpr double largest_skew = 0.1;     // of a period
+    constexpr double smallest_skew = 0.001;  // of a period
+    if (!seconds || !exported_.columns[c].is_kept) return seconds;
+    if (!first_begin_) first_begin_ = seconds;
+    const double skew = *seconds - *first_begin_;
+    if (!(std::abs(skew) < largest_skew * period) && skew != 0.0) return first_begin_;
+    if (std::abs(skew) > smallest_skew * period) {
+      exported_.remarks.push_back(
+          {Remark::Severity::warning,
+           fmt::format("{} was sampled {:.3g} us {} the first channel by its header", in_quotes(names_[c]),
+                       1e6 * std::abs(skew), skew > 0.0 ? "after" : "before"),
+           "its rows are taken for samples of the same instants: the response has that much more or less delay"});
+    }
+    return seconds;
   }
 
   void end_segment() {
@@ -349,7 +368,8 @@ class LvmReader {
   LabviewTags segment_;
   std::vector<std::string> names_;
   std::vector<LvmChannel> channels_;           ///< of the segment, by column
-  std::vector<std::optional<double>> starts_;  ///< of the first segment, by column, s
+  std::vector<std::optional<double>> begins_;  ///< what times count from, by column, s
+  std::optional<double> first_begin_;          ///< of the first channel that is kept, s
   std::optional<double> origin_;               ///< of absolute times, s
   std::size_t segments_ = 0;
   std::size_t rows_begin_ = 0;

@@ -168,6 +168,30 @@ TEST_F(LabviewMeasurement, AbsoluteXValuesKeepTheirDigits) {
   EXPECT_NEAR(recording->sampling_period, 1e-3, 1e-6);
 }
 
+// Each channel's X values count from its own date and time.
+TEST_F(LabviewMeasurement, ChannelsThatBeginLaterLieLater) {
+  const auto with_second_at = [&](const std::string& time) {
+    std::string text = file_header("Multi") + segment_header("\t") + "X_Value\tF\tX_Value\tx\tComment\n" +
+                       "0.000\t1\t0.000\t4\n0.001\t2\t0.001\t5\n0.002\t3\t0.002\t6\n";
+    text.replace(text.rfind("10:45:47.5"), 10, time);
+    return read(text, columns_named({"F", "x"}));
+  };
+  const auto at_once = with_second_at("10:45:47.5");
+  ASSERT_TRUE(at_once.has_value()) << at_once.error().str();
+  EXPECT_EQ(at_once->channels[0].samples, (Samples{1.0, 2.0, 3.0}));
+  EXPECT_EQ(warnings_in(at_once->remarks), 0U);
+  const auto scanned = with_second_at("10:45:47.500014");
+  ASSERT_TRUE(scanned.has_value()) << scanned.error().str();
+  EXPECT_EQ(scanned->channels[1].samples, (Samples{4.0, 5.0, 6.0}));
+  EXPECT_EQ(warnings_in(scanned->remarks), 1U);
+  const auto later = with_second_at("10:45:47.501");
+  ASSERT_TRUE(later.has_value()) << later.error().str();
+  EXPECT_EQ(later->channels[0].samples, (Samples{2.0, 3.0}));
+  EXPECT_EQ(later->channels[1].samples, (Samples{4.0, 5.0}));
+  EXPECT_FALSE(with_second_at("10:45:47.5004").has_value());
+  EXPECT_FALSE(with_second_at("10:45:48.5").has_value());
+}
+
 TEST_F(LabviewMeasurement, XThatIsNoTimeIsNone) {
   std::string text = one_column();
   text.replace(text.find("X_Dimension\tTime\tTime"), 21, "X_Dimension\tFrequency\tFrequency");
