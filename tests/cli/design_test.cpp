@@ -157,6 +157,30 @@ TEST_F(Design, TargetsAndChangesAreJudgedForAnyUser) {
   EXPECT_THAT(text.output, Not(HasSubstr("372 %")));
 }
 
+TEST_F(Design, ADamperAloneIsAGoal) {
+  const auto answer = [&](const std::string& options) {
+    const Outcome outcome = run("zwidth design devices/lhifam.toml --json " + options);
+    EXPECT_EQ(outcome.status, 0) << outcome.errors;
+    return nlohmann::json::parse(outcome.output);
+  };
+  const auto target = answer("--goal damper --target 2x");
+  EXPECT_EQ(target["goal"], "critical_damping");
+  EXPECT_TRUE(target["stiffness_now"].is_null());
+  EXPECT_NEAR(target["target"].get<double>() / target["damping_now"].get<double>(), 2.0, 1e-12);
+  EXPECT_EQ(answer("--goal damper --target '0.3 kN s/m' --any-user")["goal"], "any_user_damping");
+  const auto recommended = answer("--goal damper --recommend");
+  EXPECT_EQ(recommended["goal"], "damper");
+  EXPECT_EQ(recommended["wall"]["stiffness"], 0.0);
+  EXPECT_GE(recommended["margins"]["any_user_critical_damping"].get<double>(),
+            1.99 * recommended["wall"]["damping"].get<double>());
+  // The file that it writes is judged stable for anyone.
+  const Outcome written = run("zwidth design devices/lhifam.toml --recommend --goal damper --write damper.toml");
+  ASSERT_EQ(written.status, 0) << written.errors;
+  const Outcome judged = run("zwidth analyze damper.toml --json --require-stable");
+  EXPECT_EQ(judged.status, 0) << judged.errors;
+  EXPECT_THAT(run("zwidth design devices/lhifam.toml --goal damper --target 2x").output, HasSubstr("critical damping"));
+}
+
 TEST_F(Design, RefusesWhatItCannotDoBeforeAnyWork) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"devices/lhifam.toml --sweep loop.delay", "has no KEY="},
@@ -187,6 +211,8 @@ TEST_F(Design, RefusesWhatItCannotDoBeforeAnyWork) {
       {"devices/lhifam.toml --target twox", "is no multiple of today's limit"},
       {"devices/lhifam.toml --target '3 kg'", "--target: "},
       {"devices/lhifam.toml --target 1e4 --notch", "excludes"},
+      {"devices/lhifam.toml --target 1e4 --goal width", "--goal: width is not for a target"},
+      {"devices/lhifam.toml --goal damper", "--goal: is for a notch"},
       {"devices/lhifam.toml --compare sensed", "KEY=VALUE,VALUE"},
       {"devices/lhifam.toml --compare sensed=motor", "has one value"},
       {"devices/lhifam.toml --compare sensed=motor,handel", "handel"},

@@ -10,6 +10,7 @@
 #include "zwidth/error.hpp"
 #include "zwidth/model/parameter.hpp"
 #include "zwidth/stability/any_user.hpp"
+#include "zwidth/stability/critical_damping.hpp"
 
 namespace zwidth {
 namespace {
@@ -157,6 +158,33 @@ TEST(DesignTarget, AMultipleIsOfTodaysLimit) {
   EXPECT_FALSE(none.target);
   EXPECT_TRUE(none.targets.empty());
   EXPECT_EQ(none.remarks.size(), 1U);
+}
+
+// Of a damper alone.
+TEST(DesignTarget, OfTheLargestDamper) {
+  const Device device(test::lhifam_parameters());
+  const double now = critical_damping(device).damping;
+  const double any_user = any_user_damping(device).damping;
+  for (const StiffnessGoal goal : {StiffnessGoal::critical_stiffness, StiffnessGoal::any_user_limit}) {
+    const DesignTargets targets =
+        design_targets(device, {.goal = goal, .factor = 10.0, .times_now = 1.5, .limit_of = WallNumber::damping});
+    const bool of_users = goal == StiffnessGoal::any_user_limit;
+    EXPECT_DOUBLE_EQ(targets.limit_now.value(), of_users ? std::min(now, any_user) : now);
+    EXPECT_DOUBLE_EQ(targets.any_user_now.value(), any_user);
+    int found = 0;
+    for (const DesignTarget& each : targets.targets) {
+      SCOPED_TRACE(each.key);
+      EXPECT_NE(each.key, "wall.damping");
+      if (!each.value_needed || each.why.find("jumps") != std::string::npos) continue;
+      const Device changed = with(device, each.key, *each.value_needed);
+      const double users_then = any_user_damping(changed).damping;
+      EXPECT_NEAR((of_users ? users_then : critical_damping(changed).damping) / *targets.target, 1.0, 1e-6);
+      EXPECT_NEAR(*each.any_user_then / users_then, 1.0, 1e-9);
+      EXPECT_EQ(each.safe.value(), *each.any_user_then >= any_user * (1.0 - 1e-9));
+      ++found;
+    }
+    EXPECT_GE(found, 2);
+  }
 }
 
 TEST(DesignTarget, SaysInItsUnitWhyNoValueIsEnough) {

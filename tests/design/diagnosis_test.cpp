@@ -10,7 +10,11 @@
 
 #include "lhifam.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/model/parameter.hpp"
+#include "zwidth/model/state_space.hpp"
 #include "zwidth/stability/any_user.hpp"
+#include "zwidth/stability/closed_loop.hpp"
+#include "zwidth/stability/critical_damping.hpp"
 
 namespace zwidth {
 namespace {
@@ -142,6 +146,77 @@ TEST(Diagnosis, NoDamperIsProposedWithWhichSomeUserDestabilisesEveryWall) {
   }
 }
 
+/// A wheel whose controller renders a damper alone.
+Device damped_rotor(double damping) {
+  DeviceParameters parameters;
+  parameters.name = "wheel";
+  parameters.motion = Motion::rotary;
+  parameters.bodies = {{"rotor", 2e-6, 2e-5}};
+  parameters.loop = {0, 0, 0, 1e-3, 1e-3};
+  parameters.wall.stiffness = 0.0;
+  parameters.wall.damping = damping;
+  return Device(parameters);
+}
+
+double excess_of(const Device& device) {
+  return stability_excess(sample(state_space(device), {device.loop().sampling_period, device.loop().delay}),
+                          device.parameters().wall, CountedPoles::but_free_position);
+}
+
+// It shook at 165.1 Hz by a factor of 1.569 a sample; a user's grasp was blamed.
+TEST(Diagnosis, ADamperAloneIsDiagnosedByItsOwnLimit) {
+  const Device device = damped_rotor(0.006);
+  EXPECT_NEAR(1.0 + excess_of(device), 1.569, 5e-4);
+  const Diagnosis diagnosis = diagnose(device, {.frequency = 2.0 * pi * 165.1});
+  EXPECT_EQ(diagnosis.cause, OscillationCause::device);
+  EXPECT_EQ(diagnosis.limit_of, WallNumber::damping);
+  EXPECT_EQ(diagnosis.stiffness, 0.0);
+  const OscillationCandidate& cause = diagnosis.candidates.front();
+  EXPECT_FALSE(cause.stiffness);
+  const double limit = critical_damping(device).damping;
+  EXPECT_DOUBLE_EQ(cause.damping.value(), limit);
+  EXPECT_LT(excess_of(damped_rotor(limit * (1.0 - 1e-6))), 0.0);
+  EXPECT_GT(excess_of(damped_rotor(limit * (1.0 + 1e-6))), 0.0);
+  // What cures cures, by poles.
+  int ending = 0;
+  for (const DiagnosisChange& each : diagnosis.changes) {
+    SCOPED_TRACE(each.what);
+    EXPECT_DOUBLE_EQ(each.limit_now.value(), limit);
+    DeviceParameters then = device.parameters();
+    if (each.key == "body.*.damping") {
+      then.bodies[0].damping = each.value_then;
+    } else {
+      set_parameter(then, each.key, each.value_then);
+    }
+    EXPECT_EQ(each.ends_it.value(), excess_of(Device(then)) < 0.0);
+    EXPECT_NEAR(*each.limit_then / critical_damping(Device(then)).damping, 1.0, 1e-12);
+    EXPECT_NEAR(*each.any_user_then / any_user_damping(Device(then)).damping, 1.0, 1e-9);
+    EXPECT_EQ(each.safe.value(), *each.any_user_then >= *diagnosis.any_user_now * (1.0 - 1e-9));
+    ending += *each.ends_it ? 1 : 0;
+  }
+  EXPECT_GE(ending, 1);
+  // The same from the options, over a file that says otherwise.
+  DeviceParameters other = device.parameters();
+  other.wall = {};
+  const Diagnosis asked = diagnose(Device(other), {.frequency = 2.0 * pi * 165.1, .stiffness = 0.0, .damping = 0.006});
+  EXPECT_EQ(asked.cause, OscillationCause::device);
+  EXPECT_EQ(asked.changes.size(), diagnosis.changes.size());
+}
+
+TEST(Diagnosis, AGraspThatMakesADamperOscillateIsNamed) {
+  DeviceParameters parameters = test::lhifam_parameters();
+  parameters.wall.stiffness = 0.0;
+  const AnyUserDamping any_user = any_user_damping(Device(parameters));
+  const double alone = critical_damping(Device(parameters)).damping;
+  ASSERT_LT(any_user.damping, 0.9 * alone);
+  ASSERT_GT(any_user.frequency, 0.0);
+  parameters.wall.damping = std::min(1.05 * any_user.damping, 0.5 * (any_user.damping + alone));
+  const Diagnosis diagnosis = diagnose(Device(parameters), {.frequency = any_user.frequency});
+  EXPECT_EQ(diagnosis.cause, OscillationCause::passive_user);
+  EXPECT_NEAR(diagnosis.candidates.front().damping.value() / any_user.damping, 1.0, 1e-3);
+  EXPECT_EQ(diagnosis.any_user_now, any_user.damping);
+}
+
 TEST(Diagnosis, ChangesAreWhatTheLibraryComputes) {
   const Diagnosis diagnosis = diagnose(lhifam(), {.frequency = 259.9, .stiffness = 5900.0});
   const auto damped = std::ranges::find(diagnosis.changes, "body.*.damping", &DiagnosisChange::key);
@@ -203,7 +278,8 @@ TEST(Diagnosis, NamesTheMemberOutsideItsRange) {
   EXPECT_EQ(find_problem(DiagnosisOptions{.frequency = 0.0}, lhifam())->member, "frequency");
   EXPECT_EQ(find_problem(DiagnosisOptions{.frequency = 1.01e3 * pi}, lhifam())->member, "frequency");
   EXPECT_EQ(find_problem(DiagnosisOptions{.frequency = 10.0, .amplitude = -1.0}, lhifam())->member, "amplitude");
-  EXPECT_EQ(find_problem(DiagnosisOptions{.frequency = 10.0, .stiffness = 0.0}, lhifam())->member, "stiffness");
+  EXPECT_EQ(find_problem(DiagnosisOptions{.frequency = 10.0, .stiffness = -1.0}, lhifam())->member, "stiffness");
+  EXPECT_FALSE(find_problem(DiagnosisOptions{.frequency = 10.0, .stiffness = 0.0}, lhifam()));
   EXPECT_EQ(find_problem(DiagnosisOptions{.frequency = 10.0, .damping = -1.0}, lhifam())->member, "damping");
   EXPECT_THROW(static_cast<void>(diagnose(lhifam(), {})), Error);
 }

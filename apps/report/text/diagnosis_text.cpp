@@ -151,13 +151,16 @@ std::string diagnosis_text(const Device& device, const Diagnosis& diagnosis) {
   std::string text = shortened(display_name(device), line_width) + "\n";
   if (const auto note = trust_note(diagnosis.trust)) text += line("trust", *note);
   if (diagnosis.trust.refused()) return text;
+  const std::string damper = fmt::format("{} {}", number(diagnosis.damping), units.damping);
+  const std::string stiffness =
+      diagnosis.stiffness ? quantity(*diagnosis.stiffness, units.stiffness) : std::string("unknown stiffness");
   text += line(
       "oscillates",
       fmt::format(
-          "at {}{}, wall of {} and {} {}", quantity(hertz(*diagnosis.frequency), "Hz"),
+          "at {}{}, {}", quantity(hertz(*diagnosis.frequency), "Hz"),
           diagnosis.amplitude ? fmt::format(" by {}", quantity(*diagnosis.amplitude, units.length)) : std::string(),
-          diagnosis.stiffness ? quantity(*diagnosis.stiffness, units.stiffness) : std::string("unknown stiffness"),
-          number(diagnosis.damping), units.damping));
+          diagnosis.limit_of == WallNumber::damping ? fmt::format("a damper of {} alone, K = 0", damper)
+                                                    : fmt::format("wall of {} and {}", stiffness, damper)));
   if (diagnosis.nearest) {
     const OscillationCandidate& cause = diagnosis.candidates.front();
     text +=

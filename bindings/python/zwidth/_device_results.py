@@ -162,9 +162,10 @@ class DesignTargets(_Limited):
 
     device = text("The device's name.")
     units = one(Record, "Names of the units.")
-    goal = text('"critical_stiffness" or "any_user_limit".')
-    target = maybe("K asked for.")
+    goal = text('"critical_stiffness", "any_user_limit"; of a damper alone "critical_damping", "any_user_damping".')
+    target = maybe("K (B of a damper alone) asked for.")
     stiffness_now = maybe("The limit of the device as it is.")
+    damping_now = maybe("The same of a damper alone.")
     any_user_now = maybe("The same with any passive user.")
     targets = many(
         Record,
@@ -178,7 +179,7 @@ class WallRecommendation(_Limited):
 
     device = text("The device's name.")
     units = one(Record, "Names of the units.")
-    goal = text('"stiffness", "width" or "critical_damping".')
+    goal = text('"stiffness", "width", "critical-damping" or "damper".')
     asked = one(Record, "Margins, ripple and drift of the modes.")
     drifts_checked = count("Drifts of the modes at which every wall was held against its margins.")
     status = text('"found", "none", "unbounded" or "refused".')
@@ -200,6 +201,7 @@ class Diagnosis(_Limited):
     amplitude = maybe("m or rad")
     stiffness = maybe("K of the wall.")
     damping = maybe("B of the wall.")
+    limit_of = text('"stiffness", or "damping" of a damper alone (K = 0): what the limits are of.')
     cause = maybe_text("None: none fits.")
     nearest = maybe_text("The cause, or else the one that fits with the least otherwise; what the changes move.")
     any_user_now = maybe("The limit with any passive user.")

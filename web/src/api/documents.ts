@@ -135,6 +135,7 @@ export interface ForAnyUser {
 export interface Target extends Judged {
   target: number | null
   stiffness_now: number | null
+  damping_now: number | null
   any_user_now: number | null
   targets: ({ parameter: string; value_now: number; value_needed: number | null; why: string } & ForAnyUser)[]
 }
@@ -161,6 +162,7 @@ export interface Recommendation extends Judged, Omit<Option, 'what'> {
 export interface Diagnosis extends Judged {
   cause: string | null
   nearest: string | null // the cause, or else what would be it with the least otherwise; what the changes move
+  limit_of: string // 'damping' of a damper alone, K = 0
   any_user_now: number | null
   oscillates_hz: number
   stiffness: number | null
