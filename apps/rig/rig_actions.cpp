@@ -146,6 +146,7 @@ LimitOptions default_limit(const Device& device) {
     for (const Crossover& each : predicted.crossovers) options.search.frequencies.push_back(each.frequency);
     options.search.floor = device.parameters().sensor.resolution;
   }
+  add_frequencies(device, options.search.frequencies);
   options.dwell = std::max(shortest_dwell, dwell_cycles * 2.0 * std::numbers::pi / frequency_of(predicted));
   options.knock = default_force(device);
   return options;

@@ -10,9 +10,10 @@
 #include "staged_progress.hpp"
 #include "study/study_parts.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/model/device_operator.hpp"
 #include "zwidth/quantity.hpp"
 #include "zwidth/remark.hpp"
-#include "zwidth/stability/analysis.hpp"
+#include "zwidth/stability/held_wall.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -219,7 +220,8 @@ StiffnessHistogram histogram_of(const StudyRun& run, const ChunkSource& chunks, 
 /// What stays without an answer is NaN: the units tell why.
 void add_nominal_limits(const Device& device, Study& study) {
   try {
-    study.limits = holding_limits(device, {.any_user = false, .critical_damping = false});
+    study.limits.nobody = limit_of_holder(critical_stiffness(without_operator(device)));
+    if (has_operator(device)) study.limits.user = limit_of_holder(critical_stiffness(device));
   } catch (const Error& error) {
     if (error.code() != ErrorCode::did_not_converge) throw;
   }
