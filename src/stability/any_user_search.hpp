@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "stability/disc_pieces.hpp"
@@ -25,16 +26,20 @@ class AnyUserSearch {
  private:
   /// The stiffness that the condition allows at one frequency, rad/s.
   struct Sample {
-    double frequency = 0.0;
+    UserDiscs::Place place;
     double stiffness = 0.0;
   };
-  [[nodiscard]] double limit_at(VirtualDamper damper, double frequency) const;
-  [[nodiscard]] double quick_limit_at(VirtualDamper damper, double frequency) const;
+  [[nodiscard]] double limit_at(VirtualDamper damper, const UserDiscs::Place& place) const;
+  [[nodiscard]] double quick_limit_at(VirtualDamper damper, const UserDiscs::Place& place) const;
   [[nodiscard]] std::vector<Sample> scan(VirtualDamper damper, const CriticalStiffness& free) const;
   void take_least_of(VirtualDamper damper, const std::vector<Sample>& samples, Sample& least) const;
-  [[nodiscard]] Sample least_within(VirtualDamper damper, const DiscPieces::Piece& piece, double at) const;
+  [[nodiscard]] Sample least_within(VirtualDamper damper, const DiscPieces::Piece& piece,
+                                    const UserDiscs::Place& at) const;
+  void look_at_zeros(VirtualDamper damper, Sample& least) const;
+  [[nodiscard]] std::optional<double> beaten_by_tuned_user(VirtualDamper damper, double stiffness) const;
   [[nodiscard]] double prove(VirtualDamper damper, const Progress& progress, Sample& least);
 
+  Device free_;
   UserDiscs discs_;
   double period_ = 0.0;
   DiscPieces pieces_;

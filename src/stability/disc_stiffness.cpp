@@ -7,9 +7,10 @@ namespace zwidth::internal {
 
 double least_root(double constant, double half, double quadratic) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  if (constant <= 0.0) return 0.0;
+  if (constant < 0.0 || (constant == 0.0 && half <= 0.0)) return 0.0;
   const double discriminant = half * half - quadratic * constant;
   if (discriminant < 0.0) return infinity;
+  if (half > 0.0) return quadratic < 0.0 ? (std::sqrt(discriminant) + half) / -quadratic : infinity;
   const double denominator = std::sqrt(discriminant) - half;
   return denominator > 0.0 ? constant / denominator : infinity;
 }
@@ -19,7 +20,7 @@ double least_root(double constant, double half, double quadratic) {
 //     1 + 2 Re[B v c] + A |B v|² + 2 K (Re c + A Re[B v]) + K² A = 0
 double least_stiffness(const UserDiscs::Disc& disc, std::complex<double> damper) {
   if (!std::isfinite(disc.radius)) return 0.0;
-  return least_root(1.0 + 2.0 * (damper * disc.centre).real() + disc.power * std::norm(damper),
+  return least_root(disc.one + 2.0 * (damper * disc.centre).real() + disc.power * std::norm(damper),
                     disc.centre.real() + disc.power * damper.real(), disc.power);
 }
 

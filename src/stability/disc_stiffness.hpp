@@ -6,10 +6,11 @@
 
 namespace zwidth::internal {
 
-/// The least K > 0 with constant + 2 half K + quadratic K² = 0; 0 for a constant <= 0, infinity where there is none.
+/// The least K > 0 with constant + 2 half K + quadratic K² = 0; 0 for a constant < 0, and for 0 where the
+/// sum is negative beside K = 0; infinity where there is none.
 [[nodiscard]] double least_root(double constant, double half, double quadratic);
 
-/// The least K > 0 with |1 + (K + B v) c| = |K + B v| r, where `damper` is B v; infinity where there is none.
+/// The least K > 0 with |1 + (K + B v) c| = |K + B v| r (1: disc.one), where `damper` is B v; infinity where there is none.
 [[nodiscard]] double least_stiffness(const UserDiscs::Disc& disc, std::complex<double> damper);
 
 /// Relative, of a fourth sample from the parabola through three: the function is smooth enough to extrapolate to 0.
