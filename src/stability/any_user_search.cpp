@@ -43,7 +43,7 @@ constexpr int most_divisions = 60;              // of one piece
 constexpr std::size_t divisions_per_share = 4;  // of an undecided piece, before the next share above will do
 constexpr std::size_t most_pieces = 3000;       // beyond those to start with
 constexpr int looks_within_piece = 32;
-constexpr double beaten = 1e-6;  // relative: a user below the limit
+constexpr double beaten = 1e-6;          // relative: a user below the limit
 constexpr double same_stiffness = 1e-9;  // relative: the limit towards w = 0 is named rather than another frequency
 
 /// Where the condition may be tightest whatever the damper: evenly, towards zero, and around every mode of the held
@@ -168,8 +168,11 @@ void AnyUserSearch::take_least_of(VirtualDamper damper, const std::vector<Sample
     // 1/K, which stays finite where no K violates the condition
     const double base = here.place.base;
     const auto [offset, compliance] = boost::math::tools::brent_find_minima(
-        [&](double x) { return -1.0 / quick_limit_at(damper, {base, x}); }, samples[i > 0 ? i - 1 : 0].place.offset,
-        samples[std::min(i + 1, samples.size() - 1)].place.offset, refining_bits, iterations);
+        [&](double x) {
+          return -1.0 / quick_limit_at(damper, {base, x});
+        },
+        samples[i > 0 ? i - 1 : 0].place.offset, samples[std::min(i + 1, samples.size() - 1)].place.offset,
+        refining_bits, iterations);
     if (-1.0 / compliance < best.stiffness) best = {{base, offset}, -1.0 / compliance};
   }
   take(best.place);
@@ -292,7 +295,8 @@ double AnyUserSearch::prove(VirtualDamper damper, const Progress& progress, Samp
     const WallCondition condition(piece, dampers);
     const auto answer_at = [&](double below) { return condition.up_to(least.stiffness * (1.0 - below)); };
     if (const auto at_zero = condition.least_stiffness_at_zero()) {
-      if (*at_zero <= least.stiffness * (1.0 + same_stiffness)) least = {{0.0, 0.0}, std::min(*at_zero, least.stiffness)};
+      if (*at_zero <= least.stiffness * (1.0 + same_stiffness))
+        least = {{0.0, 0.0}, std::min(*at_zero, least.stiffness)};
       if (least.stiffness == 0.0) return 0.0;
     }
     const WallCondition::Answer answer = answer_at(share);
@@ -354,7 +358,8 @@ AnyUserLimit AnyUserSearch::limit(VirtualDamper damper, const Progress& progress
     limit.stiffness = *tuned;
     limit.needs_no_user = false;
     limit.trust.doubt(
-        "a spring or mass at the held body that resonates where the damped bodies hardly move destabilises softer walls "
+        "a spring or mass at the held body that resonates where the damped bodies hardly move destabilises softer "
+        "walls "
         "than the limit found for any passive user, which is lowered to that");
   }
   if (unproven > sound_within) {

@@ -16,13 +16,13 @@ constexpr double rounding_of_sums = 1e-8;  // above sums_accuracy, where halving
 constexpr double still_converging = 0.25;
 constexpr double narrowest_sums = 1e-9;  // of Nyquist
 constexpr std::size_t most_sum_pieces = 120;
-constexpr double first_ratio = 4.0;   // of the ends of a piece
-constexpr double most_turning = 8.0;  // rad of the delay in a piece
-constexpr double of_slowest = 0.5;    // the first piece ends at this share of the slowest pole
+constexpr double first_ratio = 4.0;     // of the ends of a piece
+constexpr double most_turning = 8.0;    // rad of the delay in a piece
+constexpr double of_slowest = 0.5;      // the first piece ends at this share of the slowest pole
 constexpr double beside_pieces = 0.05;  // of Nyquist
 constexpr double towards_zero = 0.03;   // where a piece that begins at a zero of Re Y is divided
 constexpr double around_zero = 0.25;    // of its image: how far pieces are counted from there, at most
-constexpr double lowest_end = 1e-9;   // rad per sample, of the first piece
+constexpr double lowest_end = 1e-9;     // rad per sample, of the first piece
 
 using Singularity = AliasSums::Singularity;
 

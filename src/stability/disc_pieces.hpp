@@ -59,8 +59,8 @@ class DiscPieces {
   struct Node {
     double frequency = 0.0;
     UserDiscs::Disc disc;  // scaled
-    double factor = 0.0;  // see UserDiscs::SplitDisc
-    double error = 0.0;   // of centre and radius each, over the disc's `one`
+    double factor = 0.0;   // see UserDiscs::SplitDisc
+    double error = 0.0;    // of centre and radius each, over the disc's `one`
   };
   struct Piece {
     double base = 0.0;  // rad/s; 0, or the image of a sharp zero, from which what vanishes there keeps its digits

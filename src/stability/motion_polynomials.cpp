@@ -10,8 +10,8 @@ namespace {
 
 using Digits = ManyDigits;
 
-constexpr double speed_ratio = 1.5;    // of neighbouring nodes
-constexpr double digits_lost = 1e8;    // besides those of the interpolation
+constexpr double speed_ratio = 1.5;  // of neighbouring nodes
+constexpr double digits_lost = 1e8;  // besides those of the interpolation
 
 /// Positive s around the mean of the bodies' own speeds.
 std::vector<Digits> interpolation_speeds(const DeviceMatrices<Digits>& matrices) {

@@ -12,7 +12,8 @@
 
 namespace zwidth::internal {
 
-using ManyDigits = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<100>, boost::multiprecision::et_off>;
+using ManyDigits =
+    boost::multiprecision::number<boost::multiprecision::cpp_bin_float<100>, boost::multiprecision::et_off>;
 
 // Beyond as many bodies a hundred digits do not hold the coefficients.
 inline constexpr std::size_t most_bodies_for_polynomials = 12;

@@ -11,7 +11,7 @@ namespace {
 using LongComplex = std::complex<long double>;
 
 constexpr int most_sweeps_of_roots = 80;
-constexpr long double farthest = 0.7L;  // that a root moves in a sweep, of itself
+constexpr long double farthest = 0.7L;        // that a root moves in a sweep, of itself
 constexpr long double root_settled = 1e-17L;  // relative
 
 /// Start values: on circles whose radii are the slopes of the upper hull of log |c_k| over k, evenly on each.

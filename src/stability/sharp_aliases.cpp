@@ -91,6 +91,16 @@ UserDiscs::ScaledDensity UserDiscs::scaled_density(const Place& place, double nu
   return scaled;
 }
 
+UserDiscs::Disc UserDiscs::joined(const Disc& own, double measure, std::complex<double> shared,
+                                  const OtherAliases& others) const {
+  const std::complex<double> centre = shared * others.centre;
+  const double radius = std::abs(shared) * others.radius;
+  return {own.centre + measure * centre, own.radius + measure * radius,
+          own.power + 2.0 * (own.centre * std::conj(centre)).real() - 2.0 * own.radius * radius +
+              measure * (std::norm(centre) - radius * radius),
+          measure};
+}
+
 /// Sums of discs, each over its own measure.
 void UserDiscs::add_sharp_aliases(const Place& place, Disc& disc) const {
   const double spacing = 2.0 * std::numbers::pi / period_;
@@ -107,8 +117,8 @@ void UserDiscs::add_sharp_aliases(const Place& place, Disc& disc) const {
     const std::complex<double> term = turn * (density.measure * free - density.value);
     const std::complex<double> centre = shared * (side > 0.0 ? term : std::conj(term));
     const double radius = std::abs(shared) * std::abs(density.value);
-    const double power = std::norm(shared) * (std::norm(free) * density.measure -
-                                              2.0 * (free * std::conj(density.value)).real());
+    const double power =
+        std::norm(shared) * (std::norm(free) * density.measure - 2.0 * (free * std::conj(density.value)).real());
     disc = {density.measure * disc.centre + disc.one * centre, density.measure * disc.radius + disc.one * radius,
             density.measure * disc.power + disc.one * power +
                 2.0 * ((disc.centre * std::conj(centre)).real() - disc.radius * radius),

@@ -18,8 +18,8 @@ constexpr double clear_of_modes = 2.5;    // aliases beyond this many times the 
 constexpr double clear_of_corners = 4.0;  // beyond this many times the highest corner frequency its tail begins
 constexpr std::size_t least_exact_aliases = 12;
 constexpr double most_exact_aliases = 20000.0;
-constexpr double lightly_damped = 0.5;  // a zero of Re Y: its distance from the axis over its frequency
-constexpr double exact_enough = 1e-10;  // relative, of the sums
+constexpr double lightly_damped = 0.5;      // a zero of Re Y: its distance from the axis over its frequency
+constexpr double exact_enough = 1e-10;      // relative, of the sums
 constexpr double beside_half_plane = 1e-9;  // relative
 constexpr double most_of_product = 1e6;
 constexpr double long_digits = 0x1p-11;  // rounding of a long double, of that of a double
@@ -295,31 +295,18 @@ UserDiscs::Disc UserDiscs::near_zero(double frequency, const ScaledDensity& own,
   // Over the measure, which |c_0|² - r_0² has once.
   const bool is_plain = own.measure == 1.0;
   const double both = std::norm(free) * own.measure + 2.0 * std::abs(free) * std::abs(own.value);
-  double own_power = is_plain ? (std::abs(own_centre) - own_radius) * (std::abs(own_centre) + own_radius)
-                              : std::norm(factor) * (std::norm(free) * own.measure -
-                                                     2.0 * (free * std::conj(own.value)).real());
-  const double size_of_power =
-      is_plain ? std::norm(own_centre) + own_radius * own_radius : std::norm(factor) * both;
+  double own_power =
+      is_plain ? (std::abs(own_centre) - own_radius) * (std::abs(own_centre) + own_radius)
+               : std::norm(factor) * (std::norm(free) * own.measure - 2.0 * (free * std::conj(own.value)).real());
+  const double size_of_power = is_plain ? std::norm(own_centre) + own_radius * own_radius : std::norm(factor) * both;
   const double lost_in_power = size_of_power / std::abs(own_power);
-  if (is_product ||
-      (has_product && long_digits * std::abs(kept) < lost_in_power * lost * std::abs(kept.imag()))) {
+  if (is_product || (has_product && long_digits * std::abs(kept) < lost_in_power * lost * std::abs(kept.imag()))) {
     own_power = std::norm(factor / frequency) * std::norm(through) * (-frequency * kept.imag()) * by_conductance;
   }
   return joined({own_centre, own_radius, own_power, own.measure}, own.measure, factor, others);
 }
 
-UserDiscs::Disc UserDiscs::joined(const Disc& own, double measure, std::complex<double> shared,
-                                  const OtherAliases& others) const {
-  const std::complex<double> centre = shared * others.centre;
-  const double radius = std::abs(shared) * others.radius;
-  return {own.centre + measure * centre, own.radius + measure * radius,
-          own.power + 2.0 * (own.centre * std::conj(centre)).real() - 2.0 * own.radius * radius +
-              measure * (std::norm(centre) - radius * radius),
-          measure};
-}
-
-UserDiscs::Disc UserDiscs::clear_of_zero(double frequency, const ScaledDensity& own,
-                                         const OtherAliases& others) const {
+UserDiscs::Disc UserDiscs::clear_of_zero(double frequency, const ScaledDensity& own, const OtherAliases& others) const {
   const std::complex<double> shared = shared_factor(frequency);
   const std::complex<double> s(0.0, frequency);
   const std::complex<double> free = response(through_, frequency) / (s * (1.0 + lag_ * s));
@@ -328,8 +315,7 @@ UserDiscs::Disc UserDiscs::clear_of_zero(double frequency, const ScaledDensity& 
     const double radius = std::abs(shared) * (std::abs(own.value) + others.radius);
     return {centre, radius, (std::abs(centre) - radius) * (std::abs(centre) + radius), 1.0};
   }
-  const double power =
-      std::norm(shared) * (std::norm(free) * own.measure - 2.0 * (free * std::conj(own.value)).real());
+  const double power = std::norm(shared) * (std::norm(free) * own.measure - 2.0 * (free * std::conj(own.value)).real());
   return joined({shared * (own.measure * free - own.value), std::abs(shared) * std::abs(own.value), power, own.measure},
                 own.measure, shared, others);
 }
@@ -339,8 +325,8 @@ UserDiscs::SplitDisc UserDiscs::with_others(const Place& place, const OtherAlias
   const ScaledDensity own = scaled_density(place, 0.0, 1.0);
   SplitDisc split;
   split.shared = std::abs(shared_factor(frequency));
-  split.disc = frequency * period_ < clear_angle ? near_zero(frequency, own, others)
-                                                 : clear_of_zero(frequency, own, others);
+  split.disc =
+      frequency * period_ < clear_angle ? near_zero(frequency, own, others) : clear_of_zero(frequency, own, others);
   if (!sharp_images_.empty()) add_sharp_aliases(place, split.disc);
   // A term s² + d1 s + d0; an integrator's s is in the conductance's poles no more.
   split.factor = own.conductance;

@@ -45,7 +45,7 @@ class UserDiscs {
   /// An alias number * 2 pi/T + side * w, in which a zero of Re Y lies on the axis or nearly so, at w = image.
   struct SharpImage {
     double number = 0.0;
-    double side = 1.0;  // or -1
+    double side = 1.0;   // or -1
     double image = 0.0;  // rad/s, in 0..pi/T or beside it
     std::size_t zero = 0;
   };

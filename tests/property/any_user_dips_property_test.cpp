@@ -19,9 +19,9 @@
 namespace zwidth {
 namespace {
 
-constexpr std::size_t usual_devices = 400;
-constexpr double beaten = 1e-6;           // relative
-constexpr double highest_tuning = 20.0;   // of Nyquist
+constexpr std::size_t usual_devices = 300;
+constexpr double beaten = 1e-6;          // relative
+constexpr double highest_tuning = 20.0;  // of Nyquist
 constexpr double lowest_tuning = 0.02;
 
 std::size_t device_count() {
@@ -112,8 +112,7 @@ TEST(AnyUserProperty, NoSpringOrMassBeatsTheLimitWhereOneBodyIsDamped) {
     if (limit.trust.sound() && limit.stiffness == 0.0) ++none;
     if (!limit.trust.sound() || !(limit.stiffness > 0.0) || !std::isfinite(limit.stiffness)) continue;
     ++limited;
-    const ModalForm motion =
-        modal_form(device, {parameters.loop.held, parameters.loop.held}, ActuatorLag::left_out);
+    const ModalForm motion = modal_form(device, {parameters.loop.held, parameters.loop.held}, ActuatorLag::left_out);
     std::vector<double> frequencies;
     for (const double each : antiresonances) {
       for (const double distance : {0.0, 1e-9, 1e-6, random.log_uniform(1e-8, 1e-2)}) {
@@ -155,7 +154,8 @@ TEST(AnyUserProperty, NoSpringOrMassBeatsTheLimitWhereOneBodyIsDamped) {
   EXPECT_GT(limited, devices / 5);
   EXPECT_GT(none, devices / 10);
   EXPECT_GT(close, limited / 20);
-  EXPECT_LT(doubtful, devices / 20);
+  EXPECT_LT(doubtful, devices / 50);
+  EXPECT_LT(closest, 1.0 + 1e-4);  // the limits are not so low that this says nothing
 }
 
 }  // namespace
