@@ -152,6 +152,13 @@ std::vector<double> slopes_at(const Device& free, const UserDiscs& discs, const 
 
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
+/// Where the damped bodies hardly move discs are so large that their slopes cancel.
+bool is_in_dip(const UserDiscs& discs, double frequency) {
+  constexpr double far_larger = 1e4;  // a disc, than the free plant
+  return !discs.sharp_images().empty() &&
+         discs.at(frequency).radius > far_larger * std::abs(response(discs.free_plant(), frequency));
+}
+
 DeviceParameters moved_parameters(const Device& free, const std::string& key, double value) {
   DeviceParameters moved = free.parameters();
   set_parameter(moved, key, value);
@@ -167,8 +174,8 @@ double moved_limit(const Device& free, const std::string& key, double value) {
   return limit.stiffness / (1.0 - limit.truncation);
 }
 
-/// A slope of a limit reached at nearly zero frequency, where all terms grow without bound, held against differences of
-/// the limit: the slope where they agree, a better difference where they do not, NaN where that does not settle.
+/// A slope of a limit reached at nearly zero frequency or in a dip, where all terms grow without bound, held against
+/// differences of the limit: the slope where they agree, a better difference where they do not, NaN where that does not settle.
 double checked_slope(const Device& free, const DesignParameter& parameter, double slope, double limit) {
   constexpr double nearly = 1e-4;  // of K/p
   constexpr double settles = 1e-5;
@@ -248,7 +255,7 @@ std::vector<Sensitivity> any_user_sensitivities(const Device& device, const AnyU
   } else if (limit.frequency > 0.0) {
     slopes = slopes_at(free, discs, polished(free, discs, {limit.stiffness, angle}), parameters);
   }
-  if (angle < rest_angle) {
+  if (angle < rest_angle || (angle > 0.0 && is_in_dip(discs, limit.frequency))) {
     const double found = limit.stiffness / (1.0 - limit.truncation);
     for (std::size_t i = 0; i < parameters.size(); ++i) {
       slopes[i] = parameters[i].value != 0.0 ? checked_slope(free, parameters[i], slopes[i], found)

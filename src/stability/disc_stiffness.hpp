@@ -7,10 +7,11 @@
 
 namespace zwidth::internal {
 
-/// The least K > 0 with constant + 2 half K + quadratic K² = 0; 0 for a constant <= 0, infinity where there is none.
+/// The least K > 0 with constant + 2 half K + quadratic K² = 0; 0 for a constant < 0, and for 0 where the
+/// sum is negative beside K = 0; infinity where there is none.
 [[nodiscard]] double least_root(double constant, double half, double quadratic);
 
-/// The least g > 0 with |1 + (g u + d) c| = |g u + d| r; infinity where there is none.
+/// The least g > 0 with |1 + (g u + d) c| = |g u + d| r; infinity where there is none (1: disc.one).
 [[nodiscard]] double least_gain(const UserDiscs::Disc& disc, const WallResponse& wall);
 
 /// The same of the stiffness, u = 1, where `damper` is B v.

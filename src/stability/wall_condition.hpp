@@ -15,7 +15,8 @@ namespace zwidth::internal {
 ///     f(K) = |1 + C c|² - |C|² r² = p + 2 q K + A |u|² K² > 0
 ///     p = 1 + 2 Re[d c] + A |d|²,   q = Re[u c] + A Re[u conj d]
 ///
-/// times a positive factor that makes p, q and A smooth. f > 0 at all 0 < K <= K1 if p >= 0, f(K1) > 0 and one of
+/// (all over the disc's `one`, which takes the place of 1 and is 0 where the disc is a half plane), times a positive factor
+/// that makes p, q and A smooth. f > 0 at all 0 < K <= K1 if p >= 0, f(K1) > 0 and one of
 /// A < 0, p + q K1 > 0, (p + q K1)² < p f(K1); the last is p A |u|² > q² too, where the difference of products that are
 /// nearly alike is one polynomial.
 class WallCondition {
