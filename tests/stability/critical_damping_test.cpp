@@ -22,9 +22,7 @@
 namespace zwidth {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-DeviceParameters rigid(double mass, double damping, double period) {
+DeviceParameters one_body(double mass, double damping, double period) {
   DeviceParameters device;
   device.bodies = {{"body", mass, damping, 0.0, 0.0}};
   device.loop = {0, 0, 0, period, 0.0};
@@ -37,11 +35,11 @@ double critical_damping_of_rigid(double m, double b, double T) {
   const double travelled = -std::expm1(-b * T / m) * m / (b * b);
   const double c1 = T / b - travelled;
   const double c0 = travelled - a * T / b;
-  return T * std::min(1.0 / c0, c1 > c0 ? (1.0 + a) / (c1 - c0) : infinity);
+  return T * std::min(1.0 / c0, c1 > c0 ? (1.0 + a) / (c1 - c0) : std::numeric_limits<double>::infinity());
 }
 
 /// Largest |z| - 1 at K = 0 with this damper, but the pole of the position that nothing holds.
-double excess(const Device& device, double damping) {
+double damped_excess(const Device& device, double damping) {
   const Sampling sampling{device.loop().sampling_period, device.loop().delay};
   Wall wall = device.parameters().wall;
   wall.stiffness = 0.0;
@@ -55,7 +53,7 @@ TEST(CriticalDamping, OfARigidDeviceHasAClosedForm) {
     const double T = random.log_uniform(1e-4, 1e-2);
     const double m = random.log_uniform(1e-3, 10.0);
     const double b = m / T * random.log_uniform(1e-4, 3.0);
-    const CriticalDamping found = critical_damping(Device(rigid(m, b, T)));
+    const CriticalDamping found = critical_damping(Device(one_body(m, b, T)));
     ASSERT_TRUE(found.trust.sound()) << i;
     ASSERT_EQ(found.status, StiffnessStatus::finite) << i;
     EXPECT_NEAR(found.damping / critical_damping_of_rigid(m, b, T), 1.0, 1e-9) << i;
@@ -70,7 +68,7 @@ TEST(CriticalDamping, WithAnyUserARigidDeviceBearsItsOwnDamping) {
     const double T = random.log_uniform(1e-4, 1e-2);
     const double m = random.log_uniform(1e-3, 10.0);
     const double b = m / T * random.log_uniform(1e-4, 0.1);
-    const AnyUserDamping found = any_user_damping(Device(rigid(m, b, T)));
+    const AnyUserDamping found = any_user_damping(Device(one_body(m, b, T)));
     EXPECT_TRUE(found.trust.sound());
     EXPECT_NEAR(found.damping / b, 1.0, 1e-6) << i;
     EXPECT_LE(found.damping, b * (1.0 + 1e-9)) << i;
@@ -78,14 +76,14 @@ TEST(CriticalDamping, WithAnyUserARigidDeviceBearsItsOwnDamping) {
 }
 
 TEST(CriticalDamping, OfARotorWithADelay) {
-  DeviceParameters device = rigid(2e-6, 2e-5, 1e-3);
+  DeviceParameters device = one_body(2e-6, 2e-5, 1e-3);
   device.motion = Motion::rotary;
   device.loop.delay = 1e-3;
   const CriticalDamping found = critical_damping(Device(device));
   ASSERT_TRUE(found.limit);
   EXPECT_LT(found.damping, 0.006);
-  EXPECT_LT(excess(Device(device), found.damping * (1.0 - 1e-6)), 0.0);
-  EXPECT_GT(excess(Device(device), found.damping * (1.0 + 1e-6)), 0.0);
+  EXPECT_LT(damped_excess(Device(device), found.damping * (1.0 - 1e-6)), 0.0);
+  EXPECT_GT(damped_excess(Device(device), found.damping * (1.0 + 1e-6)), 0.0);
   device.wall.stiffness = 0.0;
   device.wall.damping = 0.006;
   const WallMargins wall = wall_margins(Device(device));
@@ -94,7 +92,7 @@ TEST(CriticalDamping, OfARotorWithADelay) {
 }
 
 TEST(CriticalDamping, AFreePositionIsNoInstability) {
-  DeviceParameters device = rigid(0.05, 0.01, 1e-3);
+  DeviceParameters device = one_body(0.05, 0.01, 1e-3);
   device.wall.stiffness = 0.0;
   device.wall.damping = 0.5;
   const WallMargins wall = wall_margins(Device(device));
@@ -116,8 +114,8 @@ TEST(CriticalDamping, EigenvaluesAgreeOnRandomDevices) {
     const Device device(parameters);
     const CriticalDamping found = critical_damping(device);
     if (!found.trust.sound() || found.status != StiffnessStatus::finite) continue;
-    const double below = excess(device, 0.999 * found.damping);
-    const double above = excess(device, 1.001 * found.damping);
+    const double below = damped_excess(device, 0.999 * found.damping);
+    const double above = damped_excess(device, 1.001 * found.damping);
     constexpr double rounding = 1e-9;
     EXPECT_LT(below, rounding) << kind << ", seed " << seed;
     if (found.limit->poles_leaving > 0) EXPECT_GT(above, -rounding) << kind << ", seed " << seed;
