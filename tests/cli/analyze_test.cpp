@@ -131,12 +131,12 @@ TEST_F(Analyze, TextLeadsWithTheAnswer) {
   std::vector<std::string> first(5);
   for (std::string& line : first) std::getline(lines, line);
   EXPECT_EQ(first[0], "LHIfAM, translational axis" + std::string(61, ' ') + "sound");
-  EXPECT_EQ(first[1],
-            "  spring alone    nobody holding     8.849 kN/m, then shakes at 6.143 Hz: the rigid body and the sampling "
-            "delay of T/2 = 500 us");
+  EXPECT_THAT(first[1],
+              StartsWith("  spring alone    nobody holding     8.849 kN/m, then shakes at 6.143 Hz: the rigid "
+                         "body and the sampling delay of T/2 = 500 "));
   EXPECT_EQ(first[2], "                  any passive user   5.776 kN/m, worst at 41.36 Hz");
   EXPECT_THAT(first[3], StartsWith("  with a damper   any passive user   up to 187."));
-  EXPECT_THAT(first[4], AllOf(StartsWith("  with margins    any passive user   4.3"),
+  EXPECT_THAT(first[4], AllOf(StartsWith("  with margins    any passive user   25.19 kN/m, B = 238.5 N s/m"),
                               ::testing::EndsWith("       zwidth design FILE --recommend")));
 }
 

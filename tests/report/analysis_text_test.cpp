@@ -80,7 +80,7 @@ TEST(AnalysisText, TheFilesUserHasARowOfItsOwn) {
   }
   EXPECT_EQ(holders, (std::vector<std::string>{"nobody holding", "the file's user", "any passive user"}));
   const std::string text = unwrapped(text_of(analysed));
-  EXPECT_THAT(text, HasSubstr("With nobody holding, every wall softer than 14.2 N m/rad is stable."));
+  EXPECT_THAT(text, HasSubstr("With nobody holding, every wall softer than 14.21 N m/rad is stable."));
   EXPECT_THAT(text, HasSubstr("With the file's user, every wall softer than 1"));
   EXPECT_THAT(text, HasSubstr("The wall of 40 N m/rad is unstable:"));
   EXPECT_THAT(text, Not(HasSubstr("stable alone")));

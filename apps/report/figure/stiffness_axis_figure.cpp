@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "report/figure/plot.hpp"
@@ -142,6 +144,22 @@ Axis place_with_room(std::vector<Label>& labels) {
   return axis;
 }
 
+/// The three words and their colours, at the right end of the title's line.
+void draw_legend(Canvas& canvas) {
+  constexpr double size = 11.0;
+  constexpr double gap = 18.0;
+  double right = bar_sides.right;
+  for (const auto& [stability, colour] : {std::pair{WallStability::unstable, unstable_colour},
+                                          {WallStability::alone_only, alone_colour},
+                                          {WallStability::anyone, anyone_colour}}) {
+    const std::string_view name = words_of(stability);
+    const double left = right - Canvas::text_width(name, text_size);
+    canvas.text(left, 16.0, name, {Anchor::left, text_size});
+    canvas.rectangle({left - size - text_gap, left - text_gap, 16.0 - 0.5 * size, 16.0 + 0.5 * size}, colour);
+    right = left - size - text_gap - gap;
+  }
+}
+
 }  // namespace
 
 std::string draw_stiffness_axis(const AnalysedDevice& analysed, FigureFormat format) {
@@ -154,6 +172,7 @@ std::string draw_stiffness_axis(const AnalysedDevice& analysed, FigureFormat for
   Canvas canvas("Stable wall stiffness", canvas_width, bar.bottom + 66.0);
   canvas.text(bar.left, 16.0, "Wall stiffness K: where the sampled loop is stable", {Anchor::left, 15.0});
 
+  draw_legend(canvas);
   canvas.rectangle(bar, unstable_colour);
   double unstable_from = bar.left;
   const auto name_segment = [&](double left, double right, std::string_view name) {

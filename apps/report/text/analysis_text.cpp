@@ -104,9 +104,11 @@ std::string analysis_text(std::span<const AnalysedDevice> devices) {
   if (devices.size() == 1) return full_answer(devices.front());
   std::string text = fitted_comparison(devices) + wrap(comparison_legend(devices), line_width, 2) + "\n";
   for (std::size_t i = 0; i < devices.size(); ++i) text += fmt::format("{}. {}", i + 1, short_answer(devices[i]));
-  text +=
-      "Each device alone (zwidth analyze FILE) gives its walls with a damper and with margins, its crossovers,\n"
-      "modes and what the numbers leave out.\n";
+  text += wrap(
+      "Each device alone (zwidth analyze FILE) gives its walls with a damper and with margins, its crossovers, modes "
+      "and "
+      "what the numbers leave out.",
+      line_width, 0);
   return text;
 }
 
