@@ -145,8 +145,7 @@ class Changes {
                                  ? *any_user
                                  : limit_of(cause_.cause, made.device, loop_.number, loop_.progress);
     if (std::isnan(*made.change.limit_then)) return std::nullopt;
-    if (loop_.stiffness)
-      made.change.ends_it = off_ * *made.change.limit_then > *made.device.parameters().wall.stiffness;
+    if (loop_.stiffness) made.change.ends_it = off_ * *made.change.limit_then > gain_of(made.device, loop_.number);
     return made;
   }
 
