@@ -171,11 +171,11 @@ class Changes {
     const double softened = is_quantisation() ? softer * now : softer * off_ * limit_;
     if (!(softened > 0.0 && softened < now)) return;
     if (is_damper) {
-      add(is_quantisation() ? "half the damper" : "a weaker damper, 6 dB below the limit", "wall.damping", now,
-          softened, [&](DeviceParameters& then) { then.wall.damping = softened; });
+      add(is_quantisation() ? "half the damper" : "a weaker damper, 6 dB below", "wall.damping", now, softened,
+          [&](DeviceParameters& then) { then.wall.damping = softened; });
     } else {
-      add(is_quantisation() ? "half the stiffness" : "a softer wall, 6 dB below the limit", "wall.stiffness", now,
-          softened, [&](DeviceParameters& then) { then.wall.stiffness = softened; });
+      add(is_quantisation() ? "half the stiffness" : "a softer wall, 6 dB below", "wall.stiffness", now, softened,
+          [&](DeviceParameters& then) { then.wall.stiffness = softened; });
     }
   }
 
