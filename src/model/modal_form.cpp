@@ -17,6 +17,15 @@
 #include "zwidth/error.hpp"
 
 namespace zwidth {
+
+// What all paths of a device have in common, as far as it is known.
+struct internal::FoundPoles {
+  std::optional<std::vector<Complex<Extended>>> poles;  // those that are not 0, nor the lag's
+  bool do_not_converge = false;                         // in double-double
+  KnownPoles exact;
+  IntegerPolynomial exact_denominator;
+};
+
 using namespace internal;
 namespace {
 
@@ -356,7 +365,11 @@ ModalForm modal_form(const Device& device, Path path, ActuatorLag lag) {
 }
 
 internal::ModalForms::ModalForms(const Device& device, ActuatorLag lag)
-    : device_(device), lag_(lag == ActuatorLag::included ? device.parameters().actuator.time_constant : 0.0) {}
+    : device_(device),
+      lag_(lag == ActuatorLag::included ? device.parameters().actuator.time_constant : 0.0),
+      found_(std::make_unique<FoundPoles>()) {}
+
+internal::ModalForms::~ModalForms() = default;
 
 ModalForm internal::ModalForms::along(Path path) {
   if (std::max(path.force_at, path.position_of) >= device_.bodies().size()) {
@@ -364,7 +377,7 @@ ModalForm internal::ModalForms::along(Path path) {
                                              std::to_string(std::max(path.force_at, path.position_of)) + " of " +
                                              std::to_string(device_.bodies().size()));
   }
-  return expand_bodies(device_, path, lag_, found_);
+  return expand_bodies(device_, path, lag_, *found_);
 }
 
 std::complex<double> response(const ModalTerm& term, double frequency) {

@@ -4,6 +4,7 @@
 #include <complex>
 #include <numbers>
 
+#include "stability/gain_locus.hpp"
 #include "stability/plant_fraction.hpp"
 #include "stability/response_bound.hpp"
 #include "stability/root_isolation.hpp"
@@ -17,9 +18,13 @@ using std::numbers::pi;
 // damper's delta cancels one of the plant's integrators: both sides are divided by |delta|² then.
 class UnitGain {
  public:
-  UnitGain(const FilteredPlant& plant, double stiffness, double rate, double c)
-      : plant_(plant), stiffness_(stiffness), rate_(rate), c_(c) {
-    if (stiffness > 0.0) return;
+  UnitGain(const FilteredPlant& plant, const Wall& wall, double rate, double c)
+      : plant_(plant),
+        stiffness_(*wall.stiffness),
+        rate_(rate),
+        c_(c),
+        loop_(plant, GainLocus::Gain::wall, stiffness_, {wall.damping, wall.velocity_filter_hz}) {
+    if (stiffness_ > 0.0) return;
     for (const SampledTerm& term : plant.terms) integrators_ += term.integrators;
   }
 
@@ -28,6 +33,14 @@ class UnitGain {
   [[nodiscard]] BoundedJet<Scalar> model(double begin, double end) const {
     return evaluate(circle_interval<Scalar>(begin, end));
   }
+
+  // |C P|² - 1 from the sum of terms, and where to ask for it: products of many terms may be nothing but rounding.
+  [[nodiscard]] GainLocus::TermSum by_terms(double angle) const {
+    const GainLocus::TermSum loop = loop_.by_terms(angle);
+    const double square = loop.size * loop.size;
+    return {square - 1.0, loop.noise * (2.0 * loop.size + loop.noise), square + 1.0};
+  }
+  [[nodiscard]] std::vector<double> pole_angles() const { return loop_.pole_angles(); }
 
  private:
   template <typename Real>
@@ -49,6 +62,7 @@ class UnitGain {
   double stiffness_;
   double rate_;  // B c / T
   double c_;
+  GainLocus loop_;       // of C P
   int integrators_ = 0;  // of the plant, where one cancels
 };
 
@@ -94,7 +108,7 @@ std::vector<UnitGainPoint> unit_gain_points(const FilteredPlant& plant, const Wa
   std::vector<UnitGainPoint> points;
   if (stiffness == 0.0 && rate == 0.0) return points;
   for (const CircleRoot& root :
-       roots_on_circle(UnitGain(plant, stiffness, rate, c), 1, SmallLoopGain(plant, stiffness, rate, c))) {
+       roots_on_circle(UnitGain(plant, wall, rate, c), 1, SmallLoopGain(plant, stiffness, rate, c))) {
     points.push_back({root.angle, std::arg(-loop_gain(plant, wall, root.angle))});
   }
   return points;

@@ -59,8 +59,9 @@ struct DesignTargets {
 /// p moves by equal factors (a twelfth of a decade; a sixth for the any-user limit) both ways within `factor` and the
 /// range that makes a device, from 0 upwards; the first change of sign of K(p) - target is refined until K is the
 /// target to 1e-10, or, where the limit jumps across it, to the jump's side that has the target. A scan: a limit that
-/// passes the target twice within one step is passed over. Each needed value is confirmed by critical_stiffness(Device)
-/// or any_user_limit(), and judged for any passive user.
+/// passes the target twice within one step is passed over. For the any-user limit of more than four bodies only those
+/// numbers are followed that move it most, by a factor of 10 at most: a remark says how many. Each needed value is
+/// confirmed by critical_stiffness(Device) or any_user_limit(), and judged for any passive user.
 /// Of a damper alone (limit_of) K is its B: critical_damping() and any_user_damping().
 /// Throws Error (invalid_argument) where find_problem() finds one, (did_not_converge) as its parts do.
 [[nodiscard]] DesignTargets design_targets(const Device& device, const DesignTargetOptions& options);
