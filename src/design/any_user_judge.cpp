@@ -9,7 +9,9 @@ namespace {
 
 constexpr double same_for_users = 1e-9;  // relative, of two limits that are the same
 
-AnyUserJudge::Limit of_stiffness(const AnyUserLimit& limit) { return {limit.stiffness, limit.truncation, limit.trust}; }
+AnyUserJudge::Limit of_stiffness(const AnyUserLimit& limit) {
+  return {limit.stiffness, limit.frequency, limit.truncation, limit.trust};
+}
 
 /// What `limit` gives; absent where it is not found or refused.
 template <typename Limit>
@@ -29,7 +31,7 @@ std::optional<AnyUserJudge::Limit> found(const Limit& limit) {
 AnyUserJudge::Limit any_user_limit_of(const Device& device, WallNumber number, const Progress& progress) {
   if (number == WallNumber::stiffness) return of_stiffness(any_user_limit(device, virtual_damper(device), progress));
   const AnyUserDamping limit = any_user_damping(device, progress);
-  return {limit.damping, limit.truncation, limit.trust};
+  return {limit.damping, limit.frequency, limit.truncation, limit.trust};
 }
 
 AnyUserJudge::AnyUserJudge(const Device& device, WallNumber number, const Progress& progress)

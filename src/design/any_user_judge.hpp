@@ -16,7 +16,8 @@ class AnyUserJudge {
   AnyUserJudge(const Device& device, WallNumber number, const Progress& progress);
 
   struct Limit {
-    double value = 0.0;  // infinite where nobody can destabilise a wall
+    double value = 0.0;      // infinite where nobody can destabilise a wall
+    double frequency = 0.0;  // as AnyUserLimit::frequency
     double truncation = 0.0;
     Trust trust;
   };

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -7,7 +8,7 @@
 #include "design/damper_limits.hpp"
 #include "design/lower_end.hpp"
 #include "design/wall_limits.hpp"
-#include "staged_progress.hpp"
+#include "stability/damper_response.hpp"
 #include "zwidth/quantity.hpp"
 #include "zwidth/stability/any_user.hpp"
 #include "zwidth/stability/critical_damping.hpp"
@@ -18,7 +19,8 @@ namespace {
 constexpr int damper_filters = 7;
 constexpr double fastest_cutoff = 0.4;   // of the sampling rate
 constexpr double slowest_cutoff = 0.01;  // the same
-constexpr double worth_a_cutoff = 0.02;  // relative gain of B
+constexpr double worth_a_cutoff = 0.02;  // relative gain of what is felt
+constexpr double hand_hz = 10.0;         // what a hand moves at, at most
 constexpr double tail_of_dampers = 0.025;
 
 struct Damper {
@@ -34,6 +36,13 @@ std::vector<double> cutoffs(double period) {
                      std::pow(slowest_cutoff / fastest_cutoff, static_cast<double>(i) / (damper_filters - 1)));
   }
   return result;
+}
+
+/// The damping of the damper in a motion as fast as a hand's: behind a slow filter B alone says nothing, which grows as
+/// the filter gets slower.
+double felt(VirtualDamper damper, double period) {
+  const double frequency = std::min(2.0 * std::numbers::pi * hand_hz, 0.1 * std::numbers::pi / period);
+  return damper_response(damper, period, frequency).imag() / frequency;
 }
 
 /// The B that all but a share of these devices bear.
@@ -67,7 +76,9 @@ class DamperRecommendation {
       }
       const Damper found{{strongest.damping, cutoff}, strongest.bound};
       if (cutoff == 0.0) unfiltered = found;
-      if (strongest.damping > 0.0 && (!best || strongest.damping > best->damper.damping * (1.0 + worth_a_cutoff))) {
+      const double period = device_.loop().sampling_period;
+      if (strongest.damping > 0.0 &&
+          (!best || felt(found.damper, period) > felt(best->damper, period) * (1.0 + worth_a_cutoff))) {
         best = found;
       }
     }

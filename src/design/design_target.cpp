@@ -16,7 +16,6 @@
 #include "design/number_limit.hpp"
 #include "infinity.hpp"
 #include "require_valid.hpp"
-#include "stability/damper_response.hpp"
 #include "stability/disc_stiffness.hpp"
 #include "stability/user_discs.hpp"
 #include "staged_progress.hpp"
@@ -47,28 +46,26 @@ constexpr double little_more = 1.01;  // times a number, to see how it moves the
 constexpr double low_angle = 1e-2;    // rad per sample, where the limit is reached towards zero frequency
 
 // How much a number moves what users reach at one frequency: |log(K'/K)| where it is 1 % more; 0 of a number of 0.
-double pull_of(const Device& device, const DesignParameter& parameter, double frequency) {
+double pull_of(const Device& device, const DesignParameter& parameter, WallNumber number, double frequency) {
   DeviceParameters moved = device.parameters();
   moved.uncertainty.reset();
   set_parameter(moved, parameter.key, little_more * parameter.value);
   if (parameter.value == 0.0 || find_problem(moved)) return 0.0;
-  const auto reached_by = [frequency](const Device& each) {
-    const double period = each.loop().sampling_period;
-    const double at = std::min(frequency, std::numbers::pi / period);
-    return least_stiffness(UserDiscs(each).at(at), damper_response(virtual_damper(each), period, at));
+  const auto reached_by = [number, frequency](const Device& each) {
+    const double at = std::min(frequency, std::numbers::pi / each.loop().sampling_period);
+    return least_gain(UserDiscs(each).at(at), response_of(each, number, at));
   };
   const double pull = std::abs(std::log(reached_by(Device(std::move(moved))) / reached_by(device)));
   return std::isnan(pull) ? 0.0 : pull;
 }
 
 // Takes those out that move the limit with any user least, where the device has too many bodies to follow all.
-std::vector<DesignParameter> take_out_least(const Device& device, const Progress& progress,
-                                            std::vector<DesignParameter>& parameters) {
+std::vector<DesignParameter> take_out_least(const Device& device, WallNumber number, double limit_frequency,
+                                            const Progress& progress, std::vector<DesignParameter>& parameters) {
   const std::size_t bodies = device.bodies().size();
   const std::size_t most = std::max(fewest_followed, bodies_times_numbers / bodies);
   if (bodies <= most_bodies_followed_whole || parameters.size() <= most) return {};
-  const AnyUserLimit limit = any_user_limit(device, virtual_damper(device), progress);
-  const double frequency = limit.frequency > 0.0 ? limit.frequency : low_angle / device.loop().sampling_period;
+  const double frequency = limit_frequency > 0.0 ? limit_frequency : low_angle / device.loop().sampling_period;
   struct Pull {
     double size = 0.0;
     std::size_t index = 0;
@@ -76,7 +73,7 @@ std::vector<DesignParameter> take_out_least(const Device& device, const Progress
   std::vector<Pull> pulls(parameters.size());
   tbb::parallel_for(std::size_t{0}, parameters.size(), [&](std::size_t i) {
     tell(progress, 0.0);
-    pulls[i] = {pull_of(device, parameters[i], frequency), i};
+    pulls[i] = {pull_of(device, parameters[i], number, frequency), i};
   });
   std::ranges::stable_sort(pulls, std::greater{}, &Pull::size);
   std::vector<bool> is_followed(parameters.size(), false);
@@ -391,9 +388,9 @@ DesignTargets design_targets(const Device& device, const DesignTargetOptions& op
   DesignTargetOptions asked = options;
   asked.stiffness = *result.target;
   std::vector<DesignParameter> left_out;
-  if (options.goal == StiffnessGoal::any_user_limit) {
+  if (options.goal == StiffnessGoal::any_user_limit && users.limit_now()) {
     const std::size_t all = parameters.size();
-    left_out = take_out_least(device, while_judging, parameters);
+    left_out = take_out_least(device, options.limit_of, users.limit_now()->frequency, while_judging, parameters);
     if (!left_out.empty()) {
       asked.factor = std::min(options.factor, factor_of_many_bodies);
       result.remarks.push_back(
@@ -404,6 +401,7 @@ DesignTargets design_targets(const Device& device, const DesignTargetOptions& op
            "change another number and analyze again, or merge bodies whose links hardly give"});
     }
   }
+  progress.add(left_out.size());
   result.targets.resize(parameters.size());
   const Search search(device, asked, limit, users, progress);
   tbb::parallel_for(std::size_t{0}, parameters.size(), [&](std::size_t i) {
@@ -416,7 +414,6 @@ DesignTargets design_targets(const Device& device, const DesignTargetOptions& op
     target.value_now = each.value;
     target.why = "not followed: it moves the limit less than the numbers that are";
     result.targets.push_back(std::move(target));
-    progress.add();
   }
   std::ranges::stable_sort(result.targets, {}, cost);
   return result;

@@ -145,8 +145,7 @@ class Changes {
                                  ? *any_user
                                  : limit_of(cause_.cause, made.device, loop_.number, loop_.progress);
     if (std::isnan(*made.change.limit_then)) return std::nullopt;
-    if (loop_.stiffness)
-      made.change.ends_it = off_ * *made.change.limit_then > *made.device.parameters().wall.stiffness;
+    if (loop_.stiffness) made.change.ends_it = off_ * *made.change.limit_then > gain_of(made.device, loop_.number);
     return made;
   }
 
@@ -172,11 +171,11 @@ class Changes {
     const double softened = is_quantisation() ? softer * now : softer * off_ * limit_;
     if (!(softened > 0.0 && softened < now)) return;
     if (is_damper) {
-      add(is_quantisation() ? "half the damper" : "a weaker damper, 6 dB below the limit", "wall.damping", now,
-          softened, [&](DeviceParameters& then) { then.wall.damping = softened; });
+      add(is_quantisation() ? "half the damper" : "a weaker damper, 6 dB below", "wall.damping", now, softened,
+          [&](DeviceParameters& then) { then.wall.damping = softened; });
     } else {
-      add(is_quantisation() ? "half the stiffness" : "a softer wall, 6 dB below the limit", "wall.stiffness", now,
-          softened, [&](DeviceParameters& then) { then.wall.stiffness = softened; });
+      add(is_quantisation() ? "half the stiffness" : "a softer wall, 6 dB below", "wall.stiffness", now, softened,
+          [&](DeviceParameters& then) { then.wall.stiffness = softened; });
     }
   }
 

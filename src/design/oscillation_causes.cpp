@@ -156,6 +156,11 @@ void look_for_nearest_user(const ObservedLoop& loop, const UserDiscs& discs, Osc
                        .frequency = frequency_needed(loop, at, beside_user)};
     if (distance_to_fit(other) < distance_to_fit(candidate)) candidate = std::move(other);
   }
+  if (candidate.otherwise) {
+    candidate.why = fmt::format("some passive user can make {} from {} on oscillate at {}", walls(loop),
+                                gain_text(loop, candidate.stiffness ? *candidate.stiffness : *candidate.damping),
+                                hertz_text(candidate.frequency));
+  }
 }
 
 /// Of the sensed position, where the bodies that rub move at V = 4/(pi share): by the ratio of the responses to the

@@ -55,18 +55,24 @@ TEST(WallRecommendation, CriticalDampingMeansRealPolesOfTheContact) {
 }
 
 // A damper alone on a rigid device without delay: any passive user's limit is the device's own damping (Colgate &
-// Schenkel: b > K T/2 + |B|), and a velocity filter gains nothing at once; so the damper is that over the margin.
+// Schenkel: b > K T/2 + |B|); so the damper without a filter is that over the margin. A slow filter makes a larger B of it.
 TEST(WallRecommendation, ADamperAloneOnARigidDeviceIsItsOwnDampingOverTheMargin) {
   const WallRecommendation answer =
       recommend_wall(rigid(5.4, 3.5, 1e-3), {.goal = WallGoal::damper, .gain_margin = 2.0, .phase_margin = 0.0});
   ASSERT_EQ(answer.status, WallRecommendation::Status::found);
   ASSERT_TRUE(answer.wall);
   EXPECT_EQ(answer.wall->wall.stiffness, 0.0);
-  EXPECT_NEAR(answer.wall->wall.damping, 1.75, 1.75 * 2e-5);
   EXPECT_EQ(answer.wall->bounded_by.damping, WallBound::any_user);
-  EXPECT_NEAR(answer.wall->any_user_damping_limit.value(), 3.5, 3.5 * 2e-5);
+  EXPECT_GT(answer.wall->wall.velocity_filter_hz, 0.0);
+  EXPECT_GT(answer.wall->wall.damping, 1.75);
+  EXPECT_NEAR(answer.wall->any_user_damping_limit.value() / answer.wall->wall.damping, 2.0, 1e-4);
   EXPECT_TRUE(answer.wall->margins.stable);
   EXPECT_GE(answer.wall->margins.gain_margin.value(), 2.0);
+  ASSERT_EQ(answer.alternatives.size(), 1U);
+  const RecommendedWall& plain = answer.alternatives.front();
+  EXPECT_EQ(plain.wall.velocity_filter_hz, 0.0);
+  EXPECT_NEAR(plain.wall.damping, 1.75, 1.75 * 2e-5);
+  EXPECT_NEAR(plain.any_user_damping_limit.value(), 3.5, 3.5 * 2e-5);
 }
 
 TEST(WallRecommendation, ADamperAloneKeepsWhatIsAskedByASecondRoute) {

@@ -81,12 +81,38 @@ std::string why_text(const OscillationCandidate& candidate, const Units& units) 
   return candidate.otherwise ? fmt::format("{}; {}", candidate.why, otherwise_text(candidate, units)) : candidate.why;
 }
 
-std::string limit_text(double limit, const Diagnosis& diagnosis, const Units& units) {
-  const bool is_damper = diagnosis.limit_of == WallNumber::damping;
-  if (limit == 0.0) return is_damper ? "no damper" : "no wall";
-  if (!std::isfinite(limit)) return "no limit";
-  return is_damper ? fmt::format("{} {}", number(limit), units.damping) : quantity(limit, units.stiffness);
-}
+/// Limits of a table of changes as numbers without their unit, which stands above it.
+class LimitScale {
+ public:
+  explicit LimitScale(const Device& device, const Diagnosis& diagnosis)
+      : is_damper_(diagnosis.limit_of == WallNumber::damping) {
+    const Units units = units_of(device.parameters().motion);
+    double largest = 0.0;
+    const auto take = [&largest](const std::optional<double>& limit) {
+      if (limit && std::isfinite(*limit)) largest = std::max(largest, *limit);
+    };
+    take(diagnosis.any_user_now);
+    for (const DiagnosisChange& each : diagnosis.changes) take(each.limit_then), take(each.any_user_then);
+    constexpr double thousands = 1e4;
+    if (!is_damper_ && largest >= thousands) scale_ = 1e3;
+    unit_ = fmt::format("{}{}", scale_ > 1.0 ? "k" : "", is_damper_ ? units.damping : units.stiffness);
+  }
+
+  [[nodiscard]] std::string text(double limit) const {
+    if (limit == 0.0) return "none";
+    return std::isfinite(limit) ? number(limit / scale_) : std::string("no limit");
+  }
+  [[nodiscard]] std::string with_unit(double limit) const {
+    return limit == 0.0 || !std::isfinite(limit) ? text(limit) : fmt::format("{} {}", text(limit), unit_);
+  }
+  [[nodiscard]] const std::string& unit() const { return unit_; }
+  [[nodiscard]] std::string heading() const { return is_damper_ ? "limit of B" : "limit of K"; }
+
+ private:
+  bool is_damper_;
+  double scale_ = 1.0;
+  std::string unit_;
+};
 
 /// The three words, of the wall after a change: whether it ends the oscillation, and for whom.
 std::string end_text(const Diagnosis& diagnosis, const DiagnosisChange& change) {
@@ -102,40 +128,38 @@ std::string end_text(const Diagnosis& diagnosis, const DiagnosisChange& change) 
 std::string changes_text(const Device& device, const Diagnosis& diagnosis) {
   const Motion motion = device.parameters().motion;
   const Units units = units_of(motion);
-  const std::string limit_of = diagnosis.limit_of == WallNumber::damping ? "limit of B" : "limit of K";
+  const LimitScale limits(device, diagnosis);
   const bool by_amplitude = diagnosis.nearest == OscillationCause::quantisation;
-  const bool judged = diagnosis.any_user_now.has_value();
+  const bool judged = diagnosis.any_user_now && diagnosis.nearest != OscillationCause::passive_user;
   TextTable table{{Align::left, Align::right, Align::right, Align::right, Align::left},
-                  {{"change", "now", "then", by_amplitude ? "swing" : limit_of, "ends it"}}};
+                  {{"change", "now", "then", by_amplitude ? "swing" : limits.heading(), "ends it"}}};
   if (judged) {
     table.alignment.push_back(Align::right);
-    table.rows.front().push_back("any passive user");
+    table.rows.front().push_back("any user");
   }
   std::string lowering;
   for (const DiagnosisChange& each : diagnosis.changes) {
     std::string effect = "-";
-    if (each.limit_then) effect = limit_text(*each.limit_then, diagnosis, units);
+    if (each.limit_then) effect = limits.text(*each.limit_then);
     if (by_amplitude && each.amplitude_then) effect = quantity(*each.amplitude_then, units.length);
     table.rows.push_back({each.what, value_text(each, each.value_now, motion),
                           value_text(each, each.value_then, motion), effect, end_text(diagnosis, each)});
-    if (judged) {
-      table.rows.back().push_back(each.any_user_then ? limit_text(*each.any_user_then, diagnosis, units) : "-");
-    }
+    if (judged) table.rows.back().push_back(each.any_user_then ? limits.text(*each.any_user_then) : "-");
     if (!each.safe.value_or(true)) lowering += (lowering.empty() ? "" : ", ") + each.what;
   }
   std::string now;
   if (!diagnosis.changes.empty()) {
     const DiagnosisChange& first = diagnosis.changes.front();
-    if (first.limit_now) now = fmt::format("{} now {}", limit_of, limit_text(*first.limit_now, diagnosis, units));
+    if (first.limit_now) now = fmt::format("{} now {}", limits.heading(), limits.with_unit(*first.limit_now));
     if (first.amplitude_now) now = fmt::format("swing now {}", quantity(*first.amplitude_now, units.length));
   }
   if (judged) {
-    now += fmt::format("{}with any passive user {}", now.empty() ? "" : ", ",
-                       limit_text(*diagnosis.any_user_now, diagnosis, units));
+    now +=
+        fmt::format("{}with any passive user {}", now.empty() ? "" : ", ", limits.with_unit(*diagnosis.any_user_now));
   }
-  std::string text = "\n" + wrap(fmt::format("What moves it, each change alone and recomputed{}",
-                                             now.empty() ? "" : fmt::format(" ({})", now)),
-                                 line_width, 0);
+  if (!by_amplitude || judged) now += fmt::format("{}limits in {}", now.empty() ? "" : "; ", limits.unit());
+  std::string text =
+      "\n" + wrap(fmt::format("What moves it, each change alone and recomputed ({})", now), line_width, 0);
   text += layout(table);
   if (!lowering.empty()) {
     text +=

@@ -61,7 +61,7 @@ std::string short_text(WallBound bound) {
 
 std::string goal_text(WallGoal goal) {
   if (goal == WallGoal::width) return "greatest K B";
-  if (goal == WallGoal::damper) return "greatest B of a damper alone, K = 0";
+  if (goal == WallGoal::damper) return "a damper alone (K = 0), strongest in motions of 10 Hz";
   return goal == WallGoal::stiffness ? "greatest K" : "greatest K whose contact does not swing";
 }
 

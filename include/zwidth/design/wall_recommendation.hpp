@@ -21,7 +21,7 @@ enum class WallGoal {
   stiffness,         ///< greatest K
   width,             ///< greatest K B
   critical_damping,  ///< greatest K of those whose contact does not swing: contact_damping_ratio() of 1
-  damper,            ///< greatest B of a damper alone, K = 0
+  damper,            ///< a damper alone, K = 0: greatest damping in motions of 10 Hz, as fast as a hand's
 };
 
 /// What the wall to run has to keep, and what it is to be best at.
@@ -115,7 +115,8 @@ struct WallRecommendation {
 ///     force per count <= ripple
 ///
 /// Of a damper alone (WallGoal::damper) K = 0, gain_margin B < any_user_damping() and critical_damping() with nobody and
-/// with the device's [operator], B behind no velocity filter or the best of seven; no notch is tried.
+/// with the device's [operator]. Behind a slow filter B says little, so no filter or the one of seven is taken with the
+/// greatest Im(B v)/w at 10 Hz (a tenth of Nyquist, where that is lower). No notch is tried.
 ///
 /// The device's own wall.stiffness, damping and velocity_filter_hz are left out; its filters stay. A search on a grid
 /// of frequencies over B and the filters, from none down to twice the frequency at which the device oscillates or a
