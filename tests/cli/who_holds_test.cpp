@@ -48,8 +48,8 @@ TEST_F(WhoHolds, AnExportedHeaderSaysIt) {
   const Outcome unstable = run("zwidth export knob.toml --format c --stiffness 40");
   EXPECT_EQ(unstable.status, 0);
   EXPECT_THAT(unstable.errors, HasSubstr("UNSTABLE by linear analysis, with nobody holding"));
-  EXPECT_THAT(unstable.output, HasSubstr("nobody holding    14.2 N m/rad\n"));
-  EXPECT_THAT(unstable.output, HasSubstr("the file's user   14"));
+  EXPECT_THAT(unstable.output, HasSubstr("nobody holding    14.21 N m/rad\n"));
+  EXPECT_THAT(unstable.output, HasSubstr("the file's user   145.1 N m/rad"));
   EXPECT_THAT(unstable.output, HasSubstr("any passive user  14.2 N m/rad\n"));
   EXPECT_THAT(unstable.output, HasSubstr("this wall is        unstable\n"));
   EXPECT_THAT(unstable.output,
