@@ -147,7 +147,9 @@ LimitOptions default_limit(const Device& device) {
     options.search.floor = device.parameters().sensor.resolution;
   }
   add_frequencies(device, options.search.frequencies);
-  options.dwell = std::max(shortest_dwell, dwell_cycles * 2.0 * std::numbers::pi / frequency_of(predicted));
+  double slowest = frequency_of(predicted);
+  if (has_operator(device)) slowest = std::min(slowest, frequency_of(critical_stiffness(without_operator(device))));
+  options.dwell = std::max(shortest_dwell, dwell_cycles * 2.0 * std::numbers::pi / slowest);
   options.knock = default_force(device);
   return options;
 }

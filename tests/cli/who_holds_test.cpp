@@ -48,11 +48,12 @@ TEST_F(WhoHolds, AnExportedHeaderSaysIt) {
   const Outcome unstable = run("zwidth export knob.toml --format c --stiffness 40");
   EXPECT_EQ(unstable.status, 0);
   EXPECT_THAT(unstable.errors, HasSubstr("UNSTABLE by linear analysis, with nobody holding"));
-  EXPECT_THAT(unstable.output, HasSubstr("nobody holding    14.2 N m/rad\n"));
-  EXPECT_THAT(unstable.output, HasSubstr("the file's user   14"));
+  EXPECT_THAT(unstable.output, HasSubstr("nobody holding    14.21 N m/rad\n"));
+  EXPECT_THAT(unstable.output, HasSubstr("the file's user   145.1 N m/rad"));
   EXPECT_THAT(unstable.output, HasSubstr("any passive user  14.2 N m/rad\n"));
   EXPECT_THAT(unstable.output, HasSubstr("this wall is        unstable\n"));
-  EXPECT_THAT(unstable.output, HasSubstr("WARNING: with this wall the loop is UNSTABLE by linear analysis, with nobody"));
+  EXPECT_THAT(unstable.output,
+              HasSubstr("WARNING: with this wall the loop is UNSTABLE by linear analysis, with nobody"));
   const Outcome stable = run("zwidth export knob.toml --format c --stiffness 10");
   EXPECT_EQ(stable.errors, "");
   EXPECT_THAT(stable.output, HasSubstr("this wall is        stable for anyone\n"));
@@ -62,7 +63,8 @@ TEST_F(WhoHolds, AnExportedHeaderSaysIt) {
 TEST_F(WhoHolds, SoDoTheNumbersOfADrive) {
   const Outcome wall = run("zwidth export knob.toml --units moteus --stiffness 1000");
   EXPECT_EQ(wall.status, 0);
-  EXPECT_THAT(wall.errors, HasSubstr("closed on the drive, the wall is UNSTABLE by linear analysis, with nobody holding"));
+  EXPECT_THAT(wall.errors,
+              HasSubstr("closed on the drive, the wall is UNSTABLE by linear analysis, with nobody holding"));
   EXPECT_THAT(wall.output, HasSubstr("this wall is UNSTABLE with nobody holding\n"));
   EXPECT_THAT(run("zwidth export knob.toml --units moteus --stiffness 1").output,
               HasSubstr("this wall is stable for anyone\n"));

@@ -109,7 +109,8 @@ TEST(UnsafeLimit, WhoHoldsIsKnownInTheFileAlone) {
   EXPECT_EQ(free.remarks.front().severity, Remark::Severity::note);
   EXPECT_TRUE(free.predicted.trust.sound());
   // Nobody holds it, and it bears less than that too.
-  EXPECT_TRUE(says_unsafe(limit_of_other(device, damped_by(without_operator(device), 0.7))));
+  const RigLimit less = limit_of_other(device, damped_by(without_operator(device), 0.7));
+  EXPECT_TRUE(says_unsafe(less)) << less.measured.at_most.value_or(0.0);
 }
 
 // A wall that shakes once the user lets go was predicted stable.

@@ -72,9 +72,9 @@ class RegionWriter {
 
   [[nodiscard]] std::string answer_lines() const {
     const StableRegion& region = walls_.region;
-    std::string lines =
-        line("largest K", fmt::format("{} with a virtual damper of {}{}", stiffness(region.stiffest->stiffness),
-                                      damping(region.stiffest->damping), where(*region.stiffest)));
+    std::string lines = line("stable with", words_of(Holder::nobody));
+    lines += line("largest K", fmt::format("{} with a virtual damper of {}{}", stiffness(region.stiffest->stiffness),
+                                           damping(region.stiffest->damping), where(*region.stiffest)));
     lines += line("without a damper", region.critical_stiffness > 0.0
                                           ? fmt::format("{} (K_CR at B = 0)", stiffness(region.critical_stiffness))
                                           : std::string("no wall is stable from K = 0"));

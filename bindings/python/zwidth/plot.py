@@ -76,7 +76,7 @@ def _outline(component: Any) -> npt.NDArray[np.float64]:
 
 def _clip(shown: Any, outlines: Any, axes: Any) -> None:
     """Shows of a patch what lies in these outlines alone."""
-    from matplotlib.path import Path
+    from matplotlib.path import Path  # type: ignore[import]
 
     closed = [np.vstack([outline, outline[:1]]) for outline in outlines]
     if closed:
