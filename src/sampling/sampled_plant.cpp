@@ -95,6 +95,14 @@ ExtendedTerm sample_precisely(const ModalTerm& term, const SamplingInstants& ins
   return term.degree > 2 ? sample_exactly(term, instants) : sample_extended(term, instants);
 }
 
+// Fills in what rounding to double left out of the coefficients.
+void keep_rests(const ModalForm& form, const SamplingInstants& instants, SampledPlant& plant) {
+  auto sampled = plant.terms.begin();
+  for (const ModalTerm& term : form.terms) {
+    if (is_seen(term)) round_into(sample_precisely(term, instants), *sampled++);
+  }
+}
+
 // Products of a few terms must stay in range: an unstable pole may grow that much within one period.
 void check_range(const SampledTerm& sampled) {
   constexpr double largest = 1e60;
@@ -151,6 +159,8 @@ constexpr std::size_t rounded_terms = 6;
 
 // Beyond this loss the numerators are added up in double-double instead.
 constexpr double tolerable_cancellation = 1e3;
+// And beyond this one, near the poles, as one polynomial.
+constexpr double carried_cancellation = 1e7;
 
 }  // namespace
 
@@ -190,8 +200,12 @@ SampledPlant sample(const ModalForm& form, Sampling sampling) {
     check_range(sampled);
     plant.terms.push_back(sampled);
   }
-  crowded = crowded || (plant.terms.size() > 2 && cancellation_at_poles(plant) > tolerable_cancellation);
+  // Near an antiresonance between modes the terms cancel too. As products of small factors they tell more of an interval
+  // than one polynomial does, as long as their own digits suffice.
+  const double at_poles = crowded || plant.terms.size() > 2 ? cancellation_at_poles(plant) : 1.0;
+  crowded = at_poles > carried_cancellation;
   const bool sum_cancels = plant.terms.size() > 1 && (crowded || worst_cancellation(plant) > tolerable_cancellation);
+  if (!sum_cancels && at_poles > tolerable_cancellation) keep_rests(form, instants, plant);
   const bool nyquist_cancels = cancellation_at_nyquist(plant) > tolerable_cancellation_at_nyquist;
   if (sum_cancels || nyquist_cancels) {
     std::vector<ExtendedTerm> terms;

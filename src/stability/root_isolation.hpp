@@ -30,6 +30,10 @@ namespace root_isolation {
 // An interval this narrow, relative to its end, is not divided further.
 inline constexpr double narrowest = 1e-14;
 inline constexpr std::size_t max_intervals_per_piece = 100000;
+// Where many poles crowd, products of their terms prove nothing of intervals that are not narrower than any of use: a
+// stretch that has taken so many is asked of the sum of terms, as is where f is zero to rounding.
+inline constexpr std::size_t max_intervals_per_stretch = 4000;
+inline constexpr double stretch = 1.0 / 64.0;  // of its end
 inline constexpr std::uintmax_t max_polish_steps = 200;
 
 struct Interval {
@@ -186,6 +190,8 @@ std::vector<CircleRoot> roots_on_circle(const Function& f, std::size_t pieces, R
   }
   const double widest = 1.5 * std::numbers::pi / static_cast<double>(pieces);  // angle, that f is asked on
   std::size_t intervals_left = max_intervals_per_piece * pieces;
+  double stretch_end = 0.0;
+  std::size_t intervals_of_stretch = 0;
   double zero_begin = -1.0;  // a run of neighbouring intervals in which f is zero to rounding
   double zero_end = -1.0;
   const auto end_of_run = [&] {
@@ -216,6 +222,11 @@ std::vector<CircleRoot> roots_on_circle(const Function& f, std::size_t pieces, R
     const Interval interval = stack.back();
     const auto [begin, end, extended] = interval;
     stack.pop_back();
+    if (begin >= stretch_end) {
+      stretch_end = std::max(begin, root_isolation::narrowest) * (1.0 + stretch);
+      intervals_of_stretch = 0;
+    }
+    ++intervals_of_stretch;
     if constexpr (!is_whole) {
       if (!extended && region.leaves_out(begin, end)) {
         end_of_run();
@@ -236,6 +247,13 @@ std::vector<CircleRoot> roots_on_circle(const Function& f, std::size_t pieces, R
       continue;
     }
     if (narrow && found == Content::undecided) found = Content::zero_to_rounding;
+    if constexpr (requires { f.by_terms(0.0); }) {
+      const bool is_exhausted =
+          intervals_of_stretch > max_intervals_per_stretch || 2 * intervals_left < max_intervals_per_piece * pieces;
+      if (is_exhausted && found == Content::undecided && end - begin <= stretch * end) {
+        found = Content::zero_to_rounding;
+      }
+    }
     if (found == Content::zero_to_rounding) {
       if (zero_begin < 0.0) zero_begin = begin;
       zero_end = end;
