@@ -107,9 +107,8 @@ DeviceParameters two_bodies(double motor, double motor_damping, double handle, d
   return parameters;
 }
 
-// A cable of a tenth of its stiffness doubles the limit of the device that nobody holds, and gives no user anything.
 // Of six bodies six of the numbers are followed, by a factor of 10; the others stand last and are said to be left out.
-TEST(DesignTargets, OfManyBodiesThoseThatMoveTheLimitMostAreFollowed) {
+TEST(DesignTarget, OfManyBodiesThoseThatMoveTheLimitMostAreFollowed) {
   DeviceParameters parameters;
   for (std::size_t i = 0; i < 6; ++i) {
     parameters.bodies.push_back({"b" + std::to_string(i), 0.5, 2.0, 0.0, 0.0});
@@ -135,6 +134,7 @@ TEST(DesignTargets, OfManyBodiesThoseThatMoveTheLimitMostAreFollowed) {
   EXPECT_GT(found.targets.size(), 20U);
 }
 
+// A cable of a tenth of its stiffness doubles the limit of the device that nobody holds, and gives no user anything.
 TEST(DesignTarget, EachProposalIsJudgedForAnyUserAndWhatLowersThatLimitComesLast) {
   const Device device(two_bodies(0.145, 0.0102, 0.233, 0.268, 50.9e3, 8.79));
   const double nobody = critical_stiffness(device).stiffness;
