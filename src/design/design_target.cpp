@@ -12,12 +12,11 @@
 
 #include "design/any_user_judge.hpp"
 #include "design/design_parameter.hpp"
+#include "design/followed_numbers.hpp"
 #include "design/moved_limit.hpp"
 #include "design/number_limit.hpp"
 #include "infinity.hpp"
 #include "require_valid.hpp"
-#include "stability/disc_stiffness.hpp"
-#include "stability/user_discs.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/model/parameter.hpp"
 #include "zwidth/quantity.hpp"
@@ -35,55 +34,6 @@ constexpr double jump_width = 1e-9;    // relative, of the bracket of a jump: cl
 constexpr double least_jump = 1e-3;    // relative
 constexpr double beyond = 1.0 + 1e-6;  // a limit that is not to be told from one further up
 constexpr double first_share = 1e-3;   // of a number that is 0 now: of the value at which its unit matters
-
-// One limit with any user takes a tenth of a second with ten bodies, and each number some twenty of them. With more bodies
-// than these only the numbers that move the limit most are followed, and less far.
-constexpr std::size_t most_bodies_followed_whole = 4;
-constexpr std::size_t bodies_times_numbers = 40;
-constexpr std::size_t fewest_followed = 4;
-constexpr double factor_of_many_bodies = 10.0;
-constexpr double little_more = 1.01;  // times a number, to see how it moves the limit
-constexpr double low_angle = 1e-2;    // rad per sample, where the limit is reached towards zero frequency
-
-// How much a number moves what users reach at one frequency: |log(K'/K)| where it is 1 % more; 0 of a number of 0.
-double pull_of(const Device& device, const DesignParameter& parameter, WallNumber number, double frequency) {
-  DeviceParameters moved = device.parameters();
-  moved.uncertainty.reset();
-  set_parameter(moved, parameter.key, little_more * parameter.value);
-  if (parameter.value == 0.0 || find_problem(moved)) return 0.0;
-  const auto reached_by = [number, frequency](const Device& each) {
-    const double at = std::min(frequency, std::numbers::pi / each.loop().sampling_period);
-    return least_gain(UserDiscs(each).at(at), response_of(each, number, at));
-  };
-  const double pull = std::abs(std::log(reached_by(Device(std::move(moved))) / reached_by(device)));
-  return std::isnan(pull) ? 0.0 : pull;
-}
-
-// Takes those out that move the limit with any user least, where the device has too many bodies to follow all.
-std::vector<DesignParameter> take_out_least(const Device& device, WallNumber number, double limit_frequency,
-                                            const Progress& progress, std::vector<DesignParameter>& parameters) {
-  const std::size_t bodies = device.bodies().size();
-  const std::size_t most = std::max(fewest_followed, bodies_times_numbers / bodies);
-  if (bodies <= most_bodies_followed_whole || parameters.size() <= most) return {};
-  const double frequency = limit_frequency > 0.0 ? limit_frequency : low_angle / device.loop().sampling_period;
-  struct Pull {
-    double size = 0.0;
-    std::size_t index = 0;
-  };
-  std::vector<Pull> pulls(parameters.size());
-  tbb::parallel_for(std::size_t{0}, parameters.size(), [&](std::size_t i) {
-    tell(progress, 0.0);
-    pulls[i] = {pull_of(device, parameters[i], number, frequency), i};
-  });
-  std::ranges::stable_sort(pulls, std::greater{}, &Pull::size);
-  std::vector<bool> is_followed(parameters.size(), false);
-  for (std::size_t i = 0; i < most; ++i) is_followed[pulls[i].index] = true;
-  std::vector<DesignParameter> kept;
-  std::vector<DesignParameter> left_out;
-  for (std::size_t i = 0; i < parameters.size(); ++i) (is_followed[i] ? kept : left_out).push_back(parameters[i]);
-  parameters = std::move(kept);
-  return left_out;
-}
 
 // A value of the number with its limit.
 struct Point {

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <string>
 
 #include "lhifam.hpp"
 #include "property/random_devices.hpp"
@@ -103,6 +105,33 @@ DeviceParameters two_bodies(double motor, double motor_damping, double handle, d
   parameters.links = {{0, 1, stiffness, damping}};
   parameters.loop = {0, 0, 1, 1e-3, 0.0};
   return parameters;
+}
+
+// Of six bodies six of the numbers are followed, by a factor of 10; the others stand last and are said to be left out.
+TEST(DesignTarget, OfManyBodiesThoseThatMoveTheLimitMostAreFollowed) {
+  DeviceParameters parameters;
+  for (std::size_t i = 0; i < 6; ++i) {
+    parameters.bodies.push_back({"b" + std::to_string(i), 0.5, 2.0, 0.0, 0.0});
+    if (i > 0) parameters.links.push_back({i - 1, i, 1e5, 5.0});
+  }
+  parameters.loop.sampling_period = 1e-3;
+  parameters.loop.held = 5;
+  const Device device(parameters);
+  const double target = 1.2 * any_user_limit(device).stiffness;
+  const DesignTargets found = design_targets(device, {.stiffness = target, .goal = StiffnessGoal::any_user_limit});
+  ASSERT_EQ(found.remarks.size(), 1U);
+  std::size_t reached = 0;
+  for (const DesignTarget& each : found.targets) {
+    if (!each.value_needed) continue;
+    ++reached;
+    EXPECT_LE(std::abs(std::log(*each.value_needed / each.value_now)), std::log(10.0) * (1.0 + 1e-12)) << each.key;
+    DeviceParameters moved = parameters;
+    set_parameter(moved, each.key, *each.value_needed);
+    EXPECT_NEAR(any_user_limit(Device(moved)).stiffness / target, 1.0, 1e-6) << each.key;
+  }
+  EXPECT_GE(reached, 1U);
+  EXPECT_LE(reached, 6U);
+  EXPECT_GT(found.targets.size(), 20U);
 }
 
 // A cable of a tenth of its stiffness doubles the limit of the device that nobody holds, and gives no user anything.

@@ -84,9 +84,9 @@ Device many_bodies(std::size_t bodies, bool is_tree, std::uint64_t seed) {
 }
 
 TEST(PoleCount, OfManyBodiesIsThatOfEigenvalues) {
-  for (const std::size_t bodies : {21U, 30U, 60U}) {
+  for (const std::size_t bodies : {21U, 40U}) {
     for (const bool is_tree : {false, true}) {
-      for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+      for (std::uint64_t seed = 1; seed <= 2; ++seed) {
         const Device device = many_bodies(bodies, is_tree, seed);
         const double limit = critical_stiffness(filtered_plant(device)).stiffness;
         const PoleCount poles(device);
