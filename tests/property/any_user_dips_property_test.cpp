@@ -24,7 +24,7 @@ constexpr double beaten = 1e-6;          // relative
 constexpr double highest_tuning = 20.0;  // of Nyquist
 constexpr double lowest_tuning = 0.02;
 
-std::size_t device_count() {
+std::size_t count_of_damped_on_one_body() {
   const char* wish = std::getenv("ZWIDTH_PROPERTY_CASES");
   return wish != nullptr ? std::max<std::size_t>(1, std::strtoul(wish, nullptr, 10)) : usual_devices;
 }
@@ -101,7 +101,7 @@ TEST(AnyUserProperty, NoSpringOrMassBeatsTheLimitWhereOneBodyIsDamped) {
   std::size_t users = 0;
   std::size_t close = 0;
   double closest = 1e300;
-  const std::size_t devices = device_count();
+  const std::size_t devices = count_of_damped_on_one_body();
   for (std::size_t seed = 0; seed < devices; ++seed) {
     test::RandomDevices random(seed + 7300000);
     const auto [parameters, antiresonances] = damped_on_one_body(random);
@@ -139,7 +139,9 @@ TEST(AnyUserProperty, NoSpringOrMassBeatsTheLimitWhereOneBodyIsDamped) {
       }
     }
     // Beside the double's own word, for one of eight.
-    if (seed % 8 == 0) EXPECT_FALSE(is_destabilised(worst, limit.stiffness * (1.0 - beaten))) << "seed " << seed;
+    if (seed % 8 == 0) {
+      EXPECT_FALSE(is_destabilised(worst, limit.stiffness * (1.0 - beaten))) << "seed " << seed;
+    }
     closest = std::min(closest, least);
     if (least < 1.1) ++close;
   }
