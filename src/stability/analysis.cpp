@@ -191,8 +191,8 @@ void judge_holders(const Device& device, const AnalysisOptions& options, Analysi
                                   "stay below the limit with nobody holding"});
     }
   }
-  analysis.alone = AnswerAlone{std::move(alone.critical), std::move(alone.modes),
-                               std::move(alone.suspended_rigid_body), std::move(alone.wall)};
+  analysis.alone = AnswerAlone{std::move(alone.critical), std::move(alone.modes), std::move(alone.suspended_rigid_body),
+                               std::move(alone.wall)};
 }
 
 /// Whether any passive user leaves the wall stable, with the damper alone where it has no spring.
@@ -207,12 +207,12 @@ void judge_wall_for_any_user(Analysis& analysis) {
   }
   if (stability_of(wall) != WallStability::alone_only || wall.any_user.value_or(true)) return;
   const bool has_spring = analysis.wall->stiffness > 0.0;
-  analysis.remarks.push_back({Remark::Severity::warning,
-                              has_spring ? "the wall is stiffer than the limit with any passive user"
-                                         : "the wall has more damping than the limit with any passive user",
-                              "stable alone only: some user's grasp makes it oscillate",
-                              has_spring ? "stay below that limit, or give the users whom you expect as a family"
-                                         : "stay below that limit"});
+  analysis.remarks.push_back(
+      {Remark::Severity::warning,
+       has_spring ? "the wall is stiffer than the limit with any passive user"
+                  : "the wall has more damping than the limit with any passive user",
+       "stable alone only: some user's grasp makes it oscillate",
+       has_spring ? "stay below that limit, or give the users whom you expect as a family" : "stay below that limit"});
 }
 
 /// The limit over all passive users, of the stiffness and of the damper alone.
@@ -232,8 +232,7 @@ void answer_any_user(const Device& device, const AnalysisOptions& options, Stage
   analysis.any_user = search.limit(damper, stages.stage());
   stages.next(0.4);
   AnyUserLimit& any_user = *analysis.any_user;
-  if (analysis.interval && options.any_user_draws > 0 &&
-      device.bodies().size() <= most_bodies_for_any_user_interval) {
+  if (analysis.interval && options.any_user_draws > 0 && device.bodies().size() <= most_bodies_for_any_user_interval) {
     any_user.interval = any_user_interval(device, damper, options.any_user_draws, usual_draws_seed, stages.stage());
     stages.next(0.4);
   }
@@ -348,7 +347,7 @@ WallVerdict verdict_on_wall(const Analysis& analysis) {
   if (!analysis.trust.sound()) return WallVerdict::unsure;
   if (!analysis.wall) return WallVerdict::no_wall;
   return stability_of(*analysis.wall_stable_for) == WallStability::unstable ? WallVerdict::unstable
-                                                                             : WallVerdict::stable;
+                                                                            : WallVerdict::stable;
 }
 
 HoldingLimits holding_limits(const Device& device, const HoldingOptions& options) {

@@ -64,6 +64,8 @@ TEST(AnalysisText, TheFirstLinesSayWhoHolds) {
   EXPECT_EQ(rows[2].answer, "up to 187.3 kN/m with B = 230.3 N s/m");
   EXPECT_EQ(rows[3].answer, "4.31 kN/m, B = 98.1 N s/m, velocity filter 18.5 Hz");
   EXPECT_EQ(rows[3].hint, "zwidth design FILE --recommend");
+  analysed.walls->with_damper = StiffestDampedWall{7000.0, 0.0};
+  EXPECT_EQ(limit_rows(analysed)[2].answer, "up to 7 kN/m: no damper raises it");
   analysed.walls =
       WallSummary{.with_damper = {}, .why_no_damper = "takes long", .with_margins = {}, .why_no_margins = "x"};
   const std::vector<LimitRow> without = limit_rows(analysed);
@@ -85,6 +87,18 @@ TEST(AnalysisText, TheFilesUserHasARowOfItsOwn) {
   EXPECT_THAT(text, HasSubstr("The wall of 40 N m/rad is unstable:"));
   EXPECT_THAT(text, Not(HasSubstr("stable alone")));
   EXPECT_EQ(wall_verdict(analysed.analysis), "unstable");
+}
+
+// Whose margins they are: those with nobody holding stand first, where a hand adds damping they are the lesser ones.
+TEST(AnalysisText, MarginsSayWhoseTheyAre) {
+  DeviceParameters parameters = knob_in_a_hand().device.parameters();
+  parameters.wall.stiffness = 10.0;
+  const AnalysedDevice analysed = analysed_device(Device(parameters));
+  const std::vector<std::string> notes = wall_margin_notes(analysed.analysis);
+  ASSERT_GT(notes.size(), 2U);
+  EXPECT_THAT(notes.front(), StartsWith("with nobody holding: gain margin 3.05 dB"));
+  EXPECT_THAT(notes[1], StartsWith("with the file's user: gain margin 23.2"));
+  EXPECT_THAT(notes.back(), StartsWith("with any passive user: 3.05 dB"));
 }
 
 // A position that nothing holds is no instability, and a damper has its margins in B.

@@ -120,6 +120,9 @@ class LimitTable {
     const StiffestDampedWall& wall = *walls.with_damper;
     if (wall.stiffness == 0.0) return "none: no wall is stable, with any damper tried";
     if (std::isinf(wall.stiffness)) return "unbounded with B = " + damping(wall.damping);
+    if (wall.damping == 0.0) {
+      return fmt::format("up to {}: no damper raises it{}", stiffness(wall.stiffness), trust_mark(wall.trust));
+    }
     std::string text = fmt::format("up to {} with B = {}", stiffness(wall.stiffness), damping(wall.damping));
     if (wall.velocity_filter_hz > 0.0) {
       text += fmt::format(", velocity filter {}", quantity(wall.velocity_filter_hz, "Hz"));

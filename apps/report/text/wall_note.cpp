@@ -170,9 +170,12 @@ std::vector<std::string> wall_margin_notes(const Analysis& analysis) {
     if (remark.severity == Remark::Severity::warning) notes.push_back(remark_line(remark));
   }
   if (stability_of(*analysis.wall_stable_for) == WallStability::unstable) return notes;
-  add_margins(*wall, notes);
-  if (analysis.disk_margin) notes.push_back(disk_margin_note(*analysis.disk_margin));
   if (analysis.alone && analysis.alone->wall) notes.push_back(margins_alone(*analysis.alone->wall));
+  std::vector<std::string> margins;
+  add_margins(*wall, margins);
+  if (analysis.disk_margin) margins.push_back(disk_margin_note(*analysis.disk_margin));
+  const std::string of_user = analysis.limits.user ? fmt::format("with {}: ", words_of(Holder::user)) : "";
+  for (const std::string& margin : margins) notes.push_back(of_user + margin);
   if (auto margin = margin_with_any_user(analysis)) notes.push_back(*std::move(margin));
   return notes;
 }

@@ -36,10 +36,10 @@ struct RecommendationOptions {
   /// The vibration modes may lie anywhere from (1 - drift) to (1 + drift) times their frequency, see drifted(); from 0 to
   /// 0.9; above 0 the device needs a link.
   double drift = 0.0;
-  bool notch = true;        ///< a notch near a mode may be added to the wall's filters
+  bool notch = true;         ///< a notch near a mode may be added to the wall's filters
   bool alternatives = true;  ///< WallRecommendation::alternatives are searched, and what bounds the wall
   std::size_t draws = 100;   ///< of the device's uncertainty, where it has one
-  Progress progress = {};   ///< told how far the work is; ends it by throwing
+  Progress progress = {};    ///< told how far the work is; ends it by throwing
 };
 
 /// Checks every member's range; of the device: critical damping needs bodies, a drift links.

@@ -22,7 +22,7 @@ struct StiffestDampedWall {
 };
 
 /// Beyond, the walls of the summary would take seconds.
-inline constexpr std::size_t most_bodies_for_wall_summary = 4;
+inline constexpr std::size_t most_bodies_for_wall_summary = 6;
 
 /// The walls that stand beside the limits of an analysis: how stiff with a damper, and which to run.
 struct WallSummary {
