@@ -88,8 +88,8 @@ class RegionFigure {
     const Heading heading(
         title_, legend(),
         fmt::format("Sampled every {}, {} of delay. In brackets: how far a formula lies above the exact "
-                    "limit.",
-                    quantity(loop.sampling_period, "s"), quantity(loop.delay, "s")));
+                    "limit. White: {}.",
+                    quantity(loop.sampling_period, "s"), quantity(loop.delay, "s"), words_of(WallStability::unstable)));
     const double top = heading.bottom() + 28.0;
     Canvas canvas(title_, canvas_width, top + panel_height + 62.0);
     heading.draw(canvas);
@@ -133,7 +133,7 @@ class RegionFigure {
     const std::string_view alone = words_of(WallStability::alone_only);
     if (walls_.shared) {
       if (walls_.shared->stiffest) {
-        entries.push_back({up_to(alone, walls_.shared->stiffest->point), {}, region_colour});
+        entries.push_back({up_to(alone, walls_.shared->stiffest->point), {region_colour, 2.0, "1"}, region_colour});
       } else {
         entries.push_back({"no wall is stable with both", {}, {}});
       }
@@ -180,7 +180,7 @@ class RegionFigure {
       const StableRegion& alone = walls_.nobody->region;
       whole = {std::max(whole.damping, margin * alone.most_damped->damping),
                std::max(whole.stiffness, margin * alone.stiffest->stiffness)};
-      critical = std::max(critical, alone.critical_stiffness);
+      critical = std::min(critical, alone.critical_stiffness);
     }
     Extent corner{0.0, std::isfinite(critical) ? critical : 0.0};
     for (const ComparedApproximation& each : walls_.approximations) {
