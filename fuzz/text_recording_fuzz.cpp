@@ -1,6 +1,8 @@
-// Any bytes, as a text recording: never a crash, always finite channels of one size or a one-line error.
+// Any bytes, as a text recording: never a crash, always finite channels of one size or a one-line error. A table's have
+// a sample for each row; an export's columns may be longer than what they have in common.
 //
 // Input: two bytes that choose the options, then the file.
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -23,6 +25,7 @@ zwidth::RecordingOptions options_of(std::uint8_t first, std::uint8_t second) {
   if (second & 1) options.delimiter = ",;\t "[(second >> 1) & 3];
   if (second & 8) options.decimal_mark = second & 16 ? ',' : '.';
   if (second & 32) options.comment = "";
+  if (second & 64) options.skip_rows = 2;
   return options;
 }
 
@@ -42,8 +45,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   require(contents.has_value() && !contents->columns.empty());
   require(recording->channels.size() == 2 && recording->sampling_period > 0.0);
+  std::size_t rows = 0;
+  for (const zwidth::RecordingColumn& column : contents->columns) rows = std::max(rows, column.size);
+  const std::size_t samples = recording->channels.front().samples.size();
+  require(samples > 0 && samples <= rows);
   for (const zwidth::Channel& channel : recording->channels) {
-    require(!channel.samples.empty() && channel.samples.size() == contents->columns.front().size);
+    require(channel.samples.size() == samples);
     for (const double value : channel.samples) require(std::isfinite(value));
     (void)zwidth::check_signal(channel, recording->sampling_period, zwidth::SignalRole::position);
   }

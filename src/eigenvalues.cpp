@@ -17,4 +17,10 @@ Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& matrix) {
   return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix, Eigen::EigenvaluesOnly).eigenvalues();
 }
 
+Hessenberg hessenberg(const Eigen::MatrixXd& matrix) {
+  if (matrix.rows() < 3) return {matrix, Eigen::MatrixXd::Identity(matrix.rows(), matrix.rows())};
+  const Eigen::HessenbergDecomposition<Eigen::MatrixXd> decomposition(matrix);
+  return {decomposition.matrixH(), decomposition.matrixQ()};
+}
+
 }  // namespace zwidth::internal

@@ -19,4 +19,11 @@ SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& matrix);
 /// The eigenvalues alone.
 Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& matrix);
 
+/// matrix = basis H basis^T with an orthonormal basis; H has nothing below its first subdiagonal.
+struct Hessenberg {
+  Eigen::MatrixXd matrix;  // H
+  Eigen::MatrixXd basis;
+};
+Hessenberg hessenberg(const Eigen::MatrixXd& matrix);
+
 }  // namespace zwidth::internal

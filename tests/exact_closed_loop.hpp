@@ -6,8 +6,10 @@
 // others.
 
 #include <algorithm>
+#include <boost/math/constants/constants.hpp>
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "zwidth/model/device.hpp"
@@ -155,7 +157,7 @@ inline int roots_outside(Polynomial200 p) {
   return degree - inside;
 }
 
-// The loop of a device without wall filters: z^l D(z) + (K + B v(z)) N(z) = 0.
+// The loop of a device: z^l D(z) d_F(z) + (K + B v(z)) N(z) n_F(z) = 0, F the wall's filters.
 class ExactClosedLoop {
  public:
   explicit ExactClosedLoop(const Device& device) {
@@ -197,8 +199,13 @@ class ExactClosedLoop {
     }
     const auto delay = static_cast<std::size_t>(whole) + (fraction == 0 ? 0 : 1);
     denominator_.insert(denominator_.begin(), delay, Real200(0));
-    // v = (c/T)(z - 1)/(z - 1 + c)
     const Wall& wall = device.parameters().wall;
+    for (const WallFilter& filter : wall.filters) {
+      const auto [above, below] = filter_of(filter, period);
+      numerator_ = times(numerator_, above);
+      denominator_ = times(denominator_, below);
+    }
+    // v = (c/T)(z - 1)/(z - 1 + c)
     if (wall.damping > 0.0) {
       Real200 c = 1;
       if (wall.velocity_filter_hz > 0.0) {
@@ -211,15 +218,51 @@ class ExactClosedLoop {
     }
   }
 
+  // Poles on the circle itself, of motions that nothing damps and that the wall neither moves nor sees, are inside.
   [[nodiscard]] int poles_outside(double stiffness) const {
     Polynomial200 p = denominator_;
     p.resize(std::max({p.size(), numerator_.size(), damper_.size()}), Real200(0));
     for (std::size_t i = 0; i < numerator_.size(); ++i) p[i] += stiffness * numerator_[i];
     for (std::size_t i = 0; i < damper_.size(); ++i) p[i] += damper_[i];
+    const Real200 radius = 1 + Real200("1e-22");
+    Real200 power = 1;
+    for (Real200& c : p) {
+      c *= power;
+      power *= radius;
+    }
     return roots_outside(p);
   }
 
  private:
+  // Tustin's rule, exact at the filter's own frequency: s = g (z - 1)/(z + 1), g = w/tan(wT/2), or 2/T where none is given.
+  static std::pair<Polynomial200, Polynomial200> filter_of(const WallFilter& filter, const Real200& period) {
+    using enum WallFilter::Kind;
+    const auto ascending = [](const std::vector<double>& c) { return Polynomial200(c.rbegin(), c.rend()); };
+    if (filter.kind == digital) return {ascending(filter.numerator), ascending(filter.denominator)};
+    const Real200 w = 2 * boost::math::constants::pi<Real200>() * filter.frequency_hz;
+    const Real200 g = w > 0 ? Real200(w / tan(w * period / 2)) : Real200(2 / period);
+    const Real200 twice = w > 0 ? Real200(2 * Real200(filter.damping_ratio) / w) : Real200(0);
+    const Real200 root = sqrt(Real200(filter.ratio));
+    Polynomial200 above{Real200(1)};
+    Polynomial200 below{Real200(1), twice, 1 / (w * w)};
+    if (filter.kind == low_pass && filter.order == 1) below = {Real200(1), 1 / w};
+    if (filter.kind == notch) above = {Real200(1), Real200(filter.depth) * twice, 1 / (w * w)};
+    if (filter.kind == lead_lag) above = {Real200(1), root / w}, below = {Real200(1), 1 / (w * root)};
+    if (filter.kind == biquad) above = ascending(filter.numerator), below = ascending(filter.denominator);
+    const std::size_t degree = below.size() - 1;
+    const auto mapped = [&](const Polynomial200& c) {
+      Polynomial200 sum(degree + 1, Real200(0));
+      Real200 power = 1;
+      for (std::size_t i = 0; i < c.size(); ++i, power *= g) {
+        Polynomial200 term{Real200(c[i] * power)};
+        for (std::size_t j = 0; j < degree; ++j) term = times(term, {Real200(j < i ? -1 : 1), Real200(1)});
+        for (std::size_t j = 0; j <= degree; ++j) sum[j] += term[j];
+      }
+      return sum;
+    };
+    return {mapped(above), mapped(below)};
+  }
+
   static Polynomial200 times(const Polynomial200& a, const Polynomial200& b) {
     Polynomial200 product(a.size() + b.size() - 1, Real200(0));
     for (std::size_t i = 0; i < a.size(); ++i)

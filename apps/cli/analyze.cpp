@@ -32,6 +32,7 @@ struct AnalyzeOptions {
   std::string report;
   bool worst_user = false;
   bool require_stable = false;
+  bool walls = false;
   std::string users;
 };
 
@@ -106,6 +107,11 @@ AnalysisOptions options_for(const AnalyzeOptions& options, const std::string& fi
   return asked;
 }
 
+/// The walls with a damper and with margins: of one device in its text and page; in JSON where they are asked for.
+bool shows_walls(const AnalyzeOptions& options) {
+  return options.walls || (options.devices.files.size() == 1 && (!options.output.json || !options.report.empty()));
+}
+
 std::vector<report::AnalysedDevice> analysed_devices(const AnalyzeOptions& options) {
   std::vector<Device> devices = read_devices(options.devices);
   std::vector<AnalysisOptions> asked;
@@ -116,10 +122,23 @@ std::vector<report::AnalysedDevice> analysed_devices(const AnalyzeOptions& optio
   for (std::size_t i = 0; i < devices.size(); ++i) {
     ProgressLine line("analysing " + options.devices.files[i]);
     asked[i].progress = line.progress();
-    analysed.push_back(
-        worked(options.devices.files[i], [&] { return report::analysed_device(std::move(devices[i]), asked[i]); }));
+    analysed.push_back(worked(options.devices.files[i], [&] {
+      report::AnalysedDevice each = report::analysed_device(std::move(devices[i]), asked[i]);
+      if (shows_walls(options)) {
+        each.walls = wall_summary(each.device, each.analysis, {.progress = line.progress()});
+      }
+      return each;
+    }));
   }
   return analysed;
+}
+
+/// "nobody holding", "the file's user", or both.
+std::string holders_of_unstable(const Analysis& analysis) {
+  const StableFor& wall = *analysis.wall_stable_for;
+  std::string holders = wall.nobody ? "" : std::string(words_of(Holder::nobody));
+  if (wall.user.value_or(true)) return holders;
+  return holders + (holders.empty() ? "" : " and with ") + std::string(words_of(Holder::user));
 }
 
 /// For scripts: every wall given stands, and its verdict with it.
@@ -131,7 +150,7 @@ void require_stable(const AnalyzeOptions& options, const std::vector<report::Ana
       case WallVerdict::stable:
         break;
       case WallVerdict::unstable:
-        throw WorkFailed(place + "the wall is unstable");
+        throw WorkFailed(place + "the wall is unstable with " + holders_of_unstable(analysis));
       case WallVerdict::unsure:
         throw WorkFailed(place + "the answer is " + report::verdict_text(analysis.trust));
       case WallVerdict::no_wall:
@@ -159,7 +178,8 @@ void run_analyze(const AnalyzeOptions& options) {
   if (options.output.json) {
     std::string lines;
     for (const report::AnalysedDevice& each : analysed)
-      lines += results::line(results::analysis_json(each.device, each.analysis));
+      lines +=
+          results::line(results::analysis_json(each.device, each.analysis, options.walls ? each.walls : std::nullopt));
     write_standard_output(lines);
   } else {
     write_text(report::analysis_text(analysed));
@@ -179,11 +199,13 @@ void add_analyze(CLI::App& app) {
       ->type_name("OUT.html");
   command->add_flag("--worst-user", options->worst_user,
                     "Also name the passive user who proves the limit for any user tight");
+  command->add_flag("--walls", options->walls,
+                    "Also the stiffest wall with a damper and the one to run (key \"walls\" of --json)");
   command->add_option("--users", options->users, "Also search a family of users: ranges of mass, damping, stiffness")
       ->type_name("RANGES")
       ->check([](const std::string& text) { return text.empty() ? "is empty" : ""; });
   command->add_flag("--require-stable", options->require_stable,
-                    "Fail (exit status 1) where a wall is not stable, or not surely");
+                    "Fail (exit status 1) where a wall is unstable with nobody or the file's user, or not surely");
   command->footer(
       "Examples:\n"
       "  zwidth analyze devices/lhifam.toml\n"

@@ -41,13 +41,16 @@ struct DesignArguments {
   OutputArguments output{.ending = Ending::figure_or_csv};
   NotchArguments notch;
   RecommendArguments recommend;
-  std::optional<double> target;
+  std::optional<std::string> target;
   bool any_user = false;
 };
 
 /// The library's members as the options that set them.
-constexpr std::pair<std::string_view, std::string_view> options_of_design[] = {
-    {"any_user", "--any-user"}, {"user", "--operator"}, {"goal", "--any-user"}, {"stiffness", "--target"}};
+constexpr std::pair<std::string_view, std::string_view> options_of_design[] = {{"any_user", "--any-user"},
+                                                                               {"user", "--operator"},
+                                                                               {"goal", "--any-user"},
+                                                                               {"stiffness", "--target"},
+                                                                               {"times_now", "--target"}};
 
 [[noreturn]] void refuse_sweep(const std::string& argument, const std::string& why) {
   throw BadInput(
@@ -169,11 +172,56 @@ void run_comparison(const DesignArguments& arguments) {
                                               : report::for_medium(report::comparison_text(comparison)));
 }
 
+/// The whole text as a number, whatever its size: who knows the range tells what is out of it.
+std::optional<double> plain_number(std::string_view text) {
+  while (text.ends_with(' ')) text.remove_suffix(1);
+  double value = 0.0;
+  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (failure != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+/// K, plain or with a unit, or a multiple of today's limit: 2x, 200 %. Throws BadInput.
+void set_target(const std::string& text, Motion motion, DesignTargetOptions& options) {
+  if (const auto number = plain_number(text)) {
+    options.stiffness = *number;
+  } else if (text.ends_with('x')) {
+    options.times_now = plain_number(std::string_view(text).substr(0, text.size() - 1));
+  } else if (text.ends_with('%')) {
+    options.times_now = plain_number(std::string_view(text).substr(0, text.size() - 1));
+    if (options.times_now) *options.times_now /= 100.0;
+  } else {
+    const bool is_stiffness = options.limit_of == WallNumber::stiffness;
+    options.stiffness = measured_number("--target", text, is_stiffness ? Measure::stiffness : Measure::damping, motion);
+  }
+  const bool is_multiple = text.ends_with('x') || text.ends_with('%');
+  if (is_multiple && !options.times_now) {
+    throw BadInput(fmt::format(
+        "--target: {} is no multiple of today's limit; write 2x or \"200 %\", or the stiffness to reach: 12000, \"12 "
+        "kN/m\"",
+        in_quotes(text)));
+  }
+}
+
+/// Which limit is to reach it. Throws BadInput.
+void set_goal(const DesignArguments& arguments, DesignTargetOptions& options) {
+  if (arguments.any_user) options.goal = StiffnessGoal::any_user_limit;
+  const std::string goal = arguments.notch.goal.value_or("stiffness");
+  if (goal == "damper") {
+    options.limit_of = WallNumber::damping;
+  } else if (goal == "any-user") {
+    options.goal = StiffnessGoal::any_user_limit;
+  } else if (goal != "stiffness" && goal != "critical-stiffness") {
+    throw BadInput(fmt::format("--goal: {} is not for a target; stiffness, any-user or damper is", goal));
+  }
+}
+
 void run_target(const DesignArguments& arguments) {
   if (!arguments.output.figure.empty()) throw BadInput("--output: is for a sweep, not for --target");
   const Device device = only_device(arguments, "--target");
-  DesignTargetOptions options{.stiffness = *arguments.target};
-  if (arguments.any_user) options.goal = StiffnessGoal::any_user_limit;
+  DesignTargetOptions options;
+  set_goal(arguments, options);
+  set_target(*arguments.target, device.parameters().motion, options);
   if (const auto problem = find_problem(options, device)) refuse(*problem, options_of_design);
   ProgressLine line("searching the numbers");
   options.progress = line.progress();
@@ -197,7 +245,7 @@ void run_design(const CLI::App& command, const DesignArguments& arguments) {
     if (arguments.target) throw BadInput("--notch: excludes --target");
     return run_notch(arguments.devices, arguments.notch, arguments.output);
   }
-  refuse_notch_options(command);
+  refuse_notch_options(command, arguments.target.has_value());
   if (!arguments.sweeps.empty()) return run_sweep(arguments);
   if (!arguments.compare.empty()) return run_comparison(arguments);
   if (arguments.target) return run_target(arguments);
@@ -223,8 +271,10 @@ void add_design(CLI::App& app) {
   CLI::Option* compare =
       command->add_option("--compare", arguments->compare, "Judge several values of one key side by side");
   compare->type_name("KEY=V,V")->excludes(sweep);
-  command->add_option("--target", arguments->target, "What each number alone must be for the limit to be K")
-      ->type_name("K")
+  command
+      ->add_option("--target", arguments->target,
+                   "What each number alone must be for the limit to be K, or a\nmultiple of today's: 2x, \"200 %\"")
+      ->type_name("K|2x")
       ->excludes(sweep)
       ->excludes(compare);
   command->add_option("--operator", arguments->user, "Of a comparison: the user, instead of the file's [operator]")
@@ -242,6 +292,8 @@ void add_design(CLI::App& app) {
       "  zwidth design devices/lhifam.toml --sweep loop.delay=0:4e-3:9 --sweep link.damping=5:50:9 -o m.svg\n"
       "  zwidth design devices/lhifam.toml --compare sensed=motor,handle --operator 0.5,6,135\n"
       "  zwidth design devices/lhifam.toml --target 12000\n"
+      "  zwidth design devices/lhifam.toml --target 2x --any-user\n"
+      "  zwidth design devices/lhifam.toml --target 2x --goal damper\n"
       "  zwidth design devices/lhifam.toml --recommend --ripple 0.1\n"
       "  zwidth design devices/lhifam_reduced_pretension.toml --notch --drift-percent 10 \\\n"
       "    --phase-margin-deg 0 --lower-any-user --output notch.svg");

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -29,8 +30,7 @@ NotchOptions notch_options(const NotchArguments& arguments) {
   NotchOptions options;
   if (arguments.goal == "any-user") options.goal = StiffnessGoal::any_user_limit;
   if (arguments.goal && *arguments.goal != "any-user" && *arguments.goal != "critical-stiffness") {
-    throw BadInput(
-        fmt::format("--goal: {} is for --recommend; of a notch critical-stiffness or any-user", *arguments.goal));
+    throw BadInput(fmt::format("--goal: {} is not for a notch; critical-stiffness or any-user is", *arguments.goal));
   }
   if (arguments.drift_percent) options.drift = *arguments.drift_percent / 100.0;
   if (arguments.gain_margin_db) options.gain_margin = ratio_of_decibels(*arguments.gain_margin_db);
@@ -63,8 +63,10 @@ void add_notch_options(CLI::App& command, NotchArguments& arguments) {
   command
       .add_option("--goal", arguments.goal,
                   "Of a notch: critical-stiffness (default), any-user.\n"
-                  "Of --recommend: stiffness (default), width, critical-damping")
-      ->check(CLI::IsMember({"critical-stiffness", "any-user", "stiffness", "width", "critical-damping"}))
+                  "Of --recommend: stiffness (default), width,\n"
+                  "critical-damping, damper (alone, K = 0).\n"
+                  "Of --target: stiffness (default), damper")
+      ->check(CLI::IsMember({"critical-stiffness", "any-user", "stiffness", "width", "critical-damping", "damper"}))
       ->type_name("GOAL")
       ->group(group);
   command.add_option("--drift-percent", arguments.drift_percent, "How far the modes' frequencies may shift, both ways")
@@ -89,9 +91,10 @@ void add_notch_options(CLI::App& command, NotchArguments& arguments) {
       ->group(group);
 }
 
-void refuse_notch_options(const CLI::App& command) {
-  for (const char* option : options_of_notch) {
-    if (command.count(option) > 0)
+void refuse_notch_options(const CLI::App& command, bool goal_is_used) {
+  for (const std::string_view option : options_of_notch) {
+    if (goal_is_used && option == "--goal") continue;
+    if (command.count(std::string(option)) > 0)
       throw BadInput(fmt::format("{}: is for a notch or a recommendation; add --notch or --recommend", option));
   }
 }

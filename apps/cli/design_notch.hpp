@@ -24,8 +24,9 @@ struct NotchArguments {
 /// Declares --notch and its options; `arguments` must outlive the parsing.
 void add_notch_options(CLI::App& command, NotchArguments& arguments);
 
-/// Throws BadInput for options of --notch that stand without it (and without --recommend).
-void refuse_notch_options(const CLI::App& command);
+/// Throws BadInput for options of --notch that stand without it (and without --recommend); --goal may be that of another
+/// form.
+void refuse_notch_options(const CLI::App& command, bool goal_is_used);
 
 /// Designs the notch and prints the answer. Throws BadInput and WorkFailed.
 void run_notch(const DeviceArguments& devices, const NotchArguments& arguments, const OutputArguments& output);

@@ -23,14 +23,16 @@ namespace zwidth::cli {
 namespace {
 
 RecommendationOptions recommendation_options(const RecommendArguments& arguments, const NotchArguments& shared) {
-  static const std::map<std::string, WallGoal> goals{
-      {"stiffness", WallGoal::stiffness}, {"width", WallGoal::width}, {"critical-damping", WallGoal::critical_damping}};
+  static const std::map<std::string, WallGoal> goals{{"stiffness", WallGoal::stiffness},
+                                                     {"width", WallGoal::width},
+                                                     {"critical-damping", WallGoal::critical_damping},
+                                                     {"damper", WallGoal::damper}};
   RecommendationOptions options;
   if (shared.goal) {
     const auto goal = goals.find(*shared.goal);
     if (goal == goals.end()) {
-      throw BadInput(fmt::format("--goal: {} is for a notch; of a recommendation stiffness, width or critical-damping",
-                                 *shared.goal));
+      throw BadInput(fmt::format(
+          "--goal: {} is not for a recommendation; stiffness, width, critical-damping or damper is", *shared.goal));
     }
     options.goal = goal->second;
   }

@@ -22,6 +22,7 @@
 #include "results/export_json.hpp"
 #include "results/json.hpp"
 #include "zwidth/design/wall_to_run.hpp"
+#include "zwidth/stability/held_wall.hpp"
 
 namespace zwidth::cli {
 namespace {
@@ -132,9 +133,9 @@ report::CodedWall coded_wall(const ExportArguments& arguments) {
 
 std::string exported_c(const ExportArguments& arguments) {
   const report::CodedWall wall = coded_wall(arguments);
-  if (!wall.wall.analysis.wall->stable) {
-    write_standard_error("zwidth: " + arguments.devices.files.front() +
-                         ": the wall is UNSTABLE by linear analysis; the code says so too\n");
+  if (const std::string holders = unstable_with(*wall.wall.analysis.wall_stable_for); !holders.empty()) {
+    write_standard_error(fmt::format("zwidth: {}: the wall is UNSTABLE by linear analysis, {}; the code says so too\n",
+                                     arguments.devices.files.front(), holders));
   }
   return report::export_c(wall);
 }
@@ -156,8 +157,9 @@ std::string exported_for_drive(const ExportArguments& arguments) {
   const DriveGains gains = worked(file, [&] { return drive_gains(wall.device, *arguments.units, loop); });
   const Trust& trust = gains.on_drive.trust;
   if (trust.refused()) throw WorkFailed(fmt::format("{}: closed on the drive: {}", file, report::verdict_text(trust)));
-  if (!gains.on_drive.wall->stable) {
-    write_standard_error("zwidth: " + file + ": closed on the drive, the wall is UNSTABLE by linear analysis\n");
+  if (const std::string holders = unstable_with(*gains.on_drive.wall_stable_for); !holders.empty()) {
+    write_standard_error(
+        fmt::format("zwidth: {}: closed on the drive, the wall is UNSTABLE by linear analysis, {}\n", file, holders));
   }
   return report::export_drive(wall.device, gains, source_of(arguments, wall));
 }
@@ -239,8 +241,9 @@ void add_export(CLI::App& app) {
   command->add_option("--stiffness", arguments->stiffness, "c, --units: K, instead of wall.stiffness")->type_name("K");
   command
       ->add_option("--safety-factor", arguments->safety_factor,
-                   "c: K is this share of the limit for any passive user, or of the\n"
-                   "critical stiffness where there is no such limit; of the lower end\n"
+                   "c: K is this share of the limit for any passive user; where there\n"
+                   "is none, of the critical stiffness with nobody holding and with\n"
+                   "the file's user, the lesser; of the lower end\n"
                    "of the 95 % interval where the device has one;\n"
                    "chai3d: of both ceilings (default 0.5)")
       ->type_name("FACTOR");

@@ -7,11 +7,12 @@
 namespace zwidth::cli {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 6> options_of_members = {
+constexpr std::array<std::pair<std::string_view, std::string_view>, 7> options_of_members = {
     {{"`rate`", "--rate"},
      {"`time_column`", "--time"},
      {"`time_scale`", "--time-scale"},
      {"`timer_bits`", "--timer-bits"},
+     {"`skip_rows`", "--skip-rows"},
      {"`lowest`", "--lowest-hz"},
      {"`highest`", "--highest-hz"}}};
 

@@ -140,6 +140,12 @@ void add_recording_options(CLI::App& command, RecordingArguments& arguments) {
       ->capture_default_str()
       ->check(CLI::IsMember({"auto", "text", "mat", "uff"}))
       ->group(recording_group);
+  command
+      .add_option("--skip-rows", arguments.options.skip_rows,
+                  "Lines of a text above the table; what follows is read as a table")
+      ->type_name("N")
+      ->check(CLI::NonNegativeNumber)
+      ->group(recording_group);
   command.add_option("--delimiter", arguments.delimiter, "Of a text: comma, semicolon, tab or space; else detected")
       ->type_name("NAME")
       ->group(recording_group);

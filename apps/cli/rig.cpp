@@ -29,6 +29,7 @@
 #include "zwidth/remark.hpp"
 #include "zwidth/simulation/simulate.hpp"
 #include "zwidth/stability/analysis.hpp"
+#include "zwidth/stability/held_wall.hpp"
 
 namespace zwidth::cli {
 namespace {
@@ -125,6 +126,7 @@ void answer(
   }
   if (rig.arguments.output.json) {
     write_warnings(session.remarks);
+    if constexpr (requires { result.remarks; }) write_warnings(result.remarks);
     write_standard_output(results::line(results::rig_json(rig.device, result)));
   } else {
     write_text(report::rig_text(rig.device, result));
@@ -285,8 +287,10 @@ void check_wall(const RigArguments& arguments, const Device& device, const Analy
   if (!device.parameters().wall.stiffness) {
     throw BadInput(file + ": wall.stiffness: is missing: there is no wall to render; set it, or give --stiffness");
   }
-  if (analysis.wall && !analysis.wall->stable && !arguments.accept_unstable) {
-    throw WorkFailed(file + ": the wall is UNSTABLE by linear analysis; --accept-unstable renders it all the same");
+  if (!analysis.wall_stable_for || arguments.accept_unstable) return;
+  if (const std::string holders = unstable_with(*analysis.wall_stable_for); !holders.empty()) {
+    throw WorkFailed(fmt::format(
+        "{}: the wall is UNSTABLE by linear analysis, {}; --accept-unstable renders it all the same", file, holders));
   }
 }
 

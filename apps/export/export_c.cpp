@@ -7,10 +7,12 @@
 #include <vector>
 
 #include "report/text/explanation.hpp"
+#include "report/text/held_wall_text.hpp"
 #include "report/text/quantity.hpp"
 #include "report/text/trust_text.hpp"
 #include "report/text/wall_filter_text.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/stability/held_wall.hpp"
 
 namespace zwidth::report {
 namespace {
@@ -34,17 +36,17 @@ std::string in_comment(std::string text) {
   return text;
 }
 
-std::string any_user_text(const Analysis& analysis, std::string_view unit) {
-  if (!analysis.any_user) return "not computed";
-  const double limit = analysis.any_user->stiffness;
-  if (std::isinf(limit)) return "none: no user destabilises it";
-  return limit > 0.0 ? fmt::format("{:.6g} {}", limit, unit) : "0: some user destabilises every wall";
-}
-
-std::string critical_text(const CriticalStiffness& critical, std::string_view unit) {
-  if (critical.status == StiffnessStatus::none_stable) return "none: no wall is stable from K = 0 on";
-  if (critical.status == StiffnessStatus::unbounded) return "unbounded";
-  return fmt::format("{:.6g} {}", critical.stiffness, unit);
+/// K_CR with each holder, a line each.
+std::string coded_limit_lines(const HoldingLimits& limits, std::string_view unit) {
+  const auto line = [&](Holder holder, const std::string& limit) {
+    return fmt::format(" *     {:<18}{}\n", words_of(holder), limit);
+  };
+  std::string lines = line(Holder::nobody, holder_limit_text(limits.nobody, unit));
+  if (limits.user) lines += line(Holder::user, holder_limit_text(*limits.user, unit));
+  if (!limits.any_user) return lines + line(Holder::any_user, "not computed");
+  return lines + line(Holder::any_user, limits.any_user->critical_stiffness > 0.0
+                                            ? holder_limit_text(*limits.any_user, unit)
+                                            : std::string("0: some user destabilises every wall"));
 }
 
 class CodeWriter {
@@ -84,16 +86,17 @@ class CodeWriter {
     }
     text += fmt::format(
         " *   contact             {}\n"
-        " *   critical stiffness  {} (this damping and these filters closed)\n"
-        " *   any passive user    {}\n"
+        " *   critical stiffness, with this damping and these filters closed:\n"
+        "{}"
+        " *   this wall is        {}\n"
         " *\n"
         " * Valid for one call per sampling period of {} s, at a delay of {} s besides the hold.\n",
         is_one_sided() ? "unilateral: it pushes only, out of position > 0" : "bilateral: a spring on both sides of 0",
-        critical_text(analysis.critical, units_.stiffness), any_user_text(analysis, units_.stiffness),
+        coded_limit_lines(analysis.limits, units_.stiffness), words_of(stability_of(*analysis.wall_stable_for)),
         device_.loop.sampling_period, device_.loop.delay);
     if (const auto note = trust_note(analysis.trust)) text += " *\n * " + in_comment(*note) + "\n";
-    if (!analysis.wall || !analysis.wall->stable) {
-      text += " *\n * WARNING: with this wall the loop is UNSTABLE by linear analysis.\n";
+    if (const std::string holders = unstable_with(*analysis.wall_stable_for); !holders.empty()) {
+      text += fmt::format(" *\n * WARNING: with this wall the loop is UNSTABLE by linear analysis, {}.\n", holders);
     }
     return text + " */\n\n";
   }
@@ -207,6 +210,9 @@ std::string c_identifier(std::string_view name) {
 std::string export_c(const CodedWall& wall) {
   if (!wall.wall.device.parameters().wall.stiffness) {
     throw Error(ErrorCode::invalid_argument, "there is no wall to write: wall.stiffness is missing");
+  }
+  if (!wall.wall.analysis.wall_stable_for) {
+    throw Error(ErrorCode::invalid_argument, "there is no verdict on the wall to write: its analysis is refused");
   }
   return CodeWriter(wall).text();
 }

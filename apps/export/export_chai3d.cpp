@@ -8,6 +8,8 @@
 #include "report/text/quantity.hpp"
 #include "report/text/trust_text.hpp"
 #include "report/text/wall_filter_text.hpp"
+#include "zwidth/model/device_operator.hpp"
+#include "zwidth/stability/holding.hpp"
 
 namespace zwidth::report {
 namespace {
@@ -43,6 +45,12 @@ std::string velocity_text(const Wall& wall, Units units) {
   return text + ".";
 }
 
+/// Whose critical stiffness there is where some user destabilises every wall.
+std::string basis_without_users(const Device& device) {
+  return fmt::format("the critical stiffness with nobody holding{}: there is no limit for any user",
+                     has_operator(device) ? " and with the file's user, the lesser" : "");
+}
+
 std::string interval_text(const SafeWall& ceilings) {
   if (ceilings.uncertainty_share == 1.0) return {};
   return fmt::format("// Both are taken at the lower end of their 95 % intervals, {:.4g} of their value.\n",
@@ -65,7 +73,7 @@ std::string export_chai3d(const Device& device, const SafeWall& ceilings, double
       "// Stiffness: {factor} of {limit:.4g} {stiffness_unit}, {basis}.\n"
       "// Damping: {factor} of {damping_limit:.4g} {damping_unit}, the least that destabilises some wall up to that "
       "stiffness.\n"
-      "// Every wall up to both is stable{whose}, each alone or both together.\n"
+      "// Every wall up to both is {whose}, each alone or both together.\n"
       "// {velocity}\n"
       "{interval}{doubt}"
       "m_specifications.m_max{kind}Stiffness = {stiffness};  // [{stiffness_unit}]\n"
@@ -74,10 +82,9 @@ std::string export_chai3d(const Device& device, const SafeWall& ceilings, double
       fmt::arg("rate", quantity(1.0 / device.loop().sampling_period, "Hz")),
       fmt::arg("delay", quantity(device.loop().delay, "s")), fmt::arg("limit", ceilings.limit),
       fmt::arg("stiffness_unit", units.stiffness), fmt::arg("damping_unit", units.damping),
-      fmt::arg("basis", any_user ? "the limit for any passive user"
-                                 : "the critical stiffness of the device as it is: there is no limit for any user"),
+      fmt::arg("basis", any_user ? std::string("the limit for any passive user") : basis_without_users(device)),
       fmt::arg("damping_limit", ceilings.damping_limit.value_or(ceilings.damping)),
-      fmt::arg("whose", any_user ? " whoever holds the device" : ""),
+      fmt::arg("whose", words_of(any_user ? WallStability::anyone : WallStability::alone_only)),
       fmt::arg("velocity", velocity_text(device.parameters().wall, units)), fmt::arg("kind", kind),
       fmt::arg("interval", interval_text(ceilings)), fmt::arg("doubt", doubt_text(ceilings.trust)),
       fmt::arg("stiffness", rounded_literal(rounded_down(ceilings.stiffness))),

@@ -3,32 +3,34 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <optional>
+#include <string_view>
 
 #include "report/text/explanation.hpp"
+#include "report/text/held_wall_text.hpp"
 #include "report/text/quantity.hpp"
 #include "report/text/trust_text.hpp"
+#include "zwidth/stability/held_wall.hpp"
 
 namespace zwidth::report {
 namespace {
 
-std::string limit_text(const CriticalStiffness& critical, Units units) {
-  if (critical.status == StiffnessStatus::unbounded) return "every wall is stable";
-  if (critical.status == StiffnessStatus::none_stable) return "no wall is stable from K = 0 on";
-  return fmt::format("K_CR {}", quantity(critical.stiffness, units.stiffness));
+/// K_CR with each holder.
+std::string limits_text(const HoldingLimits& limits, std::string_view unit) {
+  const auto with = [&](const HolderLimit& limit, Holder holder) {
+    return fmt::format("{} with {}", holder_limit_text(limit, unit), words_of(holder));
+  };
+  std::string text = with(limits.nobody, Holder::nobody);
+  if (limits.user) text += ", " + with(*limits.user, Holder::user);
+  if (limits.any_user && std::isfinite(limits.any_user->critical_stiffness)) {
+    text +=
+        fmt::format(", {} with {}", quantity(limits.any_user->critical_stiffness, unit), words_of(Holder::any_user));
+  }
+  return text;
 }
 
-std::string any_user_text(const std::optional<AnyUserLimit>& limit, Units units) {
-  if (!limit || !std::isfinite(limit->stiffness)) return {};
-  return fmt::format(", {} with any passive user", quantity(limit->stiffness, units.stiffness));
-}
-
-/// Where the wall stands among the limits.
-std::string wall_text(const DriveGains& gains) {
-  if (!gains.on_drive.wall->stable) return "UNSTABLE";
-  const auto& held = gains.on_drive.any_user;
-  const bool is_beyond = held && !(gains.stiffness < held->stiffness);
-  return is_beyond ? "stable by itself, but UNSTABLE in some passive user's hand" : "below that";
+std::string verdict_text_on_drive(const StableFor& wall) {
+  const std::string unstable = unstable_with(wall);
+  return unstable.empty() ? std::string(words_of(stability_of(wall))) : "UNSTABLE " + unstable;
 }
 
 /// A line that no text of a device file can end early.
@@ -46,9 +48,10 @@ std::string export_drive(const Device& device, const DriveGains& gains, const st
   std::string text = comment(fmt::format("{}: by zwidth {}", display_name(device), ZWIDTH_VERSION));
   text += comment(fmt::format("Wall: K {} ({}), B {}", quantity(gains.stiffness, units.stiffness), source,
                               quantity(device.parameters().wall.damping, units.damping)));
-  text += comment(fmt::format("Closed on the drive at {}, at the most: {}{}; this wall is {}",
-                              quantity(1.0 / gains.sampling_period, "Hz"), limit_text(gains.on_drive.critical, units),
-                              any_user_text(gains.on_drive.any_user, units), wall_text(gains)));
+  text += comment(fmt::format("Closed on the drive at {}, at the most: {}; this wall is {}",
+                              quantity(1.0 / gains.sampling_period, "Hz"),
+                              limits_text(gains.on_drive.limits, units.stiffness),
+                              verdict_text_on_drive(gains.on_drive.wall_stable_for.value())));
   for (const Remark& each : gains.remarks) text += comment(each.what);
   if (const auto note = trust_note(gains.on_drive.trust)) text += comment(*note);
   for (const DriveNumber& each : gains.numbers) {

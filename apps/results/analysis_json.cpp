@@ -22,6 +22,16 @@ Json any_user_json(const Analysis& analysis) {
           {"worst_user", analysis.worst_user}};
 }
 
+/// The wall's margins are those with the file's user; it is stable where it is with nobody too.
+Json wall_json(const Analysis& analysis) {
+  Json json = analysis.wall;
+  if (!analysis.wall) return json;
+  json["stable"] = stability_of(*analysis.wall_stable_for) != WallStability::unstable;
+  json["stable_for"] = analysis.wall_stable_for;
+  json["disk_margin"] = analysis.disk_margin;
+  return json;
+}
+
 Json range_json(const ValueRange& range) { return Json::array({range.least, range.greatest}); }
 
 Json user_family_json(const Analysis& analysis) {
@@ -50,6 +60,46 @@ Json virtual_damper_json(const Wall& wall) {
   return {{"damping", wall.damping}, {"velocity_filter_hz", wall.velocity_filter_hz}};
 }
 
+Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
+
+Json with_damper_json(const WallSummary& walls) {
+  if (!walls.with_damper) return nullptr;
+  const StiffestDampedWall& wall = *walls.with_damper;
+  return {{"stiffness", wall.stiffness},
+          {"damping", wall.damping},
+          {"velocity_filter_hz", wall.velocity_filter_hz},
+          {"stable_for", wall.holder == Holder::any_user ? "any_user" : "nobody"},
+          {"trust", wall.trust}};
+}
+
+Json with_margins_json(const WallSummary& walls) {
+  if (!walls.with_margins) return nullptr;
+  const RecommendedWall& each = *walls.with_margins;
+  Json notch = nullptr;
+  if (each.notch) {
+    notch = {{"frequency_hz", each.notch->frequency_hz},
+             {"damping_ratio", each.notch->damping_ratio},
+             {"depth", each.notch->depth}};
+  }
+  return {{"stiffness", each.wall.stiffness},
+          {"damping", each.wall.damping},
+          {"velocity_filter_hz", each.wall.velocity_filter_hz},
+          {"notch", std::move(notch)},
+          {"stable_for", each.any_user_limit ? "any_user" : "nobody"},
+          {"any_user_critical_stiffness", each.any_user_limit},
+          {"gain_margin_db", decibels(each.margins.gain_margin)},
+          {"phase_margin_rad", each.margins.phase_margin}};
+}
+
+/// The walls of the first lines.
+Json walls_json(const std::optional<WallSummary>& walls) {
+  if (!walls) return nullptr;
+  return {{"with_damper", with_damper_json(*walls)},
+          {"why_no_damper", text_or_null(walls->why_no_damper)},
+          {"with_margins", with_margins_json(*walls)},
+          {"why_no_margins", text_or_null(walls->why_no_margins)}};
+}
+
 std::optional<std::string> uncertainty_warning(const DeviceParameters& device) {
   if (!device.uncertainty || device.uncertainty->warning.empty()) return std::nullopt;
   return device.uncertainty->warning;
@@ -57,13 +107,14 @@ std::optional<std::string> uncertainty_warning(const DeviceParameters& device) {
 
 }  // namespace
 
-Json analysis_json(const Device& analysed, const Analysis& analysis) {
+Json analysis_json(const Device& analysed, const Analysis& analysis, const std::optional<WallSummary>& walls) {
   const DeviceParameters& device = analysed.parameters();
 
   Json json = document("zwidth.analysis/1");
   json["device"] = device.name;
   json["units"] = wall_units(device.motion);
   add_critical(json, analysis.critical);
+  json["limits"] = analysis.limits;
   json["stable_intervals"] = analysis.critical.stable_intervals;
   json["crossovers"] = analysis.critical.crossovers;
   json["modes"] = analysis.modes;
@@ -74,8 +125,8 @@ Json analysis_json(const Device& analysed, const Analysis& analysis) {
   json["user_family"] = user_family_json(analysis);
   json["virtual_damper"] = virtual_damper_json(device.wall);
   json["wall_filters"] = wall_filters_json(device.wall, device.loop.sampling_period);
-  json["wall"] = analysis.wall;
-  if (analysis.wall) json["wall"]["disk_margin"] = analysis.disk_margin;
+  json["wall"] = wall_json(analysis);
+  json["walls"] = walls_json(walls);
   json["force_per_count"] = analysis.force_per_count;
   json["quantisation_passivity"] = quantisation_json(analysis.quantisation);
   json["critical_stiffness_interval"] = analysis.interval;

@@ -8,9 +8,14 @@ Json design_target_json(const Device& device, const DesignTargetOptions& options
   Json json = document("zwidth.design_target/1");
   json["device"] = device.name();
   json["units"] = wall_units(device.parameters().motion);
-  json["goal"] = options.goal == StiffnessGoal::any_user_limit ? "any_user_limit" : "critical_stiffness";
-  json["target"] = options.stiffness;
-  json["stiffness_now"] = targets.limit_now;
+  const bool any_user = options.goal == StiffnessGoal::any_user_limit;
+  const bool is_damper = options.limit_of == WallNumber::damping;
+  json["goal"] = is_damper ? (any_user ? "any_user_damping" : "critical_damping")
+                           : (any_user ? "any_user_limit" : "critical_stiffness");
+  json["target"] = options.times_now ? Json(targets.target) : Json(options.stiffness);
+  json["stiffness_now"] = is_damper ? std::nullopt : targets.limit_now;
+  json["damping_now"] = is_damper ? targets.limit_now : std::nullopt;
+  json["any_user_now"] = targets.any_user_now;
   json["trust"] = targets.trust;
   json["remarks"] = targets.remarks;
   json["targets"] = Json::array();
@@ -18,7 +23,9 @@ Json design_target_json(const Device& device, const DesignTargetOptions& options
     json["targets"].push_back(Json{{"parameter", each.key},
                                    {"value_now", each.value_now},
                                    {"value_needed", Json(each.value_needed)},
-                                   {"why", each.why}});
+                                   {"why", each.why},
+                                   {"any_user_then", each.any_user_then},
+                                   {"safe", each.safe}});
   }
   return json;
 }

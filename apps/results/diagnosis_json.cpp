@@ -7,6 +7,10 @@
 
 namespace zwidth::results {
 
+static void to_json(Json& json, const OtherwiseNeeded& needed) {
+  json = {{"limit", needed.limit}, {"frequency", needed.frequency}, {"amplitude", needed.amplitude}};
+}
+
 static void to_json(Json& json, const OscillationCandidate& candidate) {
   const bool has_frequency = candidate.frequency > 0.0;
   json = {{"cause", candidate.cause},
@@ -14,9 +18,11 @@ static void to_json(Json& json, const OscillationCandidate& candidate) {
           {"frequency_rad_s", has_frequency ? std::optional(candidate.frequency) : std::nullopt},
           {"frequency_hz", has_frequency ? hertz(std::optional(candidate.frequency)) : std::nullopt},
           {"stiffness", candidate.stiffness},
+          {"damping", candidate.damping},
           {"amplitude", candidate.amplitude},
           {"limited_by", candidate.limited_by},
-          {"why", candidate.why}};
+          {"why", candidate.why},
+          {"otherwise", candidate.otherwise}};
 }
 
 static void to_json(Json& json, const DiagnosisChange& change) {
@@ -28,7 +34,9 @@ static void to_json(Json& json, const DiagnosisChange& change) {
           {"limit_then", change.limit_then},
           {"amplitude_now", change.amplitude_now},
           {"amplitude_then", change.amplitude_then},
-          {"ends_it", change.ends_it}};
+          {"ends_it", change.ends_it},
+          {"any_user_then", change.any_user_then},
+          {"safe", change.safe}};
 }
 
 Json diagnosis_json(const Device& device, const Diagnosis& diagnosis) {
@@ -40,7 +48,10 @@ Json diagnosis_json(const Device& device, const Diagnosis& diagnosis) {
   json["amplitude"] = diagnosis.amplitude;
   json["stiffness"] = diagnosis.stiffness;
   json["damping"] = diagnosis.damping;
+  json["limit_of"] = diagnosis.limit_of == WallNumber::stiffness ? "stiffness" : "damping";
   json["cause"] = diagnosis.cause;
+  json["nearest"] = diagnosis.nearest;
+  json["any_user_now"] = diagnosis.any_user_now;
   json["candidates"] = diagnosis.candidates;
   json["changes"] = diagnosis.changes;
   json["trust"] = diagnosis.trust;

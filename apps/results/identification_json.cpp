@@ -54,8 +54,8 @@ Json points_json(const ParameterFit& fit) {
 /// The limit that an identification gives, none where it is refused, and how far it is to be trusted.
 template <typename Identified>
 static void put_limit(Json& json, const Identified& identified, const Json& analysis) {
-  for (const char* key :
-       {"status", "critical_stiffness", "critical_stiffness_interval", "critical_frequency_hz", "limited_by"}) {
+  for (const char* key : {"status", "critical_stiffness", "critical_stiffness_interval", "critical_frequency_hz",
+                          "limited_by", "limits"}) {
     json[key] = identified.trust.refused() ? Json(nullptr) : analysis[key];
   }
   json["modes"] = analysis["modes"];

@@ -10,6 +10,11 @@
 
 namespace zwidth::results {
 
+static WallRegion::Status status_of(const NobodysRegion& nobody) {
+  if (!nobody.region.bounded) return WallRegion::Status::unbounded;
+  return nobody.region.components.empty() ? WallRegion::Status::none_stable : WallRegion::Status::bounded;
+}
+
 static void to_json(Json& json, const BoundaryPoint& point) {
   json = {{"stiffness", point.stiffness},
           {"damping", point.damping},
@@ -35,6 +40,30 @@ static void to_json(Json& json, const AnyUserRegion& region) {
           {"most_damped", region.most_damped},
           {"area", region.area},
           {"limits", region.ranges}};
+}
+
+/// A point, and whose boundary it is on.
+static void to_json(Json& json, const SharedPoint& shared) {
+  to_json(json, shared.point);
+  json["holder"] = shared.holder;
+}
+
+/// The walls of one holder, as the document has those with the file's user.
+static void to_json(Json& json, const NobodysRegion& nobody) {
+  const StableRegion& region = nobody.region;
+  json = {{"status", status_of(nobody)},
+          {"critical_stiffness", region.critical_stiffness},
+          {"stiffest", region.stiffest},
+          {"most_damped", region.most_damped},
+          {"area", region.bounded ? std::optional(region.area) : std::nullopt},
+          {"components", region.components}};
+}
+
+static void to_json(Json& json, const SharedWalls& shared) {
+  json = {{"critical_stiffness", shared.critical_stiffness},
+          {"stiffest", shared.stiffest},
+          {"most_damped", shared.most_damped},
+          {"area", shared.area}};
 }
 
 static void to_json(Json& json, const ComparedApproximation& compared) {
@@ -84,6 +113,8 @@ Json region_json(const Device& device, const WallRegion& walls) {
   json["most_damped"] = region.most_damped;
   json["area"] = region.bounded && !refused ? std::optional(region.area) : std::nullopt;
   json["components"] = region.components;
+  json["nobody"] = walls.nobody;
+  json["nobody_and_user"] = walls.shared;
   json["any_user"] = walls.any_user;
   json["approximations"] = walls.approximations;
   json["force_per_count"] = force_per_count_json(walls, parameters.wall);
@@ -93,16 +124,20 @@ Json region_json(const Device& device, const WallRegion& walls) {
 }
 
 std::string region_csv(const WallRegion& walls) {
-  const StableRegion& region = walls.region;
-  Csv csv({"component", "boundary", "stiffness", "damping", "frequency_rad_s", "mode", "trust"});
-  for (std::size_t i = 0; i < region.components.size(); ++i) {
-    for (const BoundaryArc& arc : region.components[i].outline.arcs) {
-      for (const BoundaryPoint& point : arc.points) {
-        const std::string mode = point.limited_by ? std::to_string(point.limited_by->mode) : "";
-        csv.row(i + 1, name_of(arc.kind), point.stiffness, point.damping, point.frequency, mode, walls.trust);
+  Csv csv({"component", "boundary", "stiffness", "damping", "frequency_rad_s", "mode", "trust", "holder"});
+  const auto add = [&](const StableRegion& region, Holder holder) {
+    for (std::size_t i = 0; i < region.components.size(); ++i) {
+      for (const BoundaryArc& arc : region.components[i].outline.arcs) {
+        for (const BoundaryPoint& point : arc.points) {
+          const std::string mode = point.limited_by ? std::to_string(point.limited_by->mode) : "";
+          csv.row(i + 1, name_of(arc.kind), point.stiffness, point.damping, point.frequency, mode, walls.trust,
+                  name_of(holder));
+        }
       }
     }
-  }
+  };
+  add(walls.region, walls.nobody ? Holder::user : Holder::nobody);
+  if (walls.nobody) add(walls.nobody->region, Holder::nobody);
   return csv.text();
 }
 

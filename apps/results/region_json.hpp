@@ -25,10 +25,11 @@ NLOHMANN_JSON_SERIALIZE_ENUM(RegionApproximation::Formula,
 [[nodiscard]] Json region_json(const Device& device, const WallRegion& region);
 
 /// The boundary, a line per point: component by number, kind, K, B, rad/s, mode
-/// (0: the rigid body; empty on K = 0 and B = 0), and the verdict on all of it.
+/// (0: the rigid body; empty on K = 0 and B = 0), the verdict on all of it, and who holds the device: nobody, or the file's
+/// user and then nobody.
 [[nodiscard]] std::string region_csv(const WallRegion& walls);
 
-/// A line per wall: K, B, 1 where it is stable, and the verdict on the region that it is a raster of.
+/// A line per wall: K, B, 1 where it is stable with nobody and with the file's user, and the verdict on the region that it is a raster of.
 [[nodiscard]] std::string region_raster_csv(const WallRaster& raster, const Trust& trust);
 
 }  // namespace zwidth::results

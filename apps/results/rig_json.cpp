@@ -141,6 +141,8 @@ Json rig_json(const Device& device, const RigWall& wall) {
                   {"velocity_filter_hz", wall.controller.velocity_filter_hz},
                   {"filters", wall.controller.filters.size()}};
   json["predicted"] = predicted_json(wall.predicted);
+  json["limits"] = wall.limits;
+  json["stable_for"] = wall.stable_for;
   json["predicted_stable"] = wall.predicted_stable;
   json["oscillates"] = wall.oscillates;
   json["oscillation"] = wall.ring;
@@ -162,6 +164,7 @@ Json rig_json(const Device& device, const RigLimit& limit) {
                       {"stiffest_stable", measured.lower > 0.0 ? Json(measured.lower) : Json(nullptr)},
                       {"softest_unstable", measured.upper > 0.0 ? Json(measured.upper) : Json(nullptr)}};
   json["predicted"] = predicted_json(limit.predicted);
+  json["limits"] = limit.limits;
   json["any_user"] = nullptr;
   if (limit.any_user) {
     json["any_user"] = {{"critical_stiffness", limit.any_user->stiffness},
@@ -173,7 +176,8 @@ Json rig_json(const Device& device, const RigLimit& limit) {
   }
   json["knock"] = limit.knock;
   json["trials"] = measured.trials;
-  json["trust"] = measured.trust;
+  json["trust"] = limit.trust;
+  json["remarks"] = limit.remarks;
   return json;
 }
 

@@ -38,6 +38,8 @@ static void to_json(Json& json, const LinearAnswer& linear) {
           {"critical_frequency_hz", hertz(frequency)},
           {"wall_share", linear.wall_share},
           {"wall_stable", linear.wall_stable},
+          {"limits", linear.limits},
+          {"stable_for", linear.stable_for},
           {"agrees", linear.agrees}};
 }
 

@@ -77,6 +77,23 @@ void to_json(Json& json, const WorstUser& worst) {
           {"frequency_rad_s", worst.frequency}};
 }
 
+void to_json(Json& json, const HolderLimit& limit) {
+  json = {{"critical_stiffness", limit.critical_stiffness},
+          {"frequency_rad_s", limit.frequency},
+          {"limited_by", limit.limited_by},
+          {"critical_damping", limit.critical_damping},
+          {"critical_damping_frequency_rad_s", limit.damping_frequency},
+          {"critical_damping_limited_by", limit.damping_limited_by}};
+}
+
+void to_json(Json& json, const HoldingLimits& limits) {
+  json = {{"nobody", limits.nobody}, {"user", limits.user}, {"any_user", limits.any_user}};
+}
+
+void to_json(Json& json, const StableFor& wall) {
+  json = {{"nobody", wall.nobody}, {"user", wall.user}, {"any_user", wall.any_user}};
+}
+
 void add_critical(Json& document, const CriticalStiffness& critical) {
   std::optional<double> frequency;
   std::optional<Mechanism> limited_by;

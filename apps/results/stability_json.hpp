@@ -18,6 +18,13 @@ NLOHMANN_JSON_SERIALIZE_ENUM(RigidApproximation::Error, {{RigidApproximation::Er
 NLOHMANN_JSON_SERIALIZE_ENUM(Mechanism::Kind, {{Mechanism::Kind::rigid_body, "rigid_body"},
                                                {Mechanism::Kind::vibration_mode, "vibration_mode"}})
 
+NLOHMANN_JSON_SERIALIZE_ENUM(WallStability, {{WallStability::anyone, "anyone"},
+                                             {WallStability::alone_only, "alone_only"},
+                                             {WallStability::unstable, "unstable"}})
+
+NLOHMANN_JSON_SERIALIZE_ENUM(Holder,
+                             {{Holder::nobody, "nobody"}, {Holder::user, "user"}, {Holder::any_user, "any_user"}})
+
 /// {"kind": "rigid_body"} or {"kind": "vibration_mode", "mode": 1}
 void to_json(Json& json, const Mechanism& mechanism);
 
@@ -36,6 +43,17 @@ void to_json(Json& json, const QCriterion& criterion);
 void to_json(Json& json, const WallMargins& wall);
 void to_json(Json& json, const DiskMargin& disk);
 void to_json(Json& json, const WorstUser& worst);
+
+/// "critical_stiffness", "frequency_rad_s", "limited_by", "critical_damping", "critical_damping_frequency_rad_s",
+/// "critical_damping_limited_by"
+void to_json(Json& json, const HolderLimit& limit);
+
+/// {"nobody": {...}, "user": {...} | null, "any_user": {...} | null}: `limits` of every document that states one
+/// (holding_limits()).
+void to_json(Json& json, const HoldingLimits& limits);
+
+/// {"nobody": bool, "user": bool | null, "any_user": bool | null}: `stable_for` of a wall
+void to_json(Json& json, const StableFor& wall);
 
 /// "status", "critical_stiffness", "critical_stiffness_db", "critical_frequency_rad_s", "critical_frequency_hz",
 /// "limited_by": the keys with which a document states a critical stiffness.

@@ -125,6 +125,7 @@ Json study_json(const StudyRun& run, const Study& study) {
   Json json = document("zwidth.study/1");
   json["device"] = run.device().name();
   json["units"] = wall_units(run.device().parameters().motion);
+  json["limits"] = study.limits;
   json["samples"] = study.samples;
   json["seed"] = options.seed;
   json["sampling"] = options.sampling;

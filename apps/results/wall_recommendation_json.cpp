@@ -15,6 +15,7 @@ Json margins_json(const RecommendedWall& each) {
   json["any_user_critical_stiffness"] = each.any_user_limit;
   json["any_user_stiffness_margin_db"] =
       each.any_user_stiffness_margin ? Json(decibels(*each.any_user_stiffness_margin)) : Json(nullptr);
+  json["any_user_critical_damping"] = each.any_user_damping_limit;
   json["contact_damping_ratio"] = each.contact_damping_ratio;
   return json;
 }

@@ -7,7 +7,8 @@ namespace zwidth::results {
 
 NLOHMANN_JSON_SERIALIZE_ENUM(WallGoal, {{WallGoal::stiffness, "stiffness"},
                                         {WallGoal::width, "width"},
-                                        {WallGoal::critical_damping, "critical-damping"}})
+                                        {WallGoal::critical_damping, "critical-damping"},
+                                        {WallGoal::damper, "damper"}})
 NLOHMANN_JSON_SERIALIZE_ENUM(WallBound, {{WallBound::none, "none"},
                                          {WallBound::any_user, "any_user"},
                                          {WallBound::gain_margin, "gain_margin"},

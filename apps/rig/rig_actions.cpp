@@ -7,9 +7,11 @@
 #include <utility>
 
 #include "rig/action_steps.hpp"
+#include "zwidth/model/device_operator.hpp"
 #include "zwidth/model/device_trust.hpp"
 #include "zwidth/quantity.hpp"
 #include "zwidth/rig/wall_verdict.hpp"
+#include "zwidth/stability/analysis.hpp"
 #include "zwidth/stability/any_user.hpp"
 
 namespace zwidth::rig {
@@ -44,10 +46,31 @@ ControllerOptions wall_of(const Device& device, double stiffness) {
   return controller;
 }
 
-bool is_stable(const CriticalStiffness& predicted, double stiffness) {
-  return std::ranges::any_of(predicted.stable_intervals, [&](const StableInterval& interval) {
-    return stiffness > interval.lower && (!interval.upper || stiffness < *interval.upper);
-  });
+/// The device with the wall that runs as its own.
+Device rendering(const Device& device, const ControllerOptions& controller) {
+  DeviceParameters parameters = device.parameters();
+  parameters.wall = {controller.stiffness, controller.damping, controller.velocity_filter_hz, controller.filters};
+  return Device(std::move(parameters));
+}
+
+/// Limits and verdict with nobody and with the file's user: who holds the rig is not known, and a person lets go.
+void predict(const Device& device, RigWall& wall) {
+  const Device rendered = rendering(device, wall.controller);
+  const Analysis analysis = analyze(rendered, {.critical_damping = false, .draws = 0});
+  wall.limits = analysis.limits;
+  wall.trust.inherit(
+      analyze(rendered, limit_and_wall_only()).trust);  // not that of a limit for users who are not there
+  if (analysis.trust.refused() || (wall.controller.stiffness == 0.0 && wall.controller.damping == 0.0)) return;
+  wall.stable_for = analysis.wall_stable_for;
+  wall.predicted_stable = stability_of(*wall.stable_for) != WallStability::unstable;
+}
+
+/// Where the device that nobody holds may oscillate, beside where the file's user makes it.
+void add_frequencies(const Device& device, std::vector<double>& frequencies) {
+  if (!has_operator(device)) return;
+  for (const Crossover& each : critical_stiffness(without_operator(device)).crossovers) {
+    frequencies.push_back(each.frequency);
+  }
 }
 
 /// What was identified on a simulated device is trusted no more than its file, and the file that it makes says so.
@@ -63,6 +86,18 @@ void inherit(const Trust& trust, Identification& identified) {
   parameters.uncertainty->warning.clear();
   parameters.uncertainty->reasons = of_file.reasons;
   identified.fit.device = Device(std::move(parameters));
+}
+
+/// The limit with any passive user is that which stands beside, computed once.
+HoldingLimits limits_beside(const Device& device, const RigLimit& limit) {
+  HoldingLimits limits = holding_limits(device, {.any_user = false, .critical_damping = false});
+  if (!limit.any_user) return limits;
+  HolderLimit& any_user = limits.any_user.emplace();
+  any_user.critical_stiffness = limit.any_user->stiffness;
+  if (limit.any_user->stiffness > 0.0 && std::isfinite(limit.any_user->stiffness)) {
+    any_user.frequency = limit.any_user->frequency;
+  }
+  return limits;
 }
 
 /// A force that moves the device against its dry friction.
@@ -111,7 +146,10 @@ LimitOptions default_limit(const Device& device) {
     for (const Crossover& each : predicted.crossovers) options.search.frequencies.push_back(each.frequency);
     options.search.floor = device.parameters().sensor.resolution;
   }
-  options.dwell = std::max(shortest_dwell, dwell_cycles * 2.0 * std::numbers::pi / frequency_of(predicted));
+  add_frequencies(device, options.search.frequencies);
+  double slowest = frequency_of(predicted);
+  if (has_operator(device)) slowest = std::min(slowest, frequency_of(critical_stiffness(without_operator(device))));
+  options.dwell = std::max(shortest_dwell, dwell_cycles * 2.0 * std::numbers::pi / slowest);
   options.knock = default_force(device);
   return options;
 }
@@ -182,9 +220,7 @@ RigWall render_wall(const Device& device, Driver& driver, const RigOptions& opti
   result.controller = wall.controller;
   result.predicted = critical_stiffness(device);
   result.trust = result.predicted.trust;
-  if (result.predicted.status != StiffnessStatus::refused && wall.controller.stiffness > 0.0) {
-    result.predicted_stable = is_stable(result.predicted, wall.controller.stiffness);
-  }
+  predict(device, result);
   const double period = device.loop().sampling_period;
   const double frequency = frequency_of(result.predicted);
   Segment segment;
@@ -193,6 +229,7 @@ RigWall render_wall(const Device& device, Driver& driver, const RigOptions& opti
   segment.ramps = true;
   segment.watched.push_back(frequency);
   for (const Crossover& each : result.predicted.crossovers) segment.watched.push_back(each.frequency);
+  add_frequencies(device, segment.watched);
   segment.watch_floor = 2.0 * device.parameters().sensor.resolution;
   const std::size_t ramped = std::min(segment.cycles, cycles_of(options.limits.ramp, device));
   segment.cut_from = ramped;
@@ -226,6 +263,7 @@ RigLimit measure_limit(const Device& device, Driver& driver, const RigOptions& o
   if (device.has_bodies() && device.bodies().size() <= most_bodies_for_any_user) {
     result.any_user = any_user_limit(device, virtual_damper(device));
   }
+  result.limits = limits_beside(device, result);
   result.knock = limit.knock;
   const double period = device.loop().sampling_period;
   LimitSearch search(limit.search);
@@ -272,6 +310,7 @@ RigLimit measure_limit(const Device& device, Driver& driver, const RigOptions& o
   if (result.session.stop != StopReason::none && !result.measured.stiffness) {
     result.measured.trust.refuse("the rig stopped before an oscillation grew: " + explanation(result.session));
   }
+  judge(result, device);
   return result;
 }
 

@@ -7,6 +7,7 @@
 #include "answer.hpp"
 #include "zwidth/model/device.hpp"
 #include "zwidth/stability/analysis.hpp"
+#include "zwidth/stability/critical_damping.hpp"
 
 namespace zwidth::python {
 
@@ -40,6 +41,10 @@ template <>
 struct type_caster<zwidth::CriticalStiffness> : zwidth::python::ConstructedCaster<zwidth::CriticalStiffness> {};
 template <>
 struct type_caster<zwidth::AnyUserLimit> : zwidth::python::ConstructedCaster<zwidth::AnyUserLimit> {};
+template <>
+struct type_caster<zwidth::CriticalDamping> : zwidth::python::ConstructedCaster<zwidth::CriticalDamping> {};
+template <>
+struct type_caster<zwidth::AnyUserDamping> : zwidth::python::ConstructedCaster<zwidth::AnyUserDamping> {};
 template <>
 struct type_caster<zwidth::python::Answer> : zwidth::python::ConstructedCaster<zwidth::python::Answer> {};
 }  // namespace pybind11::detail

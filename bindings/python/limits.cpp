@@ -22,6 +22,7 @@
 #include "zwidth/batch/batch_stiffness.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/stability/analysis.hpp"
+#include "zwidth/stability/critical_damping.hpp"
 
 namespace zwidth::python {
 namespace py = pybind11;
@@ -65,6 +66,36 @@ Json json_of(const CriticalStiffness& critical) {
   json["stable_intervals"] = critical.stable_intervals;
   json["crossovers"] = critical.crossovers;
   json["trust"] = critical.trust;
+  return json;
+}
+
+Json json_of(const DampingCrossover& crossover) {
+  return {{"frequency_rad_s", crossover.frequency},
+          {"damping", crossover.damping},
+          {"limited_by", crossover.limited_by},
+          {"poles_leaving", crossover.poles_leaving}};
+}
+
+Json json_of(const CriticalDamping& critical) {
+  Json json = Json::object();
+  json["status"] = critical.status;
+  json["critical_damping"] = critical.damping;
+  json["critical_damping_frequency_rad_s"] = critical.limit ? Json(critical.limit->frequency) : Json(nullptr);
+  json["critical_damping_limited_by"] = critical.limit ? Json(critical.limit->limited_by) : Json(nullptr);
+  json["stable_intervals"] = critical.stable_intervals;
+  json["crossovers"] = Json::array();
+  for (const DampingCrossover& each : critical.crossovers) json["crossovers"].push_back(json_of(each));
+  json["trust"] = critical.trust;
+  return json;
+}
+
+Json json_of(const AnyUserDamping& limit) {
+  const bool has_frequency = limit.damping > 0.0 && std::isfinite(limit.damping);
+  Json json = Json::object();
+  json["critical_damping"] = limit.damping;
+  json["critical_damping_frequency_rad_s"] = has_frequency ? Json(limit.frequency) : Json(nullptr);
+  json["truncation"] = limit.truncation;
+  json["trust"] = limit.trust;
   return json;
 }
 
@@ -137,6 +168,56 @@ void bind_any_user_limit(py::module_& module) {
       "any_user_limit", &checked_any_user_limit, py::arg("device"),
       "The stiffest wall that is stable with every passive user (docs/any_user.md): N/m or N m/rad, as analyze() "
       "states it. Warns with DoubtfulResult where it is not sound.");
+}
+
+void bind_critical_damping(py::module_& module) {
+  py::class_<CriticalDamping> bound(
+      module, "CriticalDamping",
+      "The largest stable virtual damper without a spring, with everything that decides it.");
+  add_properties(
+      bound, Documented{"status", "\"finite\", \"none_stable\", \"unbounded\" or \"refused\"."},
+      Documented{
+          "critical_damping",
+          "N s/m or N m s/rad: stable for 0 <= B below it; 0 where none is stable; None where unbounded or refused."},
+      Documented{"critical_damping_frequency_rad_s", "Of the oscillation just above it, rad/s; None unless finite."},
+      Documented{"critical_damping_limited_by",
+                 "{\"kind\": \"rigid_body\"} or {\"kind\": \"vibration_mode\", \"mode\": N}; None unless finite."},
+      Documented{"stable_intervals", "[lower, upper] of every stable interval of B; an unbounded end is None."},
+      Documented{"crossovers", "Every B that puts a closed-loop pole on the unit circle, by rising frequency."},
+      Documented{"trust", "{\"verdict\": \"sound\", \"doubtful\" or \"refused\", \"reasons\": [...]}"});
+  module.def(
+      "critical_damping",
+      [](const Device& device) {
+        CriticalDamping critical = computed([&] { return critical_damping(device); });
+        warn_of(critical.trust);
+        return critical;
+      },
+      py::arg("device"),
+      "The largest stable virtual damper without a spring (K = 0), the file's user holding where there is one: N s/m "
+      "or "
+      "N m s/rad. Warns with DoubtfulResult where it is not sound.");
+}
+
+void bind_any_user_damping(py::module_& module) {
+  py::class_<AnyUserDamping> bound(module, "AnyUserDamping",
+                                   "The largest damper without a spring that is stable whoever holds the device.");
+  add_properties(
+      bound,
+      Documented{"critical_damping",
+                 "N s/m or N m s/rad; 0: some user destabilises every damper; None: none does, or refused."},
+      Documented{"critical_damping_frequency_rad_s", "Where the worst user destabilises it, rad/s; None: nowhere."},
+      Documented{"truncation", "Relative: what the bounds leave open; it is taken off the limit."},
+      Documented{"trust", "{\"verdict\": ..., \"reasons\": [...]}"});
+  module.def(
+      "any_user_damping",
+      [](const Device& device) {
+        AnyUserDamping limit = computed([&] { return any_user_damping(device); });
+        warn_of(limit.trust);
+        return limit;
+      },
+      py::arg("device"),
+      "The largest damper without a spring (K = 0) that no passive user destabilises (docs/any_user.md): N s/m or "
+      "N m s/rad. Warns with DoubtfulResult where it is not sound.");
 }
 
 /// The median of the library's own call, for who measures what a call from Python costs beside it.
@@ -223,6 +304,8 @@ py::dict many(const Device& device, const py::dict& changes, const py::object& p
 void bind_limits(py::module_& module) {
   bind_critical_stiffness(module);
   bind_any_user_limit(module);
+  bind_critical_damping(module);
+  bind_any_user_damping(module);
   module.def("critical_stiffness_many", &many);
   module.def("seconds_of_critical_stiffness", &seconds_of_critical_stiffness);
 }

@@ -41,7 +41,9 @@ class Sampler {
     if (nobody > 0.0 && limit.stiffness - nobody > most_taken_off_) {
       most_taken_off_ = limit.stiffness - nobody;
       trust_ = {};
-      trust_.doubt("a limit for any passive user is above that of nobody, which was taken: rounding hides the rest");
+      trust_.doubt(
+          "at some damping the limit for any passive user came out above that of nobody, which cannot be; the lower of "
+          "the two is given there, and the true one may be lower still: ask for the limit at the one damping you want");
     }
     return {damping, nobody, nobody > 0.0 ? limit.frequency : 0.0};
   }

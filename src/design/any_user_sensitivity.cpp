@@ -10,6 +10,7 @@
 #include "design/disc_slopes.hpp"
 #include "stability/disc_stiffness.hpp"
 #include "zwidth/design/sensitivity.hpp"
+#include "zwidth/model/device_operator.hpp"
 #include "zwidth/model/parameter.hpp"
 
 namespace zwidth {
@@ -17,13 +18,6 @@ using namespace internal;
 namespace {
 
 using Complex = std::complex<double>;
-
-Device without_operator(const Device& device) {
-  DeviceParameters parameters = device.parameters();
-  parameters.user = {};
-  parameters.uncertainty.reset();
-  return Device(std::move(parameters));
-}
 
 std::vector<DesignParameter> parameters_of(const Device& free) {
   using Kind = DesignParameter::Kind;
@@ -156,34 +150,58 @@ std::vector<double> slopes_at(const Device& free, const UserDiscs& discs, const 
   return result;
 }
 
-/// The limit itself, without what is taken off it.
-double moved_limit(const Device& free, const std::string& key, double value) {
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+
+/// Where the damped bodies hardly move discs are so large that their slopes cancel.
+bool is_in_dip(const UserDiscs& discs, double frequency) {
+  constexpr double far_larger = 1e4;  // a disc, than the free plant
+  return !discs.sharp_images().empty() &&
+         discs.at(frequency).radius > far_larger * std::abs(response(discs.free_plant(), frequency));
+}
+
+DeviceParameters moved_parameters(const Device& free, const std::string& key, double value) {
   DeviceParameters moved = free.parameters();
   set_parameter(moved, key, value);
+  return moved;
+}
+
+/// The limit itself, without what is taken off it; NaN where the value makes no device.
+double moved_limit(const Device& free, const std::string& key, double value) {
+  DeviceParameters moved = moved_parameters(free, key, value);
+  if (find_problem(moved)) return no_number;
   const VirtualDamper damper{moved.wall.damping, moved.wall.velocity_filter_hz};
   const AnyUserLimit limit = any_user_limit(Device(std::move(moved)), damper);
   return limit.stiffness / (1.0 - limit.truncation);
 }
 
-/// A slope of a limit reached at nearly zero frequency, where all terms grow without bound, held against differences of
-/// the limit: the slope where they agree, a better difference where they do not, NaN where that does not settle.
+/// A slope of a limit reached at nearly zero frequency or in a dip, where all terms grow without bound, held against
+/// differences of the limit: the slope where they agree, a better difference where they do not, NaN where that does not settle.
 double checked_slope(const Device& free, const DesignParameter& parameter, double slope, double limit) {
   constexpr double nearly = 1e-4;  // of K/p
   constexpr double settles = 1e-5;
   constexpr double step = 1e-3;
   const double p = parameter.value;
   const auto at = [&](double change) { return moved_limit(free, parameter.key, p * (1.0 + change)); };
-  const auto middle = [&](double h) { return (at(h) - at(-h)) / (2.0 * h * p); };
+  // Of second order: about p, or to one side where the other makes no device, such as a longer period that puts a filter
+  // above Nyquist.
+  const auto makes_device = [&](double change) {
+    return !find_problem(moved_parameters(free, parameter.key, p * (1.0 + change)));
+  };
+  const double side = !makes_device(2.0 * step) ? -1.0 : makes_device(-2.0 * step) ? 0.0 : 1.0;
+  const auto difference = [&](double h) {
+    if (side == 0.0) return (at(h) - at(-h)) / (2.0 * h * p);
+    return side * (4.0 * at(side * h) - at(2.0 * side * h) - 3.0 * at(0.0)) / (2.0 * h * p);
+  };
   const double scale = std::max(limit / p, std::isfinite(slope) ? std::abs(slope) : 0.0);
-  const double coarse = middle(step);
+  const double coarse = difference(step);
   if (std::abs(coarse - slope) <= nearly * scale) return slope;
   // Richardson, twice
-  const double twice = middle(2.0 * step);
-  const double half = middle(0.5 * step);
+  const double twice = difference(2.0 * step);
+  const double half = difference(0.5 * step);
   const double finer = (4.0 * half - coarse) / 3.0;
   const double rougher = (4.0 * coarse - twice) / 3.0;
   const bool is_settled = std::abs(finer - rougher) <= settles * std::max(limit / p, std::abs(finer));
-  return is_settled ? finer : std::numeric_limits<double>::quiet_NaN();
+  return is_settled ? finer : no_number;
 }
 
 /// The same for a parameter that grows from 0: the slope where a difference confirms it, else NaN.
@@ -202,7 +220,7 @@ double checked_first_slope(const Device& free, const DesignParameter& parameter,
   const double second = moved_limit(free, parameter.key, 2.0 * h);
   const double difference = (4.0 * first - second - 3.0 * limit) / (2.0 * h);
   const bool is_confirmed = std::abs(difference - slope) <= roughly * std::max(std::abs(slope), 1e-3 * limit / unit);
-  return is_confirmed ? slope : std::numeric_limits<double>::quiet_NaN();
+  return is_confirmed ? slope : no_number;
 }
 
 }  // namespace
@@ -237,7 +255,7 @@ std::vector<Sensitivity> any_user_sensitivities(const Device& device, const AnyU
   } else if (limit.frequency > 0.0) {
     slopes = slopes_at(free, discs, polished(free, discs, {limit.stiffness, angle}), parameters);
   }
-  if (angle < rest_angle) {
+  if (angle < rest_angle || (angle > 0.0 && is_in_dip(discs, limit.frequency))) {
     const double found = limit.stiffness / (1.0 - limit.truncation);
     for (std::size_t i = 0; i < parameters.size(); ++i) {
       slopes[i] = parameters[i].value != 0.0 ? checked_slope(free, parameters[i], slopes[i], found)

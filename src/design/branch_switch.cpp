@@ -9,6 +9,7 @@
 #include <limits>
 #include <utility>
 
+#include "stability/gain_crossings.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/parameter.hpp"
@@ -24,6 +25,7 @@ constexpr double resolution = 1e-9;  // of p
 constexpr int max_bisections = 60;
 constexpr double first_share_of_way = 1e-3;  // of the way from 0
 constexpr double farthest_beyond = 1e-3;     // of p
+constexpr double may_grow = 4.0;             // K_CR, from one value to the next: beyond it all crossovers are sought
 
 struct FollowedPoint {
   double value = 0.0;
@@ -39,6 +41,15 @@ double distance(const FollowedPoint& a, const FollowedPoint& b) {
   return std::abs(std::log(first / second));
 }
 
+/// The critical stiffness and the crossover that limits it; stiffer ones are not sought where that is at most `most`.
+CriticalStiffness limit_of(const FilteredPlant& plant, VirtualDamper damper, double most) {
+  if (most > 0.0 && std::isfinite(most)) {
+    const GainCrossings softest = stiffness_crossings_up_to(plant, damper, most);
+    if (!softest.crossings.empty()) return critical_stiffness_of(plant, softest);
+  }
+  return critical_stiffness(plant, damper);
+}
+
 class Way {
  public:
   Way(const Device& device, std::string key, SharedProgress& progress)
@@ -46,20 +57,21 @@ class Way {
     parameters_.uncertainty.reset();
   }
 
-  /// Nothing where the value makes no device.
-  [[nodiscard]] std::optional<FollowedPoint> at(double value) const {
+  /// Nothing where the value makes no device. `near`: K_CR at a value near by.
+  [[nodiscard]] std::optional<FollowedPoint> at(double value, double near) const {
     progress_.go_on();
     DeviceParameters moved = parameters_;
     set_parameter(moved, key_, value);
     if (find_problem(moved)) return std::nullopt;
     const VirtualDamper damper{moved.wall.damping, moved.wall.velocity_filter_hz};
-    return FollowedPoint{value, critical_stiffness(filtered_plant(Device(std::move(moved))), damper)};
+    return FollowedPoint{value, limit_of(filtered_plant(Device(std::move(moved))), damper, may_grow * near)};
   }
 
   /// Halves the way between two points towards the jump; nothing where it closes: one branch that moves fast.
   [[nodiscard]] std::optional<BranchSwitch> switch_between(FollowedPoint near, FollowedPoint far) const {
     for (int i = 0; i < max_bisections && std::abs(far.value - near.value) > resolution * std::abs(far.value); ++i) {
-      auto middle = at(0.5 * (near.value + far.value));
+      const double stiffest = std::max(near.critical.stiffness, far.critical.limit ? far.critical.stiffness : 0.0);
+      auto middle = at(0.5 * (near.value + far.value), stiffest);
       if (!middle) return std::nullopt;
       const double before = distance(near, *middle);
       const double beyond = distance(*middle, far);
@@ -78,7 +90,7 @@ class Way {
                                                          const Values& value_at) const {
     FollowedPoint last{value, own};
     for (int i = 1; i <= steps; ++i) {
-      auto next = at(value_at(i));
+      auto next = at(value_at(i), last.critical.stiffness);
       if (!next) return std::nullopt;
       if (distance(last, *next) >= jump) {
         if (auto found = switch_between(last, *next)) return found;

@@ -8,9 +8,13 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <numbers>
 
+#include "design/any_user_judge.hpp"
 #include "design/design_parameter.hpp"
+#include "design/followed_numbers.hpp"
 #include "design/moved_limit.hpp"
+#include "design/number_limit.hpp"
 #include "infinity.hpp"
 #include "require_valid.hpp"
 #include "staged_progress.hpp"
@@ -37,7 +41,7 @@ struct Point {
   double limit = 0.0;
 };
 
-// The values that a number of 0 could take at all, by what stands beside it in the device.
+// The values that a number of 0 could take at all, by what stands beside it in the device: of stiffnesses K, or B/T.
 double natural_size(const Device& device, const DesignParameter& parameter, double target) {
   using Kind = DesignParameter::Kind;
   double mass = 0.0;
@@ -45,16 +49,13 @@ double natural_size(const Device& device, const DesignParameter& parameter, doub
   const double period = device.loop().sampling_period;
   switch (parameter.kind) {
     case Kind::body_mass:
-    case Kind::user_mass:
       return mass;
     case Kind::body_damping:
     case Kind::link_damping:
     case Kind::wall_damping:
-    case Kind::user_damping:
       return target * period;
     case Kind::body_stiffness:
     case Kind::link_stiffness:
-    case Kind::user_stiffness:
       return target;
     default:
       return period;
@@ -63,19 +64,20 @@ double natural_size(const Device& device, const DesignParameter& parameter, doub
 
 class Search {
  public:
-  Search(const Device& device, const DesignTargetOptions& options, double limit_now, SharedProgress& progress)
-      : device_(device), options_(options), limit_now_(limit_now), progress_(progress) {}
+  Search(const Device& device, const DesignTargetOptions& options, double limit_now, const AnyUserJudge& users,
+         SharedProgress& progress)
+      : device_(device), options_(options), limit_now_(limit_now), users_(users), progress_(progress) {}
 
   [[nodiscard]] DesignTarget target_of(const DesignParameter& parameter) const {
-    DesignTarget target{parameter.key, parameter.value, std::nullopt, {}};
-    MovedLimit moved(device_, parameter, options_.goal);
+    DesignTarget target{parameter.key, parameter.value, std::nullopt, {}, {}, {}};
+    MovedLimit moved(device_, parameter, options_.goal, options_.limit_of);
     const Point now{parameter.value, limit_now_};
     std::vector<Walk> walks;
     if (parameter.value > 0.0) {
       walks.push_back({now, parameter.value, parameter.value / options_.factor, 1});
       walks.push_back({now, parameter.value, parameter.value * options_.factor, 1});
     } else {
-      const double size = natural_size(device_, parameter, options_.stiffness);
+      const double size = natural_size(device_, parameter, target_stiffness());
       walks.push_back({now, first_share * size, options_.factor * size, 0});
     }
     Extremes extremes{limit_now_, limit_now_, {}};
@@ -85,18 +87,27 @@ class Search {
       target.why = reason_of_none(parameter, extremes);
       return target;
     }
-    const CriticalStiffness there = guarded_limit(parameter, *target.value_needed);
+    const Device changed = with(parameter, *target.value_needed);
+    const NumberLimit there = number_limit(changed, options_.limit_of);
     if (there.trust.refused()) {
       target.value_needed.reset();
       target.why = "the limit at the value found is refused: " + there.trust.reasons.front();
     } else {
       target.why = reason_there(there, limit_at(moved, *target.value_needed, 2.0 * options_.stiffness).value_or(0.0));
+      const AnyUserJudge::Judgement judgement = users_.of(changed);
+      target.any_user_then = judgement.then;
+      target.safe = judgement.safe;
     }
     return target;
   }
 
  private:
   static constexpr int ended = -1;
+
+  [[nodiscard]] double target_stiffness() const {
+    return options_.limit_of == WallNumber::stiffness ? options_.stiffness
+                                                      : options_.stiffness / device_.loop().sampling_period;
+  }
 
   struct Extremes {
     double least = 0.0;
@@ -209,49 +220,66 @@ class Search {
     return at_left >= 0.0 ? left : right;  // a jump
   }
 
-  [[nodiscard]] CriticalStiffness guarded_limit(const DesignParameter& parameter, double value) const {
+  [[nodiscard]] Device with(const DesignParameter& parameter, double value) const {
     DeviceParameters moved = device_.parameters();
     set_parameter(moved, parameter.key, value);
-    return critical_stiffness(Device(std::move(moved)));
+    return Device(std::move(moved));
   }
 
-  [[nodiscard]] std::string reason_there(const CriticalStiffness& there, double limit) const {
+  [[nodiscard]] std::string reason_there(const NumberLimit& there, double limit) const {
     if (std::abs(excess(limit)) > reached * options_.stiffness) {
       return "the limit jumps across the target there: another mechanism takes over";
     }
     if (options_.goal == StiffnessGoal::any_user_limit) return "the limit with any passive user is the target there";
-    return there.limit->limited_by.kind == Mechanism::Kind::rigid_body
+    return there.at->limited_by.kind == Mechanism::Kind::rigid_body
                ? "the limit is the target there, set by the rigid body"
-               : fmt::format("the limit is the target there, set by vibration mode {}", there.limit->limited_by.mode);
+               : fmt::format("the limit is the target there, set by vibration mode {}", there.at->limited_by.mode);
   }
 
   [[nodiscard]] std::string reason_of_none(const DesignParameter& parameter, const Extremes& extremes) const {
     const bool below = extremes.most < options_.stiffness;
     const double nearest = below ? extremes.most : extremes.least;
-    if (!std::isfinite(nearest)) return "every wall is stable whatever it is";
+    const bool is_stiffness = options_.limit_of == WallNumber::stiffness;
+    if (!std::isfinite(nearest))
+      return fmt::format("every {} is stable whatever it is", is_stiffness ? "wall" : "damper");
     const std::string range = parameter.value > 0.0
                                   ? fmt::format("within a factor of {:g} of its value", options_.factor)
                                   : "at any value from 0 up to what is likely";
-    return fmt::format("{} the limit gets no {} than {}", range, below ? "higher" : "lower",
-                       quantity(nearest, units_of(device_.parameters().motion).stiffness));
+    const Units units = units_of(device_.parameters().motion);
+    return fmt::format(
+        "{} the limit gets no {} than {}", range, below ? "higher" : "lower",
+        is_stiffness ? quantity(nearest, units.stiffness) : fmt::format("{} {}", number(nearest), units.damping));
   }
 
   const Device& device_;
   const DesignTargetOptions& options_;
   double limit_now_;
+  const AnyUserJudge& users_;
   SharedProgress& progress_;
 };
 
-// Where in the answer: relative change, then numbers that are 0 now, then those without a value.
-double cost(const DesignTarget& target) {
-  if (!target.value_needed) return infinity;
-  return target.value_now > 0.0 ? std::abs(std::log(*target.value_needed / target.value_now)) : 1e300;
+// Where in the answer: relative change, then numbers that are 0 now; what lowers the limit with any passive user after
+// those, and what has no value last.
+std::pair<int, double> cost(const DesignTarget& target) {
+  if (!target.value_needed) return {2, 0.0};
+  const double change = target.value_now > 0.0 ? std::abs(std::log(*target.value_needed / target.value_now)) : infinity;
+  return {target.safe.value_or(true) ? 0 : 1, change};
+}
+
+// The limit to reach, where there is one.
+std::optional<double> target_of(const DesignTargetOptions& options, double limit_now) {
+  if (!options.times_now) return options.stiffness;
+  const double target = *options.times_now * limit_now;
+  return target > 0.0 && std::isfinite(target) ? std::optional(target) : std::nullopt;
 }
 
 }  // namespace
 
 std::optional<OptionProblem> find_problem(const DesignTargetOptions& options, const Device& device) {
-  if (!(options.stiffness > 0.0) || !std::isfinite(options.stiffness)) {
+  if (options.times_now && (!(*options.times_now > 0.0) || !std::isfinite(*options.times_now))) {
+    return OptionProblem{"times_now", fmt::format("is {} times", *options.times_now), "must be finite and > 0"};
+  }
+  if (!options.times_now && (!(options.stiffness > 0.0) || !std::isfinite(options.stiffness))) {
     return OptionProblem{"stiffness", fmt::format("is {}", options.stiffness), "must be finite and > 0"};
   }
   if (!(options.factor > 1.0) || !(options.factor <= 1e6)) {
@@ -272,29 +300,71 @@ std::optional<OptionProblem> find_problem(const DesignTargetOptions& options, co
 DesignTargets design_targets(const Device& device, const DesignTargetOptions& options) {
   require_valid(find_problem(options, device));
   DesignTargets result;
-  const CriticalStiffness own = critical_stiffness(device);
+  const NumberLimit own = number_limit(device, options.limit_of);
   result.trust = own.trust;
   if (result.trust.refused()) return result;
-  double limit = own.stiffness;
+  std::vector<DesignParameter> parameters = design_parameters(device);
+  // Who holds the device is no part of it.
+  std::erase_if(parameters, [&](const DesignParameter& each) {
+    const bool is_the_limit =
+        each.kind == DesignParameter::Kind::wall_damping && options.limit_of == WallNumber::damping;
+    return is_the_limit || each.key.starts_with("operator.");
+  });
+  SharedProgress progress(options.progress, parameters.size());
+  const Progress while_judging = [&progress](double) { progress.go_on(); };
+  const AnyUserJudge users(device, options.limit_of, while_judging);
+  result.any_user_now = users.now();
+  double limit = own.value;
   if (options.goal == StiffnessGoal::any_user_limit) {
-    const Wall& wall = device.parameters().wall;
-    limit = std::min(limit, any_user_limit(device, {wall.damping, wall.velocity_filter_hz}).stiffness);
+    // Where it is not found, this says why.
+    const AnyUserJudge::Limit any_user =
+        users.limit_now() ? *users.limit_now() : any_user_limit_of(device, options.limit_of, while_judging);
+    result.trust.inherit(any_user.trust);
+    if (result.trust.refused()) return result;
+    limit = std::min(limit, any_user.value);
   }
   result.limit_now = limit;
-  if (limit == options.stiffness) {
+  result.target = target_of(options, limit);
+  if (!result.target) {
+    const std::string_view what = options.limit_of == WallNumber::stiffness ? "wall" : "damper";
+    result.remarks.push_back(
+        {Remark::Severity::warning, fmt::format("{} {} is stable as it is", limit > 0.0 ? "every" : "no", what),
+         "there is no limit of which a multiple could be asked", "ask for the limit to reach itself"});
+    return result;
+  }
+  if (limit == *result.target) {
     result.remarks.push_back({Remark::Severity::note, "the limit is the target already", "nothing needs to change"});
   }
-  std::vector<DesignParameter> parameters = design_parameters(device);
-  if (options.goal == StiffnessGoal::any_user_limit) {  // which is over all users
-    std::erase_if(parameters, [](const DesignParameter& each) { return each.key.starts_with("operator."); });
+  DesignTargetOptions asked = options;
+  asked.stiffness = *result.target;
+  std::vector<DesignParameter> left_out;
+  if (options.goal == StiffnessGoal::any_user_limit && users.limit_now()) {
+    const std::size_t all = parameters.size();
+    left_out = take_out_least(device, options.limit_of, users.limit_now()->frequency, while_judging, parameters);
+    if (!left_out.empty()) {
+      asked.factor = std::min(options.factor, factor_of_many_bodies);
+      result.remarks.push_back(
+          {Remark::Severity::note,
+           fmt::format("{} of {} numbers are followed, those that move the limit most, by a factor of {:g} at most",
+                       parameters.size(), all, asked.factor),
+           fmt::format("with {} bodies all of them would take minutes", device.bodies().size()),
+           "change another number and analyze again, or merge bodies whose links hardly give"});
+    }
   }
+  progress.add(left_out.size());
   result.targets.resize(parameters.size());
-  SharedProgress progress(options.progress, parameters.size());
-  const Search search(device, options, limit, progress);
+  const Search search(device, asked, limit, users, progress);
   tbb::parallel_for(std::size_t{0}, parameters.size(), [&](std::size_t i) {
     result.targets[i] = search.target_of(parameters[i]);
     progress.add();
   });
+  for (const DesignParameter& each : left_out) {
+    DesignTarget target;
+    target.key = each.key;
+    target.value_now = each.value;
+    target.why = "not followed: it moves the limit less than the numbers that are";
+    result.targets.push_back(std::move(target));
+  }
   std::ranges::stable_sort(result.targets, {}, cost);
   return result;
 }

@@ -9,12 +9,15 @@
 #include <utility>
 #include <vector>
 
+#include "design/any_user_judge.hpp"
 #include "design/diagnosis_changes.hpp"
+#include "design/number_limit.hpp"
 #include "design/oscillation_causes.hpp"
 #include "design/wall_limits.hpp"
 #include "require_valid.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/model/device_operator.hpp"
 #include "zwidth/model/device_trust.hpp"
 #include "zwidth/signal/dominant_oscillation.hpp"
 
@@ -37,7 +40,16 @@ ObservedLoop observed(const Device& device, const DiagnosisOptions& options) {
   if (options.stiffness) parameters.wall.stiffness = options.stiffness;
   if (options.damping) parameters.wall.damping = *options.damping;
   const std::optional<double> stiffness = parameters.wall.stiffness;
-  return {Device(std::move(parameters)), options.frequency, options.amplitude, stiffness};
+  ObservedLoop loop{Device(std::move(parameters)), options.frequency, options.amplitude, stiffness};
+  if (stiffness && *stiffness == 0.0) {
+    // Without a damper there is no wall either.
+    if (loop.device.parameters().wall.damping > 0.0) {
+      loop.number = WallNumber::damping;
+    } else {
+      loop.stiffness.reset();
+    }
+  }
+  return loop;
 }
 
 double apart_from(const OscillationCandidate& candidate, const ObservedLoop& loop) {
@@ -66,7 +78,7 @@ double mismatch(const OscillationCandidate& candidate, const ObservedLoop& loop)
 void rank(std::vector<OscillationCandidate>& candidates, const ObservedLoop& loop) {
   std::ranges::stable_sort(candidates, [&](const OscillationCandidate& a, const OscillationCandidate& b) {
     if (a.fits != b.fits) return a.fits;
-    return a.fits && mismatch(a, loop) < mismatch(b, loop);
+    return a.fits ? mismatch(a, loop) < mismatch(b, loop) : distance_to_fit(a) < distance_to_fit(b);
   });
 }
 
@@ -79,13 +91,14 @@ void compare_with_nobody(OscillationCandidate& held, const OscillationCandidate&
 
 void collect(const ObservedLoop& loop, Diagnosis& diagnosis) {
   std::vector<OscillationCandidate>& candidates = diagnosis.candidates;
-  if (is_held(loop.device)) {
+  if (has_operator(loop.device)) {
     candidates.push_back(linear_candidate(loop, OscillationCause::device, without_operator(loop.device)));
     candidates.push_back(linear_candidate(loop, OscillationCause::with_operator, loop.device));
     compare_with_nobody(candidates[1], candidates[0]);
     if (loop.stiffness && is_stable(loop.device) && candidates[0].fits) {
       candidates[0].fits = false;
       candidates[0].why += ", but the operator of the file keeps it stable";
+      candidates[0].otherwise = OtherwiseNeeded{};  // it fits once the operator lets go
     }
   } else {
     candidates.push_back(linear_candidate(loop, OscillationCause::device, loop.device));
@@ -108,6 +121,9 @@ void remark_on(const ObservedLoop& loop, Diagnosis& diagnosis) {
          "left out",
          "give the stiffness and the damping of the wall"});
   }
+  if (!diagnosis.cause && diagnosis.nearest) {
+    diagnosis.trust.doubt("no cause fits the numbers of the device; what moves it is told of the nearest cause");
+  }
   if (!diagnosis.cause) return;
   const bool is_linear =
       diagnosis.cause == OscillationCause::device || diagnosis.cause == OscillationCause::with_operator;
@@ -128,8 +144,8 @@ std::optional<OptionProblem> find_problem(const DiagnosisOptions& options) {
   if (options.amplitude && !(finite(*options.amplitude) && *options.amplitude > 0.0)) {
     return OptionProblem{"amplitude", fmt::format("is {}", *options.amplitude), "must be > 0"};
   }
-  if (options.stiffness && !(finite(*options.stiffness) && *options.stiffness > 0.0)) {
-    return OptionProblem{"stiffness", fmt::format("is {}", *options.stiffness), "must be > 0"};
+  if (options.stiffness && !finite(*options.stiffness)) {
+    return OptionProblem{"stiffness", fmt::format("is {}", *options.stiffness), "must be >= 0, 0 for a damper alone"};
   }
   if (options.damping && !finite(*options.damping)) {
     return OptionProblem{"damping", fmt::format("is {}", *options.damping), "must be >= 0"};
@@ -207,17 +223,21 @@ Diagnosis diagnose(const Device& device, const DiagnosisOptions& options) {
   ObservedLoop loop = observed(device, options);
   loop.progress = stages.stage();
   stages.next(0.05);
-  if (loop.stiffness && *loop.stiffness == 0.0) loop.stiffness.reset();
   diagnosis.stiffness = loop.stiffness;
   diagnosis.damping = loop.device.parameters().wall.damping;
-  diagnosis.trust.inherit(critical_stiffness(loop.device).trust);
+  diagnosis.limit_of = loop.number;
+  diagnosis.trust.inherit(number_limit(loop.device, loop.number).trust);
   if (diagnosis.trust.refused()) return diagnosis;
   stages.next(0.3);
   collect(loop, diagnosis);
   stages.next(1.0);
-  if (!diagnosis.candidates.empty() && diagnosis.candidates.front().fits) {
-    diagnosis.cause = diagnosis.candidates.front().cause;
-    diagnosis.changes = changes_of(loop, diagnosis.candidates.front());
+  if (!diagnosis.candidates.empty() && is_near(diagnosis.candidates.front())) {
+    const OscillationCandidate& first = diagnosis.candidates.front();
+    if (first.fits) diagnosis.cause = first.cause;
+    diagnosis.nearest = first.cause;
+    const AnyUserJudge users(loop.device, loop.number, loop.progress);
+    diagnosis.any_user_now = users.now();
+    diagnosis.changes = changes_of(loop, first, users);
   }
   remark_on(loop, diagnosis);
   stages.done();

@@ -10,8 +10,9 @@
 #include <string>
 #include <utility>
 
+#include "design/number_limit.hpp"
 #include "staged_progress.hpp"
-#include "zwidth/stability/any_user.hpp"
+#include "zwidth/model/device_operator.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -25,22 +26,21 @@ constexpr double usual_changes = 16.0;                                          
 constexpr std::size_t most_links = 3;
 constexpr std::size_t shares_looked_at = 4;  // every fourth share of friction
 
-/// The stiffness up to which the cause is absent.
-double limit_of(OscillationCause cause, const Device& device, const Progress& progress) {
+/// The stiffness, or the damping of a damper alone, up to which the cause is absent.
+double limit_of(OscillationCause cause, const Device& device, WallNumber number, const Progress& progress) {
   switch (cause) {
     case OscillationCause::device:
-      return critical_stiffness(without_operator(device)).stiffness;
+      return number_limit(without_operator(device), number).value;
     case OscillationCause::with_operator:
-      return critical_stiffness(device).stiffness;
+      return number_limit(device, number).value;
     case OscillationCause::passive_user:
-      return any_user_limit(device, virtual_damper(device), progress).stiffness;
+      return any_user_limit_of(device, number, progress).value;
     case OscillationCause::friction: {
-      double least = critical_stiffness(device).stiffness;
+      double least = number_limit(device, number).value;
       const std::vector<double> shares = friction_shares(device);
       for (std::size_t i = 0; i < shares.size(); i += shares_looked_at) {
         tell(progress, 0.0);
-        const Device rubbing = with_friction_as_damping(device, shares[i]);
-        least = std::min(least, critical_stiffness(filtered_plant(rubbing), virtual_damper(rubbing)).stiffness);
+        least = std::min(least, unchecked_number_limit(with_friction_as_damping(device, shares[i]), number).value);
       }
       return least;
     }
@@ -50,10 +50,19 @@ double limit_of(OscillationCause cause, const Device& device, const Progress& pr
   return std::numeric_limits<double>::quiet_NaN();
 }
 
+/// The number of a wall that the limit is of.
+double gain_of(const Device& device, WallNumber number) {
+  const Wall& wall = device.parameters().wall;
+  return number == WallNumber::stiffness ? *wall.stiffness : wall.damping;
+}
+
 class Changes {
  public:
-  Changes(const ObservedLoop& loop, const OscillationCandidate& cause) : loop_(loop), cause_(cause) {
-    if (!is_quantisation()) limit_ = limit_of(cause.cause, loop.device, loop.progress);
+  Changes(const ObservedLoop& loop, const OscillationCandidate& cause, const AnyUserJudge& users)
+      : loop_(loop), cause_(cause), users_(users), off_(cause.otherwise ? cause.otherwise->limit : 1.0) {
+    if (is_quantisation()) return;
+    const bool is_known = cause.cause == OscillationCause::passive_user && users.now();
+    limit_ = is_known ? *users.now() : limit_of(cause.cause, loop.device, loop.number, loop.progress);
   }
 
   [[nodiscard]] std::vector<DiagnosisChange> all() {
@@ -95,6 +104,7 @@ class Changes {
           [](DeviceParameters& then) { then.sensor.resolution *= finer; });
     }
     std::ranges::stable_sort(changes_, [](const DiagnosisChange& a, const DiagnosisChange& b) {
+      if (is_safe(a) != is_safe(b)) return is_safe(a);
       if (a.limit_then && b.limit_then) return *a.limit_then > *b.limit_then;
       return a.amplitude_then.value_or(0.0) < b.amplitude_then.value_or(0.0);
     });
@@ -104,62 +114,102 @@ class Changes {
  private:
   [[nodiscard]] bool is_quantisation() const { return cause_.cause == OscillationCause::quantisation; }
 
-  /// The change, recomputed; left out where it makes no device.
+  static bool is_safe(const DiagnosisChange& change) { return change.safe.value_or(true); }
+
+  struct Recomputed {
+    DiagnosisChange change;
+    Device device;
+  };
+
+  /// The change, recomputed but not judged; nothing where it makes no device, or is worse than a cycle. `search`: of the
+  /// changed device, where it is known.
   template <typename Change>
-  void add(std::string what, std::string key, double now, double then, const Change& change) {
+  std::optional<Recomputed> recomputed(DiagnosisChange result, const Change& change, AnyUserSearch* search) {
     tell(loop_.progress, std::min(1.0, static_cast<double>(changes_.size()) / usual_changes));
     DeviceParameters parameters = loop_.device.parameters();
     change(parameters);
-    if (find_problem(parameters)) return;
-    DiagnosisChange result{std::move(what), std::move(key), now, then, {}, {}, {}, {}, {}};
-    const Device changed(std::move(parameters));
+    if (find_problem(parameters)) return std::nullopt;
+    Recomputed made{std::move(result), Device(std::move(parameters))};
     if (is_quantisation()) {
-      ObservedLoop with{changed, loop_.frequency, {}, changed.parameters().wall.stiffness};
+      const ObservedLoop with{made.device, loop_.frequency, {}, made.device.parameters().wall.stiffness, loop_.number};
       const auto cycle = quantisation_candidate(with);
-      result.amplitude_now = cause_.amplitude;
-      if (cycle && cycle->amplitude) result.amplitude_then = cycle->amplitude;
-      result.ends_it = !cycle || !cycle->fits;
-      if (!is_stable(changed)) return;  // worse than the cycle
-    } else {
-      result.limit_now = limit_;
-      result.limit_then = limit_of(cause_.cause, changed, loop_.progress);
-      if (std::isnan(*result.limit_then)) return;
-      const std::optional<double> stiffness = changed.parameters().wall.stiffness;
-      if (loop_.stiffness) result.ends_it = *result.limit_then > *stiffness;
+      made.change.amplitude_now = cause_.amplitude;
+      if (cycle && cycle->amplitude) made.change.amplitude_then = cycle->amplitude;
+      made.change.ends_it = !cycle || !cycle->fits;
+      return is_stable(made.device) ? std::optional(std::move(made)) : std::nullopt;
     }
-    changes_.push_back(std::move(result));
+    made.change.limit_now = limit_;
+    if (cause_.cause == OscillationCause::passive_user) judge(made, search);
+    const std::optional<double>& any_user = made.change.any_user_then;
+    made.change.limit_then = cause_.cause == OscillationCause::passive_user && any_user
+                                 ? *any_user
+                                 : limit_of(cause_.cause, made.device, loop_.number, loop_.progress);
+    if (std::isnan(*made.change.limit_then)) return std::nullopt;
+    if (loop_.stiffness) made.change.ends_it = off_ * *made.change.limit_then > gain_of(made.device, loop_.number);
+    return made;
+  }
+
+  void judge(Recomputed& made, AnyUserSearch* search) const {
+    if (made.change.safe) return;
+    const auto judgement = search != nullptr ? users_.of(made.device, *search) : users_.of(made.device);
+    made.change.any_user_then = judgement.then;
+    made.change.safe = judgement.safe;
+  }
+
+  template <typename Change>
+  void add(std::string what, std::string key, double now, double then, const Change& change) {
+    auto made = recomputed({std::move(what), std::move(key), now, then, {}, {}, {}, {}, {}}, change, nullptr);
+    if (!made) return;
+    judge(*made, nullptr);
+    changes_.push_back(std::move(made->change));
   }
 
   void soften() {
     if (!loop_.stiffness) return;
-    const double softened = is_quantisation() ? softer * *loop_.stiffness : softer * limit_;
-    if (!(softened > 0.0 && softened < *loop_.stiffness)) return;
-    add(is_quantisation() ? "half the stiffness" : "a softer wall, 6 dB below the limit", "wall.stiffness",
-        *loop_.stiffness, softened, [&](DeviceParameters& then) { then.wall.stiffness = softened; });
+    const bool is_damper = loop_.number == WallNumber::damping;
+    const double now = gain_of(loop_.device, loop_.number);
+    const double softened = is_quantisation() ? softer * now : softer * off_ * limit_;
+    if (!(softened > 0.0 && softened < now)) return;
+    if (is_damper) {
+      add(is_quantisation() ? "half the damper" : "a weaker damper, 6 dB below", "wall.damping", now, softened,
+          [&](DeviceParameters& then) { then.wall.damping = softened; });
+    } else {
+      add(is_quantisation() ? "half the stiffness" : "a softer wall, 6 dB below", "wall.stiffness", now, softened,
+          [&](DeviceParameters& then) { then.wall.stiffness = softened; });
+    }
   }
 
-  /// The damper of the ladder with the highest limit (least amplitude).
+  /// The damper of the ladder with the highest limit (least amplitude), of those that lower no user's where there are any.
   void damp() {
+    if (loop_.number == WallNumber::damping) return;  // the damper is what oscillates
     const Wall& wall = loop_.device.parameters().wall;
     double unit = wall.damping;
     if (unit == 0.0) {
       for (const Body& body : loop_.device.bodies()) unit += body.damping;
       if (!(unit > 0.0)) return;
     }
-    const std::size_t before = changes_.size();
+    std::optional<AnyUserSearch> search;  // what users do does not depend on the damper
+    if (users_.now()) search.emplace(loop_.device, loop_.progress);
+    AnyUserSearch* const users = search ? &*search : nullptr;
+    std::vector<Recomputed> ladder;
     for (const double factor : dampers) {
-      add("another virtual damper", "wall.damping", wall.damping, factor * unit,
-          [&](DeviceParameters& then) { then.wall.damping = factor * unit; });
+      auto made = recomputed(
+          {"another virtual damper", "wall.damping", wall.damping, factor * unit, {}, {}, {}, {}, {}},
+          [&](DeviceParameters& then) { then.wall.damping = factor * unit; }, users);
+      if (made) ladder.push_back(*std::move(made));
     }
-    if (changes_.size() <= before + 1) return;
-    const auto first = changes_.begin() + static_cast<std::ptrdiff_t>(before);
-    const auto best = std::min_element(first, changes_.end(), [this](const auto& a, const auto& b) {
-      return is_quantisation() ? a.amplitude_then.value_or(0.0) < b.amplitude_then.value_or(0.0)
-                               : *a.limit_then > *b.limit_then;
+    if (ladder.empty()) return;
+    std::ranges::stable_sort(ladder, [this](const Recomputed& a, const Recomputed& b) {
+      return is_quantisation() ? a.change.amplitude_then.value_or(0.0) < b.change.amplitude_then.value_or(0.0)
+                               : *a.change.limit_then > *b.change.limit_then;
     });
-    const DiagnosisChange kept = *best;
-    changes_.erase(first, changes_.end());
-    changes_.push_back(kept);
+    for (Recomputed& each : ladder) {
+      judge(each, users);
+      if (!is_safe(each.change)) continue;
+      changes_.push_back(std::move(each.change));
+      return;
+    }
+    changes_.push_back(std::move(ladder.front().change));
   }
 
   void stop_mode() {
@@ -174,14 +224,17 @@ class Changes {
 
   const ObservedLoop& loop_;
   const OscillationCandidate& cause_;
+  const AnyUserJudge& users_;
+  double off_;  // the real limit of a cause that does not fit, of the one that the device's numbers give
   double limit_ = 0.0;
   std::vector<DiagnosisChange> changes_;
 };
 
 }  // namespace
 
-std::vector<DiagnosisChange> changes_of(const ObservedLoop& loop, const OscillationCandidate& cause) {
-  return Changes(loop, cause).all();
+std::vector<DiagnosisChange> changes_of(const ObservedLoop& loop, const OscillationCandidate& cause,
+                                        const AnyUserJudge& users) {
+  return Changes(loop, cause, users).all();
 }
 
 }  // namespace zwidth::internal

@@ -7,11 +7,13 @@
 #include <numbers>
 #include <utility>
 
+#include "design/number_limit.hpp"
 #include "stability/damper_response.hpp"
 #include "stability/disc_stiffness.hpp"
 #include "stability/gain_crossings.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/parameter.hpp"
+#include "zwidth/stability/critical_damping.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -30,6 +32,7 @@ std::optional<MovedLimit::Limit> MovedLimit::at(double value, const Interest& in
   if (find_problem(moved)) return std::nullopt;
   const Device device(std::move(moved));
   try {
+    if (number_ == WallNumber::damping) return of_damper(device, interest);
     Limit limit{stiffness_limit(filtered_plant(device), virtual_damper(device), interest.most), false};
     if (goal_ == StiffnessGoal::critical_stiffness) return limit;
     limit.is_bound = limit.stiffness < interest.enough * (1.0 - bound_certain);
@@ -39,6 +42,16 @@ std::optional<MovedLimit::Limit> MovedLimit::at(double value, const Interest& in
     if (error.code() == ErrorCode::did_not_converge) return std::nullopt;
     throw;
   }
+}
+
+MovedLimit::Limit MovedLimit::of_damper(const Device& device, const Interest& interest) const {
+  const NumberLimit own = number_limit(device, number_);
+  if (own.trust.refused()) throw Error(ErrorCode::did_not_converge, own.trust.reasons.front());
+  Limit limit{std::min(own.value, interest.most), false};
+  if (goal_ == StiffnessGoal::critical_stiffness) return limit;
+  limit.is_bound = limit.stiffness < interest.enough * (1.0 - bound_certain);
+  if (!limit.is_bound) limit.stiffness = std::min(limit.stiffness, any_user_damping(device).damping);
+  return limit;
 }
 
 double MovedLimit::of_any_user(const Device& device, double enough, Limit& limit) {

@@ -16,12 +16,12 @@ namespace zwidth::internal {
 class MovedLimit {
  public:
   // All must outlive this.
-  MovedLimit(const Device& device, const DesignParameter& parameter, StiffnessGoal goal)
-      : device_(device), parameter_(parameter), goal_(goal) {}
+  MovedLimit(const Device& device, const DesignParameter& parameter, StiffnessGoal goal, WallNumber number)
+      : device_(device), parameter_(parameter), goal_(goal), number_(number) {}
 
   struct Limit {
-    double stiffness = 0.0;
-    bool is_bound = false;  // the limit is no higher; what it is was not asked
+    double stiffness = 0.0;  // or the damping, of a damper alone
+    bool is_bound = false;   // the limit is no higher; what it is was not asked
   };
   // What of the limit is worth knowing.
   struct Interest {
@@ -34,11 +34,13 @@ class MovedLimit {
   [[nodiscard]] std::optional<Limit> at(double value, const Interest& interest);
 
  private:
+  [[nodiscard]] Limit of_damper(const Device& device, const Interest& interest) const;
   [[nodiscard]] double of_any_user(const Device& device, double enough, Limit& limit);
 
   const Device& device_;
   const DesignParameter& parameter_;
   StiffnessGoal goal_;
+  WallNumber number_;
   std::vector<double> angles_;            // where users have set the limit, rad per sample, the latest last
   std::unique_ptr<AnyUserSearch> users_;  // of a number of the wall's damper, which the users' discs do not depend on
 };

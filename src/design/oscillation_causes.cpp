@@ -5,15 +5,18 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <numbers>
 #include <utility>
 
+#include "design/number_limit.hpp"
 #include "design/wall_limits.hpp"
 #include "infinity.hpp"
 #include "stability/damper_response.hpp"
 #include "stability/disc_stiffness.hpp"
 #include "stability/user_discs.hpp"
 #include "staged_progress.hpp"
+#include "zwidth/model/device_operator.hpp"
 #include "zwidth/model/state_space.hpp"
 #include "zwidth/quantity.hpp"
 #include "zwidth/sampling/filter_section.hpp"
@@ -33,14 +36,21 @@ constexpr double least_of_amplitude = 0.1;
 constexpr double growing = 1e-9;     // |z| - 1 of a pole that grows
 constexpr double beside_user = 0.1;  // relative, frequencies around the one observed
 constexpr double of_user_limit = 0.98;
+constexpr double far = 2.0;          // factor of what would have to be otherwise, from which on it is another device
+constexpr int users_looked_at = 80;  // frequencies up to that factor around the one observed
 constexpr int shares = 80;
 constexpr int bisections = 40;
 
 double apart(double a, double b) { return std::abs(std::log(a / b)); }
 
+/// Of the loop, but that of a position that nothing holds.
 std::vector<std::complex<double>> poles_of(const Device& device) {
-  return closed_loop_poles_minus_one(sample(state_space(device), {device.loop().sampling_period, device.loop().delay}),
-                                     device.parameters().wall);
+  std::vector<std::complex<double>> poles = closed_loop_poles_minus_one(
+      sample(state_space(device), {device.loop().sampling_period, device.loop().delay}), device.parameters().wall);
+  if (is_position_free(device.parameters())) {
+    poles.erase(std::ranges::min_element(poles, {}, [](std::complex<double> delta) { return std::norm(delta); }));
+  }
+  return poles;
 }
 
 double excess_of(std::complex<double> delta) {
@@ -74,9 +84,83 @@ WallFilter controller(const Wall& wall, double period) {
 
 /// The largest swing that an encoder's error, within half a step, keeps up in this stable loop: the first harmonic of what
 /// lies within +-q/2 is that of a square wave at most, 2 q/pi, and the loop answers it by C P/(1 + C P).
-double largest_swing_of_steps(const FilteredPlant& open, double frequency, double step) {
-  const std::complex<double> loop = response(open, std::min(frequency, pi / open.period));
-  return 2.0 * step / pi * std::abs(loop / (1.0 + loop));
+double largest_swing_of_steps(const ObservedLoop& loop, double step) {
+  const double period = loop.device.loop().sampling_period;
+  const double frequency = std::min(loop.frequency, pi / period);
+  const std::complex<double> open = response(filtered_plant(loop.device), frequency) *
+                                    (*loop.stiffness + damper_response(virtual_damper(loop.device), period, frequency));
+  return 2.0 * step / pi * std::abs(open / (1.0 + open));
+}
+
+/// Where the loop is critical with its whole force grown: how many times.
+std::vector<NumberLimit::Crossing> crossings_of_force(const ObservedLoop& loop) {
+  std::vector<NumberLimit::Crossing> crossings;
+  if (loop.number == WallNumber::damping) {
+    crossings = unchecked_number_limit(loop.device, loop.number).crossings;
+    for (NumberLimit::Crossing& each : crossings) each.value /= *gain_of(loop);
+    return crossings;
+  }
+  const FilteredPlant open = filtered_plant(
+      filtered_plant(loop.device), {controller(loop.device.parameters().wall, loop.device.loop().sampling_period)});
+  for (const Crossover& each : critical_stiffness(open).crossovers) {
+    crossings.push_back({each.frequency, each.stiffness, each.limited_by});
+  }
+  return crossings;
+}
+
+std::string gain_text(const ObservedLoop& loop, double value) {
+  const Units units = units_of(loop.device.parameters().motion);
+  return loop.number == WallNumber::stiffness ? quantity(value, units.stiffness)
+                                              : fmt::format("{} {}", number(value), units.damping);
+}
+
+std::string_view walls(const ObservedLoop& loop) { return loop.number == WallNumber::stiffness ? "walls" : "dampers"; }
+
+void set_gain(const ObservedLoop& loop, double value, OscillationCandidate& candidate) {
+  (loop.number == WallNumber::stiffness ? candidate.stiffness : candidate.damping) = value;
+}
+
+void set_crossing(const ObservedLoop& loop, const NumberLimit::Crossing& crossing, OscillationCandidate& candidate) {
+  candidate.frequency = crossing.frequency;
+  candidate.limited_by = crossing.limited_by;
+  set_gain(loop, crossing.value, candidate);
+}
+
+/// By how much a predicted frequency would have to be another to be within `tolerance` of the one observed.
+double frequency_needed(const ObservedLoop& loop, double predicted, double tolerance) {
+  return apart(predicted, loop.frequency) <= tolerance ? 1.0 : loop.frequency / predicted;
+}
+
+/// Of a loop that is stable with this wall: the crossover that would be it with the least otherwise.
+void take_if_nearer(const ObservedLoop& loop, const NumberLimit::Crossing& crossing, OscillationCandidate& candidate) {
+  OscillationCandidate other = candidate;
+  set_crossing(loop, crossing, other);
+  other.otherwise = {.limit = *gain_of(loop) / crossing.value,
+                     .frequency = frequency_needed(loop, crossing.frequency, near)};
+  if (distance_to_fit(other) < distance_to_fit(candidate)) candidate = std::move(other);
+}
+
+/// The frequency at which some user could make it oscillate with the least otherwise, and what that is.
+void look_for_nearest_user(const ObservedLoop& loop, const UserDiscs& discs, OscillationCandidate& candidate) {
+  const double period = loop.device.loop().sampling_period;
+  const std::optional<double> gain = gain_of(loop);
+  for (int i = -users_looked_at; i <= users_looked_at; ++i) {
+    const double at = loop.frequency * std::pow(far, static_cast<double>(i) / users_looked_at);
+    if (at > pi / period) break;
+    const double least = least_gain(discs.at(at), response_of(loop.device, loop.number, at));
+    if (!std::isfinite(least) || least == 0.0) continue;
+    OscillationCandidate other = candidate;
+    other.frequency = at;
+    set_gain(loop, least, other);
+    other.otherwise = {.limit = gain ? std::min(1.0, *gain / least) : 1.0,
+                       .frequency = frequency_needed(loop, at, beside_user)};
+    if (distance_to_fit(other) < distance_to_fit(candidate)) candidate = std::move(other);
+  }
+  if (candidate.otherwise) {
+    candidate.why = fmt::format("some passive user can make {} from {} on oscillate at {}", walls(loop),
+                                gain_text(loop, candidate.stiffness ? *candidate.stiffness : *candidate.damping),
+                                hertz_text(candidate.frequency));
+  }
 }
 
 /// Of the sensed position, where the bodies that rub move at V = 4/(pi share): by the ratio of the responses to the
@@ -101,15 +185,23 @@ double friction_amplitude(const Device& device, double share, double frequency) 
 
 }  // namespace
 
-bool is_held(const Device& device) {
-  const Operator& user = device.parameters().user;
-  return user.mass > 0.0 || user.damping > 0.0 || user.stiffness > 0.0;
+double distance_to_fit(const OscillationCandidate& candidate) {
+  if (candidate.fits) return 0.0;
+  if (!candidate.otherwise) return infinity;
+  const OtherwiseNeeded& needed = *candidate.otherwise;
+  return apart(needed.limit, 1.0) + apart(needed.frequency, 1.0) + apart(needed.amplitude, 1.0);
 }
 
-Device without_operator(const Device& device) {
-  DeviceParameters parameters = device.parameters();
-  parameters.user = {};
-  return Device(std::move(parameters));
+bool is_near(const OscillationCandidate& candidate) {
+  if (candidate.fits) return true;
+  if (!candidate.otherwise) return false;
+  const auto close = [](double factor) { return apart(factor, 1.0) <= std::log(far); };
+  const OtherwiseNeeded& needed = *candidate.otherwise;
+  return close(needed.limit) && close(needed.frequency) && close(needed.amplitude);
+}
+
+std::optional<double> gain_of(const ObservedLoop& loop) {
+  return loop.number == WallNumber::stiffness ? loop.stiffness : loop.device.parameters().wall.damping;
 }
 
 bool is_stable(const Device& device) {
@@ -138,31 +230,28 @@ std::vector<double> friction_shares(const Device& device) {
 OscillationCandidate linear_candidate(const ObservedLoop& loop, OscillationCause cause, const Device& device) {
   OscillationCandidate candidate;
   candidate.cause = cause;
-  const CriticalStiffness critical = critical_stiffness(filtered_plant(device), virtual_damper(device));
-  const Crossover* nearest = nullptr;
-  for (const Crossover& each : critical.crossovers) {
-    if (each.frequency <= 0.0 || (loop.stiffness && each.stiffness > *loop.stiffness)) continue;
+  const NumberLimit critical = unchecked_number_limit(device, loop.number);
+  const std::optional<double> gain = gain_of(loop);
+  const NumberLimit::Crossing* nearest = nullptr;
+  for (const NumberLimit::Crossing& each : critical.crossings) {
+    if (each.frequency <= 0.0 || (gain && each.value > *gain)) continue;
     if (nearest == nullptr || apart(each.frequency, loop.frequency) < apart(nearest->frequency, loop.frequency)) {
       nearest = &each;
     }
   }
-  if (nearest != nullptr) {
-    candidate.frequency = nearest->frequency;
-    candidate.stiffness = nearest->stiffness;
-    candidate.limited_by = nearest->limited_by;
-  }
+  if (nearest != nullptr) set_crossing(loop, *nearest, candidate);
   if (!loop.stiffness) {
     if (nearest == nullptr) {
       candidate.why = "no stiffness puts a pole on the unit circle";
       return candidate;
     }
     candidate.fits = apart(nearest->frequency, loop.frequency) <= near;
+    if (!candidate.fits) candidate.otherwise = {.frequency = loop.frequency / nearest->frequency};
     candidate.why = fmt::format("a phase crossover at {}: unstable from {} on", hertz_text(nearest->frequency),
-                                quantity(nearest->stiffness, units_of(device.parameters().motion).stiffness));
-    if (critical.limit && critical.stiffness < nearest->stiffness) {
-      candidate.why += fmt::format(", but walls from {} on already oscillate at {}",
-                                   quantity(critical.stiffness, units_of(device.parameters().motion).stiffness),
-                                   hertz_text(critical.limit->frequency));
+                                gain_text(loop, nearest->value));
+    if (critical.at && critical.value < nearest->value) {
+      candidate.why += fmt::format(", but walls from {} on already oscillate at {}", gain_text(loop, critical.value),
+                                   hertz_text(critical.at->frequency));
     }
     return candidate;
   }
@@ -174,10 +263,8 @@ OscillationCandidate linear_candidate(const ObservedLoop& loop, OscillationCause
   }
   if (unstable == 0.0) {
     candidate.why = "the loop is stable with this wall";
-    if (!candidate.stiffness && critical.limit) {
-      candidate.frequency = critical.limit->frequency;
-      candidate.stiffness = critical.limit->stiffness;
-      candidate.limited_by = critical.limit->limited_by;
+    for (const NumberLimit::Crossing& each : critical.crossings) {
+      if (each.frequency > 0.0 && each.value > 0.0) take_if_nearer(loop, each, candidate);
     }
     return candidate;
   }
@@ -198,28 +285,33 @@ OscillationCandidate linear_candidate(const ObservedLoop& loop, OscillationCause
 
 OscillationCandidate user_candidate(const ObservedLoop& loop) {
   const UserDiscs discs(loop.device, loop.progress);
-  const VirtualDamper damper = virtual_damper(loop.device);
   const double period = loop.device.loop().sampling_period;
+  const std::optional<double> gain = gain_of(loop);
   OscillationCandidate candidate;
   candidate.cause = OscillationCause::passive_user;
   candidate.frequency = loop.frequency;
   double least = infinity;
   for (const double share : {0.0, -beside_user, beside_user}) {
     const double at = std::min(loop.frequency * (1.0 + share), pi / period);
-    least = std::min(least, least_stiffness(discs.at(at), damper_response(damper, period, at)));
-    if (share == 0.0 && loop.stiffness && least <= *loop.stiffness) break;
+    least = std::min(least, least_gain(discs.at(at), response_of(loop.device, loop.number, at)));
+    if (share == 0.0 && gain && least <= *gain) break;
   }
-  const std::string_view unit = units_of(loop.device.parameters().motion).stiffness;
   if (!std::isfinite(least)) {
-    candidate.why = "no passive user can make a wall of any stiffness oscillate there";
+    candidate.why = loop.number == WallNumber::stiffness
+                        ? "no passive user can make a wall of any stiffness oscillate there"
+                        : "no passive user can make any damper oscillate there";
+    look_for_nearest_user(loop, discs, candidate);
     return candidate;
   }
-  candidate.stiffness = least;
-  candidate.fits = !loop.stiffness || *loop.stiffness >= of_user_limit * least;
-  candidate.why = fmt::format("some passive user can make walls from {} on oscillate there", quantity(least, unit));
-  if (candidate.fits && loop.stiffness && !is_stable(without_operator(loop.device))) {
+  set_gain(loop, least, candidate);
+  candidate.fits = !gain || *gain >= of_user_limit * least;
+  candidate.why =
+      fmt::format("some passive user can make {} from {} on oscillate there", walls(loop), gain_text(loop, least));
+  if (candidate.fits && gain && !is_stable(without_operator(loop.device))) {
     candidate.fits = false;
     candidate.why += "; this one oscillates with nobody holding";
+  } else if (!candidate.fits) {
+    look_for_nearest_user(loop, discs, candidate);
   }
   return candidate;
 }
@@ -227,7 +319,8 @@ OscillationCandidate user_candidate(const ObservedLoop& loop) {
 std::optional<OscillationCandidate> quantisation_candidate(const ObservedLoop& loop) {
   const DeviceParameters& parameters = loop.device.parameters();
   const double step = parameters.sensor.resolution;
-  if (!(step > 0.0) || !loop.stiffness || !(*loop.stiffness > 0.0)) return std::nullopt;
+  const std::optional<double> gain = gain_of(loop);
+  if (!(step > 0.0) || !gain || !(*gain > 0.0)) return std::nullopt;
   OscillationCandidate candidate;
   candidate.cause = OscillationCause::quantisation;
   if (!is_stable(loop.device)) {
@@ -235,11 +328,10 @@ std::optional<OscillationCandidate> quantisation_candidate(const ObservedLoop& l
     return candidate;
   }
   const double period = loop.device.loop().sampling_period;
-  const FilteredPlant open = filtered_plant(filtered_plant(loop.device), {controller(parameters.wall, period)});
-  const CriticalStiffness scaled = critical_stiffness(open);
-  const Crossover* nearest = nullptr;
-  for (const Crossover& each : scaled.crossovers) {
-    if (each.stiffness <= 1.0 || each.frequency <= 0.0) continue;
+  const std::vector<NumberLimit::Crossing> scaled = crossings_of_force(loop);
+  const NumberLimit::Crossing* nearest = nullptr;
+  for (const NumberLimit::Crossing& each : scaled) {
+    if (each.value <= 1.0 || each.frequency <= 0.0) continue;
     if (nearest == nullptr || apart(each.frequency, loop.frequency) < apart(nearest->frequency, loop.frequency)) {
       nearest = &each;
     }
@@ -250,7 +342,7 @@ std::optional<OscillationCandidate> quantisation_candidate(const ObservedLoop& l
   }
   candidate.frequency = nearest->frequency;
   candidate.limited_by = nearest->limited_by;
-  candidate.amplitude = 2.0 * step / (pi * nearest->stiffness);
+  candidate.amplitude = 2.0 * step / (pi * nearest->value);
   double friction = 0.0;
   for (const Body& body : loop.device.bodies()) friction += body.coulomb;
   const double relay =
@@ -261,15 +353,17 @@ std::optional<OscillationCandidate> quantisation_candidate(const ObservedLoop& l
                                 quantity(friction, units.force), quantity(relay, units.force));
     return candidate;
   }
-  const double largest = std::max(counts_of_quantisation * step, largest_swing_of_steps(open, loop.frequency, step));
+  const double largest = std::max(counts_of_quantisation * step, largest_swing_of_steps(loop, step));
   if (loop.amplitude && *loop.amplitude > largest) {
     candidate.why = fmt::format("it swings by {}, more than steps of {} keep up at this frequency, {}",
                                 quantity(*loop.amplitude, units.length), quantity(step, units.length),
                                 quantity(largest, units.length));
+    candidate.otherwise = {.amplitude = *loop.amplitude / largest};
     return candidate;
   }
   // Steps far from a sine swing far from the crossover, but not by more than a step or two.
   candidate.fits = loop.amplitude || apart(nearest->frequency, loop.frequency) <= near_harmonic;
+  if (!candidate.fits) candidate.otherwise = {.frequency = loop.frequency / nearest->frequency};
   candidate.why = fmt::format("at rest between two steps the encoder is a relay: a cycle at the phase crossover {}",
                               hertz_text(nearest->frequency));
   if (loop.amplitude && *loop.amplitude > counts_of_quantisation * step) {
@@ -318,9 +412,11 @@ std::optional<OscillationCandidate> friction_candidate(const ObservedLoop& loop)
     const std::string_view unit = units_of(loop.device.parameters().motion).length;
     candidate.why = fmt::format("its cycle at {} would swing by {}, not by {}", hertz_text(candidate.frequency),
                                 quantity(*candidate.amplitude, unit), quantity(*loop.amplitude, unit));
+    candidate.otherwise = {.frequency = frequency_needed(loop, candidate.frequency, near_harmonic), .amplitude = share};
     return candidate;
   }
   candidate.fits = apart(candidate.frequency, loop.frequency) <= near_harmonic;
+  if (!candidate.fits) candidate.otherwise = {.frequency = loop.frequency / candidate.frequency};
   candidate.why = fmt::format(
       "the loop is stable with its bodies sliding by this little and unstable where friction holds them: a cycle at "
       "about {}",

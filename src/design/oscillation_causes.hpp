@@ -13,13 +13,14 @@ struct ObservedLoop {
   double frequency = 0.0;  // observed, rad/s
   std::optional<double> amplitude;
   std::optional<double> stiffness;
-  Progress progress = {};  // of the stage of work that looks at it
+  WallNumber number = WallNumber::stiffness;  // which the limits are of: B of a damper alone
+  Progress progress = {};                     // of the stage of work that looks at it
 };
 
-[[nodiscard]] bool is_held(const Device& device);
-[[nodiscard]] Device without_operator(const Device& device);
+// K, or B of a damper alone; absent where K is not known.
+[[nodiscard]] std::optional<double> gain_of(const ObservedLoop& loop);
 
-// Whether the loop is stable at its K, by eigenvalues.
+// Whether the loop is stable at its K, by eigenvalues. The position that nothing holds is no instability.
 [[nodiscard]] bool is_stable(const Device& device);
 
 // The device with the first harmonic of its Coulomb friction at that share: body.damping + share * body.coulomb.
@@ -33,6 +34,12 @@ struct ObservedLoop {
 [[nodiscard]] std::optional<OscillationCandidate> quantisation_candidate(const ObservedLoop& loop);
 // Absent without friction, or where K is not known.
 [[nodiscard]] std::optional<OscillationCandidate> friction_candidate(const ObservedLoop& loop);
+
+// How far a candidate that does not fit is from fitting: the sum of |ln| of what would have to be otherwise; infinite
+// where nothing helps.
+[[nodiscard]] double distance_to_fit(const OscillationCandidate& candidate);
+// Whether it fits, or would with each number within a factor of 2.
+[[nodiscard]] bool is_near(const OscillationCandidate& candidate);
 
 // Shares of friction as damping from sliding to sticking, relative to the device's own damping or spring.
 [[nodiscard]] std::vector<double> friction_shares(const Device& device);

@@ -2,8 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdint>
+#include <functional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "design/region_check.hpp"
 #include "design/region_structure.hpp"
@@ -11,6 +15,7 @@
 #include "require_valid.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/model/device_operator.hpp"
 #include "zwidth/model/device_trust.hpp"
 #include "zwidth/quantity.hpp"
 #include "zwidth/stability/analysis.hpp"
@@ -42,14 +47,22 @@ void refuse(WallRegion& result, std::string reason) {
   result.trust = std::move(trust);
 }
 
-// Follows the boundary and asks the second route.
-void find_walls(const Device& device, const OutlineOptions& outline, WallRegion& result, const Progress& progress) {
+/// The walls of one holder.
+struct FoundWalls {
+  std::optional<StableWalls> walls;
+  StableRegion region;
+};
+
+// Follows the boundary and asks the second route; what is said of it goes to `result`. Empty where it is refused.
+FoundWalls find_walls(const Device& device, const OutlineOptions& outline, WallRegion& result,
+                      const Progress& progress) {
   StagedProgress stages(progress);
   stages.next(0.7);
-  result.walls.emplace(filtered_plant(device), device.parameters().wall.velocity_filter_hz, stages.stage());
+  FoundWalls found;
+  found.walls.emplace(filtered_plant(device), device.parameters().wall.velocity_filter_hz, stages.stage());
   stages.next(1.0);
-  result.region = stable_region(*result.walls, outline);
-  const RegionCheck check = check_region(device, *result.walls, result.region, outline.deviation, stages.stage());
+  found.region = stable_region(*found.walls, outline);
+  const RegionCheck check = check_region(device, *found.walls, found.region, outline.deviation, stages.stage());
   const Units units = units_of(device.parameters().motion);
   if (check.contradiction) {
     refuse(result, fmt::format("two computations contradict each other on whether the wall of {} and {} {} is stable: "
@@ -57,9 +70,9 @@ void find_walls(const Device& device, const OutlineOptions& outline, WallRegion&
                                "the links their damping, or merge bodies that move alike",
                                quantity(check.contradiction->stiffness, units.stiffness),
                                number(check.contradiction->damping), units.damping));
-    return;
+    return {};
   }
-  if (check.asked == 0 && result.region.bounded) {
+  if (check.asked == 0 && found.region.bounded) {
     result.trust.doubt(
         "no second computation confirms the region: the loop has too many states; shorten the delay or merge bodies "
         "that hardly move against each other");
@@ -69,20 +82,40 @@ void find_walls(const Device& device, const OutlineOptions& outline, WallRegion&
         "no second computation confirms the region: a closed-loop pole of every wall asked lies on the unit circle to "
         "rounding; give the links their damping");
   }
-  if (result.region.vertex_error > usual_vertex_error) {
+  if (found.region.vertex_error > usual_vertex_error) {
     result.trust.doubt(
         fmt::format("the region is known to {} of its extent only: it ends beside a mode that hardly anything "
                     "damps; give the "
                     "links their damping",
-                    percent(result.region.vertex_error)));
+                    percent(found.region.vertex_error)));
   }
-  if (!result.walls->structure().proven) {
+  if (!found.walls->structure().proven) {
     result.remarks.push_back(
         {Remark::Severity::note,
          fmt::format("the boundary was followed by samples, not by bounds, and confirmed at {} walls", check.confirmed),
          "a part of the region that is much thinner than its distance from K = B = 0 may be missing",
          "critical_stiffness at one damping has no such gap"});
   }
+  return found;
+}
+
+/// The region with nobody holding beside that with the file's user, and what both have in common.
+void add_nobody(const Device& alone, const OutlineOptions& outline, WallRegion& result, const Progress& progress) {
+  WallRegion said;
+  FoundWalls found = find_walls(alone, outline, said, progress);
+  for (const std::string& reason : said.trust.reasons) {
+    const std::string with = fmt::format("with {}: {}", words_of(Holder::nobody), reason);
+    if (said.trust.refused()) return refuse(result, with);
+    result.trust.doubt(with);
+  }
+  for (Remark& remark : said.remarks) {
+    remark.what = fmt::format("with {}: {}", words_of(Holder::nobody), remark.what);
+    result.remarks.push_back(std::move(remark));
+  }
+  const ModalForm form = modal_form(alone);
+  result.shared = shared_walls(*found.walls, found.region, *result.walls, result.region);
+  result.nobody = NobodysRegion{found.region.bounded, std::move(found.walls), std::move(found.region), form.modes,
+                                form.suspended_rigid_body};
 }
 
 }  // namespace
@@ -103,7 +136,16 @@ WallRegion region(const Device& device, const RegionOptions& options) {
   if (result.trust.refused()) return result;
   try {
     stages.next(options.any_user && device.has_bodies() ? walls_share : 0.95);
-    find_walls(device, options.outline, result, stages.stage());
+    const bool is_held = has_operator(device);
+    StagedProgress holders(stages.stage());
+    holders.next(is_held ? 0.5 : 1.0);
+    FoundWalls found = find_walls(device, options.outline, result, holders.stage());
+    result.walls = std::move(found.walls);
+    result.region = std::move(found.region);
+    if (is_held && !result.trust.refused()) {
+      holders.next(1.0);
+      add_nobody(zwidth::without_operator(device), options.outline, result, holders.stage());
+    }
   } catch (const Error& error) {
     if (error.code() != ErrorCode::did_not_converge) throw;
     refuse(result,
@@ -122,8 +164,8 @@ WallRegion region(const Device& device, const RegionOptions& options) {
       result.region.most_damped->damping > 0.0) {
     if (device.bodies().size() <= most_bodies_for_any_user) {
       stages.next(0.95);
-      result.any_user =
-          any_user_region(device, *result.walls, result.region.most_damped->damping, {.progress = stages.stage()});
+      result.any_user = any_user_region(device, result.nobody ? *result.nobody->walls : *result.walls,
+                                        result.region.most_damped->damping, {.progress = stages.stage()});
       result.trust.inherit(result.any_user->trust);
     } else {
       result.remarks.push_back({Remark::Severity::note,
@@ -152,6 +194,9 @@ WallRaster wall_raster(const WallRegion& region, std::size_t count) {
   };
   WallRaster raster{middles(region.region.stiffest->stiffness), middles(region.region.most_damped->damping), {}};
   raster.stable = stable_on_grid(*region.walls, raster.stiffnesses, raster.dampings);
+  if (!region.nobody) return raster;
+  const std::vector<std::uint8_t> alone = stable_on_grid(*region.nobody->walls, raster.stiffnesses, raster.dampings);
+  std::ranges::transform(raster.stable, alone, raster.stable.begin(), std::bit_and());
   return raster;
 }
 

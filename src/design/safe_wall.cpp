@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "design/known_holders.hpp"
 #include "infinity.hpp"
 #include "require_valid.hpp"
 #include "stability/any_user_search.hpp"
@@ -119,15 +120,17 @@ void check(const Device& device, double stiffness, double damping, Trust& trust)
   distrust(agreement(PoleCount(walled), stiffness, true), stiffness, trust);
 }
 
-void check_wall(const Device& device, const SafeWallOptions& options, SafeWall& wall) {
-  if (options.damping == SafeWallOptions::Damping::own) {
-    check(device, wall.stiffness, wall.damping, wall.trust);
-    return;
-  }
-  for (const double stiffness : {1e-3, 0.5, 1.0}) {
-    for (const double damping : {0.0, 0.5, 1.0}) {
-      if (wall.trust.refused()) return;
-      check(device, stiffness * wall.stiffness, damping * wall.damping, wall.trust);
+void check_wall(const std::vector<Device>& holders, const SafeWallOptions& options, SafeWall& wall) {
+  for (const Device& held : holders) {
+    if (options.damping == SafeWallOptions::Damping::own) {
+      if (!wall.trust.refused()) check(held, wall.stiffness, wall.damping, wall.trust);
+      continue;
+    }
+    for (const double stiffness : {1e-3, 0.5, 1.0}) {
+      for (const double damping : {0.0, 0.5, 1.0}) {
+        if (wall.trust.refused()) return;
+        check(held, stiffness * wall.stiffness, damping * wall.damping, wall.trust);
+      }
     }
   }
 }
@@ -163,14 +166,26 @@ void lower_damping(const Device& device, std::size_t draws, double filter, SafeW
   wall.damping = 0.0;
 }
 
+/// A known holder of the device, its damper closed, and the limit that this leaves.
+struct HeldDevice {
+  Device device;
+  CriticalStiffness critical;
+};
+
 /// What the uncertainty leaves of every limit.
-void take_lower_end(const Device& device, const CriticalStiffness& critical, const SafeWallOptions& options,
+void take_lower_end(const std::vector<HeldDevice>& held, const HeldDevice& least, const SafeWallOptions& options,
                     SafeWall& wall) {
-  if (!is_uncertain(device)) return;
-  wall.interval = stiffness_interval(device, options.draws);
-  wall.uncertainty_share = std::clamp(wall.interval->lower / critical.stiffness, 0.0, 1.0);
+  if (!is_uncertain(held.back().device)) return;
+  for (const HeldDevice& each : held) {
+    if (each.critical.status != StiffnessStatus::finite || !is_uncertain(each.device)) continue;
+    const StiffnessInterval interval = stiffness_interval(each.device, options.draws);
+    wall.uncertainty_share =
+        std::min(wall.uncertainty_share, std::clamp(interval.lower / each.critical.stiffness, 0.0, 1.0));
+    if (&each == &least) wall.interval = interval;
+  }
   if (wall.basis == SafeWall::Basis::any_user) {
-    wall.any_user_interval = any_user_interval(device, virtual_damper(device), options.any_user_draws);
+    wall.any_user_interval =
+        any_user_interval(held.back().device, virtual_damper(held.back().device), options.any_user_draws);
     wall.uncertainty_share = std::min(wall.uncertainty_share, wall.any_user_interval->lower / wall.limit);
   }
   wall.remarks.push_back(
@@ -181,18 +196,54 @@ void take_lower_end(const Device& device, const CriticalStiffness& critical, con
        "identify them from more or longer recordings for a stiffer wall"});
 }
 
+/// The limits of all known holders; of each the status decides where there is none.
+std::vector<HeldDevice> limits_of_holders(const std::vector<Device>& holders, bool own, SafeWall& wall) {
+  std::vector<HeldDevice> held;
+  for (const Device& each : holders) {
+    const Device closed = own ? each : with_damping(each, 0.0);
+    held.push_back({closed, critical_stiffness(closed)});
+    wall.trust.inherit(held.back().critical.trust);
+  }
+  const auto has = [&](StiffnessStatus status) {
+    return [status](const HeldDevice& each) { return each.critical.status == status; };
+  };
+  if (std::ranges::any_of(held, has(StiffnessStatus::none_stable))) {
+    wall.status = SafeWall::Status::none_stable;
+  } else if (std::ranges::all_of(held, has(StiffnessStatus::unbounded))) {
+    wall.status = SafeWall::Status::unbounded;
+  }
+  return held;
+}
+
+/// Least B at which a wall up to the stiffness chosen is not stable.
+double damping_limit(const std::vector<Device>& holders, double filter, SafeWall& wall) {
+  double least = infinity;
+  for (const Device& each : holders) {
+    const StableWalls walls(filtered_plant(each), filter);
+    const StableRegion region = stable_region(walls);
+    if (!region.bounded) continue;
+    if (!region.most_damped) {
+      wall.trust.refuse("the region of stable walls contradicts the critical stiffness");
+      return 0.0;
+    }
+    if (wall.basis == SafeWall::Basis::any_user) {  // nobody is among them, and the first
+      return any_user_damping(each, any_user_region(each, walls, region.most_damped->damping), wall.stiffness);
+    }
+    least = std::min(least, boundary_damping(walls, region, wall.stiffness));
+  }
+  return least;
+}
+
 void choose(const Device& device, const SafeWallOptions& options, SafeWall& wall) {
   const bool own = options.damping == SafeWallOptions::Damping::own;
   const double filter = device.parameters().wall.velocity_filter_hz;
   wall.damping = own ? device.parameters().wall.damping : 0.0;
-  const Device closed = own ? device : with_damping(device, 0.0);
-  const CriticalStiffness critical = critical_stiffness(closed);
-  wall.trust.inherit(critical.trust);
-  if (wall.trust.refused()) return;
-  if (critical.status == StiffnessStatus::none_stable) wall.status = SafeWall::Status::none_stable;
-  if (critical.status == StiffnessStatus::unbounded) wall.status = SafeWall::Status::unbounded;
-  if (wall.status != SafeWall::Status::chosen) return;
-  wall.limit = critical.stiffness;
+  const std::vector<Device> holders = known_holders(device);
+  const std::vector<HeldDevice> held = limits_of_holders(holders, own, wall);
+  if (wall.trust.refused() || wall.status != SafeWall::Status::chosen) return;
+  const HeldDevice& least =
+      *std::ranges::min_element(held, {}, [](const HeldDevice& each) { return each.critical.stiffness; });
+  wall.limit = least.critical.stiffness;
   if (device.has_bodies() && device.bodies().size() <= most_bodies_for_any_user) {
     const double any_user = any_user_limit(device, {wall.damping, filter}).stiffness;
     if (any_user > 0.0 && std::isfinite(any_user)) {
@@ -204,20 +255,12 @@ void choose(const Device& device, const SafeWallOptions& options, SafeWall& wall
     wall.remarks.push_back({Remark::Severity::note, "there is no limit for any passive user to take a share of",
                             "whoever holds the device may destabilise this wall", ""});
   }
-  take_lower_end(closed, critical, options, wall);
+  take_lower_end(held, least, options, wall);
   const double share = options.safety_factor * wall.uncertainty_share;
   wall.stiffness = share * wall.limit;
   if (!own && wall.stiffness > 0.0) {
-    const StableWalls walls(filtered_plant(device), filter);
-    const StableRegion region = stable_region(walls);
-    if (!region.most_damped) {
-      wall.trust.refuse("the region of stable walls contradicts the critical stiffness");
-      return;
-    }
-    wall.damping_limit =
-        wall.basis == SafeWall::Basis::any_user
-            ? any_user_damping(device, any_user_region(device, walls, region.most_damped->damping), wall.stiffness)
-            : boundary_damping(walls, region, wall.stiffness);
+    wall.damping_limit = damping_limit(holders, filter, wall);
+    if (wall.trust.refused()) return;
     wall.damping = share * *wall.damping_limit;
     if (wall.any_user_interval) lower_damping(device, options.any_user_draws, filter, wall);
   }
@@ -228,7 +271,7 @@ void choose(const Device& device, const SafeWallOptions& options, SafeWall& wall
         "more or longer recordings");
     return;
   }
-  check_wall(device, options, wall);
+  check_wall(holders, options, wall);
 }
 
 }  // namespace

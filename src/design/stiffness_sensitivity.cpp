@@ -5,6 +5,7 @@
 #include "design/controller_slopes.hpp"
 #include "design/design_parameter.hpp"
 #include "design/plant_slopes.hpp"
+#include "stability/gain_locus.hpp"
 #include "zwidth/design/sensitivity.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/sampling/sampled_plant.hpp"
@@ -28,7 +29,13 @@ std::vector<Sensitivity> at_crossover(const Device& device, const SampledPlant& 
   // L = -1/(F P) - B v
   const Complex open = -1.0 / (filters.value * plant.value);
   const Complex stiffness = open - damper.value;
-  if (!(std::abs(stiffness.real() - limit.stiffness) <= same_stiffness * (limit.stiffness + std::abs(open)))) {
+  const double same = same_stiffness * (limit.stiffness + std::abs(open));
+  if (!(std::abs(stiffness.real() - limit.stiffness) <= same)) {
+    // Beside the pole of a mode that hardly anything damps no double is near enough: no slope is sure.
+    const Wall& wall = device.parameters().wall;
+    const FilteredPlant seen = filtered_plant(unfiltered, wall.filters);
+    const GainLocus locus(seen, GainLocus::Gain::stiffness, 0.0, {wall.damping, wall.velocity_filter_hz});
+    if (!(locus.by_terms(angle).gain_noise() <= same)) return {};
     throw Error(ErrorCode::invalid_argument, "the critical stiffness handed in is not that of the device");
   }
   const Complex by_angle = -open * (filters.log_by_angle + plant.by_angle / plant.value) - damper.by_angle;

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "design/damper_limits.hpp"
 #include "design/notch_search.hpp"
 #include "design/wall_check.hpp"
 #include "design/wall_limits.hpp"
@@ -85,7 +86,7 @@ class Recommendation {
       result.status = WallRecommendation::Status::refused;
       return result;
     }
-    wall.bounded_by = bounds_of(*best);
+    if (options_.alternatives) wall.bounded_by = bounds_of(*best);
     result.status = WallRecommendation::Status::found;
     result.wall = std::move(wall);
     if (!options_.ripple && result.wall->force_per_count) {
@@ -96,7 +97,7 @@ class Recommendation {
            "ask for a ripple where that can be felt or heard"});
     }
     stages_.next(1.0);
-    add_alternatives(*best, plain, result);
+    if (options_.alternatives) add_alternatives(*best, plain, result);
     stages_.done();
     return result;
   }
@@ -381,7 +382,8 @@ WallRecommendation recommend_wall(const Device& device, const RecommendationOpti
   try {
     trust.inherit(critical_stiffness(without_wall(device)).trust);
     if (trust.refused()) return refused(std::move(trust));
-    WallRecommendation result = Recommendation(device, options).answer();
+    WallRecommendation result = options.goal == WallGoal::damper ? recommend_damper(without_wall(device), options)
+                                                                 : Recommendation(device, options).answer();
     trust.inherit(result.trust);
     result.trust = trust;
     return result;

@@ -62,6 +62,19 @@ NameAndUnit name_and_unit(std::string_view column) {
   return {column, {}};
 }
 
+std::string name_in_cell(std::string_view cell) {
+  std::string name = as_utf8(trimmed(cell));
+  for (std::size_t quote = name.find("\"\""); quote != std::string_view::npos; quote = name.find("\"\"", quote + 1)) {
+    name.erase(quote, 1);
+  }
+  return without_controls(name);
+}
+
+std::string with_unit(const std::string& name, const std::string& unit) {
+  if (unit.empty()) return name;
+  return unit.front() == '[' || unit.front() == '(' ? name + " " + unit : fmt::format("{} [{}]", name, unit);
+}
+
 std::string listed_columns(std::span<const std::string> columns) {
   std::vector<std::string> shown;
   shown.reserve(columns.size());

@@ -17,6 +17,12 @@ struct NameAndUnit {
 };
 [[nodiscard]] NameAndUnit name_and_unit(std::string_view column);
 
+/// The name in a cell of a header: in UTF-8, without control characters and doubled quotes.
+[[nodiscard]] std::string name_in_cell(std::string_view cell);
+
+/// "F [N]" of F and N (or "[N]", "(N)").
+[[nodiscard]] std::string with_unit(const std::string& name, const std::string& unit);
+
 /// "3 columns: t, F [N], x"; the first of them where there are many.
 [[nodiscard]] std::string listed_columns(std::span<const std::string> columns);
 

@@ -112,6 +112,14 @@ NumberCell read_number(std::string_view cell, char decimal_mark) {
   return number ? number_with_point(number->view()) : text_cell;
 }
 
+std::optional<char> decimal_mark_in(std::string_view cell) {
+  const std::size_t mark = cell.find_first_of(".,");
+  if (mark == std::string_view::npos || read_number(cell, cell[mark]).kind != NumberCell::Kind::number) {
+    return std::nullopt;
+  }
+  return cell[mark];
+}
+
 std::optional<std::complex<double>> read_complex(std::string_view cell, char decimal_mark) {
   cell = trimmed(cell);
   if (cell.size() > 2 && cell.front() == '(' && cell.back() == ')') cell = trimmed(cell.substr(1, cell.size() - 2));

@@ -21,6 +21,9 @@ struct NumberCell {
 /// Reads a decimal number with an optional exponent; blanks around it are allowed. `decimal_mark` is '.' or ','.
 [[nodiscard]] NumberCell read_number(std::string_view cell, char decimal_mark);
 
+/// The decimal mark that a number shows: "0,5"; none where it is whole, or no number.
+[[nodiscard]] std::optional<char> decimal_mark_in(std::string_view cell);
+
 /// Reads a complex number as Python and MATLAB write it: "(1.5+2j)", "1.5-2e-3i".
 [[nodiscard]] std::optional<std::complex<double>> read_complex(std::string_view cell, char decimal_mark);
 

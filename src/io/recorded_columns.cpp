@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "io/column_names.hpp"
+#include "io/exported_columns.hpp"
 #include "io/prose.hpp"
 #include "io/raw_column.hpp"
 #include "io/recording_channels.hpp"
@@ -44,6 +45,31 @@ RawColumn raw(const RecordedColumns& recorded, const RecordedColumn& column) {
   return {recorded.source, column.name, column.samples, {}};
 }
 
+/// As those of an export whose columns have times of their own.
+ExportedColumns as_exported(const RecordedColumns& recorded, const RecordingOptions& options) {
+  ExportedColumns exported;
+  exported.source = recorded.source;
+  for (const RecordedColumn& each : recorded.columns) {
+    ExportedColumn column;
+    column.name = each.name;
+    exported.columns.push_back(std::move(column));
+  }
+  mark_columns_to_keep(exported, options);
+  for (std::size_t c = 0; c < exported.columns.size(); ++c) {
+    ExportedColumn& column = exported.columns[c];
+    const RecordedColumn& from = recorded.columns[c];
+    column.samples = from.samples.size();
+    column.has_lines = false;
+    if (from.time_column) exported.columns[*from.time_column].holds_times = true;
+    if (!column.is_kept) continue;
+    column.values = from.samples;
+    if (!from.time_column) continue;
+    column.time_name = recorded.columns[*from.time_column].name;
+    column.times = recorded.columns[*from.time_column].samples;
+  }
+  return exported;
+}
+
 }  // namespace
 
 std::optional<InputError> find_problem(const RecordedColumns& recorded) {
@@ -52,31 +78,32 @@ std::optional<InputError> find_problem(const RecordedColumns& recorded) {
     return refused(recorded, "sampling_period", fmt::format("is {} s", *period), "must be above 0");
   }
   if (recorded.columns.empty()) return refused(recorded, "", "has no columns", "must have one at least");
-  const std::size_t count = recorded.columns.size();
-  for (const RecordedColumn& each : recorded.columns) {
-    if (!each.times || (*each.times < count && recorded.columns[*each.times].samples.size() == each.samples.size()))
-      continue;
-    return refused(recorded, shortened(each.name), "has no times, or other than as many",
-                   "its times must be a column of as many samples");
-  }
-  const auto has_own = [&recorded](const RecordedColumn& column) {
-    return column.times || std::ranges::any_of(recorded.columns, [&](const RecordedColumn& each) {
-             return each.times && &recorded.columns[*each.times] == &column;
-           });
+  const auto holds_times = [&](const RecordedColumn& column) {
+    return std::any_of(recorded.columns.begin(), recorded.columns.end(), [&](const RecordedColumn& each) {
+      return each.time_column && *each.time_column < recorded.columns.size() &&
+             &recorded.columns[*each.time_column] == &column;
+    });
   };
-  const auto shares = std::ranges::find_if_not(recorded.columns, has_own);
-  const RecordedColumn& first = shares == recorded.columns.end() ? recorded.columns.front() : *shares;
+  const RecordedColumn* first = nullptr;  // of those without times of their own
   for (const RecordedColumn& each : recorded.columns) {
-    if (has_own(each) && each.samples.size() >= 2) continue;
-    if (each.samples.size() == first.samples.size()) continue;
+    if (each.time_column && *each.time_column >= recorded.columns.size()) {
+      return refused(recorded, shortened(each.name), fmt::format("has its times in column {}", *each.time_column),
+                     fmt::format("must be one of the {} columns, from 0 on", recorded.columns.size()));
+    }
+    if (each.samples.size() < 2) {
+      return refused(recorded, shortened(each.name), fmt::format("has {} samples", each.samples.size()),
+                     "must have two at least");
+    }
+    if (!each.time_column && holds_times(each)) continue;
+    if (!each.time_column && first == nullptr) first = &each;
+    const RecordedColumn& other = each.time_column ? recorded.columns[*each.time_column] : *first;
+    if (each.samples.size() == other.samples.size()) continue;
     return refused(
         recorded, shortened(each.name),
-        fmt::format("has {} samples, {} has {}", each.samples.size(), shortened(first.name), first.samples.size()),
+        fmt::format("has {} samples, {} has {}", each.samples.size(), shortened(other.name), other.samples.size()),
         "signals of one recording must have equally many");
   }
-  if (first.samples.size() >= 2) return std::nullopt;
-  return refused(recorded, shortened(first.name), fmt::format("has {} samples", first.samples.size()),
-                 "must have two at least");
+  return std::nullopt;
 }
 
 tl::expected<Recording, InputError> read_recording(const RecordedColumns& recorded, const RecordingOptions& options) {
@@ -86,49 +113,22 @@ tl::expected<Recording, InputError> read_recording(const RecordedColumns& record
                                   "a column of times is asked for beside a rate", "must be one of the two"));
   }
   if (auto problem = find_problem(recorded)) return tl::unexpected(*std::move(problem));
-  std::vector<const RecordedColumn*> asked;
+  const bool have_own_times = std::any_of(recorded.columns.begin(), recorded.columns.end(),
+                                          [](const RecordedColumn& each) { return each.time_column.has_value(); });
+  if (have_own_times) return make_recording(as_exported(recorded, options), options);
+  std::vector<RawColumn> columns;
   for (const ColumnRequest& request : options.columns) {
     const auto found = find_column(names_of(recorded), request.name, recorded.source);
     if (!found) return tl::unexpected(found.error());
-    asked.push_back(&recorded.columns[*found]);
-  }
-  const auto has_own_times = [](const RecordedColumn* column) { return column->times.has_value(); };
-  const auto times_of = [&recorded](const RecordedColumn* column) {
-    return column->times ? &recorded.columns[*column->times] : nullptr;
-  };
-  const RecordedColumn* common = times_of(asked.front());  // times of all
-  const bool has_common = common != nullptr && std::ranges::all_of(asked, [&](const RecordedColumn* each) {
-                            return times_of(each) != nullptr && times_of(each)->samples == common->samples;
-                          });
-  if (std::ranges::any_of(asked, has_own_times) && !has_common && !options.rate && !options.time_column) {
-    std::vector<TimedColumn> timed;
-    for (const RecordedColumn* each : asked) {
-      if (!each->times) {
-        return tl::unexpected(refused(recorded, shortened(each->name), "has no times of its own beside one that has",
-                                      "all columns asked for must have their times, or none"));
-      }
-      timed.push_back({raw(recorded, *each), raw(recorded, recorded.columns[*each->times])});
-    }
-    return make_recording(std::move(timed), options);
-  }
-  std::vector<RawColumn> columns;
-  for (const RecordedColumn* each : asked) {
-    columns.push_back(raw(recorded, *each));
-    if (columns.back().values.size() == columns.front().values.size()) continue;
-    return tl::unexpected(refused(recorded, shortened(each->name),
-                                  fmt::format("has {} samples, {} has {}", columns.back().values.size(),
-                                              shortened(columns.front().name), columns.front().values.size()),
-                                  "without their times, signals must have equally many"));
+    columns.push_back(raw(recorded, recorded.columns[*found]));
   }
   const auto found_times = find_times(recorded, options);
   if (!found_times) return tl::unexpected(found_times.error());
-  const RecordedColumn* times = has_common && !options.time_column ? common : *found_times;
+  const RecordedColumn* times = *found_times;
   const auto& period = recorded.sampling_period;
-  const bool uses_times = times != nullptr && times->samples.size() == columns.front().values.size() &&
-                          (has_common || options.rate || options.time_column || !period);
-  auto recording = make_recording(std::move(columns), uses_times ? std::optional(raw(recorded, *times)) : std::nullopt,
-                                  options, period);
-  return recording;
+  const bool uses_times = times != nullptr && (options.rate || options.time_column || !period);
+  return make_recording(std::move(columns), uses_times ? std::optional(raw(recorded, *times)) : std::nullopt, options,
+                        period);
 }
 
 RecordingContents list_recording(const RecordedColumns& recorded) {

@@ -107,8 +107,8 @@ void leave_out_repeated(std::vector<Channel>& channels, RawColumn& times, std::v
   if (times.line) times.line = [line = times.line, kept](std::size_t sample) { return line(kept[sample]); };
 }
 
-/// Equal steps, with what was found; s, the time of the first. Refused where the stretches between gaps are too short.
-tl::expected<double, InputError> restore(const TimeAxis& axis, Recording& recording) {
+/// Equal steps, with what was found. Refused where the stretches between gaps are too short.
+tl::expected<void, InputError> restore(const TimeAxis& axis, Recording& recording) {
   std::vector<std::span<const double>> signals;
   for (const Channel& each : recording.channels) signals.emplace_back(each.samples);
   const std::size_t all = axis.column.values.size();
@@ -129,29 +129,7 @@ tl::expected<double, InputError> restore(const TimeAxis& axis, Recording& record
     recording.channels[i].samples = std::move(rows.signals[i]);
   }
   add_row_findings(axis, rows, recording);
-  return rows.start;
-}
-
-/// A column on its own times.
-struct OwnSteps {
-  Recording recording;
-  double start = 0.0;  ///< s
-};
-
-tl::expected<OwnSteps, InputError> own_steps(TimedColumn timed, const ColumnRequest& request,
-                                             const RecordingOptions& options) {
-  OwnSteps own;
-  auto channel = make_channel(std::move(timed.column), request, own.recording.remarks);
-  if (!channel) return tl::unexpected(std::move(channel.error()));
-  own.recording.channels.push_back(std::move(*channel));
-  leave_out_repeated(own.recording.channels, timed.times, own.recording.remarks);
-  auto axis = time_axis(std::move(timed.times), options);
-  if (!axis) return tl::unexpected(std::move(axis.error()));
-  own.recording.remarks.insert(own.recording.remarks.begin(), axis->remarks.begin(), axis->remarks.end());
-  const auto start = restore(*axis, own.recording);
-  if (!start) return tl::unexpected(start.error());
-  own.start = *start;
-  return own;
+  return {};
 }
 
 }  // namespace
@@ -196,56 +174,6 @@ tl::expected<Recording, InputError> make_recording(std::vector<RawColumn> column
     }
   }
   recording.remarks.insert(recording.remarks.end(), remarks.begin(), remarks.end());
-  return recording;
-}
-
-tl::expected<Recording, InputError> make_recording(std::vector<TimedColumn> columns, const RecordingOptions& options) {
-  const std::string source = columns.front().column.source;
-  std::vector<OwnSteps> all;
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    auto own = own_steps(std::move(columns[i]), options.columns[i], options);
-    if (!own) return tl::unexpected(std::move(own.error()));
-    all.push_back(std::move(*own));
-  }
-  const OwnSteps& motion = all.back();
-  const double period = motion.recording.sampling_period;
-  double first = motion.start;
-  double end = motion.start + period * static_cast<double>(motion.recording.channels[0].samples.size());
-  for (const OwnSteps& each : all) {
-    first = std::max(first, each.start);
-    end = std::min(end, each.start + each.recording.sampling_period *
-                                         static_cast<double>(each.recording.channels[0].samples.size()));
-  }
-  constexpr double rounding = 1e-3;  // periods
-  const double skipped = std::ceil((first - motion.start) / period - rounding);
-  const double count = std::floor((end - motion.start) / period + rounding) - skipped;
-  if (!(count >= 2.0)) {
-    return tl::unexpected(InputError{source, 0, 0, "", "has columns whose times do not overlap",
-                                     "force and motion must be recorded at the same time"});
-  }
-  Recording recording;
-  recording.source = source;
-  recording.sampling_period = period;
-  for (OwnSteps& each : all) {
-    Channel channel = each.recording.channels[0];
-    std::vector<double> held_from;
-    for (std::size_t k = 0; k < channel.samples.size(); ++k) {
-      held_from.push_back(each.start - motion.start + each.recording.sampling_period * static_cast<double>(k));
-    }
-    const double start = skipped * period;
-    if (&each == &all.back()) {
-      const auto begin = channel.samples.begin() + static_cast<std::ptrdiff_t>(skipped);
-      channel.samples = {begin, begin + static_cast<std::ptrdiff_t>(count)};
-    } else {
-      channel.samples = averaged_hold(held_from, channel.samples, start, period, static_cast<std::size_t>(count));
-    }
-    recording.channels.push_back(std::move(channel));
-    for (Remark& remark : each.recording.remarks) {
-      if (std::ranges::find(recording.remarks, remark.what, &Remark::what) == recording.remarks.end())
-        recording.remarks.push_back(std::move(remark));
-    }
-    for (std::string& doubt : each.recording.doubts) recording.doubts.push_back(std::move(doubt));
-  }
   return recording;
 }
 

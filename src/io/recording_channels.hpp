@@ -19,18 +19,6 @@ namespace zwidth::internal {
                                                                  const RecordingOptions& options,
                                                                  std::optional<double> period = {});
 
-/// A column with the times at which it was sampled, as many.
-struct TimedColumn {
-  RawColumn column;
-  RawColumn times;
-};
-
-/// The same of columns that have times of their own, which may be more or fewer, at other rates, and begin and end at
-/// other times. The last one, the motion, keeps its steps; the others, held between their times, are averaged over them.
-/// `options.rate` is not used. Refused where they do not overlap.
-[[nodiscard]] tl::expected<Recording, InputError> make_recording(std::vector<TimedColumn> columns,
-                                                                 const RecordingOptions& options);
-
 /// The refusal of a recording that has neither a rate nor a column of times.
 [[nodiscard]] InputError no_time_axis(const std::string& source);
 

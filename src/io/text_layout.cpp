@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "io/cell_splitter.hpp"
+#include "io/column_names.hpp"
 #include "io/column_unit.hpp"
 #include "io/number_cell.hpp"
 #include "io/prose.hpp"
@@ -67,6 +68,14 @@ class Reading {
   [[nodiscard]] const Notation& notation() const { return notation_; }
   [[nodiscard]] std::size_t columns() const { return columns_; }
   [[nodiscard]] std::size_t first_row() const { return first_row_; }  ///< index of a line
+  /// Index of the first line with the cells of a row; what stands between first_row() and it is a row
+  /// with a fault or a line of a header.
+  [[nodiscard]] std::size_t first_clean_row() const { return std::max(first_row_, first_clean_row_); }
+  /// Text in a column of numbers; or nothing at a line's beginning, where every row begins with a number.
+  [[nodiscard]] bool is_no_cell_of_a_row(const Line& line, std::size_t column) const {
+    if (line.kinds[column] == Kind::text) return balance_[column] > 0;
+    return column == 0 && line.cells[0].empty() && begins_with_numbers_;
+  }
   [[nodiscard]] const std::vector<Line>& lines() const { return lines_; }
   [[nodiscard]] std::optional<std::size_t> names() const { return names_; }  ///< index of the line of names
   [[nodiscard]] std::optional<std::size_t> units() const { return units_; }  ///< index of the line of units below
@@ -80,7 +89,7 @@ class Reading {
   /// The user says that there is a header, or that there is none.
   void take_header_as(RecordingOptions::Header header) {
     if (header == RecordingOptions::Header::absent) {
-      first_row_ = 0;
+      first_row_ = first_clean_row_ = 0;
       names_.reset();
       units_.reset();
     } else if (header == RecordingOptions::Header::present && !names_) {
@@ -135,25 +144,28 @@ class Reading {
     if (delimiter_ends) --columns_;
   }
 
-  /// The first line that has a number in one column at least and text in none that mostly holds numbers.
+  /// The first line that has a number in one column at least, and in none what no row has there.
   void find_first_row() {
-    std::vector<std::ptrdiff_t> balance(columns_);  // of numbers over texts
+    std::vector<std::ptrdiff_t>& balance = balance_;
+    balance.assign(columns_, 0);
     for (std::size_t i = middle(); i < lines_.size(); ++i) {
       if (!fits(lines_[i])) continue;
       for (std::size_t c = 0; c < columns_; ++c) {
         const Kind kind = lines_[i].kinds[c];
         balance[c] += kind == Kind::text ? -1 : kind == Kind::number ? 1 : 0;
       }
+      begins_with_numbers_ = begins_with_numbers_ && lines_[i].kinds[0] == Kind::number;
     }
     const auto is_row = [&](const Line& line) {
       if (!fits(line) || !line.has(Kind::number)) return false;
       for (std::size_t c = 0; c < columns_; ++c) {
-        if (balance[c] > 0 && line.kinds[c] == Kind::text) return false;
+        if (is_no_cell_of_a_row(line, c)) return false;
       }
       return true;
     };
     const auto row = std::find_if(lines_.begin(), lines_.end(), is_row);
     first_row_ = static_cast<std::size_t>(row - lines_.begin());
+    first_clean_row_ = first_row_;
     const bool only_text = std::all_of(balance.begin(), balance.end(), [](std::ptrdiff_t b) { return b <= 0; });
     if (only_text || !is_table()) {
       first_row_ = lines_.size();
@@ -181,33 +193,23 @@ class Reading {
   Notation notation_;
   std::vector<Line> lines_;
   std::size_t columns_ = 0;
+  std::vector<std::ptrdiff_t> balance_;  ///< of numbers over texts, by column
+  bool begins_with_numbers_ = true;      ///< every line of the second half
   std::size_t first_row_ = 0;
+  std::size_t first_clean_row_ = 0;
   std::optional<std::size_t> names_;
   std::optional<std::size_t> units_;
 };
-
-std::string name_of(std::string_view cell) {
-  std::string name = as_utf8(trimmed(cell));
-  for (std::size_t quote = name.find("\"\""); quote != std::string_view::npos; quote = name.find("\"\"", quote + 1)) {
-    name.erase(quote, 1);
-  }
-  return without_controls(name);
-}
-
-/// "[N]", where the cell says so or where it is plain "N".
-std::string in_brackets(const std::string& unit) {
-  return unit.front() == '[' || unit.front() == '(' ? unit : fmt::format("[{}]", unit);
-}
 
 /// A column without a name is called by its number.
 std::vector<std::string> header_names(const Reading& reading) {
   std::vector<std::string> columns;
   for (std::size_t c = 0; c < reading.columns(); ++c) {
-    columns.push_back(name_of(reading.lines()[*reading.names()].cells[c]));
+    columns.push_back(name_in_cell(reading.lines()[*reading.names()].cells[c]));
     if (columns.back().empty()) columns.back() = std::to_string(c + 1);
     if (!reading.units()) continue;
-    const std::string unit = name_of(reading.lines()[*reading.units()].cells[c]);
-    if (!unit.empty()) columns.back().append(" ").append(in_brackets(unit));
+    const std::string unit = name_in_cell(reading.lines()[*reading.units()].cells[c]);
+    if (!unit.empty()) columns.back() = with_unit(columns.back(), unit);
   }
   return columns;
 }
@@ -227,7 +229,7 @@ std::vector<std::string> names_in_comment(std::span<const TextLine> head, const 
   const bool named = line.cells.size() == reading.columns() && !line.has(Kind::number) && line.has(Kind::text);
   if (!named) return {};
   std::vector<std::string> columns;
-  for (const std::string_view cell : line.cells) columns.push_back(name_of(cell));
+  for (const std::string_view cell : line.cells) columns.push_back(name_in_cell(cell));
   return columns;
 }
 
@@ -279,7 +281,26 @@ tl::unexpected<InputError> no_table(std::span<const TextLine> content, const std
                                          : fmt::format("has no rows of numbers; it begins with {}", beginning);
   return tl::unexpected(
       InputError{source, 0, 0, "", std::move(what),
-                 "must be a table: columns of numbers separated by commas, semicolons, tabs or blanks"});
+                 "must be a table: columns of numbers separated by commas, semicolons, tabs or blanks, below a header "
+                 "that may be passed over (`skip_rows`)"});
+}
+
+/// A line of text above the rows, in a column that holds numbers: never a sample, whichever columns are asked for.
+std::optional<InputError> text_above_the_rows(const Reading& reading, const std::string& source) {
+  if (reading.first_row() == reading.first_clean_row()) return std::nullopt;
+  const Line& line = reading.lines()[reading.first_row()];
+  for (std::size_t c = 0; c < std::min(reading.columns(), line.cells.size()); ++c) {
+    if (!reading.is_no_cell_of_a_row(line, c)) continue;
+    return InputError{source,
+                      line.number,
+                      1,
+                      reading.names() ? shortened(header_names(reading)[c]) : std::to_string(c + 1),
+                      why_no_number(line.cells[c], reading.notation().decimal_mark),
+                      fmt::format("must be a number; where the line is part of a header, pass over all of it "
+                                  "(`skip_rows` {})",
+                                  reading.lines()[reading.first_clean_row()].number - 1)};
+  }
+  return std::nullopt;
 }
 
 std::optional<InputError> refused_options(const RecordingOptions& options, const std::string& source) {
@@ -340,8 +361,10 @@ tl::expected<TextLayout, InputError> detect_layout(std::span<const TextLine> hea
     return tl::unexpected(
         InputError{source, header.number, 1, "",
                    fmt::format("the header has {} cells and the rows have {}", header.cells.size(), reading.columns()),
-                   "must have a name for each column"});
+                   fmt::format("must have a name for each column; where it is no header, pass it over (`skip_rows` {})",
+                               header.number)});
   }
+  if (auto refusal = text_above_the_rows(reading, source)) return tl::unexpected(std::move(*refusal));
 
   TextLayout layout;
   layout.delimiter = reading.notation().delimiter;

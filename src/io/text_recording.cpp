@@ -3,43 +3,28 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <optional>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "io/codesys_trace.hpp"
 #include "io/column_names.hpp"
+#include "io/controldesk_export.hpp"
+#include "io/exported_columns.hpp"
+#include "io/labview_measurement.hpp"
 #include "io/prose.hpp"
 #include "io/recording_channels.hpp"
+#include "io/row_lines.hpp"
 #include "io/text_table.hpp"
 #include "io/time_axis.hpp"
+#include "io/twincat_scope.hpp"
 #include "zwidth/io/message_words.hpp"
 
 namespace zwidth::internal {
 namespace {
-
-/// The lines of rows, kept as the few places where comments or empty lines come between two rows.
-class RowLines {
- public:
-  void add(std::size_t row, std::size_t line) {
-    if (line == row + offset_) return;
-    offset_ = line - row;
-    starts_.push_back({row, offset_});
-  }
-  [[nodiscard]] std::size_t line_of(std::size_t row) const {
-    const auto after = std::upper_bound(starts_.begin(), starts_.end(), row,
-                                        [](std::size_t value, const Start& start) { return value < start.row; });
-    return row + (after == starts_.begin() ? 0 : std::prev(after)->offset);
-  }
-
- private:
-  struct Start {
-    std::size_t row;
-    std::size_t offset;  ///< from a row (from 0) to its line, from this row on
-  };
-  std::vector<Start> starts_;
-  std::size_t offset_ = 0;
-};
 
 /// Which columns of the table are read: those asked for and, where the time axis needs it, that of the times.
 struct Selection {
@@ -77,6 +62,26 @@ tl::expected<Selection, InputError> select_columns(const TextTable& table, const
   return selection;
 }
 
+/// The export of a measuring program, told by the words of its own header, and its reader.
+struct ExportFormat {
+  bool (*is_it)(std::string_view text);
+  tl::expected<ExportedColumns, InputError> (*read)(TextLines lines, const RecordingOptions& options,
+                                                    const Progress& progress);
+};
+constexpr ExportFormat export_formats[] = {{is_twincat_scope, read_twincat_scope},
+                                           {is_codesys_trace, read_codesys_trace},
+                                           {is_labview_measurement, read_labview_measurement},
+                                           {is_controldesk_export, read_controldesk_export}};
+
+/// The reader of the export that a text is; none where it is a table, or is to be read as one from some line on.
+const ExportFormat* export_format_of(TextLines& lines, const RecordingOptions& options) {
+  if (options.skip_rows > 0 || refused_as_text(lines.buffered(), "")) return nullptr;
+  if (lines.buffered().starts_with(byte_order_mark)) lines.skip(byte_order_mark.size());
+  const auto* const found =
+      std::ranges::find_if(export_formats, [&](const ExportFormat& format) { return format.is_it(lines.buffered()); });
+  return found == std::end(export_formats) ? nullptr : found;
+}
+
 /// A time that is no number has its own remedy.
 InputError no_time(InputError refusal) {
   refusal.allowed = "times must be numbers, such as seconds from the start; or state the rate instead (`rate`)";
@@ -87,6 +92,11 @@ InputError no_time(InputError refusal) {
 
 tl::expected<Recording, InputError> read_text_recording(TextLines lines, const RecordingOptions& options,
                                                         const Progress& progress) {
+  if (const ExportFormat* const format = export_format_of(lines, options)) {
+    auto exported = format->read(std::move(lines), options, progress);
+    if (!exported) return tl::unexpected(std::move(exported.error()));
+    return make_recording(*std::move(exported), options);
+  }
   auto table = TextTable::open(std::move(lines), options);
   if (!table) return tl::unexpected(std::move(table.error()));
   const auto selection = select_columns(*table, options);
@@ -132,6 +142,11 @@ tl::expected<Recording, InputError> read_text_recording(TextLines lines, const R
 
 tl::expected<RecordingContents, InputError> list_text_recording(TextLines lines, const RecordingOptions& options,
                                                                 const Progress& progress) {
+  if (const ExportFormat* const format = export_format_of(lines, options)) {
+    const auto exported = format->read(std::move(lines), options, progress);
+    if (!exported) return tl::unexpected(exported.error());
+    return list_exported(*exported);
+  }
   auto table = TextTable::open(std::move(lines), options);
   if (!table) return tl::unexpected(std::move(table.error()));
   std::size_t rows = 0;

@@ -11,8 +11,6 @@
 namespace zwidth::internal {
 namespace {
 
-constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-
 /// Lines of which the layout is found, comments not counted; a preamble may take some of them.
 constexpr std::size_t lines_of_head = 200;
 
@@ -24,6 +22,9 @@ struct Signature {
 };
 using namespace std::string_view_literals;
 constexpr Signature signatures[] = {
+    {"\xFF\xFE<\0"sv, "is XML in UTF-16, as the trace of a controller is",
+     "must be a text table: save the trace as CSV, in CODESYS as *.trace.csv"},
+    {"<?xml"sv, "is XML", "must be a text table: save the trace as CSV, in CODESYS as *.trace.csv"},
     {"\xFF\xFE"sv, "is text in UTF-16", "must be UTF-8 or ASCII: convert it with iconv -f UTF-16 -t UTF-8"},
     {"\xFE\xFF"sv, "is text in UTF-16", "must be UTF-8 or ASCII: convert it with iconv -f UTF-16 -t UTF-8"},
     {"PK\x03\x04"sv, "is a ZIP archive or a spreadsheet", "must be a recording: save the sheet as CSV"},
@@ -32,8 +33,8 @@ constexpr Signature signatures[] = {
     {"TDSm"sv, "is a TDMS file", "must be a text table, a MAT file or a UFF file: export it as CSV"},
 };
 
-/// Lines that are whole in the buffered text (at its end an open one, too), without being taken.
-std::vector<TextLine> head_of(std::string_view text, bool whole, std::string_view comment) {
+/// Lines that are whole in the buffered text (at its end an open one, too), without being taken. `above`: lines before.
+std::vector<TextLine> head_of(std::string_view text, bool whole, std::string_view comment, std::size_t above) {
   std::vector<TextLine> lines;
   std::size_t counted = 0;
   while (!text.empty() && counted < lines_of_head) {
@@ -41,7 +42,7 @@ std::vector<TextLine> head_of(std::string_view text, bool whole, std::string_vie
     if (end == std::string_view::npos && !whole && !lines.empty()) break;
     std::string_view line = text.substr(0, end);
     if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
-    lines.push_back({lines.size() + 1, line});
+    lines.push_back({above + lines.size() + 1, line});
     if (!is_comment_line(line, comment)) ++counted;
     text = end == std::string_view::npos ? std::string_view() : text.substr(end + 1);
   }
@@ -77,7 +78,15 @@ tl::expected<TextTable, InputError> TextTable::open(TextLines lines, const Recor
     return tl::unexpected(std::move(*refused));
   }
   if (lines.buffered().starts_with(byte_order_mark)) lines.skip(byte_order_mark.size());
-  const auto head = head_of(lines.buffered(), lines.buffered_to_the_end(), options.comment);
+  for (std::size_t skipped = 0; skipped < options.skip_rows; ++skipped) {
+    const auto line = lines.next({});
+    if (!line) return tl::unexpected(line.error());
+    if (*line) continue;
+    return tl::unexpected(InputError{lines.file().source(), 0, 0, "skipped rows",
+                                     fmt::format("are {}, and the file has {} lines", options.skip_rows, skipped),
+                                     "must be fewer (`skip_rows`)"});
+  }
+  const auto head = head_of(lines.buffered(), lines.buffered_to_the_end(), options.comment, options.skip_rows);
   auto layout = detect_layout(head, options, lines.file().source());
   if (!layout) return tl::unexpected(std::move(layout.error()));
   const auto length = head.back().text.data() + head.back().text.size() - head.front().text.data();
@@ -127,7 +136,7 @@ tl::expected<void, InputError> TextTable::each_row(const RowVisitor& visit, cons
     if (cells.size() == columns() + 1 && cells.back().empty()) cells = cells.first(columns());
     if (cells.size() != columns()) {
       if (cells.size() > columns() || !lines_.last_line_is_open() || rows == 0) {
-        return tl::unexpected(wrong_cells(line, cells.size()));
+        return tl::unexpected(wrong_cells(line, cells.size(), rows));
       }
       layout_.remarks.push_back({Remark::Severity::warning,
                                  fmt::format("the last line, {}, is cut off after {} of {} cells and left out",
@@ -148,15 +157,8 @@ tl::expected<void, InputError> TextTable::each_row(const RowVisitor& visit, cons
   return {};
 }
 
-void TextTable::fix_decimal_mark(std::string_view cell) {
-  const std::size_t mark = cell.find_first_of(".,");
-  if (mark != std::string_view::npos && read_number(cell, cell[mark]).kind == NumberCell::Kind::number) {
-    layout_.decimal_mark = cell[mark];
-  }
-}
-
 NumberCell TextTable::number(std::string_view cell) {
-  if (!layout_.decimal_mark) fix_decimal_mark(cell);
+  if (!layout_.decimal_mark) layout_.decimal_mark = decimal_mark_in(cell);
   return read_number(cell, layout_.decimal_mark.value_or('.'));
 }
 
@@ -175,14 +177,16 @@ InputError TextTable::no_number(const TextRow& row, std::size_t column) const {
           fmt::format("must be a number such as {}", layout_.decimal_mark == ',' ? "-1,5e-3" : "-1.5e-3")};
 }
 
-InputError TextTable::wrong_cells(const TextLine& line, std::size_t cells) const {
+InputError TextTable::wrong_cells(const TextLine& line, std::size_t cells, std::size_t rows_above) const {
+  constexpr std::size_t few = 10;  // rows: above them may stand a header in which numbers were read
   return {source(),
           line.number,
           1,
           "",
           fmt::format("has {}", in_words(cells)),
-          fmt::format("must have {} as {}", in_words(columns()),
-                      has_header() ? "the header has" : "most of the first lines have")};
+          fmt::format("must have {} as {}{}", in_words(columns()),
+                      has_header() ? "the header has" : "most of the first lines have",
+                      rows_above < few && !has_header() ? "; lines of a header can be passed over (`skip_rows`)" : "")};
 }
 
 }  // namespace zwidth::internal

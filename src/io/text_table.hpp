@@ -23,7 +23,7 @@ struct TextRow {
 /// A table of numbers in a text file of any size, read once from its first row to its last.
 class TextTable {
  public:
-  /// Finds the layout from the first lines. Refused: an empty file, UTF-16, binary data, no row of numbers.
+  /// Passes over the lines that the options say, and finds the layout from the first lines. Refused: an empty file, UTF-16, binary data, no row of numbers.
   [[nodiscard]] static tl::expected<TextTable, InputError> open(TextLines lines, const RecordingOptions& options);
   [[nodiscard]] static tl::expected<TextTable, InputError> open(const std::string& path,
                                                                 const RecordingOptions& options);
@@ -51,14 +51,15 @@ class TextTable {
 
  private:
   TextTable(TextLines lines, TextLayout layout, std::string comment, double line_length);
-  void fix_decimal_mark(std::string_view cell);
-  [[nodiscard]] InputError wrong_cells(const TextLine& line, std::size_t cells) const;
+  [[nodiscard]] InputError wrong_cells(const TextLine& line, std::size_t cells, std::size_t rows_above) const;
 
   TextLines lines_;
   TextLayout layout_;
   std::string comment_;
   double line_length_;  ///< mean, bytes
 };
+
+inline constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
 /// The refusal of a text of which these are the first bytes; nothing where it may be a table.
 [[nodiscard]] std::optional<InputError> refused_as_text(std::string_view first_bytes, const std::string& source);

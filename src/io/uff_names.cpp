@@ -24,9 +24,9 @@ constexpr std::array<Naming, 6> namings{
     [](const UffRecord& record) { return record.id_lines[1]; },
 };
 
-std::string with_unit(const std::string& name, const std::string& unit) {
-  const bool has_unit = unit.empty() || name.ends_with(unit) || !name_and_unit(name).unit.empty();
-  return has_unit ? name : fmt::format("{} [{}]", name, unit);
+std::string name_of_record(const std::string& name, const std::string& unit) {
+  const bool has_unit = name.ends_with(unit) || !name_and_unit(name).unit.empty();
+  return has_unit ? name : with_unit(name, unit);
 }
 
 }  // namespace
@@ -51,7 +51,7 @@ std::vector<std::string> uff_names(const UffFile& file) {
   }
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (names[i].empty()) names[i] = fmt::format("record {}", i + 1);
-    names[i] = with_unit(names[i], file.records[i].ordinate.unit);
+    names[i] = name_of_record(names[i], file.records[i].ordinate.unit);
   }
   return names;
 }

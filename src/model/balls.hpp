@@ -5,6 +5,7 @@
 
 #include <acb.h>
 #include <acb_poly.h>
+#include <arb_mat.h>
 #include <arb_poly.h>
 #include <flint/fmpq.h>
 #include <flint/fmpz_poly.h>
@@ -43,6 +44,23 @@ using RealBall = FlintValue<arb_struct, arb_init, arb_clear, arb_set>;
 using ComplexBall = FlintValue<acb_struct, acb_init, acb_clear, acb_set>;
 using RealBallPolynomial = FlintValue<arb_poly_struct, arb_poly_init, arb_poly_clear, arb_poly_set>;
 using ComplexBallPolynomial = FlintValue<acb_poly_struct, acb_poly_init, acb_poly_clear, acb_poly_set>;
+
+class BallMatrix {
+ public:
+  BallMatrix(std::size_t rows, std::size_t columns) {
+    arb_mat_init(matrix_, static_cast<slong>(rows), static_cast<slong>(columns));
+  }
+  BallMatrix(const BallMatrix&) = delete;
+  BallMatrix& operator=(const BallMatrix&) = delete;
+  ~BallMatrix() { arb_mat_clear(matrix_); }
+  arb_struct* operator()(std::size_t i, std::size_t j) {
+    return arb_mat_entry(matrix_, static_cast<slong>(i), static_cast<slong>(j));
+  }
+  operator arb_mat_struct*() { return matrix_; }  // NOLINT(google-explicit-constructor)
+
+ private:
+  arb_mat_t matrix_;
+};
 
 // The midpoint in double-double.
 inline Extended rounded(const arb_struct* ball) {

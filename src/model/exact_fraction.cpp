@@ -117,7 +117,7 @@ ExactFraction exact_fraction(const TransferFunction& transfer_function) {
 }
 
 // Q(s) = M s² + D s + K: G = (-1)^(i+j) det(Q without row j and column i) / det Q.
-ExactFraction exact_fraction(const Device& device, Path path) {
+ExactFraction exact_fraction(const Device& device, Path path, IntegerPolynomial& denominator) {
   const std::size_t n = device.bodies().size();
   if (n > max_exact_bodies) {
     throw Error(ErrorCode::did_not_converge,
@@ -149,7 +149,8 @@ ExactFraction exact_fraction(const Device& device, Path path) {
     }
   }
   ExactFraction result;
-  dynamic.determinant(result.denominator);
+  if (fmpz_poly_degree(denominator) < 0) dynamic.determinant(denominator);
+  result.denominator = denominator;
   minor.determinant(result.numerator);
   if ((path.force_at + path.position_of) % 2 == 1) fmpz_poly_neg(result.numerator, result.numerator);
   result.exponent = -lowest;

@@ -17,6 +17,7 @@ struct ExactFraction {
 
 ExactFraction exact_fraction(const TransferFunction& transfer_function);
 // Throws Error (did_not_converge) for more bodies than the exact determinant can take.
-ExactFraction exact_fraction(const Device& device, Path path);
+// `denominator`: the device's, of degree -1 while it is not known.
+ExactFraction exact_fraction(const Device& device, Path path, IntegerPolynomial& denominator);
 
 }  // namespace zwidth::internal

@@ -20,10 +20,10 @@ using ComplexX = Complex<Extended>;
 constexpr slong first_precision = 256;  // bits
 // Terms that exceed their sum by more than this leave too few digits to whoever adds them up in double.
 constexpr double carried_cancellation = 1e7;
-// A pole this close to the imaginary axis, relative, is on it: the device's own numbers are not known better. Where
-// poles crowd they respond more to those numbers.
-constexpr double undamped_below = 1e-14;
+// A pole of a transfer function that is this close to the imaginary axis, relative, is on it: its coefficients are not
+// known better. Where poles crowd they respond more to those numbers. Of bodies the damping is what the dampers make it.
 constexpr double undamped_in_cluster_below = 1e-7;
+constexpr double undamped_body_below = 1e-60;
 
 // A set of poles and what they contribute: numerator / denominator.
 struct Fraction {
@@ -183,7 +183,7 @@ double join(std::vector<Fraction>& fractions, const ExactFraction& g, const std:
   }
 }
 
-std::optional<ModalTerm> rounded_term(const Fraction& fraction, const std::vector<ExactPole>& poles) {
+std::optional<ModalTerm> rounded_term(const Fraction& fraction, const std::vector<ExactPole>& poles, bool has_bodies) {
   double largest = 0.0;
   for (const std::size_t i : fraction.poles) largest = std::max(largest, magnitude(poles[i].rounded));
   const double scale = largest > 0.0 ? largest : 1.0;
@@ -200,7 +200,8 @@ std::optional<ModalTerm> rounded_term(const Fraction& fraction, const std::vecto
     term.denominator_rest[i] = leading((*denominator)[i] - Extended(term.denominator[i]));
     if (!std::isfinite(term.numerator[i]) || !std::isfinite(term.denominator[i])) {
       throw Error(ErrorCode::did_not_converge,
-                  "the modes of the device could not be found: its values are too extreme");
+                  "the modes of the device could not be found: its numbers lie too many powers of ten apart; check "
+                  "their units");
     }
   }
   for (const std::size_t i : fraction.poles) {
@@ -215,7 +216,8 @@ std::optional<ModalTerm> rounded_term(const Fraction& fraction, const std::vecto
       return &other != &pole && magnitude(other.rounded - pole.rounded) <= cluster_tolerance * size;
     });
     const double re = leading(pole.rounded.re);
-    if (!pole.is_real && std::abs(re) <= (crowded ? undamped_in_cluster_below : undamped_below) * size) {
+    const double on_axis = has_bodies ? undamped_body_below : crowded ? undamped_in_cluster_below : undamped_below;
+    if (!pole.is_real && std::abs(re) <= on_axis * size) {
       term.undamped_pairs += copies;
       term.undamped_frequency = std::abs(leading(pole.rounded.im));
     } else if (re > 0.0) {
@@ -269,16 +271,31 @@ std::vector<Fraction> group(const std::vector<ExactPole>& seen, const std::vecto
     }
     fractions[nearest].poles.push_back(i);
   }
-  std::erase_if(fractions, [](const Fraction& fraction) { return fraction.poles.empty(); });
-  return fractions;
+  std::vector<Fraction> apart;
+  for (Fraction& fraction : fractions) {
+    const auto vibrates = [&](std::size_t i) { return !seen[i].is_real; };
+    if (!labels.has_bodies || fraction.mode < 1 || !std::ranges::all_of(fraction.poles, vibrates)) {
+      if (!fraction.poles.empty()) apart.push_back(std::move(fraction));
+      continue;
+    }
+    // Modes of bodies that lie close together but do not cancel stay terms of their own: join() sees to the others.
+    int mode = fraction.mode;
+    for (const std::size_t i : fraction.poles) {
+      Fraction single;
+      single.mode = mode++;
+      single.poles.push_back(i);
+      apart.push_back(std::move(single));
+    }
+  }
+  return apart;
 }
 
 // All terms at a given precision; nothing where it does not suffice.
 std::optional<ModalForm> expand(const ExactFraction& whole, const ExactFraction& seen, double lag,
-                                const PoleLabels& labels, slong precision) {
-  const std::optional<std::vector<ExactPole>> all = find_poles(whole.denominator, precision);
+                                const PoleLabels& labels, slong precision, KnownPoles& known) {
+  const std::optional<std::vector<ExactPole>>& all = known.of(whole.denominator, precision);
   const bool some_unseen = fmpz_poly_degree(seen.denominator) < fmpz_poly_degree(whole.denominator);
-  const std::optional<std::vector<ExactPole>> found = some_unseen ? find_poles(seen.denominator, precision) : all;
+  const std::optional<std::vector<ExactPole>>& found = some_unseen ? known.of(seen.denominator, precision) : all;
   if (!all || !found) return std::nullopt;
   const std::vector<ExactPole>& poles = *found;
   ModalForm form;
@@ -300,7 +317,7 @@ std::optional<ModalForm> expand(const ExactFraction& whole, const ExactFraction&
                   fmt::format("more than {} poles of the device coincide: lower the order of the model",
                               ModalTerm::max_degree));
     }
-    std::optional<ModalTerm> term = rounded_term(fraction, poles);
+    std::optional<ModalTerm> term = rounded_term(fraction, poles, labels.has_bodies);
     if (!term) return std::nullopt;
     form.terms.push_back(*term);
   }
@@ -315,7 +332,7 @@ std::optional<ModalForm> expand(const ExactFraction& whole, const ExactFraction&
 
 }  // namespace
 
-ModalForm exact_modal_form(ExactFraction fraction, double lag, const PoleLabels& labels) {
+ModalForm exact_modal_form(ExactFraction fraction, double lag, const PoleLabels& labels, KnownPoles& known) {
   if (lag > 0.0) {  // times 1 / (lag s + 1)
     RealBallPolynomial factor;
     RealBall coefficient;
@@ -340,13 +357,15 @@ ModalForm exact_modal_form(ExactFraction fraction, double lag, const PoleLabels&
     fmpz_poly_div(seen.denominator, fraction.denominator, common);
   }
   for (slong precision = first_precision; precision <= most_precision; precision *= 2) {
-    std::optional<ModalForm> form = expand(fraction, seen, lag, labels, precision);
+    std::optional<ModalForm> form = expand(fraction, seen, lag, labels, precision, known);
     if (!form) continue;
     partial_fractions::share_lag(*form, lag);
     return *form;
   }
-  throw Error(ErrorCode::did_not_converge,
-              "the poles of the device lie too close together to tell its terms apart: lower the order of the model");
+  throw Error(
+      ErrorCode::did_not_converge,
+      "the device's modes lie too close together to tell them apart, so nothing is computed: lower the order of the "
+      "model, or merge bodies that move alike");
 }
 
 }  // namespace zwidth::internal

@@ -5,6 +5,7 @@
 // precision rises until every coefficient is known, and terms that cancel are joined.
 
 #include "model/exact_fraction.hpp"
+#include "model/exact_poles.hpp"
 #include "model/pole_groups.hpp"
 #include "zwidth/model/modal_form.hpp"
 
@@ -15,7 +16,8 @@ inline constexpr double joined_above = 1e3;
 // Except where |G| is below this share of its largest value at a pole: a critical stiffness 1/|G| is beyond use there.
 inline constexpr double irrelevant_below = 1e-9;
 
-// Throws Error (did_not_converge) where terms of ModalTerm::max_degree still cancel too much.
-ModalForm exact_modal_form(ExactFraction fraction, double lag, const PoleLabels& labels);
+// `known`: poles that were found before, and will be. Throws Error (did_not_converge) where terms of
+// ModalTerm::max_degree still cancel too much.
+ModalForm exact_modal_form(ExactFraction fraction, double lag, const PoleLabels& labels, KnownPoles& known);
 
 }  // namespace zwidth::internal

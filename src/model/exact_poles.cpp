@@ -68,4 +68,12 @@ std::optional<std::vector<ExactPole>> find_poles(const IntegerPolynomial& p, slo
   return poles;
 }
 
+const std::optional<std::vector<ExactPole>>& KnownPoles::of(const IntegerPolynomial& p, slong precision) {
+  for (const Known& each : known_) {
+    if (each.precision == precision && fmpz_poly_equal(each.p, p) != 0) return each.poles;
+  }
+  known_.push_back({p, precision, find_poles(p, precision)});
+  return known_.back().poles;
+}
+
 }  // namespace zwidth::internal

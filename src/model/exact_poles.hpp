@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <optional>
 #include <vector>
 
@@ -20,5 +21,19 @@ inline constexpr slong most_precision = 16384;
 
 /// All poles of p, with proof, zero among them, each known to `precision` bits; nothing where they cannot be told apart.
 [[nodiscard]] std::optional<std::vector<ExactPole>> find_poles(const IntegerPolynomial& p, slong precision);
+
+/// find_poles(), each polynomial sought once at each precision: all paths of a device have one denominator.
+class KnownPoles {
+ public:
+  [[nodiscard]] const std::optional<std::vector<ExactPole>>& of(const IntegerPolynomial& p, slong precision);
+
+ private:
+  struct Known {
+    IntegerPolynomial p;
+    slong precision = 0;
+    std::optional<std::vector<ExactPole>> poles;
+  };
+  std::deque<Known> known_;
+};
 
 }  // namespace zwidth::internal

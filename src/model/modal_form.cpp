@@ -4,9 +4,11 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "model/device_matrices.hpp"
 #include "model/exact_partial_fractions.hpp"
+#include "model/modal_forms.hpp"
 #include "model/partial_fractions.hpp"
 #include "model/pencil.hpp"
 #include "model/pole_search.hpp"
@@ -15,6 +17,15 @@
 #include "zwidth/error.hpp"
 
 namespace zwidth {
+
+// What all paths of a device have in common, as far as it is known.
+struct internal::FoundPoles {
+  std::optional<std::vector<Complex<Extended>>> poles;  // those that are not 0, nor the lag's
+  bool do_not_converge = false;                         // in double-double
+  KnownPoles exact;
+  IntegerPolynomial exact_denominator;
+};
+
 using namespace internal;
 namespace {
 
@@ -52,7 +63,9 @@ std::vector<ComplexX> find_poles(const Pencil& pencil, const PencilX& extended, 
   }
   const double step = improve_roots(extended, roots, last_step, max_sweeps_in_extended);
   if (!(step <= unresolved_step)) {
-    throw Error(ErrorCode::did_not_converge, "the poles of the device could not be found: its values are too extreme");
+    throw Error(
+        ErrorCode::did_not_converge,
+        "the poles of the device could not be found: its numbers lie too many powers of ten apart; check their units");
   }
   return roots;
 }
@@ -137,17 +150,50 @@ bool is_carried(const ModalForm& form, const PencilX& pencil, double nyquist) {
          error_of_sum(form, pencil, nyquist) <= carried_error_at_nyquist;
 }
 
+// Whether double-double leaves open what the structure of a device of bodies decides: whether a mode is damped at all,
+// and which of several alike modes the path sees.
+bool asks_for_exact(const std::vector<ComplexX>& poles, const PoleLabels& labels) {
+  if (!labels.has_bodies) return false;
+  for (std::size_t i = 0; i < poles.size(); ++i) {
+    const double size = magnitude(poles[i]);
+    if (!(std::abs(leading(poles[i].im)) > cluster_tolerance * size)) continue;
+    if (labels.has_dampers && std::abs(leading(poles[i].re)) <= undamped_below * size) return true;
+    for (std::size_t j = 0; j < i; ++j) {
+      if (magnitude(poles[i] - poles[j]) <= cluster_tolerance * size) return true;
+    }
+  }
+  return false;
+}
+
 // The modal form in double-double, or by exact arithmetic where that does not carry. `exact` gives G as ExactFraction.
+// Poles that are found already are not sought again.
 template <typename Pencil, typename PencilX, typename Exact>
 ModalForm expand_poles(const Pencil& pencil, const PencilX& extended, std::vector<ComplexD> start,
-                       const PoleLabels& labels, double nyquist, const Exact& exact) {
+                       const PoleLabels& labels, double nyquist, FoundPoles& found, const Exact& exact) {
+  std::optional<ModalForm> carried;
   try {
-    ModalForm form = expand(extended, find_poles(pencil, extended, std::move(start)), labels);
-    if (is_carried(form, extended, nyquist)) return form;
+    if (!found.poles && !found.do_not_converge) {
+      found.do_not_converge = true;
+      found.poles = find_poles(pencil, extended, std::move(start));
+      found.do_not_converge = false;
+    }
+    if (found.poles) {
+      const bool asks = asks_for_exact(*found.poles, labels);
+      ModalForm form = expand(extended, *found.poles, labels);
+      if (is_carried(form, extended, nyquist)) {
+        if (!asks) return form;
+        carried = std::move(form);
+      }
+    }
   } catch (const Error& error) {
     if (error.code() != ErrorCode::did_not_converge) throw;
   }
-  return exact_modal_form(exact(), leading(extended.lag), labels);
+  try {
+    return exact_modal_form(exact(), leading(extended.lag), labels, found.exact);
+  } catch (const Error& error) {  // too many bodies, or poles
+    if (error.code() != ErrorCode::did_not_converge || !carried) throw;
+    return *std::move(carried);
+  }
 }
 
 template <typename Real>
@@ -217,7 +263,7 @@ ModalForm single_body(const DeviceMatrices<double>& matrices, std::size_t zeros)
   return form;
 }
 
-ModalForm expand_bodies(const Device& device, Path path, double lag) {
+ModalForm expand_bodies(const Device& device, Path path, double lag, FoundPoles& found) {
   const DeviceMatrices<double> matrices = device_matrices<double>(device);
   const std::size_t zeros = poles_at_zero(device);
   if (matrices.mass.size() == 1 && lag == 0.0) return single_body(matrices, zeros);
@@ -228,6 +274,7 @@ ModalForm expand_bodies(const Device& device, Path path, double lag) {
 
   PoleLabels labels;
   labels.has_bodies = true;
+  labels.has_dampers = std::ranges::any_of(matrices.damping, [](double each) { return each != 0.0; });
   labels.rigid_pole = damping / mass;
   std::vector<ComplexD> start;
   if (matrices.mass.size() == 1) {
@@ -256,13 +303,13 @@ ModalForm expand_bodies(const Device& device, Path path, double lag) {
     if (!(magnitude(s) > 0.0)) s = ComplexD(-1e-3, 1e-3);
   }
   const double nyquist = std::numbers::pi / device.loop().sampling_period;
-  const auto exact = [&] { return exact_fraction(device, path); };
-  ModalForm form =
-      matrices.mass.size() <= 2
-          ? expand_poles(small_device_pencil<double>(device, path, lag),
-                         small_device_pencil<Extended>(device, path, lag), std::move(start), labels, nyquist, exact)
-          : expand_poles(body_pencil<double>(device, path, lag), body_pencil<Extended>(device, path, lag),
-                         std::move(start), labels, nyquist, exact);
+  const auto exact = [&] { return exact_fraction(device, path, found.exact_denominator); };
+  ModalForm form = matrices.mass.size() <= 2
+                       ? expand_poles(small_device_pencil<double>(device, path, lag),
+                                      small_device_pencil<Extended>(device, path, lag), std::move(start), labels,
+                                      nyquist, found, exact)
+                       : expand_poles(body_pencil<double>(device, path, lag), body_pencil<Extended>(device, path, lag),
+                                      std::move(start), labels, nyquist, found, exact);
   cancel_at_zero(form, poles_at_zero_seen(device, path));
   return form;
 }
@@ -295,31 +342,42 @@ ModalForm expand_transfer_function(const TransferFunction& transfer_function, do
   pencil.denominator = denominator;
   extended.numerator.assign(numerator.begin(), numerator.end());
   extended.denominator.assign(denominator.begin(), denominator.end());
-  return expand_poles(pencil, extended, newton_polygon_start(denominator), PoleLabels{}, nyquist,
+  FoundPoles found;
+  return expand_poles(pencil, extended, newton_polygon_start(denominator), PoleLabels{}, nyquist, found,
                       [&] { return exact_fraction(transfer_function); });
 }
 
 }  // namespace
 
 ModalForm modal_form(const Device& device) {
-  const double lag = device.parameters().actuator.time_constant;
   if (!device.has_bodies()) {
-    return expand_transfer_function(*device.parameters().transfer_function, lag,
+    return expand_transfer_function(*device.parameters().transfer_function, device.parameters().actuator.time_constant,
                                     std::numbers::pi / device.loop().sampling_period);
   }
-  return expand_bodies(device, {device.loop().actuated, device.loop().sensed}, lag);
+  return ModalForms(device, ActuatorLag::included).along({device.loop().actuated, device.loop().sensed});
 }
 
 ModalForm modal_form(const Device& device, Path path, ActuatorLag lag) {
   if (!device.has_bodies()) {
     throw Error(ErrorCode::needs_bodies, "a transfer-function device has no bodies to choose a path between");
   }
-  if (std::max(path.force_at, path.position_of) >= device.bodies().size()) {
+  return ModalForms(device, lag).along(path);
+}
+
+internal::ModalForms::ModalForms(const Device& device, ActuatorLag lag)
+    : device_(device),
+      lag_(lag == ActuatorLag::included ? device.parameters().actuator.time_constant : 0.0),
+      found_(std::make_unique<FoundPoles>()) {}
+
+internal::ModalForms::~ModalForms() = default;
+
+ModalForm internal::ModalForms::along(Path path) {
+  if (std::max(path.force_at, path.position_of) >= device_.bodies().size()) {
     throw Error(ErrorCode::no_such_body, "the path names body " +
                                              std::to_string(std::max(path.force_at, path.position_of)) + " of " +
-                                             std::to_string(device.bodies().size()));
+                                             std::to_string(device_.bodies().size()));
   }
-  return expand_bodies(device, path, lag == ActuatorLag::included ? device.parameters().actuator.time_constant : 0.0);
+  return expand_bodies(device_, path, lag_, *found_);
 }
 
 std::complex<double> response(const ModalTerm& term, double frequency) {

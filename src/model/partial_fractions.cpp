@@ -123,8 +123,8 @@ ModalTerm real_term(const PoleGroup& group, PolynomialX numerator, PolynomialX d
   term.degree = denominator.size() - 1;
   term.mode = group.mode;
   if (term.degree > ModalTerm::max_degree) {
-    throw Error(ErrorCode::did_not_converge,
-                "more than " + std::to_string(ModalTerm::max_degree) + " poles of the device coincide");
+    throw Error(ErrorCode::did_not_converge, "more than " + std::to_string(ModalTerm::max_degree) +
+                                                 " poles of the device coincide: lower the order of the model");
   }
   // Poles of a cluster are known to fewer digits.
   const double on_axis = group.cluster ? 1e-7 : 0.0;
@@ -151,7 +151,8 @@ ModalTerm real_term(const PoleGroup& group, PolynomialX numerator, PolynomialX d
     term.denominator_rest[i] = leading(denominator[i].re - Extended(term.denominator[i]));
     if (!std::isfinite(term.numerator[i]) || !std::isfinite(term.denominator[i])) {
       throw Error(ErrorCode::did_not_converge,
-                  "the modes of the device could not be found: its values are too extreme");
+                  "the modes of the device could not be found: its numbers lie too many powers of ten apart; check "
+                  "their units");
     }
   }
   return term;

@@ -63,21 +63,39 @@ class BodyPencil {
   Real lag{0.0};
   std::size_t zero_roots = 0;
 
-  // p / p' = 1 / (trace(Q^-1 Q') - zero_roots / s).
+  // p / p' = 1 / ((det Q)' / det Q - zero_roots / s), (det Q)' / det Q = sum u_kk' / u_kk over the pivots of Q = P L U:
+  // each entry is eliminated together with its derivative.
   [[nodiscard]] Complex<Real> newton_step(const Complex<Real>& s) const {
-    factorise(s);
-    Complex<Real> trace;
-    for (std::size_t j = 0; j < bodies; ++j) {
-      for (std::size_t i = 0; i < bodies; ++i) {
-        column_[i] = Complex<Real>(damping[i * bodies + j]);
-        if (i == j) column_[i] += s * (mass[i] * Real(2.0));
+    fill(s);
+    const std::size_t n = bodies;
+    slope_.resize(n * n);
+    for (std::size_t i = 0; i < n * n; ++i) slope_[i] = Complex<Real>(damping[i]);
+    for (std::size_t i = 0; i < n; ++i) slope_[i * n + i] += s * (mass[i] * Real(2.0));
+    Complex<Real> log_slope;
+    for (std::size_t k = 0; k < n; ++k) {
+      const std::size_t pivot = pivot_of(k);
+      if (pivot != k) {
+        for (std::size_t j = k; j < n; ++j) {
+          std::swap(matrix_[k * n + j], matrix_[pivot * n + j]);
+          std::swap(slope_[k * n + j], slope_[pivot * n + j]);
+        }
       }
-      solve(column_);
-      trace += column_[j];
+      const Complex<Real> reciprocal = Complex<Real>(Real(1.0)) / matrix_[k * n + k];
+      log_slope += slope_[k * n + k] * reciprocal;
+      find_columns(k, [&](std::size_t j) { return is_zero(matrix_[k * n + j]) && is_zero(slope_[k * n + j]); });
+      for (std::size_t i = k + 1; i < n; ++i) {
+        if (is_zero(matrix_[i * n + k]) && is_zero(slope_[i * n + k])) continue;
+        const Complex<Real> factor = matrix_[i * n + k] * reciprocal;
+        const Complex<Real> factor_slope = (slope_[i * n + k] - factor * slope_[k * n + k]) * reciprocal;
+        for (const std::size_t j : columns_) {
+          matrix_[i * n + j] -= factor * matrix_[k * n + j];
+          slope_[i * n + j] -= factor_slope * matrix_[k * n + j] + factor * slope_[k * n + j];
+        }
+      }
     }
     const Complex<Real> one(Real(1.0));
-    if (zero_roots > 0) trace -= Complex<Real>(Real(static_cast<double>(zero_roots))) / s;
-    return one / trace;
+    if (zero_roots > 0) log_slope -= Complex<Real>(Real(static_cast<double>(zero_roots))) / s;
+    return one / log_slope;
   }
 
   [[nodiscard]] Complex<Real> gain(const Complex<Real>& s) const {
@@ -91,31 +109,60 @@ class BodyPencil {
   }
 
  private:
-  // LU of Q(s) with partial pivoting.
-  void factorise(const Complex<Real>& s) const {
+  static bool is_zero(const Complex<Real>& a) { return a.re == 0.0 && a.im == 0.0; }
+
+  // Q(s)
+  void fill(const Complex<Real>& s) const {
     const std::size_t n = bodies;
     matrix_.resize(n * n);
-    column_.resize(n);
-    pivots_.resize(n);
     const Complex<Real> s2 = s * s;
     for (std::size_t i = 0; i < n * n; ++i) {
       matrix_[i] = s * damping[i];
       matrix_[i].re += stiffness[i];
     }
     for (std::size_t i = 0; i < n; ++i) matrix_[i * n + i] += s2 * mass[i];
+  }
+
+  [[nodiscard]] std::size_t pivot_of(std::size_t k) const {
+    std::size_t pivot = k;
+    double largest = magnitude(matrix_[k * bodies + k]);
+    for (std::size_t i = k + 1; i < bodies; ++i) {
+      if (is_zero(matrix_[i * bodies + k])) continue;
+      const double size = magnitude(matrix_[i * bodies + k]);
+      if (!(size > largest)) continue;
+      largest = size;
+      pivot = i;
+    }
+    return pivot;
+  }
+
+  // Beyond k, those that are not left out: a body is linked to a few others.
+  template <typename LeftOut>
+  void find_columns(std::size_t k, const LeftOut& left_out) const {
+    columns_.clear();
+    for (std::size_t j = k + 1; j < bodies; ++j) {
+      if (!left_out(j)) columns_.push_back(j);
+    }
+  }
+
+  // LU of Q(s) with partial pivoting.
+  void factorise(const Complex<Real>& s) const {
+    const std::size_t n = bodies;
+    fill(s);
+    column_.resize(n);
+    pivots_.resize(n);
     for (std::size_t k = 0; k < n; ++k) {
-      std::size_t pivot = k;
-      for (std::size_t i = k + 1; i < n; ++i)
-        if (magnitude(matrix_[i * n + k]) > magnitude(matrix_[pivot * n + k])) pivot = i;
+      const std::size_t pivot = pivot_of(k);
       pivots_[k] = pivot;
       if (pivot != k)
         for (std::size_t j = 0; j < n; ++j) std::swap(matrix_[k * n + j], matrix_[pivot * n + j]);
       const Complex<Real> reciprocal = Complex<Real>(Real(1.0)) / matrix_[k * n + k];
+      find_columns(k, [&](std::size_t j) { return is_zero(matrix_[k * n + j]); });
       for (std::size_t i = k + 1; i < n; ++i) {
-        if (magnitude(matrix_[i * n + k]) == 0.0) continue;
+        if (is_zero(matrix_[i * n + k])) continue;
         const Complex<Real> factor = matrix_[i * n + k] * reciprocal;
         matrix_[i * n + k] = factor;
-        for (std::size_t j = k + 1; j < n; ++j) matrix_[i * n + j] -= factor * matrix_[k * n + j];
+        for (const std::size_t j : columns_) matrix_[i * n + j] -= factor * matrix_[k * n + j];
       }
     }
   }
@@ -125,18 +172,26 @@ class BodyPencil {
     for (std::size_t k = 0; k < n; ++k) {
       if (pivots_[k] != k) std::swap(x[k], x[pivots_[k]]);
     }
-    for (std::size_t k = 0; k < n; ++k)
-      for (std::size_t i = k + 1; i < n; ++i) x[i] -= matrix_[i * n + k] * x[k];
+    for (std::size_t k = 0; k < n; ++k) {
+      if (is_zero(x[k])) continue;
+      for (std::size_t i = k + 1; i < n; ++i) {
+        if (!is_zero(matrix_[i * n + k])) x[i] -= matrix_[i * n + k] * x[k];
+      }
+    }
     for (std::size_t k = n; k-- > 0;) {
-      for (std::size_t j = k + 1; j < n; ++j) x[k] -= matrix_[k * n + j] * x[j];
+      for (std::size_t j = k + 1; j < n; ++j) {
+        if (!is_zero(matrix_[k * n + j])) x[k] -= matrix_[k * n + j] * x[j];
+      }
       x[k] = x[k] / matrix_[k * n + k];
     }
   }
 
   // Scratch, so that an evaluation allocates nothing.
   mutable std::vector<Complex<Real>> matrix_;
+  mutable std::vector<Complex<Real>> slope_;  // dQ/ds, eliminated with it
   mutable std::vector<Complex<Real>> column_;
   mutable std::vector<std::size_t> pivots_;
+  mutable std::vector<std::size_t> columns_;  // of a pivot's row, not zero
 };
 
 }  // namespace zwidth::internal

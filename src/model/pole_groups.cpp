@@ -12,8 +12,6 @@ using ComplexX = Complex<Extended>;
 
 bool close(const ComplexX& a, const ComplexX& b) { return magnitude(a - b) <= cluster_tolerance * magnitude(a); }
 
-// Damping below this is rounding (of the device's own numbers, too): the mode is undamped.
-constexpr double undamped_below = 1e-14;
 // A cluster takes in poles until the next one is this many times its radius away.
 constexpr double isolated_beyond = 8.0;
 // Real poles gather sooner: three or four of them lose digits with the square or cube of their distance.
@@ -128,7 +126,9 @@ std::vector<PoleGroup> group_poles(std::vector<ComplexX>& poles, std::size_t zer
     }
   }
   if (lower != upper) {
-    throw Error(ErrorCode::did_not_converge, "the poles of the device could not be found: its values are too extreme");
+    throw Error(
+        ErrorCode::did_not_converge,
+        "the poles of the device could not be found: its numbers lie too many powers of ten apart; check their units");
   }
 
   PoleGroup rigid;

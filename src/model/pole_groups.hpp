@@ -14,6 +14,7 @@ namespace zwidth::internal {
 struct PoleLabels {
   bool has_bodies = false;            // overdamped pairs are modes; of a transfer function they are not
   bool lowest_mode_is_rigid = false;  // springs to ground, not the links, carry the lowest mode
+  bool has_dampers = false;           // of bodies: poles on the imaginary axis are so by structure, not by default
   double rigid_pole = 0.0;            // b/m of the whole device, to tell -b/m from the poles of overdamped modes
 };
 
@@ -23,6 +24,9 @@ struct PoleGroup {
   bool cluster = false;                  // poles too close to treat one by one
   int mode = 0;                          // as ModalTerm::mode
 };
+
+// A pole whose damping ratio is smaller is undamped, but where the device's own dampers say what it is.
+inline constexpr double undamped_below = 1e-14;
 
 // Poles closer than this, relative to their magnitude, share a term.
 inline constexpr double cluster_tolerance = 1e-4;

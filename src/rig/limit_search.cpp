@@ -88,6 +88,16 @@ double turning_error(double step, double swing, double samples_per_cycle, const 
          motion.growth;
 }
 
+/// The wall that a trial felt at the stiffest, where its oscillation surely grew.
+std::optional<double> sure_to_grow(const LimitTrial& trial, double step) {
+  const bool is_sure =
+      trial.stopped || (trial.ring && trial.ring->growth_rate > sure_deviations * trial.ring->growth_deviation);
+  if (!is_sure) return std::nullopt;
+  if (step == 0.0) return trial.stiffness;
+  const double swing = trial.ring ? trial.ring->amplitude : 0.0;
+  return trial.stiffness * (1.0 + std::min(encoder_error(step, swing), 1.0));
+}
+
 /// By how much the limit of another size of swing may differ, from the growth after a knock and after half of it.
 ///
 /// Dry friction takes c/A from the growth rate of a swing A, c constant, so that of two swings
@@ -256,6 +266,7 @@ LimitMeasurement LimitSearch::measurement(const Device& device) const {
     return result;
   }
   if (low == nullptr) {
+    result.at_most = sure_to_grow(*high, options_.floor);
     result.trust.refuse(
         fmt::format("an oscillation grew with every wall, down to {}: check sign and units of the drive",
                     quantity(result.upper, units.stiffness)));
@@ -291,6 +302,7 @@ LimitMeasurement LimitSearch::measurement(const Device& device) const {
         .lower = std::max(0.0, std::min(low->stiffness, *result.stiffness - of_growth - of_size) * (1.0 - widening)),
         .upper = std::max(high->stiffness, *result.stiffness + of_growth) * (1.0 + widening)};
   }
+  result.at_most = result.interval ? std::optional(result.interval->upper) : sure_to_grow(*high, options_.floor);
   if (of_encoder > most_error) {
     result.trust.doubt(fmt::format(
         "the encoder's step of {} is coarse for a swing of {}: the limit may be off by {:.0f} %; knock harder",

@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 
 #include "zwidth/quantity.hpp"
+#include "zwidth/stability/held_wall.hpp"
 
 namespace zwidth {
 namespace {
@@ -30,10 +33,12 @@ void judge(RigWall& wall) {
   }
   if (!wall.predicted_stable) return;
   if (!*wall.predicted_stable && has_stopped) {  // how far it grew until then does not matter
-    wall.trust.doubt("the wall is UNSTABLE by linear analysis: render softer");
+    wall.trust.doubt(
+        fmt::format("the wall is UNSTABLE by linear analysis, {}: render softer", unstable_with(*wall.stable_for)));
   } else if (!*wall.predicted_stable && !wall.oscillates) {
     wall.trust.doubt(
-        fmt::format("the wall is UNSTABLE by linear analysis: that {} does not make it stable; render softer",
+        fmt::format("the wall is UNSTABLE by linear analysis, {}: that {} does not make it stable; render softer",
+                    unstable_with(*wall.stable_for),
                     wall.grows ? "its oscillation grew too slowly to be taken away"
                                : "no oscillation was seen to grow while it ran"));
   }
@@ -41,6 +46,41 @@ void judge(RigWall& wall) {
     wall.trust.doubt(
         "an oscillation grew in a wall that is stable by linear analysis: the device is not that of its file; identify "
         "it, and render softer until then");
+  }
+}
+
+void judge(RigLimit& limit, const Device& device) {
+  limit.trust = limit.measured.trust;
+  if (!limit.measured.at_most || limit.predicted.trust.refused()) return;
+  const double at_most = *limit.measured.at_most;
+  const double with_nobody = limit.limits.nobody.critical_stiffness;
+  const double with_user = limit.limits.user ? limit.limits.user->critical_stiffness : with_nobody;
+  const auto unit = units_of(device.parameters().motion).stiffness;
+  const auto text_of = [&](double stiffness) {
+    return std::isfinite(stiffness) ? quantity(stiffness, unit) : std::string("every stiffness");
+  };
+  const double promised = std::min(with_nobody, with_user);
+  if (at_most < promised) {
+    limit.remarks.push_back(
+        {Remark::Severity::warning,
+         fmt::format("UNSAFE: the device bears less than its file promises: {} at most, as measured, for {}",
+                     text_of(at_most), text_of(promised)),
+         "walls in between are called stable, and shake on the device",
+         "identify the device, and render softer until then"});
+    limit.predicted.trust.doubt(fmt::format(
+        "the device on the rig bears {} at most, less than this: its file is not that of the device; identify it",
+        text_of(at_most)));
+    limit.trust.doubt(fmt::format(
+        "the device's file promises {}, more than was measured: identify the device before any of its limits is used",
+        text_of(promised)));
+  } else if (at_most < with_user) {
+    limit.remarks.push_back(
+        {Remark::Severity::note,
+         fmt::format("the limit measured, {} at most, lies below that with the file's user, {}, not below that with "
+                     "nobody holding, {}",
+                     text_of(at_most), text_of(with_user), text_of(with_nobody)),
+         "whoever held the device, if anybody did, was not the file's user",
+         "leave the user out of the file for a rig that nobody holds"});
   }
 }
 

@@ -1,7 +1,5 @@
 #include "sampling/exact_sampling.hpp"
 
-#include <arb_mat.h>
-
 #include <cmath>
 
 #include "model/balls.hpp"
@@ -12,23 +10,6 @@ namespace {
 
 constexpr slong first_precision = 256;
 constexpr slong last_precision = 8192;
-
-class BallMatrix {
- public:
-  BallMatrix(std::size_t rows, std::size_t columns) {
-    arb_mat_init(matrix_, static_cast<slong>(rows), static_cast<slong>(columns));
-  }
-  BallMatrix(const BallMatrix&) = delete;
-  BallMatrix& operator=(const BallMatrix&) = delete;
-  ~BallMatrix() { arb_mat_clear(matrix_); }
-  arb_struct* operator()(std::size_t i, std::size_t j) {
-    return arb_mat_entry(matrix_, static_cast<slong>(i), static_cast<slong>(j));
-  }
-  operator arb_mat_struct*() { return matrix_; }  // NOLINT(google-explicit-constructor)
-
- private:
-  arb_mat_t matrix_;
-};
 
 std::optional<ExtendedTerm> sample_in_balls(const ModalTerm& term, const SamplingInstants& instants, slong precision) {
   const std::size_t n = term.degree;
@@ -120,7 +101,8 @@ ExtendedTerm sample_exactly(const ModalTerm& term, const SamplingInstants& insta
     if (std::optional<ExtendedTerm> sampled = sample_in_balls(term, instants, precision)) return *sampled;
   }
   throw Error(ErrorCode::did_not_converge,
-              "the response of the device within one sampling period could not be computed: its poles crowd too much");
+              "the response of the device within one sampling period could not be computed: too many of its poles lie "
+              "together; lower the order of the model, or merge bodies that move alike");
 }
 
 }  // namespace zwidth::internal

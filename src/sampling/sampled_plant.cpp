@@ -80,9 +80,27 @@ void round_into(const ExtendedTerm& term, SampledTerm& sampled) {
     round(term.denominator[i], sampled.denominator[i], sampled.denominator_rest[i]);
 }
 
+// Whether rounding of the coefficients to double could move the poles noticeably towards or across the unit circle: they
+// are cos and sin of an angle of wT, or its square where that is small, less a decay of c1 T.
+bool is_near_circle(const ModalTerm& term, double period) {
+  constexpr double kept = 1e-7;
+  if (term.degree != 2 || term.integrators > 0) return false;
+  const double angle_squared = term.denominator[0] * period * period;
+  return std::abs(term.denominator[1]) * period <= kept * std::min(1.0, angle_squared) &&
+         4.0 * term.denominator[0] > term.denominator[1] * term.denominator[1];
+}
+
 // Terms of crowded poles are beyond double-double.
 ExtendedTerm sample_precisely(const ModalTerm& term, const SamplingInstants& instants) {
   return term.degree > 2 ? sample_exactly(term, instants) : sample_extended(term, instants);
+}
+
+// Fills in what rounding to double left out of the coefficients.
+void keep_rests(const ModalForm& form, const SamplingInstants& instants, SampledPlant& plant) {
+  auto sampled = plant.terms.begin();
+  for (const ModalTerm& term : form.terms) {
+    if (is_seen(term)) round_into(sample_precisely(term, instants), *sampled++);
+  }
 }
 
 // Products of a few terms must stay in range: an unstable pole may grow that much within one period.
@@ -92,7 +110,8 @@ void check_range(const SampledTerm& sampled) {
   if (!std::all_of(sampled.numerator, sampled.numerator + sampled.degree + 1, in_range) ||
       !std::all_of(sampled.denominator, sampled.denominator + sampled.degree, in_range)) {
     throw Error(ErrorCode::did_not_converge,
-                "the response of the device within one sampling period is out of range: a pole is too unstable");
+                "the response of the device within one sampling period is out of range: a pole grows too fast for it; "
+                "shorten the sampling period, or check the signs of the transfer function");
   }
 }
 
@@ -140,6 +159,8 @@ constexpr std::size_t rounded_terms = 6;
 
 // Beyond this loss the numerators are added up in double-double instead.
 constexpr double tolerable_cancellation = 1e3;
+// And beyond this one, near the poles, as one polynomial.
+constexpr double carried_cancellation = 1e7;
 
 }  // namespace
 
@@ -150,6 +171,7 @@ SampledPlant sample(const ModalForm& form, Sampling sampling) {
   plant.delay_samples = instants.whole_samples + (instants.with_old > 0.0 ? 1U : 0U);
   plant.terms.reserve(form.terms.size());
   bool crowded = false;
+  bool near_circle = false;
   double lag_numerator = 0.0;
   for (const ModalTerm& term : form.terms)
     if (term.mode < 0) lag_numerator = term.numerator[0];
@@ -166,6 +188,9 @@ SampledPlant sample(const ModalForm& form, Sampling sampling) {
     if (lag_numerator != 0.0) sampled.lag_share = term.lag_numerator / lag_numerator;
     if (term.degree == 1) {
       sample_first_order(term, instants, sampled);
+    } else if (is_near_circle(term, sampling.period)) {
+      round_into(sample_extended(term, instants), sampled);
+      near_circle = true;
     } else if (term.degree == 2) {
       sample_second_order(term, instants, sampling.period, sampled);
     } else {
@@ -175,18 +200,22 @@ SampledPlant sample(const ModalForm& form, Sampling sampling) {
     check_range(sampled);
     plant.terms.push_back(sampled);
   }
-  crowded = crowded || (plant.terms.size() > 2 && cancellation_at_poles(plant) > tolerable_cancellation);
+  // Near an antiresonance between modes the terms cancel too. As products of small factors they tell more of an interval
+  // than one polynomial does, as long as their own digits suffice.
+  const double at_poles = crowded || plant.terms.size() > 2 ? cancellation_at_poles(plant) : 1.0;
+  crowded = at_poles > carried_cancellation;
   const bool sum_cancels = plant.terms.size() > 1 && (crowded || worst_cancellation(plant) > tolerable_cancellation);
+  if (!sum_cancels && at_poles > tolerable_cancellation) keep_rests(form, instants, plant);
   const bool nyquist_cancels = cancellation_at_nyquist(plant) > tolerable_cancellation_at_nyquist;
   if (sum_cancels || nyquist_cancels) {
     std::vector<ExtendedTerm> terms;
     for (const ModalTerm& term : form.terms)
       if (is_seen(term)) terms.push_back(sample_precisely(term, instants));
     if (sum_cancels) {
-      const bool long_sum = terms.size() > rounded_terms;
+      const bool keeps_rests = crowded || near_circle || terms.size() > rounded_terms;
       for (const Extended& c : extended_common_numerator(terms)) {
         plant.numerator.push_back(leading(c));
-        if (crowded || long_sum) plant.numerator_rest.push_back(leading(c - Extended(plant.numerator.back())));
+        if (keeps_rests) plant.numerator_rest.push_back(leading(c - Extended(plant.numerator.back())));
       }
     }
     plant.at_nyquist = response_at_nyquist(terms, plant.delay_samples);

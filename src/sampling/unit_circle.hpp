@@ -24,6 +24,7 @@ struct OnCircle {
 };
 
 inline double square(double a) { return a * a; }
+inline Extended square(const Extended& a) { return a * a; }
 
 inline CirclePoint<double> circle_point(double angle) {
   const double half = std::sin(angle / 2.0);

@@ -17,6 +17,7 @@ constexpr std::size_t windows = 8;         // of the second half
 constexpr std::size_t least_samples = 64;  // of a run
 constexpr double rest_share = 1e-6;        // of the run's range: a swing below is rest
 constexpr double still_share = 1e-3;       // of the run's range: a range of the last sixteenth below has arrived
+constexpr double few_steps = 4.0;     // of the encoder: a motion within them is no drift
 constexpr double decayed_share = 0.05;     // of the run's range: a range of the last quarter that has died out
 constexpr double steady_change = 0.01;     // of the logarithm of the effective swing over the second half
 constexpr double significance = 4.0;       // standard errors of a trend, beyond which it is one
@@ -91,8 +92,8 @@ LoopJudgement judge_loop(std::span<const double> position, double sampling_perio
   const auto second_half = position.last(position.size() / 2);
   const auto end = second_half.last(second_half.size() / windows);
   const bool swings_at_end = swing_of(end) > rest_swing;
-  const LoopVerdict quiet =
-      range_of(end) <= std::max(2.0 * rest_swing, still_share * range) ? LoopVerdict::settles : LoopVerdict::drifts;
+  const double still = std::max({2.0 * rest_swing, few_steps * resolution, still_share * range});
+  const LoopVerdict quiet = range_of(end) <= still ? LoopVerdict::settles : LoopVerdict::drifts;
 
   const std::vector<double> points = lowest_points(second_half);
   const std::size_t cycles = points.empty() ? 0 : points.size() - 1;

@@ -23,6 +23,9 @@ constexpr double same_frequency = 0.01;  // relative: a multiple of the user's f
 constexpr double small_share = 0.01;     // of the user's rhythm: a motion beside it that does not count
 constexpr double never = std::numeric_limits<double>::infinity();
 constexpr std::size_t samples_per_report = 1 << 10;
+constexpr double next_longer = 4.0;  // a run whose length was not asked for and whose verdict is not firm
+constexpr double longest = 64.0;     // the same, over the first run
+constexpr double most_samples_to_be_firm = 1e6;
 
 /// Keeps every n-th point of the loop.
 class TrajectoryKeeper {
@@ -144,6 +147,15 @@ void judge(Simulation& result, const std::vector<double>& sensed, const Device& 
   if (result.verdict == LoopVerdict::settles) result.settling_time = settling_time(sensed, period);
 }
 
+/// Whether a longer run would not say more: a device held by a wall comes to rest, swings on or grows.
+bool is_firm(const Simulation& result) {
+  const ControllerOptions& wall = result.loop.controller;
+  const bool holds = wall.kind == ControllerOptions::Kind::wall && wall.stiffness > 0.0 &&
+                     wall.contact == ControllerOptions::Contact::bilateral &&
+                     result.loop.user_force.kind != UserForce::Kind::ramp;
+  return !holds || (result.verdict != LoopVerdict::undecided && result.verdict != LoopVerdict::drifts);
+}
+
 void check(const Device& device, const SimulationOptions& options) {
   check_bodies(device, options);
   require_valid(find_problem(options, device));
@@ -199,22 +211,31 @@ std::vector<double> run(Simulation& result, HybridLoop& loop, const Device& devi
 
 Simulation simulate(const Device& device, const SimulationOptions& options, const Progress& progress) {
   check(device, options);
-  SimulationSetup setup = simulation_setup(device, options);
+  const SimulationSetup setup = simulation_setup(device, options);
+  const LinearAnswer linear = linear_answer(device, options);
+  const double shortest =
+      options.duration.value_or(internal::default_duration(device, linear.critical, options.user_force));
   Simulation result;
-  result.loop = std::move(setup.loop);
-  HybridLoop loop(device, result.loop);
-  result.linear = linear_answer(device, options);
-  result.duration =
-      options.duration.value_or(internal::default_duration(device, result.linear.critical, options.user_force));
-  const std::vector<double> sensed = run(result, loop, device, options, progress);
-  if (result.diverged) {
-    result.verdict = LoopVerdict::unstable;
-  } else {
-    judge(result, sensed, device, result.loop.user_force);
+  for (double longer = 1.0;; longer *= next_longer) {
+    result = {};
+    result.loop = setup.loop;
+    result.linear = linear;
+    result.duration = shortest * longer;
+    HybridLoop loop(device, result.loop);
+    const std::vector<double> sensed = run(result, loop, device, options, progress);
+    if (result.diverged) {
+      result.verdict = LoopVerdict::unstable;
+    } else {
+      judge(result, sensed, device, result.loop.user_force);
+    }
+    compare_with_linear(result, device, sensed);
+    result.remarks = simulation_remarks(result, device, options, sensed);
+    if (options.duration || is_firm(result) || longer >= longest ||
+        result.duration * next_longer > most_samples_to_be_firm * device.loop().sampling_period) {
+      break;
+    }
   }
-  compare_with_linear(result, device, sensed);
   result.trust = result.linear.critical.trust;
-  result.remarks = simulation_remarks(result, device, options, sensed);
   if (setup.moved_start) result.remarks.insert(result.remarks.begin(), *setup.moved_start);
   return result;
 }

@@ -8,7 +8,9 @@
 #include <numbers>
 #include <utility>
 
+#include "zwidth/model/device_operator.hpp"
 #include "zwidth/quantity.hpp"
+#include "zwidth/stability/held_wall.hpp"
 #include "zwidth/stability/wall_margins.hpp"
 
 namespace zwidth {
@@ -212,9 +214,18 @@ LinearAnswer linear_answer(const Device& device, const SimulationOptions& option
   const Wall& wall = linear.parameters().wall;
   LinearAnswer answer;
   answer.critical = critical_stiffness(linear);
+  const bool is_held = has_operator(linear);
+  const Device alone = is_held ? without_operator(linear) : linear;
+  const CriticalStiffness of_alone = is_held ? critical_stiffness(alone) : answer.critical;
+  answer.limits.nobody = limit_of_holder(of_alone);
+  if (is_held) answer.limits.user = limit_of_holder(answer.critical);
   if (!wall.stiffness || answer.critical.trust.refused()) return answer;
   const WallMargins margins = wall_margins(linear);
   answer.wall_stable = margins.stable;
+  if (!of_alone.trust.refused()) {
+    answer.stable_for = StableFor{.nobody = is_held ? wall_margins(alone).stable : margins.stable};
+    if (is_held) answer.stable_for->user = margins.stable;
+  }
   answer.spectral_radius = margins.spectral_radius;
   if (answer.critical.status == StiffnessStatus::finite) {
     answer.wall_share = *wall.stiffness / answer.critical.stiffness;

@@ -9,12 +9,15 @@
 
 #include "model/implausible_numbers.hpp"
 #include "require_valid.hpp"
+#include "stability/any_user_search.hpp"
 #include "stability/confirmed_margins.hpp"
 #include "stability/guarded_stiffness.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/model/device_operator.hpp"
 #include "zwidth/model/two_mass.hpp"
 #include "zwidth/quantity.hpp"
+#include "zwidth/stability/critical_damping.hpp"
 
 namespace zwidth {
 using namespace internal;
@@ -72,12 +75,16 @@ std::optional<QCriterion> q_criterion(const Device& device, const RigidApproxima
 
 /// Of a wall many powers of ten below all limits its search does not settle: nothing else is lost by that.
 void add_disk_margin(const FilteredPlant& plant, const Wall& wall, Analysis& analysis) {
+  if (!analysis.wall->stable) return;
   try {
-    analysis.disk_margin = disk_margin(plant, wall);
+    analysis.disk_margin = disk_margin_of_stable(plant, wall);
   } catch (const Error& error) {
     if (error.code() != ErrorCode::did_not_converge) throw;
-    analysis.remarks.push_back({Remark::Severity::note, "the disk margin is left out: its search did not settle",
-                                "the other margins of the wall stand", "take a wall nearer to the limits"});
+    analysis.remarks.push_back(
+        {Remark::Severity::note,
+         "the disk margin is left out: the wall is too far below every limit for its search to end",
+         "the gain, phase and delay margins of the wall stand",
+         "judge this wall by those, or give a stiffness nearer to the limits"});
   }
 }
 
@@ -87,9 +94,18 @@ void judge_wall(const Device& device, const FilteredPlant& plant, const PoleCoun
   analysis.wall = wall_margins(device);
   const double stiffness = analysis.wall->stiffness;
   constexpr double on_crossover = 1e-6;
+  const double damping = analysis.wall->damping;
   const auto near = [&](const Crossover& each) { return std::abs(each.stiffness / stiffness - 1.0) <= on_crossover; };
-  if (stiffness == 0.0 || std::ranges::any_of(analysis.critical.crossovers, near)) return;
-  distrust(agreement(poles, stiffness, analysis.wall->stable), stiffness, analysis.trust);
+  const auto near_damping = [&](const DampingCrossover& each) {
+    return std::abs(each.damping / damping - 1.0) <= on_crossover;
+  };
+  if (stiffness > 0.0) {
+    if (std::ranges::any_of(analysis.critical.crossovers, near)) return;
+    distrust(agreement(poles, stiffness, analysis.wall->stable), stiffness, analysis.trust);
+  } else {
+    if (damping == 0.0 || std::ranges::any_of(critical_damping(device).crossovers, near_damping)) return;
+    distrust(agreement(poles, weak_spring(device), analysis.wall->stable), stiffness, analysis.trust);
+  }
   if (!analysis.trust.refused()) {
     add_disk_margin(plant, device.parameters().wall, analysis);
     confirm_margins(device, analysis);
@@ -114,18 +130,6 @@ void judge_certainty_of_wall(const Device& device, Analysis& analysis) {
                   quantity(analysis.wall->stiffness, unit), quantity(analysis.interval->lower, unit)));
 }
 
-bool is_held(const Device& device) {
-  const Operator& user = device.parameters().user;
-  return user.mass > 0.0 || user.damping > 0.0 || user.stiffness > 0.0;
-}
-
-Device with_user(const Device& device, const Operator& user) {
-  DeviceParameters parameters = device.parameters();
-  parameters.uncertainty.reset();  // it may be of the operator that is taken away
-  parameters.user = user;
-  return Device(std::move(parameters));
-}
-
 /// Whether a limit that rests on this one can be given; where not, the analysis says what is left out.
 bool stands(const CriticalStiffness& limit, std::string_view what, Analysis& analysis) {
   if (!limit.trust.refused()) {
@@ -138,53 +142,125 @@ bool stands(const CriticalStiffness& limit, std::string_view what, Analysis& ana
   return false;
 }
 
-/// The worst user, the family and the limit over all users: what is asked for and can be answered.
-void answer_about_users(const Device& device, const AnalysisOptions& options, StagedProgress& stages,
-                        Analysis& analysis) {
-  const VirtualDamper damper = virtual_damper(device);
-  if (options.any_user && device.has_bodies()) {
-    if (device.bodies().size() <= most_bodies_for_any_user) {
-      analysis.any_user = any_user_limit(device, damper, stages.stage());
-      stages.next(0.4);
-      // That limit rests on the critical stiffness of the device that nobody holds.
-      if (is_held(device) && !stands(critical_stiffness(with_user(device, {})), "the limit over all users", analysis)) {
-        analysis.any_user.reset();
-      }
-      if (analysis.any_user && analysis.wall && analysis.wall->stable &&
-          analysis.wall->stiffness > analysis.any_user->stiffness) {
-        analysis.remarks.push_back({Remark::Severity::warning,
-                                    "the wall is stiffer than the limit with any passive user",
-                                    "alone it is stable, but some user's grasp makes it oscillate",
-                                    "stay below that limit, or give the users whom you expect as a family"});
-      }
-      if (analysis.any_user && analysis.interval && options.any_user_draws > 0 &&
-          device.bodies().size() <= most_bodies_for_any_user_interval) {
-        analysis.any_user->interval =
-            any_user_interval(device, damper, options.any_user_draws, usual_draws_seed, stages.stage());
-        stages.next(0.4);
-      }
-      if (analysis.any_user) {
-        analysis.any_user->trust.inherit(analysis.trust);
-        analysis.trust.inherit(analysis.any_user->trust);
-      }
-      if (options.worst_user && analysis.any_user) {
-        analysis.worst_user = worst_user(device, *analysis.any_user, damper, stages.stage());
-      }
-    } else {
-      analysis.remarks.push_back(
-          {Remark::Severity::note,
-           fmt::format("the limit over all passive users is not computed for {} bodies; at most {}",
-                       device.bodies().size(), most_bodies_for_any_user),
-           "a user may leave less than the critical stiffness given here", "merge bodies whose links hardly give"});
+HolderLimit holder_limit(const CriticalStiffness& critical) {
+  HolderLimit limit{.critical_stiffness = critical.stiffness};
+  if (critical.limit) {
+    limit.frequency = critical.limit->frequency;
+    limit.limited_by = critical.limit->limited_by;
+  }
+  return limit;
+}
+
+/// The largest damper alone; what is not sure of it is left out and said.
+void add_critical_damping(const Device& device, HolderLimit& limit, Analysis& analysis) {
+  const CriticalDamping damping = critical_damping(device);
+  if (!damping.trust.sound() && analysis.trust.sound()) {
+    analysis.remarks.push_back({Remark::Severity::note, "the largest damper without a spring is left out",
+                                damping.trust.reasons.front(), "simulate such a damper before it is rendered"});
+  }
+  if (!damping.trust.sound()) return;
+  limit.critical_damping = damping.damping;
+  if (!damping.limit) return;
+  limit.damping_frequency = damping.limit->frequency;
+  limit.damping_limited_by = damping.limit->limited_by;
+}
+
+/// The same device and wall with nobody holding, and with the file's user.
+void judge_holders(const Device& device, const AnalysisOptions& options, Analysis& analysis) {
+  const bool is_held = has_operator(device);
+  if (analysis.wall) analysis.wall_stable_for = StableFor{.nobody = analysis.wall->stable};
+  if (!is_held) {
+    analysis.limits.nobody = holder_limit(analysis.critical);
+    if (options.critical_damping) add_critical_damping(device, analysis.limits.nobody, analysis);
+    return;
+  }
+  const Device free = without_operator(device);
+  Analysis alone = analyze(free, {.any_user = false, .critical_damping = options.critical_damping, .draws = 0});
+  for (const std::string& reason : alone.trust.reasons) {
+    analysis.trust.doubt(fmt::format("with nobody holding: {}", reason));
+  }
+  analysis.limits.nobody = alone.limits.nobody;
+  analysis.limits.user = holder_limit(analysis.critical);
+  if (options.critical_damping) add_critical_damping(device, *analysis.limits.user, analysis);
+  if (analysis.wall) {
+    analysis.wall_stable_for->user = analysis.wall->stable;
+    analysis.wall_stable_for->nobody = alone.wall && alone.wall->stable;
+    if (analysis.wall->stable && !analysis.wall_stable_for->nobody) {
+      analysis.remarks.push_back({Remark::Severity::warning, "the wall is unstable with nobody holding",
+                                  "the file's user alone keeps it stable: it shakes once the hand lets go",
+                                  "stay below the limit with nobody holding"});
     }
   }
+  analysis.alone = AnswerAlone{std::move(alone.critical), std::move(alone.modes), std::move(alone.suspended_rigid_body),
+                               std::move(alone.wall)};
+}
+
+/// Whether any passive user leaves the wall stable, with the damper alone where it has no spring.
+void judge_wall_for_any_user(Analysis& analysis) {
+  if (!analysis.wall_stable_for || !analysis.limits.any_user) return;
+  const HolderLimit& limit = *analysis.limits.any_user;
+  StableFor& wall = *analysis.wall_stable_for;
+  if (analysis.wall->stiffness > 0.0) {
+    wall.any_user = wall.nobody && analysis.wall->stiffness < limit.critical_stiffness;
+  } else if (limit.critical_damping) {
+    wall.any_user = wall.nobody && (analysis.wall->damping == 0.0 || analysis.wall->damping < *limit.critical_damping);
+  }
+  if (stability_of(wall) != WallStability::alone_only || wall.any_user.value_or(true)) return;
+  const bool has_spring = analysis.wall->stiffness > 0.0;
+  analysis.remarks.push_back(
+      {Remark::Severity::warning,
+       has_spring ? "the wall is stiffer than the limit with any passive user"
+                  : "the wall has more damping than the limit with any passive user",
+       "stable alone only: some user's grasp makes it oscillate",
+       has_spring ? "stay below that limit, or give the users whom you expect as a family" : "stay below that limit"});
+}
+
+/// The limit over all passive users, of the stiffness and of the damper alone.
+void answer_any_user(const Device& device, const AnalysisOptions& options, StagedProgress& stages, Analysis& analysis) {
+  const VirtualDamper damper = virtual_damper(device);
+  if (device.bodies().size() > most_bodies_for_any_user) {
+    analysis.remarks.push_back(
+        {Remark::Severity::note,
+         fmt::format("the limit over all passive users is not computed for {} bodies; at most {}",
+                     device.bodies().size(), most_bodies_for_any_user),
+         "a user may leave less than the critical stiffness given here", "merge bodies whose links hardly give"});
+    return;
+  }
+  // That limit rests on the critical stiffness of the device that nobody holds.
+  if (std::isnan(analysis.limits.nobody.critical_stiffness)) return;
+  AnyUserSearch search(device, stages.stage());
+  analysis.any_user = search.limit(damper, stages.stage());
+  stages.next(0.4);
+  AnyUserLimit& any_user = *analysis.any_user;
+  if (analysis.interval && options.any_user_draws > 0 && device.bodies().size() <= most_bodies_for_any_user_interval) {
+    any_user.interval = any_user_interval(device, damper, options.any_user_draws, usual_draws_seed, stages.stage());
+    stages.next(0.4);
+  }
+  any_user.trust.inherit(analysis.trust);
+  analysis.trust.inherit(any_user.trust);
+  HolderLimit& limit = analysis.limits.any_user.emplace();
+  limit.critical_stiffness = any_user.stiffness;
+  if (any_user.stiffness > 0.0 && std::isfinite(any_user.stiffness)) limit.frequency = any_user.frequency;
+  if (options.critical_damping) {
+    const AnyUserLimit of_damper = search.damping_limit(damper.velocity_filter_hz, stages.stage());
+    if (of_damper.trust.sound()) limit.critical_damping = of_damper.stiffness;
+    if (of_damper.stiffness > 0.0 && std::isfinite(of_damper.stiffness)) limit.damping_frequency = of_damper.frequency;
+  }
+  if (options.worst_user) analysis.worst_user = worst_user(device, any_user, damper, stages.stage());
+}
+
+/// The users: what is asked for and can be answered.
+void answer_about_users(const Device& device, const AnalysisOptions& options, StagedProgress& stages,
+                        Analysis& analysis) {
+  if (options.any_user && device.has_bodies()) answer_any_user(device, options, stages, analysis);
+  judge_wall_for_any_user(analysis);
   if (!options.family) return;
   stages.next(1.0);
   const UserFamily family = user_family(*options.family, device.parameters().user);
-  UserFamilyAnswer answer{family, worst_of_family(device, family, damper, stages.stage()),
-                          critical_stiffness(with_user(device, {}))};
+  UserFamilyAnswer answer{family, worst_of_family(device, family, virtual_damper(device), stages.stage()),
+                          critical_stiffness(without_operator(device))};
   if (stands(answer.free, "the family of users", analysis) &&
-      stands(critical_stiffness(with_user(device, answer.worst.user)), "the family of users", analysis)) {
+      stands(critical_stiffness(with_operator(device, answer.worst.user)), "the family of users", analysis)) {
     analysis.user_family = std::move(answer);
   }
 }
@@ -260,6 +336,7 @@ Analysis analyze(const Device& device, const AnalysisOptions& options) {
     }
   }
   judge_certainty_of_wall(device, analysis);
+  judge_holders(device, options, analysis);
   stages.next(0.35);
   answer_about_users(device, options, stages, analysis);
   stages.done();
@@ -269,7 +346,18 @@ Analysis analyze(const Device& device, const AnalysisOptions& options) {
 WallVerdict verdict_on_wall(const Analysis& analysis) {
   if (!analysis.trust.sound()) return WallVerdict::unsure;
   if (!analysis.wall) return WallVerdict::no_wall;
-  return analysis.wall->stable ? WallVerdict::stable : WallVerdict::unstable;
+  return stability_of(*analysis.wall_stable_for) == WallStability::unstable ? WallVerdict::unstable
+                                                                            : WallVerdict::stable;
+}
+
+HoldingLimits holding_limits(const Device& device, const HoldingOptions& options) {
+  DeviceParameters parameters = device.parameters();
+  parameters.wall.stiffness.reset();
+  return analyze(Device(std::move(parameters)), {.any_user = options.any_user,
+                                                 .critical_damping = options.critical_damping,
+                                                 .draws = 0,
+                                                 .progress = options.progress})
+      .limits;
 }
 
 }  // namespace zwidth

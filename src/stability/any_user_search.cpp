@@ -15,6 +15,9 @@
 
 #include "stability/damper_response.hpp"
 #include "stability/disc_stiffness.hpp"
+#include "stability/gain_crossings.hpp"
+#include "stability/guarded_stiffness.hpp"
+#include "stability/pole_count.hpp"
 #include "stability/wall_condition.hpp"
 #include "staged_progress.hpp"
 
@@ -42,6 +45,7 @@ constexpr int most_divisions = 60;              // of one piece
 constexpr std::size_t divisions_per_share = 4;  // of an undecided piece, before the next share above will do
 constexpr std::size_t most_pieces = 3000;       // beyond those to start with
 constexpr int looks_within_piece = 32;
+constexpr double beaten = 1e-6;          // relative: a user below the limit
 constexpr double same_stiffness = 1e-9;  // relative: the limit towards w = 0 is named rather than another frequency
 
 /// Where the condition may be tightest whatever the damper: evenly, towards zero, and around every mode of the held
@@ -76,6 +80,13 @@ std::vector<double> frequencies_to_scan(const UserDiscs& discs, double period, d
   return scan;
 }
 
+Device without_user(const Device& device) {
+  DeviceParameters parameters = device.parameters();
+  parameters.user = {};
+  parameters.uncertainty.reset();
+  return Device(std::move(parameters));
+}
+
 /// The middle one of the finite stiffnesses; 0 without any.
 double typical_of(std::vector<double> stiffnesses) {
   std::erase_if(stiffnesses, [](double each) { return !std::isfinite(each); });
@@ -88,20 +99,25 @@ double typical_of(std::vector<double> stiffnesses) {
 }  // namespace
 
 AnyUserSearch::AnyUserSearch(const Device& device, const Progress& progress)
-    : discs_(device, progress), period_(device.loop().sampling_period) {
+    : free_(without_user(device)), discs_(device, progress), period_(device.loop().sampling_period) {
   if (discs_.is_undamped()) return;
   pieces_ = DiscPieces(discs_, device);
   frequencies_ = frequencies_to_scan(discs_, period_, device.loop().delay, device.parameters().wall.filters);
   discs_at_.reserve(frequencies_.size());
-  for (const double frequency : frequencies_) discs_at_.push_back(pieces_.at(frequency));
+  for (const double frequency : frequencies_) discs_at_.push_back(pieces_.at({0.0, frequency}));
 }
 
-double AnyUserSearch::limit_at(VirtualDamper damper, double frequency) const {
-  return least_stiffness(discs_.at(frequency), damper_response(damper, period_, frequency));
+WallResponse AnyUserSearch::wall_at(VirtualDamper damper, double frequency) const {
+  const std::complex<double> velocity = damper_response(damper, period_, frequency);
+  return free_gain_ == FreeGain::damping ? WallResponse{velocity, 0.0} : WallResponse{1.0, velocity};
 }
 
-double AnyUserSearch::quick_limit_at(VirtualDamper damper, double frequency) const {
-  return least_stiffness(pieces_.at(frequency), damper_response(damper, period_, frequency));
+double AnyUserSearch::limit_at(VirtualDamper damper, const UserDiscs::Place& place) const {
+  return least_gain(discs_.scaled_at(place), wall_at(damper, place.frequency()));
+}
+
+double AnyUserSearch::quick_limit_at(VirtualDamper damper, const UserDiscs::Place& place) const {
+  return least_gain(pieces_.at(place), wall_at(damper, place.frequency()));
 }
 
 /// By rising frequency. The free device's own crossovers lie on the discs: the limit is never above them, and the band
@@ -114,7 +130,7 @@ std::vector<AnyUserSearch::Sample> AnyUserSearch::scan(VirtualDamper damper, con
   double least = infinity;
   for (std::size_t i = 0; i < frequencies_.size(); ++i) {
     const double frequency = frequencies_[i];
-    samples.push_back({frequency, least_stiffness(discs_at_[i], damper_response(damper, period_, frequency))});
+    samples.push_back({{0.0, frequency}, least_gain(discs_at_[i], wall_at(damper, frequency))});
     least = std::min(least, samples.back().stiffness);
   }
   const auto known = static_cast<std::ptrdiff_t>(samples.size());
@@ -122,26 +138,28 @@ std::vector<AnyUserSearch::Sample> AnyUserSearch::scan(VirtualDamper damper, con
     if (each.stiffness > far_above * least) continue;
     for (double share = 0.0; share < 0.5; share = share == 0.0 ? narrowest_band : 4.0 * share) {
       for (const double at : {each.frequency * (1.0 - share), each.frequency * (1.0 + share)}) {
-        if (at > lowest_angle / period_ && at < pi / period_) samples.push_back({at, quick_limit_at(damper, at)});
+        if (at > lowest_angle / period_ && at < pi / period_) {
+          samples.push_back({{0.0, at}, quick_limit_at(damper, {0.0, at})});
+        }
       }
     }
   }
-  const auto by_frequency = [](const Sample& a, const Sample& b) { return a.frequency < b.frequency; };
+  const auto by_frequency = [](const Sample& a, const Sample& b) { return a.place.offset < b.place.offset; };
   std::sort(samples.begin() + known, samples.end(), by_frequency);
   std::inplace_merge(samples.begin(), samples.begin() + known, samples.end(), by_frequency);
   return samples;
 }
 
-/// Refines the local minima among samples that may lead below the least.
+/// Refines the local minima among samples, all of one base and by rising offset, that may lead below the least.
 void AnyUserSearch::take_least_of(VirtualDamper damper, const std::vector<Sample>& samples, Sample& least) const {
-  const auto take = [&](double frequency) {
-    const double stiffness = limit_at(damper, frequency);
-    if (stiffness < least.stiffness) least = {frequency, stiffness};
+  const auto take = [&](const UserDiscs::Place& place) {
+    const double stiffness = limit_at(damper, place);
+    if (stiffness < least.stiffness) least = {place, stiffness};
   };
   const auto lowest = std::min_element(samples.begin(), samples.end(),
                                        [](const Sample& a, const Sample& b) { return a.stiffness < b.stiffness; });
   if (lowest == samples.end()) return;
-  take(lowest->frequency);
+  take(lowest->place);
   Sample best = *lowest;
   const double sampled = lowest->stiffness;
   for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -155,34 +173,95 @@ void AnyUserSearch::take_least_of(VirtualDamper damper, const std::vector<Sample
     if (!(std::isfinite(here.stiffness) && may_reach <= worth_refining * sampled)) continue;
     std::uintmax_t iterations = max_refinements;
     // 1/K, which stays finite where no K violates the condition
-    const auto [frequency, compliance] = boost::math::tools::brent_find_minima(
-        [&](double x) { return -1.0 / quick_limit_at(damper, x); }, samples[i > 0 ? i - 1 : 0].frequency,
-        samples[std::min(i + 1, samples.size() - 1)].frequency, refining_bits, iterations);
-    if (-1.0 / compliance < best.stiffness) best = {frequency, -1.0 / compliance};
+    const double base = here.place.base;
+    const auto [offset, compliance] = boost::math::tools::brent_find_minima(
+        [&](double x) {
+          return -1.0 / quick_limit_at(damper, {base, x});
+        },
+        samples[i > 0 ? i - 1 : 0].place.offset, samples[std::min(i + 1, samples.size() - 1)].place.offset,
+        refining_bits, iterations);
+    if (-1.0 / compliance < best.stiffness) best = {{base, offset}, -1.0 / compliance};
   }
-  take(best.frequency);
+  take(best.place);
 }
 
 /// The least K of a piece, looking closer around `at`.
 AnyUserSearch::Sample AnyUserSearch::least_within(VirtualDamper damper, const DiscPieces::Piece& piece,
-                                                  double at) const {
-  std::vector<double> places{at};
-  for (int i = 1; i <= looks_within_piece; ++i) {
-    places.push_back(piece.frequency_at(-1.0 + 2.0 * i / looks_within_piece));
+                                                  const UserDiscs::Place& at) const {
+  std::vector<double> offsets{at.offset};
+  for (int i = 0; i <= looks_within_piece; ++i) {
+    const double offset = piece.place_at(-1.0 + 2.0 * i / looks_within_piece).offset;
+    if (piece.base + offset > 0.0) offsets.push_back(offset);
   }
   const double width = piece.end - piece.begin;
   for (double share = 1.0 / looks_within_piece; share > narrowest_band; share *= 0.5) {
-    for (const double place : {at - share * width, at + share * width}) {
-      if (place > piece.begin && place < piece.end) places.push_back(place);
+    for (const double offset : {at.offset - share * width, at.offset + share * width}) {
+      if (piece.side * offset > piece.begin && piece.side * offset < piece.end) offsets.push_back(offset);
     }
   }
-  std::sort(places.begin(), places.end());
+  std::sort(offsets.begin(), offsets.end());
   std::vector<Sample> samples;
-  for (const double place : places) {
-    if (place > 0.0) samples.push_back({place, quick_limit_at(damper, place)});
+  for (const double offset : offsets) {
+    const UserDiscs::Place place{piece.base, offset};
+    samples.push_back({place, quick_limit_at(damper, place)});
   }
   Sample least{at, infinity};
   take_least_of(damper, samples, least);
+  return least;
+}
+
+/// At the zeros of Re Y on the axis or beside it, and ever closer around their images.
+void AnyUserSearch::look_at_zeros(VirtualDamper damper, Sample& least) const {
+  constexpr double widest = 0.1;  // of the image
+  constexpr double narrowest = 1e-14;
+  constexpr double ratio = 0.2;
+  constexpr double one_sided = 1e-100;
+  for (const UserDiscs::SharpImage& each : discs_.sharp_images()) {
+    if (!(each.image > 0.0 && each.image <= pi / period_)) continue;
+    const SharpZero& zero = discs_.zeros().sharp[each.zero];
+    // Where discs grow as 1/e a half plane on one side of the zero is another than on the other.
+    std::vector<double> distances{0.0, one_sided * each.image};
+    for (double share = widest; share > narrowest; share *= ratio) distances.push_back(share * each.image);
+    for (const double depths : {0.3, 1.0, 3.0}) distances.push_back(depths * zero.depth * zero.frequency);
+    std::sort(distances.begin(), distances.end());
+    for (const double side : {-1.0, 1.0}) {
+      std::vector<Sample> samples;
+      for (const double distance : distances) {
+        const UserDiscs::Place place{each.image, side * distance};
+        if (place.frequency() <= 0.0 || place.frequency() > pi / period_) continue;
+        samples.push_back({place, quick_limit_at(damper, place)});
+      }
+      if (side < 0.0) std::reverse(samples.begin(), samples.end());
+      take_least_of(damper, samples, least);
+    }
+  }
+}
+
+/// Another route: the lossless spring or mass that resonates with the device at a zero of Re Y, so that its damped bodies
+/// hardly move. Its critical stiffness where that is below a limit and poles counted with a hundred digits agree.
+std::optional<double> AnyUserSearch::beaten_by_tuned_user(VirtualDamper damper, double stiffness) const {
+  std::optional<double> least;
+  for (const SharpZero& zero : discs_.zeros().sharp) {
+    // Y + 1/(jX) = 0
+    const double reactance = 1.0 / (zero.frequency * response(discs_.held_form(), zero.frequency).real());
+    if (!std::isfinite(reactance) || reactance == 0.0) continue;
+    DeviceParameters held = free_.parameters();
+    if (reactance > 0.0) held.user.mass = reactance / zero.frequency;
+    if (reactance < 0.0) held.user.stiffness = -reactance * zero.frequency;
+    const double below = stiffness * (1.0 - beaten);
+    const bool is_damper = free_gain_ == FreeGain::damping;
+    held.wall.damping = is_damper ? below : damper.damping;
+    held.wall.velocity_filter_hz = damper.velocity_filter_hz;
+    const Device device(std::move(held));
+    const FilteredPlant plant = filtered_plant(device);
+    const double critical = (is_damper ? critical_stiffness_of(plant, damping_crossings(plant, damper))
+                                       : critical_stiffness(plant, damper))
+                                .stiffness;
+    if (!(critical < below)) continue;
+    if (PoleCount(device).in_digits(is_damper ? weak_spring(device) : below).value_or(0) > 0) {
+      least = std::min(critical, least.value_or(critical));
+    }
+  }
   return least;
 }
 
@@ -211,22 +290,23 @@ double AnyUserSearch::prove(VirtualDamper damper, const Progress& progress, Samp
     const auto divide = [&](std::size_t more) {
       stack.pop_back();
       pieces_.divide(index);
+      // Towards a zero of Re Y a piece may be divided as often as need be.
+      const std::size_t near = pieces_[index].begins_at_zero_of_dissipation() ? 0 : more;
       stack.push_back({static_cast<std::size_t>(pieces_[index].second_half), divisions + more});
-      stack.push_back({static_cast<std::size_t>(pieces_[index].first_half), divisions + more});
+      stack.push_back({static_cast<std::size_t>(pieces_[index].first_half), divisions + near});
     };
     if (may_divide && !pieces_.is_clear_of_poles(index, filter_pole)) {
       divide(0);
       continue;
     }
     const DiscPieces::Piece& piece = pieces_.sampled(index);
-    std::array<std::complex<double>, interpolation_points> dampers{};
-    for (std::size_t i = 0; i < interpolation_points; ++i) {
-      dampers[i] = damper_response(damper, period_, piece.nodes[i].frequency);
-    }
-    const WallCondition condition(piece, dampers);
+    std::array<WallResponse, interpolation_points> walls{};
+    for (std::size_t i = 0; i < interpolation_points; ++i) walls[i] = wall_at(damper, piece.nodes[i].frequency);
+    const WallCondition condition(piece, walls);
     const auto answer_at = [&](double below) { return condition.up_to(least.stiffness * (1.0 - below)); };
     if (const auto at_zero = condition.least_stiffness_at_zero()) {
-      if (*at_zero <= least.stiffness * (1.0 + same_stiffness)) least = {0.0, std::min(*at_zero, least.stiffness)};
+      if (*at_zero <= least.stiffness * (1.0 + same_stiffness))
+        least = {{0.0, 0.0}, std::min(*at_zero, least.stiffness)};
       if (least.stiffness == 0.0) return 0.0;
     }
     const WallCondition::Answer answer = answer_at(share);
@@ -236,7 +316,7 @@ double AnyUserSearch::prove(VirtualDamper damper, const Progress& progress, Samp
       continue;
     }
     if (answer.verdict == WallCondition::Verdict::broken) {
-      const Sample lower = least_within(damper, piece, piece.frequency_at(answer.at));
+      const Sample lower = least_within(damper, piece, piece.place_at(answer.at));
       if (lower.stiffness < least.stiffness * (1.0 - 0.5 * proven_within[0])) {
         least = lower;
         if (left > 0) continue;
@@ -257,15 +337,27 @@ double AnyUserSearch::prove(VirtualDamper damper, const Progress& progress, Samp
 }
 
 AnyUserLimit AnyUserSearch::limit(VirtualDamper damper, const Progress& progress) {
+  free_gain_ = FreeGain::stiffness;
+  return limit_of(damper, critical_stiffness(discs_.free_plant(), damper), progress);
+}
+
+AnyUserLimit AnyUserSearch::damping_limit(double velocity_filter_hz, const Progress& progress) {
+  free_gain_ = FreeGain::damping;
+  const VirtualDamper unit{1.0, velocity_filter_hz};
+  const FilteredPlant& plant = discs_.free_plant();
+  return limit_of(unit, critical_stiffness_of(plant, damping_crossings(plant, unit)), progress);
+}
+
+AnyUserLimit AnyUserSearch::limit_of(VirtualDamper damper, const CriticalStiffness& free, const Progress& progress) {
   AnyUserLimit limit;
-  const CriticalStiffness free = critical_stiffness(discs_.free_plant(), damper);
   if (free.status == StiffnessStatus::none_stable || discs_.is_undamped()) return limit;
-  Sample least{0.0, infinity};
+  Sample least{{0.0, 0.0}, infinity};
   const std::vector<Sample> samples = scan(damper, free);
   take_least_of(damper, samples, least);
+  look_at_zeros(damper, least);
   // Nobody is a passive user too. Where users hardly reach the wall's loop their discs are too small for rounding.
   const auto nobody = [&] { return free.limit && free.stiffness <= least.stiffness; };
-  if (nobody()) least = {free.limit->frequency, free.stiffness};
+  if (nobody()) least = {{0.0, free.limit->frequency}, free.stiffness};
   std::vector<double> stiffnesses;
   stiffnesses.reserve(samples.size());
   for (const Sample& each : samples) stiffnesses.push_back(each.stiffness);
@@ -274,16 +366,28 @@ AnyUserLimit AnyUserSearch::limit(VirtualDamper damper, const Progress& progress
   double unproven = 0.0;
   if (least.stiffness > 0.0) unproven = prove(damper, progress, least);
   if (least.stiffness == 0.0) return limit;
-  limit.frequency = std::isfinite(least.stiffness) ? least.frequency : 0.0;
+  limit.frequency = std::isfinite(least.stiffness) ? least.place.frequency() : 0.0;
   limit.truncation = std::min(discs_.truncation() + unproven, 1.0);
   // What the free device reaches stands where users are shown to reach no less.
   limit.needs_no_user = nobody() && limit.truncation <= sound_within;
   limit.stiffness = limit.needs_no_user ? least.stiffness : least.stiffness * (1.0 - limit.truncation);
+  if (discs_.zeros().is_unknown) {
+    limit.trust.doubt(
+        "the limit for any passive user may be missed at a frequency at which the damped bodies hardly move: give the "
+        "other bodies some damping, or join bodies that move as one");
+  } else if (const auto tuned = beaten_by_tuned_user(damper, limit.stiffness)) {
+    limit.stiffness = *tuned;
+    limit.needs_no_user = false;
+    limit.trust.doubt(
+        "a spring or mass at the held body that resonates where the damped bodies hardly move destabilises softer "
+        "walls "
+        "than the limit found for any passive user, which is lowered to that");
+  }
   if (unproven > sound_within) {
     limit.trust.doubt(
-        fmt::format("the limit for any passive user is shown to hold only to {:.1g} of it, which is taken off: "
-                    "rounding hides the rest; "
-                    "check the device's numbers for values that lie many powers of ten apart",
+        fmt::format("the limit for any passive user is shown to hold only to {:.1g} of it, which is taken off: the limit "
+                    "given is safe and may be that much too low; check the device's numbers for values that lie many "
+                    "powers of ten apart",
                     unproven));
   }
   if (discs_.truncation() > sound_within) {

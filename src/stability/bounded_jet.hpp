@@ -6,22 +6,30 @@
 //     |f(u) - value - slope u| <= bend / 2
 //
 // so that "no root here" and "at most one root here" are decided for the interval, not for points of a grid.
-// `weight` bounds the sum of magnitudes of everything added up in f: weight times a few rounding units bounds rounding.
+// `weight` times a few rounding units bounds the rounding of value and slope: of a sum that of the terms together, of a
+// product that of either factor times the size of the other, so that what a small factor keeps in digits stays.
 // Scalar is double, or Extended where double cannot tell f from zero.
 
 #include <cmath>
 #include <concepts>
+#include <limits>
 
 #include "model/extended_precision.hpp"
 
 namespace zwidth::internal {
+
+// The few rounding units: evaluation takes some dozen operations per modal term.
+template <typename Scalar>
+inline constexpr double rounding_of_jets = 256.0 * std::numeric_limits<double>::epsilon();
+template <>
+inline constexpr double rounding_of_jets<Extended> = 1e-28;
 
 template <typename Scalar>
 struct BoundedJet {
   Scalar value{0.0};
   Scalar slope{0.0};
   double bend = 0.0;    // >= sup |f''|
-  double weight = 0.0;  // >= sup of the sum of |terms|
+  double weight = 0.0;  // >= sup |f|; rounding over rounding_of_jets
 
   BoundedJet() = default;
   explicit BoundedJet(double constant) : value(constant), weight(std::abs(constant)) {}
@@ -58,13 +66,17 @@ struct BoundedJet {
   }
   // (f g)'' = f'' g + 2 f' g' + f g''
   [[gnu::always_inline]] friend BoundedJet operator*(const BoundedJet& a, const BoundedJet& b) {
+    const double a_size = a.size();
+    const double b_size = b.size();
     return {a.value * b.value, a.value * b.slope + a.slope * b.value,
-            a.bend * b.size() + 2.0 * a.slope_size() * b.slope_size() + a.size() * b.bend, a.weight * b.weight};
+            a.bend * b_size + 2.0 * a.slope_size() * b.slope_size() + a_size * b.bend,
+            (a_size + rounding_of_jets<Scalar> * a.weight) * b.weight + a.weight * b_size};
   }
   [[gnu::always_inline]] friend BoundedJet square(const BoundedJet& a) {
+    const double size = a.size();
     const double slope_size = a.slope_size();
-    return {a.value * a.value, 2.0 * (a.value * a.slope), 2.0 * (a.bend * a.size() + slope_size * slope_size),
-            a.weight * a.weight};
+    return {a.value * a.value, 2.0 * (a.value * a.slope), 2.0 * (a.bend * size + slope_size * slope_size),
+            (2.0 * size + rounding_of_jets<Scalar> * a.weight) * a.weight};
   }
 };
 

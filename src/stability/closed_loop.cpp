@@ -94,8 +94,13 @@ std::vector<std::complex<double>> closed_loop_poles_minus_one(const DiscreteStat
   return balanced_eigenvalues(opened.loop + opened.input * opened.force);
 }
 
-double stability_excess(const DiscreteStateSpace& plant, const Wall& wall) {
-  return largest_excess(closed_loop_poles_minus_one(plant, wall));
+double stability_excess(const DiscreteStateSpace& plant, const Wall& wall, CountedPoles counted) {
+  std::vector<std::complex<double>> poles = closed_loop_poles_minus_one(plant, wall);
+  if (counted == CountedPoles::but_free_position) {
+    const auto size = [](std::complex<double> delta) { return std::norm(delta); };
+    poles.erase(std::ranges::min_element(poles, {}, size));
+  }
+  return largest_excess(poles);
 }
 
 double stability_excess_at_phase(const DiscreteStateSpace& plant, const Wall& wall, double phase) {

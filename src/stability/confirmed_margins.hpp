@@ -4,6 +4,9 @@
 
 namespace zwidth::internal {
 
+/// disk_margin() of a loop that is known to be stable.
+[[nodiscard]] DiskMargin disk_margin_of_stable(const FilteredPlant& plant, const Wall& wall);
+
 /// Asks closed-loop poles and each other for the margins of a stable wall, whose crossings poles that lie together may hide:
 ///
 /// - the loop is stable with hardly less further delay than the margin, and unstable with hardly more;

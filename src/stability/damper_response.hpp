@@ -19,4 +19,11 @@ inline std::complex<double> damper_response(VirtualDamper damper, double period,
   return damper.damping / period * difference * (1.0 - filter) / (1.0 - filter * std::polar(1.0, -angle));
 }
 
+/// What is asked for at one frequency: the wall C = g u + d with the gain g free. The stiffness beside a closed damper
+/// has u = 1, d = B v; the damper alone u = v, d = 0.
+struct WallResponse {
+  std::complex<double> unit = 1.0;  // u
+  std::complex<double> closed;      // d
+};
+
 }  // namespace zwidth::internal

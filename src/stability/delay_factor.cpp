@@ -52,6 +52,8 @@ OnCircle<double> delay_factor(std::size_t delay_samples, double angle) {
   return {std::cos(samples * angle), dirichlet_ratio(samples, from_pi ? std::numbers::pi - angle : angle, from_pi)};
 }
 
+OnCircle<Extended> delay_factor(std::size_t delay_samples, const Extended& x) { return delay_at(delay_samples, x); }
+
 // even = T_L(y) and odd = u = U_{L-1}(y) with y = 1 - x/2 = cos(angle):
 //   d even/dx = -(L/2) u,   du/dx = (L even - y u) / (2 sin²),
 // second derivatives from the Chebyshev equations 4 sin² e'' + 2 y e' + L² e = 0 and 4 sin² u'' + 6 y u' + (L² - 1) u =

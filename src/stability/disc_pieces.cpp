@@ -16,10 +16,13 @@ constexpr double rounding_of_sums = 1e-8;  // above sums_accuracy, where halving
 constexpr double still_converging = 0.25;
 constexpr double narrowest_sums = 1e-9;  // of Nyquist
 constexpr std::size_t most_sum_pieces = 120;
-constexpr double first_ratio = 4.0;   // of the ends of a piece
-constexpr double most_turning = 8.0;  // rad of the delay in a piece
-constexpr double of_slowest = 0.5;    // the first piece ends at this share of the slowest pole
-constexpr double lowest_end = 1e-9;   // rad per sample, of the first piece
+constexpr double first_ratio = 4.0;     // of the ends of a piece
+constexpr double most_turning = 8.0;    // rad of the delay in a piece
+constexpr double of_slowest = 0.5;      // the first piece ends at this share of the slowest pole
+constexpr double beside_pieces = 0.05;  // of Nyquist
+constexpr double towards_zero = 0.03;   // where a piece that begins at a zero of Re Y is divided
+constexpr double around_zero = 0.25;    // of its image: how far pieces are counted from there, at most
+constexpr double lowest_end = 1e-9;     // rad per sample, of the first piece
 
 using Singularity = AliasSums::Singularity;
 
@@ -42,6 +45,25 @@ std::vector<Singularity> images_of(const ModalForm& form, double period) {
     images.push_back({2.0 * nyquist - folded, depth});
   }
   return images;
+}
+
+/// The same of the zeros of Re Y, the poles of discs; those of the frequency itself are taken off by a factor.
+void add_zeros(const UserDiscs& discs, double period, std::vector<Singularity>& images) {
+  const double nyquist = pi / period;
+  const auto add = [&](double frequency, double depth) {
+    if (depth > nyquist) return;
+    const double folded = std::abs(std::remainder(frequency, 2.0 * nyquist));
+    if (frequency > nyquist) images.push_back({folded, depth});
+    images.push_back({2.0 * nyquist - folded, depth});
+  };
+  for (const DissipationZeros::Zero& zero : discs.zeros().others) add(zero.position, zero.depth);
+  for (const SharpZero& zero : discs.zeros().sharp) {  // what is not near enough to be taken off
+    const double folded = std::abs(std::remainder(zero.frequency, 2.0 * nyquist));
+    if (folded > beside_pieces * nyquist && folded < (1.0 - beside_pieces) * nyquist) {
+      images.push_back({2.0 * nyquist - folded, zero.depth * zero.frequency});
+      images.push_back({-folded, zero.depth * zero.frequency});
+    }
+  }
 }
 
 /// Poles of the wall's filters, s = log(1 + delta)/T, and their images above Nyquist.
@@ -137,14 +159,17 @@ AliasSums::Value AliasSums::at(double frequency) const {
   return value;
 }
 
-double DiscPieces::Piece::frequency_at(double x) const {
-  if (begin == 0.0) return end * std::sqrt(0.5 * (1.0 + x));
-  return 0.5 * (begin + end) + 0.5 * (end - begin) * x;
+UserDiscs::Place DiscPieces::Piece::place_at(double x) const {
+  if (begins_at_rest()) return {0.0, end * std::sqrt(0.5 * (1.0 + x))};
+  const double offset = 0.5 * (begin + end) + 0.5 * (end - begin) * x;
+  return {base, side * offset};
 }
 
 DiscPieces::DiscPieces(const UserDiscs& discs, const Device& device)
     : discs_(&discs), period_(device.loop().sampling_period) {
-  singularities_ = images_of(discs.held_form(), period_);
+  // Centre and radius of a disc have no pole at a mode: the user may hold it still, or make it any other.
+  if (!discs.zeros().are_complete) singularities_ = images_of(discs.held_form(), period_);
+  add_zeros(discs, period_, singularities_);
   sums_ = AliasSums(discs, period_, singularities_);
   for (const Singularity& each : poles_of(discs.free_plant().filters, period_)) singularities_.push_back(each);
   const double nyquist = pi / period_;
@@ -162,44 +187,74 @@ DiscPieces::DiscPieces(const UserDiscs& discs, const Device& device)
   if (device.parameters().actuator.time_constant > 0.0) {
     slowest = std::min(slowest, 1.0 / device.parameters().actuator.time_constant);
   }
-  const double most_width = most_turning / (device.loop().delay + period_);
-  double begin = std::min({of_slowest * slowest, 0.25 * nyquist, most_width});
+  most_width_ = most_turning / (device.loop().delay + period_);
+  std::vector<double> images;
+  for (const UserDiscs::SharpImage& each : discs.sharp_images()) {
+    if (each.image > 0.0 && each.image <= nyquist) images.push_back(each.image);
+  }
+  std::sort(images.begin(), images.end());
+  images.erase(std::unique(images.begin(), images.end()), images.end());
+  if (!images.empty()) slowest = std::min(slowest, images.front());
+  double begin = std::min({of_slowest * slowest, 0.25 * nyquist, most_width_});
   begin = std::max(begin, lowest_end / period_);
   add_first(0.0, begin);
-  while (begin < nyquist) {
-    double end = std::min({first_ratio * begin, begin + most_width, nyquist});
-    if (end > 0.8 * nyquist) end = nyquist;
-    add_first(begin, std::min(end, begin + most_width));
-    begin = pieces_.back().end;
+  // Around the images pieces on either side, to the middle between two at most.
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    const double image = images[i];
+    const double next = i + 1 < images.size() ? images[i + 1] : nyquist + (nyquist - image);
+    const double widest = std::min(around_zero * image, 0.5 * most_width_);
+    const double below = std::min(widest, i > 0 ? 0.5 * (image - images[i - 1]) : image - begin);
+    const double above = std::min(widest, 0.5 * (next - image));
+    if (image - below > begin) add_between(begin, image - below);
+    if (below > 0.0) add_first(0.0, below, image, -1.0);
+    if (above > 0.0) add_first(0.0, above, image, 1.0);
+    begin = image + above;
   }
+  add_between(begin, nyquist);
   first_pieces_ = pieces_.size();
 }
 
-void DiscPieces::add_first(double begin, double end) {
+/// Pieces whose ends are not too far apart.
+void DiscPieces::add_between(double begin, double end) {
+  while (begin < end) {
+    double next = std::min({first_ratio * begin, begin + most_width_, end});
+    if (next > 0.8 * end) next = end;
+    add_first(begin, std::min(next, begin + most_width_));
+    begin = pieces_.back().end;
+  }
+}
+
+void DiscPieces::add_first(double begin, double end, double base, double side) {
   pieces_.emplace_back();
+  pieces_.back().base = base;
+  pieces_.back().side = side;
   pieces_.back().begin = begin;
   pieces_.back().end = end;
 }
 
 void DiscPieces::divide(std::size_t index) {
   if (pieces_[index].first_half >= 0) return;
+  const double base = pieces_[index].base;
+  const double side = pieces_[index].side;
   const double begin = pieces_[index].begin;
   const double end = pieces_[index].end;
-  const double middle = begin == 0.0 ? end / 3.0 : end > 4.0 * begin ? std::sqrt(begin * end) : 0.5 * (begin + end);
+  double middle = end > 4.0 * begin ? std::sqrt(begin * end) : 0.5 * (begin + end);
+  if (begin == 0.0) middle = base == 0.0 ? end / 3.0 : towards_zero * end;
   pieces_[index].first_half = static_cast<int>(pieces_.size());
   pieces_[index].second_half = static_cast<int>(pieces_.size() + 1);
   const int depth = pieces_[index].depth + 1;
-  add_first(begin, middle);
+  add_first(begin, middle, base, side);
   pieces_.back().depth = depth;
-  add_first(middle, end);
+  add_first(middle, end, base, side);
   pieces_.back().depth = depth;
 }
 
 bool DiscPieces::is_clear_of_poles(std::size_t index, double further) const {
-  const double begin = pieces_[index].begin;
-  const double end = pieces_[index].end;
+  const Piece& piece = pieces_[index];
+  const double begin = piece.lowest();
+  const double end = piece.highest();
   const auto clear = [&](const Singularity& each) {
-    if (begin > 0.0) return ellipse_through(begin, end, each.position, each.depth) >= clear_ellipse;
+    if (!piece.begins_at_rest()) return ellipse_through(begin, end, each.position, each.depth) >= clear_ellipse;
     const std::complex<double> square =
         std::complex<double>(each.position, each.depth) * std::complex<double>(each.position, each.depth);
     return ellipse_through(0.0, end * end, square.real(), square.imag()) >= clear_ellipse;
@@ -212,17 +267,19 @@ const DiscPieces::Piece& DiscPieces::sampled(std::size_t index) {
   Piece& piece = pieces_[index];
   if (piece.is_sampled) return piece;
   for (std::size_t i = 0; i < interpolation_points; ++i) {
-    const double frequency = piece.frequency_at(interpolation_nodes()[i]);
+    const UserDiscs::Place place = piece.place_at(interpolation_nodes()[i]);
+    const double frequency = place.frequency();
     const AliasSums::Value others = sums_.at(frequency);
-    const UserDiscs::SplitDisc split = discs_->with_others(frequency, others.sums, piece.end);
-    piece.nodes[i] = {frequency, split.disc, split.factor, split.shared * others.error};
+    const UserDiscs::SplitDisc split = discs_->with_others(place, others.sums, piece.highest());
+    const double mirrored = piece.begins_at_rest() ? discs_->mirrored_measures(frequency) : 1.0;
+    piece.nodes[i] = {frequency, split.disc, split.factor * mirrored, split.shared * others.error};
   }
   piece.is_sampled = true;
   return piece;
 }
 
-UserDiscs::Disc DiscPieces::at(double frequency) const {
-  return discs_->with_others(frequency, sums_.at(frequency).sums, frequency).disc;
+UserDiscs::Disc DiscPieces::at(const UserDiscs::Place& place) const {
+  return discs_->with_others(place, sums_.at(place.frequency()).sums, place.frequency()).disc;
 }
 
 }  // namespace zwidth::internal

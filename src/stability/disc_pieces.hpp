@@ -1,7 +1,7 @@
 #pragma once
 
 // The discs of passive users on intervals of frequency, by values at interpolation points. The sums over aliases are
-// smooth between the images of modes above Nyquist and cost most: they are interpolated first, the many that lie far
+// smooth between the images of modes and of zeros of Re Y above Nyquist and cost most: they are interpolated first, the many that lie far
 // above all modes apart from the few that do not.
 
 #include <array>
@@ -58,20 +58,28 @@ class DiscPieces {
 
   struct Node {
     double frequency = 0.0;
-    UserDiscs::Disc disc;
-    double factor = 0.0;  // see UserDiscs::SplitDisc
-    double error = 0.0;   // of centre and radius each
+    UserDiscs::Disc disc;  // scaled
+    double factor = 0.0;   // see UserDiscs::SplitDisc
+    double error = 0.0;    // of centre and radius each, over the disc's `one`
   };
   struct Piece {
-    double begin = 0.0;  // rad/s; 0: the nodes stand in the frequency's square, in which all is smooth at 0 too
+    double base = 0.0;  // rad/s; 0, or the image of a sharp zero, from which what vanishes there keeps its digits
+    double side = 1.0;  // of the base: -1 below
+    // Distances from the base, rad/s; from 0 to the first end the nodes stand in the frequency's square, in which all is
+    // smooth at 0 too.
+    double begin = 0.0;
     double end = 0.0;
     int depth = 0;
     int first_half = -1;  // index of the halves, once divided
     int second_half = -1;
     bool is_sampled = false;
     std::array<Node, interpolation_points> nodes{};
-    /// A frequency of the piece, from -1 <= x <= 1 in which it is interpolated.
-    [[nodiscard]] double frequency_at(double x) const;
+    [[nodiscard]] bool begins_at_rest() const { return base == 0.0 && begin == 0.0; }
+    [[nodiscard]] bool begins_at_zero_of_dissipation() const { return base != 0.0 && begin == 0.0; }
+    /// A place of the piece, from -1 <= x <= 1 in which it is interpolated.
+    [[nodiscard]] UserDiscs::Place place_at(double x) const;
+    [[nodiscard]] double lowest() const { return side > 0.0 ? base + begin : base - end; }
+    [[nodiscard]] double highest() const { return side > 0.0 ? base + end : base - begin; }
   };
 
   /// Indices of the pieces to start with: they cover (0, pi/T].
@@ -85,11 +93,13 @@ class DiscPieces {
   /// for its values to speak for all of it.
   [[nodiscard]] bool is_clear_of_poles(std::size_t index, double further) const;
 
-  /// The disc from the interpolated sums.
-  [[nodiscard]] UserDiscs::Disc at(double frequency) const;
+  /// The disc from the interpolated sums, scaled.
+  [[nodiscard]] UserDiscs::Disc at(const UserDiscs::Place& place) const;
 
  private:
-  void add_first(double begin, double end);
+  void add_first(double begin, double end, double base = 0.0, double side = 1.0);
+  void add_between(double begin, double end);
+  double most_width_ = 0.0;  // of a piece, for the delay
 
   const UserDiscs* discs_ = nullptr;
   double period_ = 0.0;

@@ -7,20 +7,23 @@ namespace zwidth::internal {
 
 double least_root(double constant, double half, double quadratic) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  if (constant <= 0.0) return 0.0;
+  if (constant < 0.0 || (constant == 0.0 && half <= 0.0)) return 0.0;
   const double discriminant = half * half - quadratic * constant;
   if (discriminant < 0.0) return infinity;
+  if (half > 0.0) return quadratic < 0.0 ? (std::sqrt(discriminant) + half) / -quadratic : infinity;
   const double denominator = std::sqrt(discriminant) - half;
   return denominator > 0.0 ? constant / denominator : infinity;
 }
 
 // With A = |c|² - r²:
 //
-//     1 + 2 Re[B v c] + A |B v|² + 2 K (Re c + A Re[B v]) + K² A = 0
-double least_stiffness(const UserDiscs::Disc& disc, std::complex<double> damper) {
+//     1 + 2 Re[d c] + A |d|² + 2 g (Re[u c] + A Re[u conj d]) + g² A |u|² = 0
+double least_gain(const UserDiscs::Disc& disc, const WallResponse& wall) {
   if (!std::isfinite(disc.radius)) return 0.0;
-  return least_root(1.0 + 2.0 * (damper * disc.centre).real() + disc.power * std::norm(damper),
-                    disc.centre.real() + disc.power * damper.real(), disc.power);
+  const auto& [unit, closed] = wall;
+  return least_root(disc.one + 2.0 * (closed * disc.centre).real() + disc.power * std::norm(closed),
+                    (unit * disc.centre).real() + disc.power * (unit * std::conj(closed)).real(),
+                    disc.power * std::norm(unit));
 }
 
 // Lagrange in steps²: nodes 1, 4, 9

@@ -2,15 +2,22 @@
 
 #include <complex>
 
+#include "stability/damper_response.hpp"
 #include "stability/user_discs.hpp"
 
 namespace zwidth::internal {
 
-/// The least K > 0 with constant + 2 half K + quadratic K² = 0; 0 for a constant <= 0, infinity where there is none.
+/// The least K > 0 with constant + 2 half K + quadratic K² = 0; 0 for a constant < 0, and for 0 where the
+/// sum is negative beside K = 0; infinity where there is none.
 [[nodiscard]] double least_root(double constant, double half, double quadratic);
 
-/// The least K > 0 with |1 + (K + B v) c| = |K + B v| r, where `damper` is B v; infinity where there is none.
-[[nodiscard]] double least_stiffness(const UserDiscs::Disc& disc, std::complex<double> damper);
+/// The least g > 0 with |1 + (g u + d) c| = |g u + d| r; infinity where there is none (1: disc.one).
+[[nodiscard]] double least_gain(const UserDiscs::Disc& disc, const WallResponse& wall);
+
+/// The same of the stiffness, u = 1, where `damper` is B v.
+[[nodiscard]] inline double least_stiffness(const UserDiscs::Disc& disc, std::complex<double> damper) {
+  return least_gain(disc, {1.0, damper});
+}
 
 /// Relative, of a fourth sample from the parabola through three: the function is smooth enough to extrapolate to 0.
 inline constexpr double smooth_enough = 1e-6;

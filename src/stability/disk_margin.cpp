@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "stability/confirmed_margins.hpp"
 #include "stability/delay_factor.hpp"
 #include "stability/plant_fraction.hpp"
 #include "stability/root_isolation.hpp"
@@ -20,21 +21,30 @@ namespace {
 
 using std::numbers::pi;
 
-// L = A/B, A = ((K + r) delta + K c) S, B = z^L (delta + c) D, r = B c/T: see gain_locus.hpp.
+// L = A/B, A = ((K + r) delta + K c) S, B = z^L (delta + c) D, r = B c/T: see gain_locus.hpp. Without a spring the damper's
+// delta cancels one of the plant's integrators.
 class LoopFraction {
  public:
   LoopFraction(const FilteredPlant& plant, const Wall& wall)
       : plant_(plant),
         stiffness_(*wall.stiffness),
         c_(wall.velocity_filter_hz > 0.0 ? -std::expm1(-2.0 * pi * wall.velocity_filter_hz * plant.period) : 1.0),
-        rate_(wall.damping * c_ / plant.period) {}
+        rate_(wall.damping * c_ / plant.period) {
+    if (stiffness_ > 0.0) return;
+    for (const SampledTerm& term : plant.terms) integrators_ += term.integrators;
+  }
 
   template <typename Real>
   [[nodiscard]] PlantFraction<Real> at(const CirclePoint<Real>& point, const OnCircle<Real>& delay) const {
     const Real half = -0.5 * point.chord_squared;  // delta = half + j sin
     const double lead = stiffness_ + rate_;
-    const PlantFraction<Real> plant = plant_fraction(plant_, point);
-    return {multiply(plant.numerator, {lead * half + stiffness_ * c_, Real(lead)}, point),
+    OnCircle<Real> kept{Real(1.0), Real(0.0)};  // delta^(integrators - 1)
+    for (int i = 1; i < integrators_; ++i) kept = multiply(kept, {half, Real(1.0)}, point);
+    const bool cancels = integrators_ > 0;
+    const PlantFraction<Real> plant = plant_fraction(plant_, point, cancels ? &kept : nullptr);
+    OnCircle<Real> wall{lead * half + stiffness_ * c_, Real(lead)};
+    if (cancels) wall = {Real(lead), Real(0.0)};
+    return {multiply(plant.numerator, wall, point),
             multiply(multiply(plant.denominator, {half + c_, Real(1.0)}, point), delay, point)};
   }
 
@@ -49,6 +59,7 @@ class LoopFraction {
   double stiffness_;
   double c_;
   double rate_;
+  int integrators_ = 0;  // of the plant, where one cancels
 };
 
 // |A - B|² and |A + B|².
@@ -145,6 +156,10 @@ Peak greatest_ratio(const LoopFraction& loop, const Wall& wall) {
 
 std::optional<DiskMargin> disk_margin(const FilteredPlant& plant, const Wall& wall) {
   if (!loop_margins(plant, wall).stable) return std::nullopt;
+  return disk_margin_of_stable(plant, wall);
+}
+
+DiskMargin internal::disk_margin_of_stable(const FilteredPlant& plant, const Wall& wall) {
   const LoopFraction loop(plant, wall);
   const Peak peak = greatest_ratio(loop, wall);
   DiskMargin margin;

@@ -37,8 +37,13 @@ std::vector<bool> undamped_poles(const FilteredPlant& plant, const GainLocus& lo
 }
 
 // P is zero to rounding (an undamped antiresonance, a numerator with a factor s): no gain, however large, has a pole
-// there.
-bool vanishes(const SampledPlant& plant, double angle) { return cancellation(plant, angle) >= 1e13; }
+// there. Where terms cancel by nature they were added up with more digits.
+bool vanishes(const FilteredPlant& plant, const GainLocus::TermSum& response) {
+  return plant.numerator.empty() && response.cancellation >= 1e13;
+}
+
+// A gain that rounding may move by more than this, relative, is found again in double-double.
+constexpr double sure_gain = 1e-10;
 
 // Where the controller of a gain, K + B v or B v, is too small for |P C| = 1: every crossing there has a greater gain.
 class SmallerGains {
@@ -78,21 +83,27 @@ GainCrossings crossings_of(const FilteredPlant& plant, const GainLocus& locus, c
       if (poles_leaving > 0) result.initially_unstable += poles_leaving;
       continue;
     }
-    const double gain = locus.gain(root.angle);
-    // Where terms cancel by nature they were added up with more digits.
-    const bool lost = plant.numerator.empty() && vanishes(plant, root.angle);
-    if (gain > 0.0 && std::isfinite(gain) && !lost) {
-      result.crossings.push_back({root.angle, gain, poles_leaving});
+    const GainLocus::TermSum response = locus.by_terms(root.angle);
+    GainCrossing crossing{root.angle, locus.gain(root.angle), poles_leaving, response.gain_noise()};
+    if (!(crossing.noise <= sure_gain * std::abs(crossing.gain)) && root.direction != 0) {
+      if (const auto again = locus.polished_root(root.angle)) {
+        crossing.angle = again->angle;
+        crossing.gain = again->gain;
+      }
+    }
+    if (crossing.gain > 0.0 && std::isfinite(crossing.gain) && !vanishes(plant, response)) {
+      result.crossings.push_back(crossing);
     }
   }
   // z = 1 and z = -1 are real: crossings where the gain is positive. At z = 1 that takes a negative static response.
   const double at_rest = locus.gain(0.0);
-  if (at_rest > 0.0 && std::isfinite(at_rest) && !vanishes(plant, 0.0)) {
-    result.crossings.insert(result.crossings.begin(), {0.0, at_rest, locus.value(0.0) < 0.0 ? 1 : -1});
+  if (at_rest > 0.0 && std::isfinite(at_rest) && !(cancellation(plant, 0.0) >= 1e13)) {
+    result.crossings.insert(result.crossings.begin(), {0.0, at_rest, locus.value(0.0) < 0.0 ? 1 : -1, 0.0});
   }
   const double gain = locus.gain(std::numbers::pi);
   if (gain > 0.0 && std::isfinite(gain)) {
-    result.crossings.push_back({std::numbers::pi, gain, locus.value(std::numbers::pi) > 0.0 ? 1 : -1});
+    result.crossings.push_back({std::numbers::pi, gain, locus.value(std::numbers::pi) > 0.0 ? 1 : -1,
+                                locus.by_terms(std::numbers::pi).gain_noise()});
   }
   return result;
 }
@@ -143,15 +154,21 @@ GainCrossings stiffness_crossings(const FilteredPlant& plant, const VirtualDampe
   return result;
 }
 
-double stiffness_limit(const FilteredPlant& plant, const VirtualDamper& damper, double most) {
-  int unstable = 0;
-  if (damper.damping > 0.0) {
-    const GainLocus locus(plant, GainLocus::Gain::damping, 0.0, damper);
-    unstable = left_by_damper(plant, damper, smaller_crossings(plant, locus, {plant, locus, 0.0, damper.damping}));
-  }
+GainCrossings stiffness_crossings_up_to(const FilteredPlant& plant, const VirtualDamper& damper, double most) {
   const GainLocus locus(plant, GainLocus::Gain::stiffness, 0.0, damper);
-  const GainCrossings found = smaller_crossings(plant, locus, {plant, locus, most, damper.damping});
-  if (unstable + found.initially_unstable > 0) return 0.0;
+  GainCrossings found = smaller_crossings(plant, locus, {plant, locus, most, damper.damping});
+  std::erase_if(found.crossings, [most](const GainCrossing& each) { return !(each.gain <= most); });
+  if (damper.damping > 0.0) {
+    const GainLocus by_damping(plant, GainLocus::Gain::damping, 0.0, damper);
+    found.initially_unstable +=
+        left_by_damper(plant, damper, smaller_crossings(plant, by_damping, {plant, by_damping, 0.0, damper.damping}));
+  }
+  return found;
+}
+
+double stiffness_limit(const FilteredPlant& plant, const VirtualDamper& damper, double most) {
+  const GainCrossings found = stiffness_crossings_up_to(plant, damper, most);
+  if (found.initially_unstable > 0) return 0.0;
   double least = most;
   for (const GainCrossing& crossing : found.crossings) least = std::min(least, crossing.gain);
   return least;

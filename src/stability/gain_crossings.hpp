@@ -11,6 +11,7 @@ struct GainCrossing {
   double angle = 0.0;  // [0, pi]; 0 for a real pole at z = 1, pi exactly at Nyquist
   double gain = 0.0;
   int poles_leaving = 0;  // as Crossover::poles_leaving
+  double noise = 0.0;     // bound of the gain's rounding, and of that of the plant's coefficients
 };
 
 struct GainCrossings {
@@ -30,11 +31,14 @@ GainCrossings stiffness_crossings(const FilteredPlant& plant, const VirtualDampe
 GainCrossings stiffness_crossings(const FilteredPlant& plant, const VirtualDamper& damper,
                                   const GainCrossings& by_damping);
 
+// Those of at most `most` > 0: only the frequencies are isolated at which so soft a wall can be critical.
+GainCrossings stiffness_crossings_up_to(const FilteredPlant& plant, const VirtualDamper& damper, double most);
+
 // The critical stiffness that these stiffness crossings say.
 CriticalStiffness critical_stiffness_of(const FilteredPlant& plant, const GainCrossings& crossings);
 
 // The end of the stable stiffnesses from 0 on where it is at most `most` > 0, else `most`; infinite where nothing bounds it
-// and `most` is. Only the frequencies are isolated at which so soft a wall can be critical.
+// and `most` is. By stiffness_crossings_up_to().
 [[nodiscard]] double stiffness_limit(const FilteredPlant& plant, const VirtualDamper& damper, double most);
 
 // Poles outside the circle at kappa = gain.

@@ -100,44 +100,74 @@ BoundedJet<Scalar> GainLocus::model(double begin, double end) const {
 template BoundedJet<double> GainLocus::model<double>(double, double) const;
 template BoundedJet<Extended> GainLocus::model<Extended>(double, double) const;
 
+namespace {
+
+// sum |c_i| |delta|^i
+double size_of(const double* c, std::size_t count, double delta) {
+  double size = 0.0;
+  for (std::size_t i = count; i-- > 0;) size = size * delta + std::abs(c[i]);
+  return size;
+}
+
+// Rounding of the filters' product, relative, in units.
+double rounding_of_filters(const FilteredPlant& plant, double angle, double delta) {
+  double rounding = 0.0;
+  for (const FilterSection& section : plant.filters) {
+    const std::complex<double> d(-0.5 * delta * delta, std::sin(angle));
+    const auto& n = section.numerator;
+    const auto& c = section.denominator;
+    const std::complex<double> above = (n[2] * d + n[1]) * d + n[0];
+    const std::complex<double> below = section.degree == 1 ? d + c[0] : (d + c[1]) * d + c[0];
+    const double leading = section.degree == 1 ? delta : delta * delta;
+    rounding += size_of(n.data(), n.size(), delta) / std::abs(above) +
+                (size_of(c.data(), section.degree, delta) + leading) / std::abs(below);
+  }
+  return rounding;
+}
+
+}  // namespace
+
 // With P = z^-L S/D and positive factors left out, f = -Im[P W] + B Im[v] |P|², W = 1, v or K + B v.
 GainLocus::TermSum GainLocus::by_terms(double angle) const {
-  constexpr double unit = 16.0 * std::numeric_limits<double>::epsilon();
-  const std::complex<double> delta(-0.5 * circle_point(angle).chord_squared, std::sin(angle));
+  constexpr double coefficient_unit = std::numeric_limits<double>::epsilon();
+  constexpr double unit = 16.0 * coefficient_unit;
+  const CirclePoint<double> point = circle_point(angle);
+  const std::complex<double> delta(-0.5 * point.chord_squared, std::sin(angle));
+  const double delta_size = std::sqrt(point.chord_squared);
   std::complex<double> plant = 0.0;
   double noise = 0.0;
   double of_terms = 0.0;    // sum of their magnitudes
   double of_factors = 0.0;  // rounding of the denominators, relative
   for (const SampledTerm& term : plant_.terms) {
-    const std::complex<double> value = response(term, angle);
-    std::complex<double> power = 1.0;
-    std::complex<double> denominator = 0.0;
-    double size = 0.0;
-    for (std::size_t i = 0; i <= term.degree; ++i, power *= delta) {
-      const double coefficient = i < term.degree ? term.denominator[i] : 1.0;
-      denominator += coefficient * power;
-      size += std::abs(coefficient) * std::abs(power);
-    }
+    const OnCircle<double> below = denominator_of(term, 0, point);
+    const OnCircle<double> above = numerator_of(term, point);
+    const double below_squared = squared_magnitude(below, point);
+    const double below_size = std::sqrt(below_squared);
+    const OnCircle<double> product = multiply(above, conj(below), point);
+    const std::complex<double> value(product.even / below_squared, product.odd * delta.imag() / below_squared);
+    const double value_size = std::abs(value);
+    double leading = 1.0;
+    for (std::size_t i = 0; i < term.degree; ++i) leading *= delta_size;
+    const double of_denominator = unit * (size_of(term.denominator, term.degree, delta_size) + leading) / below_size;
     plant += value;
-    noise += unit * std::abs(value) * (1.0 + size / std::abs(denominator));
-    of_terms += std::abs(value);
-    of_factors += unit * size / std::abs(denominator);
+    noise += (unit + of_denominator) * value_size +
+             coefficient_unit * size_of(term.numerator, term.degree + 1, delta_size) / below_size;
+    of_terms += value_size;
+    of_factors += of_denominator;
   }
-  if (!plant_.numerator_rest.empty()) {  // the sum added up in double-double: better where the terms cancel
+  const double cancellation = of_terms / std::abs(plant);
+  if (plant_.at_nyquist && angle >= std::numbers::pi) {
+    plant = plant_.delay_samples % 2 == 0 ? *plant_.at_nyquist : -*plant_.at_nyquist;
+    noise = unit * std::abs(plant);
+  } else if (!plant_.numerator_rest.empty()) {  // the sum added up in double-double: better where the terms cancel
     constexpr double extended_unit = 1e-29;
-    const CirclePoint<double> point = circle_point(angle);
     const OnCircle<double> added = sum_of_numerators(plant_, point);
-    std::complex<double> quotient(added.even, added.odd * std::sin(angle));
-    double size = 0.0;
-    double power = 1.0;
-    for (const double c : plant_.numerator) {
-      size += std::abs(c) * power;
-      power *= std::abs(delta);
-    }
-    const double of_sum = extended_unit * size / std::abs(quotient);
+    std::complex<double> quotient(added.even, added.odd * delta.imag());
+    const double of_sum =
+        extended_unit * size_of(plant_.numerator.data(), plant_.numerator.size(), delta_size) / std::abs(quotient);
     for (const SampledTerm& term : plant_.terms) {
       const OnCircle<double> denominator = denominator_of(term, 0, point);
-      quotient /= std::complex<double>(denominator.even, denominator.odd * std::sin(angle));
+      quotient /= std::complex<double>(denominator.even, denominator.odd * delta.imag());
     }
     const double lost = std::abs(quotient) * (of_sum + unit + of_factors) + extended_unit * of_terms;
     if (lost < noise) {
@@ -148,15 +178,17 @@ GainLocus::TermSum GainLocus::by_terms(double angle) const {
   const std::complex<double> turned =
       filter_response(plant_, angle) * std::polar(1.0, -static_cast<double>(plant_.delay_samples) * angle);
   plant *= turned;
-  noise = noise * std::abs(turned) + unit * std::abs(plant) * (1.0 + static_cast<double>(plant_.delay_samples));
+  noise = noise * std::abs(turned) +
+          unit * std::abs(plant) *
+              (1.0 + static_cast<double>(plant_.delay_samples) + rounding_of_filters(plant_, angle, delta_size));
   const std::complex<double> velocity = c_ / plant_.period * delta / (delta + c_);
   if (gain_ == Gain::stiffness) {
     const double damping = damping_ * velocity.imag();
     const double size = std::abs(plant);
-    return {-plant.imag() + damping * size * size, noise * (1.0 + 2.0 * damping * size), size};
+    return {-plant.imag() + damping * size * size, noise * (1.0 + 2.0 * damping * size), size, cancellation};
   }
   const std::complex<double> weight = gain_ == Gain::damping ? velocity : stiffness_ + damping_ * velocity;
-  return {-(plant * weight).imag(), noise * std::abs(weight), std::abs(plant * weight)};
+  return {-(plant * weight).imag(), noise * std::abs(weight), std::abs(plant * weight), cancellation};
 }
 
 std::vector<double> GainLocus::pole_angles() const {
@@ -194,15 +226,69 @@ double GainLocus::gain(double angle) const {
   if (plant_.at_nyquist && angle >= std::numbers::pi) {
     one_over_plant = {1.0 / (*plant_.at_nyquist * filter_response(plant_, angle).real()), 0.0};
   }
-  const double x = point.chord_squared;
-  const double filter = c_ * c_ + (1.0 - c_) * x;
+  return gain_of(one_over_plant, point);
+}
+
+template <typename Real>
+Real GainLocus::gain_of(const OnCircle<Real>& one_over_plant, const CirclePoint<Real>& point) const {
+  const Real& x = point.chord_squared;
+  const Real filter = c_ * c_ + (1.0 - c_) * x;
   const double rate = c_ / plant_.period;
-  const double velocity = rate * x * (1.0 - 0.5 * c_) / filter;  // Re v; Im v / sin = rate c / filter
-  if (gain_ == Gain::stiffness) return -one_over_plant.even - damping_ * velocity;
+  const Real velocity = rate * x * (1.0 - 0.5 * c_) / filter;  // Re v; Im v / sin = rate c / filter
+  if (gain_ == Gain::stiffness) return Real(0.0) - one_over_plant.even - damping_ * velocity;
   // kappa = -1 / (P C) = -Re[(1/P) conj C] / |C|², C = v or K + B v
-  OnCircle<double> controller{velocity, rate * c_ / filter};
-  if (gain_ == Gain::wall) controller = sum(scaled(damping_, controller), {stiffness_, 0.0});
-  return -multiply(one_over_plant, conj(controller), point).even / squared_magnitude(controller, point);
+  OnCircle<Real> controller{velocity, rate * c_ / filter};
+  if (gain_ == Gain::wall) {
+    controller = {damping_ * controller.even + stiffness_, damping_ * controller.odd};
+  }
+  return Real(0.0) - multiply(one_over_plant, conj(controller), point).even / squared_magnitude(controller, point);
+}
+
+std::optional<GainLocus::Root> GainLocus::polished_root(double angle) const {
+  constexpr int most_widenings = 16;
+  constexpr int most_steps = 60;
+  constexpr double close_enough = 1e-28;  // relative
+  const auto point_of = [](const Extended& x) { return CirclePoint<Extended>{x, x * (1.0 - 0.25 * x)}; };
+  const auto f = [&](const Extended& x) { return assemble(point_of(x), delay_factor(plant_.delay_samples, x)); };
+  const double start = circle_point(angle).chord_squared;
+  Extended low(start);
+  Extended high(start);
+  Extended at_low(0.0);
+  Extended at_high(0.0);
+  double width = std::numeric_limits<double>::epsilon() * start;
+  int widenings = 0;
+  do {
+    if (widenings++ == most_widenings || start + width >= 4.0) return std::nullopt;
+    low = Extended(start) - width;
+    high = Extended(start) + width;
+    at_low = f(low);
+    at_high = f(high);
+    width *= 2.0;
+  } while ((leading(at_low) > 0.0) == (leading(at_high) > 0.0));
+  Extended x = low;
+  for (int i = 0; i < most_steps; ++i) {  // the Illinois method
+    const Extended next = (low * at_high - high * at_low) / (at_high - at_low);
+    const bool is_done = std::abs(leading(next - x)) <= close_enough * start;
+    x = next;
+    const Extended at = f(x);
+    if (is_done || leading(at) == 0.0) break;
+    if ((leading(at) > 0.0) == (leading(at_high) > 0.0)) {
+      high = x;
+      at_high = at;
+      at_low = 0.5 * at_low;
+    } else {
+      low = x;
+      at_low = at;
+      at_high = 0.5 * at_high;
+    }
+  }
+  const CirclePoint<Extended> point = point_of(x);
+  const auto [numerator, denominator] = plant_fraction(plant_, point);
+  OnCircle<Extended> one_over_plant =
+      multiply(multiply(denominator, conj(numerator), point), delay_factor(plant_.delay_samples, x), point);
+  const Extended seen = squared_magnitude(numerator, point);
+  one_over_plant = {one_over_plant.even / seen, one_over_plant.odd / seen};
+  return Root{angle_of(leading(x)), leading(gain_of(one_over_plant, point))};
 }
 
 int GainLocus::initially_unstable(double phase_near_zero) const {

@@ -16,6 +16,7 @@
 // Nothing is divided, so f has no poles; Im[.] / sin(angle) is the `odd` part of OnCircle.
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "sampling/unit_circle.hpp"
@@ -44,7 +45,11 @@ class GainLocus {
   struct TermSum {
     double value = 0.0;
     double noise = 0.0;
-    double size = 0.0;  // of what the value is the imaginary part of
+    double size = 0.0;          // of what the value is the imaginary part of
+    double cancellation = 1.0;  // the terms' magnitudes over that of their sum
+
+    // Rounding of the gain, -1/value where that is real.
+    [[nodiscard]] double gain_noise() const { return noise / (size * size); }
   };
   [[nodiscard]] TermSum by_terms(double angle) const;
 
@@ -57,6 +62,14 @@ class GainLocus {
   // kappa = -den/num where it is real; infinite or NaN where num vanishes.
   [[nodiscard]] double gain(double angle) const;
 
+  struct Root {
+    double angle = 0.0;
+    double gain = 0.0;
+  };
+  // The root of f beside an angle in (0, pi), and its gain, in double-double throughout: where a double next to the root
+  // is too far from it. Nothing where f has no change of sign there.
+  [[nodiscard]] std::optional<Root> polished_root(double angle) const;
+
   // Poles outside the unit circle for arbitrarily small kappa > 0 (those of kappa = 0 plus the ones that leave z = 1);
   // undamped pairs apart. `phase_near_zero` is f between angle 0 and its first root.
   [[nodiscard]] int initially_unstable(double phase_near_zero) const;
@@ -67,6 +80,8 @@ class GainLocus {
   OnCircle<Real> extra_factor(const CirclePoint<Real>& point) const;
   template <typename Real>
   Real assemble(const CirclePoint<Real>& point, const OnCircle<Real>& delay) const;
+  template <typename Real>
+  Real gain_of(const OnCircle<Real>& one_over_plant, const CirclePoint<Real>& point) const;
 
   const FilteredPlant& plant_;
   Gain gain_;

@@ -63,15 +63,13 @@ std::vector<Claim> claims_of(const CriticalStiffness& critical, const FilteredPl
 // A crossing whose K rounding of the plant's terms may move by more than this, relative, is found again with more digits.
 constexpr double closest = 1e-10;
 
-// Beside the pole of a mode that hardly anything damps, the response keeps few digits, and K = -1/P - B v fewer.
-void polish(const FilteredPlant& plant, VirtualDamper damper, const PoleCount& poles, GainCrossings& found) {
-  const GainLocus locus(plant, GainLocus::Gain::stiffness, 0.0, damper);
+// Beside the pole of a mode that hardly anything damps, or where a filter all but closes, the response keeps few digits,
+// and K = -1/P - B v fewer.
+void polish(const PoleCount& poles, GainCrossings& found) {
   std::vector<GainCrossing*> unsure;
   std::vector<PoleOnCircle> again;
   for (GainCrossing& crossing : found.crossings) {
-    if (!(crossing.angle > 0.0 && crossing.angle < std::numbers::pi)) continue;
-    const GainLocus::TermSum response = locus.by_terms(crossing.angle);
-    if (response.noise <= closest * crossing.gain * response.size * response.size) continue;
+    if (crossing.noise <= closest * crossing.gain) continue;
     unsure.push_back(&crossing);
     again.push_back({crossing.angle, crossing.gain});
   }
@@ -95,8 +93,8 @@ void doubt_touch_without_pole(const Device& device, CriticalStiffness& critical)
   wall.stiffness = critical.stiffness;
   if (!(stability_excess(plant, wall) < -on_circle)) return;
   critical.trust.doubt(fmt::format(
-      "at the limit of {:.6g} a pole is to touch the unit circle, and none does by a second computation: poles lie too "
-      "close together; stiffer walls may be stable",
+      "the limit of {:.6g} may be too low: a pole is to touch the unit circle there, and none does by a second "
+      "computation; walls up to it are stable, stiffer ones may be; merge bodies that move alike",
       critical.stiffness));
 }
 
@@ -125,14 +123,15 @@ Agreement agreement(const PoleCount& poles, double stiffness, bool stable) {
 void distrust(Agreement agreement, double stiffness, Trust& trust) {
   if (agreement == Agreement::contradicts) {
     trust.refuse(fmt::format(
-        "two computations contradict each other on whether the loop is stable at {:.6g}: poles lie too close together "
-        "for either to be sure; part them (drop a lag that hardly matters, merge bodies that move alike)",
+        "whether the loop is stable at {:.6g} is open, so no limit is given: two computations contradict each other "
+        "where poles of the device lie close together; drop a lag that hardly matters, or merge bodies that move alike",
         stiffness));
   }
   if (agreement == Agreement::undecided) {
     trust.doubt(fmt::format(
-        "no second computation confirms the answer at {:.6g}: the loop has too many states, or a pole too near the "
-        "unit circle; shorten the delay or merge bodies that hardly move against each other",
+        "nothing confirms the answer at {:.6g}, so it may be wrong: the loop has too many states for a second "
+        "computation, or a pole too near the unit circle; shorten the delay or merge bodies that hardly move against "
+        "each other",
         stiffness));
   }
 }
@@ -150,7 +149,7 @@ CriticalStiffness guarded_stiffness(const Device& device, const FilteredPlant& p
   CriticalStiffness critical;
   try {
     GainCrossings crossings = stiffness_crossings(plant, damper);
-    polish(plant, damper, poles, crossings);
+    polish(poles, crossings);
     critical = critical_stiffness_of(plant, crossings);
   } catch (const Error& error) {
     if (error.code() != ErrorCode::did_not_converge) throw;

@@ -21,6 +21,10 @@ enum class Agreement { agrees, contradicts, undecided };
 // precision does not agree.
 [[nodiscard]] Agreement agreement(const PoleCount& poles, double stiffness, bool stable);
 
+// The spring that stands for K = 0 where poles are counted with a damper closed: the pole at z = 1 of a position that nothing
+// holds would be on the circle.
+[[nodiscard]] double weak_spring(const Device& device);
+
 // What the agreement on one stiffness makes of the trust: refused where it contradicts, doubtful where undecided.
 void distrust(Agreement agreement, double stiffness, Trust& trust);
 

@@ -1,7 +1,7 @@
 #pragma once
 
 // P = z^-L S/D of a sampled plant on the unit circle, with nothing divided: S = sum of N_k prod_{j != k} D_j,
-// D = prod D_k. Real is double (a point) or BoundedJet (an interval).
+// D = prod D_k. Real is double or Extended (a point) or BoundedJet (an interval).
 
 #include <algorithm>
 #include <cmath>
@@ -15,6 +15,7 @@
 namespace zwidth::internal {
 
 inline double value_of(double a) { return a; }
+inline double value_of(const Extended& a) { return leading(a); }
 template <typename Scalar>
 double value_of(const BoundedJet<Scalar>& a) {
   return leading(a.value);

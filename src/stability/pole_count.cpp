@@ -1,12 +1,13 @@
 #include "stability/pole_count.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <complex>
+#include <utility>
 #include <vector>
 
+#include "eigenvalues.hpp"
 #include "model/balance.hpp"
 #include "stability/winding_number.hpp"
 #include "zwidth/model/state_space.hpp"
@@ -28,7 +29,12 @@ constexpr std::size_t steps_per_state = 8;
 // Just outside the circle, so that a mode that nothing damps and nothing moves lies inside.
 constexpr double radius = 1.0 + 1e-13;
 
-// det(delta I - Phi + (Gamma1 + Gamma2 / z) z^-l C(z) c) at z = radius e^{j angle}: zero where a closed-loop pole is.
+// f(z) = det(delta I - Phi + g(z) c), g = (Gamma1 + Gamma2 / z) z^-l C(z), at z = radius e^{j angle}: zero where a
+// closed-loop pole is. With Phi = Q H Q^T, H upper Hessenberg, it is the determinant of
+//     [delta I - H   Q^T g]
+//     [   -c Q         1  ]
+// whose columns have three entries each to eliminate with: every angle takes the square of the states. Its phase alone,
+// as a number of magnitude 1; 0 where it vanishes.
 class ReturnDifference {
   using Complex = std::complex<double>;
 
@@ -36,11 +42,19 @@ class ReturnDifference {
   ReturnDifference(const DiscreteStateSpace& plant, const Wall& wall, double stiffness)
       : delay_samples_(static_cast<double>(plant.delay_samples)), stiffness_(stiffness) {
     const Eigen::VectorXd scales = balancing_scales(plant.Phi);
-    const Eigen::MatrixXd phi = scales.cwiseInverse().asDiagonal() * plant.Phi * scales.asDiagonal();
-    phi_ = phi.cast<Complex>();
-    gamma1_ = scales.cwiseInverse().asDiagonal() * plant.Gamma1;
-    gamma2_ = scales.cwiseInverse().asDiagonal() * plant.Gamma2;
-    output_ = plant.C * scales.asDiagonal();
+    const Hessenberg reduced = hessenberg(scales.cwiseInverse().asDiagonal() * plant.Phi * scales.asDiagonal());
+    dynamics_ = reduced.matrix;
+    gamma1_ = reduced.basis.transpose() * scales.cwiseInverse().asDiagonal() * plant.Gamma1;
+    gamma2_ = reduced.basis.transpose() * scales.cwiseInverse().asDiagonal() * plant.Gamma2;
+    output_ = plant.C * scales.asDiagonal() * reduced.basis;
+    // As large as the rows beside it, for the pivots' sake.
+    const double size = output_.cwiseAbs().maxCoeff();
+    if (size > 0.0 && std::isfinite(size)) {
+      output_ /= size;
+      gamma1_ *= size;
+      gamma2_ *= size;
+    }
+    for (Row* row : {&upper_, &lower_, &border_}) row->resize(dynamics_.rows() + 1);
     pole_ = velocity_filter_pole(wall.velocity_filter_hz, plant.period);
     rate_ = wall.damping * (1.0 - pole_) / plant.period;
     for (const WallFilter& filter : wall.filters) filters_.push_back(filter_section(filter, plant.period));
@@ -54,13 +68,32 @@ class ReturnDifference {
     Complex wall = stiffness_ + rate_ * delta / (z - pole_);
     for (const FilterSection& filter : filters_) wall *= response_of(filter, delta);
     wall *= std::polar(std::exp(-delay_samples_ * std::log(radius)), -delay_samples_ * angle);
-    matrix_ = -phi_;
-    matrix_.diagonal().array() += delta;
-    matrix_.noalias() += (wall * gamma1_ + (wall / z) * gamma2_) * output_;
-    return factors_.compute(matrix_).determinant();
+    return phase_of_determinant(delta, wall, wall / z);
   }
 
  private:
+  // Real and imaginary parts apart, which a compiler makes vectors of.
+  struct Row {
+    Eigen::ArrayXd re;
+    Eigen::ArrayXd im;
+
+    void resize(Eigen::Index size) {
+      re.resize(size);
+      im.resize(size);
+    }
+    [[nodiscard]] Complex operator[](Eigen::Index i) const { return {re(i), im(i)}; }
+    // Less factor times the other, from `begin` on.
+    void subtract(Complex factor, const Row& other, Eigen::Index begin) {
+      const Eigen::Index count = re.size() - begin;
+      const auto other_re = other.re.tail(count);
+      const auto other_im = other.im.tail(count);
+      re.tail(count) -= factor.real() * other_re - factor.imag() * other_im;
+      im.tail(count) -= factor.real() * other_im + factor.imag() * other_re;
+    }
+  };
+
+  static double size_of(Complex value) { return std::abs(value.real()) + std::abs(value.imag()); }
+
   static Complex response_of(const FilterSection& filter, Complex delta) {
     const std::array<double, 3> numerator = whole_numerator(filter);
     Complex n = 0.0;
@@ -70,12 +103,62 @@ class ReturnDifference {
     return n / d;
   }
 
-  Eigen::MatrixXcd phi_;
-  Eigen::VectorXcd gamma1_;
-  Eigen::VectorXcd gamma2_;
-  Eigen::RowVectorXcd output_;
-  Eigen::MatrixXcd matrix_;  // of one angle, and its factors: no allocation for each
-  Eigen::PartialPivLU<Eigen::MatrixXcd> factors_;
+  // Row i of delta I - H, from its first entry that is not zero on, and of the border.
+  void fill(Row& row, Eigen::Index i, Complex delta, Complex with_new, Complex with_old) const {
+    const Eigen::Index n = dynamics_.rows();
+    const Eigen::Index first = std::max<Eigen::Index>(i - 1, 0);
+    row.re.segment(first, n - first) = -dynamics_.row(i).segment(first, n - first).transpose().array();
+    row.im.segment(first, n - first).setZero();
+    row.re(i) += delta.real();
+    row.im(i) = delta.imag();
+    const Complex last = with_new * gamma1_(i) + with_old * gamma2_(i);
+    row.re(n) = last.real();
+    row.im(n) = last.imag();
+  }
+
+  Complex phase_of_determinant(Complex delta, Complex with_new, Complex with_old) {
+    const Eigen::Index n = dynamics_.rows();
+    border_.re.head(n) = -output_.transpose().array();
+    border_.im.setZero();
+    border_.re(n) = 1.0;
+    fill(upper_, 0, delta, with_new, with_old);
+    Complex phase = 1.0;
+    const auto take = [&phase](Complex pivot) {
+      const double size = std::abs(pivot);
+      phase *= size > 0.0 ? pivot / size : Complex(0.0);
+    };
+    for (Eigen::Index k = 0; k < n; ++k) {
+      const bool is_last = k + 1 == n;
+      if (!is_last) {
+        fill(lower_, k + 1, delta, with_new, with_old);
+        if (size_of(lower_[k]) > size_of(upper_[k])) {
+          std::swap(lower_, upper_);
+          phase = -phase;
+        }
+      }
+      if (size_of(border_[k]) > size_of(upper_[k])) {
+        std::swap(border_, upper_);
+        phase = -phase;
+      }
+      const Complex pivot = upper_[k];
+      take(pivot);
+      if (pivot == 0.0) return 0.0;
+      border_.subtract(border_[k] / pivot, upper_, k + 1);
+      if (is_last) break;
+      lower_.subtract(lower_[k] / pivot, upper_, k + 1);
+      std::swap(lower_, upper_);
+    }
+    take(border_[n]);
+    return phase;
+  }
+
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> dynamics_;  // H
+  Eigen::VectorXd gamma1_;
+  Eigen::VectorXd gamma2_;
+  Eigen::RowVectorXd output_;
+  Row upper_;  // of one angle: no allocation for each
+  Row lower_;
+  Row border_;
   std::vector<FilterSection> filters_;
   double delay_samples_;
   double stiffness_;

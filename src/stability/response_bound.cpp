@@ -69,11 +69,11 @@ ResponseBound::ResponseBound(const FilteredPlant& plant) : plant_(plant) {
 double ResponseBound::greatest(double begin, double end) const {
   if (!is_told_) return infinity;
   double bound = 0.0;
-  if (plant_.numerator.empty()) {
-    for (const Quotient& term : terms_) bound += term.greatest(begin, end);
-  } else {  // the terms nearly cancel
-    bound = greatest_of_numerator(begin, end);
-    for (const Quotient& term : terms_) bound /= std::sqrt(term.denominator.least(begin, end));
+  for (const Quotient& term : terms_) bound += term.greatest(begin, end);
+  if (!plant_.numerator.empty()) {  // the terms nearly cancel
+    double whole = greatest_of_numerator(begin, end);
+    for (const Quotient& term : terms_) whole /= std::sqrt(term.denominator.least(begin, end));
+    if (!(whole > bound)) bound = whole;
   }
   for (const Quotient& filter : filters_) bound *= filter.greatest(begin, end);
   return std::isnan(bound) ? infinity : bound;

@@ -27,16 +27,13 @@ struct CircleRoot {
 
 namespace root_isolation {
 
-// Rounding of f, relative to the sum of magnitudes of its terms (BoundedJet::weight): evaluation takes a few dozen
-// operations per modal term.
-template <typename Scalar>
-inline constexpr double rounding = 256.0 * std::numeric_limits<double>::epsilon();
-template <>
-inline constexpr double rounding<Extended> = 1e-28;
-
 // An interval this narrow, relative to its end, is not divided further.
 inline constexpr double narrowest = 1e-14;
 inline constexpr std::size_t max_intervals_per_piece = 100000;
+// Where many poles crowd, products of their terms prove nothing of intervals that are not narrower than any of use: a
+// stretch that has taken so many is asked of the sum of terms, as is where f is zero to rounding.
+inline constexpr std::size_t max_intervals_per_stretch = 4000;
+inline constexpr double stretch = 1.0 / 64.0;  // of its end
 inline constexpr std::uintmax_t max_polish_steps = 200;
 
 struct Interval {
@@ -49,7 +46,7 @@ enum class Content { none, at_most_one, undecided, zero_to_rounding };
 
 template <typename Scalar>
 Content content(const BoundedJet<Scalar>& f) {
-  const double noise = rounding<Scalar> * f.weight;
+  const double noise = rounding_of_jets<Scalar> * f.weight;
   const double value = std::abs(leading(f.value));
   const double slope = std::abs(leading(f.slope));
   if (value > slope + 0.5 * f.bend + noise) return Content::none;
@@ -61,7 +58,7 @@ Content content(const BoundedJet<Scalar>& f) {
 template <typename Function>
 bool is_positive(const Function& f, double x) {
   const BoundedJet<double> point = f.template model<double>(x, x);
-  if (std::abs(point.value) > rounding<double> * point.weight) return point.value > 0.0;
+  if (std::abs(point.value) > rounding_of_jets<double> * point.weight) return point.value > 0.0;
   return leading(f.template model<Extended>(x, x).value) > 0.0;
 }
 
@@ -129,7 +126,7 @@ RootsByTerms roots_by_terms(const Function& f, double begin, double end) {
   double last = 0.0;    // the last value whose sign is certain
   double touch = -1.0;  // an angle since then at which f may touch zero
   for (const double angle : angles) {
-    const auto [value, noise, size] = f.by_terms(angle);
+    const auto [value, noise, size, cancellation] = f.by_terms(angle);
     if (!(std::abs(value) > noise)) {
       found.is_certain = false;
       if (size > resolved * noise) touch = angle;
@@ -193,6 +190,8 @@ std::vector<CircleRoot> roots_on_circle(const Function& f, std::size_t pieces, R
   }
   const double widest = 1.5 * std::numbers::pi / static_cast<double>(pieces);  // angle, that f is asked on
   std::size_t intervals_left = max_intervals_per_piece * pieces;
+  double stretch_end = 0.0;
+  std::size_t intervals_of_stretch = 0;
   double zero_begin = -1.0;  // a run of neighbouring intervals in which f is zero to rounding
   double zero_end = -1.0;
   const auto end_of_run = [&] {
@@ -217,11 +216,17 @@ std::vector<CircleRoot> roots_on_circle(const Function& f, std::size_t pieces, R
   while (!stack.empty()) {
     if (intervals_left-- == 0)
       throw Error(ErrorCode::did_not_converge,
-                  "the crossovers could not be isolated: terms of the device cancel beyond 30 digits; merge "
-                  "bodies that hardly move against each other, or sense nearer to the actuator");
+                  "not every wall at which the loop begins to oscillate was found, so no limit is given: what reaches "
+                  "the sensed body of the device's modes cancels to its 30th digit; sense nearer to the actuator, or "
+                  "merge bodies that hardly move against each other");
     const Interval interval = stack.back();
     const auto [begin, end, extended] = interval;
     stack.pop_back();
+    if (begin >= stretch_end) {
+      stretch_end = std::max(begin, root_isolation::narrowest) * (1.0 + stretch);
+      intervals_of_stretch = 0;
+    }
+    ++intervals_of_stretch;
     if constexpr (!is_whole) {
       if (!extended && region.leaves_out(begin, end)) {
         end_of_run();
@@ -242,6 +247,13 @@ std::vector<CircleRoot> roots_on_circle(const Function& f, std::size_t pieces, R
       continue;
     }
     if (narrow && found == Content::undecided) found = Content::zero_to_rounding;
+    if constexpr (requires { f.by_terms(0.0); }) {
+      const bool is_exhausted =
+          intervals_of_stretch > max_intervals_per_stretch || 2 * intervals_left < max_intervals_per_piece * pieces;
+      if (is_exhausted && found == Content::undecided && end - begin <= stretch * end) {
+        found = Content::zero_to_rounding;
+      }
+    }
     if (found == Content::zero_to_rounding) {
       if (zero_begin < 0.0) zero_begin = begin;
       zero_end = end;

@@ -97,6 +97,35 @@ PlantPolynomials<Number> plant_polynomials(const std::vector<Entry>& phi, const 
   return plant;
 }
 
+// The wall beside its gains: each filter as polynomials of delta, and 1 - a of the velocity's low-pass.
+template <typename Number>
+struct WallPolynomials {
+  struct Filter {
+    Polynomial<Number> numerator;
+    Polynomial<Number> denominator;
+  };
+  std::vector<Filter> filters;
+  bool has_damper = false;
+  Number low_pass = Number(1.0);  // 1 - a
+};
+
+// As the wall runs: from the coefficients that filter_section() rounds.
+template <typename Number>
+WallPolynomials<Number> rounded_wall(const Wall& wall, double period) {
+  WallPolynomials<Number> result;
+  for (const WallFilter& filter : wall.filters) {
+    const FilterCoefficients delta = in_delta(filter_section(filter, period));
+    auto& section = result.filters.emplace_back();
+    for (const double c : delta.numerator) section.numerator.emplace_back(c);
+    for (const double c : delta.denominator) section.denominator.emplace_back(c);
+  }
+  result.has_damper = wall.damping > 0.0;
+  if (wall.velocity_filter_hz > 0.0) {
+    result.low_pass = Number(-std::expm1(-2.0 * std::numbers::pi * wall.velocity_filter_hz * period));
+  }
+  return result;
+}
+
 // The characteristic polynomial is open + K stiffness + B damping, here of w, which maps the outside of a circle to the
 // right half plane:  z/radius = (1 + w)/(1 - w); with g = radius - 1,  delta = (g + (g + 2) w)/(1 - w). Of delta it is
 //     D (delta + 1 - a) z^l d_F + (K (delta + 1 - a) + B (1 - a)/T delta) n_F (N1 z + N2) z^-1
@@ -104,8 +133,8 @@ template <typename Number>
 class CirclePolynomials {
  public:
   // `samples`: of delay, whole. A wall without damping leaves the damper out.
-  CirclePolynomials(const PlantPolynomials<Number>& plant, std::size_t samples, bool fractional, const Wall& wall,
-                    double period, const Number& g)
+  CirclePolynomials(const PlantPolynomials<Number>& plant, std::size_t samples, bool fractional,
+                    const WallPolynomials<Number>& wall, double period, const Number& g)
       : up_{g, g + Number(2.0)} {
     const std::array<Number, 2> z{Number(1.0) + up_[0], up_[1] - Number(1.0)};  // times 1 - w
     open_ = mapped(plant.denominator);
@@ -117,25 +146,16 @@ class CirclePolynomials {
       for (std::size_t i = 0; i < input.size(); ++i) input[i] += old[i];
     }
     for (std::size_t i = 0; i < samples + (fractional ? 1 : 0); ++i) multiply(open_, z[0], z[1]);
-    for (const WallFilter& filter : wall.filters) {
-      const FilterSection section = filter_section(filter, period);
-      const std::array<double, 3> numerator = whole_numerator(section);
-      Polynomial<Number> n;
-      Polynomial<Number> d;
-      for (std::size_t i = 0; i <= section.degree; ++i) n.emplace_back(numerator[i]);
-      for (std::size_t i = 0; i < section.degree; ++i) d.emplace_back(section.denominator[i]);
-      d.emplace_back(1.0);
-      input = input * mapped(n);
-      open_ = open_ * mapped(d);
+    for (const auto& filter : wall.filters) {
+      input = input * mapped(filter.numerator);
+      open_ = open_ * mapped(filter.denominator);
     }
     while (input.size() < open_.size()) multiply_down(input);
-    if (wall.damping > 0.0) {
-      const double rest =  // 1 - a
-          wall.velocity_filter_hz > 0.0 ? -std::expm1(-2.0 * std::numbers::pi * wall.velocity_filter_hz * period) : 1.0;
-      const Number rate = Number(rest) / Number(period);
+    if (wall.has_damper) {
+      const Number rate = wall.low_pass / Number(period);
       damping_ = input;
       multiply(damping_, up_[0] * rate, up_[1] * rate);
-      const std::array<Number, 2> low_pass{Number(rest) + up_[0], up_[1] - Number(rest)};
+      const std::array<Number, 2> low_pass{wall.low_pass + up_[0], up_[1] - wall.low_pass};
       multiply(open_, low_pass[0], low_pass[1]);
       multiply(input, low_pass[0], low_pass[1]);
     }

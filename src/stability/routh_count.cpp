@@ -94,10 +94,11 @@ RouthCount::RouthCount(const DiscreteStateSpace& plant, const Wall& wall) {
   const Balanced balanced(plant);
   const PlantPolynomials<Bounded> polynomials =
       plant_polynomials<Bounded>(balanced.phi, balanced.gamma1, balanced.gamma2, balanced.output);
+  const WallPolynomials<Bounded> rounded = rounded_wall<Bounded>(wall, plant.period);
   const double apart = std::clamp(beside * balanced.size, least_beside, most_beside);
   const auto circle = [&](double g) {
-    return CirclePolynomials<Bounded>(polynomials, plant.delay_samples, !plant.Gamma2.isZero(0.0), wall, plant.period,
-                                      Bounded(g));
+    return CirclePolynomials<Bounded>(polynomials, plant.delay_samples, !plant.Gamma2.isZero(0.0), rounded,
+                                      plant.period, Bounded(g));
   };
   circles_ = std::make_shared<const Circles>(Circles{circle(-apart), circle(apart)});
 }

@@ -4,7 +4,9 @@
 #include <complex>
 #include <numbers>
 
+#include "stability/gain_locus.hpp"
 #include "stability/plant_fraction.hpp"
+#include "stability/response_bound.hpp"
 #include "stability/root_isolation.hpp"
 
 namespace zwidth::internal {
@@ -16,9 +18,13 @@ using std::numbers::pi;
 // damper's delta cancels one of the plant's integrators: both sides are divided by |delta|² then.
 class UnitGain {
  public:
-  UnitGain(const FilteredPlant& plant, double stiffness, double rate, double c)
-      : plant_(plant), stiffness_(stiffness), rate_(rate), c_(c) {
-    if (stiffness > 0.0) return;
+  UnitGain(const FilteredPlant& plant, const Wall& wall, double rate, double c)
+      : plant_(plant),
+        stiffness_(*wall.stiffness),
+        rate_(rate),
+        c_(c),
+        loop_(plant, GainLocus::Gain::wall, stiffness_, {wall.damping, wall.velocity_filter_hz}) {
+    if (stiffness_ > 0.0) return;
     for (const SampledTerm& term : plant.terms) integrators_ += term.integrators;
   }
 
@@ -27,6 +33,14 @@ class UnitGain {
   [[nodiscard]] BoundedJet<Scalar> model(double begin, double end) const {
     return evaluate(circle_interval<Scalar>(begin, end));
   }
+
+  // |C P|² - 1 from the sum of terms, and where to ask for it: products of many terms may be nothing but rounding.
+  [[nodiscard]] GainLocus::TermSum by_terms(double angle) const {
+    const GainLocus::TermSum loop = loop_.by_terms(angle);
+    const double square = loop.size * loop.size;
+    return {square - 1.0, loop.noise * (2.0 * loop.size + loop.noise), square + 1.0};
+  }
+  [[nodiscard]] std::vector<double> pole_angles() const { return loop_.pole_angles(); }
 
  private:
   template <typename Real>
@@ -48,7 +62,28 @@ class UnitGain {
   double stiffness_;
   double rate_;  // B c / T
   double c_;
+  GainLocus loop_;       // of C P
   int integrators_ = 0;  // of the plant, where one cancels
+};
+
+// Where |C P| < 1 for certain there is no crossover.
+class SmallLoopGain {
+ public:
+  SmallLoopGain(const FilteredPlant& plant, double stiffness, double rate, double c)
+      : bound_(plant), stiffness_(stiffness), rate_(rate), c_(c) {}
+
+  [[nodiscard]] bool leaves_out(double begin, double end) const {
+    constexpr double certainly_less = 1.0 - 1e-9;
+    // |C| <= K + B |v|, |v| = (c/T) |delta/(delta + c)| rises with x.
+    const double controller = stiffness_ + rate_ * std::sqrt(end / (c_ * c_ + (1.0 - c_) * end));
+    return controller * bound_.greatest(begin, end) < certainly_less;
+  }
+
+ private:
+  ResponseBound bound_;
+  double stiffness_;
+  double rate_;  // B c / T
+  double c_;
 };
 
 // c of the velocity filter's pole 1 - c; 1 without one.
@@ -72,7 +107,8 @@ std::vector<UnitGainPoint> unit_gain_points(const FilteredPlant& plant, const Wa
   const double rate = wall.damping * c / plant.period;
   std::vector<UnitGainPoint> points;
   if (stiffness == 0.0 && rate == 0.0) return points;
-  for (const CircleRoot& root : roots_on_circle(UnitGain(plant, stiffness, rate, c), 1)) {
+  for (const CircleRoot& root :
+       roots_on_circle(UnitGain(plant, wall, rate, c), 1, SmallLoopGain(plant, stiffness, rate, c))) {
     points.push_back({root.angle, std::arg(-loop_gain(plant, wall, root.angle))});
   }
   return points;

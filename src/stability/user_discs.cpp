@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "model/modal_forms.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
 
@@ -18,6 +19,10 @@ constexpr double clear_of_modes = 2.5;    // aliases beyond this many times the 
 constexpr double clear_of_corners = 4.0;  // beyond this many times the highest corner frequency its tail begins
 constexpr std::size_t least_exact_aliases = 12;
 constexpr double most_exact_aliases = 20000.0;
+constexpr double lightly_damped = 0.5;      // a zero of Re Y: its distance from the axis over its frequency
+constexpr double exact_enough = 1e-10;      // relative, of the sums
+constexpr double beside_half_plane = 1e-9;  // relative
+constexpr double most_of_product = 1e6;
 constexpr double long_digits = 0x1p-11;  // rounding of a long double, of that of a double
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -66,11 +71,11 @@ UserDiscs::UserDiscs(const Device& device, const Progress& progress)
       plant_(filtered_plant(without_operator(device))) {
   if (!device.has_bodies()) throw Error(ErrorCode::needs_bodies, "a transfer function has no body for a user to hold");
   const Device free = without_operator(device);
-  const auto motion_of = [&](std::size_t body) { return modal_form(free, {held_, body}, ActuatorLag::left_out); };
+  ModalForms forms(free, ActuatorLag::left_out);
   std::vector<ModalForm> motions;
   for (std::size_t i = 0; i < free.bodies().size(); ++i) {
     tell(progress, 0.0);
-    motions.push_back(motion_of(i));
+    motions.push_back(forms.along({held_, i}));
   }
   solved_ = SolvedMotions(free, held_);
   motions_.add(motions[sensed_]);
@@ -92,7 +97,7 @@ UserDiscs::UserDiscs(const Device& device, const Progress& progress)
   held_motion_ = motions[held_];
   sensed_motion_ = motions[sensed_];
   actuated_motion_ = motions[actuated_];
-  through_ = modal_form(free, {actuated_, sensed_}, ActuatorLag::left_out);
+  through_ = forms.along({actuated_, sensed_});
   matrices_ = device_matrices<long double>(free);
   poles_ = held_motion_.terms;
   for (const ModalForm* each : {&through_, &sensed_motion_, &actuated_motion_}) {
@@ -100,6 +105,10 @@ UserDiscs::UserDiscs(const Device& device, const Progress& progress)
   }
   undamped_ = dampings_.empty();
   if (undamped_) return;
+  zeros_ = DissipationZeros(free, pi / period_);
+  undamped_ = zeros_.discs_diverge;
+  if (undamped_) return;
+  find_sharp_images();
   double highest_mode = 0.0;
   double highest_corner = lag_ > 0.0 ? 1.0 / lag_ : 0.0;
   for (const Mode& mode : held_form().modes) {
@@ -109,6 +118,19 @@ UserDiscs::UserDiscs(const Device& device, const Progress& progress)
   for (const Link& link : free.links()) {
     if (link.damping > 0.0) highest_corner = std::max(highest_corner, link.stiffness / link.damping);
   }
+  double highest_zero = 0.0;
+  for (const SharpZero& zero : zeros_.sharp) highest_mode = std::max(highest_mode, zero.frequency);
+  for (const DissipationZeros::Zero& zero : zeros_.others) {
+    if (zero.depth < lightly_damped * zero.position) highest_mode = std::max(highest_mode, zero.position);
+    highest_zero = std::max(highest_zero, std::hypot(zero.position, zero.depth));
+  }
+  highest_corner = std::max(highest_corner, highest_mode);
+  set_rules(highest_mode, highest_corner);
+  // Beyond the highest zero of Re Y the discs fall otherwise than below.
+  if (truncation_ > exact_enough && highest_zero > highest_corner) set_rules(highest_mode, highest_zero);
+}
+
+void UserDiscs::set_rules(double highest_mode, double highest_corner) {
   const double spacing = 2.0 * pi / period_;
   exact_aliases_ = least_exact_aliases + static_cast<std::size_t>(std::min(
                                              std::ceil(clear_of_modes * highest_mode / spacing), most_exact_aliases));
@@ -118,6 +140,7 @@ UserDiscs::UserDiscs(const Device& device, const Progress& progress)
   steady_alias_ = clear_of_corners * highest_corner / spacing;
   rule_ = alias_rule(exact_aliases_, steady_alias_, spacing * delay_);
   const AliasRule finer = alias_rule(2 * exact_aliases_, 4.0 * steady_alias_, spacing * delay_);
+  truncation_ = 0.0;
   for (const double share : {0.03, 0.5, 1.0}) {
     const Disc coarse = summed(rule_, share * pi / period_);
     const Disc fine = summed(finer, share * pi / period_);
@@ -153,9 +176,19 @@ UserDiscs::Density UserDiscs::density(double frequency) const {
 }
 
 UserDiscs::Disc UserDiscs::at(double frequency) const {
-  if (undamped_) return {response(plant_, frequency), infinity, -infinity};
-  return frequency * period_ < clear_angle ? near_zero(frequency, density(frequency), other_aliases(frequency))
-                                           : summed(rule_, frequency);
+  if (undamped_) return {response(plant_, frequency), infinity, -infinity, 1.0};
+  if (sharp_images_.empty()) return scaled_at({0.0, frequency});
+  Disc disc = scaled_at({0.0, frequency});
+  if (!(disc.one > 0.0)) disc = scaled_at({0.0, frequency * (1.0 - beside_half_plane)});
+  return {disc.centre / disc.one, disc.radius / disc.one, disc.power / disc.one, 1.0};
+}
+
+UserDiscs::Disc UserDiscs::scaled_at(const Place& place) const {
+  const double frequency = place.frequency();
+  if (!sharp_images_.empty()) return with_others(place, other_aliases(frequency), frequency).disc;
+  return frequency * period_ < clear_angle
+             ? near_zero(frequency, scaled_density(place, 0.0, 1.0), other_aliases(frequency))
+             : summed(rule_, frequency);
 }
 
 /// F (1 - e^{-jwT}) e^{-jwt_d}/T. Its phase keeps its digits towards w = 0, where it is all that counts.
@@ -185,6 +218,7 @@ UserDiscs::OtherAliases UserDiscs::sum_of_aliases(double frequency, std::size_t 
   for (std::size_t i = first; i < end; ++i) {
     const AliasRule::Node& node = rule_.nodes[i];
     for (const double side : {1.0, -1.0}) {
+      if (is_sharp(node.number, side)) continue;
       const double at_alias = node.number * spacing + side * frequency;
       const std::complex<double> disc = disc_density(at_alias);
       const std::complex<double> s(0.0, at_alias);
@@ -242,7 +276,7 @@ std::complex<double> UserDiscs::kept_motion(double frequency) const {
 ///     c_0 = G_sa - D = jw G_sa (X - conj G_hh)/(2R),   |c_0|² - r_0² = |G_sa|²/R Re[jw X],   R = Re Y
 ///
 /// In this form neither difference loses digits; real and imaginary part of each factor keep their own.
-UserDiscs::Disc UserDiscs::near_zero(double frequency, const Density& own, const OtherAliases& others) const {
+UserDiscs::Disc UserDiscs::near_zero(double frequency, const ScaledDensity& own, const OtherAliases& others) const {
   const std::complex<double> factor = shared_factor(frequency);
   const std::complex<double> lag(1.0, lag_ * frequency);
   const std::complex<double> through = response(through_, frequency) / lag;
@@ -251,38 +285,50 @@ UserDiscs::Disc UserDiscs::near_zero(double frequency, const Density& own, const
   // Where the user hardly reaches the wall's loop, and at a frequency where it cannot, X and conj G_hh are nearly the
   // same, and G_sa - D loses less.
   const std::complex<double> free = through / std::complex<double>(0.0, frequency);
-  const std::complex<double> difference = free - own.value;
-  const double lost = (std::abs(free) + std::abs(own.value)) / std::abs(difference);
-  const bool is_product = std::abs(kept) + std::abs(held) < lost * std::abs(kept - held);
+  const std::complex<double> difference = own.measure * free - own.value;
+  const double lost = (own.measure * std::abs(free) + std::abs(own.value)) / std::abs(difference);
+  const bool has_product = own.of_product < most_of_product;
+  const bool is_product = has_product && std::abs(kept) + std::abs(held) < lost * std::abs(kept - held);
+  const double by_conductance = own.of_product / own.conductance;
   const std::complex<double> own_centre =
-      factor * (is_product ? through * (kept - held) / (2.0 * own.conductance) : difference);
+      factor * (is_product ? through * (kept - held) * (0.5 * by_conductance) : difference);
   const double own_radius = std::abs(factor) * std::abs(own.value);
-  double own_power = (std::abs(own_centre) - own_radius) * (std::abs(own_centre) + own_radius);
-  const double lost_in_power = (std::norm(own_centre) + own_radius * own_radius) / std::abs(own_power);
-  if (is_product || long_digits * std::abs(kept) < lost_in_power * lost * std::abs(kept.imag())) {
-    own_power = std::norm(factor / frequency) * std::norm(through) * (-frequency * kept.imag()) / own.conductance;
+  // Over the measure, which |c_0|² - r_0² has once.
+  const bool is_plain = own.measure == 1.0;
+  const double both = std::norm(free) * own.measure + 2.0 * std::abs(free) * std::abs(own.value);
+  double own_power =
+      is_plain ? (std::abs(own_centre) - own_radius) * (std::abs(own_centre) + own_radius)
+               : std::norm(factor) * (std::norm(free) * own.measure - 2.0 * (free * std::conj(own.value)).real());
+  const double size_of_power = is_plain ? std::norm(own_centre) + own_radius * own_radius : std::norm(factor) * both;
+  const double lost_in_power = size_of_power / std::abs(own_power);
+  if (is_product || (has_product && long_digits * std::abs(kept) < lost_in_power * lost * std::abs(kept.imag()))) {
+    own_power = std::norm(factor / frequency) * std::norm(through) * (-frequency * kept.imag()) * by_conductance;
   }
-  const std::complex<double> centre = factor * others.centre;
-  const double radius = std::abs(factor) * others.radius;
-  return {own_centre + centre, own_radius + radius,
-          own_power + 2.0 * (own_centre * std::conj(centre)).real() - 2.0 * own_radius * radius + std::norm(centre) -
-              radius * radius};
+  return joined({own_centre, own_radius, own_power, own.measure}, own.measure, factor, others);
 }
 
-UserDiscs::SplitDisc UserDiscs::with_others(double frequency, const OtherAliases& others, double unit) const {
-  const Density own = density(frequency);
+UserDiscs::Disc UserDiscs::clear_of_zero(double frequency, const ScaledDensity& own, const OtherAliases& others) const {
   const std::complex<double> shared = shared_factor(frequency);
-  SplitDisc split;
-  split.shared = std::abs(shared);
-  if (frequency * period_ < clear_angle) {
-    split.disc = near_zero(frequency, own, others);
-  } else {
-    const std::complex<double> s(0.0, frequency);
-    const std::complex<double> own_centre = response(through_, frequency) / (s * (1.0 + lag_ * s)) - own.value;
-    const std::complex<double> centre = shared * (own_centre + others.centre);
-    const double radius = split.shared * (std::abs(own.value) + others.radius);
-    split.disc = {centre, radius, (std::abs(centre) - radius) * (std::abs(centre) + radius)};
+  const std::complex<double> s(0.0, frequency);
+  const std::complex<double> free = response(through_, frequency) / (s * (1.0 + lag_ * s));
+  if (sharp_images_.empty()) {
+    const std::complex<double> centre = shared * (free - own.value + others.centre);
+    const double radius = std::abs(shared) * (std::abs(own.value) + others.radius);
+    return {centre, radius, (std::abs(centre) - radius) * (std::abs(centre) + radius), 1.0};
   }
+  const double power = std::norm(shared) * (std::norm(free) * own.measure - 2.0 * (free * std::conj(own.value)).real());
+  return joined({shared * (own.measure * free - own.value), std::abs(shared) * std::abs(own.value), power, own.measure},
+                own.measure, shared, others);
+}
+
+UserDiscs::SplitDisc UserDiscs::with_others(const Place& place, const OtherAliases& others, double unit) const {
+  const double frequency = place.frequency();
+  const ScaledDensity own = scaled_density(place, 0.0, 1.0);
+  SplitDisc split;
+  split.shared = std::abs(shared_factor(frequency));
+  split.disc =
+      frequency * period_ < clear_angle ? near_zero(frequency, own, others) : clear_of_zero(frequency, own, others);
+  if (!sharp_images_.empty()) add_sharp_aliases(place, split.disc);
   // A term s² + d1 s + d0; an integrator's s is in the conductance's poles no more.
   split.factor = own.conductance;
   for (const ModalTerm& term : poles_) {
@@ -306,10 +352,12 @@ UserDiscs::Disc UserDiscs::summed(const AliasRule& rule, double frequency) const
   double radius = 0.0;
   for (const AliasRule::Node& node : rule.nodes) {
     const double offset = node.number * spacing;
-    const std::complex<double> above = disc_density(offset + frequency);
-    shift += node.turning * above * late;
-    radius += node.still * size_of(above);
-    if (node.number == 0.0) continue;
+    if (!is_sharp(node.number, 1.0)) {
+      const std::complex<double> above = disc_density(offset + frequency);
+      shift += node.turning * above * late;
+      radius += node.still * size_of(above);
+    }
+    if (node.number == 0.0 || is_sharp(node.number, -1.0)) continue;
     const std::complex<double> below = disc_density(offset - frequency);
     shift += std::conj(node.turning * below) * late;
     radius += node.still * size_of(below);
@@ -320,7 +368,7 @@ UserDiscs::Disc UserDiscs::summed(const AliasRule& rule, double frequency) const
   const std::complex<double> filters = filter_response(plant_, frequency * period_);
   const std::complex<double> centre = response(plant_, frequency) - filters * hold * shift;
   const double size = std::abs(filters * hold) * radius;
-  return {centre, size, (std::abs(centre) - size) * (std::abs(centre) + size)};
+  return {centre, size, (std::abs(centre) - size) * (std::abs(centre) + size), 1.0};
 }
 
 AliasRule UserDiscs::rule_slope() const {

@@ -85,9 +85,10 @@ WallCondition::Answer judge(const Bernstein& b, const Errors& errors, double beg
 
 }  // namespace
 
-WallCondition::Terms WallCondition::terms(const UserDiscs::Disc& disc, std::complex<double> damper) {
-  return {1.0 + 2.0 * (damper * disc.centre).real() + disc.power * std::norm(damper),
-          disc.centre.real() + disc.power * damper.real(), disc.power};
+WallCondition::Terms WallCondition::terms(const UserDiscs::Disc& disc, const WallResponse& wall) {
+  const auto& [unit, closed] = wall;
+  return {disc.one + 2.0 * (closed * disc.centre).real() + disc.power * std::norm(closed),
+          (unit * disc.centre).real() + disc.power * (unit * std::conj(closed)).real(), disc.power * std::norm(unit)};
 }
 
 /// Whether |a| <= 1e-11 b at all nodes: rounding.
@@ -154,11 +155,11 @@ void WallCondition::look_at_zero(const NearZero& terms) {
 }
 
 WallCondition::WallCondition(const DiscPieces::Piece& piece,
-                             const std::array<std::complex<double>, interpolation_points>& dampers)
-    : nodes_(piece.nodes), dampers_(dampers) {
-  is_undamped_ = std::all_of(dampers.begin(), dampers.end(), [](std::complex<double> each) { return each == 0.0; });
-  for (std::size_t i = 0; i < interpolation_points; ++i) terms_[i] = terms(nodes_[i].disc, dampers_[i]);
-  if (piece.begin != 0.0) return;
+                             const std::array<WallResponse, interpolation_points>& walls)
+    : nodes_(piece.nodes), walls_(walls) {
+  is_undamped_ = std::all_of(walls.begin(), walls.end(), [](const WallResponse& each) { return each.closed == 0.0; });
+  for (std::size_t i = 0; i < interpolation_points; ++i) terms_[i] = terms(nodes_[i].disc, walls_[i]);
+  if (!piece.begins_at_rest()) return;
   InterpolationValues x{};
   InterpolationValues constant{};
   InterpolationValues half{};
@@ -187,13 +188,13 @@ WallCondition::WallCondition(const DiscPieces::Piece& piece,
 /// f(K1) at a node, by the difference of which less is lost: near a root of 1 + C c, and where c grows without bound.
 double WallCondition::last_at(std::size_t node, double stiffness) const {
   const UserDiscs::Disc& disc = nodes_[node].disc;
-  const std::complex<double> wall = stiffness + dampers_[node];
-  const double apart = std::abs(1.0 + wall * disc.centre);
+  const std::complex<double> wall = stiffness * walls_[node].unit + walls_[node].closed;
+  const double apart = std::abs(disc.one + wall * disc.centre);
   const double reach = std::abs(wall) * disc.radius;
   const auto& [constant, half, quadratic] = terms_[node];
-  const double lost = apart * (1.0 + std::abs(wall * disc.centre)) + reach * reach;
+  const double lost = apart * (disc.one + std::abs(wall * disc.centre)) + reach * reach;
   const double lost_in_sum = std::abs(constant) + stiffness * (2.0 * std::abs(half) + stiffness * std::abs(quadratic));
-  if (lost < lost_in_sum) return (apart - reach) * (apart + reach);
+  if (lost < lost_in_sum * disc.one) return (apart - reach) * (apart + reach) / disc.one;
   return constant + stiffness * (2.0 * half + stiffness * quadratic);
 }
 
@@ -210,20 +211,22 @@ WallCondition::Answer WallCondition::up_to(double stiffness) const {
     values.quadratic[i] = node.factor * at.quadratic;
     // What an error of centre and radius makes of them.
     const double error = node.factor * node.error;
+    const double one = node.disc.one;
     const double size = std::abs(node.disc.centre) + node.disc.radius;
-    const double damper = std::abs(dampers_[i]);
-    const std::complex<double> wall = stiffness + dampers_[i];
-    const double apart = std::abs(1.0 + wall * node.disc.centre) + std::abs(wall) * node.disc.radius;
-    const double of_constant = 2.0 * error * damper * (1.0 + damper * size);
+    const double unit = std::abs(walls_[i].unit);
+    const double damper = std::abs(walls_[i].closed);
+    const std::complex<double> wall = stiffness * walls_[i].unit + walls_[i].closed;
+    const double apart = std::abs(one + wall * node.disc.centre) + std::abs(wall) * node.disc.radius;
+    const double of_constant = 2.0 * error * damper * (one + damper * size);
     errors.constant = std::max(errors.constant, of_constant);
-    errors.middle = std::max(errors.middle, of_constant + stiffness * error * (1.0 + 2.0 * damper * size));
+    errors.middle = std::max(errors.middle, of_constant + stiffness * error * unit * (one + 2.0 * damper * size));
     errors.last = std::max(errors.last, 2.0 * error * std::abs(wall) * apart);
-    errors.quadratic = std::max(errors.quadratic, 2.0 * error * size);
+    errors.quadratic = std::max(errors.quadratic, 2.0 * error * size * unit * unit);
     values.discriminant[i] = node.factor * node.factor * (at.constant * at.quadratic - at.half * at.half);
-    const double of_p = of_constant + rounding_of_terms * node.factor * (1.0 + damper * size) * (1.0 + damper * size);
-    const double of_q =
-        error * (1.0 + 2.0 * damper * size) + rounding_of_terms * node.factor * size * (1.0 + damper * size);
-    const double of_a = 2.0 * error * size + rounding_of_terms * node.factor * size * size;
+    const double rounding = rounding_of_terms * node.factor / one;
+    const double of_p = of_constant + rounding * (one + damper * size) * (one + damper * size);
+    const double of_q = unit * (error * (one + 2.0 * damper * size) + rounding * size * (one + damper * size));
+    const double of_a = unit * unit * (2.0 * error * size + rounding * size * size);
     errors.discriminant = std::max(
         errors.discriminant,
         node.factor * (std::abs(at.constant) * of_a + std::abs(at.quadratic) * of_p + 2.0 * std::abs(at.half) * of_q) +

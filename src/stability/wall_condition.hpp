@@ -4,17 +4,20 @@
 #include <complex>
 #include <optional>
 
+#include "stability/damper_response.hpp"
 #include "stability/disc_pieces.hpp"
 
 namespace zwidth::internal {
 
-/// The condition that no passive user destabilises the wall C = K + B v, at all K up to some stiffness and on a whole
-/// interval of frequencies: with A = |c|² - r² and d = B v
+/// The condition that no passive user destabilises the wall C = K u + d (see WallResponse), at all gains K up to some one
+/// and on a whole interval of frequencies: with A = |c|² - r²
 ///
-///     f(K) = |1 + C c|² - |C|² r² = p + 2 q K + A K² > 0,    p = 1 + 2 Re[d c] + A |d|²,   q = Re c + A Re d
+///     f(K) = |1 + C c|² - |C|² r² = p + 2 q K + A |u|² K² > 0
+///     p = 1 + 2 Re[d c] + A |d|²,   q = Re[u c] + A Re[u conj d]
 ///
-/// times a positive factor that makes p, q and A smooth. f > 0 at all 0 < K <= K1 if p >= 0, f(K1) > 0 and one of
-/// A < 0, p + q K1 > 0, (p + q K1)² < p f(K1); the last is p A > q² too, where the difference of products that are
+/// (all over the disc's `one`, which takes the place of 1 and is 0 where the disc is a half plane), times a positive factor
+/// that makes p, q and A smooth. f > 0 at all 0 < K <= K1 if p >= 0, f(K1) > 0 and one of
+/// A < 0, p + q K1 > 0, (p + q K1)² < p f(K1); the last is p A |u|² > q² too, where the difference of products that are
 /// nearly alike is one polynomial.
 class WallCondition {
  public:
@@ -22,12 +25,12 @@ class WallCondition {
   struct Terms {
     double constant = 0.0;   // p
     double half = 0.0;       // q
-    double quadratic = 0.0;  // A
+    double quadratic = 0.0;  // A |u|²
   };
-  [[nodiscard]] static Terms terms(const UserDiscs::Disc& disc, std::complex<double> damper);
+  [[nodiscard]] static Terms terms(const UserDiscs::Disc& disc, const WallResponse& wall);
 
-  /// On a piece; `dampers`: B v at its nodes, all 0 where B is 0.
-  WallCondition(const DiscPieces::Piece& piece, const std::array<std::complex<double>, interpolation_points>& dampers);
+  /// On a piece; `walls`: at its nodes.
+  WallCondition(const DiscPieces::Piece& piece, const std::array<WallResponse, interpolation_points>& walls);
 
   enum class Verdict { holds, broken, undecided };
   struct Answer {
@@ -46,9 +49,9 @@ class WallCondition {
   [[nodiscard]] double last_at(std::size_t node, double stiffness) const;
 
   std::array<DiscPieces::Node, interpolation_points> nodes_;
-  std::array<std::complex<double>, interpolation_points> dampers_;
+  std::array<WallResponse, interpolation_points> walls_;
   std::array<Terms, interpolation_points> terms_;
-  bool is_undamped_ = false;      // B = 0: p is the factor, positive as it stands
+  bool is_undamped_ = false;      // d = 0: p is the factor, positive as it stands
   bool holds_for_all_k_ = false;  // f has no root K > 0 on the piece
   std::optional<double> at_zero_;
 };

@@ -61,11 +61,19 @@ void find_phase_margins(const FilteredPlant& plant, const Wall& wall, LoopMargin
   }
 }
 
-// Without a spring: the pole at z = 1 of a free device stays, and without a damper those of undamped modes.
-bool keeps_pole_on_circle(const FilteredPlant& plant, const Wall& wall) {
-  return std::any_of(plant.terms.begin(), plant.terms.end(), [&wall](const SampledTerm& term) {
-    return term.integrators > 0 || (term.undamped_pairs > 0 && wall.damping == 0.0);
-  });
+// Without a spring and a damper: undamped modes, and the speed of what nothing damps. The position that nothing holds, one
+// pole at z = 1, is no instability.
+bool keeps_moving(const FilteredPlant& plant, const Wall& wall) {
+  return wall.damping == 0.0 && std::any_of(plant.terms.begin(), plant.terms.end(), [](const SampledTerm& term) {
+           return term.integrators > 1 || term.undamped_pairs > 0;
+         });
+}
+
+// Whether every pole counts, or the one at z = 1 of a position that nothing holds is left out.
+CountedPoles holds_position(const FilteredPlant& plant, const Wall& wall) {
+  const bool is_free = std::any_of(plant.terms.begin(), plant.terms.end(),
+                                   [](const SampledTerm& term) { return term.integrators > 0; });
+  return *wall.stiffness == 0.0 && is_free ? CountedPoles::but_free_position : CountedPoles::all;
 }
 
 }  // namespace
@@ -75,9 +83,9 @@ LoopMargins loop_margins(const FilteredPlant& plant, const Wall& wall) {
   const double stiffness = *wall.stiffness;
   const VirtualDamper damper{wall.damping, wall.velocity_filter_hz};
   LoopMargins margins;
-  if (stiffness == 0.0) {  // a free device keeps its pole at z = 1: not asymptotically stable
+  if (stiffness == 0.0) {
     const GainCrossings by_damping = damping_crossings(plant, damper);
-    margins.stable = !keeps_pole_on_circle(plant, wall) && unstable_poles(by_damping, wall.damping) == 0;
+    margins.stable = !keeps_moving(plant, wall) && unstable_poles(by_damping, wall.damping) == 0;
     if (margins.stable && wall.damping > 0.0) find_gain_margins(by_damping, wall.damping, margins);
   } else {
     const GainCrossings by_stiffness = stiffness_crossings(plant, damper);
@@ -105,7 +113,8 @@ WallMargins wall_margins(const Device& device) {
     margins.spectral_radius = spectral_radius_by_winding(plant, wall);
   } else {
     const Sampling sampling{device.loop().sampling_period, device.loop().delay};
-    margins.spectral_radius = 1.0 + stability_excess(sample(state_space(device), sampling), wall);
+    const DiscreteStateSpace sampled = sample(state_space(device), sampling);
+    margins.spectral_radius = 1.0 + stability_excess(sampled, wall, holds_position(plant, wall));
   }
   if (margins.stable) margins.delay_margin = exact_delay_margin(device);
   return margins;

@@ -217,6 +217,37 @@ std::vector<double> frequencies_to_try(const Device& device, const UserDiscs& di
   return frequencies;
 }
 
+/// The mass or spring that resonates with the device at a zero of Re Y or beside it, where it is hardly damped, of the
+/// least critical stiffness above the limit; poles counted with a hundred digits must agree.
+std::optional<WorstUser> tuned_user(const Device& device, const UserDiscs& discs, const AnyUserLimit& limit,
+                                    VirtualDamper damper) {
+  constexpr double detunings[] = {0.0, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3};  // relative
+  std::optional<WorstUser> worst;
+  for (const SharpZero& zero : discs.zeros().sharp) {
+    for (const double detuning : detunings) {
+      for (const double side : {1.0, -1.0}) {
+        const double frequency = zero.frequency * (1.0 + side * detuning);
+        // Y + 1/(jX) = 0
+        const double reactance = 1.0 / (frequency * response(discs.held_form(), frequency).real());
+        if (!std::isfinite(reactance) || reactance == 0.0) continue;
+        UserNetwork user;
+        (reactance > 0.0 ? user.mass : user.stiffness) =
+            reactance > 0.0 ? reactance / frequency : -reactance * frequency;
+        DeviceParameters held = held_by(device, user).parameters();
+        const CriticalStiffness critical = critical_stiffness(filtered_plant(Device(held)), damper);
+        if (!critical.limit || !(critical.stiffness >= limit.stiffness)) continue;
+        if (worst && critical.stiffness >= worst->critical_stiffness) continue;
+        held.wall.damping = damper.damping;
+        held.wall.velocity_filter_hz = damper.velocity_filter_hz;
+        const Device walled(std::move(held));
+        if (PoleCount(walled).in_digits(critical.stiffness * (1.0 + beyond)).value_or(0) <= 0) continue;
+        worst = WorstUser{std::move(user), critical.stiffness, critical.limit->frequency};
+      }
+    }
+  }
+  return worst;
+}
+
 }  // namespace
 
 Device held_by(const Device& device, const UserNetwork& user) {
@@ -261,6 +292,10 @@ std::optional<WorstUser> worst_user(const Device& device, const AnyUserLimit& li
     }
   }
   if (best != nullptr && !is_reached()) try_absorbers(*best, most_absorbers);
+  if (!is_reached()) {
+    auto tuned = tuned_user(device, discs, limit, damper);
+    if (tuned && !(worst && worst->critical_stiffness <= tuned->critical_stiffness)) worst = std::move(tuned);
+  }
   tell(progress, 1.0);
   return worst;
 }

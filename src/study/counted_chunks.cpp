@@ -9,6 +9,11 @@
 
 #include "staged_progress.hpp"
 #include "study/study_parts.hpp"
+#include "zwidth/error.hpp"
+#include "zwidth/model/device_operator.hpp"
+#include "zwidth/quantity.hpp"
+#include "zwidth/remark.hpp"
+#include "zwidth/stability/held_wall.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -212,6 +217,26 @@ StiffnessHistogram histogram_of(const StudyRun& run, const ChunkSource& chunks, 
   return histogram;
 }
 
+/// What stays without an answer is NaN: the units tell why.
+void add_nominal_limits(const Device& device, Study& study) {
+  try {
+    study.limits.nobody = limit_of_holder(critical_stiffness(without_operator(device)));
+    if (has_operator(device)) study.limits.user = limit_of_holder(critical_stiffness(device));
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::did_not_converge) throw;
+  }
+  if (!study.limits.user) return;
+  const auto unit = units_of(device.parameters().motion).stiffness;
+  const double alone = study.limits.nobody.critical_stiffness;
+  if (!(alone < study.limits.user->critical_stiffness)) return;
+  study.remarks.push_back(
+      {Remark::Severity::warning,
+       fmt::format("all limits are with the file's user; with nobody holding the device of the file has {}",
+                   quantity(alone, unit)),
+       "a person lets go, and units that reach the specification may shake then",
+       "leave [operator] out of the file to study the device that nobody holds"});
+}
+
 }  // namespace
 
 std::string reason_of(const BatchStiffness& answers, std::size_t i) {
@@ -232,6 +257,7 @@ CountedChunks count_chunks(const StudyRun& run, const ChunkSource& chunks, const
   const double largest = counter.largest();
   CountedChunks counted{std::move(counter).study(), lows, any_user_lows};
   Study& study = counted.study;
+  add_nominal_limits(run.device(), study);
   if (study.trust.refused()) {
     study.failed.clear();
     study.yield = study.critical_stiffness_yield = study.any_user_yield = std::nullopt;

@@ -70,8 +70,8 @@ TEST_F(Analyze, RequireStableFailsWhereTheWallIsNotStableOrTheAnswerNotSound) {
   EXPECT_EQ(run(stable).status, 0);
   const Outcome unstable = run("zwidth analyze devices/lhifam.toml --set wall.stiffness=9000 --require-stable");
   EXPECT_EQ(unstable.status, 1);
-  EXPECT_THAT(unstable.errors, HasSubstr("devices/lhifam.toml: the wall is unstable"));
-  EXPECT_THAT(unstable.output, HasSubstr("UNSTABLE"));
+  EXPECT_THAT(unstable.errors, HasSubstr("devices/lhifam.toml: the wall is unstable with nobody holding"));
+  EXPECT_THAT(unstable.output, HasSubstr("is unstable: "));
   const Outcome doubtful = run(stable + " --set 'uncertainty.warning=\"misfit\"'");
   EXPECT_EQ(doubtful.status, 1) << doubtful.output;
   EXPECT_THAT(doubtful.errors, HasSubstr("DOUBTFUL: misfit"));
@@ -127,9 +127,63 @@ TEST_F(Analyze, JudgesTheWallOnBothSidesOfTheLimit) {
 TEST_F(Analyze, TextLeadsWithTheAnswer) {
   const Outcome outcome = run("zwidth analyze devices/lhifam.toml");
   EXPECT_EQ(outcome.status, 0);
-  EXPECT_THAT(outcome.output, HasSubstr("\n  critical stiffness  8.849 kN/m (78.94 dB re 1 N/m)\n"
-                                        "  any passive user    5.776 kN/m, worst at 41.36 Hz\n"
-                                        "  oscillates at       6.143 Hz (38.6 rad/s)\n"));
+  std::istringstream lines(outcome.output);
+  std::vector<std::string> first(5);
+  for (std::string& line : first) std::getline(lines, line);
+  EXPECT_EQ(first[0], "LHIfAM, translational axis" + std::string(61, ' ') + "sound");
+  EXPECT_THAT(first[1],
+              StartsWith("  spring alone    nobody holding     8.849 kN/m, then shakes at 6.143 Hz: the rigid "
+                         "body and the sampling delay of T/2 = 500 "));
+  EXPECT_EQ(first[2], "                  any passive user   5.776 kN/m, worst at 41.36 Hz");
+  EXPECT_THAT(first[3], StartsWith("  with a damper   any passive user   up to 187."));
+  EXPECT_THAT(first[4], AllOf(StartsWith("  with margins    any passive user   25.19 kN/m, B = 238.5 N s/m"),
+                              ::testing::EndsWith("       zwidth design FILE --recommend")));
+}
+
+TEST_F(Analyze, WallsAreThoseOfTheRegionAndTheRecommendation) {
+  EXPECT_TRUE(documents("zwidth analyze devices/lhifam.toml --json").front()["walls"].is_null());
+  const json walls = documents("zwidth analyze devices/lhifam.toml --json --walls").front()["walls"];
+  const json stiffest = documents("zwidth region devices/lhifam.toml --json").front()["any_user"]["stiffest"];
+  EXPECT_NEAR(walls["with_damper"]["stiffness"].get<double>() / stiffest["stiffness"].get<double>(), 1.0, 2e-3);
+  const json run = documents("zwidth design devices/lhifam.toml --recommend --json").front();
+  EXPECT_EQ(walls["with_margins"]["stiffness"], run["wall"]["stiffness"]);
+  EXPECT_EQ(walls["with_margins"]["damping"], run["wall"]["damping"]);
+  EXPECT_EQ(walls["with_margins"]["velocity_filter_hz"], run["wall"]["velocity_filter_hz"]);
+}
+
+// A person lets go: the knob was called stable, exit status 0, with a tenth of the limit left.
+TEST_F(Analyze, RequireStableJudgesNobodyAndTheFilesUser) {
+  const std::string knob =
+      "motion = \"rotary\"\n[[body]]\nname = \"knob\"\ninertia = 2e-3\ndamping = 7.1e-3\n[loop]\nsampling_period = "
+      "1e-3\n[operator]\ndamping = 6.5e-2\n[wall]\nstiffness = ";
+  write("knob.toml", knob + "40\n");
+  const Outcome shakes = run("zwidth analyze knob.toml --require-stable --json");
+  EXPECT_EQ(shakes.status, 1);
+  EXPECT_THAT(shakes.errors, HasSubstr("knob.toml: the wall is unstable with nobody holding"));
+  const json document = json::parse(shakes.output);
+  EXPECT_EQ(document["wall"]["stable"], false);
+  EXPECT_EQ(document["wall"]["stable_for"], (json{{"nobody", false}, {"user", true}, {"any_user", false}}));
+  EXPECT_NEAR(document["limits"]["nobody"]["critical_stiffness"].get<double>(), 14.2, 0.05);
+  EXPECT_EQ(document["limits"]["user"]["critical_stiffness"], document["critical_stiffness"]);
+  write("soft.toml", knob + "10\n");
+  EXPECT_EQ(run("zwidth analyze soft.toml --require-stable").status, 0);
+}
+
+// Nothing returns a damped wheel to a place: that is no instability.
+TEST_F(Analyze, RequireStableOfADamperAlone) {
+  const std::string wheel = "motion = \"rotary\"\n[[body]]\nname = \"wheel\"\n";
+  write("wheel.toml", wheel +
+                          "inertia = 0.05\ndamping = 0.01\n[loop]\nsampling_period = 1e-3\n"
+                          "[wall]\nstiffness = 0\ndamping = 0.5\n");
+  EXPECT_EQ(run("zwidth analyze wheel.toml --require-stable").status, 0);
+  write("rotor.toml", wheel +
+                          "inertia = 2e-6\ndamping = 2e-5\n[loop]\nsampling_period = 1e-3\ndelay = 1e-3\n"
+                          "[wall]\nstiffness = 0\ndamping = 0.006\n");
+  const Outcome rotor = run("zwidth analyze rotor.toml --require-stable --json");
+  EXPECT_EQ(rotor.status, 1);
+  const json document = json::parse(rotor.output);
+  EXPECT_NEAR(document["wall"]["spectral_radius"].get<double>(), 1.569, 5e-4);
+  EXPECT_LT(document["limits"]["nobody"]["critical_damping"].get<double>(), 0.006);
 }
 
 TEST_F(Analyze, ReadsStandardInput) {
@@ -244,7 +298,8 @@ TEST_F(Analyze, RotaryDevicesHaveRotaryUnits) {
         "1e-3\n");
   const json document = documents("zwidth analyze paddle.toml --json").front();
   EXPECT_EQ(document["units"], (json{{"stiffness", "N m/rad"}, {"damping", "N m s/rad"}}));
-  EXPECT_THAT(run("zwidth analyze paddle.toml").output, HasSubstr(" dB re 1 N m/rad)"));
+  EXPECT_THAT(run("zwidth analyze paddle.toml").output,
+              AllOf(HasSubstr(" N m/rad, then shakes at "), HasSubstr("damper alone ")));
 }
 
 TEST_F(Analyze, AnUndampedDeviceHasNoStableWall) {

@@ -14,6 +14,7 @@ namespace {
 
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 class Design : public Workspace {};
@@ -124,6 +125,62 @@ TEST_F(Design, TargetsAreConfirmedByAnalyze) {
   EXPECT_THAT(text.output, HasSubstr("loop.sampling_period"));
 }
 
+TEST_F(Design, ATargetIsAStiffnessOrAMultipleOfTodays) {
+  const auto target = [&](const std::string& text) {
+    const Outcome outcome = run("zwidth design devices/lhifam_rigid.toml --json --target " + text);
+    EXPECT_EQ(outcome.status, 0) << outcome.errors;
+    const auto document = nlohmann::json::parse(outcome.output);
+    return document["target"].get<double>() / document["stiffness_now"].get<double>();
+  };
+  EXPECT_DOUBLE_EQ(target("2x"), 2.0);
+  EXPECT_DOUBLE_EQ(target("'200 %'"), 2.0);
+  EXPECT_DOUBLE_EQ(target("150%"), 1.5);
+  EXPECT_NEAR(target("'14 kN/m'") / target("14000"), 1.0, 1e-12);
+}
+
+TEST_F(Design, TargetsAndChangesAreJudgedForAnyUser) {
+  const Outcome outcome = run("zwidth design devices/lhifam.toml --target 12000 --json");
+  const auto document = nlohmann::json::parse(outcome.output);
+  EXPECT_NEAR(document["any_user_now"].get<double>(), 5776.09, 0.01);
+  bool lowers_before = false;
+  for (const auto& each : document["targets"]) {
+    EXPECT_FALSE(each["parameter"].get<std::string>().starts_with("operator."));
+    EXPECT_EQ(each["safe"].is_null(), each["value_needed"].is_null()) << each;
+    if (each["value_needed"].is_null()) continue;
+    EXPECT_EQ(each["safe"], each["any_user_then"] >= document["any_user_now"].get<double>() * (1.0 - 1e-9)) << each;
+    EXPECT_FALSE(lowers_before && each["safe"] == true) << each;
+    lowers_before = each["safe"] == false;
+  }
+  const Outcome text = run("zwidth design devices/lhifam.toml --target 12000");
+  EXPECT_THAT(text.output, HasSubstr("any passive user then"));
+  EXPECT_THAT(text.output, HasSubstr("x 4.72"));  // link.0.damping: +372 %
+  EXPECT_THAT(text.output, Not(HasSubstr("372 %")));
+}
+
+TEST_F(Design, ADamperAloneIsAGoal) {
+  const auto answer = [&](const std::string& options) {
+    const Outcome outcome = run("zwidth design devices/lhifam.toml --json " + options);
+    EXPECT_EQ(outcome.status, 0) << outcome.errors;
+    return nlohmann::json::parse(outcome.output);
+  };
+  const auto target = answer("--goal damper --target 2x");
+  EXPECT_EQ(target["goal"], "critical_damping");
+  EXPECT_TRUE(target["stiffness_now"].is_null());
+  EXPECT_NEAR(target["target"].get<double>() / target["damping_now"].get<double>(), 2.0, 1e-12);
+  EXPECT_EQ(answer("--goal damper --target '0.3 kN s/m' --any-user")["goal"], "any_user_damping");
+  const auto recommended = answer("--goal damper --recommend");
+  EXPECT_EQ(recommended["goal"], "damper");
+  EXPECT_EQ(recommended["wall"]["stiffness"], 0.0);
+  EXPECT_GE(recommended["margins"]["any_user_critical_damping"].get<double>(),
+            1.99 * recommended["wall"]["damping"].get<double>());
+  // The file that it writes is judged stable for anyone.
+  const Outcome written = run("zwidth design devices/lhifam.toml --recommend --goal damper --write damper.toml");
+  ASSERT_EQ(written.status, 0) << written.errors;
+  const Outcome judged = run("zwidth analyze damper.toml --json --require-stable");
+  EXPECT_EQ(judged.status, 0) << judged.errors;
+  EXPECT_THAT(run("zwidth design devices/lhifam.toml --goal damper --target 2x").output, HasSubstr("critical damping"));
+}
+
 TEST_F(Design, RefusesWhatItCannotDoBeforeAnyWork) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"devices/lhifam.toml --sweep loop.delay", "has no KEY="},
@@ -150,7 +207,12 @@ TEST_F(Design, RefusesWhatItCannotDoBeforeAnyWork) {
       {"devices/lhifam.toml --operator 1,2,3", "--compare"},
       {"devices/lhifam.toml --target 0", "--target: is 0"},
       {"devices/lhifam.toml --target nan", "--target: is nan"},
+      {"devices/lhifam.toml --target 0x", "--target: is 0 times"},
+      {"devices/lhifam.toml --target twox", "is no multiple of today's limit"},
+      {"devices/lhifam.toml --target '3 kg'", "--target: "},
       {"devices/lhifam.toml --target 1e4 --notch", "excludes"},
+      {"devices/lhifam.toml --target 1e4 --goal width", "--goal: width is not for a target"},
+      {"devices/lhifam.toml --goal damper", "--goal: is for a notch"},
       {"devices/lhifam.toml --compare sensed", "KEY=VALUE,VALUE"},
       {"devices/lhifam.toml --compare sensed=motor", "has one value"},
       {"devices/lhifam.toml --compare sensed=motor,handel", "handel"},

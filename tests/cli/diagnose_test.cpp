@@ -47,6 +47,41 @@ TEST_F(Diagnose, ReadsTheFrequencyFromARecording) {
   EXPECT_GT(json["amplitude"].get<double>(), 1e-4);
 }
 
+// A damper alone: --stiffness 0 was refused, and a user's grasp was blamed.
+TEST_F(Diagnose, OfADamperAlone) {
+  write("wheel.toml",
+        "name = \"wheel\"\nmotion = \"rotary\"\n[[body]]\nname = \"rotor\"\ninertia = 2e-6\ndamping = 2e-5\n"
+        "[loop]\nsampling_period = 1e-3\ndelay = 1e-3\n");
+  const std::string command = "zwidth diagnose wheel.toml --oscillates-hz 165.1 --stiffness 0 --damping 0.006";
+  const auto json = answer(command + " --json");
+  EXPECT_EQ(json["cause"], "device");
+  EXPECT_EQ(json["nearest"], "device");
+  EXPECT_EQ(json["limit_of"], "damping");
+  EXPECT_EQ(json["stiffness"], 0.0);
+  EXPECT_TRUE(json["candidates"][0]["stiffness"].is_null());
+  const double limit = json["candidates"][0]["damping"].get<double>();
+  EXPECT_GT(limit, 0.0);
+  EXPECT_LT(limit, 0.006);
+  const auto& weaker = json["changes"].back();
+  EXPECT_EQ(weaker["limit_now"], limit);
+  for (const auto& each : json["changes"]) EXPECT_TRUE(each["safe"].is_boolean()) << each;
+  const Outcome text = run(command);
+  EXPECT_THAT(text.output, HasSubstr("limit of B"));
+}
+
+// The limit with any user is 14 % away: the nearest is named, with what would have to be otherwise.
+TEST_F(Diagnose, TheNearestWhereNoneFits) {
+  const std::string command = "zwidth diagnose devices/lhifam.toml --oscillates-hz 41.36 --stiffness 5000";
+  const auto json = answer(command + " --json");
+  EXPECT_TRUE(json["cause"].is_null());
+  EXPECT_EQ(json["nearest"], "passive_user");
+  EXPECT_EQ(json["trust"]["verdict"], "doubtful");
+  EXPECT_NEAR(json["candidates"][0]["otherwise"]["limit"].get<double>(), 5000.0 / 5776.09, 1e-4);
+  EXPECT_FALSE(json["changes"].empty());
+  const Outcome text = run(command);
+  EXPECT_THAT(text.output, HasSubstr("13 % lower, 5 kN/m"));
+}
+
 TEST_F(Diagnose, RefusesWhatItCannotMean) {
   expect_refusal("zwidth diagnose devices/lhifam.toml", "--oscillates-hz: missing; give the frequency");
   expect_refusal("zwidth diagnose devices/lhifam.toml --oscillates-hz 600",

@@ -37,9 +37,9 @@ TEST_F(ExportUnits, TheDrivesOwnLoopMayBeGiven) {
 TEST_F(ExportUnits, AWallBeyondTheLimitWithAnyUserIsNotBelowIt) {
   const std::string wall =
       "zwidth export devices/lhifam.toml --set wall.damping=5 --set driver.travel=0.06 --units moteus --stiffness ";
-  EXPECT_THAT(run(wall + "3000").output, HasSubstr("this wall is below that\n"));
-  EXPECT_THAT(run(wall + "30000").output, HasSubstr("stable by itself, but UNSTABLE in some passive user's hand"));
-  EXPECT_THAT(run(wall + "50000").output, HasSubstr("this wall is UNSTABLE\n"));
+  EXPECT_THAT(run(wall + "3000").output, HasSubstr("this wall is stable for anyone\n"));
+  EXPECT_THAT(run(wall + "30000").output, HasSubstr("this wall is stable alone only\n"));
+  EXPECT_THAT(run(wall + "50000").output, HasSubstr("this wall is UNSTABLE with nobody holding\n"));
 }
 
 }  // namespace

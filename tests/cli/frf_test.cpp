@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 
 #include "cli/workspace.hpp"
@@ -144,6 +146,39 @@ TEST_F(Frf, ListsTheColumns) {
   // As stated: the header is a line to skip, and columns are numbers.
   const json bare = document("zwidth frf recordings/locked_chirp.csv --list --json --no-header");
   EXPECT_EQ(bare["columns"][0]["name"], "1");
+}
+
+/// The example as TwinCAT Scope exports it: a time column in ms for each channel, decimal commas.
+std::string scope_export(const std::string& table) {
+  std::istringstream lines(table);
+  std::string text =
+      "Name\tScope Project\t\nFile\trun.csv\t\nStarttime of export\t132959733843760000\tMontag, 2. Mai "
+      "2022\t15:56:24.376\n\n\n"
+      "Name\tforce\tName\tposition\nSampleTime[ms]\t1\tSampleTime[ms]\t1\nOffset\t0\tOffset\t0\nScaleFactor\t1\t"
+      "ScaleFactor\t1\nUnit\tN\tUnit\tm\n\n";
+  for (std::string line; std::getline(lines, line);) {
+    double time = 0.0;
+    double force = 0.0;
+    double position = 0.0;
+    if (std::sscanf(line.c_str(), "%lf,%lf,%lf", &time, &force, &position) != 3) continue;
+    std::string row = fmt::format("{0:.9g}\t{1:.17g}\t{0:.9g}\t{2:.17g}\n", 1e3 * time, force, position);
+    std::replace(row.begin(), row.end(), '.', ',');
+    text += row;
+  }
+  return text + "EOF\n";
+}
+
+TEST_F(Frf, AnExportGivesWhatItsTableGives) {
+  const std::string table = contents("recordings/locked_chirp.csv");
+  write("scope.csv", scope_export(table));
+  write("unknown.csv", "Rig;7\nChannel;force;position\nFactor;1;1\n" + table);
+  const json expected = document(example + "--json");
+  const json found = document("zwidth frf scope.csv --force force --position position --json");
+  EXPECT_NEAR(found["critical_stiffness"], expected["critical_stiffness"].get<double>(), 1e-6 * example_stiffness);
+  const json skipped = document("zwidth frf unknown.csv --force force --position position --skip-rows 3 --json");
+  EXPECT_EQ(skipped["critical_stiffness"], expected["critical_stiffness"]);
+  write("labelled.csv", "Signal;F;x\nFactor;2;3\n0;1;2\n1;2;3\n2;3;4\n3;4;5\n");
+  expect_refusal("zwidth frf labelled.csv --force F --position x --rate 1000", "--skip-rows 2");
 }
 
 TEST_F(Frf, ReadsStandardInput) {

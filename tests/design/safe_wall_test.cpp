@@ -15,6 +15,7 @@
 #include "stability/device_draws.hpp"
 #include "zwidth/design/stable_walls.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/stability/analysis.hpp"
 #include "zwidth/stability/any_user.hpp"
 #include "zwidth/stability/closed_loop.hpp"
 
@@ -142,6 +143,31 @@ TEST(SafeWall, IsAShareOfTheAnyUserLimitWithTheOwnDamperClosed) {
   EXPECT_FALSE(wall.damping_limit.has_value());
   EXPECT_EQ(wall.stiffness, 0.6 * any_user_limit(device, {1.5, 0.0}).stiffness);
   EXPECT_TRUE(wall.trust.sound());
+}
+
+// Where there is no limit for any user that with the file's user was taken, of which nothing is left once it lets go.
+TEST(SafeWall, IsAShareOfTheLesserLimitOfNobodyAndTheFilesUser) {
+  DeviceParameters chain;
+  chain.name = "more bodies than the limit for any user is computed of";
+  for (std::size_t i = 0; i <= most_bodies_for_any_user; ++i) {
+    chain.bodies.push_back({"b" + std::to_string(i), 0.02, 0.05, 0.0, 0.0});
+    if (i > 0) chain.links.push_back({i - 1, i, 1e7, 20.0});
+  }
+  chain.loop = {0, 0, chain.bodies.size() - 1, 1e-3, 0.0};
+  const Device alone(chain);
+  const double with_nobody = critical_stiffness(alone).stiffness;
+  const Device held = held_by(alone, {0.0, 20.0, 0.0});
+  ASSERT_GT(critical_stiffness(held).stiffness, 2.0 * with_nobody);
+  const SafeWall wall = safe_wall(held, {.safety_factor = 0.9});
+  ASSERT_EQ(wall.status, SafeWall::Status::chosen);
+  EXPECT_EQ(wall.basis, SafeWall::Basis::device);
+  EXPECT_EQ(wall.limit, with_nobody);
+  for (const Device& each : {alone, held}) EXPECT_LT(excess(each, wall.stiffness, wall.damping), 0.0);
+  // And the other way round: a user who leaves less.
+  const Device worse = held_by(alone, {2.0, 0.0, 3e4});
+  const double with_user = critical_stiffness(worse).stiffness;
+  ASSERT_LT(with_user, with_nobody);
+  EXPECT_EQ(safe_wall(worse, {.safety_factor = 0.9}).limit, with_user);
 }
 
 // A transfer function has no user.

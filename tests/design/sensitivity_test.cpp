@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
 
 #include "lhifam.hpp"
@@ -152,6 +153,36 @@ TEST(Sensitivity, OfTheAnyUserLimitOfARigidDeviceIsColgateAndSchenkels) {
   EXPECT_NEAR(*of(sensitivities, "body.body.damping").relative, 1.0, 1e-5);
   EXPECT_NEAR(*of(sensitivities, "body.body.mass").relative, 0.0, 1e-5);
   EXPECT_NEAR(*of(sensitivities, "loop.sampling_period").relative, -1.0, 1e-5);
+}
+
+// With a first-order low-pass K = b/(T/2 + d), d = T/2 cot(pi f T) what it delays. Within 0.1 % of Nyquist a longer period or
+// a higher corner makes no device: it failed.
+TEST(Sensitivity, OfTheAnyUserLimitWithALowPassNextToNyquist) {
+  DeviceParameters device = test::rigid_parameters();
+  for (const double frequency : {499.0, 499.6, 499.99}) {
+    device.wall.filters = {{.kind = WallFilter::Kind::low_pass, .frequency_hz = frequency, .order = 1}};
+    const double turn = std::numbers::pi * frequency * device.loop.sampling_period;
+    const double by_filter = turn / (std::pow(std::sin(turn), 2) * (1.0 + 1.0 / std::tan(turn)));
+    const auto sensitivities = any_user_sensitivities(Device(device));
+    EXPECT_NEAR(*of(sensitivities, "body.body.damping").relative, 1.0, 1e-4) << frequency;
+    EXPECT_NEAR(*of(sensitivities, "loop.sampling_period").relative, by_filter - 1.0, 1e-4) << frequency;
+    EXPECT_NEAR(*of(sensitivities, "wall.filter.0.frequency_hz").relative, by_filter, 1e-4) << frequency;
+  }
+}
+
+// A damping ratio of 1e-15: K there is known by a hundred digits, and no double is near enough to the frequency for slopes.
+TEST(Sensitivity, IsEmptyBesideAModeThatHardlyAnythingDamps) {
+  DeviceParameters device = test::lhifam_parameters();
+  device.bodies = {
+      {"b0", 0.1, 0, 0, 0}, {"b1", 1, 0, 0, 0}, {"b2", 0.2, 0, 0, 0}, {"b3", 1, 0.09, 0, 0}, {"b4", 2, 0, 0, 0}};
+  device.links = {{0, 1, 6e5, 0}, {1, 2, 1e3, 0}, {2, 3, 2e5, 0}, {0, 4, 4e3, 0}};
+  device.loop.actuated = device.loop.sensed = 4;
+  device.loop.held = 0;
+  device.loop.sampling_period = 2e-3;
+  device.loop.delay = 0.0;
+  const CriticalStiffness critical = critical_stiffness(Device(device));
+  ASSERT_TRUE(critical.limit.has_value());
+  EXPECT_TRUE(stiffness_sensitivities(Device(device), critical).empty());
 }
 
 TEST(Sensitivity, IsEmptyWithoutALimit) {

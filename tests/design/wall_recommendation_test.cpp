@@ -8,7 +8,9 @@
 
 #include "lhifam.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/model/state_space.hpp"
 #include "zwidth/stability/any_user.hpp"
+#include "zwidth/stability/closed_loop.hpp"
 
 namespace zwidth {
 namespace {
@@ -50,6 +52,60 @@ TEST(WallRecommendation, CriticalDampingMeansRealPolesOfTheContact) {
   ASSERT_TRUE(answer.wall);
   EXPECT_GE(*answer.wall->contact_damping_ratio, 1.0 - 1e-6);
   EXPECT_EQ(answer.wall->bounded_by.stiffness, WallBound::contact_damping);
+}
+
+// A damper alone on a rigid device without delay: any passive user's limit is the device's own damping (Colgate &
+// Schenkel: b > K T/2 + |B|); so the damper without a filter is that over the margin. A slow filter makes a larger B of it.
+TEST(WallRecommendation, ADamperAloneOnARigidDeviceIsItsOwnDampingOverTheMargin) {
+  const WallRecommendation answer =
+      recommend_wall(rigid(5.4, 3.5, 1e-3), {.goal = WallGoal::damper, .gain_margin = 2.0, .phase_margin = 0.0});
+  ASSERT_EQ(answer.status, WallRecommendation::Status::found);
+  ASSERT_TRUE(answer.wall);
+  EXPECT_EQ(answer.wall->wall.stiffness, 0.0);
+  EXPECT_EQ(answer.wall->bounded_by.damping, WallBound::any_user);
+  EXPECT_GT(answer.wall->wall.velocity_filter_hz, 0.0);
+  EXPECT_GT(answer.wall->wall.damping, 1.75);
+  EXPECT_NEAR(answer.wall->any_user_damping_limit.value() / answer.wall->wall.damping, 2.0, 1e-4);
+  EXPECT_TRUE(answer.wall->margins.stable);
+  EXPECT_GE(answer.wall->margins.gain_margin.value(), 2.0);
+  ASSERT_EQ(answer.alternatives.size(), 1U);
+  const RecommendedWall& plain = answer.alternatives.front();
+  EXPECT_EQ(plain.wall.velocity_filter_hz, 0.0);
+  EXPECT_NEAR(plain.wall.damping, 1.75, 1.75 * 2e-5);
+  EXPECT_NEAR(plain.any_user_damping_limit.value(), 3.5, 3.5 * 2e-5);
+}
+
+TEST(WallRecommendation, ADamperAloneKeepsWhatIsAskedByASecondRoute) {
+  DeviceParameters parameters = test::lhifam_parameters();
+  parameters.sensor.resolution = 3.14e-6;
+  const Device device(parameters);
+  const WallRecommendation answer = recommend_wall(device, {.goal = WallGoal::damper});
+  ASSERT_TRUE(answer.wall);
+  const Wall& wall = answer.wall->wall;
+  EXPECT_EQ(wall.stiffness, 0.0);
+  EXPECT_GE(answer.wall->margins.phase_margin.value(), std::numbers::pi / 6.0 * (1.0 - 1e-6));
+  std::mt19937 engine(7);
+  std::uniform_real_distribution<double> decade(-3.0, 6.0);
+  for (int i = 0; i < 200; ++i) {  // poles of the damper grown by the margin, held by springs and masses
+    DeviceParameters held = parameters;
+    held.wall = wall;
+    held.wall.damping *= 2.0;
+    held.user = {i % 2 == 0 ? std::pow(10.0, decade(engine) - 3.0) : 0.0, 0.0, std::pow(10.0, decade(engine))};
+    const Device each(held);
+    EXPECT_LT(stability_excess(sample(state_space(each), {1e-3, 0.0}), held.wall), 1e-9)
+        << held.user.mass << " " << held.user.stiffness;
+  }
+  // A ripple bounds it.
+  const double ripple = 0.5 * answer.wall->force_per_count->largest;
+  const WallRecommendation quiet = recommend_wall(device, {.goal = WallGoal::damper, .ripple = ripple});
+  ASSERT_TRUE(quiet.wall);
+  EXPECT_LE(quiet.wall->force_per_count->largest, ripple * (1.0 + 1e-12));
+}
+
+TEST(WallRecommendation, NoDamperIsRecommendedWhereSomeUserDestabilisesAny) {
+  const WallRecommendation answer = recommend_wall(rigid(1.0, 0.0, 1e-3), {.goal = WallGoal::damper});
+  EXPECT_EQ(answer.status, WallRecommendation::Status::none);
+  EXPECT_FALSE(answer.wall);
 }
 
 // m s² + b s + K, sampled fast: b / (2 sqrt(K m)), less what half a period of delay takes.

@@ -5,6 +5,7 @@
 #include "lhifam.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/device_trust.hpp"
+#include "zwidth/stability/held_wall.hpp"
 
 namespace zwidth {
 namespace {
@@ -37,6 +38,27 @@ TEST(WallToRun, IsReleasedUnstableAndSaysSo) {
   const WallToRun wall = wall_to_run(lhifam(9500.0));
   EXPECT_TRUE(wall.released);
   EXPECT_FALSE(wall.analysis.wall->stable);
+}
+
+// 40 N m/rad was called stable, for the file's user holds: 14.2 are left once that one lets go.
+TEST(WallToRun, IsJudgedWithNobodyAndWithTheFilesUser) {
+  DeviceParameters knob;
+  knob.motion = Motion::rotary;
+  knob.bodies = {{"knob", 2e-3, 7.1e-3, 0.0, 0.0}};
+  knob.loop = {0, 0, 0, 1e-3, 0.0};
+  knob.user = {0.0, 6.5e-2, 0.0};
+  const WallToRun wall = wall_to_run(Device(knob), {.stiffness = 40.0});
+  ASSERT_TRUE(wall.analysis.wall_stable_for);
+  EXPECT_TRUE(wall.analysis.wall->stable);
+  EXPECT_EQ(stability_of(*wall.analysis.wall_stable_for), WallStability::unstable);
+  EXPECT_EQ(unstable_with(*wall.analysis.wall_stable_for), "with nobody holding");
+  EXPECT_EQ(unstable_with({true, true, false}), "");
+  EXPECT_EQ(unstable_with({true, false, false}), "with the file's user");
+  EXPECT_EQ(unstable_with({false, false, false}), "with nobody holding and with the file's user");
+  const WallToRun share = wall_to_run(Device(knob), {.safety_factor = 0.9});
+  ASSERT_TRUE(share.share);
+  EXPECT_LT(share.share->stiffness, 14.2);
+  EXPECT_EQ(stability_of(*share.analysis.wall_stable_for), WallStability::anyone);
 }
 
 TEST(WallToRun, OfADoubtfulDeviceIsReleasedOnlyWhereThatIsAccepted) {

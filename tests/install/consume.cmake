@@ -1,4 +1,4 @@
-# Installs the build, takes the C++ and CMake examples from README.md, builds them against the installed copy and
+# Installs the build, takes the C++ example from README.md and the CMake project from docs/install.md, builds them against the installed copy and
 # runs the program from the project's root.
 file(REMOVE_RECURSE ${work_dir}/prefix ${work_dir}/consumer)
 
@@ -9,18 +9,18 @@ function(run)
   endif()
 endfunction()
 
-# The text of the only fenced block of README.md in that language.
-function(readme_block language variable)
-  file(READ ${source_dir}/README.md readme)
-  if(NOT readme MATCHES "\n```${language}\n([^`]*)\n```")
-    message(FATAL_ERROR "README.md has no ${language} example")
+# The text of the only fenced block of a document in that language.
+function(block_of document language variable)
+  file(READ ${source_dir}/${document} text)
+  if(NOT text MATCHES "\n```${language}\n([^`]*)\n```")
+    message(FATAL_ERROR "${document} has no ${language} example")
   endif()
   set(${variable} "${CMAKE_MATCH_1}" PARENT_SCOPE)
 endfunction()
 
 run(${CMAKE_COMMAND} --install ${build_dir} --prefix ${work_dir}/prefix)
-readme_block(cpp example)
-readme_block(cmake project)
+block_of(README.md cpp example)
+block_of(docs/install.md cmake project)
 file(WRITE ${work_dir}/consumer/main.cpp "${example}\n")
 file(WRITE ${work_dir}/consumer/CMakeLists.txt "${project}\n")
 run(${CMAKE_COMMAND} -S ${work_dir}/consumer -B ${work_dir}/consumer/build -G ${generator}

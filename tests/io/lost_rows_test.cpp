@@ -235,27 +235,6 @@ TEST(StatedRate, ThatTheTimesContradictIsADoubt) {
   EXPECT_EQ(read(without(all, [](std::size_t k) { return k % 10 == 5; }), 900.0).doubts.size(), 1U);
 }
 
-TEST(OwnTimes, AForceAtTwiceTheRateIsAveragedOverTheMotionsSteps) {
-  RecordedColumns columns{"scope", {{"tf", {}}, {"force", {}, 0}, {"tx", {}}, {"position", {}, 2}}, {}};
-  for (std::size_t k = 0; k < 4000; ++k) {
-    columns.columns[0].samples.push_back(0.5e-3 * static_cast<double>(k));
-    columns.columns[1].samples.push_back(static_cast<double>(k));
-  }
-  for (std::size_t k = 0; k < 1500; ++k) {
-    columns.columns[2].samples.push_back(0.1 + 0.25e-3 + period * static_cast<double>(k));
-    columns.columns[3].samples.push_back(std::sin(0.01 * static_cast<double>(k)));
-  }
-  const auto recording = read_recording(columns, columns_named({"force", "position"}));
-  ASSERT_TRUE(recording) << recording.error().str();
-  EXPECT_NEAR(recording->sampling_period, period, 1e-12);
-  ASSERT_EQ(recording->channels[0].samples.size(), 1500U);
-  // From 0.10225 s on: half of row 204, row 205, half of row 206.
-  EXPECT_NEAR(recording->channels[0].samples[2], 0.25 * 204.0 + 0.5 * 205.0 + 0.25 * 206.0, 1e-9);
-  EXPECT_EQ(recording->channels[1].samples, columns.columns[3].samples);
-  columns.columns[3].times = 1;
-  EXPECT_TRUE(find_problem(columns)) << "not as many";
-}
-
 TEST(OwnTimes, ThatAreTheSameAreThoseOfTheRecording) {
   const Rows all = whole();
   const Rows kept = without(all, [](std::size_t k) { return k % 10 == 5; });

@@ -40,7 +40,8 @@ TEST_F(TextRecording, RefusesRowsOfAnotherLength) {
   EXPECT_EQ(refusal("t,F\n0,1\n1\n2,3\n3,4\n", columns_named({"F"})),
             "3:1: has 1 cell; must have 2 cells as the header has");
   EXPECT_EQ(refusal("0,1\n1,2,3\n2,3\n3,4\n", at_1_khz({"1"})),
-            "2:1: has 3 cells; must have 2 cells as most of the first lines have");
+            "2:1: has 3 cells; must have 2 cells as most of the first lines have; lines of a header can be passed over "
+            "(`skip_rows`)");
 }
 
 TEST_F(TextRecording, NamesTheColumnsWhereOneIsMissing) {
@@ -76,7 +77,10 @@ TEST_F(TextRecording, RefusesWhatIsNoTable) {
             " has comments or empty lines only; must be a table with a row of numbers for each sample");
   EXPECT_EQ(refusal("# a\n# b\n", options),
             " has comments or empty lines only; must be a table with a row of numbers for each sample");
-  const std::string table = "; must be a table: columns of numbers separated by commas, semicolons, tabs or blanks";
+  const std::string table =
+      "; must be a table: columns of numbers separated by commas, semicolons, tabs or blanks, below a header that may "
+      "be "
+      "passed over (`skip_rows`)";
   EXPECT_EQ(refusal("t,F,x\n", options), " has one line, \"t,F,x\", and no row of numbers" + table);
   EXPECT_EQ(refusal("Dear all,\nthe rig is broken.\n", options),
             " has no rows of numbers; it begins with \"Dear all,\"" + table);

@@ -98,12 +98,14 @@ TEST_F(TextRecording, TellsTheHeaderFromTheRowsAsTheUserSays) {
   options.header = RecordingOptions::Header::absent;
   EXPECT_EQ(refusal("F,x\n3,4\n5,6\n", options), "1:3: 2: \"x\" is no number; must be a number such as -1.5e-3");
   EXPECT_EQ(refusal("a,b,c\n3,4\n5,6\n", options),
-            "1:1: has 3 cells; must have 2 cells as most of the first lines have");
+            "1:1: has 3 cells; must have 2 cells as most of the first lines have; lines of a header can be passed over "
+            "(`skip_rows`)");
 }
 
 TEST_F(TextRecording, TakesAFaultyFirstRowForARow) {
   EXPECT_EQ(refusal("F,x\nabc,1\n2,3\n4,5\n", at_1_khz({"F"})),
-            "2:1: F: \"abc\" is no number; must be a number such as -1.5e-3");
+            "2:1: F: \"abc\" is no number; must be a number; where the line is part of a header, pass over all of it "
+            "(`skip_rows` 2)");
 }
 
 // One column with decimal commas, or two of whole numbers: the header decides, else the user.

@@ -23,7 +23,8 @@ TEST(ExactPartialFractions, PolesOfAllMagnitudesAreFound) {
       "154025751913565269757922602493846776055519868671614952383613683634088796487680 "
       "175259030475651762235640501702980791520249925";
   ASSERT_EQ(fmpz_poly_set_str(fraction.denominator, coefficients), 0);
-  const ModalForm form = internal::exact_modal_form(fraction, 0.0, {});
+  internal::KnownPoles known;
+  const ModalForm form = internal::exact_modal_form(fraction, 0.0, {}, known);
   std::size_t poles = 0;
   for (const ModalTerm& term : form.terms) poles += term.degree;
   EXPECT_EQ(poles, 4U);

@@ -7,11 +7,13 @@
 #include <cmath>
 #include <complex>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "fifty_digits.hpp"
 #include "lhifam.hpp"
 #include "log_spaced.hpp"
+#include "model/modal_forms.hpp"
 #include "two_mass_response.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/two_mass.hpp"
@@ -203,6 +205,37 @@ TEST(ModalForm, ThirtyBodiesInAChain) {
   EXPECT_EQ(form.modes.size(), 29U);
   for (const double frequency : log_spaced(1e-1, 1e4, 21)) {
     EXPECT_LE(error_of(form, Device(device), frequency), 1e-12) << "at " << frequency << " rad/s";
+  }
+}
+
+// Poles that are found once are those of every path.
+TEST(ModalForms, AlongEachPathIsThatOfThePathAlone) {
+  for (unsigned seed = 0; seed < 24; ++seed) {
+    std::mt19937_64 random(seed);
+    DeviceParameters parameters = chain(1 + seed % 8, random);
+    if (seed % 3 == 1) parameters.actuator.time_constant = 1e-3;
+    if (seed % 4 == 2) {  // alike: exact arithmetic
+      for (Body& body : parameters.bodies) body = parameters.bodies.front();
+      for (std::size_t i = 0; i < parameters.bodies.size(); ++i) parameters.bodies[i].name = std::to_string(i);
+    }
+    const Device device(parameters);
+    internal::ModalForms forms(device, ActuatorLag::included);
+    for (std::size_t force_at = 0; force_at < device.bodies().size(); ++force_at) {
+      for (std::size_t position_of = 0; position_of < device.bodies().size(); ++position_of) {
+        SCOPED_TRACE(testing::Message() << "seed " << seed << ": " << force_at << " -> " << position_of);
+        const Path path{force_at, position_of};
+        const ModalForm shared = forms.along(path);
+        const ModalForm alone = modal_form(device, path, ActuatorLag::included);
+        ASSERT_EQ(shared.terms.size(), alone.terms.size());
+        for (std::size_t k = 0; k < shared.terms.size(); ++k) {
+          ASSERT_EQ(shared.terms[k].degree, alone.terms[k].degree);
+          for (std::size_t i = 0; i < shared.terms[k].degree; ++i) {
+            EXPECT_EQ(shared.terms[k].numerator[i], alone.terms[k].numerator[i]);
+            EXPECT_EQ(shared.terms[k].denominator[i], alone.terms[k].denominator[i]);
+          }
+        }
+      }
+    }
   }
 }
 

@@ -83,6 +83,48 @@ def test_nested_values_are_attributes(lhifam):
     assert zwidth.any_user_limit(lhifam).critical_stiffness == analysis.any_user.critical_stiffness
 
 
+KNOB = """name = "knob"
+motion = "rotary"
+[[body]]
+name = "knob"
+inertia = 2e-3
+damping = 7.1e-3
+[loop]
+sampling_period = 1e-3
+[operator]
+damping = 6.5e-2
+[wall]
+stiffness = 40
+"""
+
+
+def test_limits_say_who_holds(lhifam):
+    """A knob that its user damps: the limit with the user was called the device's."""
+    knob = zwidth.Device.from_toml(KNOB)
+    analysis = zwidth.analyze(knob)
+    assert analysis.limits.nobody.critical_stiffness == pytest.approx(14.2, abs=0.05)
+    assert analysis.limits.user.critical_stiffness == analysis.critical_stiffness > 135
+    assert analysis.limits.any_user.critical_stiffness == analysis.any_user.critical_stiffness
+    assert analysis.limits.nobody.limited_by.kind == "rigid_body" and analysis.limits.any_user.limited_by is None
+    assert analysis.wall.stable is False
+    assert (analysis.wall.stable_for.nobody, analysis.wall.stable_for.user, analysis.wall.stable_for.any_user) == (False, True, False)
+    assert analysis.to_dict()["limits"]["nobody"]["critical_stiffness"] == analysis.limits.nobody.critical_stiffness
+    assert zwidth.critical_damping(knob).critical_damping == analysis.limits.user.critical_damping
+    free = knob.with_(operator__damping=0)
+    assert zwidth.critical_damping(free).critical_damping == analysis.limits.nobody.critical_damping
+    assert zwidth.critical_damping(free).critical_damping_limited_by == {"kind": "rigid_body"}
+    assert zwidth.any_user_damping(knob).critical_damping == analysis.limits.any_user.critical_damping
+    assert zwidth.any_user_damping(knob).critical_damping == pytest.approx(7.1e-3)  # Colgate and Schenkel: b
+    assert zwidth.analyze(lhifam).limits.user is None
+    with pytest.raises(zwidth.InputError):
+        zwidth.any_user_damping(zwidth.Device(transfer_function={"numerator": [1.0], "denominator": [1.0, 2.0, 0.0]}, loop={"sampling_period": 1e-3}))
+    region = zwidth.region(knob)
+    assert region.nobody_and_user.stiffest.stiffness == region.nobody.stiffest.stiffness
+    assert zwidth.region(lhifam).nobody is None
+    simulation = zwidth.simulate(knob, duration=0.2)
+    assert simulation.linear.stable_for.nobody is False and simulation.linear.wall_stable
+
+
 def test_a_device_from_keys_and_with_changes(lhifam):
     assert zwidth.Device(**lhifam.to_dict()) == lhifam
     assert zwidth.Device.from_toml(lhifam.to_toml()) == lhifam and hash(lhifam) == hash(pickle.loads(pickle.dumps(lhifam)))

@@ -32,6 +32,7 @@ TEST(AnalysisJson, KeysStandInTheirDocumentedOrder) {
                                              "critical_frequency_rad_s",
                                              "critical_frequency_hz",
                                              "limited_by",
+                                             "limits",
                                              "stable_intervals",
                                              "crossovers",
                                              "modes",
@@ -43,6 +44,7 @@ TEST(AnalysisJson, KeysStandInTheirDocumentedOrder) {
                                              "virtual_damper",
                                              "wall_filters",
                                              "wall",
+                                             "walls",
                                              "force_per_count",
                                              "quantisation_passivity",
                                              "critical_stiffness_interval",
@@ -61,7 +63,8 @@ TEST(AnalysisJson, EveryKeyIsDocumented) {
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   const Json document = document_of(lhifam_with_wall());
   for (const Json* object : {&document, &document["wall"], &document["crossovers"][0], &document["modes"][0],
-                             &document["rigid_approximation"], &document["q_criterion"], &document["virtual_damper"]}) {
+                             &document["rigid_approximation"], &document["q_criterion"], &document["virtual_damper"],
+                             &document["limits"], &document["limits"]["nobody"], &document["wall"]["stable_for"]}) {
     for (const std::string& key : keys_of(*object)) {
       EXPECT_NE(text.find("`" + key + "`"), std::string::npos) << key;
     }

@@ -37,6 +37,8 @@ inline AnalysedDevice lhifam() {
   analysis.rigid->critical.stiffness = 7000.75625452837;
   analysis.rigid->error = RigidApproximation::Error::safe;
   analysis.q_criterion = QCriterion{8468.9, false, true};
+  analysis.limits.nobody = {
+      .critical_stiffness = 8848.70869499712, .frequency = 38.5965268731856, .limited_by = rigid_body};
   return {Device(parameters), analysis};
 }
 
@@ -55,6 +57,7 @@ inline AnalysedDevice lhifam_with_wall() {
   wall.phase_margin = 0.1;
   wall.delay_margin = 1.5e-3;
   wall.spectral_radius = 0.999;
+  analysed.analysis.wall_stable_for = StableFor{.nobody = true};
   return analysed;
 }
 
@@ -75,7 +78,21 @@ inline AnalysedDevice undamped_paddle() {
   analysis.wall.emplace();
   analysis.wall->stiffness = 0.25;
   analysis.wall->spectral_radius = 1.0003;
+  analysis.wall_stable_for = StableFor{.nobody = false};
+  analysis.limits.nobody.critical_stiffness = 0.0;
   return {Device(parameters), analysis};
+}
+
+/// A knob whose user damps it, with a wall between the limit with nobody holding and that with the user.
+inline AnalysedDevice knob_in_a_hand() {
+  DeviceParameters parameters;
+  parameters.name = "knob";
+  parameters.motion = Motion::rotary;
+  parameters.bodies = {{"knob", 2e-3, 7.1e-3, 0.0, 0.0}};
+  parameters.loop = {0, 0, 0, 1e-3, 0.0};
+  parameters.user = {0.0, 6.5e-2, 0.0};
+  parameters.wall.stiffness = 40.0;
+  return analysed_device(Device(parameters));
 }
 
 /// A transfer function without a limit, under a name that is hostile to markup.
@@ -88,6 +105,7 @@ inline AnalysedDevice unlimited_transfer_function() {
   analysis.critical.status = StiffnessStatus::unbounded;
   analysis.critical.stiffness = std::numeric_limits<double>::infinity();
   analysis.critical.stable_intervals = {{0.0, std::nullopt}};
+  analysis.limits.nobody.critical_stiffness = analysis.critical.stiffness;
   return {Device(parameters), analysis};
 }
 
@@ -102,6 +120,7 @@ inline AnalysedDevice pushed_the_wrong_way() {
   analysis.critical.limit = Crossover{0.0, 1.0, {}, 1};
   analysis.critical.crossovers = {*analysis.critical.limit};
   analysis.critical.stable_intervals = {{0.0, 1.0}};
+  analysis.limits.nobody = {.critical_stiffness = 1.0, .frequency = 0.0, .limited_by = Mechanism()};
   return {Device(parameters), analysis};
 }
 

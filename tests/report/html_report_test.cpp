@@ -54,9 +54,9 @@ TEST(HtmlReport, AnswersOnTopWithFiguresAndNumbers) {
   EXPECT_LT(answer, figure);
   EXPECT_EQ(count_of(page, "<svg"), 2U);
   for (const char* text :
-       {"Limited by the rigid body", "140.4 kN/m", "33.9 kN/m", "135.2 MN/m", "84.31 Hz", "With rigid links",
-        "Q criterion", "Nobody holds", "motor to handle: stiffness", "79500 N/m",
-        "1   K = 78.94 dB (8.849 kN/m) at 38.6 rad/s (6.143 Hz), rigid body: critical",
+       {"then shakes at 6.143 Hz: the rigid body", "140.4 kN/m", "33.9 kN/m", "135.2 MN/m", "84.31 Hz",
+        "With rigid links", "Q criterion", "Nobody holds", "motor to handle: stiffness", "79500 N/m",
+        "1   K = 78.94 dB (8.849 kN/m) at 38.6 rad/s (6.143 Hz), rigid body: critical, nobody holding",
         "3   K = 90.60 dB (33.9 kN/m) at 618.1 rad/s (98.37 Hz), vibration mode 1", "Magnitude (dB re 1 m/N)",
         "Phase (degrees)", "Frequency (Hz)", "Frequency (rad/s)", "Nyquist, 3142 rad/s (500 Hz)"}) {
     EXPECT_THAT(page, HasSubstr(text));
@@ -83,13 +83,13 @@ TEST(HtmlReport, JudgesTheWall) {
 
 TEST(HtmlReport, SaysWhatUsersLeave) {
   AnalysedDevice analysed = lhifam();
-  EXPECT_THAT(report_of({analysed}), Not(HasSubstr("With a user")));
+  EXPECT_THAT(report_of({analysed}), Not(HasSubstr("Users asked for")));
   analysed.analysis.any_user = AnyUserLimit{5776.09, 259.9, 0.0};
   analysed.analysis.worst_user = WorstUser{{1.25, 0.0, {}}, 5776.5, 259.9};
   analysed.analysis.user_family =
       UserFamilyAnswer{{{0.0, 2.0}, {0.0, 1.0}, {0.0, 1e3}}, {{0.0, 0.0, 1e3}, 8829.0}, analysed.analysis.critical};
   const std::string page = report_of({analysed});
-  for (const char* text : {"With a user", "any passive user", "5.776 kN/m, worst at 41.36 Hz", "a mass of 1.25 kg",
+  for (const char* text : {"Users asked for", "any passive user", "5.776 kN/m, worst at 41.36 Hz", "a mass of 1.25 kg",
                            "users as given", "8.829 kN/m, least found, with mass 0 kg",
                            "asked for: mass 0 to 2 kg, damping 0 to 1 N s/m, stiffness 0 to 1000 N/m"}) {
     EXPECT_THAT(page, HasSubstr(text));
@@ -135,13 +135,32 @@ TEST(HtmlReport, LinearAndRotaryDevicesShareNoFigure) {
 
 TEST(StiffnessAxis, ShowsEveryInterval) {
   const std::string svg = draw_stiffness_axis(undamped_paddle(), FigureFormat::svg);
-  EXPECT_EQ(count_of(svg, ">stable<"), 1U);
-  EXPECT_EQ(count_of(svg, ">unstable<"), 2U);
+  EXPECT_EQ(count_of(svg, "'rgb(219, 231, 246)'"), 2U);  // stable alone only: the interval, and the legend
+  EXPECT_EQ(count_of(svg, ">stable alone only<"), 1U);   // too narrow for the words: in the legend
+  EXPECT_EQ(count_of(svg, ">unstable<"), 3U);
+}
+
+// The report printed the limit with the user as its headline.
+TEST(HtmlReport, TheHeadlineIsTheLimitThatHoldsWhenTheUserLetsGo) {
+  const std::string page = report_of({knob_in_a_hand()});
+  const std::size_t headline = page.find("<p class=\"value\">14.21 N m/rad");
+  EXPECT_NE(headline, std::string::npos);
+  EXPECT_LT(page.find("Stiffest stable spring with nobody holding"), headline);
+  for (const char* text : {"nobody holding", "the file&#39;s user", "any passive user"}) {
+    EXPECT_NE(page.find(text), std::string::npos) << text;
+  }
+}
+
+// Between the two limits the wall is not stable: a person lets go.
+TEST(StiffnessAxis, IsStableOnlyWhereItIsWithAndWithoutTheUser) {
+  const std::string svg = draw_stiffness_axis(knob_in_a_hand(), FigureFormat::svg);
+  EXPECT_EQ(count_of(svg, ">unstable<"), 2U);  // one of them in the legend
+  EXPECT_THAT(svg, HasSubstr("nobody holding, 14.21 N m/rad"));
 }
 
 TEST(StiffnessAxis, NamesTheCriticalAndTheApproximateOnes) {
   const std::string svg = draw_stiffness_axis(lhifam(), FigureFormat::svg);
-  EXPECT_THAT(svg, HasSubstr("1: critical, 8.849 kN/m"));
+  EXPECT_THAT(svg, HasSubstr("1: nobody holding, 8.849 kN/m"));
   EXPECT_THAT(svg, HasSubstr("rigid model, 7.001 kN/m"));
   EXPECT_THAT(svg, HasSubstr("Q, 8.469 kN/m"));
 }

@@ -136,7 +136,7 @@ TEST(RegionCsv, HasALinePerPoint) {
   std::size_t points = 0;
   for (const BoundaryArc& arc : region.components[0].outline.arcs) points += arc.points.size();
   const std::string csv = results::region_csv(lhifam_region().walls);
-  EXPECT_THAT(csv, StartsWith("component,boundary,stiffness,damping,frequency_rad_s,mode,trust\n1,oscillation,"));
+  EXPECT_THAT(csv, StartsWith("component,boundary,stiffness,damping,frequency_rad_s,mode,trust,holder\n1,oscillation,"));
   EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')), points + 1);
 }
 
@@ -161,7 +161,7 @@ TEST(RegionCsv, OfARasterIsTheGrid) {
 
 TEST(RegionFigure, ShowsTheRegionAndTheFormulas) {
   const std::string svg = draw_region(lhifam_region());
-  for (const char* text : {"Stable walls of LHIfAM", "with any passive user", "Colgate &amp; Schenkel", "Gil, Hulin",
+  for (const char* text : {"Stable walls of LHIfAM", "stable for anyone", "Colgate &amp; Schenkel", "Gil, Hulin",
                            "Diolaiti", "Virtual damping B (N s/m)", "Stiffness K (kN/m)"}) {
     EXPECT_THAT(svg, HasSubstr(text));
   }

@@ -35,7 +35,7 @@ APPS = {
     "rig": ["results"],
     "cli": ["results", "report", "export", "reproduce", "server", "study", "rig"],
 }
-MOST_LINES = 400
+MOST_LINES = 500
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"')
 STRING = re.compile(r'"(?:[^"\\]|\\.)*"')
 

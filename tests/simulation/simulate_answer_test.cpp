@@ -263,10 +263,32 @@ TEST(ForceRipple, OfALargeOscillationIsNoChatter) {
 TEST(ForceRipple, OfAnUndecidedRunIsNoChatter) {
   DeviceParameters device = lhifam_with_wall(500.0);
   device.sensor.resolution = 3.14e-6;
-  const Simulation result = simulate(Device(device));
+  SimulationOptions options;
+  options.duration = 6.5;
+  const Simulation result = simulate(Device(device), options);
   EXPECT_EQ(result.verdict, LoopVerdict::undecided);
   EXPECT_TRUE(result.force_ripple);
   EXPECT_FALSE(result.encoder_chatters);
+}
+
+// Walls of 0.01 to 0.9 times the critical stiffness: slow swings, and a damper with which the device creeps.
+TEST(Simulate, RunsUntilTheVerdictIsFirm) {
+  for (const double resolution : {0.0, 3.14e-6}) {
+    for (const double stiffness : {50.0, 500.0, 2000.0, 8000.0}) {
+      for (const double damping : {0.0, 20.0, 200.0}) {
+        DeviceParameters device = lhifam_with_wall(stiffness);
+        device.wall.damping = damping;
+        device.sensor.resolution = resolution;
+        const Simulation result = simulate(Device(device));
+        if (resolution == 0.0) {
+          EXPECT_EQ(result.verdict, LoopVerdict::settles) << stiffness << ", " << damping;
+        } else {
+          EXPECT_NE(result.verdict, LoopVerdict::undecided) << stiffness << ", " << damping;
+          EXPECT_NE(result.verdict, LoopVerdict::drifts) << stiffness << ", " << damping;
+        }
+      }
+    }
+  }
 }
 
 TEST(SimulationRemarks, SayWhatTheVerdictDoesNot) {

@@ -5,6 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "lhifam.hpp"
@@ -58,6 +61,44 @@ TEST(PoleCount, OfLongDelaysIsThatOfEigenvalues) {
     const PoleCount poles(device);
     for (const double stiffness : {20.0, 70.0, 200.0, 3000.0, 40000.0}) {
       EXPECT_EQ(poles.in_double(stiffness), outside(device, stiffness)) << samples << " samples, K " << stiffness;
+    }
+  }
+}
+
+// A chain or a tree, with dampings of the usual size.
+Device many_bodies(std::size_t bodies, bool is_tree, std::uint64_t seed) {
+  test::RandomDevices random(seed);
+  DeviceParameters device;
+  for (std::size_t i = 0; i < bodies; ++i) {
+    device.bodies.push_back(
+        {"b" + std::to_string(i), random.log_uniform(0.1, 3.0), random.log_uniform(0.01, 5.0), 0.0, 0.0});
+    if (i == 0) continue;
+    const std::size_t nearest = is_tree && i > 4 ? i - 4 : 0;
+    const std::size_t parent = is_tree ? nearest + random.index(i - nearest) : i - 1;
+    device.links.push_back({parent, i, random.log_uniform(3e3, 1e6), random.log_uniform(0.1, 20.0)});
+  }
+  device.loop.sampling_period = 1e-3;
+  device.loop.delay = 0.3e-3;
+  device.loop.held = bodies - 1;
+  return Device(device);
+}
+
+TEST(PoleCount, OfManyBodiesIsThatOfEigenvalues) {
+  for (const std::size_t bodies : {21U, 40U}) {
+    for (const bool is_tree : {false, true}) {
+      for (std::uint64_t seed = 1; seed <= 2; ++seed) {
+        const Device device = many_bodies(bodies, is_tree, seed);
+        const double limit = critical_stiffness(filtered_plant(device)).stiffness;
+        const PoleCount poles(device);
+        for (const double share : {0.5, 0.999, 1.001, 2.0, 100.0}) {
+          SCOPED_TRACE(testing::Message()
+                       << bodies << " bodies, tree " << is_tree << ", seed " << seed << ", share " << share);
+          const std::optional<int> counted = poles.in_double(share * limit);
+          ASSERT_TRUE(counted.has_value());
+          EXPECT_EQ(*counted, outside(device, share * limit));
+          EXPECT_EQ(*counted == 0, share < 1.0);
+        }
+      }
     }
   }
 }

@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <random>
+#include <string>
+
+#include "exact_closed_loop.hpp"
 #include "lhifam.hpp"
 #include "stability/pole_count.hpp"
 #include "zwidth/model/modal_form.hpp"
@@ -68,6 +73,60 @@ TEST(PolesAtOne, NoneIsSeenThroughAGroundedBody) {
   EXPECT_EQ(integrators(device), 1);
   device.loop.sensed = 2;
   EXPECT_EQ(integrators(device), 0);
+}
+
+// Five bodies joined by dampers alone, four of their five places unseen: a hundred digits left the fourfold pole at z = 1
+// on the wrong side, and the answer was refused. mpmath with 60 digits.
+TEST(PolesAtOne, FiveBodiesJoinedByDampersAlone) {
+  DeviceParameters device = test::lhifam_parameters();
+  device.bodies = {{"b0", 2, 0.08, 0, 0},
+                   {"b1", 0.4, 0.009, 0, 0},
+                   {"b2", 0.2, 0, 0, 0},
+                   {"b3", 0.2, 0.003, 0, 0},
+                   {"b4", 3, 0.04, 0, 0}};
+  device.links = {{0, 1, 0, 0.2}, {0, 2, 0, 400}, {1, 3, 0, 0.02}, {0, 4, 0, 0.06}};
+  device.loop.actuated = device.loop.sensed = device.loop.held = 1;
+  device.loop.sampling_period = 2e-4;
+  device.loop.delay = 0.0;
+  const CriticalStiffness result = critical_stiffness(Device(device));
+  EXPECT_TRUE(result.trust.sound());
+  EXPECT_NEAR(result.stiffness / 2290.0301350118534297, 1.0, 1e-12);
+  EXPECT_NEAR(result.limit->frequency / 75.6624502646887211, 1.0, 1e-12);
+}
+
+// Trees of bodies joined by dampers alone, and some by springs.
+TEST(PolesAtOne, TreesOfDampersAreAnswered) {
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    std::mt19937_64 random(seed);
+    const auto log_uniform = [&](double least, double most) {
+      return std::exp(std::uniform_real_distribution(std::log(least), std::log(most))(random));
+    };
+    DeviceParameters parameters = test::lhifam_parameters();
+    parameters.bodies.clear();
+    parameters.links.clear();
+    const std::size_t count = 3 + random() % 4;
+    for (std::size_t i = 0; i < count; ++i) {
+      parameters.bodies.push_back({"b" + std::to_string(i), log_uniform(0.05, 3.0),
+                                   random() % 3 == 0 ? 0.0 : log_uniform(1e-3, 0.1), 0.0, 0.0});
+      if (i == 0) continue;
+      const bool by_spring = random() % 8 == 0;
+      parameters.links.push_back(
+          {random() % i, i, by_spring ? log_uniform(100.0, 1e5) : 0.0, log_uniform(1e-2, 400.0)});
+    }
+    parameters.bodies[0].damping = 0.05;
+    parameters.loop.actuated = parameters.loop.sensed = parameters.loop.held = random() % count;
+    parameters.loop.sampling_period = 2e-4 * static_cast<double>(1 + random() % 5);
+    parameters.loop.delay = 0.0;
+    const Device device(parameters);
+    const CriticalStiffness result = critical_stiffness(device);
+    EXPECT_TRUE(result.trust.sound()) << "seed " << seed;
+    ASSERT_EQ(result.status, StiffnessStatus::finite) << "seed " << seed;
+    const test::ExactClosedLoop loop(device);
+    for (const double share : {1e-3, 0.5, 1.0 - 1e-9}) {
+      EXPECT_EQ(loop.poles_outside(share * result.stiffness), 0) << "seed " << seed << " x " << share;
+    }
+    EXPECT_GT(loop.poles_outside((1.0 + 1e-9) * result.stiffness), 0) << "seed " << seed;
+  }
 }
 
 // A user of 70 000 t: the pole next to z = 1 is slower than 1e-9 rad per sample, and the damper's integrator with it.

@@ -53,6 +53,35 @@ TEST(StiffnessLimit, IsNothingWhereNoneIsStable) {
   EXPECT_GE(none, 50U);
 }
 
+TEST(StiffnessCrossings, UpToAStiffnessAreThoseOfAll) {
+  std::size_t some = 0;
+  for (std::size_t i = 0; i < 10 * test::device_kinds.size(); ++i) {
+    const std::string_view kind = test::device_kinds[i % test::device_kinds.size()];
+    SCOPED_TRACE(testing::Message() << kind << ", seed " << seed + i);
+    test::RandomDevices random(seed + i);
+    const Device device(random.device(kind));
+    const FilteredPlant plant = filtered_plant(device);
+    const VirtualDamper damper = virtual_damper(device);
+    GainCrossings all = stiffness_crossings(plant, damper);
+    if (all.crossings.empty()) continue;
+    const double least = std::ranges::min(all.crossings, {}, &GainCrossing::gain).gain;
+    for (const double share : {1.5, 4.0, 100.0}) {
+      GainCrossings expected = all;
+      std::erase_if(expected.crossings, [&](const GainCrossing& each) { return each.gain > share * least; });
+      const GainCrossings found = stiffness_crossings_up_to(plant, damper, share * least);
+      EXPECT_EQ(found.initially_unstable, expected.initially_unstable);
+      ASSERT_EQ(found.crossings.size(), expected.crossings.size()) << share;
+      for (std::size_t k = 0; k < found.crossings.size(); ++k) {
+        EXPECT_NEAR(found.crossings[k].angle, expected.crossings[k].angle, 1e-12 * expected.crossings[k].angle);
+        EXPECT_NEAR(found.crossings[k].gain / expected.crossings[k].gain, 1.0, 1e-10);
+        EXPECT_EQ(found.crossings[k].poles_leaving, expected.crossings[k].poles_leaving);
+      }
+      some += found.crossings.size() < all.crossings.size() ? 1 : 0;
+    }
+  }
+  EXPECT_GE(some, 50U);
+}
+
 TEST(ResponseBound, IsNoLessThanTheResponseAndCloseOnNarrowIntervals) {
   for (std::size_t i = 0; i < 10 * test::device_kinds.size(); ++i) {
     const std::string_view kind = test::device_kinds[i % test::device_kinds.size()];

@@ -2,8 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
 #include <vector>
 
+#include "exact_closed_loop.hpp"
 #include "zwidth/sampling/sampled_plant.hpp"
 #include "zwidth/stability/analysis.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
@@ -75,6 +80,67 @@ TEST(UndampedModes, HaveNoCrossoverWhereKIsNegative) {
   EXPECT_NEAR(answer.crossovers[0].stiffness, 2.10971234737, 1e-10);
   EXPECT_NEAR(answer.crossovers[1].stiffness, 9083389377.35, 0.1);
   EXPECT_NEAR(answer.crossovers[2].stiffness, 2471993442.0, 0.1);
+}
+
+// The mode of 2576 rad/s has a damping ratio of 1.2e-15: it was taken for undamped, left at K = 0, and no wall was stable.
+// mpmath with 60 digits, on the exponential of the state matrix.
+TEST(UndampedModes, AModeThatIsHardlyDampedLeavesWhereItsDampingIsUsedUp) {
+  DeviceParameters parameters;
+  parameters.name = "hardly damped";
+  parameters.bodies = {
+      {"b0", 0.1, 0, 0, 0}, {"b1", 1, 0, 0, 0}, {"b2", 0.2, 0, 0, 0}, {"b3", 1, 0.09, 0, 0}, {"b4", 2, 0, 0, 0}};
+  parameters.links = {{0, 1, 6e5, 0}, {1, 2, 1e3, 0}, {2, 3, 2e5, 0}, {0, 4, 4e3, 0}};
+  parameters.loop.actuated = parameters.loop.sensed = 4;
+  parameters.loop.held = 0;
+  parameters.loop.sampling_period = 2e-3;
+  const CriticalStiffness answer = critical_stiffness(Device(parameters));
+  EXPECT_TRUE(answer.trust.sound());
+  ASSERT_EQ(answer.status, StiffnessStatus::finite);
+  EXPECT_NEAR(answer.stiffness / 0.17412859407525473539, 1.0, 1e-12);
+  EXPECT_NEAR(answer.limit->frequency / 565.45512744883832871, 1.0, 1e-12);
+  EXPECT_EQ(answer.limit->poles_leaving, 2);
+  EXPECT_NEAR(answer.crossovers.back().stiffness / 2.4002734373963357488e+23, 1.0, 1e-9);
+}
+
+// Chains whose modes are damped by one tiny damper far away, down to ratios of 1e-18: each crossover is one.
+TEST(UndampedModes, HardlyDampedModesAreCountedRight) {
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    std::mt19937_64 random(seed);
+    const auto log_uniform = [&](double least, double most) {
+      return std::exp(std::uniform_real_distribution(std::log(least), std::log(most))(random));
+    };
+    DeviceParameters parameters;
+    parameters.name = "hardly damped";
+    const std::size_t count = 2 + random() % 3;
+    for (std::size_t i = 0; i < count; ++i) {
+      parameters.bodies.push_back({"b" + std::to_string(i), log_uniform(0.05, 3.0), 0.0, 0.0, 0.0});
+      if (i > 0) parameters.links.push_back({i - 1, i, log_uniform(1e3, 1e6), 0.0});
+    }
+    const std::size_t damped = random() % count;
+    parameters.bodies[damped].damping = log_uniform(1e-8, 1e-1);
+    parameters.loop.sampling_period = 1e-3 * static_cast<double>(1 + random() % 2);
+    parameters.loop.delay = random() % 3 == 0 ? 0.3e-3 : 0.0;
+    const Device device(parameters);
+    const CriticalStiffness answer = critical_stiffness(device);
+    EXPECT_TRUE(answer.trust.sound()) << "seed " << seed;
+    const test::ExactClosedLoop loop(device);
+    double softest = 1e300;
+    for (const Crossover& each : answer.crossovers) softest = std::min(softest, each.stiffness);
+    for (const Crossover& each : answer.crossovers) {
+      if (each.stiffness > 1e12 * softest) continue;  // where the response is rounding of its terms
+      EXPECT_EQ(loop.poles_outside((1.0 + 1e-9) * each.stiffness) - loop.poles_outside((1.0 - 1e-9) * each.stiffness),
+                each.poles_leaving)
+          << "seed " << seed << " K = " << each.stiffness;
+    }
+    if (answer.status == StiffnessStatus::none_stable) {
+      EXPECT_GT(loop.poles_outside(0.5 * std::min(softest, 1e6)), 0) << "seed " << seed;
+    }
+    if (answer.status == StiffnessStatus::finite) {
+      for (const double share : {1e-6, 1e-3, 0.5, 1.0 - 1e-9}) {
+        EXPECT_EQ(loop.poles_outside(share * answer.stiffness), 0) << "seed " << seed << " x " << share;
+      }
+    }
+  }
 }
 
 }  // namespace

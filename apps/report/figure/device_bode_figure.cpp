@@ -47,6 +47,7 @@ std::vector<std::string> loop_notes(const Device& device) {
 
 void add_marks(BodeFigure& figure, const AnalysedDevice& analysed, std::size_t curve, std::string_view suffix) {
   const CriticalStiffness& critical = analysed.analysis.critical;
+  const std::string_view holder = words_of(analysed.analysis.limits.user ? Holder::user : Holder::nobody);
   for (const Crossover& crossover : critical.crossovers) {
     const bool is_on_axis = crossover.frequency >= figure.range.from && crossover.frequency <= figure.range.to;
     if (crossover.frequency > 0.0 && !is_on_axis) continue;
@@ -54,8 +55,9 @@ void add_marks(BodeFigure& figure, const AnalysedDevice& analysed, std::size_t c
     const std::string belongs_to = crossover.limited_by.kind == Mechanism::Kind::rigid_body
                                        ? "rigid body"
                                        : fmt::format("vibration mode {}", crossover.limited_by.mode);
-    figure.marks.push_back({curve, crossover, limits ? BodeMark::Rank::critical : BodeMark::Rank::other,
-                            fmt::format(", {}{}{}", belongs_to, limits ? ": critical" : "", suffix)});
+    figure.marks.push_back(
+        {curve, crossover, limits ? BodeMark::Rank::critical : BodeMark::Rank::other,
+         fmt::format(", {}{}{}", belongs_to, limits ? fmt::format(": critical, {}", holder) : "", suffix)});
   }
 }
 

@@ -24,6 +24,7 @@ constexpr double panel_height = 360.0;
 constexpr std::string_view region_colour = "#dbe7f6";
 constexpr std::string_view any_user_colour = "#bfe3c8";
 constexpr LineStyle boundary_style{"#0b4f9e", 2.0, "1"};
+constexpr LineStyle held_style{"#0b4f9e", 2.0, "(6,4)"};
 constexpr LineStyle any_user_style{"#15803d", 1.6, "1"};
 
 LineStyle style_of(Formula formula) {
@@ -87,8 +88,8 @@ class RegionFigure {
     const Heading heading(
         title_, legend(),
         fmt::format("Sampled every {}, {} of delay. In brackets: how far a formula lies above the exact "
-                    "limit.",
-                    quantity(loop.sampling_period, "s"), quantity(loop.delay, "s")));
+                    "limit. White: {}.",
+                    quantity(loop.sampling_period, "s"), quantity(loop.delay, "s"), words_of(WallStability::unstable)));
     const double top = heading.bottom() + 28.0;
     Canvas canvas(title_, canvas_width, top + panel_height + 62.0);
     heading.draw(canvas);
@@ -108,22 +109,42 @@ class RegionFigure {
   }
 
  private:
+  /// Who holds where a wall is called stable.
+  [[nodiscard]] std::string holders() const {
+    const std::string nobody(words_of(Holder::nobody));
+    return walls_.nobody ? fmt::format("{} and with {}", nobody, words_of(Holder::user)) : nobody;
+  }
+
   /// A doubtful region says so on the picture.
   [[nodiscard]] std::string title() const {
     const double filter = device_.parameters().wall.velocity_filter_hz;
     const auto filters = wall_filters_text(device_.parameters().wall);
-    return fmt::format("Stable walls of {}{}{}{}", display_name(device_),
+    return fmt::format("Stable walls of {}, {}{}{}{}", display_name(device_), holders(),
                        filter > 0.0 ? fmt::format(", velocity filter {}", quantity(filter, "Hz")) : std::string(),
                        filters ? ", through " + *filters : std::string(), trust_mark(walls_.trust));
   }
 
   [[nodiscard]] std::vector<LegendEntry> legend() const {
     std::vector<LegendEntry> entries;
-    if (walls_.region.stiffest) {
-      entries.push_back(
-          {fmt::format("stable: up to {} at {} {}", quantity(walls_.region.stiffest->stiffness, units_.stiffness),
-                       number(walls_.region.stiffest->damping), units_.damping),
-           boundary_style, region_colour});
+    const auto up_to = [&](std::string_view what, const BoundaryPoint& stiffest) {
+      return fmt::format("{}: up to {} at {} {}", what, quantity(stiffest.stiffness, units_.stiffness),
+                         number(stiffest.damping), units_.damping);
+    };
+    const std::string_view alone = words_of(WallStability::alone_only);
+    if (walls_.shared) {
+      if (walls_.shared->stiffest) {
+        entries.push_back({up_to(alone, walls_.shared->stiffest->point), {region_colour, 2.0, "1"}, region_colour});
+      } else {
+        entries.push_back({"no wall is stable with both", {}, {}});
+      }
+      if (walls_.nobody->region.stiffest) {
+        entries.push_back({up_to(words_of(Holder::nobody), *walls_.nobody->region.stiffest), boundary_style, {}});
+      }
+      if (walls_.region.stiffest) {
+        entries.push_back({up_to(words_of(Holder::user), *walls_.region.stiffest), held_style, {}});
+      }
+    } else if (walls_.region.stiffest) {
+      entries.push_back({up_to(alone, *walls_.region.stiffest), boundary_style, region_colour});
     } else {
       entries.push_back({walls_.trust.refused()  ? "refused: no region is given"
                          : walls_.region.bounded ? "no wall is stable"
@@ -132,7 +153,7 @@ class RegionFigure {
                          {}});
     }
     if (walls_.any_user && walls_.any_user->stiffest) {
-      entries.push_back({fmt::format("with any passive user: up to {}",
+      entries.push_back({fmt::format("{}: up to {}", words_of(WallStability::anyone),
                                      quantity(walls_.any_user->stiffest->stiffness, units_.stiffness)),
                          any_user_style, any_user_colour});
     }
@@ -153,8 +174,15 @@ class RegionFigure {
     constexpr double too_small = 0.2;
     const StableRegion& region = walls_.region;
     if (!region.stiffest) return {{1.0, 1.0}};
-    const Extent whole{margin * region.most_damped->damping, margin * region.stiffest->stiffness};
-    Extent corner{0.0, std::isfinite(region.critical_stiffness) ? region.critical_stiffness : 0.0};
+    Extent whole{margin * region.most_damped->damping, margin * region.stiffest->stiffness};
+    double critical = region.critical_stiffness;
+    if (walls_.nobody && walls_.nobody->region.stiffest) {
+      const StableRegion& alone = walls_.nobody->region;
+      whole = {std::max(whole.damping, margin * alone.most_damped->damping),
+               std::max(whole.stiffness, margin * alone.stiffest->stiffness)};
+      critical = std::min(critical, alone.critical_stiffness);
+    }
+    Extent corner{0.0, std::isfinite(critical) ? critical : 0.0};
     for (const ComparedApproximation& each : walls_.approximations) {
       corner.stiffness = std::max(corner.stiffness, each.formula.at_zero_damping);
       corner.damping = std::max(corner.damping, each.formula.largest_damping.value_or(0.0));
@@ -183,17 +211,39 @@ class RegionFigure {
     return rows;
   }
 
-  /// Data blocks of a panel: what of the regions it shows, as closed outlines.
-  void filled_data(Canvas& canvas, const Extent& extent) const {
-    std::string outlines;
-    for (const StableComponent& component : walls_.region.components) {
+  static std::vector<std::vector<Place>> outlines_within(const StableRegion& region, const Extent& extent) {
+    std::vector<std::vector<Place>> outlines;
+    for (const StableComponent& component : region.components) {
       std::vector<Place> outline;
       for (const BoundaryArc& arc : component.outline.arcs) {
         for (const BoundaryPoint& point : arc.points) outline.push_back({point.damping, point.stiffness});
       }
-      outlines += rows(within(outline, extent));
+      if (std::vector<Place> shown = within(outline, extent); !shown.empty()) outlines.push_back(std::move(shown));
     }
+    return outlines;
+  }
+
+  /// All of the panel but what lies in the outlines, as one closed line: around the panel against the sense of the outlines,
+  /// with a cut to each.
+  static std::vector<Place> rest_of(const std::vector<std::vector<Place>>& outlines, const Extent& extent) {
+    std::vector<Place> rest{
+        {0.0, 0.0}, {extent.damping, 0.0}, {extent.damping, extent.stiffness}, {0.0, extent.stiffness}, {0.0, 0.0}};
+    for (const std::vector<Place>& outline : outlines) {
+      rest.insert(rest.end(), outline.begin(), outline.end());
+      rest.push_back(outline.front());
+      rest.push_back({0.0, 0.0});
+    }
+    return rest;
+  }
+
+  /// Data blocks of a panel: what of the regions it shows, as closed outlines.
+  void filled_data(Canvas& canvas, const Extent& extent) const {
+    std::string outlines;
+    for (const std::vector<Place>& each : outlines_within(walls_.region, extent)) outlines += rows(each);
     data_block(canvas, "outlines", outlines);
+    if (walls_.nobody && walls_.nobody->region.bounded) {
+      data_block(canvas, "rest", rows(rest_of(outlines_within(walls_.nobody->region, extent), extent)));
+    }
     std::string filled;
     if (walls_.any_user) {
       for (const auto& range : walls_.any_user->ranges) filled += rows(within(outline_of(range), extent));
@@ -209,9 +259,7 @@ class RegionFigure {
     return outline;
   }
 
-  /// Data blocks of all panels: `edges` as the boundary without the axes, limits and formulas.
-  void data(Canvas& canvas) const {
-    const StableRegion& region = walls_.region;
+  static std::string edge_rows(const StableRegion& region) {
     std::string edges;
     for (const StableComponent& component : region.components) {
       for (const BoundaryArc& arc : component.outline.arcs) {
@@ -219,7 +267,13 @@ class RegionFigure {
         edges += boundary_rows({{arc}}) + "\n";
       }
     }
-    data_block(canvas, "edges", edges);
+    return edges;
+  }
+
+  /// Data blocks of all panels: `edges` as the boundary without the axes, limits and formulas.
+  void data(Canvas& canvas) const {
+    data_block(canvas, "edges", edge_rows(walls_.region));
+    if (walls_.nobody) data_block(canvas, "alone", edge_rows(walls_.nobody->region));
     std::string limits;
     if (walls_.any_user) {
       for (const auto& range : walls_.any_user->ranges) limits += rows(outline_of(range));
@@ -250,6 +304,9 @@ class RegionFigure {
       what += fmt::format("$outlines {} with filledcurves closed fc rgb '{}' fs solid noborder notitle, ", columns,
                           region_colour);
     }
+    if (walls_.nobody && walls_.nobody->region.bounded) {
+      what += fmt::format("$rest {} with filledcurves closed fc rgb 'white' fs solid noborder notitle, ", columns);
+    }
     if (walls_.any_user && walls_.any_user->stiffest) {
       what += fmt::format(
           "$filled {0} with filledcurves closed fc rgb '{1}' fs solid noborder notitle, $limits {0} with lines {2} "
@@ -257,7 +314,11 @@ class RegionFigure {
           columns, any_user_colour, gnuplot_line(any_user_style));
     }
     if (!walls_.region.components.empty()) {
-      what += fmt::format("$edges {} with lines {} notitle, ", columns, gnuplot_line(boundary_style));
+      what += fmt::format("$edges {} with lines {} notitle, ", columns,
+                          gnuplot_line(walls_.nobody ? held_style : boundary_style));
+    }
+    if (walls_.nobody && !walls_.nobody->region.components.empty()) {
+      what += fmt::format("$alone {} with lines {} notitle, ", columns, gnuplot_line(boundary_style));
     }
     for (const ComparedApproximation& each : walls_.approximations) {
       const Formula formula = each.formula.formula;

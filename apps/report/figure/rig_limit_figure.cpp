@@ -33,7 +33,9 @@ std::string draw_limit_trials(const Device& device, const RigLimit& limit, Figur
   }
   if (predicted) {
     legend.push_back(
-        {fmt::format("K_CR predicted, {}", quantity(limit.predicted.stiffness, units.stiffness)), predicted_style});
+        {fmt::format("K_CR predicted with {}, {}", words_of(limit.limits.user ? Holder::user : Holder::nobody),
+                     quantity(limit.predicted.stiffness, units.stiffness)),
+         predicted_style});
   }
   double largest = 0.0;
   for (const LimitTrial& trial : measured.trials) largest = std::max(largest, trial.stiffness);

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "report/figure/plot.hpp"
@@ -15,8 +17,8 @@ namespace {
 constexpr Box bar_sides{40.0, 860.0, 0.0, 0.0};
 constexpr double bar_height = 40.0;
 constexpr double text_gap = 5.0;
-constexpr std::string_view stable_colour = "#bfe3c5";
-constexpr std::string_view any_user_bar_colour = "#8ccb97";
+constexpr std::string_view alone_colour = "#dbe7f6";
+constexpr std::string_view anyone_colour = "#bfe3c5";
 constexpr std::string_view unstable_colour = "#f6d5d0";
 constexpr LineStyle leader{"#555555", 0.8, "1"};
 constexpr LineStyle reference_leader{"#0b4f9e", 1.0, "(4,3)"};
@@ -33,10 +35,28 @@ struct Label {
   std::size_t row = 0;  ///< from the bar upwards
 };
 
+/// The walls that are stable with nobody holding and with the file's user, by rising K.
+std::vector<StableInterval> stable_walls(const Analysis& analysis) {
+  const std::vector<StableInterval>& held = analysis.critical.stable_intervals;
+  if (!analysis.alone) return held;
+  std::vector<StableInterval> both;
+  for (const StableInterval& a : held) {
+    for (const StableInterval& b : analysis.alone->critical.stable_intervals) {
+      StableInterval shared{std::max(a.lower, b.lower), a.upper};
+      if (b.upper && (!shared.upper || *b.upper < *shared.upper)) shared.upper = b.upper;
+      if (!shared.upper || *shared.upper > shared.lower) both.push_back(shared);
+    }
+  }
+  return both;
+}
+
 /// That can be drawn: some users destabilise some walls, not all.
 bool has_any_user_limit(const Analysis& analysis) {
   return analysis.any_user && analysis.any_user->stiffness > 0.0 && std::isfinite(analysis.any_user->stiffness);
 }
+
+/// Some wall, up to infinite stiffness.
+bool is_stable_for_anyone(const Analysis& analysis) { return analysis.any_user && analysis.any_user->stiffness > 0.0; }
 
 std::vector<Label> labels_of(const AnalysedDevice& analysed) {
   const Analysis& analysis = analysed.analysis;
@@ -48,11 +68,18 @@ std::vector<Label> labels_of(const AnalysedDevice& analysed) {
     const std::string name = i < most_numbered ? std::to_string(i + 1) : "";
     if (critical.limit && critical.limit->frequency == crossover.frequency) {
       labels.push_back({crossover.stiffness,
-                        fmt::format("{}: critical, {}", name.empty() ? "K" : name, quantity(crossover.stiffness, unit)),
+                        fmt::format("{}: {}, {}", name.empty() ? "K" : name,
+                                    words_of(analysis.limits.user ? Holder::user : Holder::nobody),
+                                    quantity(crossover.stiffness, unit)),
                         critical_leader});
     } else {
       labels.push_back({crossover.stiffness, name, leader});
     }
+  }
+  if (analysis.alone && analysis.alone->critical.limit) {
+    const double stiffness = analysis.alone->critical.stiffness;
+    labels.push_back(
+        {stiffness, fmt::format("{}, {}", words_of(Holder::nobody), quantity(stiffness, unit)), critical_leader});
   }
   if (has_any_user_limit(analysis)) {
     const double stiffness = analysis.any_user->stiffness;
@@ -69,7 +96,7 @@ std::vector<Label> labels_of(const AnalysedDevice& analysed) {
   }
   if (analysis.wall && analysis.wall->stiffness > 0.0) {
     labels.push_back({analysis.wall->stiffness, "the wall, " + quantity(analysis.wall->stiffness, unit),
-                      LineStyle{"#15803d", 1.4, "1"}});
+                      LineStyle{"#1a1a1a", 1.4, "1"}});
   }
   return labels;
 }
@@ -117,6 +144,22 @@ Axis place_with_room(std::vector<Label>& labels) {
   return axis;
 }
 
+/// The three words and their colours, at the right end of the title's line.
+void draw_legend(Canvas& canvas) {
+  constexpr double size = 11.0;
+  constexpr double gap = 18.0;
+  double right = bar_sides.right;
+  for (const auto& [stability, colour] : {std::pair{WallStability::unstable, unstable_colour},
+                                          {WallStability::alone_only, alone_colour},
+                                          {WallStability::anyone, anyone_colour}}) {
+    const std::string_view name = words_of(stability);
+    const double left = right - Canvas::text_width(name, text_size);
+    canvas.text(left, 16.0, name, {Anchor::left, text_size});
+    canvas.rectangle({left - size - text_gap, left - text_gap, 16.0 - 0.5 * size, 16.0 + 0.5 * size}, colour);
+    right = left - size - text_gap - gap;
+  }
+}
+
 }  // namespace
 
 std::string draw_stiffness_axis(const AnalysedDevice& analysed, FigureFormat format) {
@@ -129,27 +172,28 @@ std::string draw_stiffness_axis(const AnalysedDevice& analysed, FigureFormat for
   Canvas canvas("Stable wall stiffness", canvas_width, bar.bottom + 66.0);
   canvas.text(bar.left, 16.0, "Wall stiffness K: where the sampled loop is stable", {Anchor::left, 15.0});
 
+  draw_legend(canvas);
   canvas.rectangle(bar, unstable_colour);
   double unstable_from = bar.left;
   const auto name_segment = [&](double left, double right, std::string_view name) {
     if (right - left < Canvas::text_width(name, text_size) + 8.0) return;
     canvas.text(0.5 * (left + right), 0.5 * (bar.top + bar.bottom), name, {Anchor::centre, text_size});
   };
-  for (const StableInterval& interval : analysed.analysis.critical.stable_intervals) {
+  for (const StableInterval& interval : stable_walls(analysed.analysis)) {
     const double left = interval.lower > 0.0 ? axis.x(interval.lower) : bar.left;
     const double right = interval.upper ? axis.x(*interval.upper) : bar.right;
-    canvas.rectangle({left, right, bar.top, bar.bottom}, stable_colour);
-    name_segment(unstable_from, left, "unstable");
+    canvas.rectangle({left, right, bar.top, bar.bottom}, alone_colour);
+    name_segment(unstable_from, left, words_of(WallStability::unstable));
     double safe = left;  // with every passive user
-    if (interval.lower == 0.0 && has_any_user_limit(analysed.analysis)) {
+    if (interval.lower == 0.0 && is_stable_for_anyone(analysed.analysis)) {
       safe = std::min(axis.x(analysed.analysis.any_user->stiffness), right);
-      canvas.rectangle({left, safe, bar.top, bar.bottom}, any_user_bar_colour);
-      name_segment(left, safe, "stable with any user");
+      canvas.rectangle({left, safe, bar.top, bar.bottom}, anyone_colour);
+      name_segment(left, safe, words_of(WallStability::anyone));
     }
-    name_segment(safe, right, "stable");
+    name_segment(safe, right, words_of(WallStability::alone_only));
     unstable_from = right;
   }
-  name_segment(unstable_from, bar.right, "unstable");
+  name_segment(unstable_from, bar.right, words_of(WallStability::unstable));
 
   for (const Label& label : labels) {
     const double text_y = bar.top - 16.0 - row_height * static_cast<double>(label.row);

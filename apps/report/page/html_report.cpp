@@ -11,10 +11,12 @@
 #include "report/page/html_page.hpp"
 #include "report/text/analysis_tables.hpp"
 #include "report/text/explanation.hpp"
+#include "report/text/limit_rows.hpp"
 #include "report/text/markup.hpp"
 #include "report/text/quantity.hpp"
 #include "report/text/trust_text.hpp"
 #include "report/text/wall_filter_text.hpp"
+#include "report/text/wall_note.hpp"
 
 namespace zwidth::report {
 namespace {
@@ -30,21 +32,32 @@ std::string list(const std::vector<std::string>& texts) {
   return fmt::format("<ul>\n{}</ul>\n", items);
 }
 
-std::string answer(const AnalysedDevice& analysed) {
-  const CriticalStiffness& critical = analysed.analysis.critical;
-  std::string text = "<div class=\"answer\">\n";
-  if (const auto trust = trust_note(analysed.analysis.trust)) text += element("p", *trust);
-  text += "<p>Critical stiffness, the stiffest stable wall</p>\n";
-  text += fmt::format("<p class=\"value\">{}</p>\n",
-                      escape_markup(critical_stiffness_text(critical, analysed.device.parameters().motion)));
-  if (critical.limit) {
-    text += element("p", fmt::format("{} at {}.", critical.limit->frequency > 0.0 ? "Oscillates" : "Drifts away",
-                                     crossover_frequency_text(critical.limit->frequency)));
+/// The stiffest spring that stays stable when the user lets go, too.
+std::string headline(const AnalysedDevice& analysed) {
+  const HoldingLimits& limits = analysed.analysis.limits;
+  const bool user_limits = limits.user && limits.user->critical_stiffness < limits.nobody.critical_stiffness;
+  const AnalysedDevice held = user_limits ? analysed : with_nobody_holding(analysed);
+  return element("p",
+                 fmt::format("Stiffest stable spring with {}", words_of(user_limits ? Holder::user : Holder::nobody))) +
+         fmt::format("<p class=\"value\">{}</p>\n", escape_markup(critical_stiffness_text(
+                                                        held.analysis.critical, analysed.device.parameters().motion)));
+}
+
+std::string limit_table(const AnalysedDevice& analysed) {
+  const std::vector<LimitRow> rows = limit_rows(analysed);
+  if (rows.empty()) return "";
+  TextTable table{{Align::left, Align::left, Align::left}, {{"wall", "who holds", "stable"}}};
+  for (const LimitRow& row : rows) {
+    table.rows.push_back({row.what, row.holder, row.hint.empty() ? row.answer : row.answer + "; " + row.hint});
   }
-  if (const auto limit = any_user_note(analysed))
-    text += element("p", fmt::format("With any passive user: {}.", *limit));
+  return html_table(table);
+}
+
+std::string answer(const AnalysedDevice& analysed) {
+  std::string text = "<div class=\"answer\">\n";
+  text += element("p", trust_note(analysed.analysis.trust).value_or("sound"));
+  text += headline(analysed) + limit_table(analysed);
   if (const auto interval = interval_note(analysed)) text += element("p", "95 % interval: " + *interval + ".");
-  if (const auto limit = what_limits(analysed)) text += element("p", fmt::format("Limited by {}.", *limit));
   return text + "</div>\n";
 }
 
@@ -59,7 +72,8 @@ TextTable numbered(TextTable table) {
 
 std::string crossover_section(const AnalysedDevice& analysed) {
   if (analysed.analysis.critical.trust.refused()) return "";
-  std::string text = element("h2", "Crossovers");
+  std::string text = element(
+      "h2", fmt::format("Crossovers with {}", words_of(analysed.analysis.limits.user ? Holder::user : Holder::nobody)));
   text += element("p", fmt::format("Every wall stiffness that puts a closed-loop pole on the unit circle, up to the "
                                    "Nyquist frequency of {}, that frequency included.",
                                    quantity(0.5 / analysed.device.loop().sampling_period, "Hz")));
@@ -78,8 +92,8 @@ std::string figures(const AnalysedDevice& analysed, std::size_t index) {
                                          quantity(analysed.device.loop().sampling_period, "s"));
   return html_figure(draw_stiffness_axis(analysed, FigureFormat::svg), fmt::format("axis{}", index),
                      device +
-                         ": stiffness K of the virtual wall, logarithmic; stable where green. Numbers are those of "
-                         "the table of crossovers.") +
+                         ": stiffness K of the virtual wall, logarithmic. Numbers are those of the table of "
+                         "crossovers.") +
          html_figure(
              bode, fmt::format("bode{}", index),
              device +
@@ -91,10 +105,7 @@ std::string figures(const AnalysedDevice& analysed, std::size_t index) {
 std::string comparison(std::span<const AnalysedDevice> devices) {
   const auto sampled_curves = std::min(devices.size(), most_curves);
   std::string text = html_table(comparison_table(devices, any_width));
-  text +=
-      element("p",
-              "K_CR: stiffest stable wall. Rigid model: how far off the same device with rigid links is; above 0 dB "
-              "it is UNSAFE.");
+  text += element("p", comparison_legend(devices));
   const auto same_motion = [&](const AnalysedDevice& each) {
     return each.device.parameters().motion == devices.front().device.parameters().motion;
   };
@@ -173,10 +184,9 @@ std::string users(const AnalysedDevice& analysed) {
   const auto add = [&](std::string who, const std::optional<std::string>& note) {
     if (note) table.rows.push_back({std::move(who), *note});
   };
-  add("any passive user", any_user_note(analysed));
   add("the worst one", worst_user_note(analysed));
   add("users as given", user_family_note(analysed));
-  return table.rows.size() < 2 ? "" : element("h2", "With a user") + html_table(table);
+  return table.rows.size() < 2 ? "" : element("h2", "Users asked for") + html_table(table);
 }
 
 std::string device_section(const AnalysedDevice& analysed, std::size_t index) {

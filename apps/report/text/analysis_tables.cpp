@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
@@ -9,6 +10,7 @@
 #include "report/text/explanation.hpp"
 #include "report/text/quantity.hpp"
 #include "report/text/trust_text.hpp"
+#include "report/text/wall_note.hpp"
 
 namespace zwidth::report {
 namespace {
@@ -38,12 +40,16 @@ std::string rigid_cell(const AnalysedDevice& analysed) {
   return fmt::format("{:+.2f} dB", decibels(rigid->critical.stiffness / exact.stiffness));
 }
 
-std::string any_user_cell(const AnalysedDevice& analysed) {
-  const auto& limit = analysed.analysis.any_user;
+std::string limit_cell(const std::optional<HolderLimit>& limit, Motion motion) {
   if (!limit) return "-";
-  if (limit->stiffness == 0.0) return "none";
-  if (!std::isfinite(limit->stiffness)) return "unbounded";
-  return quantity(limit->stiffness, units_of(analysed.device.parameters().motion).stiffness);
+  const double stiffness = limit->critical_stiffness;
+  if (std::isnan(stiffness)) return "refused";
+  if (stiffness == 0.0) return "none";
+  return std::isfinite(stiffness) ? quantity(stiffness, units_of(motion).stiffness) : "unbounded";
+}
+
+bool has_user(std::span<const AnalysedDevice> devices) {
+  return std::ranges::any_of(devices, [](const auto& each) { return each.analysis.limits.user.has_value(); });
 }
 
 }  // namespace
@@ -85,27 +91,38 @@ TextTable mode_table(const AnalysedDevice& analysed) {
 TextTable comparison_table(std::span<const AnalysedDevice> devices, std::size_t name_width) {
   TextTable table{
       {Align::right, Align::left, Align::right, Align::right, Align::right, Align::left, Align::right, Align::left},
-      {{"", "device", "K_CR", "any user", "frequency", "limited by", "rigid model", "wall"}}};
+      {{"", "device", "nobody", "any user", "frequency", "limited by", "rigid model", "wall"}}};
+  const bool shows_user = has_user(devices);
+  if (shows_user) {
+    table.alignment.insert(table.alignment.begin() + 3, Align::right);
+    table.rows.front().insert(table.rows.front().begin() + 3, "user");
+  }
   for (const AnalysedDevice& each : devices) {
-    const CriticalStiffness& critical = each.analysis.critical;
+    const Motion motion = each.device.parameters().motion;
+    const HoldingLimits& limits = each.analysis.limits;
     const std::string_view mark = trust_mark(each.analysis.trust);
     const std::size_t room = name_width > mark.size() ? name_width - mark.size() : 1;
     std::vector<std::string> row = {std::to_string(table.rows.size()),
-                                    shortened(display_name(each.device), room) + std::string(mark)};
-    if (critical.limit) {
-      row.insert(row.end(), {quantity(critical.stiffness, units_of(each.device.parameters().motion).stiffness),
-                             quantity(hertz(critical.limit->frequency), "Hz"), short_name(critical.limit->limited_by)});
-    } else {
-      row.insert(row.end(), {critical.status == StiffnessStatus::refused       ? "refused"
-                             : critical.status == StiffnessStatus::none_stable ? "none"
-                                                                               : "unbounded",
-                             "-", "-"});
-    }
-    row.insert(row.begin() + 3, any_user_cell(each));
-    row.insert(row.end(), {rigid_cell(each), wall_verdict(each.analysis)});
+                                    shortened(display_name(each.device), room) + std::string(mark),
+                                    limit_cell(limits.nobody, motion)};
+    if (shows_user) row.push_back(limit_cell(limits.user, motion));
+    row.push_back(limit_cell(limits.any_user, motion));
+    const bool is_known = limits.nobody.frequency && limits.nobody.limited_by;
+    row.push_back(is_known ? quantity(hertz(*limits.nobody.frequency), "Hz") : "-");
+    row.push_back(is_known ? short_name(*limits.nobody.limited_by) : "-");
+    row.push_back(rigid_cell(each));
+    row.push_back(wall_verdict(each.analysis));
     table.rows.push_back(std::move(row));
   }
   return table;
+}
+
+std::string comparison_legend(std::span<const AnalysedDevice> devices) {
+  return fmt::format(
+      "Stiffest stable spring with {}, {}with {}; frequency and mechanism are those with {}. Rigid model: how far off "
+      "the same device with rigid links is; above 0 dB it is UNSAFE.",
+      words_of(Holder::nobody), has_user(devices) ? fmt::format("with {}, ", words_of(Holder::user)) : "",
+      words_of(Holder::any_user), words_of(Holder::nobody));
 }
 
 }  // namespace zwidth::report

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 
 #include "report/analysed_device.hpp"
 #include "report/text/text_table.hpp"
@@ -17,5 +18,8 @@ namespace zwidth::report {
 
 /// One row per device; names are cut to `name_width` characters.
 [[nodiscard]] TextTable comparison_table(std::span<const AnalysedDevice> devices, std::size_t name_width);
+
+/// What its columns mean.
+[[nodiscard]] std::string comparison_legend(std::span<const AnalysedDevice> devices);
 
 }  // namespace zwidth::report

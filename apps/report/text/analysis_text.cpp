@@ -10,10 +10,12 @@
 
 #include "report/text/analysis_tables.hpp"
 #include "report/text/explanation.hpp"
+#include "report/text/limit_rows.hpp"
 #include "report/text/quantity.hpp"
 #include "report/text/text_table.hpp"
 #include "report/text/trust_text.hpp"
 #include "report/text/wall_filter_text.hpp"
+#include "report/text/wall_note.hpp"
 
 namespace zwidth::report {
 namespace {
@@ -37,7 +39,8 @@ std::string crossovers(const AnalysedDevice& analysed) {
   if (analysed.analysis.critical.trust.refused()) return "";
   const std::size_t count = analysed.analysis.critical.crossovers.size();
   const std::string title =
-      wrap(fmt::format("Phase crossovers (a closed-loop pole on the unit circle), all up to Nyquist at {}{}",
+      wrap(fmt::format("Phase crossovers with {} (a closed-loop pole on the unit circle), all up to Nyquist at {}{}",
+                       words_of(analysed.analysis.limits.user ? Holder::user : Holder::nobody),
                        quantity(0.5 / analysed.device.loop().sampling_period, "Hz"), count == 0 ? ": none" : ""),
            line_width, 0);
   if (count == 0) return title + "\n";
@@ -52,18 +55,9 @@ std::string modes(const AnalysedDevice& analysed) {
 }
 
 std::string answer_lines(const AnalysedDevice& analysed) {
-  const CriticalStiffness& critical = analysed.analysis.critical;
   const auto trust = trust_note(analysed.analysis.trust);
-  std::string text =
-      shortened(display_name(analysed.device), line_width - 8) + "\n" + (trust ? labelled("  trust", *trust) : "") +
-      labelled("  critical stiffness", critical_stiffness_text(critical, analysed.device.parameters().motion));
-  if (const auto limit = any_user_note(analysed)) text += labelled("  any passive user", *limit);
-  if (critical.limit) {
-    text += labelled(critical.limit->frequency > 0.0 ? "  oscillates at" : "  drifts away at",
-                     crossover_frequency_text(critical.limit->frequency));
-  }
+  std::string text = limit_lines(analysed) + (trust ? labelled("  trust", *trust) : "");
   if (const auto interval = interval_note(analysed)) text += labelled("  95 % interval", *interval);
-  if (const auto limit = what_limits(analysed)) text += labelled("  limited by", *limit);
   if (const auto worst = worst_user_note(analysed)) text += labelled("  the worst one", *worst);
   if (const auto family = user_family_note(analysed)) text += labelled("  users as given", *family);
   return text + "\n";
@@ -108,11 +102,13 @@ std::string short_answer(const AnalysedDevice& analysed) {
 
 std::string analysis_text(std::span<const AnalysedDevice> devices) {
   if (devices.size() == 1) return full_answer(devices.front());
-  std::string text = fitted_comparison(devices) +
-                     "  K_CR: stiffest stable wall. Rigid model: how far off the same device with rigid links is;\n"
-                     "  above 0 dB it is UNSAFE.\n\n";
+  std::string text = fitted_comparison(devices) + wrap(comparison_legend(devices), line_width, 2) + "\n";
   for (std::size_t i = 0; i < devices.size(); ++i) text += fmt::format("{}. {}", i + 1, short_answer(devices[i]));
-  text += "Each device alone (zwidth analyze FILE) gives its crossovers, modes and what the numbers leave out.\n";
+  text += wrap(
+      "Each device alone (zwidth analyze FILE) gives its walls with a damper and with margins, its crossovers, modes "
+      "and "
+      "what the numbers leave out.",
+      line_width, 0);
   return text;
 }
 

@@ -14,46 +14,102 @@ namespace {
 
 constexpr std::size_t target_width = 30;
 
-std::string limit_text(const DesignTargets& targets, std::string_view unit) {
-  if (!targets.limit_now) return "refused";
-  if (*targets.limit_now == 0.0) return "none: no wall is stable from K = 0 on";
-  return std::isfinite(*targets.limit_now) ? quantity(*targets.limit_now, unit) : std::string("unbounded");
-}
+/// The limit's number in words: K, or B of a damper alone.
+class LimitWords {
+ public:
+  LimitWords(WallNumber number, Motion motion) : is_damper_(number == WallNumber::damping), units_(units_of(motion)) {}
+
+  [[nodiscard]] std::string value(double limit) const {
+    return is_damper_ ? fmt::format("{} {}", number(limit), units_.damping) : quantity(limit, units_.stiffness);
+  }
+  [[nodiscard]] std::string limit(const std::optional<double>& limit) const {
+    if (!limit) return "refused";
+    if (*limit == 0.0) return is_damper_ ? "none: no damper is stable" : "none: no wall is stable from K = 0 on";
+    return std::isfinite(*limit) ? value(*limit) : std::string("unbounded");
+  }
+  [[nodiscard]] std::string asked(const DesignTargetOptions& options, const DesignTargets& targets) const {
+    if (!options.times_now) return value(options.stiffness);
+    const std::string multiple = fmt::format("{:.4g} times that", *options.times_now);
+    return targets.target ? fmt::format("{}, {}", multiple, value(*targets.target)) : multiple;
+  }
+  [[nodiscard]] std::string any_user(const std::optional<double>& limit) const {
+    if (!limit) return "-";
+    if (*limit == 0.0) return is_damper_ ? "no damper" : "no wall";
+    return std::isfinite(*limit) ? value(*limit) : std::string(is_damper_ ? "any damper" : "any wall");
+  }
+  [[nodiscard]] std::string_view nobody() const { return is_damper_ ? "critical damping  " : "critical stiffness"; }
+
+ private:
+  bool is_damper_;
+  Units units_;
+};
 
 std::string change_text(const DesignTarget& target) {
   if (!target.value_needed || target.value_now == 0.0) return "";
-  const double factor = *target.value_needed / target.value_now;
-  return factor < 10.0 ? fmt::format("{:+.3g} %", 100.0 * (factor - 1.0)) : fmt::format("x {:.3g}", factor);
+  return factor_text(*target.value_needed / target.value_now);
 }
+
+/// A table of targets and a note on each, under its heading; nothing without any.
+class TargetTable {
+ public:
+  TargetTable(Motion motion, const LimitWords& words, bool judged) : motion_(motion), words_(words) {
+    if (judged) {
+      table_ = {{Align::left, Align::right, Align::right, Align::right, Align::right},
+                {{"one number alone", "now", "needed", "change", "any passive user then"}}};
+    }
+  }
+
+  void add(const DesignTarget& each) {
+    const std::string key = shortened(each.key, target_width);
+    std::vector<std::string> row{key, parameter_text(each.key, each.value_now, motion_),
+                                 parameter_text(each.key, *each.value_needed, motion_), change_text(each)};
+    if (table_.alignment.size() > row.size()) {
+      row.push_back(words_.any_user(each.any_user_then));
+    }
+    table_.rows.push_back(std::move(row));
+    notes_ += wrap(fmt::format("{}: {}", key, each.why), line_width, 4).replace(0, 4, "  - ");
+  }
+
+  [[nodiscard]] std::string under(const std::string& heading) const {
+    return table_.rows.size() > 1 ? "\n" + wrap(heading, line_width, 0) + layout(table_) + notes_ : "";
+  }
+
+ private:
+  Motion motion_;
+  const LimitWords& words_;
+  TextTable table_{{Align::left, Align::right, Align::right, Align::right},
+                   {{"one number alone", "now", "needed", "change"}}};
+  std::string notes_;
+};
 
 }  // namespace
 
 std::string design_target_text(const Device& device, const DesignTargetOptions& options, const DesignTargets& targets) {
   const Motion motion = device.parameters().motion;
-  const std::string_view unit = units_of(motion).stiffness;
+  const LimitWords words(options.limit_of, motion);
   const bool any_user = options.goal == StiffnessGoal::any_user_limit;
   std::string text = shortened(display_name(device), line_width) + "\n";
   if (const auto trust = trust_note(targets.trust)) text += wrap(*trust, line_width, 22).replace(0, 7, "  trust");
-  text += fmt::format("  {}  {}, asked for {}\n", any_user ? "any passive user  " : "critical stiffness",
-                      limit_text(targets, unit), quantity(options.stiffness, unit));
+  text += fmt::format("  {}  {}, asked for {}\n", any_user ? "any passive user  " : words.nobody(),
+                      words.limit(targets.limit_now), words.asked(options, targets));
+  if (!any_user && targets.any_user_now) {
+    text += fmt::format("  any passive user    {}\n", words.limit(targets.any_user_now));
+  }
   for (const Remark& remark : targets.remarks) text += wrap(remark_line(remark), line_width, 4).replace(0, 4, "  - ");
-  TextTable table{{Align::left, Align::right, Align::right, Align::right},
-                  {{"one number alone", "now", "needed", "change"}}};
-  std::string notes;
+  TargetTable reaching(motion, words, targets.any_user_now.has_value());
+  TargetTable lowering(motion, words, true);
   std::string without;
   for (const DesignTarget& each : targets.targets) {
-    const std::string key = shortened(each.key, target_width);
-    if (!each.value_needed) {
-      without += wrap(fmt::format("{}: {}", key, each.why), line_width, 4).replace(0, 4, "  - ");
-      continue;
+    if (each.value_needed) {
+      (each.safe.value_or(true) ? reaching : lowering).add(each);
+    } else {
+      without +=
+          wrap(fmt::format("{}: {}", shortened(each.key, target_width), each.why), line_width, 4).replace(0, 4, "  - ");
     }
-    table.rows.push_back({key, parameter_text(each.key, each.value_now, motion),
-                          parameter_text(each.key, *each.value_needed, motion), change_text(each)});
-    notes += wrap(fmt::format("{}: {}", key, each.why), line_width, 4).replace(0, 4, "  - ");
   }
-  if (table.rows.size() > 1) {
-    text += "\nWhat reaches it, the smallest change first; numbers that are 0 now at the end\n" + layout(table) + notes;
-  }
+  text += reaching.under("What reaches it, the smallest change first; numbers that are 0 now at the end");
+  text += lowering.under(fmt::format("What reaches it, but lowers the limit with any passive user, now {}",
+                                     words.limit(targets.any_user_now)));
   if (!without.empty()) text += "\nWhat does not\n" + without;
   return text;
 }

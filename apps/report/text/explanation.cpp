@@ -9,13 +9,11 @@
 #include <numbers>
 
 #include "report/text/quantity.hpp"
+#include "zwidth/model/device_operator.hpp"
 #include "zwidth/sampling/filter_section.hpp"
 
 namespace zwidth::report {
 namespace {
-
-/// Growth in percent per sample that cannot be told from none.
-constexpr double growth_of_rounding = 1e-9;
 
 const DeviceParameters& parameters_of(const AnalysedDevice& analysed) { return analysed.device.parameters(); }
 
@@ -67,11 +65,39 @@ std::string other_intervals(const AnalysedDevice& analysed) {
 }
 
 /// What the device does just above a crossover.
-std::string onset_text(const AnalysedDevice& analysed, double frequency) {
+std::string onset_text(const AnalysedDevice& analysed, double frequency, Holder holder) {
   if (frequency == 0.0) return "drifts away without oscillating: " + crossover_frequency_text(frequency);
   const double nyquist = std::numbers::pi / parameters_of(analysed).loop.sampling_period;
-  return fmt::format("oscillates by itself at about {}{}", quantity(hertz(frequency), "Hz"),
+  return fmt::format("oscillates {} at about {}{}", holder == Holder::nobody ? "by itself" : "in that hand",
+                     quantity(hertz(frequency), "Hz"),
                      frequency < nyquist ? "" : ", the Nyquist frequency: the force alternates at every sample");
+}
+
+/// The critical stiffness as a sentence, and who holds.
+std::string limit_meaning(const AnalysedDevice& analysed, Holder holder) {
+  const CriticalStiffness& critical = analysed.analysis.critical;
+  const std::string damper = virtual_damper_text(analysed);
+  const std::string condition =
+      fmt::format("With {}{}, ", words_of(holder), damper.empty() ? "" : fmt::format(" and {} closed", damper));
+  if (critical.status == StiffnessStatus::refused) return condition + "no limit is given.";
+  if (critical.status == StiffnessStatus::unbounded) {
+    return condition +
+           "no wall stiffness makes the loop unstable; it has no phase crossover up to the Nyquist frequency. No real "
+           "device does this: check the file for something left out.";
+  }
+  if (critical.status == StiffnessStatus::none_stable || !critical.limit) {
+    std::string text = condition + "the loop is unstable for an arbitrarily small wall stiffness.";
+    if (is_undamped_against_ground(parameters_of(analysed))) {
+      text +=
+          " Nothing damps the device against ground, so the delay of sampling alone drives it: give the bodies "
+          "their damping, or the wall a virtual damper.";
+    }
+    return text + other_intervals(analysed);
+  }
+  return fmt::format("{}every wall softer than {} is stable. Just above, the device {}.", condition,
+                     stiffness_text(analysed, critical.stiffness),
+                     onset_text(analysed, critical.limit->frequency, holder)) +
+         other_intervals(analysed);
 }
 
 /// Degrees by which the filters of the wall turn the phase back at w; below 0 where they lead.
@@ -100,27 +126,41 @@ std::string mechanism_name(const Analysis& analysis, const Mechanism& mechanism)
                      number(mode.damping_ratio));
 }
 
-std::optional<std::string> what_limits(const AnalysedDevice& analysed) {
-  const auto& limit = analysed.analysis.critical.limit;
-  if (!limit) return std::nullopt;
-  if (limit->frequency == 0.0) {
-    return mechanism_name(analysed.analysis, limit->limited_by) +
+std::string what_turns_unstable(const Device& analysed, const std::string& mechanism, double frequency) {
+  if (frequency == 0.0) {
+    return mechanism +
            ": a constant force moves the sensed position the other way, and a stiffer wall overcomes what holds it";
   }
-  const DeviceParameters& device = parameters_of(analysed);
+  const DeviceParameters& device = analysed.parameters();
   std::vector<std::string> causes = {
-      fmt::format("the sampling delay of T/2 = {}", quantity(device.loop.sampling_period / 2.0, "s"))};
+      mechanism, fmt::format("the sampling delay of T/2 = {}", quantity(device.loop.sampling_period / 2.0, "s"))};
   if (device.loop.delay > 0.0) causes.push_back(fmt::format("the added delay of {}", quantity(device.loop.delay, "s")));
   if (device.actuator.time_constant > 0.0) {
     causes.push_back(fmt::format("the actuator's lag of {}", quantity(device.actuator.time_constant, "s")));
   }
-  if (const double lag = lag_of_filters(device, limit->frequency); lag > 0.0) {
+  if (const double lag = lag_of_filters(device, frequency); lag > 0.0) {
     causes.push_back(fmt::format("the wall's filters, {:.3g}° behind there", lag));
   }
   const std::string last = causes.back();
   causes.pop_back();
-  causes.insert(causes.begin(), mechanism_name(analysed.analysis, limit->limited_by));
   return fmt::format("{} and {}", fmt::join(causes, ", "), last);
+}
+
+std::optional<std::string> what_limits(const AnalysedDevice& analysed) {
+  const auto& limit = analysed.analysis.critical.limit;
+  if (!limit) return std::nullopt;
+  return what_turns_unstable(analysed.device, mechanism_name(analysed.analysis, limit->limited_by), limit->frequency);
+}
+
+AnalysedDevice with_nobody_holding(const AnalysedDevice& analysed) {
+  const auto& alone = analysed.analysis.alone;
+  if (!alone) return analysed;
+  Analysis analysis;
+  analysis.critical = alone->critical;
+  analysis.modes = alone->modes;
+  analysis.suspended_rigid_body = alone->suspended_rigid_body;
+  analysis.trust = analysed.analysis.trust;
+  return {without_operator(analysed.device), std::move(analysis), std::nullopt};
 }
 
 std::string critical_stiffness_text(const CriticalStiffness& critical, Motion motion) {
@@ -225,29 +265,11 @@ std::optional<std::string> user_family_note(const AnalysedDevice& analysed) {
 }
 
 std::string meaning(const AnalysedDevice& analysed) {
-  const CriticalStiffness& critical = analysed.analysis.critical;
-  const std::string damper = virtual_damper_text(analysed);
-  const std::string condition = damper.empty() ? "" : fmt::format("With {} closed, ", damper);
-  if (critical.status == StiffnessStatus::unbounded) {
-    return condition + (condition.empty() ? "No" : "no") +
-           " wall stiffness makes the loop unstable; it has no phase crossover up to the Nyquist frequency. No real "
-           "device does this: check the file for something left out.";
-  }
-  if (critical.status == StiffnessStatus::refused) return "Neither a limit nor a verdict on a wall is given.";
-  if (critical.status == StiffnessStatus::none_stable || !critical.limit) {
-    std::string text =
-        condition + (condition.empty() ? "The" : "the") + " loop is unstable for an arbitrarily small wall stiffness.";
-    if (is_undamped_against_ground(parameters_of(analysed))) {
-      text +=
-          " Nothing damps the device against ground, so the delay of sampling alone drives it: give the bodies "
-          "their damping, or the wall a virtual damper.";
-    }
-    return text + other_intervals(analysed);
-  }
-  return fmt::format("{}{} wall softer than {} is stable. Just above, the device {}.", condition,
-                     condition.empty() ? "Every" : "every", stiffness_text(analysed, critical.stiffness),
-                     onset_text(analysed, critical.limit->frequency)) +
-         other_intervals(analysed);
+  if (analysed.analysis.trust.refused()) return "Neither a limit nor a verdict on a wall is given.";
+  const std::string alone = limit_meaning(with_nobody_holding(analysed), Holder::nobody);
+  if (!analysed.analysis.limits.user) return alone;
+  return fmt::format("{} {} A person lets go: a wall has to be stable with both.", alone,
+                     limit_meaning(analysed, Holder::user));
 }
 
 std::optional<std::string> rigid_model_note(const AnalysedDevice& analysed) {
@@ -329,38 +351,13 @@ std::vector<std::string> encoder_notes(const AnalysedDevice& analysed) {
   return notes;
 }
 
-std::string wall_verdict(const Analysis& analysis) {
-  if (!analysis.wall) return "-";
-  return analysis.wall->stable ? "stable" : "UNSTABLE";
-}
-
-std::optional<std::string> wall_note(const AnalysedDevice& analysed) {
-  const auto& wall = analysed.analysis.wall;
-  if (!wall) return std::nullopt;
-  const Units units = device_units(analysed);
-  const CriticalStiffness& critical = analysed.analysis.critical;
-  const std::string share =
-      critical.status == StiffnessStatus::finite
-          ? fmt::format(" ({} of the critical stiffness)", percent(wall->stiffness / critical.stiffness))
-          : "";
-  const std::string damper = wall->damping > 0.0 ? fmt::format(" and {} {}", number(wall->damping), units.damping) : "";
-  const std::string text = fmt::format("The wall of {}{}{} is {}", quantity(wall->stiffness, units.stiffness), damper,
-                                       share, wall_verdict(analysed.analysis));
-  const double growth = 100.0 * (wall->spectral_radius - 1.0);
-  if (!wall->stable && growth < growth_of_rounding) {
-    return text + ", just: what is set in motion neither grows nor comes to rest.";
-  }
-  if (!wall->stable) return fmt::format("{}: an oscillation grows by {} % per sample.", text, number(growth));
-  return fmt::format("{}: what oscillates longest decays by {} % per sample.", text, number(-growth));
-}
-
 std::vector<std::string> caveats(const AnalysedDevice& analysed) {
   const DeviceParameters& device = parameters_of(analysed);
   const Units units = device_units(analysed);
   std::vector<std::string> texts;
   const auto& wall = analysed.analysis.wall;
   for (const Remark& remark : analysed.analysis.remarks) {
-    const bool stands_beside_margins = wall && wall->stable;
+    const bool stands_beside_margins = wall.has_value();
     if (remark.severity == Remark::Severity::warning && !stands_beside_margins) texts.push_back(remark_line(remark));
   }
   const Operator& user = device.user;
@@ -368,8 +365,8 @@ std::vector<std::string> caveats(const AnalysedDevice& analysed) {
                          std::isfinite(analysed.analysis.any_user->stiffness);
   const std::string held = device.bodies.empty() ? "" : device.bodies[device.loop.held].name;
   if (user.mass > 0.0 || user.damping > 0.0 || user.stiffness > 0.0) {
-    texts.push_back(fmt::format("One user is included, at {}: {} {}, {} {}, {}. Another grasp gives another answer.",
-                                held, number(user.mass), units.mass, number(user.damping), units.damping,
+    texts.push_back(fmt::format("The file's user holds {}: {} {}, {} {}, {}. Another grasp gives another answer.", held,
+                                number(user.mass), units.mass, number(user.damping), units.damping,
                                 quantity(user.stiffness, units.stiffness)));
   } else if (device.bodies.empty()) {
     texts.emplace_back("The transfer function is taken as it is: a user who is not in it is left out.");

@@ -21,6 +21,12 @@ namespace zwidth::report {
 /// Nothing unless the critical stiffness is finite.
 [[nodiscard]] std::optional<std::string> what_limits(const AnalysedDevice& analysed);
 
+/// The same of an oscillation at this frequency, rad/s, whose mechanism has this name.
+[[nodiscard]] std::string what_turns_unstable(const Device& device, const std::string& mechanism, double frequency);
+
+/// The device with nobody holding; without an [operator], as it is.
+[[nodiscard]] AnalysedDevice with_nobody_holding(const AnalysedDevice& analysed);
+
 /// "8.849 kN/m (78.94 dB re 1 N/m)", "none: no wall is stable", "unbounded".
 [[nodiscard]] std::string critical_stiffness_text(const CriticalStiffness& critical, Motion motion);
 
@@ -48,17 +54,8 @@ namespace zwidth::report {
 /// Q and its plain meaning, its approximation stated. Nothing unless the device has two bodies.
 [[nodiscard]] std::optional<std::string> q_criterion_note(const AnalysedDevice& analysed);
 
-/// The verdict on [wall], and how fast an oscillation decays or grows. Nothing without a wall.
-[[nodiscard]] std::optional<std::string> wall_note(const AnalysedDevice& analysed);
-
-/// The margins of a stable wall, one phrase each; empty without a wall or when it is unstable.
-[[nodiscard]] std::vector<std::string> wall_margin_notes(const Analysis& analysis);
-
 /// What the encoder does to the wall's force, and friction about it, one phrase each.
 [[nodiscard]] std::vector<std::string> encoder_notes(const AnalysedDevice& analysed);
-
-/// "stable", "UNSTABLE" or "-" where there is no wall.
-[[nodiscard]] std::string wall_verdict(const Analysis& analysis);
 
 /// What the numbers leave out: user, friction, encoder steps, force limit.
 [[nodiscard]] std::vector<std::string> caveats(const AnalysedDevice& analysed);

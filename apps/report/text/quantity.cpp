@@ -17,4 +17,9 @@ std::string parameter_text(const std::string& key, double value, Motion motion) 
                                                                     : fmt::format("{} {}", number(value), unit);
 }
 
+std::string factor_text(double factor) {
+  if (factor >= 2.0) return fmt::format("x {:.3g}", factor);
+  return factor > 0.5 ? fmt::format("{:+.3g} %", 100.0 * (factor - 1.0)) : fmt::format("/ {:.3g}", 1.0 / factor);
+}
+
 }  // namespace zwidth::report

@@ -31,9 +31,21 @@ class RegionWriter {
     if (!region.bounded) {
       return text + wrap("Every wall is stable: the force does not move what the wall senses.", line_width, 0) + "\n";
     }
-    if (!region.stiffest)
-      return text + wrap("No wall is stable, with or without a virtual damper.", line_width, 0) + "\n";
-    text += answer_lines() + "\n" + meaning() + "\n";
+    if (!region.stiffest) {
+      return text +
+             wrap(fmt::format("No wall is stable{}, with or without a virtual damper.",
+                              walls_.nobody ? fmt::format(" with {}", words_of(Holder::user)) : std::string()),
+                  line_width, 0) +
+             "\n";
+    }
+    if (walls_.shared && !walls_.shared->stiffest) {
+      return text +
+             wrap(fmt::format("No wall is stable both with {} and with {}.", words_of(Holder::nobody),
+                              words_of(Holder::user)),
+                  line_width, 0) +
+             "\n";
+    }
+    text += (walls_.shared ? shared_lines(*walls_.shared) : answer_lines()) + "\n" + meaning() + "\n";
     if (walls_.any_user) text += any_user_paragraph() + "\n";
     if (!walls_.approximations.empty()) text += approximations() + "\n";
     for (const Remark& remark : walls_.remarks) text += wrap(remark_line(remark), line_width, 0) + "\n";
@@ -60,21 +72,64 @@ class RegionWriter {
 
   [[nodiscard]] std::string answer_lines() const {
     const StableRegion& region = walls_.region;
-    std::string lines =
-        line("largest K", fmt::format("{} with a virtual damper of {}{}", stiffness(region.stiffest->stiffness),
-                                      damping(region.stiffest->damping), where(*region.stiffest)));
+    std::string lines = line("stable with", words_of(Holder::nobody));
+    lines += line("largest K", fmt::format("{} with a virtual damper of {}{}", stiffness(region.stiffest->stiffness),
+                                           damping(region.stiffest->damping), where(*region.stiffest)));
     lines += line("without a damper", region.critical_stiffness > 0.0
                                           ? fmt::format("{} (K_CR at B = 0)", stiffness(region.critical_stiffness))
                                           : std::string("no wall is stable from K = 0"));
     lines += line("largest B", fmt::format("{} at K = {}", damping(region.most_damped->damping),
                                            stiffness(region.most_damped->stiffness)));
-    lines += line("Z-width (area)", fmt::format("{:.4g} {} x {}", region.area, units_.stiffness, units_.damping));
+    lines += line("Z-width (area)", area(region.area));
+    return lines + wall_lines(*region.stiffest, *region.most_damped);
+  }
+
+  [[nodiscard]] std::string area(double value) const {
+    return fmt::format("{:.4g} {} x {}", value, units_.stiffness, units_.damping);
+  }
+
+  /// The same of the walls that are stable with nobody and with the file's user.
+  [[nodiscard]] std::string shared_lines(const SharedWalls& shared) const {
+    const auto bounded_by = [&](const SharedPoint& end) {
+      const auto frequency = end.point.frequency;
+      return frequency ? fmt::format("; beyond it oscillates at {} with {}", crossover_frequency_text(*frequency),
+                                     words_of(end.holder))
+                       : std::string();
+    };
+    const BoundaryPoint& stiffest = shared.stiffest->point;
+    const BoundaryPoint& most_damped = shared.most_damped->point;
+    std::string lines = line("stable with", fmt::format("{} and {}: a person lets go of the handle",
+                                                        words_of(Holder::nobody), words_of(Holder::user)));
+    lines += line("largest K", fmt::format("{} with a virtual damper of {}{}", stiffness(stiffest.stiffness),
+                                           damping(stiffest.damping), bounded_by(*shared.stiffest)));
+    lines += line("without a damper",
+                  shared.critical_stiffness > 0.0
+                      ? fmt::format("{} (K_CR at B = 0, the lesser of both)", stiffness(shared.critical_stiffness))
+                      : std::string("no wall is stable from K = 0"));
+    lines +=
+        line("largest B", fmt::format("{} at K = {}", damping(most_damped.damping), stiffness(most_damped.stiffness)));
+    lines += line("Z-width (area)", area(shared.area));
+    lines += holder_line(Holder::nobody, walls_.nobody->region);
+    lines += holder_line(Holder::user, walls_.region);
+    return lines + wall_lines(stiffest, most_damped);
+  }
+
+  [[nodiscard]] std::string holder_line(Holder holder, const StableRegion& region) const {
+    if (!region.stiffest) return line(words_of(holder), region.bounded ? "no wall is stable" : "every wall is stable");
+    return line(words_of(holder),
+                fmt::format("up to {} at {}; {} without a damper", stiffness(region.stiffest->stiffness),
+                            damping(region.stiffest->damping), stiffness(region.critical_stiffness)));
+  }
+
+  /// What the walls up to these are made with.
+  [[nodiscard]] std::string wall_lines(const BoundaryPoint& stiffest, const BoundaryPoint& most_damped) const {
+    std::string lines;
     if (const auto& force = walls_.force_per_count) {
       const auto at = [&](const BoundaryPoint& point) {
         return quantity(point.stiffness * force->per_stiffness + point.damping * force->per_damping, units_.force);
       };
       lines += line("force per count", fmt::format("{} at the largest K, {} at the largest B: one step of the encoder",
-                                                   at(*region.stiffest), at(*region.most_damped)));
+                                                   at(stiffest), at(most_damped)));
     }
     const double filter = device_.parameters().wall.velocity_filter_hz;
     lines += line("velocity filter", filter > 0.0 ? quantity(filter, "Hz") : std::string("none"));
@@ -86,15 +141,14 @@ class RegionWriter {
 
   [[nodiscard]] std::string meaning() const {
     const StableRegion& region = walls_.region;
+    const double undamped = walls_.shared ? walls_.shared->critical_stiffness : region.critical_stiffness;
+    const BoundaryPoint& stiffest = walls_.shared ? walls_.shared->stiffest->point : *region.stiffest;
     std::string text;
-    if (region.critical_stiffness > 0.0 && region.stiffest->damping > 0.0) {
-      text = fmt::format(
-          "The right virtual damper makes the stiffest wall {} times as stiff as none. The boundary is exact: every "
-          "wall inside is stable, every wall just outside is not.",
-          number(region.stiffest->stiffness / region.critical_stiffness));
-    } else {
-      text = "The boundary is exact: every wall inside is stable, every wall just outside is not.";
+    if (undamped > 0.0 && stiffest.damping > 0.0) {
+      text = fmt::format("The right virtual damper makes the stiffest wall {} times as stiff as none. ",
+                         number(stiffest.stiffness / undamped));
     }
+    text += "The boundary is exact: every wall inside is stable, every wall just outside is not.";
     if (region.components.size() > 1) {
       text += fmt::format(" The stable walls come in {} separate parts (see --json or a figure).",
                           region.components.size());
@@ -104,15 +158,19 @@ class RegionWriter {
 
   [[nodiscard]] std::string any_user_paragraph() const {
     const AnyUserRegion& region = *walls_.any_user;
-    if (!region.stiffest) return wrap("Some passive user destabilises any wall.", line_width, 0);
+    const std::string anyone(words_of(WallStability::anyone));
+    if (!region.stiffest) return wrap(fmt::format("No wall is {}: some user destabilises any.", anyone), line_width, 0);
     const auto& first = region.ranges.front().front();
     const std::string undamped =
         first.damping == 0.0 ? fmt::format("; {} without a damper", stiffness(first.stiffness)) : std::string();
-    return wrap(fmt::format("Stable with every passive user: up to {} with a damper of {}{}, and up to a damper of {}. "
-                            "Its area is {:.3g} % of the one above.",
-                            stiffness(region.stiffest->stiffness), damping(region.stiffest->damping), undamped,
-                            damping(region.most_damped->damping), 100.0 * region.area / walls_.region.area),
-                line_width, 0);
+    const double of_area = walls_.shared ? walls_.shared->area : walls_.region.area;
+    std::string text = fmt::format(
+        "{}: up to {} with a damper of {}{}, and up to a damper of {}: {:.3g} % of the area above. The other walls are "
+        "{}.",
+        anyone, stiffness(region.stiffest->stiffness), damping(region.stiffest->damping), undamped,
+        damping(region.most_damped->damping), 100.0 * region.area / of_area, words_of(WallStability::alone_only));
+    text.front() = 'S';
+    return wrap(text, line_width, 0);
   }
 
   [[nodiscard]] std::string approximations() const {

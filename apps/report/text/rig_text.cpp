@@ -3,15 +3,18 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "report/text/frf_text.hpp"
+#include "report/text/held_wall_text.hpp"
 #include "report/text/identification_text.hpp"
 #include "report/text/quantity.hpp"
 #include "report/text/relay_text.hpp"
 #include "report/text/text_table.hpp"
 #include "report/text/trust_text.hpp"
+#include "zwidth/stability/held_wall.hpp"
 
 namespace zwidth::report {
 namespace {
@@ -48,19 +51,21 @@ std::string session_text(const RigSession& session) {
   return text;
 }
 
-std::string limit_of(const CriticalStiffness& predicted, const Units& units) {
-  switch (predicted.status) {
-    case StiffnessStatus::finite:
-      return fmt::format("{} at {}", quantity(predicted.stiffness, units.stiffness),
-                         crossover_frequency_text(predicted.limit->frequency));
-    case StiffnessStatus::none_stable:
-      return "none: no wall is stable from K = 0 on";
-    case StiffnessStatus::unbounded:
-      return "every wall is stable";
-    case StiffnessStatus::refused:
-      break;
-  }
-  return "refused";
+std::string predicted_text(const HolderLimit& limit, const Units& units) {
+  const std::string text = holder_limit_text(limit, units.stiffness);
+  return limit.frequency ? fmt::format("{} at {}", text, crossover_frequency_text(*limit.frequency)) : text;
+}
+
+/// What the file predicts, a line for each holder.
+std::string predicted_lines(const HoldingLimits& limits, const Units& units) {
+  std::string lines = labelled("  K_CR predicted",
+                               fmt::format("{}: {}", words_of(Holder::nobody), predicted_text(limits.nobody, units)));
+  const auto add = [&](Holder holder, const std::optional<HolderLimit>& limit) {
+    if (limit) lines += labelled("", fmt::format("{}: {}", words_of(holder), predicted_text(*limit, units)));
+  };
+  add(Holder::user, limits.user);
+  add(Holder::any_user, limits.any_user);
+  return lines;
 }
 
 std::string trial_rows(const LimitMeasurement& measured, const Units& units) {
@@ -126,9 +131,11 @@ std::string rig_text(const Device& device, const RigWall& wall) {
   std::string text = rig_heading(device, "Wall on the rig", wall.session);
   text += labelled("  wall", fmt::format("K = {}, B = {}", quantity(wall.controller.stiffness, units.stiffness),
                                          quantity(wall.controller.damping, units.damping)));
-  text += labelled("  predicted limit", limit_of(wall.predicted, units));
+  text += predicted_lines(wall.limits, units);
   text += trust_lines(wall.trust, "wall");
-  if (wall.predicted_stable == false) text += labelled("  UNSTABLE", "by linear analysis");
+  if (wall.predicted_stable == false) {
+    text += labelled("  UNSTABLE", "by linear analysis, " + unstable_with(*wall.stable_for));
+  }
   if (wall.oscillates) {
     text += labelled("  OSCILLATES", "it grew, and the wall was taken away at once");
   }
@@ -158,13 +165,13 @@ std::string rig_text(const Device& device, const RigLimit& limit) {
   } else {
     text += labelled("  K_CR measured", "none");
   }
-  text += labelled("  K_CR predicted", limit_of(limit.predicted, units));
+  text += predicted_lines(limit.limits, units);
   if (measured.stiffness && limit.predicted.status == StiffnessStatus::finite) {
     text += labelled("  difference",
                      fmt::format("{:+.2f} %", 100.0 * (*measured.stiffness / limit.predicted.stiffness - 1.0)));
   }
-  if (limit.any_user) text += labelled("  with any user", quantity(limit.any_user->stiffness, units.stiffness));
-  text += trust_lines(measured.trust);
+  for (const Remark& remark : limit.remarks) text += labelled("", remark_line(remark));
+  text += trust_lines(limit.trust);
   return text + "\nTrials, each after a knock of " + quantity(limit.knock, units.force) + "\n" +
          trial_rows(measured, units) + session_text(limit.session);
 }

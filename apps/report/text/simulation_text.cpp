@@ -10,11 +10,13 @@
 #include <vector>
 
 #include "report/text/explanation.hpp"
+#include "report/text/held_wall_text.hpp"
 #include "report/text/quantity.hpp"
 #include "report/text/text_table.hpp"
 #include "report/text/trust_text.hpp"
 #include "report/text/wall_filter_text.hpp"
 #include "zwidth/remark.hpp"
+#include "zwidth/stability/held_wall.hpp"
 
 namespace zwidth::report {
 namespace {
@@ -177,10 +179,20 @@ std::string verdict_sentence(const Device& device, const Simulation& result) {
 
 std::string linear_answer(const Device& device, const Simulation& result) {
   const LinearAnswer& linear = result.linear;
-  std::string text = "critical stiffness " + critical_stiffness_text(linear.critical, device.parameters().motion);
+  const Holder holder = linear.limits.user ? Holder::user : Holder::nobody;
+  std::string text = fmt::format("critical stiffness with {}: {}", words_of(holder),
+                                 critical_stiffness_text(linear.critical, device.parameters().motion));
+  if (linear.limits.user) {
+    text += fmt::format(" ({} with {})",
+                        holder_limit_text(linear.limits.nobody, units_of(device.parameters().motion).stiffness),
+                        words_of(Holder::nobody));
+  }
   if (!linear.wall_stable || result.loop.controller.stiffness == 0.0) return text;
   if (linear.wall_share) text += fmt::format("; the wall has {:.3g} % of it", 100.0 * *linear.wall_share);
   text += *linear.wall_stable ? ": stable" : ": UNSTABLE";
+  if (linear.limits.user && linear.stable_for && *linear.wall_stable && !linear.stable_for->nobody) {
+    text += ", but UNSTABLE " + unstable_with(*linear.stable_for);
+  }
   if (linear.agrees == false && !result.nonlinear_parts.empty()) {
     std::vector<std::string_view> names;
     for (const NonlinearPart part : result.nonlinear_parts) names.push_back(name_of(part));

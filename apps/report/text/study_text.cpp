@@ -66,7 +66,7 @@ TextTable quantile_table(const StudyRun& run, const Study& study) {
   TextTable table{{Align::right, Align::right, Align::left}, {{"of the units", "have less than", "95 % interval"}}};
   if (run.options().any_user) {
     table.alignment.push_back(Align::right);
-    table.rows[0].emplace_back("with any user");
+    table.rows[0].emplace_back(words_of(Holder::any_user));
   }
   const auto end = [&](const std::optional<double>& value) {
     return value ? stiffness_text(run, *value) : std::string("?");
@@ -238,7 +238,8 @@ std::string study_text(const StudyRun& run, const Study& study) {
   paragraph(rare_sentence(study));
   paragraph(worst_sentence(run, study));
   paragraph(tightening_sentence(study));
-  table("Critical stiffness K_CR", quantile_table(run, study));
+  table(fmt::format("Critical stiffness K_CR with {}", words_of(study.limits.user ? Holder::user : Holder::nobody)),
+        quantile_table(run, study));
   table("What it depends on", parameter_table(study));
   if (study.regions) {
     if (const auto note = trust_note(study.regions->trust)) paragraph(*note);

@@ -61,6 +61,7 @@ std::string short_text(WallBound bound) {
 
 std::string goal_text(WallGoal goal) {
   if (goal == WallGoal::width) return "greatest K B";
+  if (goal == WallGoal::damper) return "a damper alone (K = 0), strongest in motions of 10 Hz";
   return goal == WallGoal::stiffness ? "greatest K" : "greatest K whose contact does not swing";
 }
 
@@ -102,9 +103,10 @@ class RecommendationWriter {
 
   [[nodiscard]] std::string asked() const {
     const bool any_user = !answer_.wall || answer_.wall->any_user_limit;
+    const bool is_damper = options_.goal == WallGoal::damper;
     std::string text =
-        fmt::format("{}; gain margin {:.3g} dB of K alone and of the whole force {}, phase margin {}",
-                    goal_text(options_.goal), decibels(options_.gain_margin),
+        fmt::format("{}; gain margin {:.3g} dB {} {}, phase margin {}", goal_text(options_.goal),
+                    decibels(options_.gain_margin), is_damper ? "of B" : "of K alone and of the whole force",
                     any_user ? "with any passive user" : "of the device as it is", degrees(options_.phase_margin));
     if (options_.ripple)
       text += fmt::format(", at most {} per encoder count", quantity(*options_.ripple, units_.force));
@@ -118,16 +120,24 @@ class RecommendationWriter {
   [[nodiscard]] std::string wall_lines(const RecommendedWall& each) const {
     const Wall& wall = each.wall;
     const WallBounds& bounds = each.bounded_by;
-    std::string text =
-        line("stiffness K", fmt::format("{}; bounded by {}", stiffness(*wall.stiffness), bound_text(bounds.stiffness)));
-    text += line("damping B", fmt::format("{}; with more: {}", damping(wall.damping),
-                                          bound_text(bounds.damping.value_or(WallBound::none))));
+    std::string text;
+    if (options_.goal == WallGoal::damper) {
+      text = line("damping B", fmt::format("{}, without a spring (K = 0); bounded by {}", damping(wall.damping),
+                                           bound_text(bounds.damping.value_or(WallBound::none))));
+    } else {
+      text = line("stiffness K",
+                  fmt::format("{}; bounded by {}", stiffness(*wall.stiffness), bound_text(bounds.stiffness)));
+      text += line("damping B", fmt::format("{}; with more: {}", damping(wall.damping),
+                                            bound_text(bounds.damping.value_or(WallBound::none))));
+    }
     std::string filter = wall.velocity_filter_hz > 0.0 ? quantity(wall.velocity_filter_hz, "Hz") : std::string("none");
     if (bounds.velocity_filter) filter += fmt::format("; with a faster one: {}", bound_text(*bounds.velocity_filter));
     text += line("velocity filter", filter);
     if (const auto filters = wall_filters_text(wall)) text += line("filters", *filters);
     text += line("margins", margins(each));
-    if (each.any_user_limit) {
+    if (each.any_user_damping_limit) {
+      text += line("any passive user", fmt::format("B up to {}", damping(*each.any_user_damping_limit)));
+    } else if (each.any_user_limit) {
       text += line("any passive user", fmt::format("K up to {} with this damper", stiffness(*each.any_user_limit)));
     }
     if (each.contact_damping_ratio) {
@@ -147,6 +157,10 @@ class RecommendationWriter {
     const auto gain = [](const std::optional<double>& margin) {
       return margin ? fmt::format("{:.3g} dB", decibels(*margin)) : std::string("no limit");
     };
+    if (*each.wall.stiffness == 0.0) {
+      return fmt::format("B {}, phase {}", gain(each.margins.gain_margin),
+                         each.margins.phase_margin ? degrees(*each.margins.phase_margin) : std::string("no limit"));
+    }
     return fmt::format("whole force {}, K alone {}, phase {}", gain(each.margins.gain_margin),
                        gain(each.margins.stiffness_margin),
                        each.margins.phase_margin ? degrees(*each.margins.phase_margin) : std::string("no limit"));
@@ -162,13 +176,15 @@ class RecommendationWriter {
             margins.gain_margin ? fmt::format("{:.3g} dB", decibels(*margins.gain_margin)) : "-",
             margins.phase_margin ? fmt::format("{:.3g}°", *margins.phase_margin * 180.0 / std::numbers::pi) : "-",
             each.force_per_count ? quantity(each.force_per_count->largest, units_.force) : "-",
-            short_text(each.bounded_by.stiffness)};
+            short_text(options_.goal == WallGoal::damper ? each.bounded_by.damping.value_or(WallBound::none)
+                                                         : each.bounded_by.stiffness)};
   }
 
   [[nodiscard]] std::string trade_off() const {
     TextTable table{{Align::left, Align::right, Align::right, Align::right, Align::right, Align::right, Align::right,
                      Align::right, Align::left},
-                    {{"", "K", "B", "filter", "notch", "gain", "phase", "per count", "K bounded by"}}};
+                    {{"", "K", "B", "filter", "notch", "gain", "phase", "per count",
+                      options_.goal == WallGoal::damper ? "B bounded by" : "K bounded by"}}};
     table.rows.push_back(row(*answer_.wall));
     for (const RecommendedWall& each : answer_.alternatives) table.rows.push_back(row(each));
     return "The trade-off: other walls that keep what is asked\n" + layout(table);

@@ -40,7 +40,18 @@ from ._commands import (
     study,
     sweep,
 )
-from ._core import AnyUserLimit, CriticalStiffness, Device, __version__, any_user_limit, critical_stiffness
+from ._core import (
+    AnyUserDamping,
+    AnyUserLimit,
+    CriticalDamping,
+    CriticalStiffness,
+    Device,
+    __version__,
+    any_user_damping,
+    any_user_limit,
+    critical_damping,
+    critical_stiffness,
+)
 from ._errors import DoubtfulResult, Error, InputError, ResultWarning, WorkFailed
 from ._record import Record, Result
 from ._device_results import (
@@ -64,7 +75,7 @@ from ._measured_results import (
     RigidBodyIdentification,
     Simulation,
 )
-from ._parts import Crossover, Mechanism, Mode, Remark, Trust, WallMargins
+from ._parts import Crossover, HolderLimit, HoldingLimits, Mechanism, Mode, Remark, StableFor, Trust, WallMargins
 from ._results import Model
 
 if TYPE_CHECKING:
@@ -80,9 +91,11 @@ def __getattr__(name: str) -> Any:
 
 __all__ = [
     "Analysis",
+    "AnyUserDamping",
     "AnyUserLimit",
     "Bode",
     "Comparison",
+    "CriticalDamping",
     "CriticalStiffness",
     "CriticalStiffnessMany",
     "Crossover",
@@ -94,6 +107,8 @@ __all__ = [
     "Error",
     "Excitation",
     "FrequencyResponse",
+    "HolderLimit",
+    "HoldingLimits",
     "Identification",
     "InputError",
     "Mechanism",
@@ -109,6 +124,7 @@ __all__ = [
     "ResultWarning",
     "RigidBodyIdentification",
     "Simulation",
+    "StableFor",
     "Study",
     "Sweep",
     "Trust",
@@ -117,9 +133,11 @@ __all__ = [
     "WorkFailed",
     "__version__",
     "analyze",
+    "any_user_damping",
     "any_user_limit",
     "bode",
     "compare",
+    "critical_damping",
     "critical_stiffness",
     "critical_stiffness_many",
     "design",

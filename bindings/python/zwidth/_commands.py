@@ -205,7 +205,7 @@ def design_notch(device: Device, *, progress: Progress = None, **options: Option
 def design_targets(
     device: Device, target: Union[float, str], *, progress: Progress = None, **options: Option
 ) -> _device_results.DesignTargets:
-    """What each number alone must be for the limit to reach `target`, N/m or N m/rad."""
+    """What each number alone must be for the limit to reach `target`: N/m or N m/rad, "2x", "200 %"; goal="damper": B."""
     result: _device_results.DesignTargets = _result("design", device, (), progress, {**_given("target", target), **options})
     return result
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from . import _core
 from ._errors import Error
-from ._parts import Trust, Mechanism, Mode, Crossover, Remark, WallMargins, AnyUser, _Limited
+from ._parts import Trust, Mechanism, Mode, Crossover, Remark, HoldingLimits, WallMargins, AnyUser, _Limited
 from ._record import (
     Record, Result, array, count, interval, intervals, many, maybe, maybe_one, maybe_text, number, one, text, texts,
 )  # fmt: skip
@@ -16,7 +16,8 @@ class Analysis(_Limited):
     device = text("The device's name.")
     units = one(Record, "Names of the units of stiffness and damping.")
     status = text('"finite", "none_stable", "unbounded" or "refused".')
-    critical_stiffness = maybe("K_CR, N/m or N m/rad; 0 when none is stable, None when unbounded or refused.")
+    critical_stiffness = maybe("With the file's user: K_CR, N/m or N m/rad; 0 when none is stable, None when unbounded or refused.")
+    limits = one(HoldingLimits, "With nobody holding, the file's user, any passive user.")
     critical_stiffness_db = maybe("20 log10 of it; None unless finite.")
     critical_frequency_rad_s = maybe("Of the oscillation just above it, rad/s.")
     critical_frequency_hz = maybe("Hz")
@@ -32,6 +33,7 @@ class Analysis(_Limited):
     virtual_damper = maybe_one(Record, "The wall's damper, closed while K varies.")
     wall_filters = many(Record, "The wall's filters, in the order in which they run.")
     wall = maybe_one(WallMargins, "The wall's margins; None without wall.stiffness.")
+    walls = maybe_one(Record, "With walls=True: the stiffest wall with a damper, and the one to run.")
     force_per_count = maybe_one(Record, "Force after one step of the encoder, N or N m.")
     quantisation_passivity = maybe_one(Record, "Up to where friction dissipates what the encoder generates.")
     critical_stiffness_interval = interval("95 % interval that the device's uncertainty makes of critical_stiffness.")
@@ -73,6 +75,8 @@ class Region(_Limited):
     most_damped = maybe_one(Record, "The same of B.")
     area = maybe("Of all components, stiffness times damping.")
     components = many(Record, "Connected parts of the region by falling area.")
+    nobody = maybe_one(Record, "The same with nobody holding; None without an [operator]: then that is what stands above.")
+    nobody_and_user = maybe_one(Record, "The walls to build on, stable with both; None without an [operator].")
     any_user = maybe_one(Record, "The walls that no passive user destabilises.")
     approximations = many(Record, "Formulas of the literature beside it.")
     force_per_count = maybe_one(Record, "Force after one step of the encoder, for any wall here.")
@@ -158,10 +162,16 @@ class DesignTargets(_Limited):
 
     device = text("The device's name.")
     units = one(Record, "Names of the units.")
-    goal = text('"critical_stiffness" or "any_user_limit".')
-    target = number("K asked for.")
+    goal = text('"critical_stiffness", "any_user_limit"; of a damper alone "critical_damping", "any_user_damping".')
+    target = maybe("K (B of a damper alone) asked for.")
     stiffness_now = maybe("The limit of the device as it is.")
-    targets = many(Record, "Per parameter value_now, value_needed, why; the smallest change first.")
+    damping_now = maybe("The same of a damper alone.")
+    any_user_now = maybe("The same with any passive user.")
+    targets = many(
+        Record,
+        "Per parameter value_now, value_needed, why, any_user_then, safe; the smallest change first, then those that "
+        "are not safe: they lower the limit with any passive user.",
+    )
 
 
 class WallRecommendation(_Limited):
@@ -169,7 +179,7 @@ class WallRecommendation(_Limited):
 
     device = text("The device's name.")
     units = one(Record, "Names of the units.")
-    goal = text('"stiffness", "width" or "critical_damping".')
+    goal = text('"stiffness", "width", "critical-damping" or "damper".')
     asked = one(Record, "Margins, ripple and drift of the modes.")
     drifts_checked = count("Drifts of the modes at which every wall was held against its margins.")
     status = text('"found", "none", "unbounded" or "refused".')
@@ -191,9 +201,12 @@ class Diagnosis(_Limited):
     amplitude = maybe("m or rad")
     stiffness = maybe("K of the wall.")
     damping = maybe("B of the wall.")
+    limit_of = text('"stiffness", or "damping" of a damper alone (K = 0): what the limits are of.')
     cause = maybe_text("None: none fits.")
-    candidates = many(Record, "The likeliest first.")
-    changes = many(Record, "Each alone and recomputed.")
+    nearest = maybe_text("The cause, or else the one that fits with the least otherwise; what the changes move.")
+    any_user_now = maybe("The limit with any passive user.")
+    candidates = many(Record, "The likeliest first; of those that do not fit what would have to be otherwise.")
+    changes = many(Record, "Each alone and recomputed, with any_user_then and safe; those that are not safe last.")
 
 
 class Quantile(Record):
@@ -210,6 +223,7 @@ class Study(Result):
 
     device = text("The device's name.")
     units = one(Record, "Names of the units.")
+    limits = one(HoldingLimits, "Of the device as its file has it, with nobody and with the file's user.")
     samples = count("Units drawn.")
     seed = count("Of the random numbers.")
     sampling = text('"random", "latin-hypercube" or "sobol".')

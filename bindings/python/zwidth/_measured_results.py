@@ -6,7 +6,7 @@ from typing import List
 
 from . import _core
 from ._errors import Error
-from ._parts import Remark, Mechanism, Mode, _Limited
+from ._parts import HoldingLimits, Remark, Mechanism, Mode, _Limited
 from ._record import (Array, Record, Result, array, complexes, count, flag, interval, intervals, many, maybe, maybe_count, maybe_flag, maybe_one, maybe_text, number, one, text, texts)
 
 
@@ -43,6 +43,7 @@ class Identification(_Limited):
     critical_stiffness_interval = interval("95 %.")
     critical_frequency_hz = maybe("Hz")
     limited_by = maybe_one(Mechanism, "What limits it.")
+    limits = maybe_one(HoldingLimits, "Of the fitted device, by who holds it; None where refused.")
     modes = many(Mode, "Of the fitted device.")
     basis = one(Record, "What is closed around the device in K_CR.")
     points = one(_Points, "With points=True: measured and fitted response.")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Optional
 
-from ._record import Record, Result, count, flag, interval, many, maybe, maybe_one, number, one, text, texts
+from ._record import Record, Result, count, flag, interval, many, maybe, maybe_flag, maybe_one, number, one, text, texts
 
 
 class Trust(Record):
@@ -54,12 +54,40 @@ class Crossover(Record):
     poles_leaving = count("Poles that leave the circle as K rises through it; negative: that return.")
 
 
+class HolderLimit(Record):
+    """The limits that one holder of the device leaves."""
+
+    critical_stiffness = maybe("K_CR, N/m or N m/rad; 0: soft walls are unstable; None: no wall is, or refused.")
+    frequency_rad_s = maybe("Where the loop oscillates there, rad/s.")
+    limited_by = maybe_one(Mechanism, "What oscillates; None for any passive user.")
+    critical_damping = maybe("The largest B at K = 0, N s/m or N m s/rad; None: none is too large, or it is not known.")
+    critical_damping_frequency_rad_s = maybe("Where the loop oscillates at that B, rad/s.")
+    critical_damping_limited_by = maybe_one(Mechanism, "What oscillates there.")
+
+
+class HoldingLimits(Record):
+    """The limits by who holds the device."""
+
+    nobody = one(HolderLimit, "With nobody holding.")
+    user = maybe_one(HolderLimit, "With the file's user; None without an [operator].")
+    any_user = maybe_one(HolderLimit, "With any passive user; None where that is not known or not asked for.")
+
+
+class StableFor(Record):
+    """Whom a wall is stable with."""
+
+    nobody = flag("With nobody holding.")
+    user = maybe_flag("With the file's user; None without an [operator].")
+    any_user = maybe_flag("With any passive user; None where that limit is not known.")
+
+
 class WallMargins(Record):
     """Margins of a wall (K, B); None where the loop is unstable or there is none."""
 
     stiffness = number("K, N/m or N m/rad.")
     damping = number("B, N s/m or N m s/rad.")
-    stable = flag("Whether the loop is.")
+    stable = flag("With nobody holding and with the file's user: a person lets go.")
+    stable_for = one(StableFor, "Whom it is stable with.")
     gain_margin_db = maybe("How far the wall may be scaled up, dB.")
     phase_margin_rad = maybe("rad")
     delay_margin_s = maybe("Least added delay that destabilises, s.")

@@ -74,20 +74,40 @@ def _outline(component: Any) -> npt.NDArray[np.float64]:
     return np.array(points, dtype=np.float64).reshape(-1, 2)
 
 
+def _clip(shown: Any, outlines: Any, axes: Any) -> None:
+    """Shows of a patch what lies in these outlines alone."""
+    from matplotlib.path import Path  # type: ignore[import]
+
+    closed = [np.vstack([outline, outline[:1]]) for outline in outlines]
+    if closed:
+        shown.set_clip_path(Path.make_compound_path(*(Path(each) for each in closed)), axes.transData)
+    else:
+        shown.set_visible(False)
+
+
 def region(source: Union[Device, _device_results.Region], *, figure: Optional[Figure] = None, **options: Any) -> Figure:
     """Every stable wall in the plane of B and K, and those that no passive user destabilises."""
     result = _result_of(source, _commands.region, options)
-    figure, (axes,) = _figure(figure, 1, f"Stable walls of {result.device}", result.trust)
-    for number, component in enumerate(result.components):
-        outline = _outline(component)
-        axes.fill(outline[:, 0], outline[:, 1], facecolor=REGION, edgecolor=BLUE, linewidth=1.6,
-                  label="stable" if number == 0 else None)  # fmt: skip
+    held = result.nobody is not None
+    holder = "nobody holding and with the file's user" if held else "nobody holding"
+    figure, (axes,) = _figure(figure, 1, f"Stable walls of {result.device}, {holder}", result.trust)
+    outlines = [_outline(component) for component in result.components]
+    nobodys = [_outline(component) for component in result.nobody.components] if result.nobody is not None else []
+    for number, outline in enumerate(outlines):
+        (shown,) = axes.fill(outline[:, 0], outline[:, 1], facecolor=REGION, linewidth=0,
+                             label="stable alone only" if number == 0 else None)  # fmt: skip
+        if held:
+            _clip(shown, nobodys, axes)
     if result.any_user is not None:
         for number, limit in enumerate(result.any_user.limits):
             damping = [point.damping for point in limit]
             stiffness = [point.stiffness for point in limit]
             axes.fill_between(damping, stiffness, color=ANY_USER, alpha=0.8)
-            axes.plot(damping, stiffness, color=GREEN, label="with any passive user" if number == 0 else None)
+            axes.plot(damping, stiffness, color=GREEN, label="stable for anyone" if number == 0 else None)
+    for outlines_of, name, style in ((outlines, "the file's user" if held else None, "--" if held else "-"), (nobodys, "nobody holding", "-")):
+        for number, outline in enumerate(outlines_of):
+            axes.plot(outline[:, 0], outline[:, 1], color=BLUE, linewidth=1.6, linestyle=style,
+                      label=name if number == 0 else None)  # fmt: skip
     axes.set_xlabel(f"B, {result.units.damping}")
     axes.set_ylabel(f"K, {result.units.stiffness}")
     if result.components:

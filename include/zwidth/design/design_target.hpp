@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "zwidth/design/notch_design.hpp"
+#include "zwidth/design/wall_number.hpp"
 #include "zwidth/model/device.hpp"
 #include "zwidth/option_problem.hpp"
 #include "zwidth/progress.hpp"
@@ -15,13 +16,15 @@ namespace zwidth {
 
 /// What is to be reached, and how far to look.
 struct DesignTargetOptions {
-  double stiffness = 0.0;                                  ///< the limit to reach, N/m or N m/rad; > 0
+  double stiffness = 0.0;                                  ///< the limit to reach, of a damper alone its B; > 0
   StiffnessGoal goal = StiffnessGoal::critical_stiffness;  ///< which limit is to reach it
   double factor = 1000.0;  ///< each number is followed from p / factor to p * factor; above 1, at most 1e6
-  Progress progress = {};  ///< told how far the work is; ends it by throwing
+  std::optional<double> times_now = {};         ///< instead of a stiffness: so many times the limit of the device; > 0
+  WallNumber limit_of = WallNumber::stiffness;  ///< damping: the largest damper alone is to reach it
+  Progress progress = {};                       ///< told how far the work is; ends it by throwing
 };
 
-/// Checks the stiffness and the factor; of the device: the any-user limit needs a body to hold, and not too many.
+/// Checks the stiffness (or times_now) and the factor; of the device: the any-user limit needs a body to hold, and not too many.
 [[nodiscard]] std::optional<OptionProblem> find_problem(const DesignTargetOptions& options, const Device& device);
 
 /// What one number of the device file alone would have to be.
@@ -30,26 +33,36 @@ struct DesignTarget {
   double value_now = 0.0;              ///< p, in the unit of its key
   std::optional<double> value_needed;  ///< the nearest p at which the limit is the target; absent: there is none
   std::string why;                     ///< what limits there, or why no value is enough
+  /// any_user_limit() at the value needed; infinite where nobody can destabilise a wall, absent where there is no value,
+  /// no body to hold, or the limit is not found.
+  std::optional<double> any_user_then;
+  std::optional<bool> safe;  ///< any_user_then is no lower than any_user_now; absent where one is not known
 };
 
 /// The ways to a stiffness, the cheapest first: least relative change |ln(needed/now)|; numbers that are 0 now after
-/// those, in the order of the device file, then those that do not get there.
+/// those, in the order of the device file; then those that lower the limit with any passive user, in the same order,
+/// and those that do not get there.
 struct DesignTargets {
-  std::optional<double> limit_now;    ///< of the device as it is; infinite where unbounded, absent where refused
-  std::vector<DesignTarget> targets;  ///< cheapest relative change first
-  Trust trust;                        ///< of the whole answer
-  std::vector<Remark> remarks;        ///< what is worth knowing beside it
+  std::optional<double> target;     ///< the limit to reach; absent where it is a multiple of a limit that is not finite
+  std::optional<double> limit_now;  ///< of the device as it is; infinite where unbounded, absent where refused
+  std::optional<double> any_user_now;  ///< any_user_limit() of the device as it is; absent as any_user_then
+  std::vector<DesignTarget> targets;   ///< cheapest relative change first
+  Trust trust;                         ///< of the whole answer
+  std::vector<Remark> remarks;         ///< what is worth knowing beside it
 };
 
-/// For each number p that the limit depends on: the value nearest to today's at which the limit reaches the target.
+/// For each number p of the device that the limit depends on: the value nearest to today's at which the limit reaches
+/// the target. The user's are none of the device's.
 ///
 ///     K(p) = target,  p alone varied
 ///
 /// p moves by equal factors (a twelfth of a decade; a sixth for the any-user limit) both ways within `factor` and the
 /// range that makes a device, from 0 upwards; the first change of sign of K(p) - target is refined until K is the
 /// target to 1e-10, or, where the limit jumps across it, to the jump's side that has the target. A scan: a limit that
-/// passes the target twice within one step is passed over. Each needed value is confirmed by critical_stiffness(Device)
-/// or any_user_limit().
+/// passes the target twice within one step is passed over. For the any-user limit of more than four bodies only those
+/// numbers are followed that move it most, by a factor of 10 at most: a remark says how many. Each needed value is
+/// confirmed by critical_stiffness(Device) or any_user_limit(), and judged for any passive user.
+/// Of a damper alone (limit_of) K is its B: critical_damping() and any_user_damping().
 /// Throws Error (invalid_argument) where find_problem() finds one, (did_not_converge) as its parts do.
 [[nodiscard]] DesignTargets design_targets(const Device& device, const DesignTargetOptions& options);
 

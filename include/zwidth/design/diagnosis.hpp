@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "zwidth/design/wall_number.hpp"
 #include "zwidth/model/device.hpp"
 #include "zwidth/option_problem.hpp"
 #include "zwidth/progress.hpp"
@@ -27,9 +28,10 @@ enum class OscillationCause {
 struct DiagnosisOptions {
   double frequency = 0.0;                ///< observed, rad/s; above 0, at most pi/T
   std::optional<double> amplitude = {};  ///< observed, of the sensed position, m or rad; > 0
-  std::optional<double> stiffness = {};  ///< K of the wall; absent: the device's own wall.stiffness, or unknown
-  std::optional<double> damping = {};    ///< B; absent: the device's own wall.damping
-  Progress progress = {};                ///< told how far the work is; ends it by throwing
+  /// K of the wall, 0 for a damper alone; absent: the device's own wall.stiffness, or unknown
+  std::optional<double> stiffness = {};
+  std::optional<double> damping = {};  ///< B; absent: the device's own wall.damping
+  Progress progress = {};              ///< told how far the work is; ends it by throwing
 };
 
 /// Checks every member's range for the device.
@@ -39,15 +41,24 @@ struct DiagnosisOptions {
 [[nodiscard]] std::optional<OptionProblem> find_problem(const DiagnosisOptions& options, const Device& device,
                                                         const Recording& recording);
 
+/// What would have to be otherwise for a candidate to fit; each a factor, 1 where nothing has to.
+struct OtherwiseNeeded {
+  double limit = 1.0;      ///< of the limit that the numbers of the device give: K / limit
+  double frequency = 1.0;  ///< of the frequency that they give
+  double amplitude = 1.0;  ///< of the amplitude that they give
+};
+
 /// One thing that the oscillation may be.
 struct OscillationCandidate {
   OscillationCause cause = OscillationCause::device;  ///< what it would be
   bool fits = false;                                  ///< whether what was seen agrees with it
   double frequency = 0.0;                             ///< rad/s, where it would oscillate, nearest to the one observed
-  std::optional<double> stiffness;                    ///< K from which on it may
+  std::optional<double> stiffness;                    ///< K from which on it may; absent of a damper alone
   std::optional<double> amplitude;                    ///< of the sensed position; of quantisation and friction
   std::optional<Mechanism> limited_by;                ///< of a linear crossover
   std::string why;                                    ///< why it fits or not
+  std::optional<OtherwiseNeeded> otherwise = {};      ///< absent where it fits, and where no factor makes it fit
+  std::optional<double> damping = {};                 ///< of a damper alone: B from which on it may
 };
 
 /// One change of the device or the wall alone, recomputed.
@@ -56,13 +67,18 @@ struct DiagnosisChange {
   std::string key;          ///< of the device file; "body.*.damping" for all bodies, "wall.filter" for a filter more
   double value_now = 0.0;   ///< SI units
   double value_then = 0.0;  ///< of wall.filter: the centre of a notch, Hz
-  /// The stiffness up to which the cause is absent: K_CR, that with friction holding, or the any-user limit; absent of
-  /// quantisation, whose amplitude the change alters.
+  /// The stiffness (of a damper alone its B) up to which the cause is absent: K_CR, that with friction holding, or the
+  /// any-user limit; absent of quantisation, whose amplitude the change alters.
   std::optional<double> limit_now;
   std::optional<double> limit_then;      ///< infinite where unbounded
   std::optional<double> amplitude_now;   ///< m or rad, of a cycle; absent where its size is not known
   std::optional<double> amplitude_then;  ///< the same, after the change
-  std::optional<bool> ends_it;           ///< absent where K is not known
+  /// limit_then times the nearest cause's `otherwise.limit` is above K (B); absent where K is not known.
+  std::optional<bool> ends_it;
+  /// any_user_limit() after the change, of a damper alone any_user_damping(); infinite where nobody can destabilise a wall, absent where the device cannot be
+  /// held or the limit is not found.
+  std::optional<double> any_user_then = {};
+  std::optional<bool> safe = {};  ///< any_user_then is no lower than any_user_now; absent where one is not known
 };
 
 /// What an oscillation is, and what moves it.
@@ -71,11 +87,16 @@ struct Diagnosis {
   std::optional<double> amplitude;               ///< observed, where it is known
   std::optional<double> stiffness;               ///< K taken; absent: unknown
   double damping = 0.0;                          ///< B taken
-  std::vector<OscillationCandidate> candidates;  ///< the likeliest first
+  WallNumber limit_of = WallNumber::stiffness;   ///< which number all limits are of; damping where K = 0
+  std::vector<OscillationCandidate> candidates;  ///< the likeliest first: those that fit, then the nearest
   std::optional<OscillationCause> cause;         ///< of the first, where it fits; absent: none does
-  std::vector<DiagnosisChange> changes;          ///< what moves it, by falling limit; none where there is no cause
-  Trust trust;                                   ///< where refused, nothing else is held
-  std::vector<Remark> remarks;                   ///< what is worth knowing beside it
+  /// Of the first, where it fits or would with each number within a factor of 2: devices are not known better in life.
+  std::optional<OscillationCause> nearest;
+  std::optional<double> any_user_now;  ///< any_user_limit() of the device as it is; absent as any_user_then
+  /// What moves the nearest cause, by falling limit, then what lowers any_user_now; none where there is no such cause.
+  std::vector<DiagnosisChange> changes;
+  Trust trust;                  ///< where refused, nothing else is held
+  std::vector<Remark> remarks;  ///< what is worth knowing beside it
 };
 
 /// Which mechanism an oscillation at a given frequency is, and what moves it.
@@ -85,6 +106,7 @@ struct Diagnosis {
 ///     passive_user            K above the least K(w) with |1 + C c_T| = |C| r_T (any_user_limit())
 ///     quantisation            1 + N t C P = 0 at a phase crossover t > 1 of the stable loop; the encoder rests between two
 ///                             steps q, a relay of +-q/2: amplitude 2 q/(pi t)
+///     (a damper alone, K = 0)  the same with B for K: critical_damping(), any_user_damping()
 ///     friction                the loop is stable while bodies slide, and unstable with the first harmonic of their
 ///                             Coulomb friction, a damping 4 F_c/(pi V): V where it is just critical
 ///

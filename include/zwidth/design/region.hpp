@@ -7,6 +7,7 @@
 
 #include "zwidth/design/any_user_region.hpp"
 #include "zwidth/design/region_approximation.hpp"
+#include "zwidth/design/shared_walls.hpp"
 #include "zwidth/design/stable_region.hpp"
 #include "zwidth/model/device.hpp"
 #include "zwidth/model/modal_form.hpp"
@@ -35,7 +36,16 @@ struct ComparedApproximation {
   ApproximationError error;     ///< of that formula, against the exact region
 };
 
-/// Every wall (K, B) that a device renders stably. Where it is refused (trust), no wall, region, limit or formula is held.
+/// The walls of the device that nobody holds, beside those with the file's user.
+struct NobodysRegion {
+  bool bounded = true;                       ///< false where every wall is stable
+  std::optional<StableWalls> walls;          ///< with the velocity filter and the filters of the device's wall
+  StableRegion region;                       ///< of these
+  std::vector<Mode> modes;                   ///< vibration modes, that its BoundaryPoint::limited_by numbers
+  std::optional<Mode> suspended_rigid_body;  ///< where springs tie the device to ground
+};
+
+/// Every wall (K, B) that a device renders stably, with its file's user. Where it is refused (trust), no wall, region, limit or formula is held.
 struct WallRegion {
   /// Whether there is a region.
   enum class Status {
@@ -44,9 +54,12 @@ struct WallRegion {
     unbounded,    ///< every wall is: the force does not move what the wall senses
     refused,
   };
-  Status status = Status::refused;   ///< refused until it has been checked
-  std::optional<StableWalls> walls;  ///< with the device's velocity filter and filters; absent where refused
-  StableRegion region;               ///< of the device by itself
+  Status status = Status::refused;      ///< refused until it has been checked
+  std::optional<StableWalls> walls;     ///< with the device's velocity filter and filters; absent where refused
+  StableRegion region;                  ///< of the device with the file's user; with nobody holding where there is none
+  std::optional<NobodysRegion> nobody;  ///< with nobody holding; absent without an [operator]: `region` is that
+  /// The walls to build on: those of both. Absent without an [operator], where `region` is that.
+  std::optional<SharedWalls> shared;
   /// Absent unless asked for; for a transfer function, above most_bodies_for_any_user, or where no wall is stable.
   std::optional<AnyUserRegion> any_user;
   std::vector<ComparedApproximation> approximations;  ///< none for a transfer function, or unless asked for
@@ -62,20 +75,22 @@ struct WallRegion {
 /// The boundary is that of stable_region(). Walls inside and outside, over the whole extent and on both sides of the
 /// boundary, are then asked of a second route that shares nothing with it: matrix exponential and closed-loop poles.
 /// Where the two contradict, where the boundary cannot be followed or does not close, or where the device's own numbers
-/// are refused (trust_of()), the answer is `refused`; what is doubtful stays so.
+/// are refused (trust_of()), the answer is `refused`; what is doubtful stays so. A device with an [operator] has two regions,
+/// each checked so: a person lets go, and a wall must be stable with nobody holding too.
 /// The device's wall.stiffness and wall.damping are left out.
 /// Throws Error (invalid_argument) where find_problem() finds one.
 [[nodiscard]] WallRegion region(const Device& device, const RegionOptions& options = {});
 
 /// A region by walls: those of a grid, each stable or not.
 struct WallRaster {
-  std::vector<double> stiffnesses;   ///< K, rising
-  std::vector<double> dampings;      ///< B, rising
-  std::vector<std::uint8_t> stable;  ///< of (stiffnesses[j], dampings[i]): element i * stiffnesses.size() + j; 1 or 0
+  std::vector<double> stiffnesses;  ///< K, rising
+  std::vector<double> dampings;     ///< B, rising
+  /// Of (stiffnesses[j], dampings[i]), with nobody and with the file's user: element i * stiffnesses.size() + j; 1 or 0.
+  std::vector<std::uint8_t> stable;
 };
 
 /// `count` values of K and as many of B, the middles of equal cells over the region's extent and a tenth beyond; empty
-/// unless the region is bounded. Throws Error (invalid_argument) for a count of 0.
+/// unless the region, with the file's user where there is one, is bounded. Throws Error (invalid_argument) for a count of 0.
 [[nodiscard]] WallRaster wall_raster(const WallRegion& region, std::size_t count);
 
 }  // namespace zwidth

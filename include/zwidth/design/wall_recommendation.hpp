@@ -21,6 +21,7 @@ enum class WallGoal {
   stiffness,         ///< greatest K
   width,             ///< greatest K B
   critical_damping,  ///< greatest K of those whose contact does not swing: contact_damping_ratio() of 1
+  damper,            ///< a damper alone, K = 0: greatest damping in motions of 10 Hz, as fast as a hand's
 };
 
 /// What the wall to run has to keep, and what it is to be best at.
@@ -35,9 +36,10 @@ struct RecommendationOptions {
   /// The vibration modes may lie anywhere from (1 - drift) to (1 + drift) times their frequency, see drifted(); from 0 to
   /// 0.9; above 0 the device needs a link.
   double drift = 0.0;
-  bool notch = true;        ///< a notch near a mode may be added to the wall's filters
-  std::size_t draws = 100;  ///< of the device's uncertainty, where it has one
-  Progress progress = {};   ///< told how far the work is; ends it by throwing
+  bool notch = true;         ///< a notch near a mode may be added to the wall's filters
+  bool alternatives = true;  ///< WallRecommendation::alternatives are searched, and what bounds the wall
+  std::size_t draws = 100;   ///< of the device's uncertainty, where it has one
+  Progress progress = {};    ///< told how far the work is; ends it by throwing
 };
 
 /// Checks every member's range; of the device: critical damping needs bodies, a drift links.
@@ -73,9 +75,12 @@ struct RecommendedWall {
   WallMargins margins;              ///< of the device as it is
   /// any_user_limit() at this B, at least gain_margin times K; the whole force may grow by gain_margin too. Absent for a transfer function and above most_bodies_for_any_user.
   std::optional<double> any_user_limit;
-  std::optional<double> any_user_stiffness_margin;  ///< any_user_limit / K
+  std::optional<double> any_user_stiffness_margin;  ///< any_user_limit / K; absent of a damper alone
   std::optional<double> contact_damping_ratio;      ///< see contact_damping_ratio()
   std::optional<ForcePerCount> force_per_count;     ///< absent without an encoder resolution
+  /// any_user_damping() behind this velocity filter, at least gain_margin times B; only of a damper alone, absent as
+  /// any_user_limit
+  std::optional<double> any_user_damping_limit = {};
 };
 
 /// The wall to run, and what else could be run.
@@ -108,6 +113,10 @@ struct WallRecommendation {
 ///     gain_margin K < any_user_limit(B),   f K < any_user_limit(f B) for f = sqrt(gain_margin), gain_margin
 ///     margins of the device as it is >= gain_margin, phase_margin
 ///     force per count <= ripple
+///
+/// Of a damper alone (WallGoal::damper) K = 0, gain_margin B < any_user_damping() and critical_damping() with nobody and
+/// with the device's [operator]. Behind a slow filter B says little, so no filter or the one of seven is taken with the
+/// greatest Im(B v)/w at 10 Hz (a tenth of Nyquist, where that is lower). No notch is tried.
 ///
 /// The device's own wall.stiffness, damping and velocity_filter_hz are left out; its filters stay. A search on a grid
 /// of frequencies over B and the filters, from none down to twice the frequency at which the device oscillates or a

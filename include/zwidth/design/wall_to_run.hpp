@@ -32,7 +32,8 @@ struct WallToRun {
 ///
 ///     K = stiffness,  safe_wall() of the safety factor,  or wall.stiffness
 ///
-/// An unstable wall is released: it may be what is to be shown (analysis.wall says so).
+/// An unstable wall is released: it may be what is to be shown. analysis.wall_stable_for says with whom it is: a wall that
+/// is to run must be stable with nobody and with the file's user.
 /// Throws Error (invalid_argument) where find_problem() finds one, and as analyze() and safe_wall() do.
 [[nodiscard]] WallToRun wall_to_run(const Device& device, const WallToRunOptions& options = {});
 

@@ -46,6 +46,9 @@ struct RecordingOptions {
   std::optional<unsigned> timer_bits;  ///< the time column counts up and wraps at 2^timer_bits
 
   // Text only.
+  /// Lines that are passed over before anything is read. Above 0, what follows is read as a table, never as the export
+  /// of a measuring program.
+  std::size_t skip_rows = 0;
   std::optional<char> delimiter;     ///< comma, semicolon, tab or space (any run of blanks)
   std::optional<char> decimal_mark;  ///< absent: detected
   /// Whether the first line of a text names the columns.
@@ -67,7 +70,14 @@ struct RecordingOptions {
 /// that differ from their mean by more than 1 % (jitter) or gaps (a period of 1.5 or more that its neighbours do
 /// not make up) are remarked with their place and meaning. NaN, infinities and empty cells are refused with their line
 /// unless they are at most 1 % of a column; those are filled linearly and remarked. A missing column's error lists what
-/// the file has. A MAT file's MATLAB objects (tables, timeseries) are skipped with a remark; a file of nothing else is
+/// the file has.
+///
+/// A text that begins with the header of a measuring program is read as its export: TwinCAT Scope (CSV), CODESYS
+/// (*.trace.csv), LabVIEW (.lvm), dSPACE ControlDesk (CSV). Their lines of metadata are no samples. Columns with times of
+/// their own are put together by equal times, in their common span; where times differ within it, they are refused. A
+/// scale that a header states without saying whether it is applied is a doubt, unless the column's scale is given.
+///
+/// A MAT file's MATLAB objects (tables, timeseries) are skipped with a remark; a file of nothing else is
 /// refused.
 [[nodiscard]] tl::expected<Recording, InputError> read_recording(const std::string& path,
                                                                  const RecordingOptions& options,

@@ -51,6 +51,10 @@ struct LimitMeasurement {
   /// of the swing makes of it. Absent, too, where no oscillation was read that decays below the limit and grows above it,
   /// and where the size of the swing matters.
   std::optional<Interval> interval;
+  /// The limit of large motion is no higher, N/m or N m/rad: the upper end of the interval, whatever the size of the swing
+  /// makes of its lower one; without one the softest wall that surely grew, and what the encoder's step makes of it. Absent
+  /// where none surely did.
+  std::optional<double> at_most;
   double frequency = 0.0;          ///< rad/s, of the oscillation there; 0 where it was not read
   double lower = 0.0;              ///< stiffest wall that rang down; 0: none did
   double upper = 0.0;              ///< softest wall whose oscillation grew; 0: none did

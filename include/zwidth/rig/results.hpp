@@ -1,16 +1,19 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "zwidth/control/sampled_controller.hpp"
 #include "zwidth/identification/excitation.hpp"
 #include "zwidth/identification/identification.hpp"
 #include "zwidth/identification/measured_response.hpp"
 #include "zwidth/model/device.hpp"
+#include "zwidth/remark.hpp"
 #include "zwidth/rig/limit_search.hpp"
 #include "zwidth/rig/session.hpp"
 #include "zwidth/simulation/relay.hpp"
 #include "zwidth/stability/analysis.hpp"
+#include "zwidth/stability/holding.hpp"
 #include "zwidth/trust.hpp"
 
 // What the actions on a rig find, beside the session in which they did.
@@ -52,9 +55,11 @@ struct RigRelay {
 struct RigWall {
   RigSession session;                    ///< what ran
   ControllerOptions controller;          ///< the wall as it ran
-  CriticalStiffness predicted;           ///< with the wall's damper and filters
+  CriticalStiffness predicted;           ///< with the file's user, the wall's damper and filters
+  HoldingLimits limits;                  ///< from the device's file, with this wall; who holds the rig is not known
   Trust trust;                           ///< of the wall: of the prediction, and whether what ran bears it out
-  std::optional<bool> predicted_stable;  ///< absent where theory has no sure answer
+  std::optional<StableFor> stable_for;   ///< absent where theory has no sure answer
+  std::optional<bool> predicted_stable;  ///< with nobody and with the file's user; absent as that is
   bool oscillates = false;               ///< it grew, and the wall was taken away
   std::optional<RingDown> ring;          ///< the oscillation at the end, where one is left
   bool grows = false;                    ///< that one grows for sure
@@ -68,9 +73,12 @@ struct RigWall {
 struct RigLimit {
   RigSession session;                    ///< what ran
   LimitMeasurement measured;             ///< on the device
-  CriticalStiffness predicted;           ///< from the device's file
+  CriticalStiffness predicted;           ///< from the device's file, with its user
+  HoldingLimits limits;                  ///< from the device's file: with nobody, its user and any passive user
   std::optional<AnyUserLimit> any_user;  ///< absent where nobody can hold the device
   double knock = 0.0;                    ///< N or N m
+  Trust trust;                           ///< of what was measured, and whether it bears out the prediction
+  std::vector<Remark> remarks;           ///< UNSAFE where the device bears less than its file promises
 };
 
 }  // namespace zwidth

@@ -10,6 +10,7 @@
 #include "zwidth/remark.hpp"
 #include "zwidth/simulation/hybrid_loop.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
+#include "zwidth/stability/holding.hpp"
 #include "zwidth/trust.hpp"
 
 namespace zwidth {
@@ -44,7 +45,8 @@ struct SimulationOptions {
   std::vector<double> initial_velocity;  ///< m/s or rad/s, of each body; empty: at rest
   /// s; 1 to max_simulated_samples sampling periods, and more than the loop's delay. Absent: 40 periods of
   /// the critical oscillation, at least 1 s and four delays, at most a million samples; counted from the start of the
-  /// user's force.
+  /// user's force. Where that run at a bilateral wall is undecided or drifts, it is run for 4, 16 and 64 times as long, up
+  /// to a million samples, until it is not.
   std::optional<double> duration;
   /// m or rad, > 0: ends the run as unstable where |sensed position - start| passes it.
   double divergence = 1e3;
@@ -92,10 +94,12 @@ enum class NonlinearPart {
 
 /// What linear analysis says of the same loop.
 struct LinearAnswer {
-  CriticalStiffness critical;  ///< with the wall's damper and filters
+  CriticalStiffness critical;  ///< of the device that moves, with its file's user, and the wall's damper and filters
+  HoldingLimits limits;        ///< with nobody and with the file's user
+  std::optional<StableFor> stable_for;  ///< of the wall; any passive user is left out. Absent as `wall_stable`
   // Absent where the wall has no stiffness, or the critical stiffness is refused:
   std::optional<double> wall_share;       ///< wall's stiffness over the critical one; absent unless that is finite
-  std::optional<bool> wall_stable;        ///< absent without a wall
+  std::optional<bool> wall_stable;        ///< with the file's user, as it moves; absent without a wall
   std::optional<double> spectral_radius;  ///< largest closed-loop |z|
   /// The run did what it says: absent where the wall has no stiffness, and of a verdict that is undecided.
   std::optional<bool> agrees;

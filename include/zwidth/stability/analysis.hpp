@@ -12,6 +12,7 @@
 #include "zwidth/stability/critical_stiffness.hpp"
 #include "zwidth/stability/disk_margin.hpp"
 #include "zwidth/stability/force_per_count.hpp"
+#include "zwidth/stability/holding.hpp"
 #include "zwidth/stability/quantisation_passivity.hpp"
 #include "zwidth/stability/stiffness_interval.hpp"
 #include "zwidth/stability/user_family.hpp"
@@ -58,6 +59,7 @@ inline constexpr std::size_t most_bodies_for_any_user_interval = 4;
 /// What an analysis computes beside the critical stiffness; what is not asked for costs nothing.
 struct AnalysisOptions {
   bool any_user = true;                   ///< any_user_limit(), where the device has a body to hold and not too many
+  bool critical_damping = true;           ///< HolderLimit::critical_damping of each holder
   bool worst_user = false;                ///< the user who proves that limit; needs any_user
   std::optional<UserRanges> family = {};  ///< worst_of_family() of user_family() of these
   std::size_t draws = 1000;               ///< of the uncertainty, for the interval; 0: no interval
@@ -66,7 +68,9 @@ struct AnalysisOptions {
 };
 
 /// The critical stiffness, the modes and the margins of a given wall alone: for who prints nothing more.
-[[nodiscard]] inline AnalysisOptions limit_and_wall_only() { return {.any_user = false, .draws = 0}; }
+[[nodiscard]] inline AnalysisOptions limit_and_wall_only() {
+  return {.any_user = false, .critical_damping = false, .draws = 0};
+}
 
 /// Checks: worst_user only with any_user; the family's ranges finite, >= 0 and not reversed.
 [[nodiscard]] std::optional<OptionProblem> find_problem(const AnalysisOptions& options);
@@ -75,14 +79,25 @@ struct AnalysisOptions {
 /// most_bodies_for_any_user bodies.
 [[nodiscard]] std::optional<OptionProblem> find_problem(const AnalysisOptions& options, const Device& device);
 
+/// The answer with nobody holding where the file has a user: what HoldingLimits::nobody and StableFor::nobody rest on.
+struct AnswerAlone {
+  CriticalStiffness critical;                ///< the limit, and every crossover
+  std::vector<Mode> modes;                   ///< vibration modes, by rising frequency
+  std::optional<Mode> suspended_rigid_body;  ///< where springs tie the device to ground
+  std::optional<WallMargins> wall;           ///< absent without wall.stiffness
+};
+
 /// The whole answer for one device. Where it is refused (trust), no stiffness, margin or interval is held.
 struct Analysis {
-  CriticalStiffness critical;                         ///< the limit with nobody holding, and every crossover
+  CriticalStiffness critical;                         ///< the limit with the file's user, and every crossover
+  HoldingLimits limits;                               ///< with nobody, the file's user, any passive user
+  std::optional<AnswerAlone> alone;                   ///< with nobody holding; absent without an [operator]
   std::vector<Mode> modes;                            ///< vibration modes, by rising frequency
   std::optional<Mode> suspended_rigid_body;           ///< where springs tie the device to ground
   std::optional<RigidApproximation> rigid;            ///< absent for a transfer function
   std::optional<QCriterion> q_criterion;              ///< only where as_two_mass() applies, no wall filters
-  std::optional<WallMargins> wall;                    ///< absent without wall.stiffness
+  std::optional<WallMargins> wall;                    ///< with the file's user; absent without wall.stiffness
+  std::optional<StableFor> wall_stable_for;           ///< of that wall
   std::optional<DiskMargin> disk_margin;              ///< of that wall; absent where it is not stable
   std::optional<ForcePerCount> force_per_count;       ///< of that wall; absent without an encoder resolution too
   std::optional<QuantisationPassivity> quantisation;  ///< absent without Coulomb friction and an encoder resolution
@@ -101,9 +116,21 @@ struct Analysis {
 /// Throws Error (invalid_argument) where find_problem(options, device) finds one, (did_not_converge) as its parts do.
 [[nodiscard]] Analysis analyze(const Device& device, const AnalysisOptions& options = {});
 
+/// What of the limits is computed.
+struct HoldingOptions {
+  bool any_user = true;          ///< as AnalysisOptions::any_user
+  bool critical_damping = true;  ///< as AnalysisOptions::critical_damping
+  Progress progress = {};        ///< told how far the work is; ends it by throwing
+};
+
+/// Analysis::limits alone: with nobody, the file's user and any passive user, the wall's damper and filters closed.
+///
+/// Where the device is refused its limits are NaN. Throws as analyze() does.
+[[nodiscard]] HoldingLimits holding_limits(const Device& device, const HoldingOptions& options = {});
+
 /// Whether the wall given may be relied on, for who must decide by that alone.
 enum class WallVerdict {
-  stable,    ///< strictly, and the answer is sound
+  stable,    ///< with nobody holding and with the file's user, strictly, and the answer is sound
   unstable,  ///< the answer is sound
   unsure,    ///< doubtful or refused (Analysis::trust says why), whatever was computed
   no_wall    ///< wall.stiffness is missing

@@ -27,7 +27,8 @@ struct AnyUserLimit {
   bool needs_no_user = false;
   /// any_user_interval(), where analyze() was asked for it
   std::optional<StiffnessInterval> interval = {};
-  Trust trust = {};  ///< doubtful where more than 1e-4 had to be taken off
+  /// doubtful where more than 1e-4 had to be taken off, and where frequencies at which nothing dissipates are not known
+  Trust trust = {};
 };
 
 /// The limit over all passive users of a flexible device, with the virtual damper closed.
@@ -42,7 +43,8 @@ struct AnyUserLimit {
 /// user iff it is stable with one and |1 + C c_T| > |C| r_T at all 0 < w <= pi/T.
 /// The least K that violates this is found by a scan over frequency and then shown to be the least on whole intervals
 /// that cover (0, pi/T], w -> 0 included, by bounds of interpolating polynomials (docs/any_user.md says what is
-/// proven). Never above the critical stiffness of the free device. The device's [operator] is left out: it is one of
+/// proven). Frequencies at which the damped bodies stand still, above Nyquist too, are zeros of Re Y: found with a
+/// hundred digits and seen however narrow. Never above the critical stiffness of the free device. The device's [operator] is left out: it is one of
 /// the users. Throws Error (needs_bodies) for a transfer function, and what critical_stiffness() throws. Source:
 /// theory, section 5; Colgate & Schenkel 1997 is the rigid case without delay.
 [[nodiscard]] AnyUserLimit any_user_limit(const Device& device, VirtualDamper damper = {},

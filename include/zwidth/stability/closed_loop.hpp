@@ -17,8 +17,15 @@ namespace zwidth {
 [[nodiscard]] std::vector<std::complex<double>> closed_loop_poles_minus_one(const DiscreteStateSpace& plant,
                                                                             const Wall& wall);
 
+/// Which poles count.
+enum class CountedPoles {
+  all,               ///< every one
+  but_free_position  ///< not the one nearest to z = 1: with K = 0, the position that nothing holds
+};
+
 /// Largest |z| - 1 of those poles: negative iff the loop is stable.
-[[nodiscard]] double stability_excess(const DiscreteStateSpace& plant, const Wall& wall);
+[[nodiscard]] double stability_excess(const DiscreteStateSpace& plant, const Wall& wall,
+                                      CountedPoles counted = CountedPoles::all);
 
 /// The same of 1 + e^{-j phase} C(z) P(z) = 0 (and of its conjugate), phase in rad: a loop is that far from instability as
 /// its phase margin says. Costs eight times as much.

@@ -30,7 +30,7 @@ struct LoopMargins {
 struct WallMargins : LoopMargins {
   double stiffness = 0.0;        ///< K
   double damping = 0.0;          ///< B
-  double spectral_radius = 0.0;  ///< largest closed-loop |z|
+  double spectral_radius = 0.0;  ///< largest closed-loop |z|; with K = 0 but the pole at z = 1 of a free position
 };
 
 /// Margins of L(z) = C(z) P(z), C(z) = K + B v(z) as in Wall; every gain and phase crossover is found as in
@@ -38,7 +38,8 @@ struct WallMargins : LoopMargins {
 ///
 /// The delay margin treats the added delay as e^{-jw tau} on the sampled loop: exact for whole samples; a fraction of a
 /// sample changes the response itself, which only wall_margins() of the device can follow.
-/// Stable means all closed-loop poles strictly inside the unit circle: a free device with K = 0 is not.
+/// Stable means all closed-loop poles strictly inside the unit circle; with K = 0 but the one at z = 1 of a position that
+/// nothing holds. With K = 0 the gain margins are those of B.
 /// Throws Error (invalid_argument) when wall.stiffness is absent or a value is outside its domain.
 [[nodiscard]] LoopMargins loop_margins(const FilteredPlant& plant, const Wall& wall);
 

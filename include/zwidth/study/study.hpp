@@ -10,6 +10,7 @@
 #include "zwidth/progress.hpp"
 #include "zwidth/remark.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
+#include "zwidth/stability/holding.hpp"
 #include "zwidth/study/rare_failures.hpp"
 #include "zwidth/study/region_contours.hpp"
 #include "zwidth/study/sample_statistics.hpp"
@@ -116,6 +117,9 @@ struct StudyPoint {
 struct Study {
   std::vector<std::string> keys;  ///< of the parameters
   std::uint64_t samples = 0;      ///< units drawn
+  /// Of the device as its file has it, with nobody and with its user; the limits of the units are with its user, where there
+  /// is one, else with nobody. NaN where there is no answer.
+  HoldingLimits limits;
   /// Units that meet the whole specification, and each half; absent where nothing is specified.
   std::optional<Proportion> yield;
   std::optional<Proportion> critical_stiffness_yield;  ///< absent unless specified

@@ -22,6 +22,18 @@ export interface Crossover {
   limited_by: LimitedBy | null
   poles_leaving?: number
 }
+/** null: no limit, or none is given. */
+export interface HolderLimit {
+  critical_stiffness: number | null
+  frequency_rad_s: number | null
+  limited_by: LimitedBy | null
+  critical_damping: number | null
+}
+export interface StableFor {
+  nobody: boolean
+  user: boolean | null
+  any_user: boolean | null
+}
 export interface Margins {
   stable: boolean
   gain_margin_db: number | null
@@ -40,11 +52,13 @@ export interface Analysis extends Judged {
   critical_stiffness_db: number | null
   critical_frequency_hz: number | null
   limited_by: LimitedBy | null
+  limits: { nobody: HolderLimit; user: HolderLimit | null; any_user: HolderLimit | null }
   stable_intervals: [number, number | null][] | null
   crossovers: Crossover[] | null
   modes: { frequency_hz: number; damping_ratio: number }[]
   any_user: { critical_stiffness: number | null; frequency_rad_s: number | null; critical_stiffness_interval?: [number, number | null] | null } | null
-  wall: (Margins & { stiffness: number; damping: number }) | null
+  rigid_approximation: { mass: number } | null
+  wall: (Margins & { stiffness: number; damping: number; stable_for: StableFor }) | null
   force_per_count: { largest: number | null } | null
   critical_stiffness_interval: [number, number] | null
   assumed: string[]
@@ -75,6 +89,8 @@ export interface Region extends Judged {
   stiffest: WallPoint | null
   most_damped: WallPoint | null
   components: { area: number; outline: { boundary: string; points: WallPoint[] }[] }[]
+  /** With nobody holding, where the file has a user: the rest is with that one. */
+  nobody?: Pick<Region, 'stiffest' | 'most_damped' | 'components'> | null
   any_user: { stiffest: WallPoint | null; most_damped: WallPoint | null; limits: WallPoint[][] } | null
 }
 export interface Sensitivity {
@@ -111,10 +127,17 @@ export interface Sweep {
   trust?: Trust
   remarks?: Remark[]
 }
+/** What a proposal does to the limit with any passive user; null: no limit, or not known where `safe` is null too. */
+export interface ForAnyUser {
+  any_user_then: number | null
+  safe: boolean | null // it does not lower that limit
+}
 export interface Target extends Judged {
-  target: number
+  target: number | null
   stiffness_now: number | null
-  targets: { parameter: string; value_now: number; value_needed: number | null; why: string }[]
+  damping_now: number | null
+  any_user_now: number | null
+  targets: ({ parameter: string; value_now: number; value_needed: number | null; why: string } & ForAnyUser)[]
 }
 export interface WallToRender {
   stiffness: number
@@ -138,11 +161,21 @@ export interface Recommendation extends Judged, Omit<Option, 'what'> {
 }
 export interface Diagnosis extends Judged {
   cause: string | null
+  nearest: string | null // the cause, or else what would be it with the least otherwise; what the changes move
+  limit_of: string // 'damping' of a damper alone, K = 0
+  any_user_now: number | null
   oscillates_hz: number
   stiffness: number | null
   damping: number
-  candidates: { cause: string; fits: boolean; frequency_hz: number | null; stiffness: number | null; why: string }[]
-  changes: {
+  candidates: {
+    cause: string
+    fits: boolean
+    frequency_hz: number | null
+    stiffness: number | null
+    why: string
+    otherwise: { limit: number; frequency: number; amplitude: number } | null // factors; null: it fits, or no factor helps
+  }[]
+  changes: ({
     what: string
     parameter: string
     value_now: number
@@ -150,7 +183,7 @@ export interface Diagnosis extends Judged {
     limit_now: number | null
     limit_then: number | null
     ends_it: boolean | null
-  }[]
+  } & ForAnyUser)[]
 }
 export interface Simulation {
   device: string

@@ -1,6 +1,7 @@
 // The documents' enums as words, and what the terms mean.
 
-import type { Analysis, LimitedBy, Trust } from '../api/documents'
+import type { Analysis, ForAnyUser, HolderLimit, LimitedBy, Trust } from '../api/documents'
+import { say } from './decimal'
 
 export const limiter = (limited: LimitedBy | null | undefined): string =>
   !limited ? 'not known' : limited.kind === 'rigid_body' ? 'the rigid body' : `vibration mode ${limited.mode}`
@@ -17,6 +18,31 @@ export const limitWord = ({ status, stable_intervals }: Pick<Analysis, 'status' 
       : (stable_intervals ?? []).length > 0
         ? 'none: the softest walls are unstable, stiffer ones are stable'
         : 'none: no wall is stable, however soft'
+
+/** Who holds the device, always named so. */
+export const holderName = { nobody: 'nobody holding', user: 'the file’s user', any_user: 'any passive user' }
+
+/** The limit that a holder leaves. */
+export const holderWord = (of: Analysis | null, holder: HolderLimit | null | undefined): string =>
+  !of
+    ? ''
+    : of.status === 'refused'
+      ? 'no number is given'
+      : !holder
+        ? 'not given'
+        : holder === of.limits.any_user && holder.critical_stiffness === 0
+          ? 'none: some user destabilises every wall'
+          : holder.critical_stiffness
+            ? say(holder.critical_stiffness, of.units.stiffness)
+            : holder.critical_stiffness === null
+              ? 'every wall is stable'
+              : holder === of.limits.nobody && of.limits.user
+                ? 'none: the softest walls are unstable'
+                : limitWord(of)
+
+/** The verdict on a wall: a person always lets go. */
+export const wallWord = (wall: NonNullable<Analysis['wall']>): 'stable for anyone' | 'stable alone only' | 'unstable' =>
+  !wall.stable ? 'unstable' : wall.stable_for.any_user ? 'stable for anyone' : 'stable alone only'
 
 /** Beside numbers that are not yet those of what the page shows. */
 export const stale = 'of the device before; computing …'
@@ -42,6 +68,24 @@ export const causeWord: Record<string, string> = {
   force_limit: 'the force limit',
 }
 
+/** The limit with any passive user after a change; what lowers it is said. */
+export const anyUserWord = ({ any_user_then: then, safe }: ForAnyUser, unit: string): string =>
+  safe === null ? '–' : `${then === null ? 'no limit' : then === 0 ? 'no wall' : say(then, unit)}${safe ? '' : ', lower than now'}`
+
+/** "13 % lower", "2.5 times higher". */
+const movedWord = (factor: number): string => {
+  const way = factor < 1 ? 'lower' : 'higher'
+  const larger = Math.max(factor, 1 / factor)
+  return larger < 2 ? `${say(100 * Math.abs(factor - 1), '', 2)} % ${way}` : `${say(larger, '', 2)} times ${way}`
+}
+
+/** What would have to be otherwise for a cause to fit. */
+export const otherwiseWord = (factors: { limit: number; frequency: number; amplitude: number }): string => {
+  const names = { limit: 'its limit', frequency: 'its frequency', amplitude: 'its swing' } as const
+  const parts = (['limit', 'frequency', 'amplitude'] as const).filter((name) => factors[name] !== 1).map((name) => `${names[name]} is ${movedWord(factors[name])}`)
+  return `it fits where ${parts.length > 0 ? parts.join(' and ') : 'the user of the file lets go'}`
+}
+
 /** The numbers of a fit by inverse dynamics. */
 export const rigidBodyWord: Record<string, string> = {
   mass: 'mass',
@@ -52,7 +96,9 @@ export const rigidBodyWord: Record<string, string> = {
 }
 
 export const glossary: Record<string, string> = {
-  'critical stiffness': 'The stiffest wall that the device renders stably when nobody holds it: any stiffer, and it oscillates by itself.',
+  'critical stiffness': 'The stiffest wall that the device renders stably.',
+  'nobody holding': 'The stiffest wall that the device renders stably when nobody holds it: any stiffer, and it oscillates by itself.',
+  'the file’s user': 'The stiffest wall that stays stable while the user of the device file holds it. A person lets go: build on the lesser.',
   'any passive user': 'The stiffest wall that stays stable whoever holds the device, as long as the hand only takes energy and gives none.',
   'limited by': 'Which motion goes unstable first: the device as one rigid mass, or one of its vibration modes.',
   trust: 'Sound: data and model carry the number. Doubtful: the number stands, but something it rests on does not carry it. Refused: no number is given.',

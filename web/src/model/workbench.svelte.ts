@@ -7,6 +7,7 @@ import { fullKey, groupsOf, isRotary, sameKey, shapeOf, type Group, type Row } f
 import { empty, type Settings, type Snapshot } from './snapshot'
 import { confirm } from './parts'
 import { scan, set, unset } from './toml'
+import { holderName } from './words'
 
 class Workbench {
   private history = new History<Snapshot>(empty(''))
@@ -36,8 +37,8 @@ class Workbench {
   shape = $derived(shapeOf(this.scanned))
   rotary = $derived(isRotary(this.scanned))
   /** Who holds the device where no other user is named: nobody, or the [operator] of the file. */
-  alone = $derived(
-    this.groups.some((group) => group.id === 'operator' && group.rows.some((row) => row.value !== undefined && row.value !== 0)) ? 'with the file’s user' : 'alone',
+  holder = $derived(
+    this.groups.some((group) => group.id === 'operator' && group.rows.some((row) => row.value !== undefined && row.value !== 0)) ? holderName.user : holderName.nobody,
   )
   stiffnessUnit = $derived(this.rotary ? 'N m/rad' : 'N/m')
   dampingUnit = $derived(this.rotary ? 'N m s/rad' : 'N s/m')

@@ -76,7 +76,7 @@ it('leaves no empty space at an unstable wall, and lets nothing jump while it is
     least = Math.min(least, await height())
   }
   await settled(page)
-  await expect.poll(() => word.innerText()).toContain('UNSTABLE')
+  await expect.poll(() => word.innerText()).toContain('unstable')
   expect(Math.min(least, await height())).toBeGreaterThanOrEqual(stable - 1)
   await page.mouse.up()
   await expect.poll(height).toBeLessThan(stable - 20)

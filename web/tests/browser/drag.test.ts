@@ -35,7 +35,7 @@ it('through a drag: one request in flight per panel, nothing goes backwards, not
       }
     }
     const look = (): void => {
-      const text = document.querySelector('[data-answer="alone"]')?.textContent ?? ''
+      const text = document.querySelector('[data-answer="nobody"]')?.textContent ?? ''
       if (log.shown.at(-1) !== text) log.shown.push(text)
       requestAnimationFrame(look)
     }

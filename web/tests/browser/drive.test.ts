@@ -1,7 +1,7 @@
 // The drive of a rig: a table of the device file that no limit feels.
 import { execFileSync } from 'node:child_process'
 import { expect, it } from 'vitest'
-import { alone, openPage, place, program, row, runPalette, settled, type } from './program'
+import { nobody, openPage, place, program, row, runPalette, settled, type } from './program'
 
 const here = place('devices/lhifam.toml')
 
@@ -9,14 +9,14 @@ it.each([1280, 390])('is written with its units, judged at its fields, and taken
   const { page, context, complaints } = await openPage(here, width)
   await runPalette(page, 'show: device file')
   const text = (): Promise<string> => page.locator('#toml').inputValue()
-  const [before, answer] = [await text(), await alone(page)]
+  const [before, answer] = [await text(), await nobody(page)]
   await page.getByRole('button', { name: 'Drive of a rig' }).click()
   await type(page, 'driver.gear', '2')
   await row(page, 'driver.travel').locator('.problem', { hasText: 'must be given' }).waitFor()
   const given = { travel: '25 mm', sign: '-1', torque_constant: '50 mN m/A', torque_per_volt: '0.2', id: '3', command: 'K', baud: '921600' }
   for (const [key, value] of Object.entries(given)) await type(page, `driver.${key}`, value)
   await settled(page)
-  await expect.poll(() => alone(page)).toBe(answer)
+  await expect.poll(() => nobody(page)).toBe(answer)
   const device = JSON.parse(execFileSync(program, ['export', '-', '--format', 'json'], { input: await text(), encoding: 'utf8' })) as { device_file: { driver: unknown } }
   expect(device.device_file.driver).toEqual({ travel: 0.025, gear: 2, sign: -1, torque_constant: 0.05, torque_per_volt: 0.2, id: 3, command: 'K', baud: 921600 })
   // What is no such drive is said at its field.

@@ -66,7 +66,7 @@ it('prints the answer, its numbers and every open panel, without what is only fo
   await expect.poll(() => page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth)).toBeLessThanOrEqual(0)
   const seen = async (selector: string): Promise<number> => page.locator(selector).evaluateAll((all) => all.filter((each) => (each as HTMLElement).checkVisibility()).length)
   for (const selector of ['nav', 'input[type="range"]', '.figure-tools', '.row .icon', '.panel-body button.small']) await expect.poll(() => seen(selector), { message: selector }).toBe(0)
-  for (const selector of ['[data-answer="alone"]', '[data-answer="trust"]', '#body-region svg', '#body-recommend table']) await expect.poll(() => seen(selector), { message: selector }).toBeGreaterThan(0)
+  for (const selector of ['[data-answer="nobody"]', '[data-answer="trust"]', '#body-region svg', '#body-recommend table']) await expect.poll(() => seen(selector), { message: selector }).toBeGreaterThan(0)
   await expect.poll(() => page.evaluate(() => getComputedStyle(document.body).backgroundColor)).toBe('rgb(255, 255, 255)')
   const cut = await page.locator('.panel table, figure svg').evaluateAll((all) => all.filter((each) => each.getBoundingClientRect().right > document.documentElement.clientWidth + 1).map((each) => each.closest('.panel')?.id))
   expect(cut).toEqual([])

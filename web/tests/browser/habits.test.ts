@@ -1,7 +1,7 @@
 // What stood in the way of people who were new to it.
 import { expect, it } from 'vitest'
 import { say } from '../../src/model/decimal'
-import { alone, documentOf, openPage, place, project, row, runPalette, settled, type } from './program'
+import { nobody, documentOf, openPage, place, project, row, runPalette, settled, type } from './program'
 
 const here = place('devices/lhifam.toml')
 const focused = '[data-key]:has(input[type="text"]:focus)'
@@ -129,19 +129,19 @@ it('shows the limits while one works further down, and with a user the limit tha
     await row(page, 'loop.delay').scrollIntoViewIfNeeded()
     await page.evaluate(() => document.querySelector('[data-key="loop.delay"]')!.scrollIntoView({ block: 'start' }))
     await short.waitFor()
-    await expect.poll(() => short.innerText()).toMatch(/alone 8\.849 kN\/m, any user 5\.776 kN\/m/)
+    await expect.poll(() => short.innerText()).toMatch(/nobody 8\.849 kN\/m, any user 5\.776 kN\/m/)
     await type(page, 'loop.delay', '0.25 ms')
     await settled(page)
     const delayed = documentOf('analyze', 'devices/lhifam.toml', '--set', 'loop.delay=0.25 ms') as { critical_stiffness: number }
-    await expect.poll(() => short.innerText()).toContain(`alone ${(delayed.critical_stiffness / 1000).toPrecision(4)} kN/m`)
+    await expect.poll(() => short.innerText()).toContain(`nobody ${(delayed.critical_stiffness / 1000).toPrecision(4)} kN/m`)
     await type(page, 'loop.delay', '0')
-    await expect.poll(() => page.locator('[data-answer="nobody"]').count()).toBe(0)
+    await expect.poll(() => page.locator('[data-answer="user"]').count()).toBe(0)
     await runPalette(page, 'go to user who holds it damping')
     await type(page, 'operator.damping', '10')
     await page.locator('[data-answer="nobody"]', { hasText: '8.849 kN/m' }).waitFor()
     const held = documentOf('analyze', 'devices/lhifam.toml', '--set', 'operator.damping=10') as { critical_stiffness: number }
     await settled(page)
-    await expect.poll(() => page.locator('[data-answer="alone"]').innerText()).toBe(`${(held.critical_stiffness / 1000).toPrecision(4)} kN/m`)
+    await expect.poll(() => page.locator('[data-answer="user"]').innerText()).toBe(`${(held.critical_stiffness / 1000).toPrecision(4)} kN/m`)
     expect(complaints).toEqual([])
     await context.close()
   }
@@ -196,7 +196,7 @@ it('asks of a device fitted with a body held for that body’s numbers, until th
   await page.locator('#body-recording', { hasText: /trust: doubtful[^]*trust: sound/ }).waitFor()
   await page.getByRole('button', { name: 'Use this device' }).click()
   await page.locator('[data-answer="trust"]', { hasText: 'sound' }).waitFor()
-  expect(parseFloat(await alone(page))).toBeCloseTo(8.849, 1)
+  expect(parseFloat(await nobody(page))).toBeCloseTo(8.849, 1)
   expect(complaints).toEqual([])
   await context.close()
 })
@@ -230,7 +230,7 @@ it('takes what the program says to write instead of a frequency and of counts', 
   await page.getByRole('button', { name: 'Take 1 mm/200' }).click()
   await settled(page)
   const found = documentOf('analyze', 'devices/lhifam.toml', '--set', 'loop.sampling_period=0.5 ms') as { critical_stiffness: number }
-  await expect.poll(() => alone(page)).toBe(say(found.critical_stiffness, 'N/m'))
+  await expect.poll(() => nobody(page)).toBe(say(found.critical_stiffness, 'N/m'))
   await expect.poll(() => row(page, 'sensor.resolution').locator('input[type="text"]').inputValue()).toBe('1 mm/200')
   expect(complaints).toEqual([])
   await context.close()

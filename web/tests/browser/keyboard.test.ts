@@ -1,8 +1,8 @@
-// The work of a session by keyboard alone, and what is heard.
+// The work of a session by keyboard nobody, and what is heard.
 import type { Locator, Page } from 'playwright-core'
 import { expect, it } from 'vitest'
 import { say } from '../../src/model/decimal'
-import { alone, documentOf, openPage, place, project, runPalette, settled, type } from './program'
+import { nobody, documentOf, openPage, place, project, runPalette, settled, type } from './program'
 
 const here = place()
 
@@ -28,7 +28,7 @@ it.each([1280, 390])('says what limits my wheel and what wall to run, at %d px',
   await settled(page)
   const set = ['devices/quanser_torsion.toml', '--set', 'body.servo.mass=22 kg cm^2']
   const answer = documentOf('analyze', ...set) as { critical_stiffness: number; limited_by: { kind: string; mode?: number } }
-  await expect.poll(() => alone(page)).toBe(say(answer.critical_stiffness, 'N m/rad'))
+  await expect.poll(() => nobody(page)).toBe(say(answer.critical_stiffness, 'N m/rad'))
   await expect.poll(() => page.locator('[data-answer="limited-by"]').innerText()).toContain(answer.limited_by.kind === 'rigid_body' ? 'the rigid body' : `vibration mode ${answer.limited_by.mode}`)
   await runPalette(page, 'which wall')
   await tabTo(page, page.getByRole('button', { name: 'Use this wall: recommended' }))
@@ -63,7 +63,7 @@ it('makes a device of a recording', async () => {
   await page.keyboard.press('Enter')
   await page.waitForFunction(() => /between/.test(document.querySelector('.answer')?.textContent ?? ''))
   const fitted = documentOf('identify', 'recordings/locked_chirp.csv', '--force', 'force', '--position', 'position', '--structure', 'devices/lhifam.toml', '--locked', 'handle')
-  await expect.poll(() => alone(page)).toBe(say(Number(fitted.critical_stiffness), 'N/m'))
+  await expect.poll(() => nobody(page)).toBe(say(Number(fitted.critical_stiffness), 'N/m'))
   expect(complaints).toEqual([])
   await context.close()
 })

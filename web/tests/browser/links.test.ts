@@ -1,7 +1,7 @@
 // Links: opened, pasted into the tab, followed back, broken.
 import type { Page } from 'playwright-core'
 import { expect, it } from 'vitest'
-import { addressOf, alone, openPage, place, row, settled, type } from './program'
+import { addressOf, nobody, openPage, place, row, settled, type } from './program'
 
 const here = place('devices/lhifam.toml')
 
@@ -12,7 +12,7 @@ it('follows a link pasted into its tab, and Back, as steps to undo', async () =>
   const first = await addressOf(page)
   await type(page, 'link.0.stiffness', '70000')
   await settled(page)
-  const answer = await alone(page)
+  const answer = await nobody(page)
   const changed = await addressOf(page)
   await page.keyboard.press('Control+z')
   expect(await addressOf(page)).toBe(first)
@@ -20,7 +20,7 @@ it('follows a link pasted into its tab, and Back, as steps to undo', async () =>
   await page.evaluate((hash) => (location.hash = hash), changed)
   await expect.poll(() => stiffness(page)).toBe('70 kN/m')
   await settled(page)
-  await expect.poll(() => alone(page)).toBe(answer)
+  await expect.poll(() => nobody(page)).toBe(answer)
   await page.getByRole('button', { name: 'Undo' }).click()
   await expect.poll(() => stiffness(page)).toBe('79.5 kN/m')
   await page.getByRole('button', { name: 'Redo' }).click()

@@ -83,11 +83,11 @@ export async function openPage({ browser, served }: Place, width: number, hash =
   // When the first answer is painted: in the frame after the one in which it is there.
   await page.addInitScript(() => {
     const look = (): unknown =>
-      document.querySelector('[data-answer="alone"]') ? requestAnimationFrame(() => performance.mark('first answer')) : requestAnimationFrame(look)
+      document.querySelector('[data-answer="nobody"]') ? requestAnimationFrame(() => performance.mark('first answer')) : requestAnimationFrame(look)
     look()
   })
   await page.goto(served.address + hash)
-  await page.waitForSelector('[data-answer="alone"]')
+  await page.waitForSelector('[data-answer="nobody"]')
   return { page, context, complaints }
 }
 
@@ -126,7 +126,7 @@ export const runPalette = async (page: Page, text: string): Promise<void> => {
 }
 
 export const row = (page: Page, key: string) => page.locator(`[data-key="${key}"]`)
-export const alone = (page: Page): Promise<string> => page.locator('[data-answer="alone"]').innerText()
+export const nobody = (page: Page): Promise<string> => page.locator('[data-answer="nobody"]').innerText()
 
 export const withWall = async (page: Page): Promise<void> => {
   await page.getByRole('button', { name: /Put a wall/ }).click()

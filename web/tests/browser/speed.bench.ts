@@ -24,7 +24,7 @@ it('how fast a drag is drawn, all panels open', async () => {
   const found = await page.evaluate(
     async ([slider, steps]) => {
       const input = document.querySelector<HTMLInputElement>(slider)!
-      const shown = document.querySelector('[data-answer="alone"]')!
+      const shown = document.querySelector('[data-answer="nobody"]')!
       const frame = (): Promise<number> => new Promise((done) => requestAnimationFrame(done))
       const real = window.fetch
       const [requests, times]: [number[], number[]] = [[], []]

@@ -1,7 +1,7 @@
 // What the page says while there is no answer yet.
 import type { Page } from 'playwright-core'
 import { expect, it } from 'vitest'
-import { alone, openAll, openPage, place, row, serve, serveAt, settled, type, withWall } from './program'
+import { nobody, openAll, openPage, place, row, serve, serveAt, settled, type, withWall } from './program'
 
 const here = place('devices/lhifam.toml')
 
@@ -37,14 +37,14 @@ it('asks again where the program was ended, and goes on when it is started again
   const first = await serve('devices/lhifam.toml')
   const { page, context } = await openPage({ browser: here.browser, served: first }, 1280)
   await settled(page)
-  const before = await alone(page)
+  const before = await nobody(page)
   await first.stop()
   await type(page, 'loop.delay', '0.1 ms')
   await page.locator('.answer .problem', { hasText: /does not answer.*Asked again in \d+ s/ }).waitFor()
   await type(page, 'loop.delay', '0')
   const second = await serveAt(Number(new URL(first.address).port), 'devices/lhifam.toml')
-  await page.waitForSelector('[data-answer="alone"]')
-  await expect.poll(() => alone(page)).toBe(before)
+  await page.waitForSelector('[data-answer="nobody"]')
+  await expect.poll(() => nobody(page)).toBe(before)
   await context.close()
   await second.stop()
 })

@@ -1,0 +1,162 @@
+#include "io/exported_columns.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <utility>
+
+#include "io/column_names.hpp"
+#include "io/paired_times.hpp"
+#include "io/prose.hpp"
+#include "io/recording_channels.hpp"
+#include "io/time_axis.hpp"
+#include "zwidth/io/message_words.hpp"
+
+namespace zwidth::internal {
+namespace {
+
+using Refusal = tl::unexpected<InputError>;
+
+std::vector<std::string> names_in(const ExportedColumns& exported) {
+  std::vector<std::string> names;
+  for (const ExportedColumn& column : exported.columns) names.push_back(column.name);
+  return names;
+}
+
+/// The column and its times; a column of times is its own.
+tl::expected<TimedColumn, InputError> timed_column(const ExportedColumns& exported, const std::string& asked) {
+  const auto found = find_column(names_in(exported), asked, exported.source);
+  if (!found) return Refusal(found.error());
+  const ExportedColumn& column = exported.columns[*found];
+  if (column.unreadable) return Refusal(*column.unreadable);
+  if (column.values.empty()) {
+    return Refusal(
+        InputError{exported.source, 0, 0, shortened(column.name), "has no samples", "must have two at least"});
+  }
+  std::function<std::size_t(std::size_t)> line;
+  if (column.has_lines) {
+    line = [lines = std::make_shared<RowLines>(column.lines)](std::size_t row) { return lines->line_of(row); };
+  }
+  return TimedColumn{{exported.source, column.name, column.values, line},
+                     {exported.source, column.holds_times ? column.name : column.time_name,
+                      column.holds_times ? column.values : column.times, line}};
+}
+
+/// Columns without times must have equally many rows.
+std::optional<InputError> different_lengths(const std::vector<TimedColumn>& columns) {
+  const TimedColumn& first = columns.front();
+  for (const TimedColumn& each : columns) {
+    if (each.values.values.size() == first.values.values.size()) continue;
+    return InputError{each.values.source,
+                      0,
+                      0,
+                      shortened(each.values.name),
+                      fmt::format("has {} samples, {} has {}", each.values.values.size(), shortened(first.values.name),
+                                  first.values.values.size()),
+                      "signals of one recording must have equally many"};
+  }
+  return std::nullopt;
+}
+
+/// A header states a scale and does not say whether it is applied: what is asked for explicitly settles it.
+void judge_scale(const ExportedColumn& column, const ColumnRequest& request, Recording& recording) {
+  const auto& [factor, offset] = column.scale;
+  if (factor == 1.0 && offset == 0.0) return;
+  std::string what = fmt::format("the header states a scale factor of {:.6g} and an offset of {:.6g} for {}", factor,
+                                 offset, in_quotes(column.name));
+  if (factor == 1.0) {
+    recording.remarks.push_back(
+        {Remark::Severity::note, std::move(what), "used as it stands: an offset alone changes no response"});
+    return;
+  }
+  if (request.scale) {
+    recording.remarks.push_back({Remark::Severity::note, std::move(what), "the scale that is given counts alone"});
+    return;
+  }
+  Remark remark{Remark::Severity::warning, std::move(what),
+                "the file does not say whether its values are scaled by it: they are used as they stand",
+                fmt::format("give the column's scale: 1 where they are scaled, {:.6g} where they are raw", factor)};
+  recording.doubts.push_back(fmt::format("{}; {}", remark.what, remark.consequence));
+  recording.remarks.push_back(std::move(remark));
+}
+
+}  // namespace
+
+void mark_columns_to_keep(ExportedColumns& exported, const RecordingOptions& options) {
+  const auto names = names_in(exported);
+  const auto keep = [&](const std::string& asked) {
+    if (const auto found = find_column(names, asked, exported.source)) exported.columns[*found].is_kept = true;
+  };
+  for (const ColumnRequest& request : options.columns) keep(request.name);
+  if (options.time_column) keep(*options.time_column);
+}
+
+tl::expected<Recording, InputError> make_recording(ExportedColumns exported, const RecordingOptions& options) {
+  std::vector<TimedColumn> timed;
+  for (const ColumnRequest& request : options.columns) {
+    auto column = timed_column(exported, request.name);
+    if (!column) return Refusal(std::move(column.error()));
+    timed.push_back(std::move(*column));
+  }
+  if (options.time_column) {
+    auto column = timed_column(exported, *options.time_column);
+    if (!column) return Refusal(std::move(column.error()));
+    timed.push_back(std::move(*column));
+  }
+  const bool have_times =
+      std::ranges::none_of(timed, [](const TimedColumn& column) { return column.times.values.empty(); });
+  std::vector<Remark> cut;
+  if (have_times) {
+    auto kept = keep_common_rows(timed, options);
+    if (!kept) return Refusal(std::move(kept.error()));
+    cut = std::move(*kept);
+  } else if (auto refusal = different_lengths(timed)) {
+    return Refusal(std::move(*refusal));
+  }
+
+  std::optional<RawColumn> times;
+  if (options.time_column) {
+    times = std::move(timed.back().values);
+    timed.pop_back();
+  } else if (have_times) {  // beside a rate too: they tell lost rows
+    times = std::move(timed.front().times);
+  }
+  std::vector<RawColumn> columns;
+  for (TimedColumn& column : timed) columns.push_back(std::move(column.values));
+  auto recording = make_recording(std::move(columns), std::move(times), options);
+  if (!recording) return recording;
+
+  auto& remarks = recording->remarks;
+  remarks.insert(remarks.begin(), exported.remarks.begin(), exported.remarks.end());
+  remarks.insert(remarks.end(), cut.begin(), cut.end());
+  const auto names = names_in(exported);
+  for (const ColumnRequest& request : options.columns) {
+    const auto found = find_column(names, request.name, exported.source);
+    judge_scale(exported.columns[*found], request, *recording);
+  }
+  for (const Remark& doubt : exported.doubts) {
+    if (options.rate) {
+      remarks.push_back({Remark::Severity::note, doubt.what, "the rate that is given counts"});
+    } else {
+      add_contradiction(doubt, *recording);
+    }
+  }
+  return recording;
+}
+
+RecordingContents list_exported(const ExportedColumns& exported) {
+  RecordingContents contents;
+  contents.remarks = exported.remarks;
+  for (const ExportedColumn& column : exported.columns) {
+    std::string detail = column.holds_times         ? "times"
+                         : column.time_name.empty() ? "numbers"
+                                                    : fmt::format("numbers, {}", in_quotes(column.time_name));
+    contents.columns.push_back({column.name, column.samples, std::move(detail)});
+  }
+  return contents;
+}
+
+}  // namespace zwidth::internal

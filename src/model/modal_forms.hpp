@@ -1,0 +1,30 @@
+#pragma once
+
+#include <memory>
+
+#include "zwidth/model/device.hpp"
+#include "zwidth/model/modal_form.hpp"
+
+namespace zwidth::internal {
+
+struct FoundPoles;
+
+// modal_form() of one device along several paths: their poles, most of the work, are found once.
+class ModalForms {
+ public:
+  // A device with bodies, which must outlive this.
+  ModalForms(const Device& device, ActuatorLag lag);
+  ModalForms(const ModalForms&) = delete;
+  ModalForms& operator=(const ModalForms&) = delete;
+  ~ModalForms();
+
+  // Throws Error (no_such_body), and as modal_form() does.
+  [[nodiscard]] ModalForm along(Path path);
+
+ private:
+  const Device& device_;
+  double lag_;
+  std::unique_ptr<FoundPoles> found_;
+};
+
+}  // namespace zwidth::internal
