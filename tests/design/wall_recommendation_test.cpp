@@ -182,5 +182,20 @@ TEST(WallRecommendation, NamesTheMemberOutsideItsRange) {
   EXPECT_THROW(static_cast<void>(recommend_wall(device, {.gain_margin = std::nan("")})), Error);
 }
 
+// Damped on one body, which stands still at 1.65 times Nyquist: a spring that resonates there leaves 4.895 N/m alone.
+TEST(WallRecommendation, IsSafeForAUserWhoResonatesWhereTheDampedBodyStandsStill) {
+  DeviceParameters device;
+  device.bodies = {{"m", 0.56, 1e-4, 0.0, 0.0}, {"x", 1.3, 26.0, 0.0, 0.0}, {"y", 0.057, 0.0, 0.0, 0.0}};
+  device.links = {{0, 1, 4.77e6, 0.0}, {1, 2, 1.53e6, 0.0}};
+  device.loop = {0, 0, 0, 1e-3, 0.0};
+  const WallRecommendation answer = recommend_wall(Device(device));
+  ASSERT_TRUE(answer.wall);
+  const Wall& wall = answer.wall->wall;
+  const AnyUserLimit limit = any_user_limit(Device(device), {wall.damping, wall.velocity_filter_hz});
+  EXPECT_TRUE(limit.trust.sound());
+  EXPECT_LE(*wall.stiffness * 2.0, limit.stiffness * (1.0 + 1e-9));
+  EXPECT_NEAR(any_user_limit(Device(device)).stiffness, 4.016853, 1e-5);
+}
+
 }  // namespace
 }  // namespace zwidth
