@@ -271,23 +271,8 @@ std::vector<Fraction> group(const std::vector<ExactPole>& seen, const std::vecto
     }
     fractions[nearest].poles.push_back(i);
   }
-  std::vector<Fraction> apart;
-  for (Fraction& fraction : fractions) {
-    const auto vibrates = [&](std::size_t i) { return !seen[i].is_real; };
-    if (!labels.has_bodies || fraction.mode < 1 || !std::ranges::all_of(fraction.poles, vibrates)) {
-      if (!fraction.poles.empty()) apart.push_back(std::move(fraction));
-      continue;
-    }
-    // Modes of bodies that lie close together but do not cancel stay terms of their own: join() sees to the others.
-    int mode = fraction.mode;
-    for (const std::size_t i : fraction.poles) {
-      Fraction single;
-      single.mode = mode++;
-      single.poles.push_back(i);
-      apart.push_back(std::move(single));
-    }
-  }
-  return apart;
+  std::erase_if(fractions, [](const Fraction& fraction) { return fraction.poles.empty(); });
+  return fractions;
 }
 
 // All terms at a given precision; nothing where it does not suffice.

@@ -32,7 +32,7 @@ inline constexpr double narrowest = 1e-14;
 inline constexpr std::size_t max_intervals_per_piece = 100000;
 // Where many poles crowd, products of their terms prove nothing of intervals that are not narrower than any of use: a
 // stretch that has taken so many is asked of the sum of terms, as is where f is zero to rounding.
-inline constexpr std::size_t max_intervals_per_stretch = 4000;
+inline constexpr std::size_t max_intervals_per_stretch = 60000;
 inline constexpr double stretch = 1.0 / 64.0;  // of its end
 inline constexpr std::uintmax_t max_polish_steps = 200;
 
@@ -249,7 +249,7 @@ std::vector<CircleRoot> roots_on_circle(const Function& f, std::size_t pieces, R
     if (narrow && found == Content::undecided) found = Content::zero_to_rounding;
     if constexpr (requires { f.by_terms(0.0); }) {
       const bool is_exhausted =
-          intervals_of_stretch > max_intervals_per_stretch || 2 * intervals_left < max_intervals_per_piece * pieces;
+          intervals_of_stretch > max_intervals_per_stretch || 4 * intervals_left < max_intervals_per_piece * pieces;
       if (is_exhausted && found == Content::undecided && end - begin <= stretch * end) {
         found = Content::zero_to_rounding;
       }
