@@ -62,9 +62,12 @@ double DamperLimits::limit(double velocity_filter_hz, bool& of_users) const {
 
 bool DamperLimits::keeps_phase(VirtualDamper damper) const {
   tell(options_.progress, 0.0);
+  const auto keeps = [&](const Device& walled) {
+    const LoopMargins has = loop_margins(filtered_plant(walled), walled.parameters().wall);
+    return has.phase_margin.value_or(std::numbers::pi) >= options_.phase_margin * (1.0 - margin_rounding);
+  };
   const Device walled = with_wall(device_, 0.0, damper);
-  const LoopMargins has = loop_margins(filtered_plant(walled), walled.parameters().wall);
-  return has.phase_margin.value_or(std::numbers::pi) >= options_.phase_margin * (1.0 - margin_rounding);
+  return keeps(walled) && (!has_operator(walled) || keeps(without_operator(walled)));
 }
 
 bool DamperLimits::keeps(VirtualDamper damper) const {

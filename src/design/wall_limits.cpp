@@ -8,6 +8,7 @@
 #include "design/margin_wall.hpp"
 #include "infinity.hpp"
 #include "staged_progress.hpp"
+#include "zwidth/model/device_operator.hpp"
 #include "zwidth/model/state_space.hpp"
 #include "zwidth/stability/analysis.hpp"
 #include "zwidth/stability/closed_loop.hpp"
@@ -78,24 +79,28 @@ bool can_be_held(const Device& device) {
 WallLimits::WallLimits(const Device& device, const RecommendationOptions& options)
     : device_(device),
       options_(options),
-      plant_(filtered_plant(device)),
+      plants_{filtered_plant(device)},
       system_(sample(state_space(device), {device.loop().sampling_period, device.loop().delay})) {
   tell(options.progress, 0.0);
+  if (has_operator(device)) plants_.push_back(filtered_plant(without_operator(device)));
   if (can_be_held(device)) users_ = std::make_unique<AnyUserSearch>(device, options.progress);
 }
 
 double WallLimits::limit(VirtualDamper damper) {
   tell(options_.progress, 0.0);
-  return users_ ? users_->limit(damper, options_.progress).stiffness : critical_stiffness(plant_, damper).stiffness;
+  return users_ ? users_->limit(damper, options_.progress).stiffness : critical_stiffness(plants_.front(), damper).stiffness;
 }
 
 bool WallLimits::loop_keeps(double stiffness, VirtualDamper damper) const {
   tell(options_.progress, 0.0);
-  const LoopMargins has = loop_margins(plant_, wall_of(device_, stiffness, damper));
-  return has.stable && has.gain_margin.value_or(infinity) >= options_.gain_margin * (1.0 - rounding) &&
-         has.stiffness_margin.value_or(infinity) >= options_.gain_margin * (1.0 - rounding) &&
-         has.lower_gain_margin.value_or(0.0) * options_.gain_margin <= 1.0 + rounding &&
-         has.phase_margin.value_or(std::numbers::pi) >= options_.phase_margin * (1.0 - rounding);
+  const Wall wall = wall_of(device_, stiffness, damper);
+  return std::ranges::all_of(plants_, [&](const FilteredPlant& plant) {
+    const LoopMargins has = loop_margins(plant, wall);
+    return has.stable && has.gain_margin.value_or(infinity) >= options_.gain_margin * (1.0 - rounding) &&
+           has.stiffness_margin.value_or(infinity) >= options_.gain_margin * (1.0 - rounding) &&
+           has.lower_gain_margin.value_or(0.0) * options_.gain_margin <= 1.0 + rounding &&
+           has.phase_margin.value_or(std::numbers::pi) >= options_.phase_margin * (1.0 - rounding);
+  });
 }
 
 bool WallLimits::keeps(double stiffness, VirtualDamper damper) {
@@ -130,10 +135,14 @@ WallLimits::Stiffest WallLimits::stiffest(VirtualDamper damper, WallGoal goal) {
   const auto keep_margins = [&] {
     if (loop_keeps(least.stiffness, damper)) return;
     const RequiredMargins margins{gain, options_.phase_margin, false};
-    const double kept = stiffest_wall(plant_, damper, margins, {.at_most = least.stiffness}, options_.progress);
-    least.stiffness = std::min(least.stiffness, kept * (1.0 - shaved));
-    const LoopMargins has = loop_margins(plant_, wall_of(device_, least.stiffness, damper));
-    const bool phase = has.phase_margin && *has.phase_margin <= options_.phase_margin * (1.0 + same) + shaved;
+    for (const FilteredPlant& plant : plants_) {
+      const double kept = stiffest_wall(plant, damper, margins, {.at_most = least.stiffness}, options_.progress);
+      least.stiffness = std::min(least.stiffness, kept * (1.0 - shaved));
+    }
+    const bool phase = std::ranges::any_of(plants_, [&](const FilteredPlant& plant) {
+      const LoopMargins has = loop_margins(plant, wall_of(device_, least.stiffness, damper));
+      return has.phase_margin && *has.phase_margin <= options_.phase_margin * (1.0 + same) + shaved;
+    });
     least.bound = phase || least.stiffness == 0.0 ? WallBound::phase_margin : WallBound::gain_margin;
     if (!(least.stiffness > 0.0) || !loop_keeps(least.stiffness, damper)) least.stiffness = 0.0;
   };

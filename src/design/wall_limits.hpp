@@ -34,7 +34,7 @@ class WallLimits {
   [[nodiscard]] Stiffest stiffest(VirtualDamper damper) { return stiffest(damper, options_.goal); }
   [[nodiscard]] Stiffest stiffest(VirtualDamper damper, WallGoal goal);
 
-  // Whether the device as it is keeps its margins, and every user the gain margin.
+  // Whether the loop keeps its margins with nobody and with the file's user, and every user the gain margin.
   [[nodiscard]] bool keeps(double stiffness, VirtualDamper damper);
 
   // The end of the stable stiffnesses from 0 on, with every user (where there is such a limit).
@@ -52,7 +52,7 @@ class WallLimits {
 
   Device device_;
   RecommendationOptions options_;
-  FilteredPlant plant_;
+  std::vector<FilteredPlant> plants_;  // with the file's user, and with nobody holding where there is one
   DiscreteStateSpace system_;
   std::unique_ptr<AnyUserSearch> users_;
 };

@@ -30,7 +30,7 @@ struct RecommendationOptions {
   /// Least factor by which the stiffness alone, and the whole force, may grow before any passive user (or nobody)
   /// destabilises the loop; from 1 to 1e5.
   double gain_margin = 2.0;                      // 6 dB
-  double phase_margin = std::numbers::pi / 6.0;  ///< least, of the device as it is (with its [operator]); 0 to pi/2 rad
+  double phase_margin = std::numbers::pi / 6.0;  ///< least, with nobody and with the file's user; 0 to pi/2 rad
   /// Greatest force per encoder count, N or N m (force_per_count()); > 0. Absent: not bounded.
   std::optional<double> ripple = {};
   /// The vibration modes may lie anywhere from (1 - drift) to (1 + drift) times their frequency, see drifted(); from 0 to
