@@ -150,21 +150,6 @@ bool is_carried(const ModalForm& form, const PencilX& pencil, double nyquist) {
          error_of_sum(form, pencil, nyquist) <= carried_error_at_nyquist;
 }
 
-// Whether double-double leaves open what the structure of a device of bodies decides: whether a mode is damped at all,
-// and which of several alike modes the path sees.
-bool asks_for_exact(const std::vector<ComplexX>& poles, const PoleLabels& labels) {
-  if (!labels.has_bodies) return false;
-  for (std::size_t i = 0; i < poles.size(); ++i) {
-    const double size = magnitude(poles[i]);
-    if (!(std::abs(leading(poles[i].im)) > cluster_tolerance * size)) continue;
-    if (labels.has_dampers && std::abs(leading(poles[i].re)) <= undamped_below * size) return true;
-    for (std::size_t j = 0; j < i; ++j) {
-      if (magnitude(poles[i] - poles[j]) <= cluster_tolerance * size) return true;
-    }
-  }
-  return false;
-}
-
 // The modal form in double-double, or by exact arithmetic where that does not carry. `exact` gives G as ExactFraction.
 // Poles that are found already are not sought again.
 template <typename Pencil, typename PencilX, typename Exact>
