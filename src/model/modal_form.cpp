@@ -70,8 +70,7 @@ std::vector<ComplexX> find_poles(const Pencil& pencil, const PencilX& extended, 
   return roots;
 }
 
-// Where terms exceed their sum by more than the first, the sum is held against G itself; by more than the second, the
-// terms leave too few digits to whoever adds them up in double.
+// Where terms exceed their sum by more than the first it is held against G itself; by more, too few digits are left.
 constexpr double checked_cancellation = 1e5;
 constexpr double carried_cancellation = 1e7;
 // What the sum of terms may be off, near the poles and far above them.
