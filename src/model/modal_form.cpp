@@ -70,8 +70,7 @@ std::vector<ComplexX> find_poles(const Pencil& pencil, const PencilX& extended, 
   return roots;
 }
 
-// Where terms exceed their sum by more than the first, the sum is held against G itself; by more than the second, the
-// terms leave too few digits to whoever adds them up in double.
+// Where terms exceed their sum by more than the first it is held against G itself; by more, too few digits are left.
 constexpr double checked_cancellation = 1e5;
 constexpr double carried_cancellation = 1e7;
 // What the sum of terms may be off, near the poles and far above them.
@@ -148,21 +147,6 @@ bool is_carried(const ModalForm& form, const PencilX& pencil, double nyquist) {
   }
   return form.terms.size() < 3 || cancellation(form, nyquist) <= checked_cancellation ||
          error_of_sum(form, pencil, nyquist) <= carried_error_at_nyquist;
-}
-
-// Whether double-double leaves open what the structure of a device of bodies decides: whether a mode is damped at all,
-// and which of several alike modes the path sees.
-bool asks_for_exact(const std::vector<ComplexX>& poles, const PoleLabels& labels) {
-  if (!labels.has_bodies) return false;
-  for (std::size_t i = 0; i < poles.size(); ++i) {
-    const double size = magnitude(poles[i]);
-    if (!(std::abs(leading(poles[i].im)) > cluster_tolerance * size)) continue;
-    if (labels.has_dampers && std::abs(leading(poles[i].re)) <= undamped_below * size) return true;
-    for (std::size_t j = 0; j < i; ++j) {
-      if (magnitude(poles[i] - poles[j]) <= cluster_tolerance * size) return true;
-    }
-  }
-  return false;
 }
 
 // The modal form in double-double, or by exact arithmetic where that does not carry. `exact` gives G as ExactFraction.

@@ -172,6 +172,19 @@ std::vector<PoleGroup> group_poles(std::vector<ComplexX>& poles, std::size_t zer
   return groups;
 }
 
+bool asks_for_exact(const std::vector<ComplexX>& poles, const PoleLabels& labels) {
+  if (!labels.has_bodies) return false;
+  for (std::size_t i = 0; i < poles.size(); ++i) {
+    const double size = magnitude(poles[i]);
+    if (!(std::abs(leading(poles[i].im)) > cluster_tolerance * size)) continue;
+    if (labels.has_dampers && std::abs(leading(poles[i].re)) <= undamped_below * size) return true;
+    for (std::size_t j = 0; j < i; ++j) {
+      if (magnitude(poles[i] - poles[j]) <= cluster_tolerance * size) return true;
+    }
+  }
+  return false;
+}
+
 void add_lag_pole(std::vector<PoleGroup>& groups, const ComplexX& pole) {
   PoleGroup own;
   own.mode = -1;

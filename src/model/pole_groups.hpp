@@ -38,6 +38,10 @@ inline constexpr double cluster_tolerance = 1e-4;
 std::vector<PoleGroup> group_poles(std::vector<Complex<Extended>>& poles, std::size_t zero_roots,
                                    const PoleLabels& labels, ModalForm& form);
 
+// Whether double-double leaves open what the structure of a device of bodies decides: whether a mode is damped at all,
+// and which of several alike modes the path sees.
+[[nodiscard]] bool asks_for_exact(const std::vector<Complex<Extended>>& poles, const PoleLabels& labels);
+
 // Adds the pole of the actuator's lag as the last group, or to a real pole that it nearly coincides with.
 void add_lag_pole(std::vector<PoleGroup>& groups, const Complex<Extended>& pole);
 
