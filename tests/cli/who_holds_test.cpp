@@ -61,7 +61,7 @@ TEST_F(WhoHolds, AnExportedHeaderSaysIt) {
 }
 
 TEST_F(WhoHolds, SoDoTheNumbersOfADrive) {
-  const Outcome wall = run("zwidth export knob.toml --units moteus --stiffness 1000");
+  const Outcome wall = run("zwidth export knob.toml --units moteus --stiffness 150");
   EXPECT_EQ(wall.status, 0);
   EXPECT_THAT(wall.errors,
               HasSubstr("closed on the drive, the wall is UNSTABLE by linear analysis, with nobody holding"));
