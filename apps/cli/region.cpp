@@ -1,4 +1,6 @@
 #include "zwidth/design/region.hpp"
+#include "zwidth/design/wall_recommendation.hpp"
+#include "zwidth/design/wall_summary.hpp"
 
 #include <fmt/format.h>
 
@@ -33,6 +35,13 @@ WallRegion found_region(const Device& device, const std::string& file) {
   return region(device, {.progress = line.progress()});
 }
 
+/// The wall to mark in the figure; none where there is none, or the search would take seconds.
+std::optional<Wall> recommended_wall(const Device& device) {
+  if (device.bodies().size() > most_bodies_for_wall_summary) return std::nullopt;
+  const WallRecommendation found = recommend_wall(device, {.alternatives = false});
+  return found.wall && !found.trust.refused() ? std::optional(found.wall->wall) : std::nullopt;
+}
+
 void run_region(const RegionArguments& arguments) {
   Outputs outputs(arguments.output);
   outputs.keep(arguments.devices.files, "device file");
@@ -48,7 +57,9 @@ void run_region(const RegionArguments& arguments) {
     return arguments.raster ? results::region_raster_csv(wall_raster(walls, *arguments.raster), walls.trust)
                             : results::region_csv(walls);
   });
-  outputs.draw("--output", [&](report::FigureFormat format) { return report::draw_region(device, walls, format); });
+  outputs.draw("--output", [&](report::FigureFormat format) {
+    return report::draw_region(device, walls, format, recommended_wall(device));
+  });
   outputs.commit();
   write_standard_output(arguments.output.json ? results::line(results::region_json(device, walls))
                                               : report::for_medium(report::region_text(device, walls)));

@@ -24,6 +24,7 @@ constexpr double panel_height = 360.0;
 constexpr std::string_view region_colour = "#dbe7f6";
 constexpr std::string_view any_user_colour = "#bfe3c8";
 constexpr LineStyle boundary_style{"#0b4f9e", 2.0, "1"};
+constexpr std::string_view recommended_marker = "pt 7 ps 1.3 lc rgb '#1a1a1a'";
 constexpr LineStyle held_style{"#0b4f9e", 2.0, "(6,4)"};
 constexpr LineStyle any_user_style{"#15803d", 1.6, "1"};
 
@@ -79,8 +80,8 @@ std::vector<Place> within(const std::vector<Place>& outline, const Extent& exten
 
 class RegionFigure {
  public:
-  RegionFigure(const Device& device, const WallRegion& walls)
-      : device_(device), walls_(walls), units_(units_of(device.parameters().motion)), title_(title()) {}
+  RegionFigure(const Device& device, const WallRegion& walls, const std::optional<Wall>& recommended)
+      : device_(device), walls_(walls), recommended_(recommended), units_(units_of(device.parameters().motion)), title_(title()) {}
 
   [[nodiscard]] std::string draw(FigureFormat format) const {
     const std::vector<Extent> panels = extents();
@@ -156,6 +157,15 @@ class RegionFigure {
       entries.push_back({fmt::format("{}: up to {}", words_of(WallStability::anyone),
                                      quantity(walls_.any_user->stiffest->stiffness, units_.stiffness)),
                          any_user_style, any_user_colour});
+    }
+    if (recommended_) {
+      const double filter = recommended_->velocity_filter_hz;
+      entries.push_back({fmt::format("recommended: {} at {} {}{}", quantity(*recommended_->stiffness, units_.stiffness),
+                                     number(recommended_->damping), units_.damping,
+                                     filter > 0.0 ? ", velocity filter " + quantity(filter, "Hz") : std::string()),
+                         {},
+                         {},
+                         std::string(recommended_marker)});
     }
     for (const ComparedApproximation& each : walls_.approximations) {
       const auto& ratio = each.error.ratio;
@@ -279,6 +289,7 @@ class RegionFigure {
       for (const auto& range : walls_.any_user->ranges) limits += rows(outline_of(range));
     }
     data_block(canvas, "limits", limits);
+    if (recommended_) data_block(canvas, "recommended", row(recommended_->damping, *recommended_->stiffness));
     for (const ComparedApproximation& each : walls_.approximations) {
       data_block(canvas, results::name_of(each.formula.formula), formula_rows(each.formula));
     }
@@ -320,6 +331,7 @@ class RegionFigure {
     if (walls_.nobody && !walls_.nobody->region.components.empty()) {
       what += fmt::format("$alone {} with lines {} notitle, ", columns, gnuplot_line(boundary_style));
     }
+    if (recommended_) what += fmt::format("$recommended {} with points {} notitle, ", columns, recommended_marker);
     for (const ComparedApproximation& each : walls_.approximations) {
       const Formula formula = each.formula.formula;
       const LineStyle style = style_of(formula);
@@ -334,14 +346,16 @@ class RegionFigure {
 
   const Device& device_;
   const WallRegion& walls_;
+  const std::optional<Wall>& recommended_;
   Units units_;
   std::string title_;
 };
 
 }  // namespace
 
-std::string draw_region(const Device& device, const WallRegion& walls, FigureFormat format) {
-  return RegionFigure(device, walls).draw(format);
+std::string draw_region(const Device& device, const WallRegion& walls, FigureFormat format,
+                        const std::optional<Wall>& recommended) {
+  return RegionFigure(device, walls, recommended).draw(format);
 }
 
 }  // namespace zwidth::report

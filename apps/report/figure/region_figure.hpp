@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "report/figure/canvas.hpp"
@@ -8,7 +9,9 @@
 namespace zwidth::report {
 
 /// The stable walls, B to the right and K up, with those that no passive user destabilises and the formulas of the
-/// literature; where these lie in a corner of the region, that corner beside it. Throws OutputFailed.
-[[nodiscard]] std::string draw_region(const Device& device, const WallRegion& walls, FigureFormat format);
+/// literature; where these lie in a corner of the region, that corner beside it. `recommended`: a wall to mark. Throws
+/// OutputFailed.
+[[nodiscard]] std::string draw_region(const Device& device, const WallRegion& walls, FigureFormat format,
+                                      const std::optional<Wall>& recommended = std::nullopt);
 
 }  // namespace zwidth::report
