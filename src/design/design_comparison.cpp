@@ -8,6 +8,7 @@
 
 #include "require_valid.hpp"
 #include "staged_progress.hpp"
+#include "zwidth/model/device_operator.hpp"
 #include "zwidth/stability/analysis.hpp"
 
 namespace zwidth {
@@ -18,19 +19,13 @@ constexpr double as_good = 1e-3;  // relative difference that is none
 
 bool is_present(const Operator& user) { return user.mass > 0.0 || user.damping > 0.0 || user.stiffness > 0.0; }
 
-Device with_user(const Device& device, const Operator& user) {
-  DeviceParameters parameters = device.parameters();
-  parameters.user = user;
-  return Device(std::move(parameters));
-}
-
 ComparedDesign judged(const DeviceVariant& variant, const Operator& user, Trust& trust) {
-  const Device free = with_user(variant.device, {});
+  const Device free = without_operator(variant.device);
   Analysis analysis = analyze(free, {.any_user = true, .draws = 0});
   trust.inherit(analysis.trust);
   ComparedDesign design{variant.value, free, std::move(analysis.critical), std::move(analysis.any_user), std::nullopt};
   if (is_present(user)) {
-    design.held = critical_stiffness(with_user(variant.device, user));
+    design.held = critical_stiffness(with_operator(variant.device, user));
     trust.inherit(design.held->trust);
   }
   return design;

@@ -18,6 +18,7 @@
 #include "zwidth/model/two_mass.hpp"
 #include "zwidth/quantity.hpp"
 #include "zwidth/stability/critical_damping.hpp"
+#include "zwidth/stability/held_wall.hpp"
 
 namespace zwidth {
 using namespace internal;
@@ -142,15 +143,6 @@ bool stands(const CriticalStiffness& limit, std::string_view what, Analysis& ana
   return false;
 }
 
-HolderLimit holder_limit(const CriticalStiffness& critical) {
-  HolderLimit limit{.critical_stiffness = critical.stiffness};
-  if (critical.limit) {
-    limit.frequency = critical.limit->frequency;
-    limit.limited_by = critical.limit->limited_by;
-  }
-  return limit;
-}
-
 /// The largest damper alone; what is not sure of it is left out and said.
 void add_critical_damping(const Device& device, HolderLimit& limit, Analysis& analysis) {
   const CriticalDamping damping = critical_damping(device);
@@ -170,7 +162,7 @@ void judge_holders(const Device& device, const AnalysisOptions& options, Analysi
   const bool is_held = has_operator(device);
   if (analysis.wall) analysis.wall_stable_for = StableFor{.nobody = analysis.wall->stable};
   if (!is_held) {
-    analysis.limits.nobody = holder_limit(analysis.critical);
+    analysis.limits.nobody = limit_of_holder(analysis.critical);
     if (options.critical_damping) add_critical_damping(device, analysis.limits.nobody, analysis);
     return;
   }
@@ -180,7 +172,7 @@ void judge_holders(const Device& device, const AnalysisOptions& options, Analysi
     analysis.trust.doubt(fmt::format("with nobody holding: {}", reason));
   }
   analysis.limits.nobody = alone.limits.nobody;
-  analysis.limits.user = holder_limit(analysis.critical);
+  analysis.limits.user = limit_of_holder(analysis.critical);
   if (options.critical_damping) add_critical_damping(device, *analysis.limits.user, analysis);
   if (analysis.wall) {
     analysis.wall_stable_for->user = analysis.wall->stable;

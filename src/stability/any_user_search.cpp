@@ -20,6 +20,7 @@
 #include "stability/pole_count.hpp"
 #include "stability/wall_condition.hpp"
 #include "staged_progress.hpp"
+#include "zwidth/model/device_operator.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -80,13 +81,6 @@ std::vector<double> frequencies_to_scan(const UserDiscs& discs, double period, d
   return scan;
 }
 
-Device without_user(const Device& device) {
-  DeviceParameters parameters = device.parameters();
-  parameters.user = {};
-  parameters.uncertainty.reset();
-  return Device(std::move(parameters));
-}
-
 /// The middle one of the finite stiffnesses; 0 without any.
 double typical_of(std::vector<double> stiffnesses) {
   std::erase_if(stiffnesses, [](double each) { return !std::isfinite(each); });
@@ -99,7 +93,7 @@ double typical_of(std::vector<double> stiffnesses) {
 }  // namespace
 
 AnyUserSearch::AnyUserSearch(const Device& device, const Progress& progress)
-    : free_(without_user(device)), discs_(device, progress), period_(device.loop().sampling_period) {
+    : free_(without_operator(device)), discs_(device, progress), period_(device.loop().sampling_period) {
   if (discs_.is_undamped()) return;
   pieces_ = DiscPieces(discs_, device);
   frequencies_ = frequencies_to_scan(discs_, period_, device.loop().delay, device.parameters().wall.filters);

@@ -10,6 +10,7 @@
 #include "model/modal_forms.hpp"
 #include "staged_progress.hpp"
 #include "zwidth/error.hpp"
+#include "zwidth/model/device_operator.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -25,12 +26,6 @@ constexpr double beside_half_plane = 1e-9;  // relative
 constexpr double most_of_product = 1e6;
 constexpr double long_digits = 0x1p-11;  // rounding of a long double, of that of a double
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-Device without_operator(const Device& device) {
-  DeviceParameters parameters = device.parameters();
-  parameters.user = {};
-  return Device(std::move(parameters));
-}
 
 /// |z| of a density, which is far from where squares overflow or vanish.
 double size_of(std::complex<double> z) { return std::sqrt(std::norm(z)); }
