@@ -36,7 +36,7 @@ Device held_lhifam(const Operator& user) {
 
 const RegionOptions alone_and_held{.any_user = false, .approximations = false};
 
-double excess(const Device& device, double stiffness, double damping) {
+double pole_excess(const Device& device, double stiffness, double damping) {
   Wall wall;
   wall.stiffness = stiffness;
   wall.damping = damping;
@@ -84,10 +84,10 @@ TEST(SharedWalls, AreStableWithBothAndEndWhereOneIsNot) {
 
     const BoundaryPoint& stiffest = shared.stiffest->point;
     EXPECT_GT(
-        excess(held_by(shared.stiffest->holder, alone, held), (1.0 + 1e-6) * stiffest.stiffness, stiffest.damping),
+        pole_excess(held_by(shared.stiffest->holder, alone, held), (1.0 + 1e-6) * stiffest.stiffness, stiffest.damping),
         0.0);
     for (const Device* each : {&alone, &held}) {
-      EXPECT_LT(excess(*each, (1.0 - 1e-5) * stiffest.stiffness, stiffest.damping), 1e-12);
+      EXPECT_LT(pole_excess(*each, (1.0 - 1e-5) * stiffest.stiffness, stiffest.damping), 1e-12);
     }
     const WallRaster raster = wall_raster(found, 120);
     const std::vector<std::uint8_t> of_nobody =

@@ -178,7 +178,7 @@ TEST(WallRecommendation, NamesTheMemberOutsideItsRange) {
   EXPECT_EQ(find_problem({.gain_margin = 0.1}, device)->what, "is -20 dB, a factor of 0.1");
   EXPECT_EQ(find_problem({.phase_margin = 2.0}, device)->member, "phase_margin");
   EXPECT_EQ(find_problem({.ripple = -1.0}, device)->member, "ripple");
-  EXPECT_EQ(find_problem({.draws = 0}, device)->member, "draws");
+  EXPECT_EQ(find_problem(RecommendationOptions{.draws = 0}, device)->member, "draws");
   EXPECT_THROW(static_cast<void>(recommend_wall(device, {.gain_margin = std::nan("")})), Error);
 }
 
