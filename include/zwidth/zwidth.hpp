@@ -21,6 +21,7 @@
 #include "zwidth/design/shared_walls.hpp"
 #include "zwidth/design/stable_region.hpp"
 #include "zwidth/design/stable_walls.hpp"
+#include "zwidth/design/wall_number.hpp"
 #include "zwidth/design/wall_recommendation.hpp"
 #include "zwidth/design/wall_summary.hpp"
 #include "zwidth/design/wall_to_run.hpp"

@@ -352,10 +352,16 @@ AnyUserLimit AnyUserSearch::limit_of(VirtualDamper damper, const CriticalStiffne
   // Nobody is a passive user too. Where users hardly reach the wall's loop their discs are too small for rounding.
   const auto nobody = [&] { return free.limit && free.stiffness <= least.stiffness; };
   if (nobody()) least = {{0.0, free.limit->frequency}, free.stiffness};
-  std::vector<double> stiffnesses;
-  stiffnesses.reserve(samples.size());
-  for (const Sample& each : samples) stiffnesses.push_back(each.stiffness);
-  const bool is_nothing = least.stiffness <= nothing * typical_of(stiffnesses);
+  std::vector<double> gains;
+  gains.reserve(samples.size());
+  for (const Sample& each : samples) {
+    // Most frequencies allow any damper alone; rounding leaves some of them a gain far beyond the loop's.
+    const auto of_loop = [&](double frequency) {
+      return 1.0 / std::abs(wall_at(damper, frequency).unit * response(discs_.free_plant(), frequency));
+    };
+    gains.push_back(free_gain_ == FreeGain::damping ? of_loop(each.place.frequency()) : each.stiffness);
+  }
+  const bool is_nothing = least.stiffness <= nothing * typical_of(gains);
   if (is_nothing) least.stiffness = 0.0;
   double unproven = 0.0;
   if (least.stiffness > 0.0) unproven = prove(damper, progress, least);
