@@ -106,9 +106,12 @@ TEST_F(LabviewMeasurement, SegmentsFollowByTheirDatesAndTimes) {
       read(file_header("No") + segment_header("") + rows + "\n" + segment_header("", "10:45:47.510") + rows,
            columns_named({"F", "x"}));
   ASSERT_TRUE(recording.has_value()) << recording.error().str();
-  EXPECT_EQ(recording->channels[0].samples.size(), 6U);
-  EXPECT_NEAR(recording->sampling_period, 1e-3, 1e-12);
-  EXPECT_GE(warnings_in(recording->remarks), 1U);  // a gap
+  const Samples& force = recording->channels[0].samples;  // lost rows are filled in, and said
+  ASSERT_EQ(force.size(), 13U);
+  EXPECT_EQ(Samples(force.begin(), force.begin() + 3), (Samples{1, 2, 3}));
+  EXPECT_EQ(Samples(force.end() - 3, force.end()), (Samples{1, 2, 3}));
+  EXPECT_NEAR(recording->sampling_period, 1e-3, 1e-8);
+  EXPECT_GE(warnings_in(recording->remarks) + recording->doubts.size(), 1U);
   const auto at_once = read(file_header("No") + segment_header("") + rows + segment_header("", "10:45:47.503") + rows,
                             columns_named({"F", "x"}));
   ASSERT_TRUE(at_once.has_value()) << at_once.error().str();
