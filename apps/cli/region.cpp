@@ -1,6 +1,4 @@
 #include "zwidth/design/region.hpp"
-#include "zwidth/design/wall_recommendation.hpp"
-#include "zwidth/design/wall_summary.hpp"
 
 #include <fmt/format.h>
 
@@ -19,6 +17,8 @@
 #include "report/text/region_text.hpp"
 #include "report/text/text_medium.hpp"
 #include "results/region_json.hpp"
+#include "zwidth/design/wall_recommendation.hpp"
+#include "zwidth/design/wall_summary.hpp"
 
 namespace zwidth::cli {
 namespace {

@@ -88,7 +88,8 @@ WallLimits::WallLimits(const Device& device, const RecommendationOptions& option
 
 double WallLimits::limit(VirtualDamper damper) {
   tell(options_.progress, 0.0);
-  return users_ ? users_->limit(damper, options_.progress).stiffness : critical_stiffness(plants_.front(), damper).stiffness;
+  return users_ ? users_->limit(damper, options_.progress).stiffness
+                : critical_stiffness(plants_.front(), damper).stiffness;
 }
 
 bool WallLimits::loop_keeps(double stiffness, VirtualDamper damper) const {

@@ -248,9 +248,9 @@ std::optional<double> AnyUserSearch::beaten_by_tuned_user(VirtualDamper damper, 
     held.wall.velocity_filter_hz = damper.velocity_filter_hz;
     const Device device(std::move(held));
     const FilteredPlant plant = filtered_plant(device);
-    const double critical = (is_damper ? critical_stiffness_of(plant, damping_crossings(plant, damper))
-                                       : critical_stiffness(plant, damper))
-                                .stiffness;
+    const double critical =
+        (is_damper ? critical_stiffness_of(plant, damping_crossings(plant, damper)) : critical_stiffness(plant, damper))
+            .stiffness;
     if (!(critical < below)) continue;
     if (PoleCount(device).in_digits(is_damper ? weak_spring(device) : below).value_or(0) > 0) {
       least = std::min(critical, least.value_or(critical));
@@ -384,11 +384,11 @@ AnyUserLimit AnyUserSearch::limit_of(VirtualDamper damper, const CriticalStiffne
         "than the limit found for any passive user, which is lowered to that");
   }
   if (unproven > sound_within) {
-    limit.trust.doubt(
-        fmt::format("the limit for any passive user is shown to hold only to {:.1g} of it, which is taken off: the limit "
-                    "given is safe and may be that much too low; check the device's numbers for values that lie many "
-                    "powers of ten apart",
-                    unproven));
+    limit.trust.doubt(fmt::format(
+        "the limit for any passive user is shown to hold only to {:.1g} of it, which is taken off: the limit "
+        "given is safe and may be that much too low; check the device's numbers for values that lie many "
+        "powers of ten apart",
+        unproven));
   }
   if (discs_.truncation() > sound_within) {
     limit.trust.doubt(

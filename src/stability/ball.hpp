@@ -36,7 +36,9 @@ class Ball {
   [[nodiscard]] int sure_sign() const {
     return arb_is_positive(value_) != 0 ? 1 : arb_is_negative(value_) != 0 ? -1 : 0;
   }
-  [[nodiscard]] double middle() const { return arf_get_d(arb_midref(value_.operator const arb_struct*()), ARF_RND_NEAR); }
+  [[nodiscard]] double middle() const {
+    return arf_get_d(arb_midref(value_.operator const arb_struct*()), ARF_RND_NEAR);
+  }
   [[nodiscard]] bool is_finite() const { return arb_is_finite(value_) != 0; }
   // Its middle, as exact.
   [[nodiscard]] Ball sharp() const {

@@ -71,8 +71,8 @@ bool keeps_moving(const FilteredPlant& plant, const Wall& wall) {
 
 // Whether every pole counts, or the one at z = 1 of a position that nothing holds is left out.
 CountedPoles holds_position(const FilteredPlant& plant, const Wall& wall) {
-  const bool is_free = std::any_of(plant.terms.begin(), plant.terms.end(),
-                                   [](const SampledTerm& term) { return term.integrators > 0; });
+  const bool is_free =
+      std::any_of(plant.terms.begin(), plant.terms.end(), [](const SampledTerm& term) { return term.integrators > 0; });
   return *wall.stiffness == 0.0 && is_free ? CountedPoles::but_free_position : CountedPoles::all;
 }
 

@@ -136,7 +136,8 @@ TEST(RegionCsv, HasALinePerPoint) {
   std::size_t points = 0;
   for (const BoundaryArc& arc : region.components[0].outline.arcs) points += arc.points.size();
   const std::string csv = results::region_csv(lhifam_region().walls);
-  EXPECT_THAT(csv, StartsWith("component,boundary,stiffness,damping,frequency_rad_s,mode,trust,holder\n1,oscillation,"));
+  EXPECT_THAT(csv,
+              StartsWith("component,boundary,stiffness,damping,frequency_rad_s,mode,trust,holder\n1,oscillation,"));
   EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')), points + 1);
 }
 

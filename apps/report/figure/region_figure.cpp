@@ -81,7 +81,11 @@ std::vector<Place> within(const std::vector<Place>& outline, const Extent& exten
 class RegionFigure {
  public:
   RegionFigure(const Device& device, const WallRegion& walls, const std::optional<Wall>& recommended)
-      : device_(device), walls_(walls), recommended_(recommended), units_(units_of(device.parameters().motion)), title_(title()) {}
+      : device_(device),
+        walls_(walls),
+        recommended_(recommended),
+        units_(units_of(device.parameters().motion)),
+        title_(title()) {}
 
   [[nodiscard]] std::string draw(FigureFormat format) const {
     const std::vector<Extent> panels = extents();
