@@ -1,5 +1,7 @@
 #pragma once
 
+#include <utility>
+
 #include "zwidth/design/wall_recommendation.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
 
@@ -9,7 +11,8 @@ namespace zwidth::internal {
 class DamperLimits {
  public:
   // `device`: without its wall; its filters are closed.
-  DamperLimits(const Device& device, const RecommendationOptions& options) : device_(device), options_(options) {}
+  DamperLimits(Device device, RecommendationOptions options)
+      : device_(std::move(device)), options_(std::move(options)) {}
 
   struct Strongest {
     double damping = 0.0;  // 0: none; infinite: nothing bounds it
