@@ -362,7 +362,7 @@ DesignTargets design_targets(const Device& device, const DesignTargetOptions& op
     DesignTarget target;
     target.key = each.key;
     target.value_now = each.value;
-    target.why = "not followed: it moves the limit less than the numbers that are";
+    target.why = "not followed: of so many bodies only the numbers are that move the limit most in a first step";
     result.targets.push_back(std::move(target));
   }
   std::ranges::stable_sort(result.targets, {}, cost);

@@ -168,7 +168,9 @@ class Changes {
     if (!loop_.stiffness) return;
     const bool is_damper = loop_.number == WallNumber::damping;
     const double now = gain_of(loop_.device, loop_.number);
-    const double softened = is_quantisation() ? softer * now : softer * off_ * limit_;
+    // A hand that takes hold of the cure must not make it shake.
+    const double limit = std::min(limit_, users_.now().value_or(limit_));
+    const double softened = is_quantisation() ? softer * now : softer * off_ * limit;
     if (!(softened > 0.0 && softened < now)) return;
     if (is_damper) {
       add(is_quantisation() ? "half the damper" : "a weaker damper, 6 dB below", "wall.damping", now, softened,
@@ -179,7 +181,7 @@ class Changes {
     }
   }
 
-  /// The damper of the ladder with the highest limit (least amplitude), of those that lower no user's where there are any.
+  /// The damper of the ladder with the highest limit (least amplitude) of those that lower no user's.
   void damp() {
     if (loop_.number == WallNumber::damping) return;  // the damper is what oscillates
     const Wall& wall = loop_.device.parameters().wall;
@@ -209,7 +211,7 @@ class Changes {
       changes_.push_back(std::move(each.change));
       return;
     }
-    changes_.push_back(std::move(ladder.front().change));
+    if (!users_.now()) changes_.push_back(std::move(ladder.front().change));
   }
 
   void stop_mode() {

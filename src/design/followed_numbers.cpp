@@ -27,7 +27,8 @@ constexpr std::size_t fewest_followed = 4;
 constexpr double little_more = 1.01;   // times a number, to see how it moves the limit
 constexpr double towards_rest = 1e-2;  // rad per sample, where the limit is reached towards zero frequency
 
-// How much a number moves what users reach at one frequency: |log(K'/K)| where it is 1 % more; 0 of a number of 0.
+// How much a number moves what users reach at one frequency: |log(K'/K)| where it is 1 % more. A number that is 0 now has
+// no such step.
 double pull_of(const Device& device, const DesignParameter& parameter, WallNumber number, double frequency) {
   DeviceParameters moved = device.parameters();
   moved.uncertainty.reset();
@@ -66,6 +67,10 @@ std::vector<DesignParameter> take_out_least(const Device& device, WallNumber num
   std::ranges::stable_sort(pulls, std::greater{}, &Pull::size);
   std::vector<bool> is_followed(parameters.size(), false);
   for (std::size_t i = 0; i < most; ++i) is_followed[pulls[i].index] = true;
+  // The virtual damper costs nothing, and from 0 or next to it a small step tells nothing of it.
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    if (parameters[i].kind == DesignParameter::Kind::wall_damping) is_followed[i] = true;
+  }
   std::vector<DesignParameter> kept;
   std::vector<DesignParameter> left_out;
   for (std::size_t i = 0; i < parameters.size(); ++i) (is_followed[i] ? kept : left_out).push_back(parameters[i]);

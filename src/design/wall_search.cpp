@@ -8,6 +8,7 @@
 
 #include "infinity.hpp"
 #include "staged_progress.hpp"
+#include "zwidth/model/device_operator.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -40,11 +41,17 @@ std::optional<Crossover> softest_crossover(const FilteredPlant& plant) {
   return softest;
 }
 
+/// The loop that is searched: what damps a user damps the wall too, so that nobody holding is the harder case as a rule. What
+/// is proposed keeps its margins with both (WallLimits).
+Device searched(const WallLimits& limits) {
+  return has_operator(limits.device()) ? without_operator(limits.device()) : limits.device();
+}
+
 }  // namespace
 
 WallSearch::WallSearch(const WallLimits& limits, const RecommendationOptions& options)
     : WallSearch(limits, options,
-                 std::make_shared<const LoopGrid>(limits.device(), limits.has_users(), options.progress), {}) {
+                 std::make_shared<const LoopGrid>(searched(limits), limits.has_users(), options.progress), {}) {
   factor_.assign(grid_->size(), 1.0);
 }
 
@@ -56,7 +63,7 @@ WallSearch::WallSearch(const WallLimits& limits, const RecommendationOptions& op
     : limits_(limits),
       options_(options),
       period_(limits.device().loop().sampling_period),
-      plant_(filtered_plant(limits.device())),
+      plant_(filtered_plant(searched(limits))),
       grid_(std::move(grid)),
       factor_(std::move(factor)) {
   if (const auto softest = softest_crossover(plant_)) {
