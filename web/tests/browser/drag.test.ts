@@ -1,5 +1,5 @@
 import { expect, it } from 'vitest'
-import { alone, documentOf, row, settled } from './program'
+import { nobody, documentOf, row, settled } from './program'
 import { key, opened } from './slider'
 
 const fourDigits = (value: number): number => Number(value.toPrecision(4))
@@ -72,6 +72,6 @@ it('through a drag: one request in flight per panel, nothing goes backwards, not
   const newest = new Map(log.asked.map((each) => [each.panel, each.body]))
   for (const [panel, body] of newest) expect(body, panel).toContain(`damping = ${damping}`)
   const answer = documentOf('analyze', 'devices/lhifam.toml', '--set', `${key}=${damping}`)
-  expect(stiffness(await alone(page))).toBe(fourDigits(Number(answer.critical_stiffness)))
+  expect(stiffness(await nobody(page))).toBe(fourDigits(Number(answer.critical_stiffness)))
   await end()
 })

@@ -50,7 +50,7 @@ it('saves every figure as SVG, PNG and CSV, with what they show', async () => {
     expect(lines.some((line) => /\d/.test(line)), label).toBe(true)
   }
   // The closing of an area along an axis is told from the limit.
-  expect((await saved('Save the numbers of Stiff and damped walls as CSV')).toString('utf8')).toMatch(/^stable alone,oscillation,.*\n(.*\n)*stable alone,no damping,0,/m)
+  expect((await saved('Save the numbers of Stiff and damped walls as CSV')).toString('utf8')).toMatch(/^stable with nobody holding,oscillation,.*\n(.*\n)*stable with nobody holding,no damping,0,/m)
   expect(complaints).toEqual([])
   await context.close()
 })

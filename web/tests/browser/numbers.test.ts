@@ -1,6 +1,6 @@
 // Every panel's numbers are those that the program prints with --json.
 import { expect, it } from 'vitest'
-import { percent, say } from '../../src/model/decimal'
+import { percent, rounded, say } from '../../src/model/decimal'
 import { documentOf, openAll, openPage, place, settled, type } from './program'
 
 const here = place('devices/lhifam.toml')
@@ -42,7 +42,9 @@ it('shows the numbers of every document', async () => {
   const relay = documentOf('relay', ...wall, '--amplitude', '5') as unknown as { mean: { stiffness: number; frequency_hz: number }; predictions: { crossovers: { stiffness: number; frequency_hz: number }[] }; explanation: string[] }
   await holds('relay', [...[relay.mean, ...relay.predictions.crossovers].flatMap((each) => [say(each.stiffness, K), say(each.frequency_hz, 'Hz')]), ...relay.explanation])
 
-  const simulation = documentOf('simulate', ...wall) as unknown as { peak_penetration: number; oscillation: { frequency_hz: number; amplitude: number } | null }
+  const hit = documentOf('analyze', ...wall) as unknown as { wall: { stiffness: number }; rigid_approximation: { mass: number } }
+  const speed = rounded(1e-3 * Math.sqrt(hit.wall.stiffness / hit.rigid_approximation.mass))
+  const simulation = documentOf('simulate', ...wall, '--wall-position', '0.0001', '--start-velocity', String(speed)) as unknown as { peak_penetration: number; oscillation: { frequency_hz: number; amplitude: number } | null }
   const { oscillation } = simulation
   await holds('time', [say(simulation.peak_penetration, 'm'), ...(oscillation ? [say(oscillation.frequency_hz, 'Hz'), say(oscillation.amplitude, 'm')] : ['It settles.'])])
 

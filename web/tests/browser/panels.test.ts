@@ -2,7 +2,7 @@
 import { readFileSync } from 'node:fs'
 import type { Page } from 'playwright-core'
 import { expect, it } from 'vitest'
-import { alone, documentOf, openAll, openPage, place, row, runPalette, settled, type, withWall } from './program'
+import { nobody, documentOf, openAll, openPage, place, row, runPalette, settled, type, withWall } from './program'
 
 const here = place('devices/quanser_torsion.toml')
 
@@ -169,7 +169,7 @@ it('says what is missing in an empty device file, and keeps the panels', async (
     await page.getByRole('button', { name: `New device, ${motion}` }).click()
     await settled(page)
     await expect.poll(() => page.locator('h1').innerText()).toBe('new device')
-    await expect.poll(() => alone(page)).toContain(motion === 'rotary' ? 'N m/rad' : 'N/m')
+    await expect.poll(() => nobody(page)).toContain(motion === 'rotary' ? 'N m/rad' : 'N/m')
   }
   expect(complaints).toEqual([])
   await context.close()

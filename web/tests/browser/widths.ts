@@ -1,7 +1,7 @@
 // What holds at every width: the answer, numbers, drags, errors, links, recordings; and for everybody.
 import axe from 'axe-core'
 import { expect, it } from 'vitest'
-import { addressOf, alone, documentOf, openAll, openPage, place, project, row, runPalette, settled, type, withWall } from './program'
+import { addressOf, nobody, documentOf, openAll, openPage, place, project, row, runPalette, settled, type, withWall } from './program'
 
 export function everythingAt(width: number): void {
   const here = place('devices/lhifam.toml')
@@ -9,7 +9,7 @@ export function everythingAt(width: number): void {
   it('shows the program’s own answer, and asks nobody else', async () => {
     const { page, context, complaints } = await openPage(here, width)
     const answer = documentOf('analyze', 'devices/lhifam.toml')
-    await expect.poll(() => alone(page)).toBe(`${(Number(answer.critical_stiffness) / 1000).toPrecision(4)} kN/m`)
+    await expect.poll(() => nobody(page)).toBe(`${(Number(answer.critical_stiffness) / 1000).toPrecision(4)} kN/m`)
     await expect.poll(() => page.locator('[data-answer="limited-by"]').innerText()).toContain('the rigid body')
     await expect.poll(() => page.locator('[data-answer="trust"]').innerText()).toContain('sound')
     await expect.poll(() => page.evaluate(() => performance.getEntriesByType('resource').length)).toBeLessThan(20)
@@ -24,7 +24,7 @@ export function everythingAt(width: number): void {
     await type(page, 'loop.delay', '0.25 ms')
     await settled(page)
     const delayed = documentOf('analyze', 'devices/lhifam.toml', '--set', 'loop.delay=0.25 ms')
-    await expect.poll(() => alone(page)).toBe(`${(Number(delayed.critical_stiffness) / 1000).toPrecision(4)} kN/m`)
+    await expect.poll(() => nobody(page)).toBe(`${(Number(delayed.critical_stiffness) / 1000).toPrecision(4)} kN/m`)
     const text = row(page, 'loop.delay').locator('input[type="text"]')
     await expect.poll(() => text.inputValue()).toBe('0.25 ms')
     await text.press('ArrowUp')
@@ -40,7 +40,7 @@ export function everythingAt(width: number): void {
     for (let i = 0; i < 5; ++i) await page.keyboard.press('Control+z')
     await expect.poll(() => text.inputValue()).toBe('0 s')
     await settled(page)
-    await expect.poll(() => alone(page)).toBe('8.849 kN/m')
+    await expect.poll(() => nobody(page)).toBe('8.849 kN/m')
 
     // A drag of the slider is one step.
     const box = (await row(page, 'link.0.stiffness').locator('input[type="range"]').boundingBox())!
@@ -70,7 +70,7 @@ export function everythingAt(width: number): void {
     await expect.poll(() => field('link.0.stiffness').inputValue()).toBe('79.5 kN/m')
     await expect.poll(() => field('link.0.stiffness').getAttribute('title')).toContain('79500 or 79.5 kN/m')
     await settled(page)
-    await expect.poll(() => alone(page)).toBe('8.849 kN/m')
+    await expect.poll(() => nobody(page)).toBe('8.849 kN/m')
     await type(page, 'sensor.resolution', '4096 counts')
     await row(page, 'sensor.resolution').locator('.problem').waitFor()
     await type(page, 'sensor.resolution', '4096')
@@ -88,13 +88,13 @@ export function everythingAt(width: number): void {
     await expect.poll(() => field.inputValue()).toBe('12.78 mN s/m')
     await expect.poll(() => field.getAttribute('title')).toContain('12.7828981167 mN s/m')
     await settled(page)
-    const answer = await alone(page)
+    const answer = await nobody(page)
     await field.click()
     await expect.poll(() => field.inputValue()).toBe('12.7828981167 mN s/m')
     await page.keyboard.press('Enter')
     await page.locator('h1').click()
     await settled(page)
-    await expect.poll(() => alone(page)).toBe(answer)
+    await expect.poll(() => nobody(page)).toBe(answer)
     await expect.poll(() => page.getByRole('button', { name: 'Undo' }).isEnabled()).toBe(true)
     await page.getByRole('button', { name: 'Undo' }).click()
     await expect.poll(() => page.getByRole('button', { name: 'Undo' }).isEnabled()).toBe(false)
@@ -150,7 +150,7 @@ export function everythingAt(width: number): void {
     await expect.poll(() => row(page, 'body.motor.mass').locator('input[type="text"]').inputValue()).toBe('0,3')
     for (let i = 0; i < 3; ++i) await page.keyboard.press('Control+z')
     await page.waitForSelector('[data-answer="nobody"]')
-    await expect.poll(() => alone(page)).toBe('8.849 kN/m')
+    await expect.poll(() => nobody(page)).toBe('8.849 kN/m')
     await context.close()
   })
 
@@ -161,11 +161,11 @@ export function everythingAt(width: number): void {
     await page.getByRole('button', { name: 'Pin', exact: true }).click()
     await type(page, 'loop.delay', '1.5e-4')
     await settled(page)
-    const [answer, file, hash] = [await alone(page), await page.locator('#toml').count(), await addressOf(page)]
+    const [answer, file, hash] = [await nobody(page), await page.locator('#toml').count(), await addressOf(page)]
     expect(file).toBe(0)
     expect(hash.length).toBeLessThanOrEqual(2048 + 3)
     const again = await openPage(here, width, hash)
-    await expect.poll(() => alone(again.page)).toBe(answer)
+    await expect.poll(() => nobody(again.page)).toBe(answer)
     await expect.poll(() => row(again.page, 'body.handle.mass').locator('input[type="text"]').isDisabled()).toBe(true)
     await settled(again.page)
     await expect.poll(() => again.page.locator('#panel-bar').innerText()).toContain('design 1')
@@ -210,7 +210,7 @@ export function everythingAt(width: number): void {
     const fitted = documentOf('identify', 'recordings/locked_chirp.csv', '--force', 'force', '--position', 'position', '--structure', 'devices/lhifam.toml', '--locked', 'handle')
     await settled(page)
     expect(fits).toBe(1)
-    await expect.poll(() => alone(page)).toBe(`${(Number(fitted.critical_stiffness) / 1000).toPrecision(4)} kN/m`)
+    await expect.poll(() => nobody(page)).toBe(`${(Number(fitted.critical_stiffness) / 1000).toPrecision(4)} kN/m`)
     expect(complaints).toEqual([])
     await context.close()
   })

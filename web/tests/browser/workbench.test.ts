@@ -3,7 +3,7 @@ import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs'
 import { tmpdir } from 'node:os'
 import { dirname } from 'node:path'
 import { describe, expect, it } from 'vitest'
-import { alone, openAll, openPage, place, program, project, runPalette, serve, settled, type, withWall } from './program'
+import { nobody, openAll, openPage, place, program, project, runPalette, serve, settled, type, withWall } from './program'
 
 const here = place('devices/lhifam.toml')
 
@@ -19,7 +19,7 @@ describe('work habits', () => {
     await runPalette(page, 'copy as command: analyze')
     const short = await page.evaluate(() => navigator.clipboard.readText())
     expect(short).toBe('zwidth analyze devices/lhifam.toml --set body.handle.damping=4.2 --set \'loop.delay=0.3 ms\'')
-    expect(`${(numberOf(short) / 1000).toPrecision(4)} kN/m`).toBe(await alone(page))
+    expect(`${(numberOf(short) / 1000).toPrecision(4)} kN/m`).toBe(await nobody(page))
     // A device of one's own goes with the command.
     await runPalette(page, 'show: device file')
     await page.locator('#toml').fill((await page.locator('#toml').inputValue()).replace('name = "LHIfAM, translational axis"', 'name = "It\'s mine"'))
