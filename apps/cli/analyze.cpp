@@ -200,12 +200,13 @@ void add_analyze(CLI::App& app) {
   command->add_flag("--worst-user", options->worst_user,
                     "Also name the passive user who proves the limit for any user tight");
   command->add_flag("--walls", options->walls,
-                    "Also the stiffest wall with a damper and the one to run (key \"walls\" of --json)");
+                    "Also the stiffest wall with a damper and the one to run (key\n\"walls\" of --json)");
   command->add_option("--users", options->users, "Also search a family of users: ranges of mass, damping, stiffness")
       ->type_name("RANGES")
       ->check([](const std::string& text) { return text.empty() ? "is empty" : ""; });
-  command->add_flag("--require-stable", options->require_stable,
-                    "Fail (exit status 1) where a wall is unstable with nobody or the file's user, or not surely");
+  command->add_flag(
+      "--require-stable", options->require_stable,
+      "Fail (exit status 1) where a wall is unstable with nobody or\nthe file's user, or not surely stable");
   command->footer(
       "Examples:\n"
       "  zwidth analyze devices/lhifam.toml\n"
