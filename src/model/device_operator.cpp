@@ -1,5 +1,8 @@
 #include "zwidth/model/device_operator.hpp"
 
+#include <algorithm>
+#include <optional>
+#include <string>
 #include <utility>
 
 namespace zwidth {
@@ -11,8 +14,13 @@ bool has_operator(const Device& device) {
 
 Device with_operator(const Device& device, const Operator& user) {
   DeviceParameters parameters = device.parameters();
-  parameters.uncertainty.reset();
   parameters.user = user;
+  std::optional<Uncertainty>& known = parameters.uncertainty;
+  const auto is_of_user = [](const std::string& key) { return key.starts_with("operator."); };
+  if (known && std::ranges::any_of(known->parameters, is_of_user)) {
+    known->parameters.clear();
+    known->covariance.clear();
+  }
   return Device(std::move(parameters));
 }
 

@@ -169,6 +169,7 @@ void judge_holders(const Device& device, const AnalysisOptions& options, Analysi
   const Device free = without_operator(device);
   Analysis alone = analyze(free, {.any_user = false, .critical_damping = options.critical_damping, .draws = 0});
   for (const std::string& reason : alone.trust.reasons) {
+    if (std::ranges::count(analysis.trust.reasons, reason) > 0) continue;
     analysis.trust.doubt(fmt::format("with nobody holding: {}", reason));
   }
   analysis.limits.nobody = alone.limits.nobody;

@@ -80,7 +80,8 @@ TEST_F(DesignRecommend, ADoubtfulDeviceGivesADoubtfulWall) {
 }
 
 TEST_F(DesignRecommend, RefusesWhatItCannotMean) {
-  expect_refusal("zwidth design devices/lhifam.toml --recommend --goal any-user", "--goal: any-user is not for a recommendation");
+  expect_refusal("zwidth design devices/lhifam.toml --recommend --goal any-user",
+                 "--goal: any-user is not for a recommendation");
   expect_refusal("zwidth design devices/lhifam.toml --recommend --notch", "--recommend: excludes --notch");
   expect_refusal("zwidth design devices/lhifam.toml --recommend --ripple 0", "--ripple: devices/lhifam.toml: is 0");
   expect_refusal("zwidth design devices/lhifam.toml --ripple 0.1", "add --recommend");

@@ -142,7 +142,8 @@ TEST_F(Rig, AnUnstableWallThatWasNotTakenAwayNeverLooksSure) {
   }
   const auto quiet = json("wall " + lhifam + "--accept-unstable --stiffness 8900 --duration 0.6");
   EXPECT_EQ(quiet["trust"]["verdict"], "doubtful");
-  EXPECT_THAT(quiet["trust"]["reasons"].dump(), HasSubstr("UNSTABLE by linear analysis, with nobody holding: that no oscillation"));
+  EXPECT_THAT(quiet["trust"]["reasons"].dump(),
+              HasSubstr("UNSTABLE by linear analysis, with nobody holding: that no oscillation"));
   EXPECT_EQ(json("wall " + lhifam + "--stiffness 8800")["trust"]["verdict"], "sound");
 }
 
@@ -160,7 +161,8 @@ TEST_F(Rig, AWallThatDidNotRunToItsEndIsDoubtful) {
   const auto unstable = wall_of("--stiffness 20000 --accept-unstable --position-limit 1e-3");
   EXPECT_EQ(unstable["session"]["stop"], "position_limit");
   EXPECT_EQ(unstable["trust"]["verdict"], "doubtful");
-  EXPECT_THAT(unstable["trust"]["reasons"].dump(), HasSubstr("UNSTABLE by linear analysis, with nobody holding: render softer"));
+  EXPECT_THAT(unstable["trust"]["reasons"].dump(),
+              HasSubstr("UNSTABLE by linear analysis, with nobody holding: render softer"));
   EXPECT_THAT(unstable["trust"]["reasons"].dump(), Not(HasSubstr("was seen to grow")));
 }
 
