@@ -28,14 +28,14 @@ struct HolderLimit {
 
 /// The limits with nobody holding, with the file's user and with any passive user.
 struct HoldingLimits {
-  HolderLimit nobody;
+  HolderLimit nobody;                        ///< a person always lets go
   std::optional<HolderLimit> user = {};      ///< absent without an [operator]
   std::optional<HolderLimit> any_user = {};  ///< absent where it is not asked for, or there is none
 };
 
 /// Whom a wall is stable with. A pole at z = 1 of a position that nothing holds (K = 0) is no instability.
 struct StableFor {
-  bool nobody = false;
+  bool nobody = false;                ///< holding
   std::optional<bool> user = {};      ///< absent without an [operator]
   std::optional<bool> any_user = {};  ///< absent where the limit with any passive user is
 };
