@@ -224,7 +224,7 @@ class ExactClosedLoop {
     p.resize(std::max({p.size(), numerator_.size(), damper_.size()}), Real200(0));
     for (std::size_t i = 0; i < numerator_.size(); ++i) p[i] += stiffness * numerator_[i];
     for (std::size_t i = 0; i < damper_.size(); ++i) p[i] += damper_[i];
-    const Real200 radius = 1 + Real200("1e-22");
+    const Real200 radius = 1 + Real200("1e-30");
     Real200 power = 1;
     for (Real200& c : p) {
       c *= power;

@@ -236,10 +236,11 @@ std::optional<PoleOnCircle> settled(const Polynomial<Ball>& open, const Polynomi
   constexpr double close_enough = 1e-20;  // relative
   constexpr double beside = 1e-6;         // of the start's angle, relative
   constexpr double beside_pi = 1e-4;      // of its distance from pi, where filters in double lose as much
-  constexpr double rounding = 2e-15;      // of the start's angle
+  constexpr double rounding = 2e-15;      // of the start's chord, |z - 1|^2
   if (start.angle == 0.0) return settled_at_end(open.front(), of_stiffness.front(), start.angle);
   if (start.angle >= std::numbers::pi) return settled_at_end(open.back(), of_stiffness.back(), start.angle);
-  const double reach = std::min(beside * start.angle, beside_pi * (std::numbers::pi - start.angle)) + rounding;
+  const double from_pi = std::numbers::pi - start.angle;
+  const double reach = std::min(beside * start.angle, std::max(beside_pi * from_pi, rounding / from_pi)) + rounding;
   Ball y(std::tan(0.5 * start.angle));
   Ball stiffness(start.stiffness);
   for (int i = 0; i < most_steps; ++i) {

@@ -35,6 +35,8 @@ inline constexpr std::size_t max_intervals_per_piece = 100000;
 inline constexpr std::size_t max_intervals_per_stretch = 60000;
 inline constexpr double stretch = 1.0 / 64.0;  // of its end
 inline constexpr std::uintmax_t max_polish_steps = 200;
+// Beyond this x an angle in double says less of x than x itself.
+inline constexpr double nearest_pi = 3.999;
 
 struct Interval {
   double begin;
@@ -69,7 +71,7 @@ double polish(const Function& f, const Interval& interval) {
   const auto close_enough = [](double a, double b) {
     return std::abs(b - a) <= 2.0 * std::numeric_limits<double>::epsilon() * std::abs(b);
   };
-  if (!interval.extended) {
+  if (!interval.extended && interval.end <= nearest_pi) {
     const double first = angle_of(interval.begin);
     const double last = angle_of(interval.end);
     const double at_first = f.value(first);

@@ -12,7 +12,7 @@ namespace {
 
 using std::numbers::pi;
 
-// The characteristic polynomial, over positive numbers, and over z^L.
+// The characteristic polynomial, over positive numbers, and over z^L; over z - 1 too where nothing holds the position.
 class Characteristic {
  public:
   using Complex = std::complex<double>;
@@ -22,23 +22,38 @@ class Characteristic {
     stiffness_ = *wall.stiffness;
     rate_ = wall.damping * c_ / plant.period;
     order_ = plant.delay_samples + 1;
-    for (const SampledTerm& term : plant.terms) order_ += term.degree;
+    for (const SampledTerm& term : plant.terms) {
+      order_ += term.degree;
+      is_free_ = is_free_ || (stiffness_ == 0.0 && term.integrators > 0);
+    }
+    if (is_free_) --order_;
     for (const FilterSection& section : plant.filters) order_ += section.degree;
   }
 
   [[nodiscard]] std::size_t order() const { return order_; }
 
-  // p(z) / z^L at z = radius e^{j angle}: D (delta + c) + z^-L (K (delta + c) + rate delta) S.
+  // p(z) / z^L at z = radius e^{j angle}: D (delta + c) + z^-L (K (delta + c) + rate delta) S; with K = 0 and D over delta
+  // the damper's delta goes too.
   [[nodiscard]] Complex operator()(double radius, double angle) const {
     const Complex delta = std::polar(radius, angle) - 1.0;
     Complex s = plant_.numerator.empty() ? 0.0 : evaluate(plant_.numerator.data(), plant_.numerator.size(), delta);
     Complex d = 1.0;
+    Complex rest = 1.0;  // d over delta, once an integrator has come
+    bool is_held = !is_free_;
     for (const SampledTerm& term : plant_.terms) {
       Complex d_k = evaluate(term.denominator, term.degree, delta) + std::pow(delta, static_cast<int>(term.degree));
       Complex n_k = evaluate(term.numerator, term.degree + 1, delta);
       const double scale = 1.0 / std::max(std::abs(d_k), 1e-300);
       s = plant_.numerator.empty() ? (s * d_k + n_k * d) * scale : s * scale;
-      d = d * d_k * scale;
+      if (!is_held && term.integrators > 0) {
+        is_held = true;
+        rest = (evaluate(term.denominator + 1, term.degree - 1, delta) +
+                std::pow(delta, static_cast<int>(term.degree) - 1)) *
+               d * scale;
+      } else {
+        rest *= d_k * scale;
+      }
+      d *= d_k * scale;
     }
     for (const FilterSection& section : plant_.filters) {
       Complex n = evaluate(section.numerator.data(), section.numerator.size(), delta);
@@ -47,11 +62,11 @@ class Characteristic {
                           std::pow(delta, static_cast<int>(section.degree));
       const double scale = 1.0 / std::max(std::abs(d_k), 1e-300);
       s *= n * scale;
-      d *= d_k * scale;
+      rest *= d_k * scale;
     }
     const auto delay = static_cast<double>(plant_.delay_samples);
     const Complex shift = std::polar(std::exp(-delay * std::log(radius)), -delay * angle);
-    return d * (delta + c_) + shift * (stiffness_ * (delta + c_) + rate_ * delta) * s;
+    return rest * (delta + c_) + shift * (is_free_ ? rate_ : stiffness_ * (delta + c_) + rate_ * delta) * s;
   }
 
  private:
@@ -65,6 +80,7 @@ class Characteristic {
   double c_;
   double stiffness_;
   double rate_;
+  bool is_free_ = false;
   std::size_t order_ = 0;
 };
 
