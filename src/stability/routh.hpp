@@ -60,9 +60,8 @@ PlantPolynomials<Number> plant_polynomials(const std::vector<Entry>& phi, const 
   const std::size_t n = output.size();
   const Number zero(0.0);
   const Entry none(0.0);
-  PlantPolynomials<Number> plant{Polynomial<Number>(n + 1, zero), Polynomial<Number>(n, zero),
-                                 Polynomial<Number>(n, zero)};
-  plant.denominator[n] = Number(1.0);
+  PlantPolynomials<Number> plant{Polynomial<Number>(n, zero), Polynomial<Number>(n, zero), Polynomial<Number>(n, zero)};
+  plant.denominator.push_back(Number(1.0));
   std::vector<Number> m(n * n, zero);
   std::vector<Number> product(n * n, zero);
   for (std::size_t i = 0; i < n; ++i) m[i * n + i] = Number(1.0);
