@@ -96,9 +96,7 @@ void collect(const ObservedLoop& loop, Diagnosis& diagnosis) {
     candidates.push_back(linear_candidate(loop, OscillationCause::with_operator, loop.device));
     compare_with_nobody(candidates[1], candidates[0]);
     if (loop.stiffness && is_stable(loop.device) && candidates[0].fits) {
-      candidates[0].fits = false;
-      candidates[0].why += ", but the operator of the file keeps it stable";
-      candidates[0].otherwise = OtherwiseNeeded{};  // it fits once the operator lets go
+      candidates[0].why += " once the file's user lets go, who keeps it stable";
     }
   } else {
     candidates.push_back(linear_candidate(loop, OscillationCause::device, loop.device));
@@ -200,6 +198,9 @@ std::optional<OptionProblem> find_problem(const DiagnosisOptions& options, const
                          fmt::format("must be above 0, at most half the sampling rate, {:.6g} Hz: what is faster is "
                                      "seen as an alias",
                                      nyquist / (2.0 * pi))};
+  }
+  if (options.stiffness == 0.0 && options.damping.value_or(device.parameters().wall.damping) == 0.0) {
+    return OptionProblem{"stiffness", "is 0 and so is the damping", "one of them must be above 0: there is no wall else"};
   }
   return find_problem(options);
 }

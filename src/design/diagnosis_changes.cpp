@@ -188,6 +188,8 @@ class Changes {
     double unit = wall.damping;
     if (unit == 0.0) {
       for (const Body& body : loop_.device.bodies()) unit += body.damping;
+      // A device that nothing damps: of a sample of its wall.
+      if (unit == 0.0) unit = 0.1 * loop_.stiffness.value_or(0.0) * loop_.device.loop().sampling_period;
       if (!(unit > 0.0)) return;
     }
     std::optional<AnyUserSearch> search;  // what users do does not depend on the damper

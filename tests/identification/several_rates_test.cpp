@@ -52,7 +52,7 @@ struct Held {
     for (const ResponsePoint& point : found.response.points) {
       ++lines;
       const double radius = confidence_radius(point, found.response.averages);
-      held += std::abs(point.value - response(plant, point.frequency)) <= radius ? 1 : 0;
+      held += std::abs(point.value - response(plant, point.frequency)) <= radius ? 1U : 0U;
     }
     const double truth = critical_stiffness(filtered_plant(sampled_at(1000.0))).stiffness;
     const auto interval = found.stiffness ? stiffness_interval(*found.stiffness) : std::nullopt;

@@ -76,7 +76,7 @@ TEST(StiffnessCrossings, UpToAStiffnessAreThoseOfAll) {
         EXPECT_NEAR(found.crossings[k].gain / expected.crossings[k].gain, 1.0, 1e-10);
         EXPECT_EQ(found.crossings[k].poles_leaving, expected.crossings[k].poles_leaving);
       }
-      some += found.crossings.size() < all.crossings.size() ? 1 : 0;
+      some += found.crossings.size() < all.crossings.size() ? 1U : 0U;
     }
   }
   EXPECT_GE(some, 50U);
