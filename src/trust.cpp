@@ -3,24 +3,49 @@
 #include <algorithm>
 #include <utility>
 
+#include "zwidth/words/finding_text.hpp"
+
 namespace zwidth {
 namespace {
 
-void add(Trust& trust, Trust::Verdict least, std::string reason) {
+bool has(const std::vector<std::string>& reasons, const std::string& reason) {
+  return std::ranges::find(reasons, reason) != reasons.end();
+}
+
+void add(Trust& trust, Trust::Verdict least, Finding finding) {
   trust.verdict = std::max(trust.verdict, least);
-  if (std::find(trust.reasons.begin(), trust.reasons.end(), reason) == trust.reasons.end()) {
-    trust.reasons.push_back(std::move(reason));
-  }
+  std::string reason = text(finding);
+  if (has(trust.reasons, reason)) return;
+  finding.severity = least == Trust::Verdict::refused ? Finding::Severity::refusal : Finding::Severity::doubt;
+  trust.reasons.push_back(std::move(reason));
+  trust.findings.push_back(std::move(finding));
+}
+
+Finding stated(std::string reason) {
+  return {.code = FindingCode::stated, .subjects = {{"reason", std::move(reason)}}};
 }
 
 }  // namespace
 
-void Trust::doubt(std::string reason) { add(*this, Verdict::doubtful, std::move(reason)); }
+void Trust::doubt(Finding finding) { add(*this, Verdict::doubtful, std::move(finding)); }
 
-void Trust::refuse(std::string reason) { add(*this, Verdict::refused, std::move(reason)); }
+void Trust::refuse(Finding finding) { add(*this, Verdict::refused, std::move(finding)); }
+
+void Trust::doubt(std::string reason) { doubt(stated(std::move(reason))); }
+
+void Trust::refuse(std::string reason) { refuse(stated(std::move(reason))); }
 
 void Trust::inherit(const Trust& source) {
-  for (const std::string& reason : source.reasons) add(*this, source.verdict, reason);
+  verdict = std::max(verdict, source.verdict);
+  for (const Finding& finding : source.findings) {
+    std::string reason = text(finding);
+    if (has(reasons, reason)) continue;
+    reasons.push_back(std::move(reason));
+    findings.push_back(finding);
+  }
+  for (const std::string& reason : source.reasons) {
+    if (!has(reasons, reason)) add(*this, source.verdict, stated(reason));
+  }
 }
 
 }  // namespace zwidth

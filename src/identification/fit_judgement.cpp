@@ -19,6 +19,7 @@
 #include "model/uncertainty_problem.hpp"
 #include "percent.hpp"
 #include "zwidth/model/device_trust.hpp"
+#include "zwidth/words/finding_text.hpp"
 #include "zwidth/model/parameter.hpp"
 #include "zwidth/model/state_space.hpp"
 #include "zwidth/quantity.hpp"
@@ -328,7 +329,10 @@ void keep_what_is_assumed(const Device& structure, std::span<const ParameterEsti
   if (given.uncertainty) {
     const std::vector<std::string>& of_structure = given.uncertainty->assumed;
     Trust stated = trust_of(structure);
-    if (!of_structure.empty()) std::erase(stated.reasons, assumed_reason(of_structure));
+    if (!of_structure.empty()) {
+      std::erase(stated.reasons, text(assumed_numbers(of_structure)));
+      std::erase_if(stated.findings, [](const Finding& each) { return each.code == FindingCode::assumed_numbers; });
+    }
     if (!stated.reasons.empty() && std::ranges::any_of(parameter_keys(given), is_taken)) {
       for (Trust* trust : trusts) trust->inherit(stated);
       Trust device_trust = trust_of(fitted);
@@ -341,7 +345,7 @@ void keep_what_is_assumed(const Device& structure, std::span<const ParameterEsti
   }
   std::erase_if(assumed, is_identified);
   if (assumed.empty()) return;
-  for (Trust* trust : trusts) trust->doubt(assumed_reason(assumed));
+  for (Trust* trust : trusts) trust->doubt(assumed_numbers(assumed));
   DeviceParameters parameters = fitted.parameters();
   if (!parameters.uncertainty) parameters.uncertainty.emplace();
   parameters.uncertainty->assumed = std::move(assumed);

@@ -1,7 +1,7 @@
 #include "zwidth/model/device_trust.hpp"
 
-#include <algorithm>
 #include <string>
+#include <utility>
 
 #include "model/uncertainty_problem.hpp"
 
@@ -11,13 +11,18 @@ Trust trust_of(const Device& device) {
   Trust trust;
   const std::optional<Uncertainty>& uncertainty = device.parameters().uncertainty;
   if (!uncertainty) return trust;
-  Trust written{std::max(uncertainty->verdict, Trust::Verdict::doubtful), uncertainty->reasons};
-  if (!uncertainty->warning.empty()) written.reasons.insert(written.reasons.begin(), uncertainty->warning);
-  if (!uncertainty->assumed.empty()) written.reasons.push_back(internal::assumed_reason(uncertainty->assumed));
-  if (written.reasons.empty() && uncertainty->verdict != Trust::Verdict::sound) {
-    written.reasons.emplace_back("the device file says so, without a reason: measure or identify the device again");
+  const auto add = [&](Finding finding) {
+    uncertainty->verdict == Trust::Verdict::refused ? trust.refuse(std::move(finding)) : trust.doubt(std::move(finding));
+  };
+  const auto stated = [](const std::string& reason) {
+    return Finding{.code = FindingCode::stated, .subjects = {{"reason", reason}}, .key = "uncertainty"};
+  };
+  if (!uncertainty->warning.empty()) add(stated(uncertainty->warning));
+  for (const std::string& reason : uncertainty->reasons) add(stated(reason));
+  if (!uncertainty->assumed.empty()) add(internal::assumed_numbers(uncertainty->assumed));
+  if (trust.sound() && uncertainty->verdict != Trust::Verdict::sound) {
+    add({.code = FindingCode::untrusted_without_reason, .key = "uncertainty"});
   }
-  trust.inherit(written);
   return trust;
 }
 

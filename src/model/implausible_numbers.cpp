@@ -1,25 +1,22 @@
 #include "model/implausible_numbers.hpp"
 
-#include <fmt/format.h>
-
+#include <string_view>
 #include <utility>
 
 namespace zwidth::internal {
 namespace {
 
-/// "is it in milliseconds? It must be in seconds: 0.002", by the largest unit that brings the time below a longest one.
-std::string likely_time(double time, double longest) {
-  struct Unit {
-    double seconds;
-    const char* name;
-  };
-  Unit likely{1e-9, "nanoseconds"};
+struct Unit {
+  double seconds;
+  const char* name;
+};
+
+/// The largest unit that brings the time below a longest one.
+Unit likely_unit(double time, double longest) {
   for (const Unit& each : {Unit{1e-3, "milliseconds"}, Unit{1e-6, "microseconds"}}) {
-    if (time * each.seconds > longest) continue;
-    likely = each;
-    break;
+    if (time * each.seconds <= longest) return each;
   }
-  return fmt::format("is it in {}? It must be in seconds: {:.4g}", likely.name, time * likely.seconds);
+  return {1e-9, "nanoseconds"};
 }
 
 }  // namespace
@@ -29,18 +26,30 @@ std::optional<Remark> implausible_period(double period, const std::string& whose
   constexpr double shortest = 1e-6;
   if (period >= shortest && period <= longest) return std::nullopt;
   constexpr double usual = 0.03;  // 0.2 to 30 are milliseconds given as seconds, more are microseconds
-  return Remark{
-      Remark::Severity::warning, fmt::format("{} is {:.4g} s", whose, period),
-      "every delay, damping and critical stiffness depends on it",
-      period > longest ? likely_time(period, usual) : "is the time in the unit that was stated? It must be in seconds"};
+  if (period < shortest) {
+    return warning({.code = FindingCode::period_too_short,
+                    .evidence = {{"period", period}, {"threshold", shortest}},
+                    .subjects = {{"whose", whose}},
+                    .key = "loop.sampling_period"});
+  }
+  const Unit unit = likely_unit(period, usual);
+  return warning({.code = FindingCode::period_too_long,
+                  .evidence = {{"period", period}, {"threshold", longest}, {"likely", period * unit.seconds}},
+                  .subjects = {{"whose", whose}, {"likely_unit", unit.name}},
+                  .key = "loop.sampling_period"});
 }
 
 std::optional<Remark> implausible_lateness(const Device& device, double period) {
   const double late = device.loop().delay + device.parameters().actuator.time_constant;
   if (late <= many_periods * period) return std::nullopt;
-  return Remark{Remark::Severity::warning,
-                fmt::format("delay and lag come to {:.4g} s, {:.3g} sampling periods", late, late / period),
-                "few drives are as slow as that", likely_time(late, many_periods * period)};
+  const Unit unit = likely_unit(late, many_periods * period);
+  return warning({.code = FindingCode::late_beyond_drives,
+                  .evidence = {{"late", late},
+                               {"periods", late / period},
+                               {"threshold", many_periods},
+                               {"likely", late * unit.seconds}},
+                  .subjects = {{"likely_unit", unit.name}},
+                  .key = "loop.delay"});
 }
 
 std::vector<Remark> implausible_masses(const Device& device, double heaviest) {
@@ -48,12 +57,10 @@ std::vector<Remark> implausible_masses(const Device& device, double heaviest) {
   const bool is_rotary = device.parameters().motion == Motion::rotary;
   for (const Body& body : device.bodies()) {
     if (body.mass <= heaviest) continue;
-    remarks.push_back({Remark::Severity::warning,
-                       fmt::format("{} has {} of {:.4g} {}", body.name, is_rotary ? "an inertia" : "a mass", body.mass,
-                                   is_rotary ? "kg m^2" : "kg"),
-                       "few haptic devices are as heavy as that",
-                       fmt::format("is it in {}? It must be in {}: {:.4g}", is_rotary ? "g m^2" : "g",
-                                   is_rotary ? "kg m^2" : "kg", 1e-3 * body.mass)});
+    const std::string_view what = is_rotary ? "inertia" : "mass";
+    remarks.push_back(warning({.code = is_rotary ? FindingCode::inertia_too_large : FindingCode::mass_too_large,
+                               .evidence = {{what, body.mass}, {"threshold", heaviest}, {"likely", 1e-3 * body.mass}},
+                               .subjects = {{"body", body.name}}}));
   }
   return remarks;
 }

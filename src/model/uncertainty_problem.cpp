@@ -138,8 +138,8 @@ Uncertainty given(Uncertainty uncertainty, std::size_t i) {
   return without_rounding(std::move(uncertainty));
 }
 
-std::string assumed_reason(const std::vector<std::string>& keys) {
-  return fmt::format("assumed, not measured: {}; give the device's own", fmt::join(keys, ", "));
+Finding assumed_numbers(const std::vector<std::string>& keys) {
+  return {.code = FindingCode::assumed_numbers, .subjects = {{"keys", fmt::format("{}", fmt::join(keys, ", "))}}};
 }
 
 Uncertainty without_rounding(Uncertainty uncertainty) {

@@ -30,6 +30,6 @@ struct LeastKnown {
 [[nodiscard]] Uncertainty given(Uncertainty uncertainty, std::size_t i);
 
 /// Why a device of assumed numbers is doubtful, with the remedy; there must be one at least.
-[[nodiscard]] std::string assumed_reason(const std::vector<std::string>& keys);
+[[nodiscard]] Finding assumed_numbers(const std::vector<std::string>& keys);
 
 }  // namespace zwidth::internal

@@ -81,11 +81,7 @@ void add_disk_margin(const FilteredPlant& plant, const Wall& wall, Analysis& ana
     analysis.disk_margin = disk_margin_of_stable(plant, wall);
   } catch (const Error& error) {
     if (error.code() != ErrorCode::did_not_converge) throw;
-    analysis.remarks.push_back(
-        {Remark::Severity::note,
-         "the disk margin is left out: the wall is too far below every limit for its search to end",
-         "the gain, phase and delay margins of the wall stand",
-         "judge this wall by those, or give a stiffness nearer to the limits"});
+    analysis.remarks.push_back(note({FindingCode::disk_margin_left_out}));
   }
 }
 
@@ -125,10 +121,10 @@ void judge_certainty_of_wall(const Device& device, Analysis& analysis) {
   if (!analysis.wall || !analysis.wall->stable || !analysis.interval) return;
   if (analysis.wall->stiffness < analysis.interval->lower) return;
   const auto unit = units_of(device.parameters().motion).stiffness;
-  analysis.trust.doubt(
-      fmt::format("the wall of {} is not surely stable: the 95 % interval of the critical stiffness begins at {}; stay "
-                  "below that, or identify the device more closely",
-                  quantity(analysis.wall->stiffness, unit), quantity(analysis.interval->lower, unit)));
+  analysis.trust.doubt({.code = FindingCode::wall_not_surely_stable,
+                        .evidence = {{"stiffness", analysis.wall->stiffness, unit},
+                                     {"lower", analysis.interval->lower, unit}},
+                        .key = "wall.stiffness"});
 }
 
 /// Whether a limit that rests on this one can be given; where not, the analysis says what is left out.
@@ -138,7 +134,7 @@ bool stands(const CriticalStiffness& limit, std::string_view what, Analysis& ana
     return true;
   }
   for (const std::string& reason : limit.trust.reasons) {
-    analysis.trust.doubt(fmt::format("{} is left out: {}", what, reason));
+    analysis.trust.doubt({.code = FindingCode::left_out, .subjects = {{"what", std::string(what)}, {"reason", reason}}});
   }
   return false;
 }
@@ -147,8 +143,8 @@ bool stands(const CriticalStiffness& limit, std::string_view what, Analysis& ana
 void add_critical_damping(const Device& device, HolderLimit& limit, Analysis& analysis) {
   const CriticalDamping damping = critical_damping(device);
   if (!damping.trust.sound() && analysis.trust.sound()) {
-    analysis.remarks.push_back({Remark::Severity::note, "the largest damper without a spring is left out",
-                                damping.trust.reasons.front(), "simulate such a damper before it is rendered"});
+    analysis.remarks.push_back(note(
+        {.code = FindingCode::critical_damping_left_out, .subjects = {{"reason", damping.trust.reasons.front()}}}));
   }
   if (!damping.trust.sound()) return;
   limit.critical_damping = damping.damping;
@@ -170,7 +166,7 @@ void judge_holders(const Device& device, const AnalysisOptions& options, Analysi
   Analysis alone = analyze(free, {.any_user = false, .critical_damping = options.critical_damping, .draws = 0});
   for (const std::string& reason : alone.trust.reasons) {
     if (std::ranges::count(analysis.trust.reasons, reason) > 0) continue;
-    analysis.trust.doubt(fmt::format("with nobody holding: {}", reason));
+    analysis.trust.doubt({.code = FindingCode::nobody_holding, .subjects = {{"reason", reason}}});
   }
   analysis.limits.nobody = alone.limits.nobody;
   analysis.limits.user = limit_of_holder(analysis.critical);
@@ -179,9 +175,9 @@ void judge_holders(const Device& device, const AnalysisOptions& options, Analysi
     analysis.wall_stable_for->user = analysis.wall->stable;
     analysis.wall_stable_for->nobody = alone.wall && alone.wall->stable;
     if (analysis.wall->stable && !analysis.wall_stable_for->nobody) {
-      analysis.remarks.push_back({Remark::Severity::warning, "the wall is unstable with nobody holding",
-                                  "the file's user alone keeps it stable: it shakes once the hand lets go",
-                                  "stay below the limit with nobody holding"});
+      analysis.remarks.push_back(warning({.code = FindingCode::unstable_with_nobody,
+                                          .evidence = {{"stiffness", analysis.wall->stiffness}},
+                                          .effect = {{"critical_stiffness", alone.critical.stiffness}}}));
     }
   }
   analysis.alone = AnswerAlone{std::move(alone.critical), std::move(alone.modes), std::move(alone.suspended_rigid_body),
@@ -199,24 +195,26 @@ void judge_wall_for_any_user(Analysis& analysis) {
     wall.any_user = wall.nobody && (analysis.wall->damping == 0.0 || analysis.wall->damping < *limit.critical_damping);
   }
   if (stability_of(wall) != WallStability::alone_only || wall.any_user.value_or(true)) return;
-  const bool has_spring = analysis.wall->stiffness > 0.0;
-  analysis.remarks.push_back(
-      {Remark::Severity::warning,
-       has_spring ? "the wall is stiffer than the limit with any passive user"
-                  : "the wall has more damping than the limit with any passive user",
-       "stable alone only: some user's grasp makes it oscillate",
-       has_spring ? "stay below that limit, or give the users whom you expect as a family" : "stay below that limit"});
+  if (analysis.wall->stiffness > 0.0) {
+    analysis.remarks.push_back(warning({.code = FindingCode::stiffer_than_any_user_limit,
+                                        .evidence = {{"stiffness", analysis.wall->stiffness}},
+                                        .key = "wall.stiffness",
+                                        .effect = {{"critical_stiffness", limit.critical_stiffness}}}));
+  } else {
+    analysis.remarks.push_back(warning({.code = FindingCode::damper_above_any_user_limit,
+                                        .evidence = {{"damping", analysis.wall->damping}},
+                                        .key = "wall.damping",
+                                        .effect = {{"critical_damping", *limit.critical_damping}}}));
+  }
 }
 
 /// The limit over all passive users, of the stiffness and of the damper alone.
 void answer_any_user(const Device& device, const AnalysisOptions& options, StagedProgress& stages, Analysis& analysis) {
   const VirtualDamper damper = virtual_damper(device);
   if (device.bodies().size() > most_bodies_for_any_user) {
-    analysis.remarks.push_back(
-        {Remark::Severity::note,
-         fmt::format("the limit over all passive users is not computed for {} bodies; at most {}",
-                     device.bodies().size(), most_bodies_for_any_user),
-         "a user may leave less than the critical stiffness given here", "merge bodies whose links hardly give"});
+    analysis.remarks.push_back(note({.code = FindingCode::too_many_bodies_for_any_user,
+                                     .evidence = {{"bodies", static_cast<double>(device.bodies().size())},
+                                                  {"most", static_cast<double>(most_bodies_for_any_user)}}}));
     return;
   }
   // That limit rests on the critical stiffness of the device that nobody holds.
@@ -324,8 +322,8 @@ Analysis analyze(const Device& device, const AnalysisOptions& options) {
     analysis.interval = stiffness_interval(device, options.draws, usual_draws_seed, stages.stage());
     if (is_open(*analysis.interval)) {
       analysis.trust.doubt(
-          "the uncertainty of the parameters in the file leaves the critical stiffness open within more than a factor "
-          "of 2: measure them more closely");
+          {.code = FindingCode::interval_open,
+           .evidence = {{"lower", analysis.interval->lower}, {"upper", analysis.interval->upper}}});
     }
   }
   judge_certainty_of_wall(device, analysis);

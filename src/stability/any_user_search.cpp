@@ -372,29 +372,20 @@ AnyUserLimit AnyUserSearch::limit_of(VirtualDamper damper, const CriticalStiffne
   limit.needs_no_user = nobody() && limit.truncation <= sound_within;
   limit.stiffness = limit.needs_no_user ? least.stiffness : least.stiffness * (1.0 - limit.truncation);
   if (discs_.zeros().is_unknown) {
-    limit.trust.doubt(
-        "the limit for any passive user may be missed at a frequency at which the damped bodies hardly move: give the "
-        "other bodies some damping, or join bodies that move as one");
+    limit.trust.doubt({.code = FindingCode::any_user_limit_may_miss_frequency});
   } else if (const auto tuned = beaten_by_tuned_user(damper, limit.stiffness)) {
     limit.stiffness = *tuned;
     limit.needs_no_user = false;
     limit.trust.doubt(
-        "a spring or mass at the held body that resonates where the damped bodies hardly move destabilises softer "
-        "walls "
-        "than the limit found for any passive user, which is lowered to that");
+        {.code = FindingCode::any_user_limit_lowered, .effect = {{"critical_stiffness", limit.stiffness}}});
   }
   if (unproven > sound_within) {
-    limit.trust.doubt(fmt::format(
-        "the limit for any passive user is shown to hold only to {:.1g} of it, which is taken off: the limit "
-        "given is safe and may be that much too low; check the device's numbers for values that lie many "
-        "powers of ten apart",
-        unproven));
+    limit.trust.doubt({.code = FindingCode::any_user_limit_loose,
+                       .evidence = {{"unproven", unproven}, {"threshold", sound_within}}});
   }
   if (discs_.truncation() > sound_within) {
-    limit.trust.doubt(
-        fmt::format("the sum over aliases leaves {:.1g} of the limit for any passive user, which is taken "
-                    "off: the device has modes or corners far above the sampling rate",
-                    discs_.truncation()));
+    limit.trust.doubt({.code = FindingCode::any_user_limit_truncated,
+                       .evidence = {{"truncation", discs_.truncation()}, {"threshold", sound_within}}});
   }
   return limit;
 }

@@ -58,23 +58,18 @@ void confirm_margins(const Device& device, Analysis& analysis) {
   WallMargins& wall = *analysis.wall;
   if (wall.delay_margin && !delay_margin_stands(device, wall)) {
     wall.delay_margin.reset();
-    analysis.trust.doubt(
-        "the delay margin is left out: two computations contradict each other on it; raise the delay of the loop in "
-        "steps and analyze each");
+    analysis.trust.doubt({.code = FindingCode::delay_margin_contradicts});
   }
   if (wall.stable && wall.stiffness > 0.0 && !phase_margin_stands(device, wall)) {
     wall.phase_margin.reset();
     wall.delay_margin.reset();
     analysis.disk_margin.reset();
-    analysis.trust.doubt(
-        "the margins of phase, delay and disk are left out: two computations contradict each other on them; poles lie "
-        "too "
-        "close together to tell them apart");
+    analysis.trust.doubt({.code = FindingCode::margins_contradict});
   }
   constexpr double rounding = 1e-6;
   if (analysis.disk_margin && analysis.disk_margin->alpha > (1.0 + rounding) * most_alpha(wall)) {
     analysis.disk_margin.reset();
-    analysis.trust.doubt("the disk margin is left out: it contradicts the margins of gain and phase");
+    analysis.trust.doubt({.code = FindingCode::disk_margin_contradicts});
   }
 }
 

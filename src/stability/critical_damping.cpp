@@ -81,7 +81,7 @@ CriticalDamping critical_damping(const Device& device) {
     result = as_damping(critical_stiffness_of(plant, damping_crossings(plant, unit)));
   } catch (const Error& error) {
     if (error.code() != ErrorCode::did_not_converge) throw;
-    result.trust.refuse(error.what());
+    result.trust.refuse({.code = FindingCode::not_converged, .subjects = {{"reason", error.what()}}});
   }
   result.trust.inherit(trust_of(device));
   if (!result.trust.refused()) confirm(device, result);

@@ -92,10 +92,7 @@ void doubt_touch_without_pole(const Device& device, CriticalStiffness& critical)
   Wall wall = device.parameters().wall;
   wall.stiffness = critical.stiffness;
   if (!(stability_excess(plant, wall) < -on_circle)) return;
-  critical.trust.doubt(fmt::format(
-      "the limit of {:.6g} may be too low: a pole is to touch the unit circle there, and none does by a second "
-      "computation; walls up to it are stable, stiffer ones may be; merge bodies that move alike",
-      critical.stiffness));
+  critical.trust.doubt({.code = FindingCode::touch_without_pole, .evidence = {{"limit", critical.stiffness}}});
 }
 
 // A free device that leaves so slowly that a wall of a millionth of the limit holds it: rounded coefficients.
@@ -104,11 +101,8 @@ void doubt_slow_instability(CriticalStiffness& critical) {
   if (critical.status != StiffnessStatus::none_stable || critical.stable_intervals.empty()) return;
   const StableInterval& first = critical.stable_intervals.front();
   if (!first.upper || first.lower > negligible * *first.upper) return;
-  critical.trust.doubt(fmt::format(
-      "the device by itself is unstable, but so slowly that a wall of {:.3g} holds it, and walls up to {:.6g} are "
-      "stable: if its numbers were computed, rounding moved a pole that belongs at s = 0; write the coefficient that "
-      "makes it as 0",
-      first.lower, *first.upper));
+  critical.trust.doubt(
+      {.code = FindingCode::slow_instability, .evidence = {{"holding", first.lower}, {"limit", *first.upper}}});
 }
 
 }  // namespace
@@ -122,17 +116,10 @@ Agreement agreement(const PoleCount& poles, double stiffness, bool stable) {
 
 void distrust(Agreement agreement, double stiffness, Trust& trust) {
   if (agreement == Agreement::contradicts) {
-    trust.refuse(fmt::format(
-        "whether the loop is stable at {:.6g} is open, so no limit is given: two computations contradict each other "
-        "where poles of the device lie close together; drop a lag that hardly matters, or merge bodies that move alike",
-        stiffness));
+    trust.refuse({.code = FindingCode::second_route_contradicts, .evidence = {{"stiffness", stiffness}}});
   }
   if (agreement == Agreement::undecided) {
-    trust.doubt(fmt::format(
-        "nothing confirms the answer at {:.6g}, so it may be wrong: the loop has too many states for a second "
-        "computation, or a pole too near the unit circle; shorten the delay or merge bodies that hardly move against "
-        "each other",
-        stiffness));
+    trust.doubt({.code = FindingCode::second_route_undecided, .evidence = {{"stiffness", stiffness}}});
   }
 }
 
@@ -153,7 +140,7 @@ CriticalStiffness guarded_stiffness(const Device& device, const FilteredPlant& p
     critical = critical_stiffness_of(plant, crossings);
   } catch (const Error& error) {
     if (error.code() != ErrorCode::did_not_converge) throw;
-    critical.trust.refuse(error.what());
+    critical.trust.refuse({.code = FindingCode::not_converged, .subjects = {{"reason", error.what()}}});
   }
   critical.trust.inherit(trust_of(device));
   if (critical.trust.refused()) {
