@@ -11,6 +11,7 @@ from pathlib import Path
 
 # Room: the rooms that its files may include, besides itself and the public headers that stand in no room.
 LIBRARY = {
+    "words": [],
     "model": [],
     "signal": [],
     "sampling": ["model"],
@@ -19,7 +20,7 @@ LIBRARY = {
     "stability": ["model", "sampling", "batch/kernel"],
     "io": ["model", "signal", "study"],
     "simulation": ["model", "signal", "sampling", "control", "stability"],
-    "identification": ["model", "signal", "sampling", "stability", "simulation"],
+    "identification": ["words", "model", "signal", "sampling", "stability", "simulation"],
     "batch": ["model", "sampling", "stability", "batch/kernel"],
     "design": ["model", "signal", "sampling", "stability", "batch"],
     "study": ["model", "sampling", "stability", "batch", "design"],
