@@ -200,7 +200,8 @@ std::optional<OptionProblem> find_problem(const DiagnosisOptions& options, const
                                      nyquist / (2.0 * pi))};
   }
   if (options.stiffness == 0.0 && options.damping.value_or(device.parameters().wall.damping) == 0.0) {
-    return OptionProblem{"stiffness", "is 0 and so is the damping", "one of them must be above 0: there is no wall else"};
+    return OptionProblem{"stiffness", "is 0 and so is the damping",
+                         "one of them must be above 0: there is no wall else"};
   }
   return find_problem(options);
 }
