@@ -10,7 +10,12 @@ namespace zwidth::internal {
 //     {stiffness}         with its unit and prefix, quantity(); without a unit four digits, number(); a subject as it is
 //     {stiffness:.6g}     as fmt prints a double
 //     {rows:n}            a whole number
+//     {rows:s}            nothing for 1, else the "s" of a plural
+//     {after:time}        a time in s, ms or us
+//     {share:percent}     percent(), with its sign
 //     {share:%}           100 times it, whole, without the sign; {share:%.1f} as fmt prints 100 times it
+//     {?cells|of {cells:n}}  the text behind the bar where the finding holds `cells`; {!cells|...} where it does not
+//     {?gaps=1|one gap}      where it holds `gaps` and that is 1 (a subject: the same text); {!gaps=1|...} elsewhere
 struct Phrase {
   FindingCode code;
   const char* name;
@@ -23,5 +28,8 @@ struct Phrase {
 [[nodiscard]] std::span<const Phrase> model_phrases();
 [[nodiscard]] std::span<const Phrase> stability_phrases();
 [[nodiscard]] std::span<const Phrase> design_phrases();
+[[nodiscard]] std::span<const Phrase> signal_phrases();
+[[nodiscard]] std::span<const Phrase> io_phrases();
+[[nodiscard]] std::span<const Phrase> identification_phrases();
 
 }  // namespace zwidth::internal
