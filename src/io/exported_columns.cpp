@@ -74,7 +74,6 @@ void judge_scale(const ExportedColumn& column, const ColumnRequest& request, Rec
     return;
   }
   recording.doubts.push_back(found);
-  found.evidence.push_back({"scale_of_raw", factor});
   recording.remarks.push_back(warning(std::move(found)));
 }
 

@@ -60,6 +60,7 @@ std::string value_text(const Evidence& evidence, std::string_view format) {
 
 // Whether the finding holds a name, or holds it with this very value.
 bool holds(const Finding& finding, std::string_view condition) {
+  if (condition == "doubt") return finding.severity >= Finding::Severity::doubt;
   const std::size_t equals = condition.find('=');
   const std::string_view name = condition.substr(0, equals);
   const auto evidence = std::ranges::find(finding.evidence, name, &Evidence::name);
@@ -121,7 +122,9 @@ std::string_view name_of(FindingCode code) { return phrase_of(code).name; }
 
 FindingWords words_of(const Finding& finding) {
   const Phrase& phrase = phrase_of(finding.code);
-  return {filled_in(finding, phrase.what), filled_in(finding, phrase.consequence), filled_in(finding, phrase.remedy)};
+  const auto recording = std::ranges::find(finding.subjects, of_recording, &Subject::name);
+  const std::string whose = recording == finding.subjects.end() ? std::string() : recording->text + ": ";
+  return {whose + filled_in(finding, phrase.what), filled_in(finding, phrase.consequence), filled_in(finding, phrase.remedy)};
 }
 
 std::string text(const Finding& finding) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <string_view>
 
 #include "zwidth/finding_code.hpp"
 
@@ -16,6 +17,7 @@ namespace zwidth::internal {
 //     {share:%}           100 times it, whole, without the sign; {share:%.1f} as fmt prints 100 times it
 //     {?cells|of {cells:n}}  the text behind the bar where the finding holds `cells`; {!cells|...} where it does not
 //     {?gaps=1|one gap}      where it holds `gaps` and that is 1 (a subject: the same text); {!gaps=1|...} elsewhere
+//     {?doubt|...}           in a doubt or a refusal alone; {!doubt|...} in a remark alone
 struct Phrase {
   FindingCode code;
   const char* name;
@@ -23,6 +25,9 @@ struct Phrase {
   const char* consequence = "";
   const char* remedy = "";
 };
+
+// A subject that stands ahead of every sentence: which one of several recordings shows it.
+inline constexpr std::string_view of_recording = "of_recording";
 
 // By the room that finds them.
 [[nodiscard]] std::span<const Phrase> model_phrases();
