@@ -20,7 +20,7 @@ const std::map<FindingCode, Phrase>& phrases() {
   static const std::map<FindingCode, Phrase> all = [] {
     std::map<FindingCode, Phrase> result;
     for (const std::span<const Phrase> room : {model_phrases(), stability_phrases(), design_phrases(), signal_phrases(),
-                                               io_phrases(), identification_phrases()}) {
+                                               io_phrases(), response_phrases(), identification_phrases()}) {
       for (const Phrase& phrase : room) result.emplace(phrase.code, phrase);
     }
     return result;
@@ -124,7 +124,8 @@ FindingWords words_of(const Finding& finding) {
   const Phrase& phrase = phrase_of(finding.code);
   const auto recording = std::ranges::find(finding.subjects, of_recording, &Subject::name);
   const std::string whose = recording == finding.subjects.end() ? std::string() : recording->text + ": ";
-  return {whose + filled_in(finding, phrase.what), filled_in(finding, phrase.consequence), filled_in(finding, phrase.remedy)};
+  return {whose + filled_in(finding, phrase.what), filled_in(finding, phrase.consequence),
+          filled_in(finding, phrase.remedy)};
 }
 
 std::string text(const Finding& finding) {

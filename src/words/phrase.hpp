@@ -35,6 +35,7 @@ inline constexpr std::string_view of_recording = "of_recording";
 [[nodiscard]] std::span<const Phrase> design_phrases();
 [[nodiscard]] std::span<const Phrase> signal_phrases();
 [[nodiscard]] std::span<const Phrase> io_phrases();
+[[nodiscard]] std::span<const Phrase> response_phrases();  // of identification: excitation, records, responses
 [[nodiscard]] std::span<const Phrase> identification_phrases();
 
 }  // namespace zwidth::internal
