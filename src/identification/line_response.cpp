@@ -246,9 +246,9 @@ FrequencyResponse line_response(std::span<const double> force, std::span<const d
   }
   Finding fitted{.code = FindingCode::lines_fitted_in_blocks,
                  .evidence = {counted("lines", angles.size()),
-                              {"frequency", angles[0] / (turn * sampling_period)},
                               counted("blocks", count),
                               {"duration", static_cast<double>(length) * sampling_period}}};
+  if (angles.size() == 1) fitted.evidence.push_back({"frequency", angles[0] / (turn * sampling_period)});
   if (skipped > 0) fitted.evidence.push_back(counted("skipped", skipped));
   response.remarks.push_back(note(std::move(fitted)));
   return response;
