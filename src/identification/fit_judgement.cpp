@@ -17,7 +17,6 @@
 #include "identification/response_choice.hpp"
 #include "identification/weak_force_test.hpp"
 #include "model/uncertainty_problem.hpp"
-#include "percent.hpp"
 #include "zwidth/model/device_trust.hpp"
 #include "zwidth/model/parameter.hpp"
 #include "zwidth/model/state_space.hpp"

@@ -1,7 +1,5 @@
 #include "identification/friction_doubt.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <optional>

@@ -1,7 +1,5 @@
 #include "zwidth/identification/identification.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <span>

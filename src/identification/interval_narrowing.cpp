@@ -1,7 +1,5 @@
 #include "identification/interval_narrowing.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <string>

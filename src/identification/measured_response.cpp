@@ -17,7 +17,6 @@
 #include "identification/response_choice.hpp"
 #include "identification/stated_units.hpp"
 #include "identification/welch.hpp"
-#include "percent.hpp"
 #include "signal/clipping.hpp"
 #include "words/phrase.hpp"
 #include "zwidth/error.hpp"

@@ -1,12 +1,9 @@
 #include "identification/misfit_doubt.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "percent.hpp"
 #include "zwidth/quantity.hpp"
 
 namespace zwidth::internal {

@@ -1,10 +1,9 @@
 #include "identification/nonlinear_forces.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "identification/encoder_step.hpp"
 #include "linear_systems.hpp"

@@ -15,7 +15,6 @@
 #include "identification/misfit_doubt.hpp"
 #include "identification/residual_checks.hpp"
 #include "model/uncertainty_problem.hpp"
-#include "percent.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/modal_form.hpp"
 #include "zwidth/model/parameter.hpp"

@@ -1,7 +1,5 @@
 #include "identification/periodic_response.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <complex>

@@ -1,7 +1,5 @@
 #include "identification/plausibility.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

@@ -1,7 +1,5 @@
 #include "identification/recording_agreement.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <utility>
 

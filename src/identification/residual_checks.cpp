@@ -1,14 +1,11 @@
 #include "identification/residual_checks.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <optional>
 
 #include "linear_systems.hpp"
-#include "percent.hpp"
 #include "zwidth/quantity.hpp"
 
 namespace zwidth::internal {

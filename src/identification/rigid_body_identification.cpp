@@ -16,7 +16,6 @@
 #include "identification/nonlinearity_of_equations.hpp"
 #include "identification/plausibility.hpp"
 #include "model/uncertainty_problem.hpp"
-#include "percent.hpp"
 #include "require_valid.hpp"
 #include "signal/clipping.hpp"
 #include "zwidth/error.hpp"

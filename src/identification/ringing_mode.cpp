@@ -1,7 +1,5 @@
 #include "identification/ringing_mode.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>

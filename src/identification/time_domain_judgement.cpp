@@ -18,7 +18,6 @@
 #include "identification/motion_residuals.hpp"
 #include "identification/nonlinearity_test.hpp"
 #include "identification/plausibility.hpp"
-#include "percent.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/identification/frequency_response.hpp"
 #include "zwidth/model/parameter.hpp"

@@ -15,7 +15,6 @@
 #include "identification/fit_judgement.hpp"
 #include "identification/link_mode.hpp"
 #include "identification/misfit_doubt.hpp"
-#include "percent.hpp"
 #include "stability/device_draws.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/parameter.hpp"

@@ -1,9 +1,6 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <optional>
 #include <span>
 #include <string>
@@ -12,7 +9,6 @@
 #include "identification/friction_test.hpp"
 #include "identification/nonlinear_forces.hpp"
 #include "identification/weak_force_test.hpp"
-#include "percent.hpp"
 #include "zwidth/quantity.hpp"
 
 namespace zwidth::internal {
