@@ -133,6 +133,7 @@ enum class FindingCode : std::uint16_t {
   response_without_noise,           ///< a response whose noise is not known
   phase_measured,                   ///< where the phase is known
   phase_half_turn_off,              ///< the motion's sign is probably wrong
+  phase_left_open,                  ///< noise leaves the phase open by more than 30 degrees in the whole band
   phase_not_told,                   ///< noise hides the phase everywhere
   phase_past_at_beginning,          ///< the phase is past -180 degrees where the band begins
   no_crossover_in_band,             ///< the phase does not pass -180 degrees

@@ -162,9 +162,8 @@ class Judge {
       if (!estimate.identifiable) keys.push_back(estimate.key);
     }
     if (!keys.empty()) {
-      const Finding open{
-          .code = FindingCode::numbers_undetermined,
-          .subjects = {{"keys", fmt::format("{}", fmt::join(keys, ", "))}, {"taken_from", "the structure"}}};
+      const Finding open{.code = FindingCode::numbers_undetermined,
+                         .subjects = {{"keys", fmt::format("{}", fmt::join(keys, ", "))}, {"taken_from", "structure"}}};
       result_.device_trust.doubt(open);
       // Along what is open the response does not change, and within the band the critical stiffness is the response's.
       const bool is_responses = is_in_band_ && judged_.options.fit.locked.empty();
@@ -268,7 +267,7 @@ void judge_nonlinearity(Identification& result, std::span<const Recording> recor
   const std::vector<std::string> keys = keys_of(result.fit);
   const std::vector<double>& lines = result.fit.frequencies;
   const auto doubt = [&](Finding found) {
-    found.subjects.push_back({"taken_for", "mass, damping and springs"});
+    found.subjects.push_back({"taken_for", "damping"});
     result.trust.doubt(found);
     result.remarks.push_back(warning(std::move(found)));
   };

@@ -332,8 +332,7 @@ MeasuredStiffness measured_stiffness(const FrequencyResponse& response) {
     result.status = MeasuredStiffnessStatus::undetermined;
     result.measured_band = {response.points.front().frequency, response.points.back().frequency};
     result.doubtful_bands.push_back(result.measured_band);
-    warn(result, "the noise leaves the phase open by more than 30 degrees " + band_text(result.measured_band),
-         "the response alone leaves the critical stiffness open; excite more strongly or for longer");
+    warn(result, {.code = FindingCode::phase_left_open, .evidence = band_evidence(result.measured_band)});
     return result;
   }
   Findings findings = find_crossings(lines, phase_verdicts(lines, response.line_correlation),

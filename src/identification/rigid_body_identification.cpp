@@ -180,7 +180,7 @@ void judge_nonlinearity(RigidBodyIdentification& identified, const Recording& re
                                               recording.channels[1].samples, recording.sampling_period, motion);
   if (!found) return;
   Finding shown = shown_by("the record", std::move(found->finding));
-  shown.subjects.push_back({"taken_for", "mass, friction and offset"});
+  shown.subjects.push_back({"taken_for", "friction"});
   identified.trust.doubt(shown);
   identified.remarks.push_back(warning(std::move(shown)));
 }

@@ -113,8 +113,7 @@ class Judge {
     }
     if (!open.empty()) {
       trust_.doubt({.code = FindingCode::numbers_undetermined,
-                    .subjects = {{"keys", fmt::format("{}", fmt::join(open, ", "))},
-                                 {"taken_from", "the start of the search"}}});
+                    .subjects = {{"keys", fmt::format("{}", fmt::join(open, ", "))}, {"taken_from", "start"}}});
     }
     judge_band();
     judge_interval();

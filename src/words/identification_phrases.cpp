@@ -25,7 +25,8 @@ std::span<const Phrase> identification_phrases() {
              "the {?by=record|record determines}{?by=recordings|recordings determine} no parameter of the structure",
              "", "free fewer, or excite more strongly"},
       Phrase{numbers_undetermined, "numbers_undetermined",
-             "the data do not determine {keys}: taken as they stand in {taken_from}"},
+             "the data do not determine {keys}: taken as they stand in the "
+             "{?taken_from=structure|structure}{?taken_from=start|start of the search}"},
       Phrase{number_is_placeholder, "number_is_placeholder",
              "{key} = {value:.4g} is a placeholder: the data do not determine it",
              "give what is known, or a device file as the structure"},
@@ -238,53 +239,62 @@ std::span<const Phrase> identification_phrases() {
       Phrase{nonlinear_spring, "nonlinear_spring",
              "{source} shows a force that changes with the position, but not in proportion to it: a spring that "
              "stiffens, gravity on a lever, or a stop",
-             "{!doubt|{?taken_for|the fit takes it for {taken_for}}}",
+             "{!doubt|{?taken_for=damping|the fit takes it for mass, damping and springs}{?taken_for=friction|the fit "
+             "takes it for mass, friction and offset}}",
              "record smaller motion, about the place that matters"},
       Phrase{nonlinear_actuator, "nonlinear_actuator",
              "{source} shows a force that is not in proportion to the recorded one: an amplifier that saturates, or a "
              "torque that falls at large currents",
-             "{!doubt|{?taken_for|the fit takes it for {taken_for}}}",
+             "{!doubt|{?taken_for=damping|the fit takes it for mass, damping and springs}{?taken_for=friction|the fit "
+             "takes it for mass, friction and offset}}",
              "record the force that acts, or excite less strongly"},
       Phrase{cogging, "cogging",
              "{source} shows a force that comes and goes with the position, about every {wavelength:.2g} {unit}: "
              "cogging, gear teeth, or a bearing",
-             "{!doubt|{?taken_for|the fit takes it for {taken_for}}}",
+             "{!doubt|{?taken_for=damping|the fit takes it for mass, damping and springs}{?taken_for=friction|the fit "
+             "takes it for mass, friction and offset}}",
              "compensate it, or excite more strongly: its share falls with the amplitude"},
       Phrase{drag, "drag",
              "{source} {?below|hardly tells damping from}{!below|shows} a force that is not in proportion to the "
              "speed: drag of air or of a fluid, an eddy-current brake, or friction that changes with the "
              "speed{?below|: beside it the critical stiffness is about {beside}}{!below|{?beside| (beside it the "
              "critical stiffness is about {beside})}}",
-             "{!doubt|{?taken_for|the fit takes it for {taken_for}}}",
+             "{!doubt|{?taken_for=damping|the fit takes it for mass, damping and springs}{?taken_for=friction|the fit "
+             "takes it for mass, friction and offset}}",
              "record it at the speeds that matter: slow motion is damped less, and its critical stiffness is lower"},
       Phrase{friction_not_coulombs, "friction_not_coulombs",
              "{source} {?below|hardly tells damping from}{!below|shows} friction that is not Coulomb's as the motion "
              "turns: what rubs, or a cable, bends before it slips, or friction at rest is more{?below|: beside it the "
              "critical stiffness is about {beside}}{!below|{?beside| (beside it the critical stiffness is about "
              "{beside})}}",
-             "{!doubt|{?taken_for|the fit takes it for {taken_for}}}",
+             "{!doubt|{?taken_for=damping|the fit takes it for mass, damping and springs}{?taken_for=friction|the fit "
+             "takes it for mass, friction and offset}}",
              "excite more strongly: its share falls with the amplitude"},
       Phrase{link_friction, "link_friction",
              "{source} {?below|hardly tells damping from}{!below|shows} friction in a link: a belt, cable or gear that "
              "rubs, or gives before it slips{?below|: beside it the critical stiffness is about "
              "{beside}}{!below|{?beside| (beside it the critical stiffness is about {beside})}}",
-             "{!doubt|{?taken_for|the fit takes it for {taken_for}}}",
+             "{!doubt|{?taken_for=damping|the fit takes it for mass, damping and springs}{?taken_for=friction|the fit "
+             "takes it for mass, friction and offset}}",
              "excite more strongly: its share falls with the amplitude"},
       Phrase{unmodelled_mode, "unmodelled_mode",
              "{source} shows a mode near {frequency:.4g} Hz that the structure lacks, {?times|larger "
              "than}{?share|{share:percent} of} the response there{?beside|: with it the critical stiffness is about "
              "{beside}}",
-             "{!doubt|{?taken_for|the fit takes it for {taken_for}}}",
+             "{!doubt|{?taken_for=damping|the fit takes it for mass, damping and springs}{?taken_for=friction|the fit "
+             "takes it for mass, friction and offset}}",
              "give the structure one more body (a frame that shakes is one), or hold the device firmly"},
       Phrase{delay_changes, "delay_changes",
              "{source} shows a delay that changes by {change} from its beginning to its end: the clocks of force and "
              "position run apart, or under a sweep something delays some frequencies more than others",
-             "{!doubt|{?taken_for|the fit takes it for {taken_for}}}",
+             "{!doubt|{?taken_for=damping|the fit takes it for mass, damping and springs}{?taken_for=friction|the fit "
+             "takes it for mass, friction and offset}}",
              "record both by one clock, under noise or a multisine"},
       Phrase{damping_changes, "damping_changes",
              "{source} shows that the damping of {body} changes by {change} while it is recorded, of which the fit is "
              "a mean: at the softest the critical stiffness is about {beside} or less",
-             "{!doubt|{?taken_for|the fit takes it for {taken_for}}}",
+             "{!doubt|{?taken_for=damping|the fit takes it for mass, damping and springs}{?taken_for=friction|the fit "
+             "takes it for mass, friction and offset}}",
              "record the device when it is warm, or as cold as it will be used"},
       Phrase{taken_as_zero, "taken_as_zero", "{key} = {value:.4g} is below 0", "taken as 0 in the device"},
       Phrase{friction_below_zero, "friction_below_zero",

@@ -120,6 +120,10 @@ std::span<const Phrase> response_phrases() {
              "the position falls as the force rises: where the band begins the response falls as a mass's does, and "
              "its phase, {phase:.0f} degrees, is half a turn off",
              "scale one of them by -1"},
+      Phrase{phase_left_open, "phase_left_open",
+             "the noise leaves the phase open by more than 30 degrees {?at|at {at:.4g} Hz}{!at|from {from:.4g} to "
+             "{to:.4g} Hz}",
+             "the response alone leaves the critical stiffness open; excite more strongly or for longer"},
       Phrase{phase_not_told, "phase_not_told", "the phase cannot be told from -180 degrees anywhere in the band",
              "the response alone leaves the critical stiffness open; excite more strongly or for longer"},
       Phrase{phase_past_at_beginning, "phase_past_at_beginning",

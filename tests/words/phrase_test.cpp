@@ -157,7 +157,7 @@ TEST(WordsOfIdentification, HaveTheirVariants) {
 TEST(WordsOfIdentification, NameForcesThatNoDeviceHas) {
   const Finding clear{.code = FindingCode::link_friction,
                       .evidence = {{"beside", 730.0, "N/m"}},
-                      .subjects = {{"source", "the record"}, {"taken_for", "mass, damping and springs"}}};
+                      .subjects = {{"source", "the record"}, {"taken_for", "damping"}}};
   const std::string remedy = "excite more strongly: its share falls with the amplitude";
   EXPECT_EQ(doubt(clear),
             "the record shows friction in a link: a belt, cable or gear that rubs, or gives before it slips (beside it "
