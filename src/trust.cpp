@@ -14,9 +14,9 @@ bool has(const std::vector<std::string>& reasons, const std::string& reason) {
 
 void add(Trust& trust, Trust::Verdict least, Finding finding) {
   trust.verdict = std::max(trust.verdict, least);
+  finding.severity = least == Trust::Verdict::refused ? Finding::Severity::refusal : Finding::Severity::doubt;
   std::string reason = text(finding);
   if (has(trust.reasons, reason)) return;
-  finding.severity = least == Trust::Verdict::refused ? Finding::Severity::refusal : Finding::Severity::doubt;
   trust.reasons.push_back(std::move(reason));
   trust.findings.push_back(std::move(finding));
 }

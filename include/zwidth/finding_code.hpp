@@ -22,25 +22,217 @@ enum class FindingCode : std::uint16_t {
   inertia_too_large,         ///< an inertia that no haptic device has
 
   // stability
-  wall_not_surely_stable,             ///< the wall lies within the interval of the critical stiffness
-  interval_open,                      ///< the parameters' uncertainty leaves the limit open within more than a factor of 2
-  second_route_contradicts,           ///< two computations contradict each other on one wall's stability
-  second_route_undecided,             ///< no second computation confirms one wall's stability
-  touch_without_pole,                 ///< the limit is a pole's touch of the circle that a second computation does not find
-  slow_instability,                   ///< the free device is unstable so slowly that rounded coefficients explain it
-  delay_margin_contradicts,           ///< two computations contradict each other on the delay margin
-  margins_contradict,                 ///< two computations contradict each other on phase, delay and disk margin
-  disk_margin_contradicts,            ///< the disk margin is larger than gain and phase margins allow
-  disk_margin_left_out,               ///< its search does not end: the wall is far below every limit
-  critical_damping_left_out,          ///< the largest damper alone is not sure, for `reason`
-  unstable_with_nobody,               ///< the file's user alone keeps the wall stable
-  stiffer_than_any_user_limit,        ///< some user's grasp makes the wall oscillate
-  damper_above_any_user_limit,        ///< some user's grasp makes the damper oscillate
-  too_many_bodies_for_any_user,       ///< the limit over all passive users is not computed for so many bodies
+  wall_not_surely_stable,        ///< the wall lies within the interval of the critical stiffness
+  interval_open,                 ///< the parameters' uncertainty leaves the limit open within more than a factor of 2
+  second_route_contradicts,      ///< two computations contradict each other on one wall's stability
+  second_route_undecided,        ///< no second computation confirms one wall's stability
+  touch_without_pole,            ///< the limit is a pole's touch of the circle that a second computation does not find
+  slow_instability,              ///< the free device is unstable so slowly that rounded coefficients explain it
+  delay_margin_contradicts,      ///< two computations contradict each other on the delay margin
+  margins_contradict,            ///< two computations contradict each other on phase, delay and disk margin
+  disk_margin_contradicts,       ///< the disk margin is larger than gain and phase margins allow
+  disk_margin_left_out,          ///< its search does not end: the wall is far below every limit
+  critical_damping_left_out,     ///< the largest damper alone is not sure, for `reason`
+  unstable_with_nobody,          ///< the file's user alone keeps the wall stable
+  stiffer_than_any_user_limit,   ///< some user's grasp makes the wall oscillate
+  damper_above_any_user_limit,   ///< some user's grasp makes the damper oscillate
+  too_many_bodies_for_any_user,  ///< the limit over all passive users is not computed for so many bodies
   any_user_limit_may_miss_frequency,  ///< the damped bodies hardly move at some frequency that may be missed
   any_user_limit_lowered,             ///< a tuned user destabilises softer walls than the bound found: it is lowered
   any_user_limit_loose,               ///< the bound is proven to a share only, which is taken off
   any_user_limit_truncated,           ///< the sum over aliases leaves a share, which is taken off
+
+  // signal
+  signal_short,      ///< few samples
+  signal_constant,   ///< one value throughout: nothing excites, or nothing was measured
+  signal_quantised,  ///< few different values
+  signal_clipped,    ///< plateaus at an extreme value
+  signal_idle,       ///< a force that stays at 0 for long
+  signal_lost,       ///< a signal that stays at a value for long and jumps away from it
+
+  // io: what was read, and what was passed over
+  text_table,                     ///< how a text's columns and rows were read
+  header_with_numbers,            ///< a header that may be a row
+  last_line_cut_off,              ///< the last line is left out
+  last_line_without_end,          ///< the last line of a TwinCAT Scope export is left out
+  empty_lines_in_rows,            ///< empty lines between rows
+  rows_outside_common_span,       ///< rows of a column outside of the span of all
+  samples_missing,                ///< samples that are no number, filled by straight lines
+  column_scaled_by_its_unit,      ///< a column is read in base units
+  column_unit_unknown,            ///< a column whose unit is no force or motion
+  column_read_in_unit,            ///< a response's column is read in the unit of its name
+  rows_repeated,                  ///< rows that say again what the row before says
+  rows_lost,                      ///< gaps in the times
+  jitter_of_rows,                 ///< rows off equal steps: interpolated
+  jitter_of_stamps,               ///< times off equal steps, rows not
+  jitter_undecided,               ///< rows or times off equal steps
+  rate_of_times,                  ///< the rate that the times state
+  rate_of_file,                   ///< the rate that the file states
+  rate_contradicts_times,         ///< the rate given is not that of the times
+  rate_contradicts_file,          ///< the rate given is not the file's
+  period_unusual,                 ///< a sampling period beyond what devices have
+  stated_offset_unused,           ///< a header states an offset
+  stated_scale_unused,            ///< a header states a scale, and one is given
+  stated_scale_unclear,           ///< a header states a scale: applied or not
+  more_rows_than_stated,          ///< rows without times, more than their header says
+  channel_sampled_off_the_first,  ///< a scanner's channel is sampled at another instant
+  twincat_scope_export,           ///< what was read
+  slow_rows_repeated,             ///< rows of slow channels, repeated in a TwinCAT Scope export
+  codesys_trace,                  ///< what was read
+  controldesk_export,             ///< what was read
+  labview_measurement_file,       ///< what was read
+  objects_skipped,                ///< MATLAB objects
+  not_numeric_skipped,            ///< MATLAB arrays of other classes
+  complex_skipped,                ///< complex MATLAB arrays
+  no_signals_skipped,             ///< MATLAB arrays that are no signals
+  damaged_skipped,                ///< MATLAB arrays that cannot be read
+  single_numbers,                 ///< numbers of a MAT file beside its signals
+  datasets_passed_over,           ///< datasets of a universal file that are no functions
+  dataset_not_closed,             ///< a dataset of a universal file without an end
+  function_cut_off,               ///< a function of a universal file with fewer points than stated
+  response_of_velocity,           ///< a response that is divided by jw
+  response_of_acceleration,       ///< a response that is divided by -w^2
+  response_of_unknown_quantity,   ///< a response taken for one of a position
+  repeated_lines_averaged,        ///< several lines of a response at one frequency
+  lines_without_number,           ///< lines of a response that are left out
+  zero_frequency_left_out,        ///< the line of a response at 0 Hz
+
+  // identification
+  excitation_rounded,               ///< a duration is rounded to whole samples
+  excitation_shorter_than_cycle,    ///< a record shorter than a cycle of its lowest frequency
+  excitation_beyond_force_limit,    ///< the excitation is beyond the actuator's limit
+  excitation_beyond_stroke,         ///< the excitation moves the device beyond the stroke
+  excitation_moves_few_steps,       ///< the excitation moves the device by few encoder steps
+  excitation_of_doubtful_device,    ///< the excitation is computed of a device that is doubted
+  stroke_without_friction,          ///< the stroke is computed without Coulomb friction
+  channel_in_counts,                ///< a channel holds whole numbers, as an encoder or a converter counts
+  force_of_two_values,              ///< a force of two values: an amplifier that gives less does not show
+  channels_of_two_motions,          ///< force and motion of a linear and a rotary device
+  channel_of_other_quantity,        ///< a column's unit is that of another quantity
+  channel_unit_unknown,             ///< a column's unit is none of the quantity that it is taken for
+  channel_of_other_motion,          ///< a column's unit is that of the other motion than the structure's
+  force_beyond_limit,               ///< the recorded force is beyond the structure's limit
+  rows_thinned,                     ///< the rows' period is a multiple of the loop's
+  clipped_for_response,             ///< a clipped signal, of which a response was taken
+  clipped_for_equations,            ///< a clipped signal, to which equations of motion were fitted
+  segments_averaged,                ///< how a response was averaged over segments
+  begins_at_rest,                   ///< a record that begins at rest
+  lines_of_record_ends,             ///< lines that only the ends of a record excite
+  too_few_averages,                 ///< fewer than two independent averages
+  segments_too_short,               ///< the window smears a resonance
+  periods_averaged,                 ///< how a response was averaged over periods
+  periods_not_averaged,             ///< what drifts between the periods is left to the segments
+  transient_in_periods,             ///< the first periods differ from the later ones
+  force_repeats,                    ///< the period that was found
+  sine_fitted_in_one_piece,         ///< a single sine
+  lines_fitted_in_blocks,           ///< lines fitted in blocks of a record
+  velocity_integrated,              ///< a velocity is turned into a position
+  acceleration_integrated,          ///< an acceleration is turned into a position
+  response_without_rate,            ///< a response without a sampling rate has no critical stiffness
+  response_of_one_line,             ///< a response of a single line has no critical stiffness
+  response_without_noise,           ///< a response whose noise is not known
+  phase_measured,                   ///< where the phase is known
+  phase_half_turn_off,              ///< the motion's sign is probably wrong
+  phase_left_open,                  ///< noise leaves the phase open by more than 30 degrees in the whole band
+  phase_not_told,                   ///< noise hides the phase everywhere
+  phase_past_at_beginning,          ///< the phase is past -180 degrees where the band begins
+  no_crossover_in_band,             ///< the phase does not pass -180 degrees
+  noise_may_hide_softer_crossover,  ///< noise hides where a softer crossover may lie
+  noise_hides_crossover,            ///< noise hides where a crossover may lie
+  lines_too_far_apart,              ///< a resonance between neighbouring lines
+  springlike_at_beginning,          ///< the low-frequency slope is that of a spring
+  not_rigid_at_beginning,           ///< the low-frequency slope is not that of a rigid body
+  gap_between_lines,                ///< a wide gap between excited lines
+  no_limit_proven,                  ///< the data prove no critical stiffness
+  recordings_differ,                ///< recordings of about the same force differ
+  response_depends_on_force,        ///< the response depends on the force, not as by dry friction
+  response_depends_as_by_friction,  ///< the response depends on the force as by dry friction
+  recordings_disagree_on_limit,     ///< recordings whose critical stiffness lies outside the interval of all
+  motion_shows_friction,            ///< the motion shows dry friction that the response takes for damping
+  friction_would_pass_unseen,       ///< dry friction of a size that matters would not show
+  repeating_force_hides_friction,   ///< a force that repeats hides dry friction
+  friction_unknown,                 ///< the recordings do not show dry friction, nor exclude it
+  friction_unknown_of_resting,      ///< the motion is not what the response makes of the force
+  table_hides_friction,             ///< a table does not show dry friction
+  table_gives_no_reason,            ///< a table doubts its critical stiffness and gives no reason
+  table_doubts_itself,              ///< a table doubts its critical stiffness, for `reason`
+  recordings_averaged,              ///< the recordings differ by more than their noise
+  motion_against_force,             ///< the position falls as the force rises
+  explained_better_if_turned,       ///< the response is explained better with its sign turned round
+  response_unexplained,             ///< the structure leaves most of a response unexplained
+  response_in_time_unexplained,     ///< the fitted device leaves most of a recording's response unexplained
+  response_drowned,                 ///< the response hardly stands out of its noise
+  nothing_determined,               ///< the data determine no parameter
+  numbers_undetermined,             ///< the data do not determine some parameters: they are taken as given
+  number_is_placeholder,            ///< a parameter that the data do not determine stands for an unknown one
+  parameter_unidentifiable,         ///< the response says nothing about a parameter
+  only_combination_identifiable,    ///< the response determines a combination of parameters only
+  parameter_hardly_determined,      ///< a parameter known to half its size or less
+  fitted_too,                       ///< a parameter is free that was not asked for
+  search_stopped,                   ///< the search was stopped while it still improved
+  local_minimum,                    ///< other values explain the record better
+  held_to_critical_point,           ///< the fit is held to the measured critical point
+  critical_point_is_guess,          ///< the fit is held to a measured critical point that is a guess
+  limit_outside_band,               ///< the crossover that limits is outside the measured band
+  limit_extrapolated,               ///< the same, of the critical stiffness that is given
+  limit_above_measured,             ///< the fitted limit lies above the one that the same data show
+  limit_may_be_wrong,               ///< what a fit in time is doubted for, in the sentence `reason`
+  unseen_limit_within_interval,     ///< a parameter within its interval makes a crossover outside the band limit
+  unseen_limit_of_light_mode,       ///< a lightly damped mode above the band may limit
+  unseen_limit_of_other_values,  ///< other values that explain the record as well make a crossover outside the band limit
+  data_leave_interval_open,      ///< the data leave the critical stiffness open
+  no_interval,                   ///< no interval could be computed
+  noise_hides_limit,             ///< noise hides the response at the limit
+  residual_beyond_noise,         ///< the structure leaves a share of the response beyond the noise
+  residual_largest,              ///< the same, with where it is largest
+  residual_above_noise,          ///< the normalised residual is too large
+  residual_above_noise_in_band,    ///< the normalised residual is too large in a part of the band
+  residual_in_time_beyond_noise,   ///< the fitted device leaves a share of a recording's response beyond the noise
+  residuals_larger_at_reversals,   ///< residuals larger where the motion turns
+  mode_missing,                    ///< a mode that the structure lacks
+  higher_order_explains_better,    ///< a higher-order model explains the record better
+  segments_truncate_mode,          ///< the mode that limits rings on from segment to segment
+  rectangular_window_leaks,        ///< segments under a rectangular window
+  recorded_in_feedback,            ///< the force answers to the noise of the position
+  lag_beyond_drives,               ///< an actuator's lag that no drive has
+  fitted_late_beyond_drives,       ///< a fitted delay and lag that no drive has
+  fitted_body_too_heavy,           ///< a fitted mass or inertia that no haptic device has
+  mass_far_from_structure,         ///< a fitted mass powers of ten off the structure's
+  period_far_from_record,          ///< the structure's sampling period is powers of ten off the record's
+  delay_lost,                      ///< the record shows less delay than the structure states
+  delay_contradicts_structure,     ///< the record shows another delay than the structure's
+  delay_hidden,                    ///< too few lines to tell a delay
+  delay_open,                      ///< the record does not exclude a delay that lowers the limit
+  delay_not_shown,                 ///< the delay from force to motion does not show
+  force_acts_later,                ///< the force acts later than a held one
+  fixed_parameter_inconsistent,    ///< a fixed parameter that the recordings contradict
+  operator_taken_to_hold,          ///< the structure's operator is taken to hold the device
+  nobody_taken_to_hold,            ///< nobody is taken to have held the device
+  force_taken_for_command,         ///< the force is taken for the commanded one
+  held_body_looks_held,            ///< the held body comes out heavier and more damped: a hand
+  spring_to_ground,                ///< a spring to the ground that the structure lacks
+  dry_friction_taken_for_damping,  ///< dry friction that a linear fit takes for damping
+  dry_friction_fitted,             ///< dry friction beside the linear device
+  friction_shown_in_time,          ///< dry friction that the record shows in time
+  friction_not_told_from_damping,  ///< dry friction that the record does not tell from damping
+  friction_not_looked_for,         ///< the record is too short to look for dry friction
+  linear_fit_leaves_more,          ///< a linear fit leaves more than its noise, and no friction explains it
+  linear_fit_gives_less,           ///< a linear fit gives a lower limit than the one with friction
+  constant_force,                  ///< a constant force beside the recorded one
+  recordings_disagree,             ///< two recordings alone give limits that lie apart
+  nonlinear_spring,                ///< a force that changes with the position, not in proportion
+  nonlinear_actuator,              ///< a force that is not in proportion to the recorded one
+  cogging,                         ///< a force that comes and goes with the position
+  drag,                            ///< a force that is not in proportion to the speed
+  friction_not_coulombs,           ///< friction of another kind as the motion turns
+  link_friction,                   ///< friction in a link
+  unmodelled_mode,                 ///< a mode that the structure lacks, in the motion
+  delay_changes,                   ///< clocks that run apart
+  damping_changes,                 ///< a damping that changes while it is recorded
+  taken_as_zero,                   ///< a fitted value below 0
+  friction_below_zero,             ///< friction below 0 by more than its interval
+  force_unexplained,               ///< one rigid body leaves a share of the force unexplained
+  device_not_rigid,                ///< a mode of a device that was taken for one rigid body
 };
 
 }  // namespace zwidth

@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "zwidth/finding.hpp"
+
 namespace zwidth::internal {
 
 /// A number of the structure that was not free, and what the recordings ask for instead.
@@ -12,6 +14,6 @@ struct ContradictedNumber {
 };
 
 /// Why a fit that takes it as given is not to be trusted, with the remedy.
-[[nodiscard]] std::string contradiction_reason(const ContradictedNumber& number);
+[[nodiscard]] Finding contradiction(const ContradictedNumber& number);
 
 }  // namespace zwidth::internal

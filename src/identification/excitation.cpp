@@ -69,9 +69,9 @@ std::optional<OptionProblem> find_problem(const ExcitationOptions& options, doub
 void remark_rounding(Excitation& excitation, std::string_view what, double wanted, double actual,
                      std::string_view unit) {
   if (std::abs(actual - wanted) <= 1e-9 * wanted) return;
-  excitation.remarks.push_back({Remark::Severity::note,
-                                fmt::format("{} is {:.9g} {} instead of {:.9g}", what, actual, unit, wanted),
-                                "rounded to whole samples"});
+  excitation.remarks.push_back(note({.code = FindingCode::excitation_rounded,
+                                     .evidence = {{"actual", actual}, {"wanted", wanted}},
+                                     .subjects = {{"what", std::string(what)}, {"unit", std::string(unit)}}}));
 }
 
 /// A sine whose phase, in turns, is given as a function of time.
@@ -170,10 +170,8 @@ Excitation made(const ExcitationOptions& options, double rate) {
   const double duration = static_cast<double>(excitation.samples.size()) / rate;
   remark_rounding(excitation, "the duration", options.duration, duration, "s");
   if (duration * options.lowest_hz < 1.0) {
-    excitation.remarks.push_back(
-        {Remark::Severity::warning,
-         fmt::format("{:g} s hold less than one cycle of {:g} Hz", duration, options.lowest_hz),
-         "nothing can be told about that frequency; make the duration longer"});
+    excitation.remarks.push_back(warning({.code = FindingCode::excitation_shorter_than_cycle,
+                                          .evidence = {{"duration", duration}, {"frequency", options.lowest_hz}}}));
   }
   return excitation;
 }

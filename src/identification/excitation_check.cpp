@@ -15,8 +15,6 @@
 namespace zwidth::internal {
 namespace {
 
-constexpr auto warning = Remark::Severity::warning;
-
 /// Largest excursion of the sensed body; infinite where it runs away beyond all numbers.
 double played_stroke(const std::vector<double>& force, DiscreteStateSpace system) {
   ForcedMotion motion(std::move(system));
@@ -41,37 +39,36 @@ ExcitationCheck check_excitation(const Excitation& excitation, const Device& dev
   check.peak_stroke = played_stroke(excitation.samples, sample(state_space(device), {period, device.loop().delay}));
   const auto limit = parameters.actuator.force_limit;
   if (limit && check.peak_force > *limit) {
-    check.exceeded.push_back({warning,
-                              fmt::format("the peak force, {:.4g} {}, is beyond the actuator's limit, {:.4g} {}",
-                                          check.peak_force, units.force, *limit, units.force),
-                              "the actuator would saturate; lower the amplitude"});
+    check.exceeded.push_back(warning({.code = FindingCode::excitation_beyond_force_limit,
+                                      .evidence = {{"force", check.peak_force}, {"limit", *limit}},
+                                      .subjects = {{"unit", std::string(units.force)}},
+                                      .key = "actuator.force_limit"}));
   }
   const auto stroke = excitation.options.stroke_limit;
   if (stroke && check.peak_stroke > *stroke) {
-    check.exceeded.push_back({warning,
-                              fmt::format("the device moves {:.4g} {} from its start, beyond the stroke of {:.4g} {}",
-                                          check.peak_stroke, units.length, *stroke, units.length),
-                              "lower the amplitude, raise the lowest frequency, or lock a body"});
+    check.exceeded.push_back(warning({.code = FindingCode::excitation_beyond_stroke,
+                                      .evidence = {{"stroke", check.peak_stroke}, {"limit", *stroke}},
+                                      .subjects = {{"unit", std::string(units.length)}}}));
   }
   // Below this many encoder steps of peak motion a record is mostly rounding.
   constexpr double least_steps = 10.0;
   const double resolution = parameters.sensor.resolution;
   if (check.peak_stroke < least_steps * resolution) {
-    check.remarks.push_back({warning,
-                             fmt::format("the device moves at most {:.4g} {}, {:.2g} steps of its encoder",
-                                         check.peak_stroke, units.length, check.peak_stroke / resolution),
-                             "the record would be mostly rounding; raise the amplitude"});
+    check.remarks.push_back(warning({.code = FindingCode::excitation_moves_few_steps,
+                                     .evidence = {{"stroke", check.peak_stroke},
+                                                  {"steps", check.peak_stroke / resolution},
+                                                  {"threshold", least_steps}},
+                                     .subjects = {{"unit", std::string(units.length)}},
+                                     .key = "sensor.resolution"}));
   }
   if (const Trust trust = trust_of(device); !trust.sound()) {
-    check.remarks.push_back(
-        {warning, fmt::format("the device's file is not to be relied on: {}", fmt::join(trust.reasons, "; ")),
-         "the stroke may be another; begin with less force"});
+    check.remarks.push_back(warning({.code = FindingCode::excitation_of_doubtful_device,
+                                     .subjects = {{"reason", fmt::format("{}", fmt::join(trust.reasons, "; "))}}}));
   }
   const bool friction =
       std::any_of(device.bodies().begin(), device.bodies().end(), [](const Body& body) { return body.coulomb > 0.0; });
   if (friction) {
-    check.remarks.push_back({Remark::Severity::note, "the stroke is computed without Coulomb friction",
-                             "the device moves less than that, or not at all"});
+    check.remarks.push_back(note({.code = FindingCode::stroke_without_friction}));
   }
   return check;
 }

@@ -17,9 +17,7 @@
 #include "identification/response_choice.hpp"
 #include "identification/weak_force_test.hpp"
 #include "model/uncertainty_problem.hpp"
-#include "percent.hpp"
 #include "zwidth/model/device_trust.hpp"
-#include "zwidth/words/finding_text.hpp"
 #include "zwidth/model/parameter.hpp"
 #include "zwidth/model/state_space.hpp"
 #include "zwidth/quantity.hpp"
@@ -27,6 +25,7 @@
 #include "zwidth/sampling/forced_response.hpp"
 #include "zwidth/sampling/sampled_plant.hpp"
 #include "zwidth/stability/critical_stiffness.hpp"
+#include "zwidth/words/finding_text.hpp"
 
 namespace zwidth::internal {
 namespace {
@@ -78,22 +77,19 @@ class Judge {
 
   void refuse_what_is_none() {
     if (fit_.model_error_if_turned) {
-      result_.trust.refuse("the position falls as the force rises: scale one of them by -1");
+      result_.trust.refuse({.code = FindingCode::motion_against_force,
+                            .evidence = {{"turned", *fit_.model_error_if_turned}, {"unexplained", fit_.model_error}}});
     }
     if (fit_.model_error > refused_model_error) {
-      result_.trust.refuse(
-          fmt::format("the structure leaves {} of the response unexplained; is the structure right, "
-                      "and are force and position those of one experiment?",
-                      percent(fit_.model_error)));
+      result_.trust.refuse({.code = FindingCode::response_unexplained,
+                            .evidence = {{"unexplained", fit_.model_error}, {"threshold", refused_model_error}}});
     }
     if (is_drowned(judged_.fit.response, fit_.estimates.size())) {
-      result_.trust.refuse(
-          "the response hardly stands out of its noise anywhere; excite more strongly, and check that force and "
-          "position are those of one experiment");
+      result_.trust.refuse({.code = FindingCode::response_drowned});
     }
     // Each is a direction in which nothing shows: as many as there are numbers leave nothing. A delay alone is no device.
     if (fit_.unidentifiable.size() >= fit_.estimates.size() || shows_lateness_alone(fit_)) {
-      result_.trust.refuse("the record determines no parameter of the structure; free fewer, or excite more strongly");
+      result_.trust.refuse({.code = FindingCode::nothing_determined, .subjects = {{"by", "record"}}});
     }
   }
 
@@ -103,8 +99,7 @@ class Judge {
       result_.trust.doubt(*std::move(doubt));
     }
     if (fit_.missing_mode) {
-      result_.trust.doubt(fmt::format("a mode near {:.4g} Hz is missing from the structure; add a body and a link",
-                                      hertz(*fit_.missing_mode)));
+      result_.trust.doubt({.code = FindingCode::mode_missing, .evidence = {{"frequency", hertz(*fit_.missing_mode)}}});
     }
     if (auto doubt = doubt_of_misfit(fit_, judged_.fit.response)) result_.trust.doubt(*std::move(doubt));
   }
@@ -121,13 +116,10 @@ class Judge {
     const double highest = lines.back() + last_spacing;
     is_in_band_ = limiting >= lowest && limiting <= highest;
     if (is_in_band_) return;
-    const bool above = limiting > highest;
-    const std::string reason = outside_band_reason(limiting, lines.front(), lines.back());
-    result_.trust.doubt(reason);
-    result_.remarks.push_back(
-        {Remark::Severity::warning,
-         fmt::format("the critical stiffness is extrapolated {} the measured band", above ? "above" : "below"),
-         reason});
+    Finding extrapolated = limit_outside_band(limiting, lines.front(), lines.back());
+    result_.trust.doubt(extrapolated);
+    extrapolated.code = FindingCode::limit_extrapolated;
+    result_.remarks.push_back(warning(std::move(extrapolated)));
   }
 
   /// A fit whose critical stiffness lies above the one that the same data show without a model is not to be trusted.
@@ -156,15 +148,12 @@ class Judge {
       result_.is_measured = agrees && shown.upper < widest * shown.lower;
     }
     if (!(fitted > tolerated * proven)) return;
-    const Remark unsafe{
-        Remark::Severity::warning,
-        fmt::format("UNSAFE: the critical stiffness of the recorded device as fitted, {:.4g} {}, lies above {:.4g}, "
-                    "where the same data show an oscillation without any model",
-                    fitted, stiffness_unit(fit_.device), proven),
-        "the structure lacks something",
-        "use the critical stiffness of the response itself; free delay and lag, or name bodies that were locked"};
-    result_.trust.doubt(unsafe.what);
-    result_.remarks.push_back(unsafe);
+    const Finding unsafe{.code = FindingCode::limit_above_measured,
+                         .evidence = {{"fitted", fitted}, {"proven", proven}, {"threshold", tolerated}},
+                         .subjects = {{"unit", std::string(stiffness_unit(fit_.device))}},
+                         .effect = {{"critical_stiffness", proven}}};
+    result_.trust.doubt(unsafe);
+    result_.remarks.push_back(warning(unsafe));
   }
 
   void judge_open_numbers() {
@@ -173,34 +162,32 @@ class Judge {
       if (!estimate.identifiable) keys.push_back(estimate.key);
     }
     if (!keys.empty()) {
-      const std::string reason =
-          fmt::format("the data do not determine {}: taken as they stand in the structure", fmt::join(keys, ", "));
-      result_.device_trust.doubt(reason);
+      const Finding open{.code = FindingCode::numbers_undetermined,
+                         .subjects = {{"keys", fmt::format("{}", fmt::join(keys, ", "))}, {"taken_from", "structure"}}};
+      result_.device_trust.doubt(open);
       // Along what is open the response does not change, and within the band the critical stiffness is the response's.
       const bool is_responses = is_in_band_ && judged_.options.fit.locked.empty();
-      if (!is_measured_ && !is_responses) result_.trust.doubt(reason);
+      if (!is_measured_ && !is_responses) result_.trust.doubt(open);
     }
     if (known_structure()) return;
     for (std::string& unseen : unseen_placeholders(judged_.options.fit.locked, judged_.options.structure_values)) {
       keys.push_back(std::move(unseen));
     }
     for (const std::string& key : keys) {
-      result_.remarks.push_back({Remark::Severity::warning,
-                                 fmt::format("{} = {:.4g} is a placeholder: the data do not determine it", key,
-                                             parameter(fit_.device.parameters(), key).value_or(0.0)),
-                                 "give what is known, or a device file as the structure"});
+      result_.remarks.push_back(
+          warning({.code = FindingCode::number_is_placeholder,
+                   .evidence = {{"value", parameter(fit_.device.parameters(), key).value_or(0.0)}},
+                   .key = key}));
     }
   }
 
   void judge_search() {
     if (!fit_.settled) {
-      const char* what = "the search for the parameters was stopped while it still improved";
-      const char* remedy = "free fewer parameters, or start from values that are nearly right";
-      result_.trust.doubt(fmt::format("{}; {}", what, remedy));
-      result_.remarks.push_back({Remark::Severity::warning, what, "", remedy});
+      result_.trust.doubt({.code = FindingCode::search_stopped});
+      result_.remarks.push_back(warning({.code = FindingCode::search_stopped}));
     }
     if (fit_.held_to_a_guess) {
-      result_.trust.doubt("the fit is held to a measured critical point that is itself a guess");
+      result_.trust.doubt({.code = FindingCode::critical_point_is_guess});
     }
   }
 
@@ -208,14 +195,14 @@ class Judge {
     if (!judged_.friction) return;
     const ShownFriction& friction = *judged_.friction;
     const char* unit = fit_.device.parameters().motion == Motion::rotary ? "N m" : "N";
-    const std::string what =
-        fmt::format("the record shows dry friction of about {:.3g} {} on {}", friction.force, unit, friction.body);
     // What is left without it is not said: a linear fit of a body that rests at times knows neither its damping nor how
     // much it rubs, and came out five times too high.
-    const char* meaning = "the fit takes it for damping, which makes the critical stiffness too high";
-    const char* remedy = "fit the friction too, in time; or excite more strongly: its share falls with the amplitude";
-    result_.trust.doubt(fmt::format("{}: {}; {}", what, meaning, remedy));
-    result_.remarks.push_back({Remark::Severity::warning, what, meaning, remedy});
+    const Finding found{.code = FindingCode::dry_friction_taken_for_damping,
+                        .evidence = {{"force", friction.force}},
+                        .subjects = {{"unit", unit}, {"body", friction.body}},
+                        .key = fmt::format("body.{}.coulomb", friction.body)};
+    result_.trust.doubt(found);
+    result_.remarks.push_back(warning(found));
   }
 
   void judge_hand() {
@@ -233,11 +220,10 @@ class Judge {
     const std::optional<double> spring = missing_spring(judged_.fit, judged_.options.fit);
     if (!spring) return;
     const Body& held = fit_.device.bodies()[fit_.device.loop().held];
-    result_.trust.doubt(
-        fmt::format("the record shows a spring of about {:.3g} {} from {} to the ground, which the structure does not "
-                    "have: a hand on "
-                    "it, a cable, or gravity; record it with nobody on it, or give the body that stiffness",
-                    *spring, stiffness_unit(fit_.device), held.name));
+    result_.trust.doubt({.code = FindingCode::spring_to_ground,
+                         .evidence = {{"stiffness", *spring}},
+                         .subjects = {{"unit", std::string(stiffness_unit(fit_.device))}, {"body", held.name}},
+                         .key = fmt::format("body.{}.stiffness", held.name)});
   }
 
   const JudgedFit& judged_;
@@ -269,21 +255,21 @@ bool is_drowned(const FrequencyResponse& response, std::size_t numbers) {
 
 void judge_nonlinearity(Identification& result, std::span<const Recording> recordings, const IdentifyOptions& options) {
   for (const Recording& each : recordings) {
-    for (std::string& doubt : doubts_of_recording(each, recordings, options.response.output, result.fit.device)) {
+    for (Finding& doubt : doubts_of_recording(each, recordings, options.response.output, result.fit.device)) {
       result.trust.doubt(std::move(doubt));
     }
   }
   if (options.response.window == Window::rectangular && !is_of_lines(recordings, options.response)) {
-    result.trust.doubt("segments under a rectangular window leak from the strongest lines into all others; take hann");
+    result.trust.doubt({.code = FindingCode::rectangular_window_leaks});
   }
   if (options.scrutiny == IdentifyOptions::Scrutiny::of_fit) return;
   if (!result.trust.sound() || options.response.output != OutputQuantity::position) return;
   const std::vector<std::string> keys = keys_of(result.fit);
   const std::vector<double>& lines = result.fit.frequencies;
-  const auto doubt = [&](const std::string& what, const std::string& remedy) {
-    result.trust.doubt(fmt::format("{}; {}", what, remedy));
-    result.remarks.push_back(
-        {Remark::Severity::warning, what, "the fit takes it for mass, damping and springs", remedy});
+  const auto doubt = [&](Finding found) {
+    found.subjects.push_back({"taken_for", "damping"});
+    result.trust.doubt(found);
+    result.remarks.push_back(warning(std::move(found)));
   };
   for (const Recording& each : recordings) {
     const Device device = device_in_experiment(result.fit.device, options.fit.locked, each.sampling_period);
@@ -291,16 +277,16 @@ void judge_nonlinearity(Identification& result, std::span<const Recording> recor
     std::vector<double> residuals = each.channels[1].samples;
     const std::vector<double> fitted = forced_response(system, each.channels[0].samples);
     for (std::size_t k = 0; k < residuals.size(); ++k) residuals[k] -= fitted[k];
-    const auto found = find_nonlinearity({.device = device,
-                                          .force = each.channels[0].samples,
-                                          .position = each.channels[1].samples,
-                                          .residuals = residuals});
-    if (found) return doubt(fmt::format("the record shows {}", found->what), found->remedy);
+    auto found = find_nonlinearity({.device = device,
+                                    .force = each.channels[0].samples,
+                                    .position = each.channels[1].samples,
+                                    .residuals = residuals});
+    if (found) return doubt(shown_by("the record", std::move(found->finding)));
     const auto forces = find_weak_forces(
         {result.fit.device, options.fit.locked, keys, each.sampling_period, lines.front(), lines.back()},
         each.channels[0].samples, each.channels[1].samples);
-    const auto weak = doubt_of_weak_forces(forces, result.analysis, device.parameters().motion, "the record");
-    if (weak) return doubt(weak->what, weak->remedy);
+    auto weak = doubt_of_weak_forces(forces, result.analysis, device.parameters().motion, "the record");
+    if (weak) return doubt(*std::move(weak));
   }
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "counted.hpp"
 #include "identification/line_response.hpp"
 #include "identification/period_detection.hpp"
 #include "identification/periodic_response.hpp"
@@ -110,7 +111,7 @@ FrequencyResponse estimate(std::span<const double> force, std::span<const double
     FrequencyResponse response =
         periodic_response(force, output, sampling_period, record_of(*period), options, progress);
     response.remarks.insert(response.remarks.begin(),
-                            {Remark::Severity::note, fmt::format("the force repeats every {} samples", *period), ""});
+                            note({.code = FindingCode::force_repeats, .evidence = {counted("samples", *period)}}));
     return response;
   }
   if (options.excitation == Excited::periodic) {
@@ -130,13 +131,8 @@ void to_position(FrequencyResponse& response, OutputQuantity output, double samp
     point.value *= factor;
     point.variance *= std::norm(factor);
   }
-  response.remarks.push_back(
-      {Remark::Severity::note,
-       output == OutputQuantity::velocity ? "the velocity is turned into a position by 1/(jw)"
-                                          : "the acceleration is turned into a position by -1/w^2",
-       "an approximation under a held force: the position comes out too large by about (wT)^2/12 for a velocity, twice "
-       "that for an acceleration, and the critical stiffness too low; a filter that made the signal is part of the "
-       "response"});
+  response.remarks.push_back(note({.code = output == OutputQuantity::velocity ? FindingCode::velocity_integrated
+                                                                              : FindingCode::acceleration_integrated}));
 }
 
 }  // namespace

@@ -1,7 +1,5 @@
 #include "identification/friction_doubt.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -15,9 +13,6 @@
 
 namespace zwidth::internal {
 namespace {
-
-constexpr const char* remedy =
-    "repeat it with several times the force and give both recordings, or fit the device with its friction in time";
 
 /// A friction that the recordings show, or leave open.
 struct ShownOrHidden {
@@ -99,14 +94,13 @@ class FrictionDoubt {
       }
     }
     if (found) {
-      measured_.trust.doubt(
-          fmt::format("the motion shows dry friction, which the response takes for damping: about {} at least; larger "
-                      "motions have less of it, and a lower critical stiffness; {}",
-                      force_in_words(found->friction.force, measured_), remedy));
+      measured_.trust.doubt({.code = FindingCode::motion_shows_friction,
+                             .evidence = {{"friction", found->friction.force}},
+                             .subjects = {{"force", force_in_words(found->friction.force, measured_)}}});
       return;
     }
     for (const Slidings& slidings : slidings_) {
-      if (auto reason = open_friction(slidings)) return measured_.trust.doubt(*std::move(reason));
+      if (auto open = open_friction(slidings)) return measured_.trust.doubt(*std::move(open));
     }
   }
 
@@ -116,7 +110,7 @@ class FrictionDoubt {
   }
 
   /// Why these do not bound the friction's effect; nothing where they do.
-  [[nodiscard]] std::optional<std::string> open_friction(const Slidings& slidings) const {
+  [[nodiscard]] std::optional<Finding> open_friction(const Slidings& slidings) const {
     const ShownOrHidden* least = nullptr;
     for (const ShownOrHidden& each : slidings.estimates) {
       if (!each.bounds) continue;
@@ -125,11 +119,14 @@ class FrictionDoubt {
     }
     if (!least || (of_lines_ && of_one_force_)) return unknown();
     const auto without = stiffness_without(slidings, most_of(*least));
-    return fmt::format(
-        "dry friction of {} would pass unseen, and {}; {}", force_in_words(most_of(*least), measured_),
-        without ? fmt::format("the critical stiffness without it would be {}", stiffness_in_words(*without, measured_))
-                : "the critical stiffness without it is not known",
-        remedy);
+    Finding found{.code = FindingCode::friction_would_pass_unseen,
+                  .evidence = {{"friction", most_of(*least)}},
+                  .subjects = {{"force", force_in_words(most_of(*least), measured_)}}};
+    if (without) {
+      found.subjects.push_back({"stiffness", stiffness_in_words(*without, measured_)});
+      found.effect.push_back({"critical_stiffness", *without});
+    }
+    return found;
   }
 
   /// The critical stiffness without so much friction; nothing where the response does not say.
@@ -145,18 +142,11 @@ class FrictionDoubt {
     return without && *without >= stiffness_ - tolerance_;
   }
 
-  [[nodiscard]] std::string unknown() const {
-    if (of_lines_ && of_one_force_) {
-      return "a force that repeats hides dry friction, which makes a small motion look more damped and the critical "
-             "stiffness too high; record it with twice the force too, and give both";
-    }
+  [[nodiscard]] Finding unknown() const {
+    if (of_lines_ && of_one_force_) return {.code = FindingCode::repeating_force_hides_friction};
     const bool rests = std::ranges::any_of(
         slidings_.front().of_records, [](const RecordedSliding& each) { return each.friction && !each.is_followed; });
-    return fmt::format(
-        "{}: how much of the damping is dry friction, and the critical stiffness too high, is not known; {}",
-        rests ? "the motion is not what the response makes of the force, as where a device rests at times"
-              : "the recordings do not show dry friction",
-        remedy);
+    return {.code = rests ? FindingCode::friction_unknown_of_resting : FindingCode::friction_unknown};
   }
 
   MeasuredResponse& measured_;

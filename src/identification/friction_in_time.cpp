@@ -306,12 +306,8 @@ void judge_friction_in_time(Identification& result, std::span<const Recording> r
   const auto is_open = [&](const Recording& each) { return !can_be_asked(result, options.fit.locked, each); };
   if (!recordings.empty() && std::ranges::all_of(recordings, is_open)) {
     result.remarks.push_back(
-        {Remark::Severity::note, "dry friction was not looked for in time",
-         fmt::format(
-             "that takes {} samples, and a device that moves through each in {} steps or fewer; friction that the "
-             "response does not show makes the critical stiffness too high",
-             shortest, most_steps),
-         "record for longer; or fit a structure without the stiffest link"});
+        note({.code = FindingCode::friction_not_looked_for,
+              .evidence = {{"samples", static_cast<double>(shortest)}, {"steps", static_cast<double>(most_steps)}}}));
     return;
   }
   const std::optional<FrictionBeside> lowering = lowering_friction(result, recordings, options.fit.locked);
@@ -321,20 +317,23 @@ void judge_friction_in_time(Identification& result, std::span<const Recording> r
   const Motion motion = result.fit.device.parameters().motion;
   // Of one hardly told from none only what lies beside it is known.
   const bool has_size = shows || lowering->is_held || is_suspected(friction);
-  const std::string size =
-      has_size ? fmt::format(" of about {:.3g} {}", friction.force, motion == Motion::rotary ? "N m" : "N") : "";
-  const std::string what =
-      fmt::format("{} dry friction{} on {}", shows ? "the record shows" : "the record does not tell damping from", size,
-                  friction.body);
-  const std::string meaning = fmt::format("beside it the critical stiffness is about {:.3g} {}",
-                                          *friction.stiffness_beside, units_of(motion).stiffness);
+  Finding found{.code = shows ? FindingCode::friction_shown_in_time : FindingCode::friction_not_told_from_damping,
+                .evidence = {{"stiffness", *friction.stiffness_beside}},
+                .subjects = {{"body", friction.body}, {"unit", std::string(units_of(motion).stiffness)}},
+                .key = fmt::format("body.{}.coulomb", friction.body),
+                .effect = {{"critical_stiffness", *friction.stiffness_beside}}};
+  if (has_size) {
+    found.evidence.push_back({"force", friction.force});
+    found.subjects.push_back({"force_unit", motion == Motion::rotary ? "N m" : "N"});
+  }
   if (shows) result.friction = friction;
-  const bool is_doubtful = changes_the_answer(*lowering, result.analysis);
-  if (is_doubtful) result.trust.doubt(what + ": " + meaning);
-  result.remarks.push_back(
-      {is_doubtful ? Remark::Severity::warning : Remark::Severity::note, what,
-       is_doubtful ? meaning : meaning + ", within the interval",
-       "fit the friction too, in time; or excite more strongly: its share falls with the amplitude"});
+  if (changes_the_answer(*lowering, result.analysis)) {
+    result.trust.doubt(found);
+    result.remarks.push_back(warning(std::move(found)));
+  } else {
+    found.evidence.push_back({"within_from", result.analysis.interval->lower});
+    result.remarks.push_back(note(std::move(found)));
+  }
 }
 
 }  // namespace zwidth::internal

@@ -92,15 +92,14 @@ std::optional<FurtherBody> find_further_body(const Identification& result, const
   return FurtherBody{*best, is_better ? std::optional(std::move(anew->device)) : std::nullopt};
 }
 
-std::string doubt_of_further_body(const FurtherBody& further, const Identification& result) {
+Finding doubt_of_further_body(const FurtherBody& further, const Identification& result) {
   const Device& device = further.fit.device;
   const Link& link = device.links().back();
   const Body& body = device.bodies()[link.first];
   const double mode = std::sqrt(link.stiffness / reduced_mass(device.parameters(), link));
-  return fmt::format(
-      "one body more, on {} with a mode near {:.3g} Hz, explains the record better ({:.3g} times the noise instead of "
-      "{:.3g}): the structure lacks a body, or the search ended beside the device; name a structure with it",
-      body.name, hertz(mode), *further.fit.misfit, *result.fit.misfit);
+  return {.code = FindingCode::higher_order_explains_better,
+          .evidence = {{"frequency", hertz(mode)}, {"residual", *further.fit.misfit}, {"without", *result.fit.misfit}},
+          .subjects = {{"body", body.name}}};
 }
 
 }  // namespace zwidth::internal

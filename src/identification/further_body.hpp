@@ -22,6 +22,6 @@ struct FurtherBody {
 [[nodiscard]] std::optional<FurtherBody> find_further_body(const Identification& result,
                                                            const IdentifyOptions& options);
 
-[[nodiscard]] std::string doubt_of_further_body(const FurtherBody& further, const Identification& result);
+[[nodiscard]] Finding doubt_of_further_body(const FurtherBody& further, const Identification& result);
 
 }  // namespace zwidth::internal

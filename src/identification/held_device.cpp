@@ -20,25 +20,7 @@ bool is_on_springs(const DeviceParameters& device) {
 std::optional<Remark> remark_of_operator(const Device& structure) {
   const Operator& user = structure.parameters().user;
   if (user.mass == 0.0 && user.damping == 0.0 && user.stiffness == 0.0) return std::nullopt;
-  return Remark{Remark::Severity::warning, "the structure's operator is taken to hold the device while it is recorded",
-                "the bodies are fitted beside it, and the critical stiffness is with it",
-                "leave the operator out where nobody held the device"};
-}
-
-Remark remark_of_unseen_hand() {
-  return {
-      Remark::Severity::note, "nobody is taken to have held the device while it was recorded",
-      "a hand's mass and damping would count as the device's own, and its critical stiffness come out 2 to 20 times "
-      "too high",
-      "record it alone"};
-}
-
-Remark remark_of_measured_force() {
-  return {
-      Remark::Severity::note, "the force is taken for the one that was commanded at the instant of its row's position",
-      "of a load cell's, or beside a later position, what delays the command (a bus, a drive) is not in the record, "
-      "and the critical stiffness comes out up to several times too high",
-      "record the command beside the position read before it, or add that delay as loop.delay"};
+  return warning({.code = FindingCode::operator_taken_to_hold, .key = "operator"});
 }
 
 }  // namespace
@@ -49,14 +31,14 @@ std::vector<Remark> remarks_of_experiment(const Device& structure, bool is_known
   if (auto remark = remark_of_operator(structure)) {
     remarks.push_back(*std::move(remark));
   } else if (!is_known && locked.empty()) {
-    remarks.push_back(remark_of_unseen_hand());
+    remarks.push_back(note({.code = FindingCode::nobody_taken_to_hold}));
   }
-  if (!is_known) remarks.push_back(remark_of_measured_force());
+  if (!is_known) remarks.push_back(note({.code = FindingCode::force_taken_for_command}));
   return remarks;
 }
 
-std::optional<std::string> doubt_of_hand(const Device& structure, const std::vector<ParameterEstimate>& estimates,
-                                         const std::vector<std::string>& locked) {
+std::optional<Finding> doubt_of_hand(const Device& structure, const std::vector<ParameterEstimate>& estimates,
+                                     const std::vector<std::string>& locked) {
   if (!structure.has_bodies() || !locked.empty()) return std::nullopt;
   const Body& held = structure.bodies()[structure.loop().held];
   const auto ratio = [&](const char* number, double known) {
@@ -71,11 +53,10 @@ std::optional<std::string> doubt_of_hand(const Device& structure, const std::vec
   constexpr double more_damped = 1.3;
   constexpr double together = 2.2;
   if (!(of_mass > heavier && of_damping > more_damped && of_mass * of_damping > together)) return std::nullopt;
-  return fmt::format(
-      "{} comes out at least {:.2g} times as heavy and {:.2g} times as damped as in the structure: a hand on it would "
-      "be "
-      "in both, and in the critical stiffness; record it with nobody on it, or correct the structure",
-      held.name, of_mass, of_damping);
+  return Finding{.code = FindingCode::held_body_looks_held,
+                 .evidence = {{"of_mass", of_mass}, {"of_damping", of_damping}, {"threshold", together}},
+                 .subjects = {{"body", held.name}},
+                 .key = fmt::format("body.{}.mass", held.name)};
 }
 
 std::optional<double> missing_spring(const RecordFit& fit, const ParameterFitOptions& options) {

@@ -18,9 +18,9 @@ namespace zwidth::internal {
                                                         const std::vector<std::string>& locked);
 
 /// Why a known structure's held body looks held: heavier than it is, and damped several times as much.
-[[nodiscard]] std::optional<std::string> doubt_of_hand(const Device& structure,
-                                                       const std::vector<ParameterEstimate>& estimates,
-                                                       const std::vector<std::string>& locked);
+[[nodiscard]] std::optional<Finding> doubt_of_hand(const Device& structure,
+                                                   const std::vector<ParameterEstimate>& estimates,
+                                                   const std::vector<std::string>& locked);
 
 /// Stiffness of a spring from the held body to the ground that a structure without any lacks, N/m or N m/rad: with it
 /// half of what is unexplained, or less, stays so. Nothing where next to nothing is unexplained, or bodies are locked.

@@ -1,7 +1,5 @@
 #include "zwidth/identification/identification.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -44,7 +42,7 @@ class Fitting {
       const bool tells_none = lines <= fit_options_.free.size() + 1;
       if (may_free() && is_unknown && !tells_none) fit_options_.free.emplace_back(delay_key);
       assumes_delay_ = assumes_delay(structure, options.structure_values, options.loop_delay);
-      if (assumes_delay_ && tells_none) open_delay_ = hidden_delay_reason(lines, fit_options_.free.size());
+      if (assumes_delay_ && tells_none) open_delay_ = hidden_delay(lines, fit_options_.free.size());
     }
     if (is_drowned(measured.response, fit_options_.free.size())) {  // then nothing is worth a second fit
       fit_ = RecordFit{fit_parameters(structure, measured.response, fit_options_), measured.response};
@@ -62,7 +60,7 @@ class Fitting {
 
   /// A delay that the record shows, which was not to be fitted, in s; and why one that nobody stated may lower K_CR.
   [[nodiscard]] std::optional<double> ignored_delay() const { return ignored_delay_; }
-  [[nodiscard]] const std::optional<std::string>& open_delay() const { return open_delay_; }
+  [[nodiscard]] const std::optional<Finding>& open_delay() const { return open_delay_; }
   [[nodiscard]] const RecordFit& fit() const { return *fit_; }
   [[nodiscard]] std::vector<Remark>& remarks() { return remarks_; }
 
@@ -268,9 +266,9 @@ class Fitting {
       // Beside other numbers that are open a lag may have no deviation, and yet explain what nothing else does.
       const bool explains = is_contradicted(fit_->fit, wider->fit, fit_->response.line_correlation);
       if (!(shows || explains) || wider->fit.model_error > 1.02 * fit_->fit.model_error + 1e-9) return;
-      const std::string why = shows ? fmt::format("the record shows another than the structure's {:.4g} s", given)
-                                    : "the record is explained better with it";
-      remarks_.push_back({Remark::Severity::note, fmt::format("{} is fitted too: {}", key, why), ""});
+      Finding fitted{.code = FindingCode::fitted_too, .key = std::string(key)};
+      if (shows) fitted.evidence.push_back({"given", given});
+      remarks_.push_back(note(std::move(fitted)));
       fit_options_.free.emplace_back(key);
       fit_ = std::move(wider);
     }
@@ -283,18 +281,18 @@ class Fitting {
   std::vector<Remark> remarks_;
   std::optional<double> ignored_delay_;
   bool assumes_delay_ = false;  // nobody states it
-  std::optional<std::string> open_delay_;
+  std::optional<Finding> open_delay_;
   bool is_hopeless_ = false;  ///< to be refused, whatever else is fitted
 };
 
 void judge_what_was_given(const Fitting& fitting, Judgement& judgement) {
   if (fitting.ignored_delay()) {
-    const Remark remark = ignored_delay_remark(*fitting.ignored_delay(), fitting.fit().fit.device.loop().delay);
-    judgement.trust.doubt(fmt::format("{}; {}", remark.what, remark.remedy));
-    judgement.remarks.push_back(remark);
+    const Finding ignored = ignored_delay(*fitting.ignored_delay(), fitting.fit().fit.device.loop().delay);
+    judgement.trust.doubt(ignored);
+    judgement.remarks.push_back(warning(ignored));
   }
   if (fitting.open_delay()) judgement.trust.doubt(*fitting.open_delay());
-  for (const ContradictedNumber& each : fitting.contradicted()) judgement.trust.doubt(contradiction_reason(each));
+  for (const ContradictedNumber& each : fitting.contradicted()) judgement.trust.doubt(contradiction(each));
   judgement.device_trust.inherit(judgement.trust);
 }
 
@@ -352,7 +350,7 @@ Identification judged(Fitting& fitting, const MeasuredResponse& measured, std::s
   if (better && !has_begun_anew && fitting.begin_anew(*better)) {
     return judged(fitting, measured, recordings, structure, options, true);
   }
-  if (better && result.trust.sound()) result.trust.doubt(side_minimum_reason);
+  if (better && result.trust.sound()) result.trust.doubt({.code = FindingCode::local_minimum});
   judge_agreement(result, recordings, options);
   judge_friction_in_time(result, recordings, options);
   judge_nonlinearity(result, recordings, options);

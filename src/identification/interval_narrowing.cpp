@@ -1,7 +1,5 @@
 #include "identification/interval_narrowing.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -29,24 +27,25 @@ std::optional<Device> without_least_known(const Device& device) {
 
 }  // namespace
 
-std::string open_interval_reason(const StiffnessInterval& interval) {
+Finding interval_left_open(const StiffnessInterval& interval) {
   constexpr double unknown = 1000.0;
   const double factor = interval.upper / interval.lower;
-  const std::string open = !(interval.lower > 0.0) ? "down to 0, where not even the softest wall is stable"
-                           : factor > unknown      ? fmt::format("by more than a factor of {:.0f}", unknown)
-                                                   : fmt::format("within a factor of {:.2g}", factor);
-  return fmt::format("the data leave the critical stiffness open {}; excite more strongly or for longer", open);
+  Finding found{.code = FindingCode::data_leave_interval_open,
+                .evidence = {{"lower", interval.lower}, {"upper", interval.upper}}};
+  if (interval.lower > 0.0) {
+    found.evidence.push_back(factor > unknown ? Evidence{"more_than", unknown} : Evidence{"factor", factor});
+  }
+  return found;
 }
 
-std::optional<std::string> doubt_of_interval(const Identification& result) {
+std::optional<Finding> doubt_of_interval(const Identification& result) {
   const auto& interval = result.analysis.interval;
   if (!interval) {
     const bool knows_noise = result.fit.misfit.has_value();
     if (!knows_noise) return std::nullopt;
-    return "how well the data determine the numbers could not be computed; free fewer, or name a structure of fewer "
-           "bodies";
+    return Finding{.code = FindingCode::no_interval};
   }
-  if (is_open(*interval)) return open_interval_reason(*interval);
+  if (is_open(*interval)) return interval_left_open(*interval);
   constexpr double wide = 1.4;
   constexpr double clear = 0.95;
   const auto& limit = result.analysis.critical.limit;
@@ -55,10 +54,11 @@ std::optional<std::string> doubt_of_interval(const Identification& result) {
     return std::abs(each.frequency - limit->frequency);
   });
   if (line.coherence >= clear) return std::nullopt;
-  return fmt::format(
-      "noise hides the response where the crossover limits, near {:.4g} Hz (coherence {:.2f}), and the other lines "
-      "leave the critical stiffness open within a factor of {:.2g}; excite more strongly there, or for longer",
-      hertz(limit->frequency), line.coherence, interval->upper / interval->lower);
+  return Finding{.code = FindingCode::noise_hides_limit,
+                 .evidence = {{"frequency", hertz(limit->frequency)},
+                              {"coherence", line.coherence},
+                              {"threshold", clear},
+                              {"factor", interval->upper / interval->lower}}};
 }
 
 void narrow_interval(Identification& result) {

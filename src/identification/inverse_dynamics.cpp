@@ -336,8 +336,7 @@ RigidBodyFit identify_rigid_body(std::span<const double> force, std::span<const 
           "the record does not tell mass, friction and offset apart: let the body accelerate and reverse at several "
           "speeds");
     }
-    fit.remarks.push_back({Remark::Severity::warning, "the delay from force to motion does not show in this record",
-                           "taken as half a period, that of a held force; move at several frequencies to tell"});
+    fit.remarks.push_back(warning({.code = FindingCode::delay_not_shown}));
   }
   report(0.9);
 

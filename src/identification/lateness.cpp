@@ -1,7 +1,5 @@
 #include "identification/lateness.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -9,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "counted.hpp"
 #include "model/uncertainty_problem.hpp"
 #include "zwidth/quantity.hpp"
 #include "zwidth/stability/analysis.hpp"
@@ -87,8 +86,7 @@ std::optional<double> other_delay(const ParameterEstimate& estimate, const Loop&
   return estimate.value;
 }
 
-std::optional<std::string> doubt_of_lost_delay(const Device& structure,
-                                               const std::vector<ParameterEstimate>& estimates) {
+std::optional<Finding> doubt_of_lost_delay(const Device& structure, const std::vector<ParameterEstimate>& estimates) {
   const auto delay = std::ranges::find(estimates, std::string(delay_key), &ParameterEstimate::key);
   if (delay == estimates.end() || !delay->standard_deviation) return std::nullopt;
   const auto lag = std::ranges::find(estimates, std::string(lag_key), &ParameterEstimate::key);
@@ -101,16 +99,13 @@ std::optional<std::string> doubt_of_lost_delay(const Device& structure,
   if (lost <= significant * *delay->standard_deviation || lost <= notable * structure.loop().sampling_period) {
     return std::nullopt;
   }
-  return fmt::format(
-      "the record shows {} less delay than the structure states: rows that pair a force with a later position hide it, "
-      "and the critical stiffness comes out too high; log both at one instant, or correct loop.delay in the structure",
-      quantity(lost, "s"));
+  return Finding{.code = FindingCode::delay_lost, .evidence = {{"lost", lost, "s"}}, .key = delay_key};
 }
 
-Remark ignored_delay_remark(double shown, double given) {
-  return {Remark::Severity::warning,
-          fmt::format("the record shows a delay of {:.3g} s where the structure has {:.3g} s", shown, given),
-          "the critical stiffness depends on it", "free loop.delay, or give it"};
+Finding ignored_delay(double shown, double given) {
+  return {.code = FindingCode::delay_contradicts_structure,
+          .evidence = {{"shown", shown}, {"given", given}},
+          .key = delay_key};
 }
 
 bool assumes_delay(const Device& structure, IdentifyOptions::StructureValues values,
@@ -119,14 +114,13 @@ bool assumes_delay(const Device& structure, IdentifyOptions::StructureValues val
   return !is_of_file && loop_delay != IdentifyOptions::LoopDelay::as_given;
 }
 
-std::string hidden_delay_reason(std::size_t lines, std::size_t numbers) {
-  return fmt::format(
-      "the response has {} lines, too few to tell a delay beside the {} numbers that are fitted, and a delay makes the "
-      "critical stiffness lower; excite more lines, or state loop.delay in a device file",
-      lines, numbers);
+Finding hidden_delay(std::size_t lines, std::size_t numbers) {
+  return {.code = FindingCode::delay_hidden,
+          .evidence = {counted("lines", lines), counted("numbers", numbers)},
+          .key = delay_key};
 }
 
-std::optional<std::string> doubt_of_open_delay(const Device& with, const Device& without) {
+std::optional<Finding> doubt_of_open_delay(const Device& with, const Device& without) {
   const auto least = [](const Device& device) {
     const Analysis analysis = analyze(device, {.any_user = false});
     return analysis.interval ? analysis.interval->lower : 0.0;
@@ -134,20 +128,17 @@ std::optional<std::string> doubt_of_open_delay(const Device& with, const Device&
   constexpr double notable = 0.9;
   const double open = least(with);
   if (open >= notable * least(without)) return std::nullopt;
-  return fmt::format(
-      "no delay was to be fitted, and the record does not exclude one with which the critical stiffness is {:.3g} {}; "
-      "free loop.delay, state it in a device file, or excite higher frequencies",
-      open, units_of(with.parameters().motion).stiffness);
+  return Finding{.code = FindingCode::delay_open,
+                 .evidence = {{"stiffness", open}},
+                 .subjects = {{"unit", std::string(units_of(with.parameters().motion).stiffness)}},
+                 .key = delay_key,
+                 .effect = {{"critical_stiffness", open}}};
 }
 
-std::string outside_band_reason(double limiting, double lowest, double highest) {
-  const bool is_above = limiting > highest;
-  return fmt::format(
-      "the crossover that limits, near {:.4g} Hz, lies {} the measured band, {:.4g} to {:.4g} Hz: {}; excite {} "
-      "frequencies",
-      hertz(limiting), is_above ? "above" : "below", hertz(lowest), hertz(highest),
-      is_above ? "delay, lag and modes there are not in the data" : "dampings and springs there are not in the data",
-      is_above ? "higher" : "lower");
+Finding limit_outside_band(double limiting, double lowest, double highest) {
+  return {.code = FindingCode::limit_outside_band,
+          .evidence = {{"frequency", hertz(limiting)}, {"lowest", hertz(lowest)}, {"highest", hertz(highest)}},
+          .subjects = {{"side", limiting > highest ? "above" : "below"}}};
 }
 
 }  // namespace zwidth::internal

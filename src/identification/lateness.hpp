@@ -27,25 +27,25 @@ inline constexpr const char* lag_key = "actuator.time_constant";
 
 /// Why a fit that finds less delay and lag than a known structure states is not to be trusted: rows that pair a force with a later
 /// position hide it. By 4 deviations and a tenth of the sampling period at least.
-[[nodiscard]] std::optional<std::string> doubt_of_lost_delay(const Device& structure,
-                                                             const std::vector<ParameterEstimate>& estimates);
+[[nodiscard]] std::optional<Finding> doubt_of_lost_delay(const Device& structure,
+                                                         const std::vector<ParameterEstimate>& estimates);
 
 /// That the record shows another delay than the structure has.
-[[nodiscard]] Remark ignored_delay_remark(double shown, double given);
+[[nodiscard]] Finding ignored_delay(double shown, double given);
 
 /// Whether nobody states the delay: neither a device file nor who takes the structure's as it is.
 [[nodiscard]] bool assumes_delay(const Device& structure, IdentifyOptions::StructureValues values,
                                  IdentifyOptions::LoopDelay loop_delay);
 
 /// Why no delay was looked for of a structure that states none: so few lines determine no more numbers.
-[[nodiscard]] std::string hidden_delay_reason(std::size_t lines, std::size_t numbers);
+[[nodiscard]] Finding hidden_delay(std::size_t lines, std::size_t numbers);
 
 /// Where a delay that nobody stated was not to be fitted, and the interval of the same fit with it begins more than 10 % lower, or
 /// has none: the record does not tell that there is no delay.
-[[nodiscard]] std::optional<std::string> doubt_of_open_delay(const Device& with, const Device& without);
+[[nodiscard]] std::optional<Finding> doubt_of_open_delay(const Device& with, const Device& without);
 
 /// Why a critical stiffness is not in the data whose crossover lies outside the band that was excited, with the remedy.
 /// All in rad/s.
-[[nodiscard]] std::string outside_band_reason(double limiting, double lowest, double highest);
+[[nodiscard]] Finding limit_outside_band(double limiting, double lowest, double highest);
 
 }  // namespace zwidth::internal

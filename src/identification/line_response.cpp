@@ -14,6 +14,7 @@
 #include <tuple>
 #include <utility>
 
+#include "counted.hpp"
 #include "identification/line_scatter.hpp"
 #include "signal/fitted_sine.hpp"
 #include "zwidth/error.hpp"
@@ -163,10 +164,9 @@ FrequencyResponse short_sine_response(std::span<const double> force, std::span<c
   point.coherence = std::norm(h) / (std::norm(h) + point.variance);
   point.force = std::abs(f);
   response.points.push_back(point);
-  response.remarks.push_back({Remark::Severity::note,
-                              fmt::format("a sine of {:.6g} Hz fitted to {:.3g} periods in one piece",
-                                          point.frequency / turn, angle * static_cast<double>(force.size()) / turn),
-                              "its noise is what the motion has at the frequencies beside it; record for longer"});
+  response.remarks.push_back(note({.code = FindingCode::sine_fitted_in_one_piece,
+                                   .evidence = {{"frequency", point.frequency / turn},
+                                                {"periods", angle * static_cast<double>(force.size()) / turn}}}));
   return response;
 }
 
@@ -244,14 +244,13 @@ FrequencyResponse line_response(std::span<const double> force, std::span<const d
     if (mean_force(line, response.averages).value == 0.0) continue;
     response.points.push_back(response_point(line, response.averages, angles[i] / sampling_period));
   }
-  response.remarks.push_back(
-      {Remark::Severity::note,
-       fmt::format("{} fitted in {} blocks of {:.4g} s{}",
-                   angles.size() == 1 ? fmt::format("a sine of {:.6g} Hz", angles[0] / (turn * sampling_period))
-                                      : fmt::format("{} lines", angles.size()),
-                   count, static_cast<double>(length) * sampling_period,
-                   skipped > 0 ? fmt::format(", {} before them left out as transient", skipped) : ""),
-       ""});
+  Finding fitted{.code = FindingCode::lines_fitted_in_blocks,
+                 .evidence = {counted("lines", angles.size()),
+                              counted("blocks", count),
+                              {"duration", static_cast<double>(length) * sampling_period}}};
+  if (angles.size() == 1) fitted.evidence.push_back({"frequency", angles[0] / (turn * sampling_period)});
+  if (skipped > 0) fitted.evidence.push_back(counted("skipped", skipped));
+  response.remarks.push_back(note(std::move(fitted)));
   return response;
 }
 

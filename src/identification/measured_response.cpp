@@ -10,14 +10,15 @@
 #include <numbers>
 #include <utility>
 
+#include "counted.hpp"
 #include "identification/friction_doubt.hpp"
 #include "identification/plausibility.hpp"
 #include "identification/pooled_response.hpp"
 #include "identification/response_choice.hpp"
 #include "identification/stated_units.hpp"
 #include "identification/welch.hpp"
-#include "percent.hpp"
 #include "signal/clipping.hpp"
+#include "words/phrase.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/quantity.hpp"
 
@@ -25,12 +26,17 @@ namespace zwidth {
 using namespace internal;
 namespace {
 
-std::string sentence(const Remark& remark) {
-  std::string text = remark.what;
-  for (const std::string* part : {&remark.consequence, &remark.remedy}) {
-    if (!part->empty()) text += "; " + *part;
-  }
-  return text;
+/// As one of several recordings shows it; an empty source is that of one alone.
+Finding shown_in(const std::string& source, Finding finding) {
+  if (!source.empty()) finding.subjects.push_back({of_recording, source});
+  return finding;
+}
+
+Remark shown_in(const std::string& source, Remark remark) {
+  if (source.empty()) return remark;
+  if (remark.finding) remark.finding = shown_in(source, *std::move(remark.finding));
+  remark.what = source + ": " + remark.what;
+  return remark;
 }
 
 std::optional<OptionProblem> find_band_problem(const FrequencyResponseOptions& options) {
@@ -68,9 +74,9 @@ Trust trust_of(const MeasuredStiffness& stiffness) {
   for (const Remark& remark : stiffness.remarks) {
     if (remark.severity != Remark::Severity::warning) continue;
     has_reason = true;
-    found ? trust.doubt(sentence(remark)) : trust.refuse(sentence(remark));
+    found ? trust.doubt(remark.finding.value()) : trust.refuse(remark.finding.value());
   }
-  if (!found && !has_reason) trust.refuse("the data prove no critical stiffness; excite a wider band, more strongly");
+  if (!found && !has_reason) trust.refuse({.code = FindingCode::no_limit_proven});
   return trust;
 }
 
@@ -102,7 +108,7 @@ void check(std::span<const Recording> recordings, const FrequencyResponseOptions
 /// What a recording's signals show before any estimate.
 struct RecordChecks {
   std::vector<Remark> remarks;
-  std::vector<std::string> doubts;
+  std::vector<Finding> doubts;
 };
 
 RecordChecks checked(const Recording& recording, OutputQuantity output) {
@@ -114,8 +120,7 @@ RecordChecks checked(const Recording& recording, OutputQuantity output) {
       found.remarks.push_back(std::move(remark));
     }
     if (is_clipped(channel, recording.sampling_period, roles[i])) {
-      found.doubts.push_back(fmt::format(
-          "{} is clipped: the response is not that of a linear device; reduce the amplitude", channel.name));
+      found.doubts.push_back({.code = FindingCode::clipped_for_response, .subjects = {{"channel", channel.name}}});
     }
   }
   for (Remark& remark : implausible_recording(recording)) found.remarks.push_back(std::move(remark));
@@ -129,28 +134,19 @@ void judge_dependence(MeasuredResponse& measured, std::span<const Recording> rec
   constexpr double other_force = 1.2;
   const AmplitudeDependence& found = *measured.dependence;
   const bool by_force = found.force_ratio > other_force;
-  Remark remark{Remark::Severity::warning,
-                by_force ? fmt::format("the response depends on the force: {:.2g} times the force changes it by {} "
-                                       "(median of {} lines that show it above the noise)",
-                                       found.force_ratio, percent(found.difference), found.lines)
-                         : fmt::format("recordings of about the same force differ by {} (median of {} lines that "
-                                       "show it above the noise)",
-                                       percent(found.difference), found.lines),
-                "", ""};
-  if (by_force && found.grows_with_force) {
-    remark.consequence = "so dry friction does: it holds a weak force more, and looks like damping";
-    if (found.friction) {
-      remark.consequence =
-          fmt::format("so dry friction of about {} does: it holds a weak force more, and looks like damping",
-                      force_in_words(*found.friction, measured));
+  Finding shown{.code = FindingCode::recordings_differ,
+                .evidence = {{"difference", found.difference}, counted("lines", found.lines)}};
+  if (by_force) {
+    shown.code =
+        found.grows_with_force ? FindingCode::response_depends_as_by_friction : FindingCode::response_depends_on_force;
+    shown.evidence.push_back({"times", found.force_ratio});
+    shown.evidence.push_back({"threshold", other_force});
+    if (found.grows_with_force && found.friction) {
+      shown.evidence.push_back({"friction", *found.friction});
+      shown.subjects.push_back({"force", force_in_words(*found.friction, measured)});
     }
-    remark.remedy = "fit in time with free friction";
-  } else {
-    remark.consequence = by_force ? "not as dry friction does: a spring that hardens, or a limit of force or current"
-                                  : "the device, its load or its place has changed between them";
-    remark.remedy = "look at the recordings one by one";
   }
-  measured.remarks.push_back(remark);
+  measured.remarks.push_back(warning(shown));
   if (!measured.stiffness || !stiffness_interval(*measured.stiffness)) return;
   const Interval interval = *stiffness_interval(*measured.stiffness);
   std::vector<std::string> moved;
@@ -168,20 +164,21 @@ void judge_dependence(MeasuredResponse& measured, std::span<const Recording> rec
     moved.push_back(fmt::format("{:.4g} from {}", stiffness, recordings[r].source));
   }
   if (compared < 2) {
-    measured.trust.doubt(sentence(remark));
+    measured.trust.doubt(std::move(shown));
   } else if (!moved.empty()) {
-    measured.trust.doubt(fmt::format(
-        "the recordings disagree on the critical stiffness: {}, outside the interval of all", fmt::join(moved, ", ")));
+    measured.trust.doubt({.code = FindingCode::recordings_disagree_on_limit,
+                          .evidence = {{"lower", interval.lower}, {"upper", interval.upper}},
+                          .subjects = {{"stiffnesses", fmt::format("{}", fmt::join(moved, ", "))}}});
   }
 }
 
 /// What a table says of itself: a stiffness that was refused where it was measured is none.
 void inherit(MeasuredResponse& measured, const Trust& source) {
   measured.trust.inherit(source);
-  const char* reason = "the table says so of its critical stiffness, and not why: see the recording";
-  if (source.verdict == Trust::Verdict::doubtful && source.reasons.empty()) measured.trust.doubt(reason);
+  const Finding without_reason{.code = FindingCode::table_gives_no_reason};
+  if (source.verdict == Trust::Verdict::doubtful && source.reasons.empty()) measured.trust.doubt(without_reason);
   if (!source.refused()) return;
-  if (source.reasons.empty()) measured.trust.refuse(reason);
+  if (source.reasons.empty()) measured.trust.refuse(without_reason);
   if (measured.stiffness && measured.stiffness->status == MeasuredStiffnessStatus::found)
     measured.stiffness->status = MeasuredStiffnessStatus::undetermined;
 }
@@ -192,17 +189,14 @@ MeasuredResponse judged(std::string source, FrequencyResponse response, std::vec
   std::vector<Remark>& own = measured.response.remarks;
   std::move(own.begin(), own.end(), std::back_inserter(measured.remarks));
   own.clear();
-  const auto without_stiffness = [&measured](Remark remark) {
-    measured.trust.refuse(sentence(remark));
-    measured.remarks.push_back(std::move(remark));
+  const auto without_stiffness = [&measured](FindingCode code) {
+    measured.trust.refuse({.code = code});
+    measured.remarks.push_back(warning({.code = code}));
   };
   if (!measured.response.sampling_period) {
-    without_stiffness({Remark::Severity::warning, "a response without a sampling rate",
-                       "hold and delay are not in it, so that it has no critical stiffness; give the rate of a "
-                       "sampled one, or fit a device to it"});
+    without_stiffness(FindingCode::response_without_rate);
   } else if (measured.response.points.size() < 2) {
-    without_stiffness(
-        {Remark::Severity::warning, "a response of a single line", "crossovers lie between lines: excite a band"});
+    without_stiffness(FindingCode::response_of_one_line);
   } else {
     measured.stiffness = measured_stiffness(measured.response);
     const std::vector<Remark>& found = measured.stiffness->remarks;
@@ -249,9 +243,7 @@ std::optional<OptionProblem> find_problem(const FrequencyResponseOptions& option
 MeasuredResponse judged_response(std::string source, FrequencyResponse response, std::vector<Remark> remarks) {
   MeasuredResponse measured = judged(std::move(source), std::move(response), std::move(remarks));
   if (!measured.response.trust && measured.stiffness && !measured.trust.refused()) {
-    measured.trust.doubt(
-        "a table does not show dry friction, which makes a small motion look more damped and the critical stiffness "
-        "too high; give the recordings themselves");
+    measured.trust.doubt({.code = FindingCode::table_hides_friction});
   }
   return measured;
 }
@@ -320,18 +312,14 @@ MeasuredResponse frequency_response(std::span<const Recording> recordings, const
   decided.excitation = excitation_of(options);
   std::vector<FrequencyResponse> each = responses(recordings, decided, progress);
   std::vector<Remark> remarks;
-  std::vector<std::string> doubts;
+  std::vector<Finding> doubts;
   for (std::size_t r = 0; r < recordings.size(); ++r) {
-    const std::string name = recordings.size() > 1 ? recordings[r].source + ": " : "";
+    const std::string source = recordings.size() > 1 ? recordings[r].source : "";
     const RecordChecks checks = checked(recordings[r], decided.output);
-    for (Remark remark : checks.remarks) {
-      remark.what = name + remark.what;
-      remarks.push_back(std::move(remark));
-    }
-    for (const std::string& doubt : checks.doubts) doubts.push_back(name + doubt);
+    for (const Remark& remark : checks.remarks) remarks.push_back(shown_in(source, remark));
+    for (const Finding& doubt : checks.doubts) doubts.push_back(shown_in(source, doubt));
     if (recordings.size() == 1) continue;
-    for (Remark& remark : each[r].remarks)
-      remarks.push_back({remark.severity, name + remark.what, remark.consequence, remark.remedy});
+    for (const Remark& remark : each[r].remarks) remarks.push_back(shown_in(source, remark));
   }
   MeasuredResponse measured;
   if (recordings.size() == 1) {
@@ -345,7 +333,7 @@ MeasuredResponse frequency_response(std::span<const Recording> recordings, const
   state_units(measured, recordings);
   judge_friction(measured, recordings, each, decided);
   if (measured.dependence) judge_dependence(measured, recordings, each);
-  for (const std::string& doubt : doubts) measured.trust.doubt(doubt);
+  for (const Finding& doubt : doubts) measured.trust.doubt(doubt);
   return measured;
 }
 

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <string>
 
+#include "counted.hpp"
 #include "identification/band_beginning.hpp"
 #include "identification/crossing_fit.hpp"
 #include "identification/phase_lines.hpp"
@@ -22,6 +23,12 @@ namespace {
 std::string band_text(const Interval& band) {
   return band.lower == band.upper ? fmt::format("at {:.4g} Hz", hertz(band.lower))
                                   : fmt::format("from {:.4g} to {:.4g} Hz", hertz(band.lower), hertz(band.upper));
+}
+
+/// Of one line: "at"; else "from" and "to". In Hz.
+std::vector<Evidence> band_evidence(const Interval& band) {
+  if (band.lower == band.upper) return {{"at", hertz(band.lower)}};
+  return {{"from", hertz(band.lower)}, {"to", hertz(band.upper)}};
 }
 
 /// The first few, and how many more.
@@ -175,9 +182,7 @@ const MeasuredCrossover* softest(const std::vector<MeasuredCrossover>& crossover
   return least == crossovers.end() ? nullptr : &*least;
 }
 
-void warn(MeasuredStiffness& result, std::string what, std::string meaning) {
-  result.remarks.push_back({Remark::Severity::warning, std::move(what), std::move(meaning)});
-}
+void warn(MeasuredStiffness& result, Finding finding) { result.remarks.push_back(warning(std::move(finding))); }
 
 /// The phase is below -180 degrees where the band begins, or the softest crossing is one by which poles return.
 /// Not so where the lines at the beginning contradict their run, or leave it open: that is a doubt.
@@ -232,36 +237,26 @@ std::optional<Doubt> drowned_start(const std::vector<PhaseLine>& lines) {
 void judge(MeasuredStiffness& result, const Findings& findings, std::span<const PhaseLine> lines) {
   if (const auto phase = turned_phase(lines)) {
     result.status = MeasuredStiffnessStatus::not_in_band;
-    warn(
-        result,
-        fmt::format("the position falls as the force rises: where the band begins the response falls as a mass's does, "
-                    "and its phase, {:.0f} degrees, is half a turn off",
-                    *phase),
-        "scale one of them by -1");
+    warn(result, {.code = FindingCode::phase_half_turn_off, .evidence = {{"phase", *phase}}});
     return;
   }
   if (findings.runs.empty()) {
     result.status = MeasuredStiffnessStatus::undetermined;
     result.doubtful_bands.push_back(findings.band);
-    warn(result, "the phase cannot be told from -180 degrees anywhere in the band",
-         "the response alone leaves the critical stiffness open; excite more strongly or for longer");
+    warn(result, {.code = FindingCode::phase_not_told});
     return;
   }
   if (begins_unstable(result, findings)) {
     result.status = MeasuredStiffnessStatus::not_in_band;
     warn(result,
-         fmt::format("the phase is past -180 degrees already where the band begins, {:.4g} Hz",
-                     hertz(findings.band.lower)),
-         "the crossover that limits lies below, or no wall is stable (is the sign of the motion right?); excite lower "
-         "frequencies");
+         {.code = FindingCode::phase_past_at_beginning, .evidence = {{"frequency", hertz(findings.band.lower)}}});
     return;
   }
   if (const MeasuredCrossover* least = softest(result.crossovers)) {
     result.limit = *least;
   } else {
     result.status = MeasuredStiffnessStatus::not_in_band;
-    warn(result, fmt::format("the phase does not pass -180 degrees {}", band_text(findings.band)),
-         "the crossover that limits, if there is one, lies outside; excite a wider band");
+    warn(result, {.code = FindingCode::no_crossover_in_band, .evidence = band_evidence(findings.band)});
   }
   for (const Doubt& doubt : findings.doubts) {
     if (result.limit && doubt.least_stiffness >= result.limit->stiffness_interval.lower) continue;
@@ -269,20 +264,16 @@ void judge(MeasuredStiffness& result, const Findings& findings, std::span<const 
   }
   if (result.doubtful_bands.empty()) return;
   result.status = MeasuredStiffnessStatus::undetermined;
-  warn(result, "the noise hides whether the phase passes -180 degrees " + bands_text(result.doubtful_bands),
-       result.limit
-           ? "a crossover there would be softer than any that is proven: the response alone leaves the critical "
-             "stiffness unknown"
-           : "the response alone leaves the critical stiffness unknown");
+  warn(result,
+       {.code = result.limit ? FindingCode::noise_may_hide_softer_crossover : FindingCode::noise_hides_crossover,
+        .evidence = {counted("bands", result.doubtful_bands.size())},
+        .subjects = {{"where", bands_text(result.doubtful_bands)}}});
 }
 
 /// Resonances that stand between lines too far apart to show them.
 void remark_sparse_lines(MeasuredStiffness& result, const Findings& findings) {
   for (const Interval& lines : findings.sparse_lines) {
-    warn(result, "the phase falls far between the neighbouring lines " + band_text(lines),
-         "a resonance peaks there unseen: the stiffness of its crossover is a guess between the lines; longer periods "
-         "or "
-         "segments give closer lines");
+    warn(result, {.code = FindingCode::lines_too_far_apart, .evidence = band_evidence(lines)});
   }
 }
 
@@ -303,15 +294,9 @@ void remark_beginning(MeasuredStiffness& result, std::span<const PhaseLine> line
   const bool is_springlike =
       std::abs(std::arg(first.value)) <= springlike || (beginning && beginning->steepness > falling);
   if (is_springlike && first.frequency > surely_below * result.limit->frequency) {
-    warn(result, fmt::format("the device looks like a spring where the band begins, {:.4g} Hz", hertz(first.frequency)),
-         "right for one that is locked or tied to ground; a free one has a softer crossover below the band: excite "
-         "lower "
-         "frequencies");
+    warn(result, {.code = FindingCode::springlike_at_beginning, .evidence = {{"frequency", hertz(first.frequency)}}});
   } else if (!is_springlike && beginning && (beginning->steepness < steepest || beginning->turning < most_turning)) {
-    warn(result,
-         fmt::format("the response is not that of a rigid body where the band begins, {:.4g} Hz",
-                     hertz(first.frequency)),
-         "there may be a softer crossover below the band: excite lower frequencies");
+    warn(result, {.code = FindingCode::not_rigid_at_beginning, .evidence = {{"frequency", hertz(first.frequency)}}});
   }
 }
 
@@ -323,8 +308,8 @@ void remark_gaps(MeasuredStiffness& result, std::span<const PhaseLine> lines) {
     const double usual =
         std::max(lines[i - 1].frequency - lines[i - 2].frequency, lines[i + 1].frequency - lines[i].frequency);
     if (gap > wide * usual) {
-      warn(result, "no line is excited " + band_text({lines[i - 1].frequency, lines[i].frequency}),
-           "a crossover there is not seen");
+      warn(result, {.code = FindingCode::gap_between_lines,
+                    .evidence = band_evidence({lines[i - 1].frequency, lines[i].frequency})});
     }
   }
 }
@@ -347,8 +332,7 @@ MeasuredStiffness measured_stiffness(const FrequencyResponse& response) {
     result.status = MeasuredStiffnessStatus::undetermined;
     result.measured_band = {response.points.front().frequency, response.points.back().frequency};
     result.doubtful_bands.push_back(result.measured_band);
-    warn(result, "the noise leaves the phase open by more than 30 degrees " + band_text(result.measured_band),
-         "the response alone leaves the critical stiffness open; excite more strongly or for longer");
+    warn(result, {.code = FindingCode::phase_left_open, .evidence = band_evidence(result.measured_band)});
     return result;
   }
   Findings findings = find_crossings(lines, phase_verdicts(lines, response.line_correlation),
@@ -368,13 +352,10 @@ MeasuredStiffness measured_stiffness(const FrequencyResponse& response) {
       response.averages > 0.0 || std::any_of(response.points.begin(), response.points.end(),
                                              [](const ResponsePoint& point) { return point.variance > 0.0; });
   if (!noise_known) {
-    warn(result, "the response comes without its noise",
-         "intervals show only how far lines stand off their neighbours");
+    warn(result, {.code = FindingCode::response_without_noise});
   }
   result.remarks.push_back(
-      {Remark::Severity::note,
-       fmt::format("the phase is measured {}; outside, nothing is known", band_text(result.measured_band)),
-       "a softer crossover there would limit instead"});
+      note({.code = FindingCode::phase_measured, .evidence = band_evidence(result.measured_band)}));
   return result;
 }
 

@@ -1,12 +1,9 @@
 #include "identification/misfit_doubt.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "percent.hpp"
 #include "zwidth/quantity.hpp"
 
 namespace zwidth::internal {
@@ -74,27 +71,30 @@ bool leaves_too_much(const ParameterFit& fit, const FrequencyResponse& response)
   return fit.clear_misfit && response.averages >= few_averages && stands_out(*fit.clear_misfit, response);
 }
 
-std::optional<std::string> doubt_of_misfit(const ParameterFit& fit, const FrequencyResponse& response) {
-  constexpr const char* causes = "friction, backlash, or a body that it lacks";
+std::optional<Finding> doubt_of_misfit(const ParameterFit& fit, const FrequencyResponse& response) {
   const double noise = median_noise(response);
   const bool is_far_above = fit.misfit && *fit.misfit > clear_misfit;
   const bool is_clear = fit.model_error > std::max(is_far_above ? 0.5 * clear_model_error : clear_model_error, noise);
   if (fit.model_error > doubtful_model_error || is_clear) {
-    return fmt::format("the structure leaves {} of the response unexplained beyond the noise: {}",
-                       percent(fit.model_error), causes);
+    return Finding{.code = FindingCode::residual_beyond_noise, .evidence = {{"unexplained", fit.model_error}}};
   }
   const auto exceeds = [&](double misfit, double most) { return misfit * noise > rounding_error && misfit > most; };
   const std::optional<double> left = fit.clear_misfit ? fit.clear_misfit->misfit : fit.misfit;
   const std::size_t lines = fit.clear_misfit ? fit.clear_misfit->lines : fit.frequencies.size();
-  if (left && exceeds(*left, most_misfit(response, lines, deviations_over_all))) {
-    return fmt::format("what the structure leaves of the response is {:.2g} times its noise: {}", *left, causes);
+  const double most_over_all = most_misfit(response, lines, deviations_over_all);
+  if (left && exceeds(*left, most_over_all)) {
+    return Finding{.code = FindingCode::residual_above_noise,
+                   .evidence = {{"residual", *left}, {"threshold", most_over_all}}};
   }
   // Friction where the device moves stands out of a few lines only, of a band most of which is noise.
   if (!fit.clear_misfit || response.averages < few_averages) return std::nullopt;
   const auto& [misfit, lowest, highest] = fit.clear_misfit->local;
-  if (!exceeds(misfit, most_misfit(response, lines_of_local_misfit, deviations_anywhere))) return std::nullopt;
-  return fmt::format("from {:.4g} to {:.4g} Hz what the structure leaves of the response is {:.2g} times its noise: {}",
-                     hertz(lowest), hertz(highest), misfit, causes);
+  const double most_anywhere = most_misfit(response, lines_of_local_misfit, deviations_anywhere);
+  if (!exceeds(misfit, most_anywhere)) return std::nullopt;
+  return Finding{
+      .code = FindingCode::residual_above_noise_in_band,
+      .evidence = {
+          {"lowest", hertz(lowest)}, {"highest", hertz(highest)}, {"residual", misfit}, {"threshold", most_anywhere}}};
 }
 
 }  // namespace zwidth::internal

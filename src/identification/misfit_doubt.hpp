@@ -21,6 +21,6 @@ namespace zwidth::internal {
 [[nodiscard]] bool leaves_too_much(const ParameterFit& fit, const FrequencyResponse& response);
 
 /// Why a fit leaves more of the response than its noise, over all lines or anywhere; nothing where it does not.
-[[nodiscard]] std::optional<std::string> doubt_of_misfit(const ParameterFit& fit, const FrequencyResponse& response);
+[[nodiscard]] std::optional<Finding> doubt_of_misfit(const ParameterFit& fit, const FrequencyResponse& response);
 
 }  // namespace zwidth::internal

@@ -1,10 +1,9 @@
 #include "identification/nonlinear_forces.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "identification/encoder_step.hpp"
 #include "linear_systems.hpp"
@@ -25,6 +24,11 @@ std::vector<double> mapped(std::span<const double> signal, Function function) {
 
 }  // namespace
 
+Finding shown_by(std::string source, Finding finding) {
+  finding.subjects.push_back({"source", std::move(source)});
+  return finding;
+}
+
 std::optional<Nonlinearity> clearest_nonlinearity(
     std::span<const double> position, std::span<const double> force, Motion motion,
     const std::function<NonlinearEvidence(const NonlinearForce&)>& evidence_of) {
@@ -41,17 +45,15 @@ std::optional<Nonlinearity> clearest_nonlinearity(
     const bool shows = evidence.chi_squared > clear_evidence && evidence.share > notable_share;
     if (!shows) return;
     if (found && found->evidence.chi_squared >= evidence.chi_squared) return;
-    found = Nonlinearity{std::move(candidate.what), std::move(candidate.remedy), evidence};
+    candidate.finding.evidence.push_back({"chi_squared", evidence.chi_squared});
+    candidate.finding.evidence.push_back({"threshold", clear_evidence});
+    found = Nonlinearity{std::move(candidate.finding), evidence};
   };
 
   const auto power = [&](int exponent) {
     return mapped(position, [=](double x) { return std::pow((x - middle) / range, exponent); });
   };
-  examine({{power(2), power(3)},
-           false,
-           "a force that changes with the position, but not in proportion to it: a spring that stiffens, gravity on a "
-           "lever, or a stop",
-           "record smaller motion, about the place that matters"});
+  examine({{power(2), power(3)}, false, {.code = FindingCode::nonlinear_spring}});
 
   constexpr std::size_t span = 4;  // samples, over which a velocity is taken
   std::vector<double> drag(position.size(), 0.0);
@@ -59,31 +61,25 @@ std::optional<Nonlinearity> clearest_nonlinearity(
     const double velocity = (position[k] - position[k - span]) / range;
     drag[k] = velocity * std::abs(velocity);
   }
-  examine({{std::move(drag)}, false, force_not_in_proportion_to_the_speed, slow_motion_remedy});
+  examine({{std::move(drag)}, false, {.code = FindingCode::drag}});
 
   const auto beyond = [&](double share) {
     const double bound = share * largest;
     return mapped(force, [=](double u) { return std::copysign(std::max(0.0, std::abs(u) - bound), u); });
   };
-  examine({{beyond(0.25), beyond(0.5), beyond(0.75)},
-           true,
-           "a force that is not in proportion to the recorded one: an amplifier that saturates, or a torque that falls "
-           "at large currents",
-           "record the force that acts, or excite less strongly"});
+  examine({{beyond(0.25), beyond(0.5), beyond(0.75)}, true, {.code = FindingCode::nonlinear_actuator}});
 
   constexpr int most_waves = 100;
   constexpr double least_steps = 20.0;  // of an encoder, per wave: less is its rounding
   const double step = encoder_step(position);
   for (int waves = 1; waves <= most_waves && range > least_steps * step * waves; ++waves) {
     const double wave_number = 2.0 * std::numbers::pi * waves / range;
-    examine(
-        {{mapped(position, [=](double x) { return std::cos(wave_number * (x - least)); }),
-          mapped(position, [=](double x) { return std::sin(wave_number * (x - least)); })},
-         false,
-         fmt::format("a force that comes and goes with the position, about every {:.2g} {}: cogging, gear teeth, or "
-                     "a bearing",
-                     range / waves, motion == Motion::rotary ? "rad" : "m"),
-         "compensate it, or excite more strongly: its share falls with the amplitude"});
+    examine({{mapped(position, [=](double x) { return std::cos(wave_number * (x - least)); }),
+              mapped(position, [=](double x) { return std::sin(wave_number * (x - least)); })},
+             false,
+             {.code = FindingCode::cogging,
+              .evidence = {{"wavelength", range / waves}},
+              .subjects = {{"unit", motion == Motion::rotary ? "rad" : "m"}}}});
   }
   return found;
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "zwidth/finding.hpp"
 #include "zwidth/model/device.hpp"
 
 namespace zwidth::internal {
@@ -15,21 +16,8 @@ namespace zwidth::internal {
 struct NonlinearForce {
   std::vector<std::vector<double>> terms;  ///< by sample
   bool is_of_command = false;              ///< acts where the actuator does; else where the position is sensed
-  std::string what;                        ///< in words, with its likely cause
-  std::string remedy;
+  Finding finding;
 };
-
-inline constexpr const char* force_not_in_proportion_to_the_speed =
-    "a force that is not in proportion to the speed: drag of air or of a fluid, an eddy-current brake, or friction "
-    "that "
-    "changes with the speed";
-inline constexpr const char* friction_not_coulombs =
-    "friction that is not Coulomb's as the motion turns: what rubs, or a cable, bends before it slips, or friction at "
-    "rest is "
-    "more";
-inline constexpr const char* strong_motion_remedy = "excite more strongly: its share falls with the amplitude";
-inline constexpr const char* slow_motion_remedy =
-    "record it at the speeds that matter: slow motion is damped less, and its critical stiffness is lower";
 
 /// How clearly a record shows such a force beside all that is linear.
 struct NonlinearEvidence {
@@ -39,10 +27,12 @@ struct NonlinearEvidence {
 
 /// What a linear device with dry friction does not do.
 struct Nonlinearity {
-  std::string what;  ///< in words, with its likely cause
-  std::string remedy;
+  Finding finding;  ///< without its `source`: shown_by()
   NonlinearEvidence evidence;
 };
+
+/// The finding as what this source shows: "the record", or a recording by its name.
+[[nodiscard]] Finding shown_by(std::string source, Finding finding);
 
 /// The clearest of
 ///

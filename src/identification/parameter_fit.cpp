@@ -15,7 +15,6 @@
 #include "identification/misfit_doubt.hpp"
 #include "identification/residual_checks.hpp"
 #include "model/uncertainty_problem.hpp"
-#include "percent.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/modal_form.hpp"
 #include "zwidth/model/parameter.hpp"
@@ -237,36 +236,32 @@ std::optional<double> error_if_turned(const FitModel& model, std::vector<Respons
 
 void add_remarks(ParameterFit& fit, const FitModel& model, const std::vector<ResponsePoint>& points) {
   for (const UnidentifiableCombination& each : fit.unidentifiable) {
-    const bool alone = each.parameters.size() == 1;
-    fit.remarks.push_back(
-        {Remark::Severity::warning,
-         alone ? fmt::format("the response says nothing about {}", each.parameters.front())
-               : fmt::format("the response determines only a combination of {}", fmt::join(each.parameters, ", ")),
-         fmt::format("{} near the structure's value{}, without an interval", alone ? "it stays" : "they stay as",
-                     alone ? "" : "s as the data allow")});
+    if (each.parameters.size() == 1) {
+      fit.remarks.push_back(warning({.code = FindingCode::parameter_unidentifiable, .key = each.parameters.front()}));
+    } else {
+      fit.remarks.push_back(warning({.code = FindingCode::only_combination_identifiable,
+                                     .subjects = {{"keys", fmt::format("{}", fmt::join(each.parameters, ", "))}}}));
+    }
   }
   for (const ParameterEstimate& each : fit.estimates) {
     if (each.standard_deviation && each.value > 0.0 && *each.standard_deviation > 0.5 * each.value) {
-      fit.remarks.push_back({Remark::Severity::warning,
-                             fmt::format("{} is known to {} only (one standard deviation)", each.key,
-                                         percent(*each.standard_deviation / each.value)),
-                             "the data hardly determine it"});
+      fit.remarks.push_back(
+          warning({.code = FindingCode::parameter_hardly_determined,
+                   .evidence = {{"relative_deviation", *each.standard_deviation / each.value}, {"threshold", 0.5}},
+                   .key = each.key}));
     }
   }
   if (fit.stiffness_without_hold) {
     fit.remarks.push_back(
-        {Remark::Severity::note,
-         "the fit is held to the measured critical point, since the structure misses the data by more than their noise",
-         fmt::format("all points alike would give a critical stiffness of {:.4g}", *fit.stiffness_without_hold)});
+        note({.code = FindingCode::held_to_critical_point, .evidence = {{"without", *fit.stiffness_without_hold}}}));
   }
   ResidualChecks checks = check_residuals(fit, points, mode_frequencies(fit.device, model.locked()));
   fit.missing_mode = checks.missing_mode;
   for (Remark& remark : checks.remarks) fit.remarks.push_back(std::move(remark));
   if (fit.model_error_if_turned) {
-    fit.remarks.push_back({Remark::Severity::warning,
-                           fmt::format("with its sign turned round, {} of the response would be unexplained, not {}",
-                                       percent(*fit.model_error_if_turned), percent(fit.model_error)),
-                           "the position falls as the force rises", "scale one of them by -1"});
+    fit.remarks.push_back(
+        warning({.code = FindingCode::explained_better_if_turned,
+                 .evidence = {{"turned", *fit.model_error_if_turned}, {"unexplained", fit.model_error}}}));
   }
 }
 

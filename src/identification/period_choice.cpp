@@ -69,10 +69,7 @@ Identification with_periods_chosen(
       [&] { other = better(windowed); });
   if (later && !(other && is_better(*other, *later))) return *std::move(later);
   if (!other) return found;
-  other->remarks.push_back({Remark::Severity::note,
-                            "the periods of the force are not averaged: what drifts between them would leave more of "
-                            "the response unexplained, or pass for noise",
-                            ""});
+  other->remarks.push_back(note({.code = FindingCode::periods_not_averaged}));
   return *std::move(other);
 }
 

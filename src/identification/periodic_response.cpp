@@ -1,7 +1,5 @@
 #include "identification/periodic_response.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -9,6 +7,7 @@
 #include <numeric>
 #include <vector>
 
+#include "counted.hpp"
 #include "identification/encoder_step.hpp"
 #include "identification/line_scatter.hpp"
 #include "signal/fourier.hpp"
@@ -204,19 +203,17 @@ FrequencyResponse periodic_response(std::span<const double> force, std::span<con
     point.force *= 2.0 / static_cast<double>(period);
     response.points.push_back(point);
   }
-  response.remarks.push_back(
-      {Remark::Severity::note,
-       fmt::format("period of {} samples ({:.4g} s); {} of {} whole periods averaged{}{}", period,
-                   static_cast<double>(period) * sampling_period, periods.count(), force.size() / period,
-                   record.skipped > 0 ? fmt::format(", the first {} skipped as transient", record.skipped) : "",
-                   averaged_off ? ", one spent on taking off the drift" : ""),
-       ""});
+  Finding averaged{.code = FindingCode::periods_averaged,
+                   .evidence = {counted("samples", period),
+                                {"period", static_cast<double>(period) * sampling_period},
+                                counted("averaged", periods.count()),
+                                counted("periods", force.size() / period)}};
+  if (record.skipped > 0) averaged.evidence.push_back(counted("skipped", record.skipped));
+  if (averaged_off) averaged.evidence.push_back({"of_drift", 1.0});
+  response.remarks.push_back(note(std::move(averaged)));
   if (transient > 0) {
     response.remarks.push_back(
-        {Remark::Severity::warning,
-         fmt::format("the first {} of the averaged periods differ from the later ones: the transient has not died out",
-                     transient),
-         "skip more periods"});
+        warning({.code = FindingCode::transient_in_periods, .evidence = {counted("periods", transient)}}));
   }
   return response;
 }

@@ -1,7 +1,5 @@
 #include "identification/plausibility.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -42,8 +40,13 @@ bool has_two_values(const std::vector<double>& samples) {
   return static_cast<double>(extreme) > share * static_cast<double>(moving);
 }
 
-const char* counts_of(const std::vector<double>& samples) {
-  return samples.front() == std::round(samples.front()) ? "whole numbers" : "numbers that are whole ones apart";
+/// Of the channel at this place: the force is the first.
+Finding counts_finding(const Channel& channel, std::size_t place) {
+  const bool is_whole = channel.samples.front() == std::round(channel.samples.front());
+  return {.code = FindingCode::channel_in_counts,
+          .subjects = {{"channel", channel.name},
+                       {"role", place == 0 ? "force" : "motion"},
+                       {"counts", is_whole ? "whole" : "half"}}};
 }
 
 /// "ms" for a ratio of about 1000, "us" for a million, ...; nothing for a ratio that no unit explains.
@@ -78,8 +81,12 @@ std::vector<OddMass> odd_masses(const Device& fitted, const Device& known) {
   return found;
 }
 
-std::string odd_mass_text(const OddMass& odd) {
-  return fmt::format("{} comes out {:.3g} times the structure's", odd.key, odd.ratio);
+Finding odd_mass_finding(const OddMass& odd) {
+  Finding found{.code = FindingCode::mass_far_from_structure, .evidence = {{"ratio", odd.ratio}}, .key = odd.key};
+  if (const std::string prefix = prefix_of(1.0 / odd.ratio); !prefix.empty()) {
+    found.subjects.push_back({"prefix", prefix});
+  }
+  return found;
 }
 
 }  // namespace
@@ -89,18 +96,11 @@ std::vector<Remark> implausible_recording(const Recording& recording) {
   for (std::size_t i = 0; i < recording.channels.size(); ++i) {
     const Channel& channel = recording.channels[i];
     if (!is_in_counts(channel.samples)) continue;
-    remarks.push_back({Remark::Severity::warning,
-                       fmt::format("{} holds {} only", channel.name, counts_of(channel.samples)),
-                       i == 0 ? "counts of a converter, or millinewtons? Every number below is then in that unit"
-                              : "encoder counts? Every number below is then per count, not per m or rad",
-                       "scale it to SI units (metres or radians per count)"});
+    remarks.push_back(warning(counts_finding(channel, i)));
   }
   if (has_two_values(recording.channels.front().samples)) {
-    remarks.push_back({Remark::Severity::note,
-                       fmt::format("{} takes two values only: an amplifier that gives less shows in nothing",
-                                   recording.channels.front().name),
-                       "every number would come out as if it gave all, and the critical stiffness too high by as much",
-                       "stay well below the amplifier's limit, or record noise, a sweep or a multisine"});
+    remarks.push_back(
+        note({.code = FindingCode::force_of_two_values, .subjects = {{"channel", recording.channels.front().name}}}));
   }
   if (auto remark = implausible_period(recording.sampling_period, "the sampling period of the recording")) {
     remarks.push_back(*std::move(remark));
@@ -110,13 +110,11 @@ std::vector<Remark> implausible_recording(const Recording& recording) {
 
 namespace {
 /// The position is whole numbers only, or these and a half, as an encoder counts.
-std::optional<std::string> doubt_of_counts(const Recording& recording) {
+std::optional<Finding> doubt_of_counts(const Recording& recording) {
   for (std::size_t i = 0; i < recording.channels.size(); ++i) {
     const Channel& channel = recording.channels[i];
     if (!is_in_counts(channel.samples)) continue;
-    return fmt::format("{} holds {} only, as {}: every number is then per count; give the {} per count", channel.name,
-                       counts_of(channel.samples), i == 0 ? "a converter gives" : "an encoder counts",
-                       i == 0 ? "newtons (or newton metres)" : "metres or radians");
+    return counts_finding(channel, i);
   }
   return std::nullopt;
 }
@@ -128,21 +126,23 @@ std::optional<Motion> motion_of(const Channel& channel) {
 }
 
 /// A torque beside a length, or a force beside an angle.
-std::optional<std::string> doubt_of_mixed_motion(const Recording& recording) {
+std::optional<Finding> doubt_of_mixed_motion(const Recording& recording) {
   const Channel& force = recording.channels[0];
   const Channel& motion = recording.channels[1];
   const auto of_force = motion_of(force);
   const auto of_motion = motion_of(motion);
   if (!of_force || !of_motion || *of_force == *of_motion) return std::nullopt;
-  return fmt::format(
-      "{} is in {} and {} in {} by their names, of a {} motion and of a {}: give the scale that makes them "
-      "of one, by the radius",
-      force.name, force.base_unit, motion.name, motion.base_unit, *of_force == Motion::rotary ? "rotary" : "linear",
-      *of_force == Motion::rotary ? "linear" : "rotary");
+  return Finding{.code = FindingCode::channels_of_two_motions,
+                 .subjects = {{"force", force.name},
+                              {"force_unit", force.base_unit},
+                              {"channel", motion.name},
+                              {"unit", motion.base_unit},
+                              {"of_force", *of_force == Motion::rotary ? "rotary" : "linear"},
+                              {"of_motion", *of_force == Motion::rotary ? "linear" : "rotary"}}};
 }
 }  // namespace
 
-std::optional<std::string> doubt_of_units(const Recording& recording, OutputQuantity output) {
+std::optional<Finding> doubt_of_units(const Recording& recording, OutputQuantity output) {
   if (!recording.doubts.empty()) return recording.doubts.front();
   using enum StatedQuantity;
   const StatedQuantity motion = output == OutputQuantity::velocity       ? velocity
@@ -151,22 +151,16 @@ std::optional<std::string> doubt_of_units(const Recording& recording, OutputQuan
   for (std::size_t i = 0; i < recording.channels.size(); ++i) {
     const Channel& channel = recording.channels[i];
     if (channel.quantity == nothing || channel.quantity == (i == 0 ? force : motion)) continue;
-    const char* wanted = i == 0 ? "a force or torque" : "the motion";
-    if (channel.quantity != other) {
-      return fmt::format("{} is in {} by its name, and is taken for {}: name the right column, or give its scale",
-                         channel.name, channel.unit, wanted);
-    }
-    return fmt::format(
-        "{} is in {} by its name, which is no unit of {} that is known: every number is then in that unit; give its "
-        "scale, {} per unit of it (1 says that it is in SI units)",
-        channel.name, channel.unit, wanted, i == 0 ? "newtons or newton metres" : "metres or radians");
+    return Finding{
+        .code = channel.quantity != other ? FindingCode::channel_of_other_quantity : FindingCode::channel_unit_unknown,
+        .subjects = {{"channel", channel.name}, {"unit", channel.unit}, {"role", i == 0 ? "force" : "motion"}}};
   }
   if (auto doubt = doubt_of_mixed_motion(recording)) return doubt;
   return doubt_of_counts(recording);
 }
 
 namespace {
-std::optional<std::string> doubt_of_force_limit(const Recording& recording, const Device& fitted) {
+std::optional<Finding> doubt_of_force_limit(const Recording& recording, const Device& fitted) {
   const DeviceParameters& device = fitted.parameters();
   if (!device.actuator.force_limit) return std::nullopt;
   const auto [least, most] = std::ranges::minmax(recording.channels[0].samples);
@@ -174,28 +168,30 @@ std::optional<std::string> doubt_of_force_limit(const Recording& recording, cons
   constexpr double beyond = 1.01;  // of the limit: rounding, and what a load cell's noise adds
   if (!(strongest > beyond * *device.actuator.force_limit)) return std::nullopt;
   const std::string_view unit = units_of(device.motion).force;
-  return fmt::format(
-      "{} reaches {} where the structure's actuator.force_limit is {}: less acted than the record says; "
-      "record with less, or correct the limit",
-      recording.channels[0].name, quantity(strongest, unit), quantity(*device.actuator.force_limit, unit));
+  return Finding{.code = FindingCode::force_beyond_limit,
+                 .evidence = {{"force", strongest, unit}, {"limit", *device.actuator.force_limit, unit}},
+                 .subjects = {{"channel", recording.channels[0].name}},
+                 .key = "actuator.force_limit"};
 }
 
-std::optional<std::string> doubt_of_motion(const Recording& recording, const Device& fitted) {
+std::optional<Finding> doubt_of_motion(const Recording& recording, const Device& fitted) {
   const auto of_force = motion_of(recording.channels[0]);
   const auto of_motion = motion_of(recording.channels[1]);
   const bool is_rotary = fitted.parameters().motion == Motion::rotary;
   const std::optional<Motion> stated = of_force ? of_force : of_motion;
   if (!stated || (*stated == Motion::rotary) == is_rotary) return std::nullopt;
   const Channel& stating = recording.channels[of_force ? 0 : 1];
-  return fmt::format(
-      "{} is in {} by its name, of a {} motion, and the structure's is {}: every number has the wrong unit; "
-      "set the structure's motion, or give the scale from one to the other",
-      stating.name, stating.base_unit, is_rotary ? "linear" : "rotary", is_rotary ? "rotary" : "linear");
+  return Finding{.code = FindingCode::channel_of_other_motion,
+                 .subjects = {{"channel", stating.name},
+                              {"unit", stating.base_unit},
+                              {"of_channel", is_rotary ? "linear" : "rotary"},
+                              {"of_structure", is_rotary ? "rotary" : "linear"}},
+                 .key = "motion"};
 }
 
 /// Where another recording has a row for each period, the two disagree if force is missing in this one.
-std::optional<std::string> doubt_of_thinned_rows(const Recording& recording, std::span<const Recording> all,
-                                                 const Device& fitted) {
+std::optional<Finding> doubt_of_thinned_rows(const Recording& recording, std::span<const Recording> all,
+                                             const Device& fitted) {
   const double period = fitted.loop().sampling_period;
   const double ratio = recording.sampling_period / period;
   constexpr double close = 0.01;
@@ -205,17 +201,16 @@ std::optional<std::string> doubt_of_thinned_rows(const Recording& recording, std
   }
   const double whole = std::round(ratio);
   if (whole < 2.0 || std::abs(ratio - whole) > close * whole) return std::nullopt;
-  return fmt::format(
-      "a row stands for {:.0f} periods of the loop, {} and {}: where rows were left out of the log, so is the force "
-      "between them, and the fit lacks delay; log every period, or, where the force was held from row to row, identify "
-      "with the rows' period and set loop.sampling_period in the device file",
-      whole, quantity(recording.sampling_period, "s"), quantity(period, "s"));
+  return Finding{
+      .code = FindingCode::rows_thinned,
+      .evidence = {{"periods", whole}, {"row_period", recording.sampling_period, "s"}, {"loop_period", period, "s"}},
+      .key = "loop.sampling_period"};
 }
 }  // namespace
 
-std::vector<std::string> doubts_of_recording(const Recording& recording, std::span<const Recording> all,
-                                             OutputQuantity output, const Device& fitted) {
-  std::vector<std::string> doubts;
+std::vector<Finding> doubts_of_recording(const Recording& recording, std::span<const Recording> all,
+                                         OutputQuantity output, const Device& fitted) {
+  std::vector<Finding> doubts;
   for (auto& doubt : {doubt_of_units(recording, output), doubt_of_motion(recording, fitted),
                       doubt_of_force_limit(recording, fitted), doubt_of_thinned_rows(recording, all, fitted)}) {
     if (doubt) doubts.push_back(*doubt);
@@ -223,20 +218,22 @@ std::vector<std::string> doubts_of_recording(const Recording& recording, std::sp
   return doubts;
 }
 
-std::optional<std::string> doubt_of_weight(const Device& fitted) {
+std::optional<Finding> doubt_of_weight(const Device& fitted) {
   const double heaviest = fitted.parameters().motion == Motion::rotary ? 10.0 : 100.0;
   const std::vector<Remark> heavy = implausible_masses(fitted, heaviest);
   if (heavy.empty()) return std::nullopt;
-  return fmt::format("{}: {}; are force and motion in SI units?", heavy.front().what, heavy.front().consequence);
+  Finding found = heavy.front().finding.value();
+  found.code = FindingCode::fitted_body_too_heavy;
+  return found;
 }
 
-std::optional<std::string> doubt_of_lag(const std::vector<ParameterEstimate>& estimates, double recorded_period) {
+std::optional<Finding> doubt_of_lag(const std::vector<ParameterEstimate>& estimates, double recorded_period) {
   const auto lag = std::ranges::find(estimates, "actuator.time_constant", &ParameterEstimate::key);
   if (lag == estimates.end() || lag->value <= many_periods * recorded_period) return std::nullopt;
-  return fmt::format(
-      "the actuator's lag comes out as {:.4g} s, {:.3g} sampling periods: it was probably exchanged with the time that "
-      "a body's mass takes on its damping, or friction or a spring hides it; name what is free without the lag",
-      lag->value, lag->value / recorded_period);
+  return Finding{
+      .code = FindingCode::lag_beyond_drives,
+      .evidence = {{"lag", lag->value}, {"periods", lag->value / recorded_period}, {"threshold", many_periods}},
+      .key = lag->key};
 }
 
 std::vector<Remark> implausible_device(const Device& fitted, const Device* known,
@@ -248,35 +245,30 @@ std::vector<Remark> implausible_device(const Device& fitted, const Device* known
   } else if (recorded_period) {
     const double ratio = period / *recorded_period;
     if (ratio > 100.0 || ratio < 0.01) {
-      const std::string prefix = prefix_of(ratio);
-      remarks.push_back(
-          {Remark::Severity::warning,
-           fmt::format("the structure's sampling period, {:.4g} s, is {:.3g} times the record's", period, ratio),
-           "the critical stiffness is that of the structure's period",
-           prefix.empty() ? "give the period of the loop to judge in seconds"
-                          : fmt::format("is one of them in {}seconds?", prefix)});
+      Finding found{.code = FindingCode::period_far_from_record,
+                    .evidence = {{"period", period}, {"ratio", ratio}},
+                    .key = "loop.sampling_period"};
+      if (const std::string prefix = prefix_of(ratio); !prefix.empty()) found.subjects.push_back({"prefix", prefix});
+      remarks.push_back(warning(std::move(found)));
     }
   }
-  if (auto remark = implausible_lateness(fitted, recorded_period.value_or(period))) {
-    remark->remedy = "are force and motion of the same instant, and the time in seconds? Else, " + remark->remedy;
-    remarks.push_back(*std::move(remark));
+  if (const auto remark = implausible_lateness(fitted, recorded_period.value_or(period))) {
+    Finding found = remark->finding.value();
+    found.code = FindingCode::fitted_late_beyond_drives;
+    remarks.push_back(warning(std::move(found)));
   }
   if (!known) return remarks;
   for (const OddMass& each : odd_masses(fitted, *known)) {
-    const std::string prefix = prefix_of(1.0 / each.ratio);
-    remarks.push_back(
-        {Remark::Severity::warning, odd_mass_text(each),
-         "one of force, motion and structure is probably not in SI units",
-         prefix.empty() ? "check their units" : fmt::format("is the motion or the force in {} of its unit?", prefix)});
+    remarks.push_back(warning(odd_mass_finding(each)));
   }
   return remarks;
 }
 
-std::optional<std::string> doubt_of_masses(const Device& fitted, const Device& known) {
+std::optional<Finding> doubt_of_masses(const Device& fitted, const Device& known) {
   constexpr double beyond_belief = 90.0;
   for (const OddMass& each : odd_masses(fitted, known)) {
     if (each.ratio < beyond_belief && each.ratio > 1.0 / beyond_belief) continue;
-    return odd_mass_text(each) + ": force, motion or structure is not in SI units; check their units";
+    return odd_mass_finding(each);
   }
   return std::nullopt;
 }

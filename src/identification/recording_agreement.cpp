@@ -1,7 +1,5 @@
 #include "identification/recording_agreement.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <utility>
 
@@ -34,7 +32,7 @@ std::optional<OwnStiffness> own_stiffness(const OwnDevice& own) {
 
 }  // namespace
 
-std::optional<std::string> doubt_of_agreement(const std::vector<OwnDevice>& devices, const Device& pooled) {
+std::optional<Finding> doubt_of_agreement(const std::vector<OwnDevice>& devices, const Device& pooled) {
   std::vector<OwnStiffness> all;
   for (const OwnDevice& each : devices) {
     if (auto own = own_stiffness(each)) all.push_back(*std::move(own));
@@ -45,11 +43,10 @@ std::optional<std::string> doubt_of_agreement(const std::vector<OwnDevice>& devi
   const double own = limit_of(pooled).stiffness;
   if (stiffest.lower <= softest.upper || own < softest.value || own > stiffest.value) return std::nullopt;
   const std::string_view unit = units_of(pooled.parameters().motion).stiffness;
-  return fmt::format(
-      "the recordings disagree: {} alone gives a critical stiffness of {}, {} alone {}, beyond what their noise "
-      "allows; "
-      "the device, its load or its friction has changed between them: look at them one by one",
-      softest.source, quantity(softest.value, unit), stiffest.source, quantity(stiffest.value, unit));
+  return Finding{.code = FindingCode::recordings_disagree,
+                 .evidence = {{"softest", softest.value, unit}, {"stiffest", stiffest.value, unit}},
+                 .subjects = {{"of_softest", softest.source}, {"of_stiffest", stiffest.source}},
+                 .effect = {{"critical_stiffness", softest.value}}};
 }
 
 void judge_agreement(Identification& result, std::span<const Recording> recordings, const IdentifyOptions& options) {
@@ -72,17 +69,17 @@ void judge_agreement(Identification& result, std::span<const Recording> recordin
       continue;
     }
   }
-  const std::optional<std::string> doubt = doubt_of_agreement(devices, result.fit.device);
+  const std::optional<Finding> doubt = doubt_of_agreement(devices, result.fit.device);
   if (doubt) result.trust.doubt(*doubt);
 }
 
 void judge_measured(const MeasuredResponse& measured, Judgement& judgement) {
   if (measured.dependence && !measured.trust.sound()) {
-    judgement.trust.doubt("the recordings differ by more than their noise: a linear device is an average of them");
+    judgement.trust.doubt({.code = FindingCode::recordings_averaged});
   }
   if (measured.response.trust && !measured.response.trust->sound()) {
     for (const std::string& reason : measured.trust.reasons) {
-      judgement.trust.doubt(fmt::format("of the table's own critical stiffness: {}", reason));
+      judgement.trust.doubt({.code = FindingCode::table_doubts_itself, .subjects = {{"reason", reason}}});
     }
   }
   judgement.device_trust.inherit(judgement.trust);

@@ -20,8 +20,7 @@ struct OwnDevice {
 
 /// Why a device fitted to several recordings is none of theirs: two of them alone give critical stiffnesses whose 95 %
 /// intervals, 1.25 times as wide, lie apart, with the one of all (`pooled`) between. Nothing where they agree, or do not say.
-[[nodiscard]] std::optional<std::string> doubt_of_agreement(const std::vector<OwnDevice>& devices,
-                                                            const Device& pooled);
+[[nodiscard]] std::optional<Finding> doubt_of_agreement(const std::vector<OwnDevice>& devices, const Device& pooled);
 
 /// Doubts an answer otherwise sound that is an average of recordings that disagree: each alone is fitted from the answer
 /// on.

@@ -1,14 +1,11 @@
 #include "identification/residual_checks.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <optional>
 
 #include "linear_systems.hpp"
-#include "percent.hpp"
 #include "zwidth/quantity.hpp"
 
 namespace zwidth::internal {
@@ -178,13 +175,10 @@ Remark largest_model_error(const Residuals& residuals, double model_error) {
   while (band.end < residuals.size() && residuals.relative(band.end) > model_error) ++band.end;
   const double from = hertz(residuals.frequency(band.begin));
   const double to = hertz(residuals.frequency(band.end - 1));
-  const std::string where = band.end - band.begin > 1 ? fmt::format("from {:.4g} to {:.4g} Hz", from, to)
-                                                      : fmt::format("near {:.4g} Hz", from);
-  return {Remark::Severity::warning,
-          fmt::format("the structure leaves {} of the response unexplained beyond the noise, most {}",
-                      percent(model_error), where),
-          "friction, backlash or a mode that the structure lacks; the intervals are widened for it, the values may be "
-          "off by more"};
+  Finding found{.code = FindingCode::residual_largest,
+                .evidence = {{"unexplained", model_error}, {"threshold", notable_model_error}, {"from", from}}};
+  if (band.end - band.begin > 1) found.evidence.push_back({"to", to});
+  return warning(std::move(found));
 }
 
 }  // namespace
@@ -204,10 +198,9 @@ ResidualChecks check_residuals(const ParameterFit& fit, const std::vector<Respon
   const Residuals residuals(fit.residuals, points);
   if (const auto mode = missing_mode(residuals, modes)) {
     checks.missing_mode = mode->frequency;
-    remarks.push_back({Remark::Severity::warning,
-                       fmt::format("a mode near {:.4g} Hz (damping ratio about {:.2g}) is missing from the structure",
-                                   hertz(mode->frequency), mode->damping_ratio),
-                       "add a body and a link for it, or leave that band out"});
+    remarks.push_back(
+        warning({.code = FindingCode::mode_missing,
+                 .evidence = {{"frequency", hertz(mode->frequency)}, {"damping_ratio", mode->damping_ratio}}}));
   }
   if (fit.model_error > notable_model_error) remarks.push_back(largest_model_error(residuals, fit.model_error));
   return checks;

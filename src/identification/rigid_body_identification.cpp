@@ -16,7 +16,6 @@
 #include "identification/nonlinearity_of_equations.hpp"
 #include "identification/plausibility.hpp"
 #include "model/uncertainty_problem.hpp"
-#include "percent.hpp"
 #include "require_valid.hpp"
 #include "signal/clipping.hpp"
 #include "zwidth/error.hpp"
@@ -80,10 +79,9 @@ DeviceParameters device_of(const RigidBodyFit& fit, const RigidBodyOptions& opti
         Place{"body.body.coulomb", &body.coulomb, 2}, Place{delay_key, &parameters.loop.delay, delay_row}}) {
     const double value = found.values(place.row);
     if (value < 0.0) {
-      remarks.push_back(
-          {Remark::Severity::warning,
-           fmt::format("{} = {:.4g} is below 0", estimates(fit)[static_cast<std::size_t>(place.row)].key, value),
-           "taken as 0 in the device"});
+      remarks.push_back(warning({.code = FindingCode::taken_as_zero,
+                                 .evidence = {{"value", value}},
+                                 .key = estimates(fit)[static_cast<std::size_t>(place.row)].key}));
       continue;
     }
     *place.value = value;
@@ -106,11 +104,9 @@ DeviceParameters device_of(const RigidBodyFit& fit, const RigidBodyOptions& opti
 void judge_friction(RigidBodyIdentification& identified) {
   for (const ParameterEstimate* each : {&identified.fit.viscous, &identified.fit.coulomb}) {
     if (!each->upper || *each->upper >= 0.0) continue;
-    identified.trust.doubt(
-        fmt::format("{} friction comes out as {:.3g}, below 0 by more than its interval: motion is too noisy, or "
-                    "another force acts; "
-                    "lower the cutoff, or fit in time",
-                    each->key, each->value));
+    identified.trust.doubt({.code = FindingCode::friction_below_zero,
+                            .evidence = {{"value", each->value}, {"upper", *each->upper}},
+                            .subjects = {{"friction", each->key}}});
   }
 }
 
@@ -118,15 +114,14 @@ void judge_friction(RigidBodyIdentification& identified) {
 void judge_delay(RigidBodyIdentification& identified, double recorded_period) {
   const ParameterEstimate& delay = identified.fit.delay;
   if (!delay.identifiable) {
-    identified.trust.doubt("the delay from force to motion does not show in this record; move at several frequencies");
+    identified.trust.doubt({.code = FindingCode::delay_not_shown});
     return;
   }
   const double later = delay.value - 0.5 * recorded_period;
   constexpr double clear = 4.0;
   if (later <= clear * *delay.standard_deviation) return;
-  identified.remarks.push_back({Remark::Severity::note,
-                                fmt::format("the force acts {:.4g} ms later than a held force does", 1e3 * later),
-                                "the device has it as its loop.delay"});
+  identified.remarks.push_back(
+      note({.code = FindingCode::force_acts_later, .evidence = {{"milliseconds", 1e3 * later}}, .key = delay_key}));
 }
 
 /// What limits must have been excited, and the delay be known for it.
@@ -135,66 +130,59 @@ void judge_limit(RigidBodyIdentification& identified) {
   const double lowest = radians_per_second(identified.fit.lowest_hz);
   const double highest = radians_per_second(identified.fit.highest_hz);
   if (critical.limit && (critical.limit->frequency < lowest || critical.limit->frequency > highest)) {
-    identified.trust.doubt(outside_band_reason(critical.limit->frequency, lowest, highest));
+    identified.trust.doubt(limit_outside_band(critical.limit->frequency, lowest, highest));
     if (critical.limit->frequency > highest) identified.device = with_shared_lateness(identified.device);
   }
   const auto interval = analyze(identified.device, {.any_user = false}).interval;
   if (!interval || !is_open(*interval)) return;
-  std::string reason = open_interval_reason(*interval);
+  Finding open = interval_left_open(*interval);
   const Loop& loop = identified.device.parameters().loop;
   const auto deviation = identified.fit.delay.standard_deviation;
   constexpr double notable = 0.2;  // of what delays the loop: K_CR goes with it
   if (deviation && 2.0 * *deviation > notable * (0.5 * loop.sampling_period + loop.delay)) {
-    reason =
-        fmt::format("the delay is known to +-{:.2g} ms only: {}, and at higher frequencies", 2e3 * *deviation, reason);
+    open.evidence.push_back({"delay_within_ms", 2e3 * *deviation});
   }
-  identified.trust.doubt(std::move(reason));
+  identified.trust.doubt(std::move(open));
 }
 
 void judge_residual(RigidBodyIdentification& identified) {
   constexpr double doubtful = 0.1;
   constexpr double refused = 0.5;
   const double residual = identified.fit.relative_residual;
-  const std::string what =
-      fmt::format("{} of the force stays unexplained by one rigid body with dry friction", percent(residual));
-  const char* remedy = "lower the cutoff below the first vibration mode, or fit a structure of several bodies";
   if (residual <= doubtful) return;
+  const Finding found{.code = FindingCode::force_unexplained,
+                      .evidence = {{"unexplained", residual}, {"threshold", residual > refused ? refused : doubtful}}};
   if (residual > refused) {
-    identified.trust.refuse(fmt::format("{}; {}", what, remedy));
+    identified.trust.refuse(found);
   } else {
-    identified.trust.doubt(fmt::format("{}; {}", what, remedy));
+    identified.trust.doubt(found);
   }
-  identified.remarks.push_back(
-      {Remark::Severity::warning, what, "its parameters may be off by more than their intervals", remedy});
+  identified.remarks.push_back(warning(found));
 }
 
 /// A mode that limits the wall before the rigid body does is not in this model.
 void judge_mode(RigidBodyIdentification& identified) {
   const RigidBodyFit& fit = identified.fit;
   if (!fit.first_mode_hz && !fit.compliant_mode_hz) return;
-  const std::string what =
-      fit.first_mode_hz
-          ? fmt::format("the device is not rigid: its response turns back near {:.4g} Hz", *fit.first_mode_hz)
-          : fmt::format("the device is not rigid: its inertia changes with frequency, as below a mode near {:.2g} Hz",
-                        *fit.compliant_mode_hz);
-  const char* remedy = "fit a structure of several bodies to judge walls";
-  identified.trust.doubt(fmt::format("{}; {}", what, remedy));
-  identified.remarks.push_back(
-      {Remark::Severity::warning, what, "a mode may limit the wall before the rigid body does", remedy});
+  const Finding found{.code = FindingCode::device_not_rigid,
+                      .evidence = {fit.first_mode_hz ? Evidence{"first_mode", *fit.first_mode_hz}
+                                                     : Evidence{"mode_above", *fit.compliant_mode_hz}}};
+  identified.trust.doubt(found);
+  identified.remarks.push_back(warning(found));
 }
 
 void judge_nonlinearity(RigidBodyIdentification& identified, const Recording& recording, Motion motion) {
-  for (std::string& doubt :
+  for (Finding& doubt :
        doubts_of_recording(recording, std::span(&recording, 1), OutputQuantity::position, identified.device)) {
     identified.trust.doubt(std::move(doubt));
   }
-  const auto found = find_nonlinearity_of_equations(identified.fit, recording.channels[0].samples,
-                                                    recording.channels[1].samples, recording.sampling_period, motion);
+  auto found = find_nonlinearity_of_equations(identified.fit, recording.channels[0].samples,
+                                              recording.channels[1].samples, recording.sampling_period, motion);
   if (!found) return;
-  const std::string what = fmt::format("the record shows {}", found->what);
-  identified.trust.doubt(fmt::format("{}; {}", what, found->remedy));
-  identified.remarks.push_back(
-      {Remark::Severity::warning, what, "the fit takes it for mass, friction and offset", found->remedy});
+  Finding shown = shown_by("the record", std::move(found->finding));
+  shown.subjects.push_back({"taken_for", "friction"});
+  identified.trust.doubt(shown);
+  identified.remarks.push_back(warning(std::move(shown)));
 }
 
 }  // namespace
@@ -242,8 +230,7 @@ RigidBodyIdentification identify_rigid_body(const Recording& recording, const Ri
     const Channel& channel = recording.channels[i];
     for (Remark& remark : check_signal(channel, period, roles[i])) remarks.push_back(std::move(remark));
     if (is_clipped(channel, period, roles[i])) {
-      trust.doubt(fmt::format("{} is clipped: force and motion do not belong together there; reduce the amplitude",
-                              channel.name));
+      trust.doubt({.code = FindingCode::clipped_for_equations, .subjects = {{"channel", channel.name}}});
     }
   }
   for (Remark& remark : implausible_recording(recording)) remarks.push_back(std::move(remark));

@@ -1,7 +1,5 @@
 #include "identification/ringing_mode.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -63,8 +61,8 @@ std::optional<std::size_t> segment_for_modes(const RecordFit& found, std::span<c
   return static_cast<std::size_t>(wanted / period);
 }
 
-std::optional<std::string> doubt_of_ringing(const Identification& found, std::span<const Recording> recordings,
-                                            const IdentifyOptions& options) {
+std::optional<Finding> doubt_of_ringing(const Identification& found, std::span<const Recording> recordings,
+                                        const IdentifyOptions& options) {
   const auto& limit = found.analysis.critical.limit;
   if (!is_of_segments(found.response, recordings, options) || !limit) return std::nullopt;
   const RingingMode mode = longest_ringing({found.fit, found.response}, options);
@@ -73,10 +71,9 @@ std::optional<std::string> doubt_of_ringing(const Identification& found, std::sp
   const double duration = segment_duration(found.response);
   const bool limits = limit->frequency < near * mode.frequency && near * limit->frequency > mode.frequency;
   if (!limits || mode.decay * duration >= few) return std::nullopt;
-  return fmt::format(
-      "the mode near {:.4g} Hz that limits rings on for {:.3g} s, and the segments of the record are {:.3g} s long; "
-      "record for longer, or excite periodically",
-      hertz(mode.frequency), 1.0 / mode.decay, duration);
+  return Finding{
+      .code = FindingCode::segments_truncate_mode,
+      .evidence = {{"frequency", hertz(mode.frequency)}, {"ringing", 1.0 / mode.decay}, {"segment", duration}}};
 }
 
 }  // namespace zwidth::internal

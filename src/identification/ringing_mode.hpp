@@ -20,8 +20,8 @@ namespace zwidth::internal {
                                                            const IdentifyOptions& options);
 
 /// Why a limit at such a mode is not known: the records are too short for it to die out over a segment.
-[[nodiscard]] std::optional<std::string> doubt_of_ringing(const Identification& found,
-                                                          std::span<const Recording> recordings,
-                                                          const IdentifyOptions& options);
+[[nodiscard]] std::optional<Finding> doubt_of_ringing(const Identification& found,
+                                                      std::span<const Recording> recordings,
+                                                      const IdentifyOptions& options);
 
 }  // namespace zwidth::internal

@@ -281,7 +281,7 @@ TimeDomainIdentification identify_in_time(std::span<const Recording> recordings,
   describe_parameters(result, model, found->fitted.fit, found->known);
   describe_motions(result, recordings, model, shots, found->fitted, found->known.covariance);
   std::optional<double> other;
-  std::optional<std::string> open_delay;
+  std::optional<Finding> open_delay;
   if (start.may_be_late) {  // or friction is there, as the fit in time tells
     TimeDomainOptions wider = options;
     wider.free = start.free;

@@ -18,7 +18,6 @@
 #include "identification/motion_residuals.hpp"
 #include "identification/nonlinearity_test.hpp"
 #include "identification/plausibility.hpp"
-#include "percent.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/identification/frequency_response.hpp"
 #include "zwidth/model/parameter.hpp"
@@ -80,8 +79,7 @@ double reversal_ratio(const Recording& recording, const FittedMotion& motion) {
   return near / static_cast<double>(near_count) / (far / static_cast<double>(far_count));
 }
 
-constexpr const char* nothing_determined =
-    "the recordings determine no parameter of the structure; free fewer, or excite more strongly";
+Finding nothing_determined() { return {.code = FindingCode::nothing_determined, .subjects = {{"by", "recordings"}}}; }
 
 /// Whether of masses, dampings and stiffnesses, some of which are free, none is known to within half its size.
 bool knows_nothing(const std::vector<ParameterEstimate>& estimates) {
@@ -111,11 +109,11 @@ class Judge {
     const std::vector<std::string> open = open_numbers();
     const auto& interval = fit_.analysis.interval;
     if (knows_nothing(fit_.estimates) && (!interval || is_open(*interval) || !(interval->upper > 0.0))) {
-      trust_.refuse(nothing_determined);
+      trust_.refuse(nothing_determined());
     }
     if (!open.empty()) {
-      trust_.doubt(fmt::format("the data do not determine {}: taken as they stand in the start of the search",
-                               fmt::join(open, ", ")));
+      trust_.doubt({.code = FindingCode::numbers_undetermined,
+                    .subjects = {{"keys", fmt::format("{}", fmt::join(open, ", "))}, {"taken_from", "start"}}});
     }
     judge_band();
     judge_interval();
@@ -133,9 +131,9 @@ class Judge {
 
  private:
   void refuse_what_is_none() {
-    if (judged_.is_turned) trust_.refuse("the position falls as the force rises: scale one of them by -1");
+    if (judged_.is_turned) trust_.refuse({.code = FindingCode::motion_against_force});
     if (std::ranges::none_of(fit_.estimates, &ParameterEstimate::identifiable)) {
-      trust_.refuse(nothing_determined);
+      trust_.refuse(nothing_determined());
     }
   }
 
@@ -146,23 +144,21 @@ class Judge {
       motion.unexplained = unexplained_response(fit_.device, recording, motion, judged_.options.locked);
       fit_.model_error = std::max(fit_.model_error, motion.unexplained);
       if (motion.unexplained > refused_share) {
-        trust_.refuse(
-            fmt::format("the fitted device leaves {} of the response of {} unexplained; is the structure "
-                        "right, and are force and position those of one experiment?",
-                        percent(motion.unexplained), motion.source));
+        trust_.refuse({.code = FindingCode::response_in_time_unexplained,
+                       .evidence = {{"unexplained", motion.unexplained}, {"threshold", refused_share}},
+                       .subjects = {{"source", motion.source}}});
       } else if (motion.unexplained > std::clamp(known_share(), negligible_share, doubtful_share)) {
-        trust_.doubt(
-            fmt::format("the fitted device leaves {} of the response of {} unexplained beyond the noise: a "
-                        "body that it lacks, or backlash",
-                        percent(motion.unexplained), motion.source));
+        trust_.doubt({.code = FindingCode::residual_in_time_beyond_noise,
+                      .evidence = {{"unexplained", motion.unexplained},
+                                   {"threshold", std::clamp(known_share(), negligible_share, doubtful_share)}},
+                      .subjects = {{"source", motion.source}}});
       }
       constexpr double clear = 6.0;
       const double ratio = reversal_ratio(recording, motion);
       if (ratio > clear) {
-        trust_.doubt(
-            fmt::format("the residuals of {} are {:.2g} times larger where the motion turns than elsewhere: "
-                        "the friction is not Coulomb's, or there is backlash",
-                        motion.source, std::sqrt(ratio)));
+        trust_.doubt({.code = FindingCode::residuals_larger_at_reversals,
+                      .evidence = {{"ratio", std::sqrt(ratio)}, {"threshold", std::sqrt(clear)}},
+                      .subjects = {{"source", motion.source}}});
       }
       judge_nonlinearity(r);
     }
@@ -178,8 +174,7 @@ class Judge {
   void judge_nonlinearity(std::size_t r) {
     const Recording& recording = judged_.recordings[r];
     const FittedMotion& motion = fit_.motions[r];
-    for (std::string& doubt :
-         doubts_of_recording(recording, judged_.recordings, OutputQuantity::position, fit_.device)) {
+    for (Finding& doubt : doubts_of_recording(recording, judged_.recordings, OutputQuantity::position, fit_.device)) {
       trust_.doubt(std::move(doubt));
     }
     if (auto doubt = doubt_of_lag(fit_.estimates, recording.sampling_period)) trust_.doubt(*std::move(doubt));
@@ -187,29 +182,25 @@ class Judge {
     std::ranges::copy_if(judged_.shots, std::back_inserter(shots), [r](const Shot& shot) { return shot.record == r; });
     if (motion.feedback > clear_feedback) return;  // the force answers to the errors: doubtful for that
     const Device device = device_in_experiment(fit_.device, judged_.options.locked, recording.sampling_period);
-    const auto found = find_nonlinearity(
+    auto found = find_nonlinearity(
         {device, recording.channels[0].samples, recording.channels[1].samples, motion.residuals, shots});
-    if (found) return trust_.doubt(fmt::format("{} shows {}; {}", motion.source, found->what, found->remedy));
-    const auto weak =
-        doubt_of_weak_forces(judged_.weak_forces[r], fit_.analysis, device.parameters().motion, motion.source);
-    if (weak) trust_.doubt(fmt::format("{}; {}", weak->what, weak->remedy));
+    if (found) return trust_.doubt(shown_by(motion.source, std::move(found->finding)));
+    auto weak = doubt_of_weak_forces(judged_.weak_forces[r], fit_.analysis, device.parameters().motion, motion.source);
+    if (weak) trust_.doubt(*std::move(weak));
   }
 
   void judge_feedback() {
     for (const FittedMotion& each : fit_.motions) {
       if (each.feedback <= clear_feedback) continue;
-      trust_.doubt(
-          fmt::format("the force of {} answers to the noise of its position: recorded in feedback, where disturbances "
-                      "bias a fit by as much as they are of the force; record with a force made beforehand",
-                      each.source));
+      trust_.doubt({.code = FindingCode::recorded_in_feedback,
+                    .evidence = {{"correlation", each.feedback}, {"threshold", clear_feedback}},
+                    .subjects = {{"source", each.source}}});
     }
   }
 
   void judge_search() {
     if (fit_.settled) return;
-    trust_.doubt(
-        "the search for the parameters was stopped while it still improved; free fewer parameters, or start from "
-        "values that are nearly right");
+    trust_.doubt({.code = FindingCode::search_stopped});
   }
 
   void judge_hand() {
@@ -233,14 +224,13 @@ class Judge {
   void judge_delay() {
     if (judged_.open_delay) trust_.doubt(*judged_.open_delay);
     if (!judged_.other_delay) return;
-    const Remark remark = ignored_delay_remark(*judged_.other_delay, judged_.structure.loop().delay);
-    trust_.doubt(fmt::format("{}; {}", remark.what, remark.remedy));
+    trust_.doubt(ignored_delay(*judged_.other_delay, judged_.structure.loop().delay));
   }
 
   void judge_what_was_given() {
     if (judged_.disagreement) trust_.doubt(*judged_.disagreement);
     for (const ContradictedNumber& each : judged_.contradicted) {
-      trust_.doubt(contradiction_reason(each));
+      trust_.doubt(contradiction(each));
     }
   }
 
@@ -257,12 +247,12 @@ class Judge {
     const auto& limit = fit_.analysis.critical.limit;
     if (!limit || !(fit_.highest > 0.0)) return;
     if (limit->frequency >= fit_.lowest && limit->frequency <= fit_.highest) return;
-    trust_.doubt(outside_band_reason(limit->frequency, fit_.lowest, fit_.highest));
+    trust_.doubt(limit_outside_band(limit->frequency, fit_.lowest, fit_.highest));
   }
 
   void judge_interval() {
     const auto& interval = fit_.analysis.interval;
-    if (interval && is_open(*interval)) trust_.doubt(open_interval_reason(*interval));
+    if (interval && is_open(*interval)) trust_.doubt(interval_left_open(*interval));
     // Friction makes a linear fit's too high, never too low: a second route, on the safe side.
     const auto& linear = judged_.linear;
     if (!linear || !interval) return;
@@ -272,37 +262,33 @@ class Judge {
       return each.key.ends_with(".coulomb") && each.lower.value_or(0.0) > 0.0;
     });
     if (linear->leaves_too_much && !shows_friction && value > linear->value) {
-      trust_.doubt(
-          "a linear fit of the same record leaves more than its noise, and no friction is found that explains it: a "
-          "spring to the ground, or a body, that the structure lacks passes for noise; name it");
+      trust_.doubt({.code = FindingCode::linear_fit_leaves_more});
     }
     if (value - linear->value <= apart) return;
     const auto unit = units_of(fit_.device.parameters().motion).stiffness;
-    trust_.doubt(fmt::format(
-        "a linear fit of the same record gives {}, less than the fit with friction, which can only raise it: a "
-        "spring to the ground, or a body, that the structure lacks passes for noise; name it",
-        quantity(linear->value, unit)));
+    trust_.doubt({.code = FindingCode::linear_fit_gives_less,
+                  .evidence = {{"linear", linear->value, unit}, {"fitted", value, unit}},
+                  .effect = {{"critical_stiffness", linear->value}}});
   }
 
   void describe() {
     const char* unit = fit_.device.parameters().motion == Motion::rotary ? "N m" : "N";
     for (const ParameterEstimate& each : fit_.estimates) {
       if (!each.key.ends_with(".coulomb") || !each.lower || !(*each.lower > 0.0)) continue;
-      fit_.remarks.push_back({Remark::Severity::note,
-                              fmt::format("dry friction of {:.3g} {} ({})", each.value, unit, each.key),
-                              "the critical stiffness is that of the device without it: small motion is damped by it"});
+      fit_.remarks.push_back(note({.code = FindingCode::dry_friction_fitted,
+                                   .evidence = {{"force", each.value}},
+                                   .subjects = {{"unit", unit}},
+                                   .key = each.key}));
     }
     for (const FittedMotion& each : fit_.motions) {
       constexpr double significant = 4.0;
       if (std::abs(each.constant_force) <= significant * each.constant_force_deviation) continue;
-      fit_.remarks.push_back({Remark::Severity::note,
-                              fmt::format("a constant force of {:.3g} {} beside the recorded one in {}",
-                                          each.constant_force, unit, each.source),
-                              "an offset of the actuator, gravity, or friction that differs by direction; the fit "
-                              "allows for it"});
+      fit_.remarks.push_back(note({.code = FindingCode::constant_force,
+                                   .evidence = {{"force", each.constant_force}},
+                                   .subjects = {{"unit", unit}, {"source", each.source}}}));
     }
     for (const std::string& reason : trust_.reasons) {
-      fit_.remarks.push_back({Remark::Severity::warning, reason, "the critical stiffness may be wrong"});
+      fit_.remarks.push_back(warning({.code = FindingCode::limit_may_be_wrong, .subjects = {{"reason", reason}}}));
     }
   }
 

@@ -18,11 +18,11 @@ struct JudgedTimeFit {
   const Device& structure;
   const TimeDomainOptions& options;
   std::span<const Shot> shots;
-  bool is_turned = false;                   ///< the position falls as the force rises
-  std::optional<double> other_delay{};      ///< s; that the recordings show where another is given and not free
-  std::optional<std::string> open_delay{};  ///< why one that nobody stated may lower the critical stiffness
+  bool is_turned = false;               ///< the position falls as the force rises
+  std::optional<double> other_delay{};  ///< s; that the recordings show where another is given and not free
+  std::optional<Finding> open_delay{};  ///< why one that nobody stated may lower the critical stiffness
   std::optional<LinearStiffness> linear{};
-  std::optional<std::string> disagreement{};                  ///< of the recordings
+  std::optional<Finding> disagreement{};                      ///< of the recordings
   std::vector<ContradictedNumber> contradicted{};             ///< numbers of the structure that were not free
   std::vector<std::vector<WeakForceEvidence>> weak_forces{};  ///< of each recording
 };

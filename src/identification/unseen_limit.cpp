@@ -15,7 +15,6 @@
 #include "identification/fit_judgement.hpp"
 #include "identification/link_mode.hpp"
 #include "identification/misfit_doubt.hpp"
-#include "percent.hpp"
 #include "stability/device_draws.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/parameter.hpp"
@@ -47,7 +46,7 @@ std::optional<Device> moved(const Device& device, std::size_t i, double deviatio
 
 /// A limit where the record shows nothing.
 struct UnseenLimit {
-  std::string why;  ///< what the record leaves open
+  Finding why;  ///< what the record leaves open
   CriticalStiffness critical;
 };
 
@@ -84,9 +83,10 @@ std::optional<UnseenLimit> at_an_end(const Device& device, const ParameterEstima
       if (!fit || !explains_as_much(*fit, result.fit, result.response.line_correlation)) continue;
       CriticalStiffness critical = limit_of(fit->device);
       if (!limits(critical)) continue;
-      return UnseenLimit{
-          fmt::format("{} is known to {} only: within that", each.key, percent(*each.standard_deviation / each.value)),
-          std::move(critical)};
+      return UnseenLimit{{.code = FindingCode::unseen_limit_within_interval,
+                          .evidence = {{"relative_deviation", *each.standard_deviation / each.value}},
+                          .key = each.key},
+                         std::move(critical)};
     }
   }
   return std::nullopt;
@@ -285,21 +285,24 @@ std::optional<Device> judge_unseen_limit(Identification& result, const Device& a
   const auto is_as_good = [&](const ParameterFit& fit) { return explains_as_much(fit, result.fit, correlation); };
   const auto may_be = [&](const ParameterFit& fit) { return !is_contradicted(fit, result.fit, correlation); };
   std::optional<Device> better;
-  const auto look = [&](const std::vector<HeldStart>& starts, const auto& is_allowed, const char* why) {
+  const auto look = [&](const std::vector<HeldStart>& starts, const auto& is_allowed, FindingCode why) {
     if (unseen || better) return;
     Elsewhere elsewhere = searched_elsewhere(starts, result, options, limits, is_allowed);
     if (elsewhere.best) better = better_device(*elsewhere.best, result, options);
-    if (elsewhere.limit) unseen = UnseenLimit{why, *std::move(elsewhere.limit)};
+    if (elsewhere.limit) unseen = UnseenLimit{{.code = why}, *std::move(elsewhere.limit)};
   };
-  look(all_light_modes(result), may_be, "the record does not show how much a mode above it is damped: hardly at all,");
-  look(other_values(result), is_as_good, "the record leaves numbers open: with others that explain it as well");
+  look(all_light_modes(result), may_be, FindingCode::unseen_limit_of_light_mode);
+  look(other_values(result), is_as_good, FindingCode::unseen_limit_of_other_values);
   if (!unseen) return better;
   const double frequency = unseen->critical.limit->frequency;
   const bool is_above = frequency > lines.back();
-  result.trust.doubt(
-      fmt::format("{} a crossover near {:.4g} Hz, {} the measured band, may limit at {:.4g} {}; excite {} frequencies",
-                  unseen->why, hertz(frequency), is_above ? "above" : "below", unseen->critical.stiffness,
-                  units_of(parameters.motion).stiffness, is_above ? "higher" : "lower"));
+  Finding found = std::move(unseen->why);
+  found.evidence.push_back({"frequency", hertz(frequency)});
+  found.evidence.push_back({"stiffness", unseen->critical.stiffness});
+  found.subjects.push_back({"side", is_above ? "above" : "below"});
+  found.subjects.push_back({"unit", std::string(units_of(parameters.motion).stiffness)});
+  found.effect.push_back({"critical_stiffness", unseen->critical.stiffness});
+  result.trust.doubt(std::move(found));
   return better;
 }
 

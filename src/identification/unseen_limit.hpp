@@ -19,10 +19,4 @@ namespace zwidth::internal {
 [[nodiscard]] std::optional<Device> judge_unseen_limit(Identification& result, const Device& as_fitted,
                                                        const IdentifyOptions& options);
 
-/// Where the fit that began anew from such a device is not the best either.
-inline constexpr const char* side_minimum_reason =
-    "other values of its numbers explain the record better: the search ended beside the device; excite more strongly "
-    "or "
-    "for longer, or give values that are nearly right";
-
 }  // namespace zwidth::internal

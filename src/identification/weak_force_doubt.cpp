@@ -1,9 +1,6 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <optional>
 #include <span>
 #include <string>
@@ -12,7 +9,6 @@
 #include "identification/friction_test.hpp"
 #include "identification/nonlinear_forces.hpp"
 #include "identification/weak_force_test.hpp"
-#include "percent.hpp"
 #include "zwidth/quantity.hpp"
 
 namespace zwidth::internal {
@@ -26,12 +22,14 @@ constexpr double clear_suspect = 6.0;
 // Of an interval's lower end: a force beside which the critical stiffness lies hardly below it does not matter.
 constexpr double notable = 0.99;
 
-std::string about(double stiffness, Motion motion) {
-  return fmt::format("the critical stiffness is about {}", quantity(stiffness, units_of(motion).stiffness));
+/// The critical stiffness beside such a force.
+void add_beside(double stiffness, Motion motion, Finding& found) {
+  found.evidence.push_back({"beside", stiffness, units_of(motion).stiffness});
+  found.effect.push_back({"critical_stiffness", stiffness});
 }
 
-std::optional<Nonlinearity> doubt_of_mode(const WeakForceEvidence& mode, double lower, Motion motion,
-                                          const std::string& source) {
+std::optional<Finding> doubt_of_mode(const WeakForceEvidence& mode, double lower, Motion motion,
+                                     const std::string& source) {
   // One mode may not be all that lacks, where it is large and plain.
   constexpr double large = 0.1;    // of the response
   constexpr double plain = 20.0;   // 13 were seen at the upper end of a right fit's band, of an encoder's counts
@@ -43,49 +41,44 @@ std::optional<Nonlinearity> doubt_of_mode(const WeakForceEvidence& mode, double 
   const bool lowers = mode.stiffness_beside < notable * lower && mode.share > least;
   const bool is_large = mode.share > large && mode.ratio > plain;
   if (!(mode.ratio > clear) || !(lowers || is_large)) return std::nullopt;
-  return Nonlinearity{fmt::format("{} shows a mode near {:.4g} Hz that the structure lacks, {} the response there{}",
-                                  source, mode.frequency / (2.0 * std::numbers::pi),
-                                  mode.share > 1.0 ? "larger than" : percent(mode.share) + " of",
-                                  lowers ? ": with it " + about(mode.stiffness_beside, motion) : ""),
-                      "give the structure one more body (a frame that shakes is one), or hold the device firmly",
-                      {}};
+  Finding found{.code = FindingCode::unmodelled_mode,
+                .evidence = {{"frequency", hertz(mode.frequency)},
+                             {mode.share > 1.0 ? "times" : "share", mode.share},
+                             {"deviations", mode.ratio},
+                             {"threshold", clear}},
+                .subjects = {{"source", source}}};
+  if (lowers) add_beside(mode.stiffness_beside, motion, found);
+  return found;
 }
 
-std::optional<Nonlinearity> doubt_of_skew(const WeakForceEvidence& skew, const std::string& source) {
+std::optional<Finding> doubt_of_skew(const WeakForceEvidence& skew, const std::string& source) {
   if (!(skew.ratio > clear_suspect)) return std::nullopt;
-  return Nonlinearity{fmt::format("{} shows a delay that changes by {} from its beginning to its end: the clocks of "
-                                  "force and position run apart, or under a sweep something delays some frequencies "
-                                  "more than others",
-                                  source, quantity(std::abs(skew.change), "s")),
-                      "record both by one clock, under noise or a multisine",
-                      {}};
+  return Finding{
+      .code = FindingCode::delay_changes,
+      .evidence = {{"change", std::abs(skew.change), "s"}, {"deviations", skew.ratio}, {"threshold", clear_suspect}},
+      .subjects = {{"source", source}}};
 }
 
-std::optional<Nonlinearity> doubt_of_change(const WeakForceEvidence& change, double lower, Motion motion,
-                                            const std::string& source) {
+std::optional<Finding> doubt_of_change(const WeakForceEvidence& change, double lower, Motion motion,
+                                       const std::string& source) {
   constexpr double far = 0.97;
   if (!(change.ratio > clear_suspect) || !(change.stiffness_beside < far * lower)) return std::nullopt;
-  return Nonlinearity{fmt::format("{} shows that the damping of {} changes by {} while it is recorded, of which "
-                                  "the fit is a mean: at the softest {} or less",
-                                  source, change.body, quantity(std::abs(change.change), units_of(motion).damping),
-                                  about(change.stiffness_beside, motion)),
-                      "record the device when it is warm, or as cold as it will be used",
-                      {}};
+  Finding found{.code = FindingCode::damping_changes,
+                .evidence = {{"change", std::abs(change.change), units_of(motion).damping},
+                             {"deviations", change.ratio},
+                             {"threshold", clear_suspect}},
+                .subjects = {{"source", source}, {"body", change.body}}};
+  add_beside(change.stiffness_beside, motion, found);
+  return found;
 }
 
-struct Words {
-  const char* what;
-  const char* remedy;
-};
-
-Words words_of(Kind kind) {
-  if (kind == Kind::drag) return {force_not_in_proportion_to_the_speed, slow_motion_remedy};
-  if (kind == Kind::presliding) return {friction_not_coulombs, strong_motion_remedy};
-  return {"friction in a link: a belt, cable or gear that rubs, or gives before it slips", strong_motion_remedy};
+FindingCode code_of(Kind kind) {
+  if (kind == Kind::drag) return FindingCode::drag;
+  return kind == Kind::presliding ? FindingCode::friction_not_coulombs : FindingCode::link_friction;
 }
 
-std::optional<Nonlinearity> doubt_of(const WeakForceEvidence& force, const Analysis& analysis, Motion motion,
-                                     const std::string& source) {
+std::optional<Finding> doubt_of(const WeakForceEvidence& force, const Analysis& analysis, Motion motion,
+                                const std::string& source) {
   const double value = analysis.critical.stiffness;
   const double lower = analysis.interval ? analysis.interval->lower : value;
   const double upper = analysis.interval ? analysis.interval->upper : value;
@@ -97,27 +90,28 @@ std::optional<Nonlinearity> doubt_of(const WeakForceEvidence& force, const Analy
   // more; of friction that bends before it slips, 23 to 580 % too high, 10 and more; in a link, 24 to 90 % too high, 20 and more.
   constexpr double possible = 3.0;
   if (force.ratio < possible) return std::nullopt;
-  const auto [what, remedy] = words_of(force.kind);
+  Finding found{
+      .code = code_of(force.kind), .evidence = {{"deviations", force.ratio}}, .subjects = {{"source", source}}};
   const double beside = force.stiffness_beside;
   if (force.ratio < significant_friction) {
     constexpr double little_of_a_link = 0.97;  // one that does not limit hardly counts
     if (!(beside < (force.kind == Kind::link_friction ? little_of_a_link : notable) * lower)) return std::nullopt;
-    return Nonlinearity{
-        fmt::format("{} hardly tells damping from {}: beside it {}", source, what, about(beside, motion)), remedy, {}};
+    found.evidence.push_back({"below", significant_friction});
+    add_beside(beside, motion, found);
+    return found;
   }
   // Of friction of another kind one step does not tell how far away the device is. In a link it makes intervals wide.
   const double far_beside = force.kind == Kind::link_friction ? std::max(lower, 0.9 * value) : notable * lower;
   if (force.kind != Kind::presliding && far_beside <= beside && beside <= upper) return std::nullopt;
-  return Nonlinearity{
-      fmt::format("{} shows {}{}", source, what, beside < value ? " (beside it " + about(beside, motion) + ")" : ""),
-      remedy,
-      {}};
+  found.evidence.push_back({"threshold", significant_friction});
+  if (beside < value) add_beside(beside, motion, found);
+  return found;
 }
 
 }  // namespace
 
-std::optional<Nonlinearity> doubt_of_weak_forces(std::span<const WeakForceEvidence> forces, const Analysis& analysis,
-                                                 Motion motion, const std::string& source) {
+std::optional<Finding> doubt_of_weak_forces(std::span<const WeakForceEvidence> forces, const Analysis& analysis,
+                                            Motion motion, const std::string& source) {
   std::vector<WeakForceEvidence> clearest(forces.begin(), forces.end());
   std::ranges::sort(clearest, std::ranges::greater{}, &WeakForceEvidence::ratio);
   for (const WeakForceEvidence& each : clearest) {  // one that does not matter hides no other

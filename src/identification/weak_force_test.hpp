@@ -49,11 +49,11 @@ struct WeakForceEvidence {
                                                                            const std::vector<std::string>& locked,
                                                                            double lowest, double highest);
 
-/// What `source`, a record of a fit without them, shows in words: friction of another kind (significant_friction, in
+/// What `source`, a record of a fit without them, shows: friction of another kind (significant_friction, in
 /// deviations), drag (the same) beside which the critical stiffness is outside the interval, or that it hardly tells the
 /// fitted numbers from one beside which that is lower. With its remedy.
-[[nodiscard]] std::optional<Nonlinearity> doubt_of_weak_forces(std::span<const WeakForceEvidence> forces,
-                                                               const Analysis& analysis, Motion motion,
-                                                               const std::string& source);
+[[nodiscard]] std::optional<Finding> doubt_of_weak_forces(std::span<const WeakForceEvidence> forces,
+                                                          const Analysis& analysis, Motion motion,
+                                                          const std::string& source);
 
 }  // namespace zwidth::internal

@@ -10,6 +10,7 @@
 #include <numeric>
 #include <vector>
 
+#include "counted.hpp"
 #include "identification/encoder_rounding.hpp"
 #include "signal/averaged_spectra.hpp"
 #include "signal/window_function.hpp"
@@ -89,12 +90,10 @@ double differencing_gain(double angle) { return 4.0 * std::sin(0.5 * angle) * st
 void remark_resolution(FrequencyResponse& response, double coarsest_frequency, double share) {
   constexpr double noticeable = 0.1;
   if (share < noticeable) return;
-  response.remarks.push_back(
-      {Remark::Severity::warning,
-       fmt::format(
-           "the segments are too short to resolve the response near {:.4g} Hz: the window smears it by {:.0f} %",
-           coarsest_frequency / (2.0 * std::numbers::pi), 100.0 * share),
-       "peaks there are in truth sharper; record for longer, or give longer segments"});
+  response.remarks.push_back(warning({.code = FindingCode::segments_too_short,
+                                      .evidence = {{"frequency", coarsest_frequency / (2.0 * std::numbers::pi)},
+                                                   {"smearing", share},
+                                                   {"threshold", noticeable}}}));
 }
 
 /// Segments at either end of a record in which the window has not yet, or no longer, its full weight.
@@ -194,29 +193,23 @@ Points points_of(const AveragedSpectra& sums, const Cut& cut, double sampling_pe
 
 void add_remarks(FrequencyResponse& response, const Cut& cut, const Points& points, double sampling_period) {
   const Segments& segments = cut.segments;
-  response.remarks.push_back(
-      {Remark::Severity::note,
-       fmt::format("{} segments of {} samples ({:.4g} Hz between lines), worth {:.1f} independent averages{}",
-                   segments.count, segments.length, 1.0 / (static_cast<double>(segments.length) * sampling_period),
-                   segments.averages,
-                   cut.form == SignalForm::differenced ? "; force and motion differenced, against drift" : ""),
-       ""});
-  if (cut.rested) {
-    response.remarks.push_back(
-        {Remark::Severity::note, "the record begins at rest, and is taken to have been at rest before", ""});
-  }
+  Finding averaged{.code = FindingCode::segments_averaged,
+                   .evidence = {counted("segments", segments.count),
+                                counted("samples", segments.length),
+                                {"spacing", 1.0 / (static_cast<double>(segments.length) * sampling_period)},
+                                {"averages", segments.averages}}};
+  if (cut.form == SignalForm::differenced) averaged.subjects.push_back({"form", "differenced"});
+  response.remarks.push_back(note(std::move(averaged)));
+  if (cut.rested) response.remarks.push_back(note({.code = FindingCode::begins_at_rest}));
   if (points.at_ends > 0) {
     response.remarks.push_back(
-        {Remark::Severity::note,
-         fmt::format("{} lines are left out: the force excites them only where the record begins or ends",
-                     points.at_ends),
-         "a device fitted to a record that begins at rest has them all the same; else let the force begin later, or "
-         "end earlier, than the record"});
+        note({.code = FindingCode::lines_of_record_ends, .evidence = {counted("lines", points.at_ends)}}));
   }
-  if (segments.averages < 2.0) {
-    response.remarks.push_back({Remark::Severity::warning,
-                                "fewer than two independent averages: the noise cannot be told from the response",
-                                "give shorter segments, or record for longer"});
+  constexpr double fewest_averages = 2.0;
+  if (segments.averages < fewest_averages) {
+    response.remarks.push_back(
+        warning({.code = FindingCode::too_few_averages,
+                 .evidence = {{"averages", segments.averages}, {"threshold", fewest_averages}}}));
   }
   remark_resolution(response, points.worst_frequency, points.worst_smearing);
 }

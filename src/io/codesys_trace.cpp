@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "counted.hpp"
 #include "io/column_names.hpp"
 #include "io/export_lines.hpp"
 #include "io/prose.hpp"
@@ -111,9 +112,8 @@ class TraceReader {
   }
 
   TraceRead leave_out(const ExportLine& line) {
-    exported_.remarks.push_back({Remark::Severity::warning,
-                                 fmt::format("the last line, {}, is cut off and left out", line.line.number),
-                                 "the trace may have been saved in part"});
+    exported_.remarks.push_back(
+        warning({.code = FindingCode::last_line_cut_off, .evidence = {counted("line", line.line.number)}}));
     return {};
   }
 
@@ -152,11 +152,9 @@ class TraceReader {
       times.lines = column.lines;
       exported_.columns.push_back(std::move(times));
     }
-    exported_.remarks.insert(exported_.remarks.begin(),
-                             {Remark::Severity::note,
-                              fmt::format("a trace of CODESYS: {} variables, each with times of its own{}", variables,
-                                          is_stated ? " in " + unit : ""),
-                              ""});
+    Finding found{.code = FindingCode::codesys_trace, .evidence = {counted("variables", variables)}};
+    if (is_stated) found.subjects.push_back({"unit", unit});
+    exported_.remarks.insert(exported_.remarks.begin(), note(std::move(found)));
     return std::nullopt;
   }
 

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "counted.hpp"
 #include "io/column_names.hpp"
 #include "io/export_lines.hpp"
 #include "io/prose.hpp"
@@ -49,11 +50,10 @@ class DeskReader {
       if (!*next) break;
       if (auto taken = take(**next); !taken) return tl::unexpected(std::move(taken.error()));
     }
-    exported_.remarks.insert(exported_.remarks.begin(),
-                             {Remark::Severity::note,
-                              fmt::format("an export of dSPACE ControlDesk: {} signals in {} section{}, times in s",
-                                          exported_.columns.size() - sections_, sections_, sections_ == 1 ? "" : "s"),
-                              ""});
+    exported_.remarks.insert(
+        exported_.remarks.begin(),
+        note({.code = FindingCode::controldesk_export,
+              .evidence = {counted("signals", exported_.columns.size() - sections_), counted("sections", sections_)}}));
     return std::move(exported_);
   }
 
@@ -138,10 +138,10 @@ class DeskReader {
     while (size > cells_ && line.cells[size - 1].empty()) --size;
     if (size != cells_) {
       if (line.is_open && size < cells_) {
-        exported_.remarks.push_back({Remark::Severity::warning,
-                                     fmt::format("the last line, {}, is cut off after {} of {} cells and left out",
-                                                 line.line.number, size, cells_),
-                                     "the export may have been interrupted"});
+        exported_.remarks.push_back(warning(
+            {.code = FindingCode::last_line_cut_off,
+             .evidence = {counted("line", line.line.number), counted("cells", size), counted("expected", cells_)},
+             .subjects = {{"document", "export"}}}));
         return {};
       }
       return tl::unexpected(lines_.refused(line, fmt::format("has {} cells", size),

@@ -65,22 +65,16 @@ std::optional<InputError> different_lengths(const std::vector<TimedColumn>& colu
 void judge_scale(const ExportedColumn& column, const ColumnRequest& request, Recording& recording) {
   const auto& [factor, offset] = column.scale;
   if (factor == 1.0 && offset == 0.0) return;
-  std::string what = fmt::format("the header states a scale factor of {:.6g} and an offset of {:.6g} for {}", factor,
-                                 offset, in_quotes(column.name));
-  if (factor == 1.0) {
-    recording.remarks.push_back(
-        {Remark::Severity::note, std::move(what), "used as it stands: an offset alone changes no response"});
+  Finding found{.code = FindingCode::stated_scale_unclear,
+                .evidence = {{"factor", factor}, {"offset", offset}},
+                .subjects = {{"column", in_quotes(column.name)}}};
+  if (factor == 1.0 || request.scale) {
+    found.code = factor == 1.0 ? FindingCode::stated_offset_unused : FindingCode::stated_scale_unused;
+    recording.remarks.push_back(note(std::move(found)));
     return;
   }
-  if (request.scale) {
-    recording.remarks.push_back({Remark::Severity::note, std::move(what), "the scale that is given counts alone"});
-    return;
-  }
-  Remark remark{Remark::Severity::warning, std::move(what),
-                "the file does not say whether its values are scaled by it: they are used as they stand",
-                fmt::format("give the column's scale: 1 where they are scaled, {:.6g} where they are raw", factor)};
-  recording.doubts.push_back(fmt::format("{}; {}", remark.what, remark.consequence));
-  recording.remarks.push_back(std::move(remark));
+  recording.doubts.push_back(found);
+  recording.remarks.push_back(warning(std::move(found)));
 }
 
 }  // namespace
@@ -137,9 +131,10 @@ tl::expected<Recording, InputError> make_recording(ExportedColumns exported, con
     const auto found = find_column(names, request.name, exported.source);
     judge_scale(exported.columns[*found], request, *recording);
   }
-  for (const Remark& doubt : exported.doubts) {
+  for (Finding& doubt : exported.doubts) {
     if (options.rate) {
-      remarks.push_back({Remark::Severity::note, doubt.what, "the rate that is given counts"});
+      doubt.evidence.push_back({"rate", *options.rate});
+      remarks.push_back(note(doubt));
     } else {
       add_contradiction(doubt, *recording);
     }

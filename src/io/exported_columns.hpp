@@ -39,7 +39,7 @@ struct ExportedColumns {
   std::string source;
   std::vector<ExportedColumn> columns;  ///< in the order of the file
   std::vector<Remark> remarks;          ///< what was read and what was passed over
-  std::vector<Remark> doubts;           ///< what makes every result doubtful unless a rate is stated
+  std::vector<Finding> doubts;          ///< what makes every result doubtful unless a rate is stated
 };
 
 /// Marks the columns to keep: those that the options ask for.

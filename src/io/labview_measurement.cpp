@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "counted.hpp"
 #include "io/column_names.hpp"
 #include "io/column_unit.hpp"
 #include "io/export_lines.hpp"
@@ -254,10 +255,9 @@ class LvmReader {
     if (!(std::abs(skew) < largest_skew * period) && skew != 0.0) return first_begin_;
     if (std::abs(skew) > smallest_skew * period) {
       exported_.remarks.push_back(
-          {Remark::Severity::warning,
-           fmt::format("{} was sampled {:.3g} us {} the first channel by its header", in_quotes(names_[c]),
-                       1e6 * std::abs(skew), skew > 0.0 ? "after" : "before"),
-           "its rows are taken for samples of the same instants: the response has that much more or less delay"});
+          warning({.code = FindingCode::channel_sampled_off_the_first,
+                   .evidence = {{"microseconds", 1e6 * std::abs(skew)}},
+                   .subjects = {{"column", in_quotes(names_[c])}, {"side", skew > 0.0 ? "after" : "before"}}}));
     }
     return seconds;
   }
@@ -267,11 +267,9 @@ class LvmReader {
       const LvmChannel& channel = channels_[c];
       if (x_columns_ != LabviewX::no || channel.declared == 0 || channel.rows <= channel.declared) continue;
       if (!exported_.columns[c].is_kept || !exported_.doubts.empty()) continue;
-      exported_.doubts.push_back(
-          {Remark::Severity::warning,
-           fmt::format("the header states {} samples of {} and {} rows follow, without times", channel.declared,
-                       in_quotes(exported_.columns[c].name), channel.rows),
-           "they are read as if no time were lost between one write and the next; state the rate where that is so"});
+      exported_.doubts.push_back({.code = FindingCode::more_rows_than_stated,
+                                  .evidence = {counted("stated", channel.declared), counted("rows", channel.rows)},
+                                  .subjects = {{"column", in_quotes(exported_.columns[c].name)}}});
     }
   }
 
@@ -286,10 +284,11 @@ class LvmReader {
     }
     if (is_text) return tl::unexpected(lines_.no_number(line, 0, exported_.columns[0].name));
     if (line.is_open && line.cells.size() < std::min(widest_, names_.size())) {
-      exported_.remarks.push_back({Remark::Severity::warning,
-                                   fmt::format("the last line, {}, is cut off after {} of {} cells and left out",
-                                               line.line.number, line.cells.size(), widest_),
-                                   "the recording may have been interrupted"});
+      exported_.remarks.push_back(
+          warning({.code = FindingCode::last_line_cut_off,
+                   .evidence = {counted("line", line.line.number), counted("cells", line.cells.size()),
+                                counted("expected", widest_)},
+                   .subjects = {{"document", "recording"}}}));
       return {};
     }
     widest_ = std::max(widest_, line.cells.size());
@@ -347,16 +346,13 @@ class LvmReader {
   }
 
   void describe() {
-    const std::string_view saved = x_columns_ == LabviewX::no      ? "times from X0 and Delta_X"
-                                   : x_columns_ == LabviewX::multi ? "a time column for each"
-                                                                   : "one time column";
+    const char* times = x_columns_ == LabviewX::no ? "stated" : x_columns_ == LabviewX::multi ? "each" : "one";
     const std::size_t channels = x_columns_ == LabviewX::multi ? names_.size() / 2 : names_.size() - 1;
-    exported_.remarks.insert(
-        exported_.remarks.begin(),
-        {Remark::Severity::note,
-         fmt::format("a LabVIEW measurement file: {} channels, {}, {} segment{}, rows from line {}", channels, saved,
-                     segments_, segments_ == 1 ? "" : "s", rows_begin_),
-         ""});
+    exported_.remarks.insert(exported_.remarks.begin(),
+                             note({.code = FindingCode::labview_measurement_file,
+                                   .evidence = {counted("channels", channels), counted("segments", segments_),
+                                                counted("first_row", rows_begin_)},
+                                   .subjects = {{"times", times}}}));
   }
 
   ExportLines& lines_;

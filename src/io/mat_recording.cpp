@@ -95,18 +95,17 @@ std::string names_of(const std::vector<SkippedMatArray>& skipped, Kind kind, boo
 
 std::vector<Remark> remarks_on_skipped(const std::vector<SkippedMatArray>& skipped) {
   std::vector<Remark> remarks;
-  const auto add = [&](Remark::Severity severity, std::string_view what, const std::string& names,
-                       std::string meaning) {
-    if (!names.empty()) remarks.push_back({severity, fmt::format("{}: {}", what, names), std::move(meaning)});
+  const auto add = [&](FindingCode code, Kind kind, bool with_reason) {
+    std::string names = names_of(skipped, kind, with_reason);
+    if (names.empty()) return;
+    Finding found{.code = code, .subjects = {{"arrays", std::move(names)}}};
+    remarks.push_back(kind == Kind::damaged ? warning(std::move(found)) : note(std::move(found)));
   };
-  add(Remark::Severity::note, "MATLAB objects are skipped", names_of(skipped, Kind::object, false),
-      "what they hold can be read once it is saved as numeric arrays");
-  add(Remark::Severity::note, "no numeric arrays, skipped", names_of(skipped, Kind::other_class, true), "");
-  add(Remark::Severity::note, "complex arrays are skipped", names_of(skipped, Kind::complex, false),
-      "a signal is real");
-  add(Remark::Severity::note, "no signals, skipped", names_of(skipped, Kind::no_table, true), "");
-  add(Remark::Severity::warning, "damaged, skipped", names_of(skipped, Kind::damaged, true),
-      "the file may be broken: save or copy it again");
+  add(FindingCode::objects_skipped, Kind::object, false);
+  add(FindingCode::not_numeric_skipped, Kind::other_class, true);
+  add(FindingCode::complex_skipped, Kind::complex, false);
+  add(FindingCode::no_signals_skipped, Kind::no_table, true);
+  add(FindingCode::damaged_skipped, Kind::damaged, true);
   return remarks;
 }
 
@@ -314,8 +313,8 @@ tl::expected<RecordingContents, InputError> list_mat_recording(const std::string
     scalars.push_back(std::move(*text));
   }
   if (!scalars.empty()) {
-    contents.remarks.push_back(
-        {Remark::Severity::note, fmt::format("single numbers: {}", fmt::join(scalars, ", ")), ""});
+    contents.remarks.push_back(note(
+        {.code = FindingCode::single_numbers, .subjects = {{"numbers", fmt::format("{}", fmt::join(scalars, ", "))}}}));
   }
   return contents;
 }

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "counted.hpp"
 #include "io/prose.hpp"
 #include "io/time_axis.hpp"
 #include "zwidth/io/message_words.hpp"
@@ -123,9 +124,9 @@ tl::expected<std::vector<Remark>, InputError> keep_common_rows(std::vector<Timed
     const std::size_t kept = spans[k].end - spans[k].begin;
     if (kept == all) continue;
     remarks.push_back(
-        {Remark::Severity::note,
-         fmt::format("{}: {} of {} samples are used", shortened(columns[k].values.name), kept, all),
-         fmt::format("the others lie outside of what all columns have, {:.9g} s to {:.9g} s", begin, end)});
+        note({.code = FindingCode::rows_outside_common_span,
+              .evidence = {counted("used", kept), counted("samples", all), {"begin", begin}, {"end", end}},
+              .subjects = {{"column", shortened(columns[k].values.name)}}}));
     cut(columns[k].values, spans[k]);
     cut(columns[k].times, spans[k]);
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "counted.hpp"
 #include "io/prose.hpp"
 
 namespace zwidth::internal {
@@ -69,12 +70,10 @@ tl::expected<void, InputError> fill_missing(RawColumn& column, std::vector<Remar
     longest = std::max(longest, next - i);
     i = next;
   }
-  remarks.push_back(
-      {Remark::Severity::warning,
-       fmt::format("{}: {} of {} samples are missing (NaN, infinite or empty), the first at {}, at most "
-                   "{} in a row; filled by straight lines",
-                   shortened(column.name), missing, values.size(), place_of(column, first_place), longest),
-       "what happened there is not in the record: the response is uncertain by about that share"});
+  remarks.push_back(warning(
+      {.code = FindingCode::samples_missing,
+       .evidence = {counted("missing", missing), counted("samples", values.size()), counted("longest", longest)},
+       .subjects = {{"column", shortened(column.name)}, {"place", place_of(column, first_place)}}}));
   return {};
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "counted.hpp"
 #include "io/column_unit.hpp"
 #include "io/prose.hpp"
 #include "io/time_axis.hpp"
@@ -36,14 +37,12 @@ double scale_of(const ColumnRequest& request, Channel& channel, std::vector<Rema
     channel.quantity = unit.quantity;
   }
   if (unit.factor != 1.0) {
-    remarks.push_back({Remark::Severity::note,
-                       fmt::format("{} is in {}", in_quotes(channel.name), shortened(unit.text)),
-                       fmt::format("read in base units (N, N m, m, rad, A, V): times {:.6g}", unit.factor)});
+    remarks.push_back(note({.code = FindingCode::column_scaled_by_its_unit,
+                            .evidence = {{"factor", unit.factor}},
+                            .subjects = {{"column", in_quotes(channel.name)}, {"unit", shortened(unit.text)}}}));
   } else if (channel.quantity == StatedQuantity::other) {
-    remarks.push_back({Remark::Severity::warning,
-                       fmt::format("{} is used as it stands, in {}", in_quotes(channel.name), shortened(unit.text)),
-                       "no unit of a force or motion that is known: results are in it",
-                       "scale it to SI units; 1 says that it is"});
+    remarks.push_back(warning({.code = FindingCode::column_unit_unknown,
+                               .subjects = {{"column", in_quotes(channel.name)}, {"unit", shortened(unit.text)}}}));
   }
   return asked * unit.factor;
 }
@@ -93,11 +92,12 @@ void leave_out_repeated(std::vector<Channel>& channels, RawColumn& times, std::v
     if (repeats && !first) first = i;
   }
   if (!first || kept.size() < 2) return;
-  remarks.push_back({Remark::Severity::warning,
-                     fmt::format("{} of {} rows are repeated ({:.2g} %), the first at {}", rows - kept.size(), rows,
-                                 100.0 * static_cast<double>(rows - kept.size()) / static_cast<double>(rows),
-                                 place_of(times, *first)),
-                     "they are left out"});
+  const std::size_t repeated = rows - kept.size();
+  remarks.push_back(warning({.code = FindingCode::rows_repeated,
+                             .evidence = {counted("repeated", repeated),
+                                          counted("rows", rows),
+                                          {"share", static_cast<double>(repeated) / static_cast<double>(rows)}},
+                             .subjects = {{"place", place_of(times, *first)}}}));
   const auto keep = [&kept](std::vector<double>& values) {
     for (std::size_t k = 0; k < kept.size(); ++k) values[k] = values[kept[k]];
     values.resize(kept.size());

@@ -199,16 +199,15 @@ tl::expected<void, InputError> Search::find_values() {
 }
 
 void Search::use_units_of_names() {
-  const auto note = [&](std::size_t column, std::string_view unit) {
-    found_.remarks.push_back({Remark::Severity::note,
-                              fmt::format("column {} is read in {}, as its name says", in_quotes(names_[column]), unit),
-                              ""});
+  const auto remark = [&](std::size_t column, std::string unit) {
+    found_.remarks.push_back(note({.code = FindingCode::column_read_in_unit,
+                                   .subjects = {{"column", in_quotes(names_[column])}, {"unit", std::move(unit)}}}));
   };
   found_.frequency_scale = options_.frequency_scale.value_or(rad_s_per_hertz);
   if (found_.frequency && !options_.frequency_scale) {
     const std::string unit = meaning_of(names_[*found_.frequency]).unit;
     const double scale = rad_s_per(unit).value_or(rad_s_per_hertz);
-    if (scale != rad_s_per_hertz) note(*found_.frequency, unit);
+    if (scale != rad_s_per_hertz) remark(*found_.frequency, unit);
     found_.frequency_scale = scale;
   }
   found_.magnitude_in_db = options_.magnitude_in_db;
@@ -216,14 +215,14 @@ void Search::use_units_of_names() {
   if (found_.form != ResponseColumns::Form::magnitude_and_phase) return;
   if (!found_.magnitude_in_db && meaning_of(names_[found_.first]).unit == "db") {
     found_.magnitude_in_db = true;
-    note(found_.first, "dB");
+    remark(found_.first, "dB");
   }
   if (options_.phase_in_degrees) return;
   const std::string phase_unit = meaning_of(names_[found_.second]).unit;
   const bool says_radians = is_one_of(phase_unit, {"rad", "radians"});
   if (says_radians) {
     found_.phase_in_degrees = false;
-    note(found_.second, "radians");
+    remark(found_.second, "radians");
   }
 }
 

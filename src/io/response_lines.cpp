@@ -8,6 +8,7 @@
 #include <numbers>
 #include <utility>
 
+#include "counted.hpp"
 #include "zwidth/quantity.hpp"
 
 namespace zwidth::internal {
@@ -63,18 +64,11 @@ void pool_repeats(FrequencyResponse& response) {
   if (once.size() == pooled.size()) return;
   relative /= static_cast<double>(pooled.size() - once.size());
   for (const std::size_t i : once) pooled[i].variance = relative * std::norm(pooled[i].value);
-  response.remarks.push_back(
-      {Remark::Severity::note,
-       fmt::format("{} lines at {} frequencies are averaged, with the noise that their scatter shows{}", points.size(),
-                   pooled.size(),
-                   once.empty() ? "" : fmt::format("; {} that come once are taken for as noisy", once.size())),
-       ""});
+  response.remarks.push_back(note({.code = FindingCode::repeated_lines_averaged,
+                                   .evidence = {counted("lines", points.size()), counted("frequencies", pooled.size()),
+                                                counted("once", once.size())}}));
   response.averages = static_cast<double>(fewest);
   response.points = std::move(pooled);
-}
-
-std::string at_line(std::size_t line) {
-  return line == 0 ? std::string() : fmt::format(", the first at line {}", line);
 }
 
 }  // namespace
@@ -91,15 +85,14 @@ tl::expected<FrequencyResponse, InputError> make_response(std::vector<ResponseLi
   const std::size_t all = lines.size();
   const auto [missing, first_missing] = erase(lines, [](const ResponseLine& line) { return !is_number(line); });
   if (missing > 0) {
-    response.remarks.push_back({Remark::Severity::warning,
-                                fmt::format("{} of {} lines have NaN, an infinity or no number and are left out{}",
-                                            missing, all, at_line(first_missing)),
-                                "nothing is known there: a crossing may be missed"});
+    response.remarks.push_back(
+        warning({.code = FindingCode::lines_without_number,
+                 .evidence = {counted("missing", missing), counted("lines", all), counted("line", first_missing)}}));
   }
   const auto [zeros, first_zero] = erase(lines, [](const ResponseLine& line) { return line.frequency == 0.0; });
   if (zeros > 0) {
     response.remarks.push_back(
-        {Remark::Severity::note, fmt::format("the value at 0 Hz is left out{}", at_line(first_zero)), ""});
+        note({.code = FindingCode::zero_frequency_left_out, .evidence = {counted("line", first_zero)}}));
   }
   const double highest =
       options.sampling_period ? std::numbers::pi / *options.sampling_period : std::numeric_limits<double>::infinity();

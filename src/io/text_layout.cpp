@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "counted.hpp"
 #include "io/cell_splitter.hpp"
 #include "io/column_names.hpp"
 #include "io/column_unit.hpp"
@@ -247,32 +248,17 @@ std::optional<char> shown_mark(const Reading& reading, const RecordingOptions& o
   return std::nullopt;
 }
 
-std::string_view delimiter_name(char delimiter) {
-  switch (delimiter) {
-    case ',':
-      return "commas";
-    case ';':
-      return "semicolons";
-    case '\t':
-      return "tabs";
-    default:
-      return "blanks";
-  }
-}
-
 Remark description(const TextLayout& layout, const Reading& reading) {
-  std::string what = layout.columns == 1 ? "text of 1 column"
-                                         : fmt::format("text of {} columns separated by {}", layout.columns,
-                                                       delimiter_name(layout.delimiter));
-  if (layout.decimal_mark) what += *layout.decimal_mark == ',' ? ", decimal comma" : ", decimal point";
+  Finding found{.code = FindingCode::text_table,
+                .evidence = {counted("columns", layout.columns), counted("first_row", layout.first_row)}};
+  if (layout.columns != 1) found.subjects.push_back({"delimiter", std::string(1, layout.delimiter)});
+  if (layout.decimal_mark) found.subjects.push_back({"decimal_mark", std::string(1, *layout.decimal_mark)});
   if (reading.names()) {
-    what += fmt::format(", header in line {}", reading.lines()[*reading.names()].number);
+    found.evidence.push_back(counted("header", reading.lines()[*reading.names()].number));
   } else {
-    what +=
-        layout.names.empty() ? ", no header: columns have numbers from 1" : ", header in the comment above the rows";
+    found.subjects.push_back({"names", layout.names.empty() ? "none" : "comment"});
   }
-  return {Remark::Severity::note, what + fmt::format(", rows from line {}", layout.first_row),
-          "if this is wrong, state delimiter, decimal mark and header"};
+  return note(std::move(found));
 }
 
 tl::unexpected<InputError> no_table(std::span<const TextLine> content, const std::string& source) {
@@ -378,10 +364,8 @@ tl::expected<TextLayout, InputError> detect_layout(std::span<const TextLine> hea
   }
   layout.remarks.push_back(description(layout, reading));
   if (reading.names() && reading.lines()[*reading.names()].has(Kind::number)) {
-    layout.remarks.push_back(
-        {Remark::Severity::warning,
-         fmt::format("the header in line {} has numbers", reading.lines()[*reading.names()].number),
-         "if it is a row, state that there is no header"});
+    layout.remarks.push_back(warning({.code = FindingCode::header_with_numbers,
+                                      .evidence = {counted("line", reading.lines()[*reading.names()].number)}}));
   }
   return layout;
 }

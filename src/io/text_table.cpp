@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "counted.hpp"
 #include "io/cell_splitter.hpp"
 #include "io/prose.hpp"
 
@@ -138,10 +139,10 @@ tl::expected<void, InputError> TextTable::each_row(const RowVisitor& visit, cons
       if (cells.size() > columns() || !lines_.last_line_is_open() || rows == 0) {
         return tl::unexpected(wrong_cells(line, cells.size(), rows));
       }
-      layout_.remarks.push_back({Remark::Severity::warning,
-                                 fmt::format("the last line, {}, is cut off after {} of {} cells and left out",
-                                             line.number, cells.size(), columns()),
-                                 "the recording may have been interrupted"});
+      layout_.remarks.push_back(warning(
+          {.code = FindingCode::last_line_cut_off,
+           .evidence = {counted("line", line.number), counted("cells", cells.size()), counted("expected", columns())},
+           .subjects = {{"document", "recording"}}}));
       continue;
     }
     empty_lines_in_rows += std::exchange(empty_lines, 0);
@@ -149,9 +150,8 @@ tl::expected<void, InputError> TextTable::each_row(const RowVisitor& visit, cons
     if (auto visited = visit({line, cells}); !visited) return visited;
   }
   if (empty_lines_in_rows > 0) {
-    layout_.remarks.push_back({Remark::Severity::warning,
-                               fmt::format("{} empty lines between the rows are passed over", empty_lines_in_rows),
-                               "if they separate recordings, each must be in its own file"});
+    layout_.remarks.push_back(
+        warning({.code = FindingCode::empty_lines_in_rows, .evidence = {counted("lines", empty_lines_in_rows)}}));
   }
   if (progress) progress(1.0);
   return {};

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "counted.hpp"
 #include "io/column_names.hpp"
 #include "io/column_unit.hpp"
 #include "io/prose.hpp"
@@ -24,14 +25,6 @@ constexpr double slowest_likely_period = 0.1;   // s
 constexpr double fastest_likely_period = 1e-7;  // s
 
 using Refusal = tl::unexpected<InputError>;
-
-/// "12 ms": what fits the size of a time.
-std::string in_seconds(double time) {
-  const double size = std::abs(time);
-  if (size > 0.0 && size < 1e-3) return fmt::format("{:.4g} us", time * 1e6);
-  if (size > 0.0 && size < 1.0) return fmt::format("{:.4g} ms", time * 1e3);
-  return fmt::format("{:.6g} s", time);
-}
 
 /// "t_ms" is t in ms; without such an ending, no unit.
 NameAndUnit name_and_suffix(std::string_view name) {
@@ -110,68 +103,55 @@ tl::expected<void, InputError> refuse_times_that_do_not_rise(const RawColumn& ti
 
 Remark lost_rows_remark(const TimeAxis& axis, const RestoredRows& rows) {
   const std::size_t all = axis.grid.slots.back() + 1;
-  const double share = static_cast<double>(rows.lost) / static_cast<double>(all);
-  Remark remark{
-      Remark::Severity::warning,
-      fmt::format(
-          "{} of {} rows are lost ({:.2g} %) in {}, the first before {} ({} after the start), the longest of {} "
-          "row{}",
-          rows.lost, all, 100.0 * share, rows.gaps == 1 ? "one gap" : fmt::format("{} gaps", rows.gaps),
-          place_of(axis.column, rows.first_gap + 1),
-          in_seconds(axis.column.values[rows.first_gap] - axis.column.values[0]), rows.longest_gap,
-          rows.longest_gap == 1 ? "" : "s"),
-      "", "log every row"};
+  const std::vector<double>& times = axis.column.values;
+  Finding found{.code = FindingCode::rows_lost,
+                .evidence = {counted("lost", rows.lost),
+                             counted("rows", all),
+                             {"share", static_cast<double>(rows.lost) / static_cast<double>(all)},
+                             counted("gaps", rows.gaps),
+                             counted("longest", rows.longest_gap),
+                             {"after", times[rows.first_gap] - times[0]}},
+                .subjects = {{"place", place_of(axis.column, rows.first_gap + 1)}}};
   if (rows.filled > 0) {
-    remark.consequence =
-        fmt::format("{} are filled in from the rows around them, which tell the first signal to {:.2g} % of its size",
-                    rows.filled, 100.0 * rows.filling_error);
+    found.evidence.push_back(counted("filled", rows.filled));
+    found.evidence.push_back({"error", rows.filling_error});
   }
-  if (rows.used_rows < axis.column.values.size()) {
-    if (!remark.consequence.empty()) remark.consequence += "; ";
-    remark.consequence += fmt::format(
-        "what happened in {} gaps is not known: used is the longest stretch without such a gap alone, {} from {} on",
-        rows.filled > 0 ? "the other" : "the", in_seconds(static_cast<double>(rows.used_rows - 1) * rows.period),
-        place_of(axis.column, rows.first_row));
+  if (rows.used_rows < times.size()) {
+    found.evidence.push_back({"used", static_cast<double>(rows.used_rows - 1) * rows.period});
+    found.subjects.push_back({"from", place_of(axis.column, rows.first_row)});
   }
-  return remark;
+  return warning(std::move(found));
 }
 
-Remark jitter_remark(const RestoredRows& rows) {
+/// Where it leaves the delay open, a doubt as well.
+void add_jitter(const RestoredRows& rows, Recording& recording) {
   using enum RestoredRows::Jitter;
-  Remark remark{Remark::Severity::note,
-                fmt::format("the times are up to {:.2g} % of a period off equal steps (rms {:.2g} %)",
-                            100.0 * rows.largest_jitter, 100.0 * rows.jitter_rms),
-                ""};
-  switch (rows.jitter) {
-    case of_rows:
-      remark.consequence =
-          "the rows were sampled so, as the motion shows: it is interpolated at equal steps, and the "
-          "force that was held is averaged over each";
-      break;
-    case of_stamps:
-      remark.consequence = "the rows were sampled at equal steps, as the motion shows: the stamps alone are off";
-      break;
-    default:
-      remark.severity = Remark::Severity::warning;
-      remark.consequence = fmt::format(
-          "whether the rows or their stamps alone are off does not show in the motion: the delay is known "
-          "to {:.2g} periods",
-          rows.jitter_rms * rows.jitter_rms);
+  Finding found{.code = FindingCode::jitter_undecided,
+                .evidence = {{"largest", rows.largest_jitter}, {"rms", rows.jitter_rms}}};
+  if (rows.jitter != unknown) {
+    found.code = rows.jitter == of_rows ? FindingCode::jitter_of_rows : FindingCode::jitter_of_stamps;
+    recording.remarks.push_back(note(std::move(found)));
+    return;
   }
-  return remark;
+  found.evidence.push_back({"delay", rows.jitter_rms * rows.jitter_rms});
+  recording.remarks.push_back(warning(found));
+  constexpr double large = 0.1;  // periods, rms: then it matters by 1 % of a period's delay
+  if (rows.jitter_rms <= large) return;
+  found.evidence.push_back({"threshold", large});
+  recording.doubts.push_back(std::move(found));
 }
 
 std::vector<Remark> axis_remarks(const RawColumn& times, double period, const RecordingOptions& options) {
   std::vector<Remark> remarks;
   const bool from_name = !options.time_scale && named_scale(times.name).has_value();
   const double scale = time_scale_of(times.name, options);
-  remarks.push_back({Remark::Severity::note,
-                     fmt::format("rate {:.7g} Hz: the mean of the times in column {}, read in units of {:.6g} s{}",
-                                 1.0 / period, in_quotes(times.name), scale, from_name ? " as its name says" : ""),
-                     ""});
+  remarks.push_back(note({.code = FindingCode::rate_of_times,
+                          .evidence = {{"rate", 1.0 / period}, {from_name ? "scale_of_name" : "scale", scale}},
+                          .subjects = {{"column", in_quotes(times.name)}}}));
   if (period > slowest_likely_period || period < fastest_likely_period) {
-    remarks.push_back({Remark::Severity::warning, fmt::format("a sampling period of {} is unusual", in_seconds(period)),
-                       "if the times are not in the unit above, state the unit (`time_scale`; milliseconds: 1e-3)"});
+    const double threshold = period > slowest_likely_period ? slowest_likely_period : fastest_likely_period;
+    remarks.push_back(
+        warning({.code = FindingCode::period_unusual, .evidence = {{"period", period}, {"threshold", threshold}}}));
   }
   return remarks;
 }
@@ -233,7 +213,7 @@ double period_of_rate(double rate) {
   return 1.0 / rate;
 }
 
-std::optional<Remark> contradiction(double rate, const TimeAxis& axis, const RecordingOptions& options) {
+std::optional<Finding> contradiction(double rate, const TimeAxis& axis, const RecordingOptions& options) {
   constexpr double most_difference = 1e-3;  // a force is hardly known better
   const double rows = static_cast<double>(axis.column.values.size());
   const bool is_unit_known = options.time_scale || named_scale(axis.column.name);
@@ -244,26 +224,19 @@ std::optional<Remark> contradiction(double rate, const TimeAxis& axis, const Rec
     return std::abs(rate - stated * per_second) <= (most_difference + 1.0 / rows) * rate;
   });
   if (agrees) return std::nullopt;
-  return Remark{Remark::Severity::warning,
-                fmt::format("the rate is given as {:.7g} Hz; the times in column {} say {:.7g} Hz", rate,
-                            shortened(axis.column.name), stated),
-                "the given rate is used; leave it out to use the times, or give their scale"};
+  return Finding{.code = FindingCode::rate_contradicts_times,
+                 .evidence = {{"given", rate}, {"stated", stated}, {"threshold", most_difference}},
+                 .subjects = {{"column", shortened(axis.column.name)}}};
 }
 
 void add_row_findings(const TimeAxis& axis, const RestoredRows& rows, Recording& recording) {
   if (rows.lost > 0) recording.remarks.push_back(lost_rows_remark(axis, rows));
-  if (rows.jitter == RestoredRows::Jitter::none) return;
-  recording.remarks.push_back(jitter_remark(rows));
-  constexpr double large = 0.1;  // periods, rms: then it matters by 1 % of a period's delay
-  if (rows.jitter != RestoredRows::Jitter::unknown || rows.jitter_rms <= large) return;
-  const Remark& remark = recording.remarks.back();
-  recording.doubts.push_back(fmt::format("{}; {}; log the time at which a row is sampled, or state the rate",
-                                         remark.what, remark.consequence));
+  if (rows.jitter != RestoredRows::Jitter::none) add_jitter(rows, recording);
 }
 
-void add_contradiction(const Remark& remark, Recording& recording) {
-  recording.remarks.push_back(remark);
-  recording.doubts.push_back(fmt::format("{}; {}", remark.what, remark.consequence));
+void add_contradiction(const Finding& finding, Recording& recording) {
+  recording.remarks.push_back(warning(finding));
+  recording.doubts.push_back(finding);
 }
 
 }  // namespace zwidth::internal

@@ -42,9 +42,9 @@ void add_row_findings(const TimeAxis& axis, const RestoredRows& rows, Recording&
 
 /// A warning where the times say another rate (Hz) than the one given, by more than 0.1 % (and one row). None where they
 /// agree in ms, us or ns and their unit is not known.
-[[nodiscard]] std::optional<Remark> contradiction(double rate, const TimeAxis& axis, const RecordingOptions& options);
+[[nodiscard]] std::optional<Finding> contradiction(double rate, const TimeAxis& axis, const RecordingOptions& options);
 
 /// Among the recording's remarks and doubts.
-void add_contradiction(const Remark& remark, Recording& recording);
+void add_contradiction(const Finding& finding, Recording& recording);
 
 }  // namespace zwidth::internal

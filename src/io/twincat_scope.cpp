@@ -10,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "counted.hpp"
 #include "io/column_names.hpp"
 #include "io/export_lines.hpp"
 #include "io/prose.hpp"
@@ -185,10 +186,9 @@ class ScopeReader {
     std::size_t size = line.cells.size();
     if (size == exported_.columns.size() + 1 && line.cells.back().empty()) --size;
     if (line.is_open && size < widest_) {
-      exported_.remarks.push_back({Remark::Severity::warning,
-                                   fmt::format("the last line, {}, has no end and {} of {} cells: it is left out",
-                                               line.line.number, size, widest_),
-                                   "the export may have been interrupted"});
+      exported_.remarks.push_back(warning(
+          {.code = FindingCode::last_line_without_end,
+           .evidence = {counted("line", line.line.number), counted("cells", size), counted("expected", widest_)}}));
       return {};
     }
     if (size > exported_.columns.size()) return tl::unexpected(wrong_size(line, size));
@@ -288,22 +288,14 @@ class ScopeReader {
   void finish() {
     const std::size_t channels = exported_.columns.size() - groups_.size();
     const auto mark = lines_.decimal_mark();
-    exported_.remarks.insert(
-        exported_.remarks.begin(),
-        {Remark::Severity::note,
-         fmt::format("an export of TwinCAT Scope: {} channels, {} time columns in ms{}, rows from line {}", channels,
-                     groups_.size(),
-                     !mark          ? ""
-                     : *mark == ',' ? ", decimal comma"
-                                    : ", decimal point",
-                     rows_begin_),
-         ""});
+    Finding found{.code = FindingCode::twincat_scope_export,
+                  .evidence = {counted("channels", channels), counted("time_columns", groups_.size()),
+                               counted("first_row", rows_begin_)}};
+    if (mark) found.subjects.push_back({"decimal_mark", std::string(1, *mark)});
+    exported_.remarks.insert(exported_.remarks.begin(), note(std::move(found)));
     if (repeated_ > 0) {
-      exported_.remarks.push_back({Remark::Severity::note,
-                                   fmt::format("{} rows of a group have the time and the values of the one above and "
-                                               "count once",
-                                               repeated_),
-                                   "an export fills the gaps of slow channels so"});
+      exported_.remarks.push_back(
+          note({.code = FindingCode::slow_rows_repeated, .evidence = {counted("rows", repeated_)}}));
     }
   }
 

@@ -9,6 +9,7 @@
 #include <map>
 #include <utility>
 
+#include "counted.hpp"
 #include "io/input_file.hpp"
 #include "io/number_cell.hpp"
 #include "io/prose.hpp"
@@ -285,13 +286,10 @@ tl::expected<void, InputError> Scanner::scan(std::vector<UffRecord>& records, st
         "must hold dataset 58 (or 58b)"});
   }
   if (!numbers.empty()) {
-    remarks.push_back({Remark::Severity::note,
-                       fmt::format("datasets that are no functions are passed over: {}", listed(numbers)), ""});
+    remarks.push_back(note({.code = FindingCode::datasets_passed_over, .subjects = {{"datasets", listed(numbers)}}}));
   }
   if (unclosed_ > 0) {
-    remarks.push_back({Remark::Severity::warning,
-                       fmt::format("the dataset at line {} has no closing line -1", unclosed_),
-                       "the file may be cut off"});
+    remarks.push_back(warning({.code = FindingCode::dataset_not_closed, .evidence = {counted("line", unclosed_)}}));
   }
   return {};
 }

@@ -109,14 +109,11 @@ tl::expected<std::optional<RawColumn>, InputError> find_times(const UffFile& fil
 void remark_on_axis(const UffRecord& record, const RecordingOptions& options, double period, Recording& recording) {
   if (!record.is_even || options.time_column) return;
   if (!options.rate) {
-    recording.remarks.push_back(
-        {Remark::Severity::note, fmt::format("rate {:.7g} Hz: what the file states", 1.0 / period), ""});
+    recording.remarks.push_back(note({.code = FindingCode::rate_of_file, .evidence = {{"rate", 1.0 / period}}}));
   } else if (std::abs(*options.rate * period - 1.0) > rate_differs) {
-    add_contradiction(
-        {Remark::Severity::warning,
-         fmt::format("the rate is given as {:.7g} Hz; the file states {:.7g} Hz", *options.rate, 1.0 / period),
-         "the given rate is used"},
-        recording);
+    add_contradiction({.code = FindingCode::rate_contradicts_file,
+                       .evidence = {{"given", *options.rate}, {"stated", 1.0 / period}, {"threshold", rate_differs}}},
+                      recording);
   }
 }
 

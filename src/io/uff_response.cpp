@@ -67,27 +67,20 @@ struct ToPosition {
 };
 
 std::optional<ToPosition> to_position(const UffRecord& record) {
-  using Severity = Remark::Severity;
   switch (record.ordinate.quantity) {
     case uff_displacement:
       return std::nullopt;
     case uff_velocity:
-      return ToPosition{1, {Severity::note, "the record is a velocity per force: divided by jw to get a position", ""}};
+      return ToPosition{1, note({.code = FindingCode::response_of_velocity})};
     case uff_acceleration:
-      return ToPosition{
-          2, {Severity::note, "the record is an acceleration per force: divided by -w^2 to get a position", ""}};
+      return ToPosition{2, note({.code = FindingCode::response_of_acceleration})};
     default:
       break;
   }
-  const std::string unit =
-      record.ordinate.unit.empty() ? "no unit" : fmt::format("the unit {}", shortened(record.ordinate.unit));
-  return ToPosition{
-      0,
-      {Severity::warning,
-       fmt::format("the record does not say what it measures (quantity {}, {}); it is taken as a position "
-                   "per force",
-                   record.ordinate.quantity, unit),
-       "if it is an acceleration or a velocity, stiffnesses from it are meaningless"}};
+  Finding found{.code = FindingCode::response_of_unknown_quantity,
+                .evidence = {{"quantity", static_cast<double>(record.ordinate.quantity)}}};
+  if (!record.ordinate.unit.empty()) found.subjects.push_back({"unit", shortened(record.ordinate.unit)});
+  return ToPosition{0, warning(std::move(found))};
 }
 
 tl::expected<std::vector<double>, InputError> read_coherence(const UffFile& file, const std::string& asked,

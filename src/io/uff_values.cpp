@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "counted.hpp"
 #include "io/number_cell.hpp"
 #include "io/prose.hpp"
 #include "io/uff_number.hpp"
@@ -78,10 +79,9 @@ tl::expected<UffValues, InputError> read_uff_values(const UffFile& file, const U
   }
   UffValues values;
   if (points < record.points) {
-    values.remarks.push_back({Remark::Severity::warning,
-                              fmt::format("the function at line {} has {} of the {} points that its header says",
-                                          record.line, points, record.points),
-                              "the file was cut off; what is there is used"});
+    values.remarks.push_back(warning(
+        {.code = FindingCode::function_cut_off,
+         .evidence = {counted("line", record.line), counted("points", points), counted("stated", record.points)}}));
   }
   const auto column = [&](std::size_t offset) {
     std::vector<double> taken(points);

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "percent.hpp"
+#include "counted.hpp"
 #include "signal/clipping.hpp"
 #include "signal/median.hpp"
 #include "zwidth/error.hpp"
@@ -105,37 +105,34 @@ struct Signal {
   [[nodiscard]] std::span<const double> samples() const { return channel.samples; }
   [[nodiscard]] bool is_force() const { return role == SignalRole::force; }
   [[nodiscard]] double time(std::size_t sample) const { return static_cast<double>(sample) * sampling_period; }
-  [[nodiscard]] Remark warning(const std::string& what, std::string meaning) const {
-    return {Remark::Severity::warning, fmt::format("{} {}", channel.name, what), std::move(meaning)};
+  [[nodiscard]] Finding finding(FindingCode code, std::vector<Evidence> evidence) const {
+    return {.code = code,
+            .evidence = std::move(evidence),
+            .subjects = {{"channel", channel.name}, {"role", is_force() ? "force" : "motion"}}};
   }
 };
 
 void check_length(const Signal& signal, std::vector<Remark>& remarks) {
   const std::size_t size = signal.samples().size();
   if (size >= fewest_samples) return;
-  remarks.push_back(signal.warning(
-      fmt::format("has only {} samples, {:.4g} s", size, signal.time(size)),
-      size == 0 ? "there is nothing to identify"
-                : fmt::format("the response has few lines, {:.4g} Hz apart or more, and little is averaged: narrow "
-                              "resonances are missed and intervals are wide",
-                              1.0 / signal.time(size))));
+  Finding found = signal.finding(FindingCode::signal_short, {internal::counted("samples", size),
+                                                             {"duration", signal.time(size)},
+                                                             internal::counted("threshold", fewest_samples)});
+  if (size > 0) found.evidence.push_back({"spacing", 1.0 / signal.time(size)});
+  remarks.push_back(warning(std::move(found)));
 }
 
 void remark_constant(const Signal& signal, std::vector<Remark>& remarks) {
-  remarks.push_back(signal.warning(fmt::format("is constant at {:.6g}", signal.samples().front()),
-                                   signal.is_force()
-                                       ? "nothing excites the device: there is no response to find"
-                                       : "the device did not move or its sensor was not read: there is no response"));
+  remarks.push_back(warning(signal.finding(FindingCode::signal_constant, {{"value", signal.samples().front()}})));
 }
 
 void check_levels(const Signal& signal, std::size_t levels, std::vector<Remark>& remarks) {
   const bool switched = signal.is_force() && levels <= most_switch_levels;
   if (levels >= fewest_levels || switched) return;
-  remarks.push_back(signal.warning(
-      fmt::format("is coarsely quantised: it takes {} different values", levels),
-      fmt::format("rounding errs by up to {} of its whole range: what moves less than that, mostly at high "
-                  "frequency, is not seen; excite more strongly or use a finer sensor",
-                  internal::percent(0.5 / static_cast<double>(levels - 1)))));
+  remarks.push_back(
+      warning(signal.finding(FindingCode::signal_quantised, {internal::counted("levels", levels),
+                                                             internal::counted("threshold", fewest_levels),
+                                                             {"error", 0.5 / static_cast<double>(levels - 1)}})));
 }
 
 /// Plateaus at one extreme value.
@@ -203,15 +200,10 @@ std::vector<double> check_clipping(const Signal& signal, const Extent& extent, s
     const Plateaus plateaus = plateaus_at(x, extent, extreme, lag);
     if (!is_clipped(plateaus, extent, usual_move, x.size())) continue;
     clipped.push_back(extreme);
-    remarks.push_back(signal.warning(
-        fmt::format("is clipped at {:.6g}: {} of its samples, first at {:.4g} s", extreme,
-                    internal::percent(static_cast<double>(plateaus.samples) / static_cast<double>(x.size())),
-                    signal.time(plateaus.first)),
-        signal.is_force()
-            ? "if it was clipped after it was recorded or the actuator saturated, the response is not that of a linear "
-              "device; reduce the amplitude"
-            : "the motion beyond is lost (the sensor's range, or an end stop): the response is too small there and "
-              "distorted; reduce the amplitude"));
+    remarks.push_back(warning(signal.finding(
+        FindingCode::signal_clipped, {{"level", extreme},
+                                      {"share", static_cast<double>(plateaus.samples) / static_cast<double>(x.size())},
+                                      {"first", signal.time(plateaus.first)}})));
   }
   return clipped;
 }
@@ -265,15 +257,12 @@ void check_dropouts(const Signal& signal, const Extent& extent, std::span<const 
   if (found.count == 0) return;
   const double value = signal.samples()[found.longest.begin];
   const bool idle = signal.is_force() && value == 0.0;
-  std::string what =
-      fmt::format("stays at {:.6g} from {:.6g} s to {:.6g} s ({} samples)", value, signal.time(found.longest.begin),
-                  signal.time(found.longest.end - 1), found.longest.length());
-  if (found.count > 1) what += fmt::format(", the longest of {} such stretches", found.count);
-  remarks.push_back(signal.warning(what, idle ? "harmless where the force rests between bursts; where the signal was "
-                                                "lost, the response is wrong: cut the record there"
-                                              : "the signal seems to have been lost there: the response and its "
-                                                "coherence suffer; cut the record there"));
-  if (idle) remarks.back().severity = Remark::Severity::note;
+  Finding lost = signal.finding(
+      idle ? FindingCode::signal_idle : FindingCode::signal_lost,
+      {{"value", value}, {"begin", signal.time(found.longest.begin)}, {"end", signal.time(found.longest.end - 1)}});
+  lost.evidence.push_back(internal::counted("samples", found.longest.length()));
+  lost.evidence.push_back(internal::counted("dropouts", found.count));
+  remarks.push_back(idle ? note(std::move(lost)) : warning(std::move(lost)));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "percent.hpp"
 #include "words/phrase.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/quantity.hpp"
@@ -18,7 +19,8 @@ namespace {
 const std::map<FindingCode, Phrase>& phrases() {
   static const std::map<FindingCode, Phrase> all = [] {
     std::map<FindingCode, Phrase> result;
-    for (const std::span<const Phrase> room : {model_phrases(), stability_phrases(), design_phrases()}) {
+    for (const std::span<const Phrase> room : {model_phrases(), stability_phrases(), design_phrases(), signal_phrases(),
+                                               io_phrases(), response_phrases(), identification_phrases()}) {
       for (const Phrase& phrase : room) result.emplace(phrase.code, phrase);
     }
     return result;
@@ -34,19 +36,51 @@ const Phrase& phrase_of(FindingCode code) {
   return found->second;
 }
 
+// "12 ms": what fits the size of a time.
+std::string time_text(double time) {
+  const double size = std::abs(time);
+  if (size > 0.0 && size < 1e-3) return fmt::format("{:.4g} us", time * 1e6);
+  if (size > 0.0 && size < 1.0) return fmt::format("{:.4g} ms", time * 1e3);
+  return fmt::format("{:.6g} s", time);
+}
+
 std::string value_text(const Evidence& evidence, std::string_view format) {
   if (format.empty()) {
     return evidence.unit.empty() ? number(evidence.value) : quantity(evidence.value, evidence.unit);
   }
   if (format == "n") return fmt::format("{:.0f}", evidence.value);
+  if (format == "s") return evidence.value == 1.0 ? "" : "s";
+  if (format == "time") return time_text(evidence.value);
+  if (format == "percent") return percent(evidence.value);
   if (format == "%") return fmt::format("{:.0f}", 100.0 * evidence.value);
   const bool is_share = format.front() == '%';
   const std::string spec = fmt::format("{{:{}}}", is_share ? format.substr(1) : format);
   return fmt::format(fmt::runtime(spec), is_share ? 100.0 * evidence.value : evidence.value);
 }
 
+// Whether the finding holds a name, or holds it with this very value.
+bool holds(const Finding& finding, std::string_view condition) {
+  if (condition == "doubt") return finding.severity >= Finding::Severity::doubt;
+  const std::size_t equals = condition.find('=');
+  const std::string_view name = condition.substr(0, equals);
+  const auto evidence = std::ranges::find(finding.evidence, name, &Evidence::name);
+  const auto subject = std::ranges::find(finding.subjects, name, &Subject::name);
+  const bool is_number = evidence != finding.evidence.end();
+  if (!is_number && subject == finding.subjects.end()) return false;
+  if (equals == std::string_view::npos) return true;
+  const std::string value = is_number ? fmt::format("{}", evidence->value) : subject->text;
+  return value == condition.substr(equals + 1);
+}
+
+std::string filled_in(const Finding& finding, std::string_view phrase);
+
 // What stands in a pair of braces.
 std::string filled(const Finding& finding, std::string_view field) {
+  if (field.front() == '?' || field.front() == '!') {
+    const std::size_t bar = field.find('|');
+    const bool is_shown = holds(finding, field.substr(1, bar - 1)) == (field.front() == '?');
+    return is_shown ? filled_in(finding, field.substr(bar + 1)) : std::string();
+  }
   const std::size_t colon = field.find(':');
   const std::string_view name = field.substr(0, colon);
   const std::string_view format = colon == std::string_view::npos ? std::string_view() : field.substr(colon + 1);
@@ -59,13 +93,23 @@ std::string filled(const Finding& finding, std::string_view field) {
               fmt::format("the finding \"{}\" lacks \"{}\", which its sentence names", name_of(finding.code), name));
 }
 
+// The brace that closes the one at `open`.
+std::size_t closing_brace(std::string_view phrase, std::size_t open) {
+  std::size_t depth = 0;
+  for (std::size_t i = open; i < phrase.size(); ++i) {
+    if (phrase[i] == '{') ++depth;
+    if (phrase[i] == '}' && --depth == 0) return i;
+  }
+  return phrase.size() - 1;
+}
+
 std::string filled_in(const Finding& finding, std::string_view phrase) {
   std::string result;
   while (!phrase.empty()) {
     const std::size_t open = phrase.find('{');
     result += phrase.substr(0, open);
     if (open == std::string_view::npos) break;
-    const std::size_t close = phrase.find('}', open);
+    const std::size_t close = closing_brace(phrase, open);
     result += filled(finding, phrase.substr(open + 1, close - open - 1));
     phrase.remove_prefix(close + 1);
   }
@@ -78,7 +122,10 @@ std::string_view name_of(FindingCode code) { return phrase_of(code).name; }
 
 FindingWords words_of(const Finding& finding) {
   const Phrase& phrase = phrase_of(finding.code);
-  return {filled_in(finding, phrase.what), filled_in(finding, phrase.consequence), filled_in(finding, phrase.remedy)};
+  const auto recording = std::ranges::find(finding.subjects, of_recording, &Subject::name);
+  const std::string whose = recording == finding.subjects.end() ? std::string() : recording->text + ": ";
+  return {whose + filled_in(finding, phrase.what), filled_in(finding, phrase.consequence),
+          filled_in(finding, phrase.remedy)};
 }
 
 std::string text(const Finding& finding) {

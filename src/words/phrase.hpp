@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <string_view>
 
 #include "zwidth/finding_code.hpp"
 
@@ -10,7 +11,13 @@ namespace zwidth::internal {
 //     {stiffness}         with its unit and prefix, quantity(); without a unit four digits, number(); a subject as it is
 //     {stiffness:.6g}     as fmt prints a double
 //     {rows:n}            a whole number
+//     {rows:s}            nothing for 1, else the "s" of a plural
+//     {after:time}        a time in s, ms or us
+//     {share:percent}     percent(), with its sign
 //     {share:%}           100 times it, whole, without the sign; {share:%.1f} as fmt prints 100 times it
+//     {?cells|of {cells:n}}  the text behind the bar where the finding holds `cells`; {!cells|...} where it does not
+//     {?gaps=1|one gap}      where it holds `gaps` and that is 1 (a subject: the same text); {!gaps=1|...} elsewhere
+//     {?doubt|...}           in a doubt or a refusal alone; {!doubt|...} in a remark alone
 struct Phrase {
   FindingCode code;
   const char* name;
@@ -19,9 +26,16 @@ struct Phrase {
   const char* remedy = "";
 };
 
+// A subject that stands ahead of every sentence: which one of several recordings shows it.
+inline constexpr std::string_view of_recording = "of_recording";
+
 // By the room that finds them.
 [[nodiscard]] std::span<const Phrase> model_phrases();
 [[nodiscard]] std::span<const Phrase> stability_phrases();
 [[nodiscard]] std::span<const Phrase> design_phrases();
+[[nodiscard]] std::span<const Phrase> signal_phrases();
+[[nodiscard]] std::span<const Phrase> io_phrases();
+[[nodiscard]] std::span<const Phrase> response_phrases();  // of identification: excitation, records, responses
+[[nodiscard]] std::span<const Phrase> identification_phrases();
 
 }  // namespace zwidth::internal

@@ -296,6 +296,7 @@ TEST(Excitation, LessThanACycleIsWarnedOf) {
   options.lowest_hz = 0.04;
   ASSERT_EQ(excite(options).remarks.size(), 1U);
   EXPECT_EQ(excite(options).remarks[0].severity, Remark::Severity::warning);
+  EXPECT_EQ(excite(options).remarks[0].finding.value().code, FindingCode::excitation_shorter_than_cycle);
 }
 
 TEST(ExcitationCheck, StrokeOfARigidBodyIsTheClosedForm) {
@@ -349,6 +350,8 @@ TEST(ExcitationCheck, DoubtsAboutEncoderAndFrictionAreSaid) {
   const ExcitationCheck check = *excite({}, Device(parameters)).check;
   EXPECT_TRUE(check.exceeded.empty());
   ASSERT_EQ(check.remarks.size(), 2U);
+  EXPECT_EQ(check.remarks[0].finding.value().code, FindingCode::excitation_moves_few_steps);
+  EXPECT_EQ(check.remarks[1].finding.value().code, FindingCode::stroke_without_friction);
   EXPECT_NE(check.remarks[0].what.find("steps of its encoder"), std::string::npos);
   EXPECT_NE(check.remarks[1].what.find("Coulomb"), std::string::npos);
 }

@@ -342,7 +342,10 @@ TEST(MeasuredStiffness, SaysWhereNoLineIsExcited) {
   std::erase_if(response.points, [](const ResponsePoint& point) {
     return point.frequency > radians_per_turn * 30.0 && point.frequency < radians_per_turn * 50.0;
   });
-  EXPECT_TRUE(warns_of(measured_stiffness(response), "no line is excited from 30 to 50 Hz"));
+  const MeasuredStiffness measured = measured_stiffness(response);
+  EXPECT_TRUE(warns_of(measured, "no line is excited from 30 to 50 Hz"));
+  ASSERT_TRUE(measured.remarks[0].finding);
+  EXPECT_EQ(measured.remarks[0].finding->code, FindingCode::gap_between_lines);
 }
 
 TEST(MeasuredStiffness, RefusesAContinuousResponseAndASingleLine) {

@@ -65,7 +65,9 @@ TEST(RingingMode, OfARecordTooShortForItIsDoubtful) {
   const Recording ringing = swept(device, 8.0, 1);
   found = identify(ringing, Device(device), options);
   EXPECT_FALSE(found.trust.sound());
-  EXPECT_TRUE(internal::doubt_of_ringing(found, std::span(&ringing, 1), options));
+  const auto doubt = internal::doubt_of_ringing(found, std::span(&ringing, 1), options);
+  ASSERT_TRUE(doubt);
+  EXPECT_EQ(doubt->code, FindingCode::segments_truncate_mode);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "identification/weak_force_test.hpp"
+#include "zwidth/words/finding_text.hpp"
 
 namespace zwidth::internal {
 namespace weak_force_doubt_test {
@@ -20,7 +21,7 @@ std::string doubt(const WeakForceEvidence& evidence) {
   analysis.interval->lower = 950.0;
   analysis.interval->upper = 1050.0;
   const auto found = doubt_of_weak_forces({&evidence, 1}, analysis, Motion::linear, "it");
-  return found ? found->what : "";
+  return found ? words_of(*found).what : "";
 }
 
 std::string doubt_of_mode(double ratio, double beside, double share) {

@@ -1,4 +1,5 @@
 // What a recorder did to the rows: lost, repeated, sampled or stamped off their time, at another rate than stated.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -93,6 +94,14 @@ TEST(LostRows, EveryTenthIsFilledIn) {
   EXPECT_TRUE(
       mentions(recording.remarks, "1000 of 10000 rows are lost (10 %) in 1000 gaps, the first before sample 6"));
   EXPECT_EQ(warnings_in(recording.remarks), 1U);
+  const auto lost = std::ranges::find_if(recording.remarks, [](const Remark& each) {
+    return each.finding && each.finding->code == FindingCode::rows_lost;
+  });
+  ASSERT_NE(lost, recording.remarks.end());
+  const std::vector<Evidence>& evidence = lost->finding->evidence;
+  EXPECT_THAT(evidence,
+              testing::IsSupersetOf({Evidence{"lost", 1000.0}, Evidence{"rows", 10000.0}, Evidence{"gaps", 1000.0},
+                                     Evidence{"longest", 1.0}, Evidence{"filled", 1000.0}}));
 }
 
 TEST(LostRows, TwoInAHundredAtRandomAreFilledIn) {
@@ -222,7 +231,8 @@ TEST(Jitter, ThatDoesNotShowInTheMotionIsADoubtWhereItMatters) {
   made.times = off_their_time(8);
   const Recording recording = read(made);
   EXPECT_TRUE(mentions(recording.remarks, "does not show in the motion"));
-  EXPECT_EQ(recording.doubts.size(), 1U);
+  ASSERT_EQ(recording.doubts.size(), 1U);
+  EXPECT_EQ(recording.doubts[0].code, FindingCode::jitter_undecided);
 }
 
 TEST(StatedRate, ThatTheTimesContradictIsADoubt) {
@@ -230,7 +240,9 @@ TEST(StatedRate, ThatTheTimesContradictIsADoubt) {
   EXPECT_TRUE(read(all, 1000.0).doubts.empty());
   EXPECT_TRUE(read(all, 1000.5).doubts.empty());
   const Recording recording = read(all, 1005.0);  // half a percent was let pass
-  EXPECT_EQ(recording.doubts.size(), 1U);
+  ASSERT_EQ(recording.doubts.size(), 1U);
+  EXPECT_EQ(recording.doubts[0].code, FindingCode::rate_contradicts_times);
+  EXPECT_EQ(recording.doubts[0].evidence[0], (Evidence{"given", 1005.0}));
   EXPECT_EQ(recording.sampling_period, 1.0 / 1005.0);
   EXPECT_EQ(read(without(all, [](std::size_t k) { return k % 10 == 5; }), 900.0).doubts.size(), 1U);
 }

@@ -245,7 +245,9 @@ std::string scaled(const std::string& factor, const std::string& offset) {
 TEST_F(TwincatScope, AScaleThatMayBeAppliedOrNotIsADoubt) {
   const auto open = read(scaled("0,001", "4"), columns_unscaled({"F", "x"}));
   ASSERT_TRUE(open.has_value()) << open.error().str();
-  EXPECT_EQ(open->doubts.size(), 1U);
+  ASSERT_EQ(open->doubts.size(), 1U);
+  EXPECT_EQ(open->doubts[0].code, FindingCode::stated_scale_unclear);
+  EXPECT_EQ(open->doubts[0].evidence, (std::vector<Evidence>{{"factor", 0.001}, {"offset", 4.0}}));
   EXPECT_EQ(open->channels[1].samples, (Samples{2.0, 3.0, 2.0}));
   EXPECT_TRUE(mentions(open->remarks, "0.001"));
   const auto settled = read(scaled("0,001", "4"), columns_named({"F", "x"}));  // with the scale 1

@@ -157,6 +157,11 @@ TEST(CheckSignal, FindsAHeavilyClippedSine) {
   const auto remarks = check_signal({"x", limited(sine(3.0, 8000, 1.0), -0.1, 0.1)}, T, SignalRole::position);
   ASSERT_EQ(remarks.size(), 2U);
   EXPECT_EQ(remarks[0].what.substr(0, 20), "x is clipped at 0.1:");
+  for (const std::size_t i : {0U, 1U}) {
+    ASSERT_TRUE(remarks[i].finding);
+    EXPECT_EQ(remarks[i].finding->code, FindingCode::signal_clipped);
+    EXPECT_EQ(remarks[i].finding->evidence[0], (Evidence{"level", i == 0 ? 0.1 : -0.1}));
+  }
 }
 
 TEST(CheckSignal, FindsCoarseQuantisation) {
@@ -202,6 +207,9 @@ TEST(CheckSignal, NotesAForceThatRestsBetweenBursts) {
   ASSERT_EQ(remarks.size(), 1U);
   EXPECT_EQ(remarks[0].severity, Remark::Severity::note);
   EXPECT_EQ(remarks[0].what, "F stays at 0 from 2 s to 2.999 s (1000 samples), the longest of 2 such stretches");
+  ASSERT_TRUE(remarks[0].finding);
+  EXPECT_EQ(remarks[0].finding->code, FindingCode::signal_idle);
+  EXPECT_EQ(remarks[0].finding->severity, Finding::Severity::note);
 }
 
 TEST(CheckSignal, TellsScaleFromDefects) {

@@ -27,7 +27,7 @@ struct Recording {
   std::vector<Channel> channels;  ///< in the order asked for, all of one size
   std::vector<Remark> remarks;    ///< what was noticed while reading: gaps, NaN, a timer that wraps, jitter
   /// Why no number that is found from it can be relied on: a stated rate that the times contradict.
-  std::vector<std::string> doubts = {};
+  std::vector<Finding> doubts = {};
 };
 
 /// What a signal is called in remarks, and its role, which decides what a defect means.
