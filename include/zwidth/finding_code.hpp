@@ -22,25 +22,74 @@ enum class FindingCode : std::uint16_t {
   inertia_too_large,         ///< an inertia that no haptic device has
 
   // stability
-  wall_not_surely_stable,             ///< the wall lies within the interval of the critical stiffness
-  interval_open,                      ///< the parameters' uncertainty leaves the limit open within more than a factor of 2
-  second_route_contradicts,           ///< two computations contradict each other on one wall's stability
-  second_route_undecided,             ///< no second computation confirms one wall's stability
-  touch_without_pole,                 ///< the limit is a pole's touch of the circle that a second computation does not find
-  slow_instability,                   ///< the free device is unstable so slowly that rounded coefficients explain it
-  delay_margin_contradicts,           ///< two computations contradict each other on the delay margin
-  margins_contradict,                 ///< two computations contradict each other on phase, delay and disk margin
-  disk_margin_contradicts,            ///< the disk margin is larger than gain and phase margins allow
-  disk_margin_left_out,               ///< its search does not end: the wall is far below every limit
-  critical_damping_left_out,          ///< the largest damper alone is not sure, for `reason`
-  unstable_with_nobody,               ///< the file's user alone keeps the wall stable
-  stiffer_than_any_user_limit,        ///< some user's grasp makes the wall oscillate
-  damper_above_any_user_limit,        ///< some user's grasp makes the damper oscillate
-  too_many_bodies_for_any_user,       ///< the limit over all passive users is not computed for so many bodies
+  wall_not_surely_stable,        ///< the wall lies within the interval of the critical stiffness
+  interval_open,                 ///< the parameters' uncertainty leaves the limit open within more than a factor of 2
+  second_route_contradicts,      ///< two computations contradict each other on one wall's stability
+  second_route_undecided,        ///< no second computation confirms one wall's stability
+  touch_without_pole,            ///< the limit is a pole's touch of the circle that a second computation does not find
+  slow_instability,              ///< the free device is unstable so slowly that rounded coefficients explain it
+  delay_margin_contradicts,      ///< two computations contradict each other on the delay margin
+  margins_contradict,            ///< two computations contradict each other on phase, delay and disk margin
+  disk_margin_contradicts,       ///< the disk margin is larger than gain and phase margins allow
+  disk_margin_left_out,          ///< its search does not end: the wall is far below every limit
+  critical_damping_left_out,     ///< the largest damper alone is not sure, for `reason`
+  unstable_with_nobody,          ///< the file's user alone keeps the wall stable
+  stiffer_than_any_user_limit,   ///< some user's grasp makes the wall oscillate
+  damper_above_any_user_limit,   ///< some user's grasp makes the damper oscillate
+  too_many_bodies_for_any_user,  ///< the limit over all passive users is not computed for so many bodies
   any_user_limit_may_miss_frequency,  ///< the damped bodies hardly move at some frequency that may be missed
   any_user_limit_lowered,             ///< a tuned user destabilises softer walls than the bound found: it is lowered
   any_user_limit_loose,               ///< the bound is proven to a share only, which is taken off
   any_user_limit_truncated,           ///< the sum over aliases leaves a share, which is taken off
+
+  // design
+  region_contradicts,                   ///< two computations contradict each other on one wall of the region
+  region_not_confirmed,                 ///< no second computation confirms the region: too many states
+  region_poles_on_circle,               ///< no second computation confirms the region: poles lie on the circle
+  region_vertex_open,                   ///< a vertex of the region is known to a share of its extent only
+  boundary_sampled,                     ///< the region's boundary was followed by samples, not by bounds
+  region_not_converged,                 ///< the region's boundary was not followed to its end, for `reason`
+  too_many_bodies_for_any_user_region,  ///< the region's limit over all passive users is not computed
+  any_user_limit_above_nobody,          ///< the limit over all passive users came out above that of nobody
+  region_contradicts_limit,             ///< the region contradicts the critical stiffness
+  limits_at_lower_end,                  ///< the limits are the lower ends of their intervals
+  no_any_user_limit_to_share,           ///< the safe wall is a share of the known holders' limits alone
+  uncertainty_leaves_no_wall,           ///< in more than 2.5 % of the draws no wall is stable
+  wall_phase_margin_contradicts,        ///< two computations contradict each other on the found wall's phase margin
+  wall_margins_contradict,              ///< the found wall or damper fails its margins when they are computed again
+  damper_contradicts,                   ///< two computations contradict each other on the found damper alone
+  damper_contradicts_with_user,         ///< two computations contradict each other on the found damper with a user
+  alternative_left_out,                 ///< the alternative `what` is not given, for `reason`
+  no_ripple_asked,                      ///< the force of one encoder count was not bounded
+  force_per_count_unknown,              ///< the force of one encoder count is not known: the file has no resolution
+  no_any_user_limit,                    ///< the limit over all passive users does not exist: no bodies
+  filters_stay,                         ///< the wall keeps the filters of the file
+  no_wall_keeps_margins,                ///< no wall keeps the margins, with or without a notch
+  phase_margin_bounds,                  ///< the phase margin allows a small part of what the gain margin does
+  no_notch_helps,                       ///< no notch makes the wall stiffer
+  no_counted_notch_helps,               ///< no notch makes the wall stiffer without lowering another limit
+  every_one_stable,                     ///< every wall or damper is stable: there is no limit to move
+  none_stable,                          ///< no wall or damper is stable: there is no limit to move
+  limit_is_target,                      ///< the limit is the target already
+  some_numbers_followed,                ///< of many numbers those that move the limit most are followed
+  branch_switches_not_searched,         ///< where another mechanism takes over is not searched for so many bodies
+  points_not_sound,                     ///< some points of a sweep are refused or doubtful
+  wall_stiffness_unknown,               ///< an oscillation is explained by its frequency alone
+  no_cause_fits,                        ///< no cause explains the oscillation by the numbers of the device
+  grows_at_another_frequency,           ///< the loop is unstable, but not at the frequency observed
+  two_causes_fit,                       ///< two causes explain the oscillation nearly as well
+  oscillation_beside_other_motion,      ///< the oscillation is a small share of what moves
+  oscillation_dies_out,                 ///< the oscillation decays
+  nothing_oscillates,                   ///< the recording holds no oscillation
+  current_loop_not_modelled,            ///< the drive's current loop is not modelled
+  sketch_rate_assumed,                  ///< the rate of the drive's loop is taken from the device
+  drive_loop,                           ///< rate and delay of the drive's loop
+  drive_loop_delay_assumed,             ///< rate of the drive's loop; its delay is taken as one period
+  odrive_estimator,                     ///< where the firmware's position and velocity come from
+  moteus_estimator,                     ///< where the firmware's position and velocity come from
+  vesc_estimator,                       ///< where the firmware's position and velocity come from
+  openffboard_estimator,                ///< where the firmware's position and velocity come from
+  drive_velocity_limit,                 ///< the drive's velocity limit bounds the spring
 };
 
 }  // namespace zwidth

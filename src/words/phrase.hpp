@@ -11,6 +11,8 @@ namespace zwidth::internal {
 //     {stiffness:.6g}     as fmt prints a double
 //     {rows:n}            a whole number
 //     {share:%}           100 times it, whole, without the sign; {share:%.1f} as fmt prints 100 times it
+//     {share:percent}     "0.34 %", "12 %", "many times over"
+//     {promised:limit}    as {promised}; "every stiffness" where it is infinite
 struct Phrase {
   FindingCode code;
   const char* name;
