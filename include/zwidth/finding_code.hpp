@@ -22,21 +22,21 @@ enum class FindingCode : std::uint16_t {
   inertia_too_large,         ///< an inertia that no haptic device has
 
   // stability
-  wall_not_surely_stable,        ///< the wall lies within the interval of the critical stiffness
-  interval_open,                 ///< the parameters' uncertainty leaves the limit open within more than a factor of 2
-  second_route_contradicts,      ///< two computations contradict each other on one wall's stability
-  second_route_undecided,        ///< no second computation confirms one wall's stability
-  touch_without_pole,            ///< the limit is a pole's touch of the circle that a second computation does not find
-  slow_instability,              ///< the free device is unstable so slowly that rounded coefficients explain it
-  delay_margin_contradicts,      ///< two computations contradict each other on the delay margin
-  margins_contradict,            ///< two computations contradict each other on phase, delay and disk margin
-  disk_margin_contradicts,       ///< the disk margin is larger than gain and phase margins allow
-  disk_margin_left_out,          ///< its search does not end: the wall is far below every limit
-  critical_damping_left_out,     ///< the largest damper alone is not sure, for `reason`
-  unstable_with_nobody,          ///< the file's user alone keeps the wall stable
-  stiffer_than_any_user_limit,   ///< some user's grasp makes the wall oscillate
-  damper_above_any_user_limit,   ///< some user's grasp makes the damper oscillate
-  too_many_bodies_for_any_user,  ///< the limit over all passive users is not computed for so many bodies
+  wall_not_surely_stable,             ///< the wall lies within the interval of the critical stiffness
+  interval_open,                      ///< the parameters' uncertainty leaves the limit open within more than a factor of 2
+  second_route_contradicts,           ///< two computations contradict each other on one wall's stability
+  second_route_undecided,             ///< no second computation confirms one wall's stability
+  touch_without_pole,                 ///< the limit is a pole's touch of the circle that a second computation does not find
+  slow_instability,                   ///< the free device is unstable so slowly that rounded coefficients explain it
+  delay_margin_contradicts,           ///< two computations contradict each other on the delay margin
+  margins_contradict,                 ///< two computations contradict each other on phase, delay and disk margin
+  disk_margin_contradicts,            ///< the disk margin is larger than gain and phase margins allow
+  disk_margin_left_out,               ///< its search does not end: the wall is far below every limit
+  critical_damping_left_out,          ///< the largest damper alone is not sure, for `reason`
+  unstable_with_nobody,               ///< the file's user alone keeps the wall stable
+  stiffer_than_any_user_limit,        ///< some user's grasp makes the wall oscillate
+  damper_above_any_user_limit,        ///< some user's grasp makes the damper oscillate
+  too_many_bodies_for_any_user,       ///< the limit over all passive users is not computed for so many bodies
   any_user_limit_may_miss_frequency,  ///< the damped bodies hardly move at some frequency that may be missed
   any_user_limit_lowered,             ///< a tuned user destabilises softer walls than the bound found: it is lowered
   any_user_limit_loose,               ///< the bound is proven to a share only, which is taken off

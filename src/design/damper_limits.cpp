@@ -1,6 +1,5 @@
 #include "design/damper_limits.hpp"
 
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
