@@ -90,6 +90,31 @@ enum class FindingCode : std::uint16_t {
   vesc_estimator,                       ///< where the firmware's position and velocity come from
   openffboard_estimator,                ///< where the firmware's position and velocity come from
   drive_velocity_limit,                 ///< the drive's velocity limit bounds the spring
+
+  // study
+  units_without_answer,            ///< some units have no answer and count as failures
+  unit_limits_doubtful,            ///< the limits of some units are doubtful
+  nothing_specified,               ///< the study has no specification: no yield
+  samples_spread_evenly,           ///< the intervals are those of independent samples, which these are not
+  few_samples_for_tails,           ///< too few samples for a bound of 95 % of the units
+  rare_share_contradicts,          ///< importance sampling contradicts the samples on the share of failures
+  no_indices_correlated,           ///< no Sobol indices: the parameters are correlated
+  no_indices_too_many_parameters,  ///< no Sobol indices: too many parameters
+  no_indices_unbounded,            ///< no Sobol indices: some units have no finite limit
+  index_limits_doubtful,           ///< the limits of some units of the Sobol indices are doubtful
+  index_not_known,                 ///< a Sobol index has a large standard error
+  parameter_without_effect,        ///< a parameter changes no unit's critical stiffness
+  worse_may_have_no_answer,        ///< some units have no answer: one may be worse than the worst one
+  one_descent_alone,               ///< one descent alone ended at the worst unit
+  study_with_user,                 ///< all limits are with the file's user; nobody holding leaves less
+  walls_without_answer,            ///< some units and dampings have no answer and count as unstable
+  wall_limits_doubtful,            ///< the limits of some units and dampings are doubtful
+  no_scale_of_dampings,            ///< the device on paper has no region that gives the scale of the dampings
+  contours_go_on,                  ///< the contours of the region end where the search ended
+  no_failure_found,                ///< no failure to sample around was found
+  few_effective_units,             ///< the share of rare failures rests on few units, or on one of great weight
+  drawn_units_without_answer,      ///< some units of the importance sampling have no answer and count as failures
+  drawn_limits_doubtful,           ///< the limits of some units of the importance sampling are doubtful
 };
 
 }  // namespace zwidth

@@ -1,6 +1,5 @@
 #include "design/damper_limits.hpp"
 
-
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -229,12 +229,10 @@ void add_nominal_limits(const Device& device, Study& study) {
   const auto unit = units_of(device.parameters().motion).stiffness;
   const double alone = study.limits.nobody.critical_stiffness;
   if (!(alone < study.limits.user->critical_stiffness)) return;
-  study.remarks.push_back(
-      {Remark::Severity::warning,
-       fmt::format("all limits are with the file's user; with nobody holding the device of the file has {}",
-                   quantity(alone, unit)),
-       "a person lets go, and units that reach the specification may shake then",
-       "leave [operator] out of the file to study the device that nobody holds"});
+  study.remarks.push_back(warning({.code = FindingCode::study_with_user,
+                                   .evidence = {{"nobody_limit", alone, unit}},
+                                   .key = "operator",
+                                   .effect = {{"critical_stiffness", alone}}}));
 }
 
 }  // namespace

@@ -19,7 +19,8 @@ namespace {
 const std::map<FindingCode, Phrase>& phrases() {
   static const std::map<FindingCode, Phrase> all = [] {
     std::map<FindingCode, Phrase> result;
-    for (const std::span<const Phrase> room : {model_phrases(), stability_phrases(), design_phrases()}) {
+    for (const std::span<const Phrase> room : {model_phrases(), stability_phrases(), design_phrases(), study_phrases(),
+                                               simulation_phrases(), rig_phrases()}) {
       for (const Phrase& phrase : room) result.emplace(phrase.code, phrase);
     }
     return result;

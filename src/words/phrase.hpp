@@ -25,5 +25,8 @@ struct Phrase {
 [[nodiscard]] std::span<const Phrase> model_phrases();
 [[nodiscard]] std::span<const Phrase> stability_phrases();
 [[nodiscard]] std::span<const Phrase> design_phrases();
+[[nodiscard]] std::span<const Phrase> study_phrases();
+[[nodiscard]] std::span<const Phrase> simulation_phrases();
+[[nodiscard]] std::span<const Phrase> rig_phrases();
 
 }  // namespace zwidth::internal
