@@ -115,6 +115,39 @@ enum class FindingCode : std::uint16_t {
   few_effective_units,             ///< the share of rare failures rests on few units, or on one of great weight
   drawn_units_without_answer,      ///< some units of the importance sampling have no answer and count as failures
   drawn_limits_doubtful,           ///< the limits of some units of the importance sampling are doubtful
+
+  // simulation
+  start_inside_stiction,               ///< the start was moved out of the stiction, further into the wall
+  start_unseen_by_encoder,             ///< the start was moved further into the wall: the encoder did not see it
+  no_wall,                             ///< the device moves freely
+  never_touches_wall,                  ///< the verdict is about the free device
+  starts_inside_wall,                  ///< the wall pushes the device out
+  never_moves_when_pushed,             ///< the user's force never overcomes the friction
+  never_moves_from_start,              ///< the wall never overcomes the friction at this start
+  never_moves_under_force_limit,       ///< no start lets the wall overcome the friction
+  force_limit_below_friction,          ///< the actuator never overcomes the friction
+  encoder_stands_still,                ///< the encoder reads one step all the time
+  encoder_ripple,                      ///< the encoder's steps move the force of a device that hardly moves
+  encoder_ripple_of_damper,            ///< the same, with a damper
+  encoder_ripple_in_drift,             ///< the encoder's steps move the force of a device that drifts
+  encoder_ripple_of_damper_in_drift,   ///< the same, with a damper
+  run_ended_early,                     ///< the position passed its limit
+  force_acts_to_the_end,               ///< the recorded force acts in the part that is judged
+  growth_not_seen,                     ///< nothing grows within the run, but something does by linear analysis
+  few_oscillations,                    ///< the run holds too few oscillations to tell
+  stick_slip_not_followed,             ///< some steps had too many stick-slip instants
+  swing_not_steady,                    ///< the relay's oscillation still grows or falls
+  swing_varies,                        ///< the relay's oscillation does not repeat itself
+  steady_part_short,                   ///< the relay's steady part is shorter than a segment
+  position_drifts,                     ///< the position drifts under the relay
+  few_encoder_steps,                   ///< the relay's oscillation spans few steps of the encoder
+  trials_settle_apart,                 ///< the relay's trials settle at different oscillations
+  no_trial_oscillates,                 ///< no trial of the relay oscillates
+  relay_without_device,                ///< a relay's reading is no limit without a device file
+  relay_without_finite_limit,          ///< a relay's reading is no limit: linear theory gives none
+  relay_reads_more,                    ///< a relay reads more than the limit of linear theory
+  relay_reads_less,                    ///< a relay reads less than the limit of linear theory
+  relay_without_wall,                  ///< the relay's numbers are without the wall's damper and filters
 };
 
 }  // namespace zwidth

@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include <Eigen/Core>
 #include <algorithm>
 #include <boost/math/special_functions/gamma.hpp>

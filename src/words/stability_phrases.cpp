@@ -7,14 +7,12 @@ namespace zwidth::internal {
 std::span<const Phrase> stability_phrases() {
   using enum FindingCode;
   static constexpr std::array phrases{
-      Phrase{
-          wall_not_surely_stable, "wall_not_surely_stable",
-          "the wall of {stiffness} is not surely stable: the 95 % interval of the critical stiffness begins at {lower}",
-          "", "stay below that, or identify the device more closely"},
-      Phrase{
-          interval_open, "interval_open",
-          "the uncertainty of the parameters in the file leaves the critical stiffness open within more than a factor "
-          "of 2: measure them more closely"},
+      Phrase{wall_not_surely_stable, "wall_not_surely_stable",
+             "the wall of {stiffness} is not surely stable: the 95 % interval of the critical stiffness begins at {lower}",
+             "", "stay below that, or identify the device more closely"},
+      Phrase{interval_open, "interval_open",
+             "the uncertainty of the parameters in the file leaves the critical stiffness open within more than a factor "
+             "of 2: measure them more closely"},
       Phrase{second_route_contradicts, "second_route_contradicts",
              "whether the loop is stable at {stiffness:.6g} is open, so no limit is given: two computations contradict "
              "each other where poles of the device lie close together",
@@ -43,8 +41,9 @@ std::span<const Phrase> stability_phrases() {
              "the disk margin is left out: the wall is too far below every limit for its search to end",
              "the gain, phase and delay margins of the wall stand",
              "judge this wall by those, or give a stiffness nearer to the limits"},
-      Phrase{critical_damping_left_out, "critical_damping_left_out", "the largest damper without a spring is left out",
-             "{reason}", "simulate such a damper before it is rendered"},
+      Phrase{critical_damping_left_out, "critical_damping_left_out",
+             "the largest damper without a spring is left out", "{reason}",
+             "simulate such a damper before it is rendered"},
       Phrase{unstable_with_nobody, "unstable_with_nobody", "the wall is unstable with nobody holding",
              "the file's user alone keeps it stable: it shakes once the hand lets go",
              "stay below the limit with nobody holding"},
