@@ -148,6 +148,50 @@ enum class FindingCode : std::uint16_t {
   relay_reads_more,                    ///< a relay reads more than the limit of linear theory
   relay_reads_less,                    ///< a relay reads less than the limit of linear theory
   relay_without_wall,                  ///< the relay's numbers are without the wall's damper and filters
+
+  // rig
+  interrupted,                  ///< the session was interrupted
+  position_not_a_number,        ///< a position or a force was not a number
+  beyond_position_limit,        ///< the position went beyond its limit
+  beyond_velocity_limit,        ///< the velocity went beyond its limit
+  force_limited_too_long,       ///< more force was wanted than is allowed, for too long
+  missed_cycles,                ///< too many cycles in a row came late
+  lost_link,                    ///< too many cycles in a row brought no position
+  drive_in_trouble,             ///< there was no position: the drive itself says why
+  watchdog_fired,               ///< the loop stood still
+  oscillation_grew,             ///< an oscillation grew
+  memory_not_locked,            ///< the system refuses to lock memory
+  no_real_time_priority,        ///< the system refuses real-time priority
+  no_processor_of_its_own,      ///< the system refuses to bind the loop to a processor
+  check_cut_short,              ///< the rig stopped before the check was over, for `reason`
+  first_trial_cut_short,        ///< the rig stopped in the relay's first trial, for `reason`
+  search_cut_short,             ///< the rig stopped before an oscillation grew, for `reason`
+  record_cut_short,             ///< the rig stopped before its record was whole, for `reason`
+  wall_cut_short,               ///< the rig stopped before the wall's time was over, for `reason`
+  force_kept_back,              ///< the wall that was felt is softer than the one asked
+  position_never_changed,       ///< the position never changed under force
+  unstable_and_stopped,         ///< the wall is unstable by linear analysis; the rig stopped
+  unstable_growing_slowly,      ///< the wall is unstable by linear analysis; its oscillation grew slowly
+  unstable_unseen,              ///< the wall is unstable by linear analysis; no oscillation was seen to grow
+  stable_wall_oscillates,       ///< an oscillation grew in a wall that is stable by linear analysis
+  device_bears_less,            ///< the limit measured lies below what the file promises
+  prediction_above_measured,    ///< the predicted limit lies above the one measured
+  file_promises_more,           ///< the limits of the file lie above the one measured
+  user_was_not_there,           ///< the limit measured lies below that with the file's user alone
+  friction_in_response,         ///< dry friction shows as damping in a response
+  force_cut_off,                ///< the force was cut off after the impulse
+  no_trial_ended,               ///< no trial came to its end
+  no_oscillation_grew,          ///< no oscillation grew up to the stiffest wall
+  every_wall_oscillates,        ///< an oscillation grew with every wall
+  growth_not_bracketed,         ///< no oscillation was read on both sides of the limit
+  encoder_coarse_for_swing,     ///< the encoder is coarse for the swing
+  growth_not_known,             ///< the growth rate has a large standard error
+  no_smaller_impulse,           ///< no smaller impulse was tried
+  smaller_impulse_not_read,     ///< after a smaller impulse no oscillation was read
+  smaller_swing_decays_faster,  ///< a smaller swing decays faster: the limit depends on the swing
+  smaller_swing_decays_less,    ///< a smaller swing decays less: the limit depends on the swing
+  bracket_wide,                 ///< the search ended before the limit was closer
+  friction_holds_swing,         ///< the limit is that of the swing after the impulse: there is friction
 };
 
 }  // namespace zwidth

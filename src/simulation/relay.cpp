@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "doubt_all.hpp"
 #include "require_valid.hpp"
 #include "simulation/relay_explanation.hpp"
 #include "staged_progress.hpp"
@@ -36,7 +37,7 @@ Trust trust_of_reading(const RelayResult& result) {
   const Trust expected = result.prediction ? result.prediction->linear.trust
                          : result.device   ? trust_of(*result.device)
                                            : Trust{};
-  for (const std::string& reason : expected.reasons) trust.doubt(reason);
+  doubt_all(expected, trust);
   if (const auto over_all = relay_mean(result.trials); over_all && !result.mean) {
     trust.refuse({.code = FindingCode::trials_settle_apart,
                   .evidence = {{"trials", static_cast<double>(over_all->trials)}},
