@@ -1,7 +1,5 @@
 #include "zwidth/rig/wall_verdict.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -30,11 +28,11 @@ void judge(RigWall& wall) {
   }
   if (!wall.predicted_stable) return;
   if (!*wall.predicted_stable && has_stopped) {  // how far it grew until then does not matter
-    wall.trust.doubt({.code = FindingCode::unstable_and_stopped,
-                      .subjects = {{"holders", std::string(unstable_with(*wall.stable_for))}}});
+    wall.trust.doubt(
+        {.code = FindingCode::unstable_and_stopped, .subjects = {{"holders", unstable_with(*wall.stable_for)}}});
   } else if (!*wall.predicted_stable && !wall.oscillates) {
     wall.trust.doubt({.code = wall.grows ? FindingCode::unstable_growing_slowly : FindingCode::unstable_unseen,
-                      .subjects = {{"holders", std::string(unstable_with(*wall.stable_for))}}});
+                      .subjects = {{"holders", unstable_with(*wall.stable_for)}}});
   }
   if (*wall.predicted_stable && (wall.oscillates || wall.grows)) {
     wall.trust.doubt({.code = FindingCode::stable_wall_oscillates});

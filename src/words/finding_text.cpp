@@ -42,7 +42,7 @@ std::string value_text(const Evidence& evidence, std::string_view format) {
   }
   if (format == "n") return fmt::format("{:.0f}", evidence.value);
   if (format == "percent") return percent(evidence.value);
-  if (format == "limit") return std::isinf(evidence.value) ? "every stiffness" : value_text(evidence, {});
+  if (format == "limit") return !std::isfinite(evidence.value) ? "every stiffness" : value_text(evidence, {});
   if (format == "%") return fmt::format("{:.0f}", 100.0 * evidence.value);
   const bool is_share = format.front() == '%';
   const std::string spec = fmt::format("{{:{}}}", is_share ? format.substr(1) : format);

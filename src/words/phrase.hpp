@@ -12,7 +12,7 @@ namespace zwidth::internal {
 //     {rows:n}            a whole number
 //     {share:%}           100 times it, whole, without the sign; {share:%.1f} as fmt prints 100 times it
 //     {share:percent}     "0.34 %", "12 %", "many times over"
-//     {promised:limit}    as {promised}; "every stiffness" where it is infinite
+//     {promised:limit}    as {promised}; "every stiffness" where it is no number
 struct Phrase {
   FindingCode code;
   const char* name;

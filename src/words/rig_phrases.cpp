@@ -75,7 +75,7 @@ std::span<const Phrase> rig_phrases() {
       Phrase{
           user_was_not_there, "user_was_not_there",
           "the limit measured, {at_most} at most, lies below that with the file's user, {with_user:limit}, not below "
-          "that with nobody holding, {with_nobody}",
+          "that with nobody holding, {with_nobody:limit}",
           "whoever held the device, if anybody did, was not the file's user",
           "leave the user out of the file for a rig that nobody holds"},
       Phrase{friction_in_response, "friction_in_response",
