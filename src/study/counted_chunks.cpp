@@ -11,6 +11,7 @@
 #include "study/study_parts.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/device_operator.hpp"
+#include "zwidth/model/device_trust.hpp"
 #include "zwidth/quantity.hpp"
 #include "zwidth/remark.hpp"
 #include "zwidth/stability/held_wall.hpp"
@@ -32,6 +33,7 @@ class Counter {
   explicit Counter(const StudyRun& run) : run_(run), row_(run.inputs().size()) {
     for (const StudyParameter& each : run.distributions().parameters) study_.keys.push_back(each.key);
     study_.samples = run.options().samples;
+    study_.trust = trust_of(run.device());  // with its findings, which answers in bytes have not
     stride_ = (study_.samples + most_points - 1) / most_points;
     any_user_ = run.options().specification.any_user.has_value();
     specified_ = any_user_ || run.options().specification.critical_stiffness.has_value();

@@ -9,7 +9,6 @@
 #include "staged_progress.hpp"
 #include "study/study_parts.hpp"
 #include "zwidth/error.hpp"
-#include "zwidth/model/device_trust.hpp"
 #include "zwidth/model/parameter.hpp"
 
 namespace zwidth {
@@ -161,7 +160,6 @@ Study summary(const StudyRun& run, const ChunkSource& chunks, const Progress& pr
   StagedProgress stages(progress);
   stages.next(0.5);
   auto [study, lows, any_user_lows] = count_chunks(run, chunks, stages.stage());
-  study.trust.inherit(trust_of(run.device()));
   if (study.trust.refused()) return std::move(study);
   stages.next(0.65);
   add_indices(run, study, stages.stage());
