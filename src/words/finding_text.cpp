@@ -19,8 +19,9 @@ namespace {
 const std::map<FindingCode, Phrase>& phrases() {
   static const std::map<FindingCode, Phrase> all = [] {
     std::map<FindingCode, Phrase> result;
-    for (const std::span<const Phrase> room : {model_phrases(), stability_phrases(), design_phrases(), signal_phrases(),
-                                               io_phrases(), response_phrases(), identification_phrases()}) {
+    for (const std::span<const Phrase> room :
+         {model_phrases(), stability_phrases(), design_phrases(), study_phrases(), simulation_phrases(), rig_phrases(),
+          signal_phrases(), io_phrases(), response_phrases(), identification_phrases()}) {
       for (const Phrase& phrase : room) result.emplace(phrase.code, phrase);
     }
     return result;
@@ -52,6 +53,7 @@ std::string value_text(const Evidence& evidence, std::string_view format) {
   if (format == "s") return evidence.value == 1.0 ? "" : "s";
   if (format == "time") return time_text(evidence.value);
   if (format == "percent") return percent(evidence.value);
+  if (format == "limit") return !std::isfinite(evidence.value) ? "every stiffness" : value_text(evidence, {});
   if (format == "%") return fmt::format("{:.0f}", 100.0 * evidence.value);
   const bool is_share = format.front() == '%';
   const std::string spec = fmt::format("{{:{}}}", is_share ? format.substr(1) : format);

@@ -15,6 +15,7 @@ namespace zwidth::internal {
 //     {after:time}        a time in s, ms or us
 //     {share:percent}     percent(), with its sign
 //     {share:%}           100 times it, whole, without the sign; {share:%.1f} as fmt prints 100 times it
+//     {promised:limit}    as {promised}; "every stiffness" where it is no number
 //     {?cells|of {cells:n}}  the text behind the bar where the finding holds `cells`; {!cells|...} where it does not
 //     {?gaps=1|one gap}      where it holds `gaps` and that is 1 (a subject: the same text); {!gaps=1|...} elsewhere
 //     {?doubt|...}           in a doubt or a refusal alone; {!doubt|...} in a remark alone
@@ -33,6 +34,9 @@ inline constexpr std::string_view of_recording = "of_recording";
 [[nodiscard]] std::span<const Phrase> model_phrases();
 [[nodiscard]] std::span<const Phrase> stability_phrases();
 [[nodiscard]] std::span<const Phrase> design_phrases();
+[[nodiscard]] std::span<const Phrase> study_phrases();
+[[nodiscard]] std::span<const Phrase> simulation_phrases();
+[[nodiscard]] std::span<const Phrase> rig_phrases();
 [[nodiscard]] std::span<const Phrase> signal_phrases();
 [[nodiscard]] std::span<const Phrase> io_phrases();
 [[nodiscard]] std::span<const Phrase> response_phrases();  // of identification: excitation, records, responses
