@@ -35,6 +35,7 @@ set(slow
   "^WallRecommendation\\.OfAnUncertain"
   "^ParameterSweep\\.LimitsDoNotDepend"
   "^DesignTarget\\.EveryNeededValue"
+  "^(DesignTarget|DesignComparison)Property\\."
   "^SafeWall\\.TakesTheLowerEnd"
   # the fronts
   "^LongWorkOnTenBodies\\."
