@@ -64,10 +64,12 @@ set(one_per_finding ASofterCrossoverAboveTheBand_1000299 WhatWasNarrowedStaysOpe
   AWideIntervalOfLinesElsewhere_2400743 ALackingBodyAboveTheBand_3400146 ResidualsBeyondTheNoise_500431
   FrictionThatShows_500003)
 list(JOIN one_per_finding "|" one_per_finding)
-foreach(room batch cli control design identification io model property reference report results rig sampling signal
-    simulation stability study)
-  set(seeds ${${room}_tests_TESTS})
-  set(fast ${${room}_tests_TESTS})
+get_cmake_property(lists VARIABLES)
+list(FILTER lists INCLUDE REGEX "_tests_TESTS$")  # what gtest_discover_tests leaves of each room
+foreach(tests IN LISTS lists)
+  string(REPLACE _tests_TESTS "" room ${tests})
+  set(seeds ${${tests}})
+  set(fast ${${tests}})
   list(FILTER seeds INCLUDE REGEX "^Campaign/IdentifiedSeedProperty\\..*/(${one_per_finding})$")
   list(FILTER fast EXCLUDE REGEX "^Campaign/")
   foreach(pattern IN LISTS slow)
