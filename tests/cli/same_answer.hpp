@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <string>
 #include <utility>
@@ -30,6 +31,9 @@ class SameAnswer : public Workspace {
   /// Runs all the commands while the library answers the questions. At most 5 % of them may fail.
   void expect_same(const std::vector<Question>& questions) const;
 };
+
+/// How many devices or recordings each command is compared on: `usual`, or ZWIDTH_CAMPAIGN_DEVICES.
+[[nodiscard]] std::size_t how_many(std::size_t usual);
 
 /// One run of each kind that is compared: "region FILE --json".
 [[nodiscard]] std::vector<std::string> commands_compared_on_devices();

@@ -93,9 +93,9 @@ TEST(HiddenFriction, OfAThousandthOfTheForceIsNeverSound) {
   }
 }
 
-/// A column of a record of another simulator (Moreau's steps, 40 a sample), in tests/identification/records.
+/// A column of a record of another simulator (Moreau's steps, 40 a sample): records.tar.xz, unpacked by tests/CMakeLists.txt.
 std::vector<double> column_of(const std::string& name) {
-  std::ifstream file(std::string(ZWIDTH_SOURCE_DIR "/tests/identification/records/") + name);
+  std::ifstream file(std::string(ZWIDTH_RECORDS_DIR "/") + name);
   std::string header;
   std::getline(file, header);
   std::vector<double> values;

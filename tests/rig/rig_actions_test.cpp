@@ -5,7 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
+#include <numeric>
 #include <random>
+#include <vector>
 
 #include "lhifam.hpp"
 #include "rig/measured_as_predicted.hpp"
@@ -71,7 +74,18 @@ TEST_P(OnDevice, ALimitByFrictionThatTheFileDoesNotKnowIsNotSure) {
   }
 }
 
-TEST_P(OnDevice, IdentifyingItClosesTheCircle) { expect_identified(device, driver); }
+// Three of them have one body and two, turn and slide, with and without delay and lag. ZWIDTH_CAMPAIGN_DEVICES=20: as many.
+std::vector<std::uint64_t> identified_seeds() {
+  const char* campaign = std::getenv("ZWIDTH_CAMPAIGN_DEVICES");
+  if (campaign == nullptr) return {5, 6, 10};
+  std::vector<std::uint64_t> seeds(std::strtoul(campaign, nullptr, 10));
+  std::iota(seeds.begin(), seeds.end(), std::uint64_t{1});
+  return seeds;
+}
+
+class IdentifiedDevice : public OnDevice {};
+TEST_P(IdentifiedDevice, IdentifyingItClosesTheCircle) { expect_identified(device, driver); }
+INSTANTIATE_TEST_SUITE_P(Bench, IdentifiedDevice, testing::ValuesIn(identified_seeds()));
 
 // All trials begin at rest with the whole force, as those of the simulation do. The rest is not perfect, and a sampled relay
 // holds many oscillations side by side: the later trials may settle at a neighbour of the first one's.

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Holds the sources to the rules of CONTRIBUTING.md.
 
-usage: check_rules.py ROOT RULE      RULE: flow, words, sizes, names or disk
+usage: check_rules.py ROOT RULE      RULE: flow, words, sizes, names, disk or headers
 Prints every line that breaks the rule, and exits with 1 where there is one.
 """
 
@@ -147,9 +147,19 @@ def disk(root):
                 yield path, number, "writes a file beside outputs.hpp"
 
 
+def headers(root):
+    """zwidth.hpp has every public header."""
+    include = root / "include"
+    all_of_them = (include / "zwidth/zwidth.hpp").read_text(encoding="utf-8")
+    for path in files(root, "include"):
+        if path.name != "zwidth.hpp" and f'#include "{path.relative_to(include).as_posix()}"' not in all_of_them:
+            yield path, 1, "zwidth.hpp lacks it"
+
+
 def main():
     root = Path(sys.argv[1]).resolve()
-    rule = {"flow": flow, "words": words, "sizes": sizes, "names": names, "disk": disk}[sys.argv[2]]
+    rules = {"flow": flow, "words": words, "sizes": sizes, "names": names, "disk": disk, "headers": headers}
+    rule = rules[sys.argv[2]]
     broken = list(rule(root))
     for path, number, what in broken:
         print(f"{path.relative_to(root)}:{number}: {what}")

@@ -1,6 +1,6 @@
 // How fast the page is, in print: scripts/bench runs it.
 import { expect, it } from 'vitest'
-import { openPage, row } from './program'
+import { openPage } from './program'
 import { here, key, opened } from './slider'
 
 it.each([1280, 390])('how soon the first answer is on the screen, %i pixels wide', async (width) => {

@@ -1,7 +1,7 @@
 // What the page says while there is no answer yet.
 import type { Page } from 'playwright-core'
 import { expect, it } from 'vitest'
-import { nobody, openAll, openPage, place, row, serve, serveAt, settled, type, withWall } from './program'
+import { nobody, openAll, openPage, place, serve, serveAt, settled, type, withWall } from './program'
 
 const here = place('devices/lhifam.toml')
 
