@@ -10,9 +10,9 @@ namespace {
 constexpr double proof = 4.0;
 
 /// The running sum of the evidence, from 0, and what pure noise makes of `lines` of it.
-class Evidence {
+class PhaseEvidence {
  public:
-  Evidence(const std::vector<PhaseLine>& lines, double line_correlation) : correlation_(line_correlation) {
+  PhaseEvidence(const std::vector<PhaseLine>& lines, double line_correlation) : correlation_(line_correlation) {
     sum_.push_back(0.0);
     for (const PhaseLine& line : lines) sum_.push_back(sum_.back() + line.evidence);
   }
@@ -39,7 +39,7 @@ struct Turn {
 
 /// Turning points followed by a swing that is proof; the first entry is the start, with the sign of what
 /// came before it, which is the other one than that of the first swing.
-std::vector<Turn> turns(const Evidence& evidence) {
+std::vector<Turn> turns(const PhaseEvidence& evidence) {
   std::vector<Turn> found;
   std::size_t highest = 0;
   std::size_t lowest = 0;
@@ -63,7 +63,7 @@ std::vector<Turn> turns(const Evidence& evidence) {
 }  // namespace
 
 std::vector<PhaseRun> phase_runs(const std::vector<PhaseLine>& lines, double line_correlation) {
-  const std::vector<Turn> proven = turns(Evidence(lines, line_correlation));
+  const std::vector<Turn> proven = turns(PhaseEvidence(lines, line_correlation));
   std::vector<PhaseRun> runs;
   for (std::size_t i = 0; i < proven.size(); ++i) {
     const std::size_t first = i == 0 ? 0 : proven[i].at;
