@@ -1,6 +1,5 @@
 #include "rig/real_time.hpp"
 
-#include <fmt/format.h>
 #include <pthread.h>
 #include <sched.h>
 #include <sys/mman.h>
@@ -18,9 +17,8 @@ constexpr std::int64_t second = 1'000'000'000;
 constexpr int priority = 80;  // below the kernel's own threads at 99, above its interrupts at 50
 constexpr std::size_t stack_in_use = 64 * 1024;
 
-Remark refusal(const char* what, int error, const char* remedy) {
-  return {Remark::Severity::warning, fmt::format("{}: {}", what, std::strerror(error)),
-          "cycles may come late when the machine is busy", remedy};
+Remark refusal(FindingCode code, int error) {
+  return warning({.code = code, .subjects = {{"error", std::strerror(error)}}});
 }
 
 }  // namespace
@@ -43,8 +41,7 @@ std::vector<Remark> lock_memory() {
   // Locking what is to come with too low a limit would make later allocations fail.
   const int flags = limit.rlim_cur == RLIM_INFINITY ? MCL_CURRENT | MCL_FUTURE : MCL_CURRENT;
   if (mlockall(flags) == 0) return {};
-  return {
-      refusal("memory could not be locked", errno, "raise the limit: ulimit -l unlimited, or memlock in limits.conf")};
+  return {refusal(FindingCode::memory_not_locked, errno)};
 }
 
 std::vector<Remark> prepare_real_time_thread() {
@@ -52,8 +49,7 @@ std::vector<Remark> prepare_real_time_thread() {
   sched_param parameters{};
   parameters.sched_priority = priority;
   if (const int error = pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters); error != 0) {
-    remarks.push_back(refusal("real-time priority is not allowed", error,
-                              "allow it: rtprio 99 in /etc/security/limits.conf, or CAP_SYS_NICE for the program"));
+    remarks.push_back(refusal(FindingCode::no_real_time_priority, error));
   }
   cpu_set_t allowed;
   CPU_ZERO(&allowed);
@@ -65,7 +61,7 @@ std::vector<Remark> prepare_real_time_thread() {
     CPU_ZERO(&allowed);
     CPU_SET(last, &allowed);
     const int error = pthread_setaffinity_np(pthread_self(), sizeof(allowed), &allowed);
-    if (error != 0) remarks.push_back(refusal("the loop has no processor of its own", error, "start it with taskset"));
+    if (error != 0) remarks.push_back(refusal(FindingCode::no_processor_of_its_own, error));
   }
   std::array<char, stack_in_use> stack{};
   asm volatile("" : : "r"(stack.data()) : "memory");  // so that the pages are touched indeed

@@ -113,7 +113,8 @@ RigRelay relay_on_rig(const Device& device, Driver& driver, const RigOptions& op
   }
   result.session = ended(run, options);
   if (recordings.empty()) {
-    result.trust.refuse("the rig stopped in the first trial: " + explanation(result.session));
+    result.trust.refuse(
+        {.code = FindingCode::first_trial_cut_short, .subjects = {{"reason", explanation(result.session)}}});
     return result;
   }
   RelayRecordOptions record;

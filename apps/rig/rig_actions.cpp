@@ -165,7 +165,7 @@ RigCheck check(const Device& device, Driver& driver, const RigOptions& options, 
   }
   result.trust = trust_of(device);
   if (result.session.stop != StopReason::none) {
-    result.trust.refuse("the rig stopped before the check was over: " + explanation(result.session));
+    result.trust.refuse({.code = FindingCode::check_cut_short, .subjects = {{"reason", explanation(result.session)}}});
   }
   return result;
 }
@@ -308,7 +308,8 @@ RigLimit measure_limit(const Device& device, Driver& driver, const RigOptions& o
   result.session = ended(run, options);
   result.measured = search.measurement(device);
   if (result.session.stop != StopReason::none && !result.measured.stiffness) {
-    result.measured.trust.refuse("the rig stopped before an oscillation grew: " + explanation(result.session));
+    result.measured.trust.refuse(
+        {.code = FindingCode::search_cut_short, .subjects = {{"reason", explanation(result.session)}}});
   }
   judge(result, device);
   return result;

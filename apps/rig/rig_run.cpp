@@ -151,9 +151,7 @@ RigSession RigRun::end() {
   session.remarks = remarks_;
   std::ranges::move(thread_remarks_, std::back_inserter(session.remarks));
   if (session.stop == StopReason::lost_link) session.trouble = driver_.trouble();
-  if (session.stop != StopReason::none) {
-    session.remarks.push_back({Remark::Severity::warning, explanation(session), ""});
-  }
+  if (auto finding = finding_of(session)) session.remarks.push_back(warning(*std::move(finding)));
   return session;
 }
 

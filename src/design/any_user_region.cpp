@@ -41,9 +41,9 @@ class Sampler {
     if (nobody > 0.0 && limit.stiffness - nobody > most_taken_off_) {
       most_taken_off_ = limit.stiffness - nobody;
       trust_ = {};
-      trust_.doubt(
-          "at some damping the limit for any passive user came out above that of nobody, which cannot be; the lower of "
-          "the two is given there, and the true one may be lower still: ask for the limit at the one damping you want");
+      trust_.doubt({.code = FindingCode::any_user_limit_above_nobody,
+                    .evidence = {{"damping", damping}, {"any_user_limit", limit.stiffness}, {"nobody_limit", nobody}},
+                    .effect = {{"critical_stiffness", nobody}}});
     }
     return {damping, nobody, nobody > 0.0 ? limit.frequency : 0.0};
   }

@@ -1,7 +1,5 @@
 #include "design/damper_limits.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -115,11 +113,12 @@ void DamperLimits::check(VirtualDamper damper, Trust& trust) const {
       DeviceParameters held = walled.parameters();
       if (can_be_held(device_)) held.user = {heavy * mass, 0.0, stiff * spring};
       if (find_problem(held) || comes_to_rest(Device(std::move(held)))) continue;
-      trust.refuse(fmt::format(
-          "two computations contradict each other on the damper found: with {} it is unstable by the poles of the loop",
-          heavy == 0.0 && stiff == 0.0 ? std::string("nobody holding")
-                                       : fmt::format("a user of {} times the device's mass and a spring of {} B/T",
-                                                     number(heavy), number(stiff))));
+      Finding finding{.code = FindingCode::damper_contradicts, .evidence = {{"damping", grown}}};
+      if (heavy > 0.0 || stiff > 0.0) {
+        finding.code = FindingCode::damper_contradicts_with_user;
+        finding.evidence = {{"damping", grown}, {"user_mass_ratio", heavy}, {"user_spring_ratio", stiff}};
+      }
+      trust.refuse(std::move(finding));
       return;
     }
   }

@@ -126,7 +126,7 @@ class DamperRecommendation {
     limits_.check(found.damper, trust);
     if (trust.refused()) return wall;
     if (!limits_.keeps(found.damper)) {
-      trust.refuse("the damper found does not keep the margins asked when they are computed again");
+      trust.refuse({.code = FindingCode::wall_margins_contradict, .subjects = {{"what", "damper"}}});
       return wall;
     }
     wall.bounded_by.damping = found.bound;
@@ -157,14 +157,12 @@ class DamperRecommendation {
 
   void remark_on_bounds(WallRecommendation& result) const {
     if (options_.ripple && !(device_.parameters().sensor.resolution > 0.0)) {
-      result.remarks.push_back({Remark::Severity::warning, "the force per encoder count could not be bounded",
-                                "the device has no encoder resolution: the damper may be too coarse to feel",
-                                "give sensor.resolution"});
+      result.remarks.push_back(warning({.code = FindingCode::force_per_count_unknown,
+                                        .subjects = {{"what", "the damper"}},
+                                        .key = "sensor.resolution"}));
     }
     if (!can_be_held(device_)) {
-      result.remarks.push_back(
-          {Remark::Severity::warning, "the limit for any passive user is not available: the device as it is decides",
-           "whoever holds the device may destabilise this damper", "describe the device by bodies and links"});
+      result.remarks.push_back(warning({.code = FindingCode::no_any_user_limit, .subjects = {{"what", "damper"}}}));
     }
   }
 

@@ -40,11 +40,9 @@ Design design(const Device& device, const DesignOptions& options) {
   if (device.bodies().size() <= most_bodies_for_branch_switches) {
     design.branch_switches = branch_switches(device, {options.branch_switch_factor, stages.stage()});
   } else {
-    design.remarks.push_back({Remark::Severity::note,
-                              fmt::format("with more than {} bodies it is not searched where another mechanism takes "
-                                          "over",
-                                          most_bodies_for_branch_switches),
-                              "the slopes hold near the device's own values only", "sweep the number that you change"});
+    design.remarks.push_back(note({.code = FindingCode::branch_switches_not_searched,
+                                   .evidence = {{"bodies", static_cast<double>(device.bodies().size())},
+                                                {"most", static_cast<double>(most_bodies_for_branch_switches)}}}));
   }
   stages.done();
   return design;

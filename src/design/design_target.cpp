@@ -326,14 +326,13 @@ DesignTargets design_targets(const Device& device, const DesignTargetOptions& op
   result.limit_now = limit;
   result.target = target_of(options, limit);
   if (!result.target) {
-    const std::string_view what = options.limit_of == WallNumber::stiffness ? "wall" : "damper";
     result.remarks.push_back(
-        {Remark::Severity::warning, fmt::format("{} {} is stable as it is", limit > 0.0 ? "every" : "no", what),
-         "there is no limit of which a multiple could be asked", "ask for the limit to reach itself"});
+        warning({.code = limit > 0.0 ? FindingCode::every_one_stable : FindingCode::none_stable,
+                 .subjects = {{"what", options.limit_of == WallNumber::stiffness ? "wall" : "damper"}}}));
     return result;
   }
   if (limit == *result.target) {
-    result.remarks.push_back({Remark::Severity::note, "the limit is the target already", "nothing needs to change"});
+    result.remarks.push_back(note({.code = FindingCode::limit_is_target, .evidence = {{"target", limit}}}));
   }
   DesignTargetOptions asked = options;
   asked.stiffness = *result.target;
@@ -343,12 +342,11 @@ DesignTargets design_targets(const Device& device, const DesignTargetOptions& op
     left_out = take_out_least(device, options.limit_of, users.limit_now()->frequency, while_judging, parameters);
     if (!left_out.empty()) {
       asked.factor = std::min(options.factor, factor_of_many_bodies);
-      result.remarks.push_back(
-          {Remark::Severity::note,
-           fmt::format("{} of {} numbers are followed, those that move the limit most, by a factor of {:g} at most",
-                       parameters.size(), all, asked.factor),
-           fmt::format("with {} bodies all of them would take minutes", device.bodies().size()),
-           "change another number and analyze again, or merge bodies whose links hardly give"});
+      result.remarks.push_back(note({.code = FindingCode::some_numbers_followed,
+                                     .evidence = {{"followed", static_cast<double>(parameters.size())},
+                                                  {"all", static_cast<double>(all)},
+                                                  {"factor", asked.factor},
+                                                  {"bodies", static_cast<double>(device.bodies().size())}}}));
     }
   }
   progress.add(left_out.size());

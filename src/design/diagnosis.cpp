@@ -113,28 +113,24 @@ void collect(const ObservedLoop& loop, Diagnosis& diagnosis) {
 void remark_on(const ObservedLoop& loop, Diagnosis& diagnosis) {
   const std::vector<OscillationCandidate>& candidates = diagnosis.candidates;
   if (!loop.stiffness) {
-    diagnosis.remarks.push_back(
-        {Remark::Severity::note, "the stiffness of the wall is not known",
-         "the mechanisms are told by frequency alone; cycles of friction and of the encoder are "
-         "left out",
-         "give the stiffness and the damping of the wall"});
+    diagnosis.remarks.push_back(note({.code = FindingCode::wall_stiffness_unknown, .key = "wall.stiffness"}));
   }
   if (!diagnosis.cause && diagnosis.nearest) {
-    diagnosis.trust.doubt("no cause fits the numbers of the device; what moves it is told of the nearest cause");
+    diagnosis.trust.doubt({.code = FindingCode::no_cause_fits});
   }
   if (!diagnosis.cause) return;
   const bool is_linear =
       diagnosis.cause == OscillationCause::device || diagnosis.cause == OscillationCause::with_operator;
   if (is_linear && loop.stiffness && apart_from(candidates[0], loop) > of_linear_loop) {
     diagnosis.trust.doubt(
-        "the loop is unstable with this wall, but grows at another frequency than the one observed: a force limit, a "
-        "wall that only pushes, or a hand may move it; soften the wall first, then look again");
+        {.code = FindingCode::grows_at_another_frequency,
+         .evidence = {{"log_frequency_ratio", apart_from(candidates[0], loop)}, {"threshold", of_linear_loop}}});
   }
   if (candidates.size() < 2 || !candidates[1].fits) return;
-  if (mismatch(candidates[1], loop) - mismatch(candidates[0], loop) > ambiguous) return;
+  const double closer_by = mismatch(candidates[1], loop) - mismatch(candidates[0], loop);
+  if (closer_by > ambiguous) return;
   diagnosis.trust.doubt(
-      "two mechanisms fit the frequency nearly as well: give the amplitude of the oscillation too, or "
-      "let go of the device and see whether it goes on");
+      {.code = FindingCode::two_causes_fit, .evidence = {{"closer_by", closer_by}, {"threshold", ambiguous}}});
 }
 
 std::optional<OptionProblem> find_problem(const DiagnosisOptions& options) {
@@ -177,15 +173,12 @@ void doubt_recorded(const DominantOscillation& found, Trust& trust) {
   constexpr double clear_share = 0.5;
   constexpr double kept = 0.7;
   if (found.share < clear_share) {
-    trust.doubt(fmt::format(
-        "the oscillation is {:.0f} % of what moves in the last half of the recording; record while it oscillates alone",
-        100.0 * found.share));
+    trust.doubt({.code = FindingCode::oscillation_beside_other_motion,
+                 .evidence = {{"share", found.share}, {"threshold", clear_share}}});
   }
   if (found.change < kept) {
-    trust.doubt(fmt::format(
-        "the oscillation dies out, to {:.0f} % from one half of the stretch to the other: nothing keeps it up; "
-        "record it while it goes on",
-        100.0 * found.change));
+    trust.doubt(
+        {.code = FindingCode::oscillation_dies_out, .evidence = {{"change", found.change}, {"threshold", kept}}});
   }
 }
 
@@ -200,7 +193,8 @@ std::optional<OptionProblem> find_problem(const DiagnosisOptions& options, const
                                      nyquist / (2.0 * pi))};
   }
   if (options.stiffness == 0.0 && options.damping.value_or(device.parameters().wall.damping) == 0.0) {
-    return OptionProblem{"stiffness", "is 0 and so is the damping", "one of them must be above 0: there is no wall else"};
+    return OptionProblem{"stiffness", "is 0 and so is the damping",
+                         "one of them must be above 0: there is no wall else"};
   }
   return find_problem(options);
 }
@@ -253,9 +247,7 @@ Diagnosis diagnose(const Device& device, const Recording& recording, const Diagn
     if (!diagnosis.trust.refused()) doubt_recorded(*found, diagnosis.trust);
   } else {
     diagnosis.amplitude = options.amplitude;
-    diagnosis.trust.refuse(
-        "nothing oscillates for four cycles and more in the last half of the recording; record for longer, while it "
-        "does");
+    diagnosis.trust.refuse({.code = FindingCode::nothing_oscillates});
   }
   diagnosis.remarks.insert(diagnosis.remarks.begin(), recording.remarks.begin(), recording.remarks.end());
   return diagnosis;

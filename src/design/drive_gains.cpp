@@ -122,51 +122,41 @@ Wall wall_on_drive(DriveFirmware firmware, Wall wall, double period, double band
 }
 
 /// What is not in the analysis, whatever it says.
-constexpr const char* doubt =
-    "the drive's current loop is not modelled: the limit on the drive may be well lower; begin with a tenth of it, and "
-    "raise K by half until it vibrates";
-
 /// Where the firmware has position and velocity from.
-std::string estimator_text(DriveFirmware firmware, const DriveLoopOptions& options) {
+std::optional<Finding> estimator_of(DriveFirmware firmware, const DriveLoopOptions& options) {
   const double bandwidth = bandwidth_of(firmware, options);
-  const char* const by = options.estimator_bandwidth ? "as given" : "its default";
+  const std::string by = options.estimator_bandwidth ? "as given" : "its default";
   switch (firmware) {
     case DriveFirmware::odrive:
-      return fmt::format("position and velocity are the estimator's: encoder.config.bandwidth {:g} rad/s, {}",
-                         bandwidth, by);
+      return Finding{
+          .code = FindingCode::odrive_estimator, .evidence = {{"bandwidth", bandwidth}}, .subjects = {{"by", by}}};
     case DriveFirmware::moteus:
-      return fmt::format(
-          "position and velocity are the estimator's: motor_position.sources.N.pll_filter_hz {:g}, {}, in firmware "
-          "from July 2025 on",
-          bandwidth / turn, by);
+      return Finding{.code = FindingCode::moteus_estimator,
+                     .evidence = {{"filter_hz", bandwidth / turn}},
+                     .subjects = {{"by", by}}};
     case DriveFirmware::vesc:
-      return "the position is the encoder's, the velocity its difference: p_pid_gain_dec_angle 0, as by default; "
-             "without "
-             "an encoder it is an observer's, which is not modelled";
+      return Finding{.code = FindingCode::vesc_estimator};
     case DriveFirmware::openffboard:
-      return "the position is the encoder's; axis.0.axisfriction, axisinertia, maxspeed and maxtorquerate 0, as by "
-             "default";
+      return Finding{.code = FindingCode::openffboard_estimator};
     case DriveFirmware::simplefoc:
       break;
   }
-  return {};
+  return std::nullopt;
 }
 
 std::vector<Remark> remarks_of(DriveFirmware firmware, const DriveGains& gains, const DriveLoopOptions& options) {
-  const auto note = [](std::string what) { return Remark{.what = std::move(what), .consequence = ""}; };
   std::vector<Remark> remarks;
   if (firmware == DriveFirmware::simplefoc && !options.sampling_period) {
-    remarks.push_back(note("the loop of the sketch is taken to run at the device's sampling rate: measure it"));
+    remarks.push_back(note({.code = FindingCode::sketch_rate_assumed, .key = "loop.sampling_period"}));
   } else {
-    remarks.push_back(
-        note(fmt::format("the loop closes on the drive: {:g} Hz, {}, and a delay of {}",
-                         std::round(1.0 / gains.sampling_period), options.sampling_period ? "as given" : "its default",
-                         options.delay ? quantity(gains.delay, "s") : "one period, as is taken")));
+    Finding loop{.code = options.delay ? FindingCode::drive_loop : FindingCode::drive_loop_delay_assumed,
+                 .evidence = {{"rate_hz", std::round(1.0 / gains.sampling_period)}, {"delay", gains.delay, "s"}},
+                 .subjects = {{"by", options.sampling_period ? "as given" : "its default"}}};
+    remarks.push_back(note(std::move(loop)));
   }
-  if (std::string text = estimator_text(firmware, options); !text.empty()) remarks.push_back(note(std::move(text)));
+  if (auto estimator = estimator_of(firmware, options)) remarks.push_back(note(*std::move(estimator)));
   if (firmware == DriveFirmware::odrive || firmware == DriveFirmware::simplefoc) {
-    remarks.push_back(
-        note("the velocity limit of the drive bounds the spring: raise it above the first gain times the depth"));
+    remarks.push_back(note({.code = FindingCode::drive_velocity_limit}));
   }
   return remarks;
 }
@@ -253,7 +243,7 @@ DriveGains drive_gains(const Device& device, DriveFirmware firmware, const Drive
   parameters.wall =
       wall_on_drive(firmware, std::move(parameters.wall), gains.sampling_period, bandwidth_of(firmware, options));
   gains.on_drive = analyze(Device(std::move(parameters)));
-  gains.on_drive.trust.doubt(doubt);
+  gains.on_drive.trust.doubt({.code = FindingCode::current_loop_not_modelled});
   gains.remarks = remarks_of(firmware, gains, options);
   return gains;
 }

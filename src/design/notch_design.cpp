@@ -168,19 +168,16 @@ void add_states(const Device& device, NotchDesign& design) {
 
 void remark_on(const NotchOptions& options, NotchDesign& design) {
   if (design.without == 0.0 && !design.notch) {
-    design.remarks.push_back({Remark::Severity::warning, "no wall keeps the margins asked, with or without a notch",
-                              "a spring alone on a lightly damped device has little phase margin",
-                              "add a damper to the wall, or ask for less phase margin"});
+    design.remarks.push_back(warning({.code = FindingCode::no_wall_keeps_margins}));
   } else if (design.state_without && design.state_without->analysis.critical.status == StiffnessStatus::finite &&
              design.with < bound_by_phase * design.state_without->analysis.critical.stiffness / options.gain_margin) {
-    design.remarks.push_back({Remark::Severity::warning,
-                              "the phase margin asked allows only a small part of what the gain margin does",
-                              "a spring alone on a lightly damped device has little phase margin",
-                              "add a damper to the wall, or ask for less phase margin"});
+    design.remarks.push_back(
+        warning({.code = FindingCode::phase_margin_bounds,
+                 .evidence = {{"stiffness", design.with}, {"phase_margin", options.phase_margin}},
+                 .effect = {{"critical_stiffness", design.state_without->analysis.critical.stiffness}}}));
   } else if (!design.notch && std::isfinite(design.without)) {
-    design.remarks.push_back({Remark::Severity::note, "no notch near a mode makes the wall stiffer",
-                              options.lower_any_user ? "" : "those that lower the limit with any user are not counted",
-                              "change the device or the damper of the wall"});
+    design.remarks.push_back(
+        note({.code = options.lower_any_user ? FindingCode::no_notch_helps : FindingCode::no_counted_notch_helps}));
   }
 }
 

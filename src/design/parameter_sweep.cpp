@@ -137,9 +137,13 @@ Trust trust_of(const Device& device, const std::vector<SweepPoint>& points) {
   if (unsound == 0) return trust;
   const SweepPoint& first =
       *std::find_if(points.begin(), points.end(), [](const SweepPoint& each) { return !each.trust.sound(); });
-  trust.doubt(fmt::format("of {} points {} are refused and {} doubtful; the first: {}", points.size(), refused,
-                          unsound - refused, first.trust.reasons.front()));
-  if (refused == static_cast<std::ptrdiff_t>(points.size())) trust.verdict = Trust::Verdict::refused;
+  Finding finding{.code = FindingCode::points_not_sound,
+                  .evidence = {{"points", static_cast<double>(points.size())},
+                               {"refused", static_cast<double>(refused)},
+                               {"doubtful", static_cast<double>(unsound - refused)}},
+                  .subjects = {{"reason", first.trust.reasons.front()}}};
+  refused == static_cast<std::ptrdiff_t>(points.size()) ? trust.refuse(std::move(finding))
+                                                        : trust.doubt(std::move(finding));
   return trust;
 }
 

@@ -40,9 +40,9 @@ std::vector<ComparedApproximation> compared(const Device& device, const WallRegi
   return result;
 }
 
-void refuse(WallRegion& result, std::string reason) {
+void refuse(WallRegion& result, Finding finding) {
   Trust trust = std::move(result.trust);
-  trust.refuse(std::move(reason));
+  trust.refuse(std::move(finding));
   result = {};
   result.trust = std::move(trust);
 }
@@ -65,36 +65,26 @@ FoundWalls find_walls(const Device& device, const OutlineOptions& outline, WallR
   const RegionCheck check = check_region(device, *found.walls, found.region, outline.deviation, stages.stage());
   const Units units = units_of(device.parameters().motion);
   if (check.contradiction) {
-    refuse(result, fmt::format("two computations contradict each other on whether the wall of {} and {} {} is stable: "
-                               "modes lie too close together, or are too little damped, for either to be sure; give "
-                               "the links their damping, or merge bodies that move alike",
-                               quantity(check.contradiction->stiffness, units.stiffness),
-                               number(check.contradiction->damping), units.damping));
+    refuse(result, {.code = FindingCode::region_contradicts,
+                    .evidence = {{"stiffness", check.contradiction->stiffness, units.stiffness},
+                                 {"damping", check.contradiction->damping}},
+                    .subjects = {{"damping_unit", std::string(units.damping)}}});
     return {};
   }
   if (check.asked == 0 && found.region.bounded) {
-    result.trust.doubt(
-        "no second computation confirms the region: the loop has too many states; shorten the delay or merge bodies "
-        "that hardly move against each other");
+    result.trust.doubt({.code = FindingCode::region_not_confirmed});
   }
   if (check.asked > 0 && check.confirmed == 0) {
     result.trust.doubt(
-        "no second computation confirms the region: a closed-loop pole of every wall asked lies on the unit circle to "
-        "rounding; give the links their damping");
+        {.code = FindingCode::region_poles_on_circle, .evidence = {{"walls_asked", static_cast<double>(check.asked)}}});
   }
   if (found.region.vertex_error > usual_vertex_error) {
-    result.trust.doubt(
-        fmt::format("the region is known to {} of its extent only: it ends beside a mode that hardly anything "
-                    "damps; give the "
-                    "links their damping",
-                    percent(found.region.vertex_error)));
+    result.trust.doubt({.code = FindingCode::region_vertex_open,
+                        .evidence = {{"share", found.region.vertex_error}, {"threshold", usual_vertex_error}}});
   }
   if (!found.walls->structure().proven) {
-    result.remarks.push_back(
-        {Remark::Severity::note,
-         fmt::format("the boundary was followed by samples, not by bounds, and confirmed at {} walls", check.confirmed),
-         "a part of the region that is much thinner than its distance from K = B = 0 may be missing",
-         "critical_stiffness at one damping has no such gap"});
+    result.remarks.push_back(note({.code = FindingCode::boundary_sampled,
+                                   .evidence = {{"walls_confirmed", static_cast<double>(check.confirmed)}}}));
   }
   return found;
 }
@@ -104,9 +94,9 @@ void add_nobody(const Device& alone, const OutlineOptions& outline, WallRegion& 
   WallRegion said;
   FoundWalls found = find_walls(alone, outline, said, progress);
   for (const std::string& reason : said.trust.reasons) {
-    const std::string with = fmt::format("with {}: {}", words_of(Holder::nobody), reason);
-    if (said.trust.refused()) return refuse(result, with);
-    result.trust.doubt(with);
+    Finding with{.code = FindingCode::nobody_holding, .subjects = {{"reason", reason}}};
+    if (said.trust.refused()) return refuse(result, std::move(with));
+    result.trust.doubt(std::move(with));
   }
   for (Remark& remark : said.remarks) {
     remark.what = fmt::format("with {}: {}", words_of(Holder::nobody), remark.what);
@@ -148,8 +138,7 @@ WallRegion region(const Device& device, const RegionOptions& options) {
     }
   } catch (const Error& error) {
     if (error.code() != ErrorCode::did_not_converge) throw;
-    refuse(result,
-           fmt::format("{}; the stable stiffnesses at one damping (wall.damping) can still be told", error.what()));
+    refuse(result, {.code = FindingCode::region_not_converged, .subjects = {{"reason", error.what()}}});
   }
   if (result.trust.refused()) return result;
   using enum WallRegion::Status;
@@ -168,11 +157,9 @@ WallRegion region(const Device& device, const RegionOptions& options) {
                                         result.region.most_damped->damping, {.progress = stages.stage()});
       result.trust.inherit(result.any_user->trust);
     } else {
-      result.remarks.push_back({Remark::Severity::note,
-                                fmt::format("no limit for any passive user: the device has {} bodies, more than {}",
-                                            device.bodies().size(), most_bodies_for_any_user),
-                                "a user may destabilise walls of this region",
-                                "merge bodies that hardly move against each other"});
+      result.remarks.push_back(note({.code = FindingCode::too_many_bodies_for_any_user_region,
+                                     .evidence = {{"bodies", static_cast<double>(device.bodies().size())},
+                                                  {"most", static_cast<double>(most_bodies_for_any_user)}}}));
     }
   }
   stages.next(1.0);

@@ -189,11 +189,7 @@ void take_lower_end(const std::vector<HeldDevice>& held, const HeldDevice& least
     wall.uncertainty_share = std::min(wall.uncertainty_share, wall.any_user_interval->lower / wall.limit);
   }
   wall.remarks.push_back(
-      {Remark::Severity::note,
-       fmt::format("limits are taken at the lower end of their 95 % intervals, {:.4g} of their value",
-                   wall.uncertainty_share),
-       "the parameters of the device are known so well and no better",
-       "identify them from more or longer recordings for a stiffer wall"});
+      note({.code = FindingCode::limits_at_lower_end, .evidence = {{"share", wall.uncertainty_share}}}));
 }
 
 /// The limits of all known holders; of each the status decides where there is none.
@@ -223,7 +219,7 @@ double damping_limit(const std::vector<Device>& holders, double filter, SafeWall
     const StableRegion region = stable_region(walls);
     if (!region.bounded) continue;
     if (!region.most_damped) {
-      wall.trust.refuse("the region of stable walls contradicts the critical stiffness");
+      wall.trust.refuse({.code = FindingCode::region_contradicts_limit});
       return 0.0;
     }
     if (wall.basis == SafeWall::Basis::any_user) {  // nobody is among them, and the first
@@ -252,8 +248,7 @@ void choose(const Device& device, const SafeWallOptions& options, SafeWall& wall
     }
   }
   if (wall.basis == SafeWall::Basis::device && device.has_bodies()) {
-    wall.remarks.push_back({Remark::Severity::note, "there is no limit for any passive user to take a share of",
-                            "whoever holds the device may destabilise this wall", ""});
+    wall.remarks.push_back(note({.code = FindingCode::no_any_user_limit_to_share}));
   }
   take_lower_end(held, least, options, wall);
   const double share = options.safety_factor * wall.uncertainty_share;
@@ -265,10 +260,7 @@ void choose(const Device& device, const SafeWallOptions& options, SafeWall& wall
     if (wall.any_user_interval) lower_damping(device, options.any_user_draws, filter, wall);
   }
   if (!(wall.stiffness > 0.0)) {
-    wall.trust.refuse(
-        "the uncertainty of the device leaves no wall: in more than 2.5 % of the draws none is stable; identify it "
-        "from "
-        "more or longer recordings");
+    wall.trust.refuse({.code = FindingCode::uncertainty_leaves_no_wall});
     return;
   }
   check_wall(holders, options, wall);
@@ -295,7 +287,7 @@ SafeWall safe_wall(const Device& device, const SafeWallOptions& options) {
     choose(device, options, wall);
   } catch (const Error& error) {
     if (error.code() != ErrorCode::did_not_converge) throw;
-    wall.trust.refuse(error.what());
+    wall.trust.refuse({.code = FindingCode::not_converged, .subjects = {{"reason", error.what()}}});
   }
   if (wall.trust.refused()) return refused(std::move(wall));
   return wall;

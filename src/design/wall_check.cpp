@@ -109,9 +109,10 @@ void check_phase(const Device& walled, double phase_margin, const Progress& prog
       }
       const double margin = std::abs(std::arg(-loop.at(low)));
       if (margin < phase_margin - tolerance) {
-        trust.refuse(fmt::format(
-            "two computations contradict each other on the phase margin of the wall found: {:.3g} degrees at {:.4g} Hz",
-            margin * 180.0 / pi, low / (2.0 * pi * walled.loop().sampling_period)));
+        trust.refuse({.code = FindingCode::wall_phase_margin_contradicts,
+                      .evidence = {{"phase_margin_deg", margin * 180.0 / pi},
+                                   {"frequency_hz", low / (2.0 * pi * walled.loop().sampling_period)},
+                                   {"threshold", phase_margin * 180.0 / pi}}});
         return;
       }
     }

@@ -90,11 +90,9 @@ class Recommendation {
     result.status = WallRecommendation::Status::found;
     result.wall = std::move(wall);
     if (!options_.ripple && result.wall->force_per_count) {
-      result.remarks.push_back(
-          {Remark::Severity::note, "no greatest force per encoder count was asked",
-           fmt::format("one step of the encoder moves the force by {}",
-                       quantity(result.wall->force_per_count->largest, units_of(device_.parameters().motion).force)),
-           "ask for a ripple where that can be felt or heard"});
+      result.remarks.push_back(note({.code = FindingCode::no_ripple_asked,
+                                     .evidence = {{"force_per_count", result.wall->force_per_count->largest,
+                                                   units_of(device_.parameters().motion).force}}}));
     }
     stages_.next(1.0);
     if (options_.alternatives) add_alternatives(*best, plain, result);
@@ -241,7 +239,7 @@ class Recommendation {
     check_wall(walled, options_, limits.has_users(), trust);
     if (trust.refused()) return wall;
     if (!limits.keeps(candidate.stiffest.stiffness, damper)) {
-      trust.refuse("the wall found does not keep the margins asked when they are computed again");
+      trust.refuse({.code = FindingCode::wall_margins_contradict, .subjects = {{"what", "wall"}}});
       return wall;
     }
     wall.bounded_by.stiffness = candidate.stiffest.bound;
@@ -271,7 +269,8 @@ class Recommendation {
     Trust trust;
     RecommendedWall wall = described(what, *candidate, trust);
     if (trust.refused()) {
-      result.trust.doubt(fmt::format("an alternative ({}) is left out: {}", what, trust.reasons.front()));
+      result.trust.doubt(
+          {.code = FindingCode::alternative_left_out, .subjects = {{"what", what}, {"reason", trust.reasons.front()}}});
       return;
     }
     result.trust.inherit(trust);
@@ -319,19 +318,16 @@ class Recommendation {
 
   void remark_on_bounds(WallRecommendation& result) const {
     if (!(device_.parameters().sensor.resolution > 0.0)) {
-      result.remarks.push_back({options_.ripple ? Remark::Severity::warning : Remark::Severity::note,
-                                "the force per encoder count could not be bounded",
-                                "the device has no encoder resolution: stiffness and damping may be too coarse to feel",
-                                "give sensor.resolution"});
+      Finding finding{.code = FindingCode::force_per_count_unknown,
+                      .subjects = {{"what", "stiffness and damping"}},
+                      .key = "sensor.resolution"};
+      result.remarks.push_back(options_.ripple ? warning(std::move(finding)) : note(std::move(finding)));
     }
     if (!limits_.has_users()) {
-      result.remarks.push_back(
-          {Remark::Severity::warning, "the limit for any passive user is not available: the device as it is decides",
-           "whoever holds the device may destabilise this wall", "describe the device by bodies and links"});
+      result.remarks.push_back(warning({.code = FindingCode::no_any_user_limit, .subjects = {{"what", "wall"}}}));
     }
     if (!device_.parameters().wall.filters.empty()) {
-      result.remarks.push_back({Remark::Severity::note, "the filters of the device's wall stay in it",
-                                "every number has them closed", "take them out of the file for a wall without"});
+      result.remarks.push_back(note({.code = FindingCode::filters_stay, .key = "wall.filter"}));
     }
   }
 
@@ -389,7 +385,7 @@ WallRecommendation recommend_wall(const Device& device, const RecommendationOpti
     return result;
   } catch (const Error& error) {
     if (error.code() != ErrorCode::did_not_converge) throw;
-    trust.refuse(error.what());
+    trust.refuse({.code = FindingCode::not_converged, .subjects = {{"reason", error.what()}}});
     return refused(std::move(trust));
   }
 }

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "doubt_all.hpp"
 #include "require_valid.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/device_trust.hpp"
@@ -245,31 +246,28 @@ LimitMeasurement LimitSearch::measurement(const Device& device) const {
   result.trials = trials_;
   const Units units = units_of(device.parameters().motion);
   // What was measured stands whatever the file's numbers are; that they are doubtful is said beside it.
-  for (const std::string& reason : trust_of(device).reasons) result.trust.doubt(reason);
+  internal::doubt_all(trust_of(device), result.trust);
   const LimitTrial* low = stable();
   const LimitTrial* high = unstable();
   if ((low != nullptr && low->cut) || (high != nullptr && high->cut)) {
-    result.trust.refuse(
-        "the force was cut off after the knock, so that the walls that were felt are not those that were tried: allow "
-        "more force, or knock softer");
+    result.trust.refuse({.code = FindingCode::force_cut_off});
     return result;
   }
   if (low != nullptr) result.lower = low->stiffness;
   if (high != nullptr) result.upper = high->stiffness;
   if (trials_.empty()) {
-    result.trust.refuse("no trial came to its end");
+    result.trust.refuse({.code = FindingCode::no_trial_ended});
     return result;
   }
   if (high == nullptr) {
-    result.trust.refuse(fmt::format("no oscillation grew up to {}: raise the ceiling, or knock harder",
-                                    quantity(result.lower, units.stiffness)));
+    result.trust.refuse(
+        {.code = FindingCode::no_oscillation_grew, .evidence = {{"stiffness", result.lower, units.stiffness}}});
     return result;
   }
   if (low == nullptr) {
     result.at_most = sure_to_grow(*high, options_.floor);
     result.trust.refuse(
-        fmt::format("an oscillation grew with every wall, down to {}: check sign and units of the drive",
-                    quantity(result.upper, units.stiffness)));
+        {.code = FindingCode::every_wall_oscillates, .evidence = {{"stiffness", result.upper, units.stiffness}}});
     return result;
   }
   const auto zero = zero_of_growth(*low, *high);
@@ -279,9 +277,7 @@ LimitMeasurement LimitSearch::measurement(const Device& device) const {
     result.frequency = low->ring->frequency + share * (high->ring->frequency - low->ring->frequency);
   } else {
     if (high->ring) result.frequency = high->ring->frequency;
-    result.trust.doubt(
-        "no oscillation was read that decays below the limit and grows above it: softer walls may grow unseen; let the "
-        "trials last longer, or knock harder");
+    result.trust.doubt({.code = FindingCode::growth_not_bracketed});
   }
   const double swing = low->ring && high->ring ? std::min(low->ring->amplitude, high->ring->amplitude) : 0.0;
   const double of_encoder = options_.floor > 0.0 ? std::min(encoder_error(options_.floor, swing), 1.0) : 0.0;
@@ -304,40 +300,39 @@ LimitMeasurement LimitSearch::measurement(const Device& device) const {
   }
   result.at_most = result.interval ? std::optional(result.interval->upper) : sure_to_grow(*high, options_.floor);
   if (of_encoder > most_error) {
-    result.trust.doubt(fmt::format(
-        "the encoder's step of {} is coarse for a swing of {}: the limit may be off by {:.0f} %; knock harder",
-        quantity(options_.floor, units.length), quantity(swing, units.length), 100.0 * of_encoder));
+    result.trust.doubt({.code = FindingCode::encoder_coarse_for_swing,
+                        .evidence = {{"resolution", options_.floor, units.length},
+                                     {"swing", swing, units.length},
+                                     {"error", of_encoder},
+                                     {"threshold", most_error}}});
   } else if (of_growth > most_error * *result.stiffness) {
-    result.trust.doubt(
-        fmt::format("the oscillation's growth is not known well enough: the limit may be off by {:.0f} %; knock harder",
-                    100.0 * of_growth / *result.stiffness));
+    result.trust.doubt({.code = FindingCode::growth_not_known,
+                        .evidence = {{"error", of_growth / *result.stiffness}, {"threshold", most_error}}});
   }
   if (zero && !has_smaller_) {
-    result.trust.doubt("no smaller knock was tried, which would show whether the limit is that of this swing alone");
+    result.trust.doubt({.code = FindingCode::no_smaller_impulse});
   } else if (zero && !smaller_) {
-    result.trust.doubt(
-        "after a knock of half the size no oscillation was read: the limit may be that of this swing alone, as dry "
-        "friction or a coarse encoder makes it; knock harder");
+    result.trust.doubt({.code = FindingCode::smaller_impulse_not_read});
     if (of_step < most_error) result.interval.reset();
   } else if (of_size > (most_error + std::min(of_step, most_error)) * *result.stiffness) {
-    result.trust.doubt(fmt::format(
-        "after a knock of half the size the oscillation {}, as friction or play in the device makes it: the limit of "
-        "another swing may be {:.0f} % lower; knock harder and see whether the limit falls",
-        smaller_->growth_rate < low->ring->growth_rate ? "decays faster" : "decays less",
-        100.0 * std::min(1.0, of_size / *result.stiffness)));
+    const bool is_faster = smaller_->growth_rate < low->ring->growth_rate;
+    result.trust.doubt(
+        {.code = is_faster ? FindingCode::smaller_swing_decays_faster : FindingCode::smaller_swing_decays_less,
+         .evidence = {{"error", std::min(1.0, of_size / *result.stiffness)},
+                      {"threshold", most_error + std::min(of_step, most_error)}}});
     if (of_step < most_error) result.interval.reset();  // else the encoder makes it, for which it is wide enough
   }
   const double width = (high->stiffness - low->stiffness) / high->stiffness;
   if (width > options_.bracket) {
-    result.trust.doubt(fmt::format("the limit lies between {} and {}: the search ended before it was closer",
-                                   quantity(low->stiffness, units.stiffness),
-                                   quantity(high->stiffness, units.stiffness)));
+    result.trust.doubt({.code = FindingCode::bracket_wide,
+                        .evidence = {{"lower", low->stiffness, units.stiffness},
+                                     {"upper", high->stiffness, units.stiffness},
+                                     {"width", width},
+                                     {"threshold", options_.bracket}}});
   }
   const auto has_friction = [](const Body& body) { return body.coulomb > 0.0; };
   if (std::ranges::any_of(device.bodies(), has_friction)) {
-    result.trust.doubt(
-        "dry friction holds small swings down: the limit is that of the swing after the knock; knock harder for the "
-        "limit of large motion");
+    result.trust.doubt({.code = FindingCode::friction_holds_swing});
   }
   return result;
 }

@@ -1,40 +1,46 @@
 #include "zwidth/rig/session.hpp"
 
+#include "zwidth/words/finding_text.hpp"
+
 namespace zwidth {
 
-std::string explanation(StopReason reason) {
-  switch (reason) {
+std::optional<Finding> finding_of(const RigSession& session) {
+  using enum FindingCode;
+  switch (session.stop) {
     case StopReason::none:
-      return "";
+      return std::nullopt;
     case StopReason::interrupted:
-      return "interrupted: the force is zero";
+      return Finding{.code = interrupted};
     case StopReason::not_a_number:
-      return "a position or a force was not a number: the force is zero; check the sensor and the wall's filters";
+      return Finding{.code = position_not_a_number};
     case StopReason::position_limit:
-      return "the position went beyond its limit: the force is zero; render softer, or allow more";
+      return Finding{.code = beyond_position_limit};
     case StopReason::velocity_limit:
-      return "the velocity went beyond its limit: the force is zero; render softer, or allow more";
+      return Finding{.code = beyond_velocity_limit};
     case StopReason::saturation:
-      return "more force was wanted than is allowed, for too long: the force is zero; render softer, or allow more";
+      return Finding{.code = force_limited_too_long};
     case StopReason::missed_cycles:
-      return "too many cycles in a row came late: the force is zero; give the loop a processor of its own and "
-             "real-time "
-             "priority, or a longer sampling period";
+      return Finding{.code = missed_cycles};
     case StopReason::lost_link:
-      return "too many cycles in a row brought no position: the force is zero; check cable, port and baud rate";
+      if (session.trouble.empty()) return Finding{.code = lost_link};
+      return Finding{.code = drive_in_trouble, .subjects = {{"trouble", session.trouble}}};
     case StopReason::watchdog:
-      return "the loop stood still and the watchdog set the force to zero; give it a processor of its own and "
-             "real-time "
-             "priority";
+      return Finding{.code = watchdog_fired};
     case StopReason::oscillation:
-      return "an oscillation grew: the force is zero; render softer";
+      return Finding{.code = oscillation_grew};
   }
-  return "";
+  return std::nullopt;
 }
 
 std::string explanation(const RigSession& session) {
-  if (session.stop != StopReason::lost_link || session.trouble.empty()) return explanation(session.stop);
-  return "there was no position any more: the force is zero; " + session.trouble;
+  const std::optional<Finding> finding = finding_of(session);
+  return finding ? text(*finding) : std::string();
+}
+
+std::string explanation(StopReason reason) {
+  RigSession session;
+  session.stop = reason;
+  return explanation(session);
 }
 
 }  // namespace zwidth

@@ -1,7 +1,5 @@
 #include "zwidth/rig/wall_verdict.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -19,33 +17,25 @@ constexpr double sure_deviations = 3.0;  // of a growth rate
 void judge(RigWall& wall) {
   wall.grows = wall.ring && wall.ring->growth_rate > sure_deviations * wall.ring->growth_deviation;
   if (wall.cut_duration > 0.0) {
-    wall.trust.doubt(fmt::format(
-        "force was kept back for {}, by its limit or its ramp: the wall that was felt is softer than this one",
-        quantity(wall.cut_duration, "s")));
+    wall.trust.doubt({.code = FindingCode::force_kept_back, .evidence = {{"duration", wall.cut_duration, "s"}}});
   }
   if (wall.peak_force > 0.0 && wall.peak_position == 0.0) {
-    wall.trust.doubt(
-        "the position never changed under force: check encoder, [driver], and that the drive moves its motor");
+    wall.trust.doubt({.code = FindingCode::position_never_changed});
   }
   const bool has_stopped = wall.session.stop != StopReason::none;
   if (has_stopped) {
-    wall.trust.doubt("the rig stopped before the wall's time was over: " + explanation(wall.session));
+    wall.trust.doubt({.code = FindingCode::wall_cut_short, .subjects = {{"reason", explanation(wall.session)}}});
   }
   if (!wall.predicted_stable) return;
   if (!*wall.predicted_stable && has_stopped) {  // how far it grew until then does not matter
     wall.trust.doubt(
-        fmt::format("the wall is UNSTABLE by linear analysis, {}: render softer", unstable_with(*wall.stable_for)));
+        {.code = FindingCode::unstable_and_stopped, .subjects = {{"holders", unstable_with(*wall.stable_for)}}});
   } else if (!*wall.predicted_stable && !wall.oscillates) {
-    wall.trust.doubt(
-        fmt::format("the wall is UNSTABLE by linear analysis, {}: that {} does not make it stable; render softer",
-                    unstable_with(*wall.stable_for),
-                    wall.grows ? "its oscillation grew too slowly to be taken away"
-                               : "no oscillation was seen to grow while it ran"));
+    wall.trust.doubt({.code = wall.grows ? FindingCode::unstable_growing_slowly : FindingCode::unstable_unseen,
+                      .subjects = {{"holders", unstable_with(*wall.stable_for)}}});
   }
   if (*wall.predicted_stable && (wall.oscillates || wall.grows)) {
-    wall.trust.doubt(
-        "an oscillation grew in a wall that is stable by linear analysis: the device is not that of its file; identify "
-        "it, and render softer until then");
+    wall.trust.doubt({.code = FindingCode::stable_wall_oscillates});
   }
 }
 
@@ -56,43 +46,30 @@ void judge(RigLimit& limit, const Device& device) {
   const double with_nobody = limit.limits.nobody.critical_stiffness;
   const double with_user = limit.limits.user ? limit.limits.user->critical_stiffness : with_nobody;
   const auto unit = units_of(device.parameters().motion).stiffness;
-  const auto text_of = [&](double stiffness) {
-    return std::isfinite(stiffness) ? quantity(stiffness, unit) : std::string("every stiffness");
-  };
   const double promised = std::min(with_nobody, with_user);
   if (at_most < promised) {
-    limit.remarks.push_back(
-        {Remark::Severity::warning,
-         fmt::format("UNSAFE: the device bears less than its file promises: {} at most, as measured, for {}",
-                     text_of(at_most), text_of(promised)),
-         "walls in between are called stable, and shake on the device",
-         "identify the device, and render softer until then"});
-    limit.predicted.trust.doubt(fmt::format(
-        "the device on the rig bears {} at most, less than this: its file is not that of the device; identify it",
-        text_of(at_most)));
-    limit.trust.doubt(fmt::format(
-        "the device's file promises {}, more than was measured: identify the device before any of its limits is used",
-        text_of(promised)));
+    const std::vector<Evidence> evidence{{"at_most", at_most, unit}, {"promised", promised, unit}};
+    const std::vector<Evidence> effect{{"critical_stiffness", at_most}};
+    limit.remarks.push_back(warning({.code = FindingCode::device_bears_less, .evidence = evidence, .effect = effect}));
+    limit.predicted.trust.doubt(
+        {.code = FindingCode::prediction_above_measured, .evidence = evidence, .effect = effect});
+    limit.trust.doubt({.code = FindingCode::file_promises_more, .evidence = evidence, .effect = effect});
   } else if (at_most < with_user) {
-    limit.remarks.push_back(
-        {Remark::Severity::note,
-         fmt::format("the limit measured, {} at most, lies below that with the file's user, {}, not below that with "
-                     "nobody holding, {}",
-                     text_of(at_most), text_of(with_user), text_of(with_nobody)),
-         "whoever held the device, if anybody did, was not the file's user",
-         "leave the user out of the file for a rig that nobody holds"});
+    limit.remarks.push_back(note(
+        {.code = FindingCode::user_was_not_there,
+         .evidence = {{"at_most", at_most, unit}, {"with_user", with_user, unit}, {"with_nobody", with_nobody, unit}},
+         .key = "operator"}));
   }
 }
 
 void judge(RigMeasurement& measurement, const Device& device) {
   if (!measurement.response) {
-    measurement.trust.refuse("the rig stopped before its record was whole: " + explanation(measurement.session));
+    measurement.trust.refuse(
+        {.code = FindingCode::record_cut_short, .subjects = {{"reason", explanation(measurement.session)}}});
     return;
   }
   if (std::ranges::any_of(device.bodies(), [](const Body& body) { return body.coulomb > 0.0; })) {
-    measurement.response->trust.doubt(
-        "the device has dry friction, which a response shows as damping: large motion has less of it, and a lower "
-        "limit; excite more strongly and see whether the limit falls");
+    measurement.response->trust.doubt({.code = FindingCode::friction_in_response});
   }
   measurement.trust.inherit(measurement.response->trust);
 }

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "doubt_all.hpp"
 #include "require_valid.hpp"
 #include "simulation/relay_explanation.hpp"
 #include "staged_progress.hpp"
@@ -36,38 +37,35 @@ Trust trust_of_reading(const RelayResult& result) {
   const Trust expected = result.prediction ? result.prediction->linear.trust
                          : result.device   ? trust_of(*result.device)
                                            : Trust{};
-  for (const std::string& reason : expected.reasons) trust.doubt(reason);
+  doubt_all(expected, trust);
   if (const auto over_all = relay_mean(result.trials); over_all && !result.mean) {
-    trust.refuse(fmt::format(
-        "the trials settle at different oscillations, of which there is no mean: {}; compare each with the predictions",
-        oscillations_text(result)));
+    trust.refuse({.code = FindingCode::trials_settle_apart,
+                  .evidence = {{"trials", static_cast<double>(over_all->trials)}},
+                  .subjects = {{"oscillations", oscillations_text(result)}}});
     return trust;
   }
   if (!result.mean) {
-    trust.refuse("no trial oscillates: start further out, push harder or record for longer");
+    trust.refuse({.code = FindingCode::no_trial_oscillates});
     return trust;
   }
   if (!result.device) {
-    trust.doubt(
-        "what a relay reads is a limit for walls only where friction is small and it oscillates at the limit's "
-        "frequency: compare it with a device file");
+    trust.doubt({.code = FindingCode::relay_without_device});
   } else if (expected.refused()) {
     // its reasons are there
   } else if (result.prediction && result.prediction->linear.status != StiffnessStatus::finite) {
-    trust.doubt(
-        "linear theory gives this device no finite limit: what the relay reads is the device's response at that "
-        "oscillation, no limit for walls");
+    trust.doubt({.code = FindingCode::relay_without_finite_limit});
   } else if (result.limit_reading == LimitReading::unsafe) {
-    trust.doubt(
-        fmt::format("the relay reads {:.2f} dB more than the limit of linear theory: build on that limit instead",
-                    decibels(result.mean->stiffness / result.prediction->linear.stiffness)));
+    trust.doubt({.code = FindingCode::relay_reads_more,
+                 .evidence = {{"stiffness", result.mean->stiffness},
+                              {"decibels", decibels(result.mean->stiffness / result.prediction->linear.stiffness)}},
+                 .effect = {{"critical_stiffness", result.prediction->linear.stiffness}}});
   } else if (result.limit_reading == LimitReading::too_cautious) {
-    trust.doubt(
-        fmt::format("the relay reads {:.2f} dB less than the limit of linear theory, with {:.3g} samples per "
-                    "oscillation: a wall as "
-                    "stiff as the reading is stable, the limit is not the reading",
-                    -decibels(result.mean->stiffness / result.prediction->linear.stiffness),
-                    2.0 * std::numbers::pi / (result.mean->frequency * result.sampling_period)));
+    trust.doubt({.code = FindingCode::relay_reads_less,
+                 .evidence = {{"stiffness", result.mean->stiffness},
+                              {"decibels", -decibels(result.mean->stiffness / result.prediction->linear.stiffness)},
+                              {"samples_per_cycle",
+                               2.0 * std::numbers::pi / (result.mean->frequency * result.sampling_period)}},
+                 .effect = {{"critical_stiffness", result.prediction->linear.stiffness}}});
   }
   return trust;
 }
@@ -88,9 +86,7 @@ void conclude(RelayResult& result, const Progress& progress) {
   if (!result.device) return;
   const Wall& wall = result.device->parameters().wall;
   if (wall.damping > 0.0 || !wall.filters.empty()) {
-    result.remarks.push_back(
-        {Remark::Severity::note, "the wall's damper and filters are left out: a relay has no wall",
-         "all numbers are of the device without them, not those of an analysis, which closes them"});
+    result.remarks.push_back(note({.code = FindingCode::relay_without_wall, .key = "wall"}));
   }
 }
 

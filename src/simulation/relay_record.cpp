@@ -146,38 +146,34 @@ SteadyPart steady_part(std::span<const double> position, std::size_t stretch, do
 
 void remark_steadiness(RelayReading& result, const SteadyPart& part, const RelayAnalysisOptions& options) {
   if (std::abs(part.trend) > std::max(options.steady_tolerance, 2.0 * part.scatter)) {
-    result.remarks.push_back({Remark::Severity::warning,
-                              fmt::format("the swing still {} by {:.0f} % over the last half of the record",
-                                          part.trend > 0.0 ? "grows" : "falls", 100.0 * std::abs(part.trend)),
-                              "not steady: record for longer"});
+    result.remarks.push_back(warning({.code = FindingCode::swing_not_steady,
+                                      .evidence = {{"trend", part.trend}, {"share", std::abs(part.trend)}},
+                                      .subjects = {{"does", part.trend > 0.0 ? "grows" : "falls"}}}));
   } else if (part.scatter > options.steady_tolerance) {
     result.remarks.push_back(
-        {Remark::Severity::warning,
-         fmt::format("the swing varies by {:.0f} % and never becomes steady", 100.0 * part.scatter),
-         "the oscillation does not repeat itself; frequency and stiffness are averages"});
+        warning({.code = FindingCode::swing_varies,
+                 .evidence = {{"scatter", part.scatter}, {"threshold", options.steady_tolerance}}}));
   }
 }
 
 void remark_signals(RelayReading& result, std::span<const double> position, const RelayAnalysisOptions& options) {
   if (result.steady_samples < options.segment_length) {
     result.remarks.push_back(
-        {Remark::Severity::warning,
-         fmt::format("the steady part has {} samples, less than a segment of {}", result.steady_samples,
-                     options.segment_length),
-         fmt::format("it is one segment: the frequency is known to {:.3g} Hz only; record for longer",
-                     result.line_spacing / (2.0 * std::numbers::pi))});
+        warning({.code = FindingCode::steady_part_short,
+                 .evidence = {{"samples", static_cast<double>(result.steady_samples)},
+                              {"segment", static_cast<double>(options.segment_length)},
+                              {"resolution_hz", result.line_spacing / (2.0 * std::numbers::pi)}}}));
   }
   const StraightLine line = straight_line(position);
   const double drift = std::abs(line.slope) * static_cast<double>(position.size());
   if (drift > noticeable_drift * result.amplitude) {
-    result.remarks.push_back({Remark::Severity::warning,
-                              fmt::format("the position drifts by {:.0f} % of the amplitude over the steady part",
-                                          100.0 * drift / result.amplitude),
-                              "the relay is off centre, or something else pushes"});
+    result.remarks.push_back(
+        warning({.code = FindingCode::position_drifts,
+                 .evidence = {{"share", drift / result.amplitude}, {"threshold", noticeable_drift}}}));
   }
   if (std::set<double>(position.begin(), position.end()).size() < least_encoder_steps) {
-    result.remarks.push_back({Remark::Severity::warning, "the oscillation spans few steps of the encoder",
-                              "a larger force gives a larger motion"});
+    result.remarks.push_back(warning({.code = FindingCode::few_encoder_steps,
+                                      .evidence = {{"threshold", static_cast<double>(least_encoder_steps)}}}));
   }
 }
 

@@ -16,14 +16,6 @@ namespace {
 
 constexpr double steps_of_chatter = 2.0;  // encoder steps: a swing of so much, either way, is of the encoder's making
 
-Remark note(std::string what, std::string consequence, std::string remedy = {}) {
-  return {Remark::Severity::note, std::move(what), std::move(consequence), std::move(remedy)};
-}
-
-Remark warning(std::string what, std::string consequence, std::string remedy = {}) {
-  return {Remark::Severity::warning, std::move(what), std::move(consequence), std::move(remedy)};
-}
-
 bool has_wall(const Simulation& result) { return result.loop.controller.kind == ControllerOptions::Kind::wall; }
 
 bool only_pushes(const Simulation& result) {
@@ -68,19 +60,18 @@ bool chatters(const Simulation& result, const Device& device, std::span<const do
 
 void remark_wall(std::vector<Remark>& remarks, const Simulation& result, const Device& device) {
   if (!has_wall(result)) {
-    remarks.push_back(note("there is no wall: the device moves freely", "", "set wall.stiffness to render one"));
+    remarks.push_back(note({.code = FindingCode::no_wall, .key = "wall.stiffness"}));
     return;
   }
   if (!only_pushes(result)) return;
   if (result.peak_penetration == 0.0) {
-    remarks.push_back(warning("the device never touches the wall", "the verdict is about the free device"));
+    remarks.push_back(warning({.code = FindingCode::never_touches_wall}));
   }
   const std::vector<double>& starts = result.loop.initial_position;
   const double depth = (starts.empty() ? 0.0 : starts[device.loop().sensed]) - result.loop.controller.position;
   if (depth > 0.0) {
     const Units units = units_of(device.parameters().motion);
-    remarks.push_back(note(fmt::format("the device starts {} inside the wall", quantity(depth, units.length)),
-                           "the wall pushes it out"));
+    remarks.push_back(note({.code = FindingCode::starts_inside_wall, .evidence = {{"depth", depth, units.length}}}));
   }
 }
 
@@ -93,15 +84,14 @@ void remark_stiction(std::vector<Remark>& remarks, const Simulation& result, con
                      std::span<const double> sensed) {
   if (!never_moves(sensed) || whole_friction(device) == 0.0) return;
   const Units units = units_of(device.parameters().motion);
-  std::string remedy = "push harder";
+  const double friction = whole_friction(device);
+  Finding finding{.code = FindingCode::never_moves_when_pushed, .evidence = {{"friction", friction, units.force}}};
   if (result.loop.user_force.kind == UserForce::Kind::none && has_wall(result)) {
     const auto further = start_beyond_stiction(device, result.loop.controller);
-    remedy = further ? fmt::format("start further out, {} from the wall's surface", quantity(*further, units.length))
-                     : "a force limit above the friction";
+    finding.code = further ? FindingCode::never_moves_from_start : FindingCode::never_moves_under_force_limit;
+    if (further) finding.evidence.push_back({"start", *further, units.length});
   }
-  remarks.push_back(warning(fmt::format("the device never moves: its friction of {} holds it where it starts",
-                                        quantity(whole_friction(device), units.force)),
-                            "the verdict says nothing about the wall", std::move(remedy)));
+  remarks.push_back(warning(std::move(finding)));
 }
 
 /// A wall that could not act, whatever its stiffness.
@@ -112,17 +102,16 @@ void remark_idle_wall(std::vector<Remark>& remarks, const Simulation& result, co
   const double friction = whole_friction(device);
   const double limit = device.parameters().actuator.force_limit.value_or(std::numeric_limits<double>::infinity());
   if (friction >= limit && !never_moves(sensed) && result.loop.user_force.kind == UserForce::Kind::none) {
-    remarks.push_back(
-        warning(fmt::format("the actuator's {} are less than the friction of {}: no wall moves the device",
-                            quantity(limit, units.force), quantity(friction, units.force)),
-                "the verdict says nothing about the wall", "a force limit above the friction"));
+    remarks.push_back(warning({.code = FindingCode::force_limit_below_friction,
+                               .evidence = {{"force_limit", limit, units.force}, {"friction", friction, units.force}},
+                               .key = "actuator.force_limit"}));
   }
   const double step = device.parameters().sensor.resolution;
   const auto count = [&](double position) { return std::round((position - result.loop.controller.position) / step); };
   if (step > 0.0 && std::ranges::all_of(sensed, [&](double each) { return count(each) == count(sensed.front()); })) {
-    remarks.push_back(warning(
-        fmt::format("the encoder reads the same step of {} all the time", quantity(step, units.length)),
-        "the wall's force never changes: the verdict says nothing about it", "start further out, or a finer encoder"));
+    remarks.push_back(warning({.code = FindingCode::encoder_stands_still,
+                               .evidence = {{"resolution", step, units.length}},
+                               .key = "sensor.resolution"}));
   }
 }
 
@@ -131,13 +120,14 @@ void remark_encoder(std::vector<Remark>& remarks, const Simulation& result, cons
   const Units units = units_of(device.parameters().motion);
   const ForceRipple& ripple = *result.force_ripple;
   const bool is_damped = result.loop.controller.damping > 0.0;
-  remarks.push_back(warning(
-      fmt::format("the encoder's steps of {} make the force ripple by {} either way, at {} on average",
-                  quantity(device.parameters().sensor.resolution, units.length),
-                  quantity(ripple.amplitude, units.force), quantity(hertz(ripple.frequency), "Hz")),
-      result.verdict == LoopVerdict::drifts ? "it comes with slow motion, though nothing oscillates"
-                                            : "the force changes though the device hardly moves",
-      is_damped ? "a finer encoder, a low-pass on the wall's velocity, or less wall.damping" : "a finer encoder"));
+  const bool drifts = result.verdict == LoopVerdict::drifts;
+  using enum FindingCode;
+  remarks.push_back(warning({.code = drifts ? (is_damped ? encoder_ripple_of_damper_in_drift : encoder_ripple_in_drift)
+                                            : (is_damped ? encoder_ripple_of_damper : encoder_ripple),
+                             .evidence = {{"resolution", device.parameters().sensor.resolution, units.length},
+                                          {"force_amplitude", ripple.amplitude, units.force},
+                                          {"frequency", hertz(ripple.frequency), "Hz"}},
+                             .key = "sensor.resolution"}));
 }
 
 void remark_run(std::vector<Remark>& remarks, const Simulation& result, const Device& device,
@@ -145,28 +135,27 @@ void remark_run(std::vector<Remark>& remarks, const Simulation& result, const De
   const Units units = units_of(device.parameters().motion);
   const double simulated = static_cast<double>(result.samples) * device.loop().sampling_period;
   if (result.diverged && simulated < result.duration - device.loop().sampling_period) {
-    remarks.push_back(note(fmt::format("the run ended after {}: the position passed {}", quantity(simulated, "s"),
-                                       quantity(options.divergence, units.length)),
-                           "the later motion is not simulated"));
+    remarks.push_back(
+        note({.code = FindingCode::run_ended_early,
+              .evidence = {{"simulated", simulated, "s"}, {"position", options.divergence, units.length}}}));
   }
   const UserForce& force = result.loop.user_force;
   if (force.kind == UserForce::Kind::recorded) {
     const double length = force.period * static_cast<double>(force.samples.size() - 1);
     if (length > 0.5 * (result.duration - force.start)) {
-      remarks.push_back(note("the recorded force acts in the part of the run that is judged",
-                             "the verdict is about the device under that force"));
+      remarks.push_back(note({.code = FindingCode::force_acts_to_the_end,
+                              .evidence = {{"length", length}, {"duration", result.duration}}}));
     }
   }
   if (result.verdict == LoopVerdict::undecided) {
-    remarks.push_back(must_grow(result)
-                          ? warning("nothing grows within this run, but by linear analysis something does",
-                                    "a slowly growing oscillation may hide under others", "simulate for longer")
-                          : warning("the run holds too few oscillations to tell", "", "simulate for longer"));
+    const bool grows = must_grow(result);
+    Finding finding{.code = grows ? FindingCode::growth_not_seen : FindingCode::few_oscillations};
+    if (grows) finding.evidence.push_back({"spectral_radius", *result.linear.spectral_radius});
+    remarks.push_back(warning(std::move(finding)));
   }
   if (result.overloaded_steps > 0) {
-    remarks.push_back(
-        warning(fmt::format("{} steps had too many stick-slip instants to follow", result.overloaded_steps),
-                "the motion is approximate there"));
+    remarks.push_back(warning({.code = FindingCode::stick_slip_not_followed,
+                               .evidence = {{"steps", static_cast<double>(result.overloaded_steps)}}}));
   }
 }
 

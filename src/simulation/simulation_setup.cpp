@@ -92,14 +92,14 @@ void start_inside_the_wall(SimulationSetup& setup, const Device& device) {
   if (pull <= friction && further && *further > offset) {
     const Units units = units_of(device.parameters().motion);
     offset = *further;
-    setup.moved_start = Remark{
-        Remark::Severity::note,
-        friction > 0.0 ? fmt::format("a start {} inside the wall would be inside the stiction: {} pull there, {} hold",
-                                     quantity(default_offset, units.length), quantity(pull, units.force),
-                                     quantity(friction, units.force))
-                       : fmt::format("a start {} inside the wall would be less than the encoder sees",
-                                     quantity(default_offset, units.length)),
-        fmt::format("the device starts {} inside the wall instead", quantity(offset, units.length)), ""};
+    Finding finding{.code = FindingCode::start_unseen_by_encoder,
+                    .evidence = {{"usual_start", default_offset, units.length}, {"start", offset, units.length}}};
+    if (friction > 0.0) {
+      finding.code = FindingCode::start_inside_stiction;
+      finding.evidence.push_back({"wall_force", pull, units.force});
+      finding.evidence.push_back({"friction", friction, units.force});
+    }
+    setup.moved_start = note(std::move(finding));
   }
   setup.loop.initial_position.assign(device.bodies().size(), wall.position + offset);
 }

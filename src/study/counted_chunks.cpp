@@ -11,6 +11,7 @@
 #include "study/study_parts.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/model/device_operator.hpp"
+#include "zwidth/model/device_trust.hpp"
 #include "zwidth/quantity.hpp"
 #include "zwidth/remark.hpp"
 #include "zwidth/stability/held_wall.hpp"
@@ -32,6 +33,7 @@ class Counter {
   explicit Counter(const StudyRun& run) : run_(run), row_(run.inputs().size()) {
     for (const StudyParameter& each : run.distributions().parameters) study_.keys.push_back(each.key);
     study_.samples = run.options().samples;
+    study_.trust = trust_of(run.device());  // with its findings, which answers in bytes have not
     stride_ = (study_.samples + most_points - 1) / most_points;
     any_user_ = run.options().specification.any_user.has_value();
     specified_ = any_user_ || run.options().specification.critical_stiffness.has_value();
@@ -229,12 +231,10 @@ void add_nominal_limits(const Device& device, Study& study) {
   const auto unit = units_of(device.parameters().motion).stiffness;
   const double alone = study.limits.nobody.critical_stiffness;
   if (!(alone < study.limits.user->critical_stiffness)) return;
-  study.remarks.push_back(
-      {Remark::Severity::warning,
-       fmt::format("all limits are with the file's user; with nobody holding the device of the file has {}",
-                   quantity(alone, unit)),
-       "a person lets go, and units that reach the specification may shake then",
-       "leave [operator] out of the file to study the device that nobody holds"});
+  study.remarks.push_back(warning({.code = FindingCode::study_with_user,
+                                   .evidence = {{"nobody_limit", alone, unit}},
+                                   .key = "operator",
+                                   .effect = {{"critical_stiffness", alone}}}));
 }
 
 }  // namespace

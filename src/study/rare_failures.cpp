@@ -280,8 +280,7 @@ RareFailures rare_failures(const StudyRun& run, const RareFailureOptions& option
   const Points points = design_points(search);
   if (points.empty()) {
     result.evaluations = search.evaluations();
-    result.trust.doubt(fmt::format(
-        "no failure to sample around was found within {:g} standard deviations: only the interval is known", farthest));
+    result.trust.doubt({.code = FindingCode::no_failure_found, .evidence = {{"farthest", farthest}}});
     const Proportion known = search.first_share();
     result.share = known.value, result.lower = known.lower, result.upper = known.upper;
     result.error = std::sqrt(known.value * (1.0 - known.value) / explored);
@@ -325,19 +324,19 @@ RareFailures rare_failures(const StudyRun& run, const RareFailureOptions& option
   constexpr double heavy = 0.1;
   if (effective < few || heaviest > heavy) {
     result.trust.doubt(
-        fmt::format("the share of failures rests on {:.0f} effective units, of which one weighs {:.0f} %: "
-                    "failures elsewhere may have been missed; take more samples",
-                    effective, 100.0 * heaviest));
+        {.code = FindingCode::few_effective_units,
+         .evidence = {
+             {"effective", effective}, {"heaviest", heaviest}, {"least_effective", few}, {"most_heavy", heavy}}});
   }
   if (margins.without_answer > 0) {
-    result.trust.doubt(
-        fmt::format("{} of the {} units drawn have no answer and count as failures; "
-                    "keep the distributions away from such devices",
-                    margins.without_answer, units.size()));
+    result.trust.doubt({.code = FindingCode::drawn_units_without_answer,
+                        .evidence = {{"without", static_cast<double>(margins.without_answer)},
+                                     {"drawn", static_cast<double>(units.size())}}});
   }
   if (margins.doubtful > 0) {
-    result.trust.doubt(
-        fmt::format("the limits of {} of the {} units drawn are doubtful", margins.doubtful, units.size()));
+    result.trust.doubt({.code = FindingCode::drawn_limits_doubtful,
+                        .evidence = {{"doubtful", static_cast<double>(margins.doubtful)},
+                                     {"drawn", static_cast<double>(units.size())}}});
   }
   return result;
 }

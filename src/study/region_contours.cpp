@@ -57,16 +57,13 @@ class Units {
 
   void judge(Trust& trust) const {
     if (without_ > 0) {
-      trust.doubt(
-          fmt::format("{} of {} units and dampings have no answer ({}): they count as unstable; keep the distributions "
-                      "away from such devices",
-                      without_, asked_, first_reason_));
+      trust.doubt({.code = FindingCode::walls_without_answer,
+                   .evidence = {{"without", static_cast<double>(without_)}, {"asked", static_cast<double>(asked_)}},
+                   .subjects = {{"reason", first_reason_}}});
     }
     if (doubtful_ > 0) {
-      trust.doubt(
-          fmt::format("the limits of {} of {} units and dampings are doubtful; see analyze of the device with "
-                      "such a wall.damping",
-                      doubtful_, asked_));
+      trust.doubt({.code = FindingCode::wall_limits_doubtful,
+                   .evidence = {{"doubtful", static_cast<double>(doubtful_)}, {"asked", static_cast<double>(asked_)}}});
     }
   }
 
@@ -143,9 +140,7 @@ RegionContours region_contours(const StudyRun& run, std::uint64_t units, const P
   if (paper.status != WallRegion::Status::bounded || !(paper.region.most_damped->damping > 0.0)) {
     result.trust.inherit(paper.trust);
     if (!result.trust.refused()) {
-      result.trust.refuse(
-          "the device on paper has no region of stable walls that gives the scale of the dampings; see "
-          "region of the device");
+      result.trust.refuse({.code = FindingCode::no_scale_of_dampings});
     }
     return result;
   }
@@ -165,7 +160,7 @@ RegionContours region_contours(const StudyRun& run, std::uint64_t units, const P
   }
   all.judge(result.trust);
   if (const RegionContour& last = result.contours.back(); last.stiffness.back() > 0.0) {
-    result.trust.doubt(fmt::format("walls of every damping up to {:.3g} are stable: the contours go on beyond", end));
+    result.trust.doubt({.code = FindingCode::contours_go_on, .evidence = {{"damping", end}}});
   }
   stages.done();
   return result;

@@ -9,7 +9,6 @@
 #include "staged_progress.hpp"
 #include "study/study_parts.hpp"
 #include "zwidth/error.hpp"
-#include "zwidth/model/device_trust.hpp"
 #include "zwidth/model/parameter.hpp"
 
 namespace zwidth {
@@ -19,34 +18,28 @@ namespace {
 constexpr double at_the_end = 1e-9;  // of the width of a distribution
 
 void judge(const StudyRun& run, Study& study) {
-  const auto warning = [&](std::string what, std::string consequence, std::string remedy) {
-    study.remarks.push_back({Remark::Severity::warning, std::move(what), std::move(consequence), std::move(remedy)});
-  };
   if (study.failed_count > 0) {
-    study.trust.doubt(
-        fmt::format("{} of {} units have no answer ({}): they count as units that miss the specification; "
-                    "keep the distributions away from such devices",
-                    study.failed_count, study.samples, study.failed.front().reason));
+    study.trust.doubt({.code = FindingCode::units_without_answer,
+                       .evidence = {{"failed", static_cast<double>(study.failed_count)},
+                                    {"samples", static_cast<double>(study.samples)}},
+                       .subjects = {{"reason", study.failed.front().reason}}});
   }
   if (study.doubtful > 0) {
-    study.trust.doubt(fmt::format("the limits of {} of {} units are doubtful; see analyze of the worst device",
-                                  study.doubtful, study.samples));
+    study.trust.doubt({.code = FindingCode::unit_limits_doubtful,
+                       .evidence = {{"doubtful", static_cast<double>(study.doubtful)},
+                                    {"samples", static_cast<double>(study.samples)}}});
   }
   const auto& wanted = run.options().specification;
   if (!wanted.critical_stiffness && !wanted.any_user) {
-    study.remarks.push_back({Remark::Severity::note, "nothing is specified", "there is no yield to state",
-                             "give [specification] critical_stiffness"});
+    study.remarks.push_back(note({.code = FindingCode::nothing_specified}));
   }
   if (run.options().sampling != SamplingScheme::random) {
-    study.remarks.push_back({Remark::Severity::note, "the samples are spread evenly, not drawn independently",
-                             "the intervals of yield and quantiles are those of independent ones: wider than need be "
-                             "as a rule, not by proof",
-                             "sampling = \"random\" makes them hold"});
+    study.remarks.push_back(note({.code = FindingCode::samples_spread_evenly}));
   }
   if (!study.reached_by_95_percent) {
-    warning(fmt::format("{} samples say little about the tails", study.samples),
-            "no bound of 95 % of the units can be stated with 95 % confidence",
-            fmt::format("take {} or more", wilks_samples(0.95, 0.95)));
+    study.remarks.push_back(warning({.code = FindingCode::few_samples_for_tails,
+                                     .evidence = {{"samples", static_cast<double>(study.samples)},
+                                                  {"needed", static_cast<double>(wilks_samples(0.95, 0.95))}}}));
   }
 }
 
@@ -57,9 +50,8 @@ void judge_rare(Study& study) {
   const double most = 1.0 - study.yield->lower;
   if (rare.lower <= most && least <= rare.upper) return;
   rare.trust.doubt(
-      fmt::format("the samples themselves say {:.3g} to {:.3g}: the search did not find every way to fail; take more "
-                  "rare samples, or rely on the yield",
-                  least, most));
+      {.code = FindingCode::rare_share_contradicts,
+       .evidence = {{"least", least}, {"most", most}, {"rare_lower", rare.lower}, {"rare_upper", rare.upper}}});
 }
 
 }  // namespace
@@ -68,18 +60,17 @@ void internal::add_indices(const StudyRun& run, Study& study, const Progress& pr
   const StudyOptions& options = run.options();
   if (options.index_samples == 0) return;
   const std::size_t dimensions = run.inputs().size();
-  const auto leave_out = [&](std::string why, std::string remedy) {
-    study.remarks.push_back({Remark::Severity::note, "no Sobol indices: " + std::move(why), "", std::move(remedy)});
-  };
+  const auto leave_out = [&](Finding why) { study.remarks.push_back(note(std::move(why))); };
   if (!run.distributions().correlation.empty()) {
-    return leave_out("the parameters are correlated, and the variance cannot be shared out among them",
-                     "leave [correlation] out to have them");
+    return leave_out({.code = FindingCode::no_indices_correlated});
   }
   if (dimensions > most_index_dimensions) {
-    return leave_out(fmt::format("there are more than {} parameters", most_index_dimensions), "");
+    return leave_out({.code = FindingCode::no_indices_too_many_parameters,
+                      .evidence = {{"parameters", static_cast<double>(dimensions)},
+                                   {"most", static_cast<double>(most_index_dimensions)}}});
   }
   if (study.failed_count > 0 || study.unbounded > 0) {
-    return leave_out("some units have no finite limit", "");
+    return leave_out({.code = FindingCode::no_indices_unbounded});
   }
   bool is_finite = true;
   std::size_t doubtful = 0;
@@ -103,27 +94,23 @@ void internal::add_indices(const StudyRun& run, Study& study, const Progress& pr
     return stiffness;
   };
   auto indices = sobol_indices(dimensions, options.index_samples, options.seed, answers);
-  if (!is_finite) return leave_out("some units have no finite limit", "");
-  const auto warning = [&](std::string what, std::string remedy) {
-    study.remarks.push_back({Remark::Severity::warning, std::move(what),
-                             "the Sobol indices are not to be relied on that far", std::move(remedy)});
-  };
+  if (!is_finite) return leave_out({.code = FindingCode::no_indices_unbounded});
   if (doubtful > 0) {
-    warning(fmt::format("the limits of {} of the units of the Sobol indices are doubtful", doubtful),
-            "keep the distributions away from such devices");
+    study.remarks.push_back(warning(
+        {.code = FindingCode::index_limits_doubtful, .evidence = {{"doubtful", static_cast<double>(doubtful)}}}));
   }
   const double worst_error = std::ranges::max(indices, {}, &SobolIndex::total_error).total_error;
   constexpr double much = 0.1;
   if (worst_error > much) {
-    warning(fmt::format("a Sobol index is known to {:.2g} only", worst_error),
-            fmt::format("take more index samples than {}", options.index_samples));
+    study.remarks.push_back(warning({.code = FindingCode::index_not_known,
+                                     .evidence = {{"error", worst_error},
+                                                  {"threshold", much},
+                                                  {"index_samples", static_cast<double>(options.index_samples)}}}));
   }
   for (std::size_t i = 0; i < dimensions; ++i) {
     if (indices[i].total != 0.0) continue;
-    study.remarks.push_back({Remark::Severity::note,
-                             run.distributions().parameters[i].key + " changes no unit's critical stiffness",
-                             "its tolerance can neither gain nor cost yield in that",
-                             "leave it out, unless the limit for any user depends on it"});
+    const std::string& key = run.distributions().parameters[i].key;
+    study.remarks.push_back(note({.code = FindingCode::parameter_without_effect, .key = key}));
   }
   study.sobol_indices = std::move(indices);
 }
@@ -173,7 +160,6 @@ Study summary(const StudyRun& run, const ChunkSource& chunks, const Progress& pr
   StagedProgress stages(progress);
   stages.next(0.5);
   auto [study, lows, any_user_lows] = count_chunks(run, chunks, stages.stage());
-  study.trust.inherit(trust_of(run.device()));
   if (study.trust.refused()) return std::move(study);
   stages.next(0.65);
   add_indices(run, study, stages.stage());
@@ -196,7 +182,8 @@ Study summary(const StudyRun& run, const ChunkSource& chunks, const Progress& pr
     }
     for (std::optional<WorstDevice>* worst : {&study.worst, &study.worst_any_user}) {
       if (!*worst || study.failed_count == 0) continue;
-      (*worst)->trust.doubt(fmt::format("{} units have no answer: one of them may be worse", study.failed_count));
+      (*worst)->trust.doubt({.code = FindingCode::worse_may_have_no_answer,
+                             .evidence = {{"failed", static_cast<double>(study.failed_count)}}});
     }
   }
   judge(run, study);

@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include <Eigen/Core>
 #include <algorithm>
 #include <boost/math/special_functions/gamma.hpp>
@@ -366,8 +364,9 @@ std::optional<WorstDevice> find_worst(const StudyRun& run, const std::vector<Low
   }
   found.trust = trust_of(run.device());
   if (found.agreeing < 2 && worst->limit > 0.0) {
-    found.trust.doubt(fmt::format(
-        "one of {} descents alone ended at this unit: there may be a lower one; take more samples", found.descents));
+    found.trust.doubt({.code = FindingCode::one_descent_alone,
+                       .evidence = {{"descents", static_cast<double>(found.descents)}},
+                       .effect = {{"critical_stiffness", worst->limit}}});
   }
   const Device device(found.device);
   found.critical = critical_stiffness(device);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "percent.hpp"
 #include "words/phrase.hpp"
 #include "zwidth/error.hpp"
 #include "zwidth/quantity.hpp"
@@ -18,7 +19,8 @@ namespace {
 const std::map<FindingCode, Phrase>& phrases() {
   static const std::map<FindingCode, Phrase> all = [] {
     std::map<FindingCode, Phrase> result;
-    for (const std::span<const Phrase> room : {model_phrases(), stability_phrases(), design_phrases()}) {
+    for (const std::span<const Phrase> room : {model_phrases(), stability_phrases(), design_phrases(), study_phrases(),
+                                               simulation_phrases(), rig_phrases()}) {
       for (const Phrase& phrase : room) result.emplace(phrase.code, phrase);
     }
     return result;
@@ -39,6 +41,8 @@ std::string value_text(const Evidence& evidence, std::string_view format) {
     return evidence.unit.empty() ? number(evidence.value) : quantity(evidence.value, evidence.unit);
   }
   if (format == "n") return fmt::format("{:.0f}", evidence.value);
+  if (format == "percent") return percent(evidence.value);
+  if (format == "limit") return !std::isfinite(evidence.value) ? "every stiffness" : value_text(evidence, {});
   if (format == "%") return fmt::format("{:.0f}", 100.0 * evidence.value);
   const bool is_share = format.front() == '%';
   const std::string spec = fmt::format("{{:{}}}", is_share ? format.substr(1) : format);

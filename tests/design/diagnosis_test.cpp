@@ -365,6 +365,8 @@ TEST(Diagnosis, OfWhatDiesOutOrIsLostInOtherMotionIsDoubtful) {
   EXPECT_EQ(decaying.trust.reasons.back(),
             "the oscillation dies out, to 37 % from one half of the stretch to the other: nothing keeps it up; "
             "record it while it goes on");
+  EXPECT_EQ(decaying.trust.findings.back().code, FindingCode::oscillation_dies_out);
+  EXPECT_EQ(decaying.trust.findings.back().severity, Finding::Severity::doubt);
   std::mt19937 engine(3);
   std::normal_distribution<double> noise(0.0, 1.2e-3);
   const Diagnosis hidden = diagnosed([&](double t) { return swing(t) + noise(engine); });

@@ -96,6 +96,7 @@ TEST(ParameterSweep, IsTrustedNoMoreThanItsDevice) {
   parameters.uncertainty->verdict = Trust::Verdict::refused;
   const ParameterSweep refused = parameter_sweep(Device(parameters), axes, {.any_user = true});
   EXPECT_TRUE(refused.trust.refused());
+  EXPECT_EQ(refused.trust.findings[0].severity, Finding::Severity::refusal);
   for (const SweepPoint& point : refused.points) {
     EXPECT_EQ(point.status, StiffnessStatus::refused);
     EXPECT_TRUE(std::isnan(point.stiffness));

@@ -174,7 +174,9 @@ TEST(Region, SaysWhereTheAngleHasTooFewDigits) {
   parameters.loop.delay = 0.002;
   const WallRegion walls = region(Device(parameters), walls_alone);
   ASSERT_EQ(walls.trust.verdict, Trust::Verdict::doubtful);
-  EXPECT_THAT(walls.trust.reasons.front(), testing::HasSubstr("of its extent only"));
+  ASSERT_FALSE(walls.trust.findings.empty());
+  EXPECT_EQ(walls.trust.findings[0].code, FindingCode::region_vertex_open);
+  EXPECT_EQ(walls.trust.findings[0].evidence[0].value, walls.region.vertex_error);
   EXPECT_GT(walls.region.vertex_error, usual_vertex_error);
   EXPECT_LT(walls.region.vertex_error, 0.01);
   const double exact = 0.000344571939318;

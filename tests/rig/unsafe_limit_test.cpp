@@ -29,7 +29,7 @@ Device damped_by(const Device& device, double factor) {
 
 bool says_unsafe(const RigLimit& limit) {
   return limit.remarks.size() == 1 && limit.remarks.front().severity == Remark::Severity::warning &&
-         limit.remarks.front().what.starts_with("UNSAFE");
+         limit.remarks.front().finding && limit.remarks.front().finding->code == FindingCode::device_bears_less;
 }
 
 Device knob() {

@@ -19,12 +19,12 @@ LIBRARY = {
     "batch/kernel": ["model", "sampling"],
     "stability": ["model", "sampling", "batch/kernel"],
     "io": ["model", "signal", "study"],
-    "simulation": ["model", "signal", "sampling", "control", "stability"],
+    "simulation": ["words", "model", "signal", "sampling", "control", "stability"],
     "identification": ["words", "model", "signal", "sampling", "stability", "simulation"],
     "batch": ["model", "sampling", "stability", "batch/kernel"],
     "design": ["model", "signal", "sampling", "stability", "batch"],
     "study": ["model", "sampling", "stability", "batch", "design"],
-    "rig": ["model", "signal", "sampling", "control", "stability", "simulation", "identification"],
+    "rig": ["words", "model", "signal", "sampling", "control", "stability", "simulation", "identification"],
 }
 APPS = {
     "results": [],

@@ -109,7 +109,8 @@ TEST(Relay, WhereNoWallIsStableTheReadingIsDoubtful) {
   ASSERT_TRUE(result.mean);
   EXPECT_EQ(result.prediction->linear.status, StiffnessStatus::none_stable);
   EXPECT_EQ(result.trust.verdict, Trust::Verdict::doubtful);
-  EXPECT_THAT(result.trust.reasons, Contains(HasSubstr("no finite limit")));
+  ASSERT_FALSE(result.trust.findings.empty());
+  EXPECT_EQ(result.trust.findings.back().code, FindingCode::relay_without_finite_limit);
 }
 
 TEST(Relay, NeighbouringCyclesAreOneBand) {
@@ -148,11 +149,16 @@ TEST(Relay, ReadingsThatAreNotTheLimitAreDoubtful) {
       simulated(with_friction(test::with_delay(test::reduced_pretension_parameters(), 4.25e-3), 0.4), 0.1e-3);
   EXPECT_EQ(above.limit_reading, LimitReading::unsafe);
   EXPECT_EQ(above.trust.verdict, Trust::Verdict::doubtful);
-  EXPECT_THAT(above.trust.reasons, Contains(HasSubstr("more than the limit of linear theory")));
+  ASSERT_FALSE(above.trust.findings.empty());
+  EXPECT_EQ(above.trust.findings.back().code, FindingCode::relay_reads_more);
+  EXPECT_EQ(above.trust.findings.back().evidence[0].value, above.mean->stiffness);
+  EXPECT_EQ(above.trust.findings.back().effect[0].value, above.prediction->linear.stiffness);
   const RelayResult below = simulated(test::with_delay(test::rigid_parameters(), 8e-3), 0.01, 60.0);
   EXPECT_EQ(below.limit_reading, LimitReading::too_cautious);
   EXPECT_EQ(below.trust.verdict, Trust::Verdict::doubtful);
-  EXPECT_THAT(below.trust.reasons, Contains(HasSubstr("less than the limit of linear theory, with")));
+  ASSERT_FALSE(below.trust.findings.empty());
+  EXPECT_EQ(below.trust.findings.back().code, FindingCode::relay_reads_less);
+  EXPECT_EQ(below.trust.findings.back().evidence[0].value, below.mean->stiffness);
 }
 
 TEST(Relay, TheDevicesDoubtIsTheReadings) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "zwidth/finding.hpp"
 #include "zwidth/remark.hpp"
 #include "zwidth/rig/force_guard.hpp"
 
@@ -51,6 +52,9 @@ struct RigSession {
   LoopTiming timing;                        ///< of clock and drive
   std::vector<Remark> remarks;              ///< what is worth knowing beside it
 };
+
+/// Why the force went to zero; nothing where it did not.
+[[nodiscard]] std::optional<Finding> finding_of(const RigSession& session);
 
 /// A sentence or two on why the force went to zero, and what to do; empty for none.
 [[nodiscard]] std::string explanation(StopReason reason);

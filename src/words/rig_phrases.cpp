@@ -1,0 +1,126 @@
+#include <array>
+
+#include "words/phrase.hpp"
+
+namespace zwidth::internal {
+namespace {
+
+constexpr const char* cycles_late = "cycles may come late when the machine is busy";
+
+}  // namespace
+
+std::span<const Phrase> rig_phrases() {
+  using enum FindingCode;
+  static constexpr std::array phrases{
+      Phrase{interrupted, "interrupted", "interrupted: the force is zero"},
+      Phrase{position_not_a_number, "position_not_a_number",
+             "a position or a force was not a number: the force is zero; check the sensor and the wall's filters"},
+      Phrase{beyond_position_limit, "beyond_position_limit",
+             "the position went beyond its limit: the force is zero; render softer, or allow more"},
+      Phrase{beyond_velocity_limit, "beyond_velocity_limit",
+             "the velocity went beyond its limit: the force is zero; render softer, or allow more"},
+      Phrase{force_limited_too_long, "force_limited_too_long",
+             "more force was wanted than is allowed, for too long: the force is zero; render softer, or allow more"},
+      Phrase{missed_cycles, "missed_cycles",
+             "too many cycles in a row came late: the force is zero; give the loop a processor of its own and "
+             "real-time priority, or a longer sampling period"},
+      Phrase{lost_link, "lost_link",
+             "too many cycles in a row brought no position: the force is zero; check cable, port and baud rate"},
+      Phrase{drive_in_trouble, "drive_in_trouble", "there was no position any more: the force is zero; {trouble}"},
+      Phrase{watchdog_fired, "watchdog_fired",
+             "the loop stood still and the watchdog set the force to zero; give it a processor of its own and "
+             "real-time priority"},
+      Phrase{oscillation_grew, "oscillation_grew", "an oscillation grew: the force is zero; render softer"},
+      Phrase{memory_not_locked, "memory_not_locked", "memory could not be locked: {error}", cycles_late,
+             "raise the limit: ulimit -l unlimited, or memlock in limits.conf"},
+      Phrase{no_real_time_priority, "no_real_time_priority", "real-time priority is not allowed: {error}", cycles_late,
+             "allow it: rtprio 99 in /etc/security/limits.conf, or CAP_SYS_NICE for the program"},
+      Phrase{no_processor_of_its_own, "no_processor_of_its_own", "the loop has no processor of its own: {error}",
+             cycles_late, "start it with taskset"},
+      Phrase{check_cut_short, "check_cut_short", "the rig stopped before the check was over: {reason}"},
+      Phrase{first_trial_cut_short, "first_trial_cut_short", "the rig stopped in the first trial: {reason}"},
+      Phrase{search_cut_short, "search_cut_short", "the rig stopped before an oscillation grew: {reason}"},
+      Phrase{record_cut_short, "record_cut_short", "the rig stopped before its record was whole: {reason}"},
+      Phrase{wall_cut_short, "wall_cut_short", "the rig stopped before the wall's time was over: {reason}"},
+      Phrase{force_kept_back, "force_kept_back",
+             "force was kept back for {duration}, by its limit or its ramp: the wall that was felt is softer than this "
+             "one"},
+      Phrase{position_never_changed, "position_never_changed",
+             "the position never changed under force: check encoder, [driver], and that the drive moves its motor"},
+      Phrase{unstable_and_stopped, "unstable_and_stopped",
+             "the wall is UNSTABLE by linear analysis, {holders}: render softer"},
+      Phrase{
+          unstable_growing_slowly, "unstable_growing_slowly",
+          "the wall is UNSTABLE by linear analysis, {holders}: that its oscillation grew too slowly to be taken away "
+          "does not make it stable",
+          "", "render softer"},
+      Phrase{unstable_unseen, "unstable_unseen",
+             "the wall is UNSTABLE by linear analysis, {holders}: that no oscillation was seen to grow while it ran "
+             "does not make it stable",
+             "", "render softer"},
+      Phrase{stable_wall_oscillates, "stable_wall_oscillates",
+             "an oscillation grew in a wall that is stable by linear analysis: the device is not that of its file", "",
+             "identify it, and render softer until then"},
+      Phrase{device_bears_less, "device_bears_less",
+             "UNSAFE: the device bears less than its file promises: {at_most} at most, as measured, for "
+             "{promised:limit}",
+             "walls in between are called stable, and shake on the device",
+             "identify the device, and render softer until then"},
+      Phrase{prediction_above_measured, "prediction_above_measured",
+             "the device on the rig bears {at_most} at most, less than this: its file is not that of the device", "",
+             "identify it"},
+      Phrase{file_promises_more, "file_promises_more",
+             "the device's file promises {promised:limit}, more than was measured: identify the device before any of "
+             "its limits is used"},
+      Phrase{
+          user_was_not_there, "user_was_not_there",
+          "the limit measured, {at_most} at most, lies below that with the file's user, {with_user:limit}, not below "
+          "that with nobody holding, {with_nobody:limit}",
+          "whoever held the device, if anybody did, was not the file's user",
+          "leave the user out of the file for a rig that nobody holds"},
+      Phrase{friction_in_response, "friction_in_response",
+             "the device has dry friction, which a response shows as damping: large motion has less of it, and a lower "
+             "limit",
+             "", "excite more strongly and see whether the limit falls"},
+      Phrase{force_cut_off, "force_cut_off",
+             "the force was cut off after the knock, so that the walls that were felt are not those that were tried: "
+             "allow more force, or knock softer"},
+      Phrase{no_trial_ended, "no_trial_ended", "no trial came to its end"},
+      Phrase{no_oscillation_grew, "no_oscillation_grew",
+             "no oscillation grew up to {stiffness}: raise the ceiling, or knock harder"},
+      Phrase{every_wall_oscillates, "every_wall_oscillates",
+             "an oscillation grew with every wall, down to {stiffness}: check sign and units of the drive"},
+      Phrase{growth_not_bracketed, "growth_not_bracketed",
+             "no oscillation was read that decays below the limit and grows above it: softer walls may grow unseen", "",
+             "let the trials last longer, or knock harder"},
+      Phrase{encoder_coarse_for_swing, "encoder_coarse_for_swing",
+             "the encoder's step of {resolution} is coarse for a swing of {swing}: the limit may be off by {error:%} %",
+             "", "knock harder"},
+      Phrase{growth_not_known, "growth_not_known",
+             "the oscillation's growth is not known well enough: the limit may be off by {error:%} %", "",
+             "knock harder"},
+      Phrase{no_smaller_impulse, "no_smaller_impulse",
+             "no smaller knock was tried, which would show whether the limit is that of this swing alone"},
+      Phrase{
+          smaller_impulse_not_read, "smaller_impulse_not_read",
+          "after a knock of half the size no oscillation was read: the limit may be that of this swing alone, as dry "
+          "friction or a coarse encoder makes it",
+          "", "knock harder"},
+      Phrase{
+          smaller_swing_decays_faster, "smaller_swing_decays_faster",
+          "after a knock of half the size the oscillation decays faster, as friction or play in the device makes it: "
+          "the limit of another swing may be {error:%} % lower",
+          "", "knock harder and see whether the limit falls"},
+      Phrase{smaller_swing_decays_less, "smaller_swing_decays_less",
+             "after a knock of half the size the oscillation decays less, as friction or play in the device makes it: "
+             "the limit of another swing may be {error:%} % lower",
+             "", "knock harder and see whether the limit falls"},
+      Phrase{bracket_wide, "bracket_wide",
+             "the limit lies between {lower} and {upper}: the search ended before it was closer"},
+      Phrase{friction_holds_swing, "friction_holds_swing",
+             "dry friction holds small swings down: the limit is that of the swing after the knock", "",
+             "knock harder for the limit of large motion"}};
+  return phrases;
+}
+
+}  // namespace zwidth::internal
